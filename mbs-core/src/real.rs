@@ -1,0 +1,145 @@
+//! The one scalar trait: [`Real`] is what every formula of the workspace is generic over.
+//!
+//! It asks of nalgebra only `Scalar` and the closed operations, so only matrix *arithmetic* of nalgebra is
+//! used; roots and trigonometry come from `libm` on every target, so no feature and no host changes a number.
+
+use core::fmt::{Debug, Display, LowerExp};
+use core::ops::Neg;
+use nalgebra::{
+    ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar,
+};
+use num_traits::{One, Zero};
+
+/// A real number type the mechanics can be computed in: `f32`, `f64`, later a double-double.
+pub trait Real:
+    Scalar
+    + Copy
+    + Default
+    + PartialOrd
+    + Neg<Output = Self>
+    + ClosedAddAssign
+    + ClosedSubAssign
+    + ClosedMulAssign
+    + ClosedDivAssign
+    + Zero
+    + One
+    + Display
+    + LowerExp
+    + Debug
+    + Send
+    + Sync
+{
+    /// Zero.
+    const ZERO: Self;
+    /// One.
+    const ONE: Self;
+    /// One half.
+    const HALF: Self;
+    /// Two.
+    const TWO: Self;
+    /// Distance from one to the next larger number.
+    const EPSILON: Self;
+    /// Half a turn [rad].
+    const PI: Self;
+
+    /// The nearest number to `x`.
+    fn from_f64(x: f64) -> Self;
+    /// The nearest number to a decimal text such as `9.81` or `1.0e-3`; `None` when it is not one.
+    fn from_decimal(text: &str) -> Option<Self>;
+    /// The nearest `f64`.
+    fn to_f64(self) -> f64;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// Sine and cosine of an angle [rad].
+    fn sin_cos(self) -> (Self, Self);
+    /// Angle of the point (`x`, `self`) from the x axis [rad], in (-pi, pi].
+    fn atan2(self, x: Self) -> Self;
+
+    /// Absolute value.
+    #[inline]
+    fn abs(self) -> Self {
+        if self < Self::ZERO { -self } else { self }
+    }
+    /// The larger of two numbers; a NaN in `self` is kept.
+    #[inline]
+    fn max(self, other: Self) -> Self {
+        if self < other { other } else { self }
+    }
+    /// The smaller of two numbers; a NaN in `self` is kept.
+    #[inline]
+    fn min(self, other: Self) -> Self {
+        if self > other { other } else { self }
+    }
+    /// Neither infinite nor NaN.
+    #[inline]
+    fn is_finite(self) -> bool {
+        (self - self).is_zero()
+    }
+}
+
+impl Real for f64 {
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+    const HALF: Self = 0.5;
+    const TWO: Self = 2.0;
+    const EPSILON: Self = Self::EPSILON;
+    const PI: Self = core::f64::consts::PI;
+
+    #[inline]
+    fn from_f64(x: f64) -> Self {
+        x
+    }
+    fn from_decimal(text: &str) -> Option<Self> {
+        text.parse().ok()
+    }
+    #[inline]
+    fn to_f64(self) -> f64 {
+        self
+    }
+    #[inline]
+    fn sqrt(self) -> Self {
+        libm::sqrt(self)
+    }
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        libm::sincos(self)
+    }
+    #[inline]
+    fn atan2(self, x: Self) -> Self {
+        libm::atan2(self, x)
+    }
+}
+
+impl Real for f32 {
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+    const HALF: Self = 0.5;
+    const TWO: Self = 2.0;
+    const EPSILON: Self = Self::EPSILON;
+    const PI: Self = core::f32::consts::PI;
+
+    #[inline]
+    #[allow(clippy::cast_possible_truncation, reason = "rounding to f32 is what is asked for")]
+    fn from_f64(x: f64) -> Self {
+        x as Self
+    }
+    fn from_decimal(text: &str) -> Option<Self> {
+        text.parse().ok()
+    }
+    #[inline]
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+    #[inline]
+    fn sqrt(self) -> Self {
+        libm::sqrtf(self)
+    }
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        libm::sincosf(self)
+    }
+    #[inline]
+    fn atan2(self, x: Self) -> Self {
+        libm::atan2f(self, x)
+    }
+}

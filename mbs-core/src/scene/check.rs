@@ -1,0 +1,1 @@
+//! Checks of a scene as a whole.

@@ -1,0 +1,220 @@
+//! Bodies, joints, initial conditions and guides.
+
+use crate::scene::{Effect, Output, SolverChoice};
+use alloc::string::String;
+use alloc::vec::Vec;
+
+/// Planar or spatial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// Motion in the x-y plane; rotations about z.
+    Planar,
+    /// Motion in space.
+    Spatial,
+}
+
+impl Dimension {
+    /// 2 or 3.
+    #[must_use]
+    pub fn count(self) -> usize {
+        match self {
+            Self::Planar => 2,
+            Self::Spatial => 3,
+        }
+    }
+}
+
+/// A mechanism and what is asked of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene<T> {
+    /// Name for reports.
+    pub name: String,
+    /// Planar or spatial.
+    pub dimension: Dimension,
+    /// Acceleration of gravity [m/s^2]; `None`: no gravity and no gravity code.
+    pub gravity: Option<[T; 3]>,
+    /// Length of the run [s].
+    pub duration: T,
+    /// The bodies; the ground is not among them.
+    pub bodies: Vec<Body<T>>,
+    /// The joints.
+    pub joints: Vec<Joint<T>>,
+    /// What holds exactly at the start; the rest follows.
+    pub initials: Vec<Initial<T>>,
+    /// Kinematic guidance of joint coordinates.
+    pub guides: Vec<Guide<T>>,
+    /// Opt-in effects. Those with `enabled: false` are not built.
+    pub effects: Vec<Effect<T>>,
+    /// Channels; empty: every joint coordinate.
+    pub outputs: Vec<Output>,
+    /// What the scene asks of the solver.
+    pub solver: SolverChoice<T>,
+}
+
+/// A body by its index, or the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum BodyRef {
+    /// The fixed frame.
+    Ground,
+    /// `scene.bodies[i]`.
+    Body(usize),
+}
+
+/// A rigid body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body<T> {
+    /// Unique name.
+    pub name: String,
+    /// Mass [kg]; zero is allowed where the others determine the motion.
+    pub mass: T,
+    /// Centre of mass in the reference configuration [m].
+    pub center: [T; 3],
+    /// Inertia about the centre of mass.
+    pub inertia: Inertia<T>,
+}
+
+/// Inertia about the centre of mass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Inertia<T> {
+    /// Uniform slender rod between two points: centre (the middle) and inertia follow from mass and length.
+    Rod {
+        /// One end [m].
+        from: [T; 3],
+        /// The other end [m].
+        to: [T; 3],
+    },
+    /// Planar body: about z [kg m^2].
+    Planar(T),
+    /// Spatial body: [Ixx, Iyy, Izz, Ixy, Iyz, Izx] in global axes, products as in the matrix [kg m^2].
+    Spatial([T; 6]),
+}
+
+/// The kinds of joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum JointKind {
+    /// Common point and axis; rotation about the axis.
+    Revolute,
+    /// Common point (spatial).
+    Spherical,
+    /// Common point, two axes at a fixed angle (spatial).
+    Universal,
+    /// Translation along an axis.
+    Prismatic,
+    /// Translation along and rotation about an axis (spatial).
+    Cylindrical,
+    /// Plane on plane (spatial).
+    Planar,
+    /// No relative motion.
+    Weld,
+    /// All relative motions: carries coordinates, constrains nothing.
+    Free,
+    /// Two points keep their distance: a massless link with two balls, or hinged at the first body.
+    Distance,
+}
+
+/// A joint between two bodies. Positive motion: second body relative to the first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint<T> {
+    /// Unique name.
+    pub name: String,
+    /// Kind.
+    pub kind: JointKind,
+    /// First and second body.
+    pub bodies: [BodyRef; 2],
+    /// Place [m], one per body: equal for all kinds but `Distance`.
+    pub points: [[T; 3]; 2],
+    /// Axes, any length: `Revolute` (spatial), `Prismatic`, `Cylindrical`: `axes[0]`; `Universal`: first fixed in
+    /// the first body, second in the second; `Planar`: normal, then first translation; `Distance`: `axes[0]` when
+    /// the link is hinged. Unused ones are `None`. A planar revolute has none (its axis is +z).
+    pub axes: [Option<[T; 3]>; 2],
+}
+
+impl JointKind {
+    /// Number of joint coordinates in a scene of that dimension.
+    #[must_use]
+    pub fn n_coordinates(self, dimension: Dimension) -> usize {
+        match (self, dimension) {
+            (Self::Revolute | Self::Prismatic, _) => 1,
+            (Self::Cylindrical | Self::Universal, _) => 2,
+            (Self::Spherical | Self::Planar, _) | (Self::Free, Dimension::Planar) => 3,
+            (Self::Free, Dimension::Spatial) => 6,
+            (Self::Weld | Self::Distance, _) => 0,
+        }
+    }
+
+    /// The name used in scene files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Revolute => "revolute",
+            Self::Spherical => "spherical",
+            Self::Universal => "universal",
+            Self::Prismatic => "prismatic",
+            Self::Cylindrical => "cylindrical",
+            Self::Planar => "planar",
+            Self::Weld => "weld",
+            Self::Free => "free",
+            Self::Distance => "distance",
+        }
+    }
+}
+
+/// One `[[initial]]` entry: what is written holds exactly at the start.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Initial<T> {
+    /// What it speaks about.
+    pub target: InitialTarget<T>,
+}
+
+/// The target of an initial condition, with its values.
+#[derive(Debug, Clone, PartialEq)]
+pub enum InitialTarget<T> {
+    /// Joint coordinates and rates, in the order of the joint's numbers [rad, m, rad/s, m/s].
+    Joint {
+        /// Index of the joint.
+        joint: usize,
+        /// Coordinates from the reference configuration.
+        value: Option<Vec<T>>,
+        /// Their rates; for a spherical joint the relative angular velocity in global axes.
+        rate: Option<Vec<T>>,
+    },
+    /// Velocity of a material point and/or angular velocity of a body.
+    Body {
+        /// Index of the body.
+        body: usize,
+        /// Material point (reference configuration) and its velocity [m, m/s].
+        velocity: Option<([T; 3], [T; 3])>,
+        /// Angular velocity in global axes [rad/s]; planar scenes use the third component.
+        angular_velocity: Option<[T; 3]>,
+    },
+}
+
+/// Kinematic guidance: a joint coordinate follows a law of time, counted from the reference configuration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Guide<T> {
+    /// Index of the guided joint (one coordinate: revolute or prismatic).
+    pub joint: usize,
+    /// The law.
+    pub law: GuideLaw<T>,
+}
+
+/// A twice differentiable function of time.
+#[derive(Debug, Clone, PartialEq)]
+pub enum GuideLaw<T> {
+    /// Natural cubic spline through (time, value); the end values are held outside.
+    Table(Vec<[T; 2]>),
+    /// amplitude * sin(2 pi frequency t + phase)   [rad or m, Hz, rad].
+    Sine {
+        /// Amplitude [rad or m].
+        amplitude: T,
+        /// Frequency [Hz].
+        frequency: T,
+        /// Phase [rad].
+        phase: T,
+    },
+    /// rate * t   [rad/s or m/s].
+    Ramp {
+        /// Rate [rad/s or m/s].
+        rate: T,
+    },
+}

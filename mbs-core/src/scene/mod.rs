@@ -1,0 +1,17 @@
+//! Scene data: what a mechanism *is*, before any coordinates are chosen. Plain data, public fields, SI units.
+//!
+//! Everything is given in global axes in the *reference configuration* (hard points). Planar scenes keep the
+//! third component of every vector at zero. Names live here and nowhere below; references are indices.
+
+mod check;
+mod data;
+mod effect;
+mod error;
+mod output;
+
+pub use data::{
+    Body, BodyRef, Dimension, Guide, GuideLaw, Initial, InitialTarget, Inertia, Joint, JointKind, Scene,
+};
+pub use effect::{AxisFrame, Course, Effect, EffectKind};
+pub use error::{Entry, SceneError, SceneFault};
+pub use output::{Output, Quantity, SolverChoice};

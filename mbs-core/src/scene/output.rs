@@ -1,0 +1,75 @@
+//! Output channels and the scene's wishes for the solver.
+
+use alloc::string::String;
+use alloc::vec::Vec;
+
+/// A channel: what is recorded, under which name. Coordinates are `f64`, as records are.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Output {
+    /// Unique name.
+    pub name: String,
+    /// What is measured.
+    pub quantity: Quantity,
+}
+
+/// What a channel measures.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Quantity {
+    /// Position of a material point [m], global axes.
+    Position {
+        /// Body.
+        body: usize,
+        /// Point in the reference configuration [m].
+        at: [f64; 3],
+    },
+    /// Velocity of a material point [m/s].
+    Velocity {
+        /// Body.
+        body: usize,
+        /// Point in the reference configuration [m].
+        at: [f64; 3],
+    },
+    /// Acceleration of a material point [m/s^2].
+    Acceleration {
+        /// Body.
+        body: usize,
+        /// Point in the reference configuration [m].
+        at: [f64; 3],
+    },
+    /// Joint coordinates [rad or m], unwrapped.
+    JointValue {
+        /// Joint.
+        joint: usize,
+    },
+    /// Joint rates [rad/s or m/s].
+    JointRate {
+        /// Joint.
+        joint: usize,
+    },
+    /// What the first body does to the second at the joint's place: planar [Fx, Fy, Mz], spatial [Fx, Fy, Fz, Mx, My, Mz].
+    Reaction {
+        /// Joint.
+        joint: usize,
+    },
+}
+
+/// The `[solver]` table: all optional; the command line overrides.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SolverChoice<T> {
+    /// Formulation as written, checked by the face of the workspace.
+    pub formulation: Option<String>,
+    /// Integrator as written, likewise.
+    pub integrator: Option<String>,
+    /// Step [s].
+    pub step: Option<T>,
+    /// Largest step of variable-step methods [s].
+    pub step_max: Option<T>,
+    /// Newton tolerance, relative to the scene's length.
+    pub tolerance: Option<T>,
+    /// The printed alpha: N/m in index-3, kg in index-1.
+    pub penalty: Option<T>,
+    /// [U, L] of the multi-index energy rule.
+    pub energy_tolerance: Option<[T; 2]>,
+    /// Further keys accepted by the reader and not used yet.
+    pub unused: Vec<String>,
+}

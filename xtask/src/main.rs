@@ -1,0 +1,2 @@
+//! Jobs of this repository.
+fn main() {}
