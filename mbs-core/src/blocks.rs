@@ -66,7 +66,11 @@ pub struct FactorError {
 
 impl core::fmt::Display for FactorError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "pivot {:e} at unknown {}: the matrix is not positive definite", self.pivot, self.unknown)
+        write!(
+            f,
+            "pivot {:e} at unknown {}: the matrix is not positive definite",
+            self.pivot, self.unknown
+        )
     }
 }
 

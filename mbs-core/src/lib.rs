@@ -4,7 +4,15 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+pub mod algebra;
 pub mod blocks;
+pub mod elements;
+pub mod integrator;
+pub mod laws;
+#[cfg(feature = "alloc")]
+pub mod model;
+#[cfg(feature = "alloc")]
+pub mod natural;
 pub mod real;
 #[cfg(feature = "alloc")]
 pub mod scene;

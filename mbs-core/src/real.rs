@@ -5,9 +5,7 @@
 
 use core::fmt::{Debug, Display, LowerExp};
 use core::ops::Neg;
-use nalgebra::{
-    ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar,
-};
+use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar};
 use num_traits::{One, Zero};
 
 /// A real number type the mechanics can be computed in: `f32`, `f64`, later a double-double.

@@ -1,0 +1,277 @@
+//! Small vectors, and the coefficient by which a natural coordinate vector enters a body's points.
+//!
+//! A point of a rigid body is a fixed linear combination of its basis entities (points and directions):
+//!
+//! ```text
+//! space:  r = sum_k a_k e_k               a_k real
+//! plane:  r = sum_k (a_k + b_k J) e_k     J = quarter turn, that is complex coefficients
+//! ```
+//!
+//! so both are written with one [`Coef`] whose second part is unused in space.
+
+use crate::Real;
+use nalgebra::{SMatrix, SVector};
+
+/// A column of D numbers.
+pub type Vector<T, const D: usize> = SVector<T, D>;
+/// A D x D matrix.
+pub type Matrix<T, const D: usize> = SMatrix<T, D, D>;
+
+/// alpha + beta J in the plane, alpha in space (beta unused and zero).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Coef<T> {
+    /// alpha.
+    pub re: T,
+    /// beta.
+    pub im: T,
+}
+
+impl<T: Real> Coef<T> {
+    /// Zero.
+    #[must_use]
+    pub fn zero() -> Self {
+        Self { re: T::ZERO, im: T::ZERO }
+    }
+    /// One.
+    #[must_use]
+    pub fn one() -> Self {
+        Self { re: T::ONE, im: T::ZERO }
+    }
+    /// A real coefficient.
+    pub fn real(re: T) -> Self {
+        Self { re, im: T::ZERO }
+    }
+    /// Sum.
+    #[must_use]
+    pub fn plus(self, other: Self) -> Self {
+        Self { re: self.re + other.re, im: self.im + other.im }
+    }
+    /// Difference.
+    #[must_use]
+    pub fn minus(self, other: Self) -> Self {
+        self.plus(other.scaled(-T::ONE))
+    }
+    /// Multiplied by a number.
+    #[must_use]
+    pub fn scaled(self, s: T) -> Self {
+        Self { re: self.re * s, im: self.im * s }
+    }
+    /// Product (of complex numbers).
+    #[must_use]
+    pub fn times(self, o: Self) -> Self {
+        Self { re: self.re * o.re - self.im * o.im, im: self.re * o.im + self.im * o.re }
+    }
+    /// Complex conjugate: the transpose of alpha + beta J.
+    #[must_use]
+    pub fn conj(self) -> Self {
+        Self { re: self.re, im: -self.im }
+    }
+    /// Squared modulus.
+    #[must_use]
+    pub fn norm_squared(self) -> T {
+        self.re * self.re + self.im * self.im
+    }
+    /// Is it zero to the last bit?
+    #[must_use]
+    pub fn is_zero(self) -> bool {
+        self.re == T::ZERO && self.im == T::ZERO
+    }
+
+    /// (alpha + beta J) x.
+    #[inline(always)]
+    #[must_use]
+    pub fn apply<const D: usize>(self, x: &Vector<T, D>) -> Vector<T, D> {
+        let mut r = x * self.re;
+        if D == 2 {
+            r[0] -= self.im * x[1];
+            r[1] += self.im * x[0];
+        }
+        r
+    }
+
+    /// (alpha + beta J)^T x.
+    #[inline(always)]
+    #[must_use]
+    pub fn apply_transposed<const D: usize>(self, x: &Vector<T, D>) -> Vector<T, D> {
+        self.conj().apply(x)
+    }
+}
+
+/// Reads D numbers at `at`.
+#[inline(always)]
+pub(crate) fn load<T: Real, const D: usize>(x: &[T], at: u32) -> Vector<T, D> {
+    let at = at as usize;
+    let x = &x[at..at + D];
+    Vector::from_fn(|i, _| x[i])
+}
+
+/// Adds D numbers at `at`.
+#[inline(always)]
+pub(crate) fn add_to<T: Real, const D: usize>(x: &mut [T], at: usize, y: &Vector<T, D>) {
+    let x = &mut x[at..at + D];
+    for i in 0..D {
+        x[i] += y[i];
+    }
+}
+
+/// Euclidean length.
+pub fn norm<T: Real, const D: usize>(x: &Vector<T, D>) -> T {
+    x.dot(x).sqrt()
+}
+
+/// Largest absolute value of a slice.
+#[inline]
+pub fn norm_inf<T: Real>(x: &[T]) -> T {
+    let mut largest = T::ZERO;
+    for &xi in x {
+        let size = xi.abs();
+        // Written so that a NaN is kept, not lost.
+        if !(size <= largest) {
+            largest = size;
+        }
+    }
+    largest
+}
+
+/// a x b.
+pub fn cross<T: Real>(a: &Vector<T, 3>, b: &Vector<T, 3>) -> Vector<T, 3> {
+    Vector::<T, 3>::new(
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
+}
+
+/// A unit vector across the unit vector `n`, always the same for the same `n`.
+pub fn across<T: Real>(n: &Vector<T, 3>) -> Vector<T, 3> {
+    let mut least = 0;
+    for i in 1..3 {
+        if n[i].abs() < n[least].abs() {
+            least = i;
+        }
+    }
+    let mut e = Vector::<T, 3>::zeros();
+    e[least] = T::ONE;
+    let w = e - n * n[least];
+    w * (T::ONE / norm(&w))
+}
+
+/// Rotation matrix of a rotation vector (axis times angle) [rad].
+pub fn rotation<T: Real>(w: &Vector<T, 3>) -> Matrix<T, 3> {
+    let angle = norm(w);
+    if angle == T::ZERO {
+        return Matrix::<T, 3>::identity();
+    }
+    let n = w * (T::ONE / angle);
+    let (s, c) = angle.sin_cos();
+    let mut r = Matrix::<T, 3>::zeros();
+    for j in 0..3 {
+        let mut e = Vector::<T, 3>::zeros();
+        e[j] = T::ONE;
+        let column = e * c + cross(&n, &e) * s + n * (n[j] * (T::ONE - c));
+        for i in 0..3 {
+            r[(i, j)] = column[i];
+        }
+    }
+    r
+}
+
+/// Rotation vector of a rotation matrix, angle in [0, pi] [rad].
+pub fn rotation_vector<T: Real>(r: &Matrix<T, 3>) -> Vector<T, 3> {
+    let w =
+        Vector::<T, 3>::new(r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)])
+            * T::HALF;
+    let (sine, cosine) = (norm(&w), (r[(0, 0)] + r[(1, 1)] + r[(2, 2)] - T::ONE) * T::HALF);
+    let angle = sine.atan2(cosine);
+    if cosine > -T::HALF {
+        return if sine == T::ZERO { w } else { w * (angle / sine) };
+    }
+    // Near half a turn the axis is read off the symmetric part, R + R^T = 2 c 1 + 2 (1 - c) n n^T.
+    let mut k = 0;
+    for i in 1..3 {
+        if r[(i, i)] > r[(k, k)] {
+            k = i;
+        }
+    }
+    let mut n = Vector::<T, 3>::zeros();
+    for i in 0..3 {
+        n[i] = (r[(i, k)] + r[(k, i)]) * T::HALF;
+    }
+    n[k] -= cosine;
+    n *= T::ONE / norm(&n);
+    if n.dot(&w) < T::ZERO { n * -angle } else { n * angle }
+}
+
+/// Inverse of a small matrix by Gauss-Jordan elimination with row pivoting; `None` when singular.
+pub fn inverse<T: Real, const N: usize>(a: &SMatrix<T, N, N>) -> Option<SMatrix<T, N, N>> {
+    let (mut a, mut b) = (*a, SMatrix::<T, N, N>::identity());
+    for k in 0..N {
+        let mut p = k;
+        for i in k + 1..N {
+            if a[(i, k)].abs() > a[(p, k)].abs() {
+                p = i;
+            }
+        }
+        if a[(p, k)] == T::ZERO || !a[(p, k)].is_finite() {
+            return None;
+        }
+        a.swap_rows(p, k);
+        b.swap_rows(p, k);
+        let d = T::ONE / a[(k, k)];
+        for j in 0..N {
+            a[(k, j)] *= d;
+            b[(k, j)] *= d;
+        }
+        for i in 0..N {
+            let f = a[(i, k)];
+            if i != k && f != T::ZERO {
+                for j in 0..N {
+                    let (aj, bj) = (a[(k, j)], b[(k, j)]);
+                    a[(i, j)] -= f * aj;
+                    b[(i, j)] -= f * bj;
+                }
+            }
+        }
+    }
+    Some(b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rounding of a few products of numbers of order one.
+    const ROUNDING: f64 = 1e-14;
+
+    #[test]
+    fn rotation_vector_inverts_rotation_up_to_half_a_turn() {
+        for w in [
+            [0.3, -0.2, 0.9],
+            [0.0, 0.0, 3.14],
+            [1e-9, 0.0, 0.0],
+            [-2.0, 2.0, 1.0],
+            [0.0, -3.1415, 0.0],
+        ] {
+            let w = Vector::<f64, 3>::from_row_slice(&w);
+            let back = rotation_vector(&rotation(&w));
+            assert!(norm(&(back - w)) < 1e-10, "{w} {back}");
+        }
+    }
+
+    #[test]
+    fn inverse_times_matrix_is_identity() {
+        let a = SMatrix::<f64, 4, 4>::from_fn(|i, j| 1.0 / (1.0 + (i * 3 + j * 7 % 5) as f64));
+        let a = a + SMatrix::<f64, 4, 4>::identity();
+        let p = inverse(&a).unwrap() * a - SMatrix::<f64, 4, 4>::identity();
+        assert!(norm_inf(p.as_slice()) < ROUNDING);
+    }
+
+    #[test]
+    fn coefficient_turns_a_planar_vector_like_a_complex_number() {
+        let c = Coef { re: 0.6, im: 0.8 };
+        let x = c.apply(&Vector::<f64, 2>::new(1.0, 0.0));
+        assert!(norm(&(x - Vector::<f64, 2>::new(0.6, 0.8))) < ROUNDING);
+        let back = c.apply_transposed(&x);
+        assert!(norm(&(back - Vector::<f64, 2>::new(1.0, 0.0))) < ROUNDING);
+    }
+}

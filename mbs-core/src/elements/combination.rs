@@ -1,0 +1,76 @@
+//! Linear combinations of entities: x = sum_k (alpha_k + beta_k J) e_k.
+
+use crate::Real;
+use crate::algebra::{Coef, Vector, add_to, load};
+
+/// One entity in a combination.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Term<T> {
+    /// Where the entity starts in the extended coordinates.
+    pub entity: u32,
+    /// Where its columns start in the element's own Jacobian row.
+    pub column: u32,
+    /// Its coefficient.
+    pub coef: Coef<T>,
+}
+
+/// A run of terms in a shared pool.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Span {
+    /// First.
+    pub start: u32,
+    /// One past the last.
+    pub end: u32,
+}
+
+impl Span {
+    /// The terms.
+    #[inline(always)]
+    #[must_use]
+    pub fn of<T>(self, pool: &[T]) -> &[T] {
+        &pool[self.start as usize..self.end as usize]
+    }
+    /// The terms, to write.
+    #[inline(always)]
+    #[must_use]
+    pub fn of_mut<T>(self, pool: &mut [T]) -> &mut [T] {
+        &mut pool[self.start as usize..self.end as usize]
+    }
+    /// How many.
+    #[must_use]
+    pub fn len(self) -> usize {
+        (self.end - self.start) as usize
+    }
+    /// None?
+    #[must_use]
+    pub fn is_empty(self) -> bool {
+        self.start == self.end
+    }
+    /// As a range of indices.
+    #[must_use]
+    pub fn range(self) -> core::ops::Range<usize> {
+        self.start as usize..self.end as usize
+    }
+}
+
+/// The value of a combination.
+#[inline(always)]
+pub fn combine<T: Real, const D: usize>(terms: &[Term<T>], e: &[T]) -> Vector<T, D> {
+    let mut x = Vector::<T, D>::zeros();
+    for term in terms {
+        x += term.coef.apply(&load(e, term.entity));
+    }
+    x
+}
+
+/// Adds the gradient of x.y with respect to the entities of x, which is A^T y, to a Jacobian row.
+#[inline(always)]
+pub(crate) fn add_gradient<T: Real, const D: usize>(
+    row: &mut [T],
+    terms: &[Term<T>],
+    y: &Vector<T, D>,
+) {
+    for term in terms {
+        add_to(row, term.column as usize, &term.coef.apply_transposed(y));
+    }
+}

@@ -1,0 +1,73 @@
+//! Constant distance of two entities; with the zero vector at one end, constant length of a direction.
+//!
+//! ```text
+//! phi = (d.d - L^2) / 2L,   d = e_b - e_a          [P1 2.1], scaled so that the gradient has length one
+//! ```
+
+use crate::Real;
+use crate::algebra::{Vector, load};
+
+/// A constant-distance row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Distance<T> {
+    /// Extended coordinates of the ends a and b.
+    pub ends: [u32; 2],
+    /// Where the gradients of a and b stand in the Jacobian store.
+    pub places: [u32; 2],
+    /// Row number.
+    pub row: u32,
+    /// L [m or -].
+    pub length: T,
+    /// 1 / L.
+    pub inverse: T,
+}
+
+impl<T: Real> Distance<T> {
+    #[inline(always)]
+    fn difference<const D: usize>(&self, e: &[T]) -> Vector<T, D> {
+        load::<T, D>(e, self.ends[1]) - load::<T, D>(e, self.ends[0])
+    }
+
+    #[inline(always)]
+    fn write_gradient<const D: usize>(&self, d: &Vector<T, D>, jacobian: &mut [T]) {
+        let g = d * self.inverse;
+        let (a, b) = (self.places[0] as usize, self.places[1] as usize);
+        for i in 0..D {
+            jacobian[a + i] = -g[i];
+        }
+        for i in 0..D {
+            jacobian[b + i] = g[i];
+        }
+    }
+
+    /// Value and gradient at `q`.
+    #[inline(always)]
+    pub fn evaluate<const D: usize>(&self, q: &[T], phi: &mut [T], jacobian: &mut [T]) {
+        let d = self.difference::<D>(q);
+        phi[self.row as usize] = (d.dot(&d) * self.inverse - self.length) * T::HALF;
+        self.write_gradient(&d, jacobian);
+    }
+
+    /// Value and gradient at `q + dq` from the value at `q`, without the cancellation of d.d - L^2:
+    /// phi = phi_n + (d_n + dd/2).dd / L, exact because phi is quadratic.
+    #[inline(always)]
+    pub fn advance<const D: usize>(
+        &self,
+        (q, dq): (&[T], &[T]),
+        phi_n: &[T],
+        phi: &mut [T],
+        jacobian: &mut [T],
+    ) {
+        let (d, dd) = (self.difference::<D>(q), self.difference::<D>(dq));
+        let row = self.row as usize;
+        phi[row] = phi_n[row] + (d + dd * T::HALF).dot(&dd) * self.inverse;
+        self.write_gradient(&(d + dd), jacobian);
+    }
+
+    /// The part of phi'' without accelerations.
+    #[inline(always)]
+    pub fn bias<const D: usize>(&self, v: &[T]) -> T {
+        let w = self.difference::<D>(v);
+        w.dot(&w) * self.inverse
+    }
+}

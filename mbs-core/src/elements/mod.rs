@@ -1,0 +1,23 @@
+//! Element kernels of natural coordinates: constraint rows with value, gradient, bias and curvature.
+//!
+//! Coordinates stand in one *extended* array: first the n unknowns, then constants (ground points, fixed directions,
+//! a zero vector). Velocities are zero in the constant tail, so an end on the ground needs no case of its own.
+//!
+//! | element | equation | gradient | bias |
+//! |---|---|---|---|
+//! | [`Distance`] | (d.d - L^2) / 2L | +-d / L | d'.d' / L |
+//! | [`Dot`] | s x.y - c | s (A^T y + B^T x) | 2 s x'.y' |
+//! | [`Linear`] | sum_k a_k e_k - c | constant | 0 |
+//! | [`Guided`] | (cos f x2 - sin f x1).y, or s x.y - f | as `Dot` | with f', f'' |
+
+mod combination;
+mod distance;
+mod dot;
+mod guided;
+mod linear;
+
+pub use combination::{Span, Term, combine};
+pub use distance::Distance;
+pub use dot::Dot;
+pub use guided::{Guided, GuidedMotion};
+pub use linear::Linear;

@@ -1,0 +1,150 @@
+//! One-step integrators in the general form of [P1 (32)], in increments.
+//!
+//! ```text
+//! (1 - am) a^_1 + am a^_0 = (1 - af) a_1 + af a_0
+//! q_1 = q_0 + h v_0 + h^2 ((1/2 - beta) a^_0 + beta a^_1),   v_1 = v_0 + h ((1 - gamma) a^_0 + gamma a^_1)
+//!
+//! prediction (a^_1 = a^_0) and correction d of the position:
+//! q_1 = q_p + d,   v_1 = v_p + v' d,   a_1 = a_p + a' d,   a^_1 = a^_0 + d / (beta h^2)
+//! ```
+//!
+//! The trapezoidal rule is beta = 1/4, gamma = 1/2, am = af = 0: then v' = 2/h, a' = 4/h^2, the equations of [P3 (4)-(5)]
+//! without the cancellation of 2/h q_1 - 2/h q_0.
+
+use crate::Real;
+
+/// An implicit one-step method for second-order systems.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Integrator<T> {
+    /// beta of Newmark, `> 0`.
+    pub beta: T,
+    /// gamma of Newmark, `>= 1/2`; 1/2 has no numerical damping.
+    pub gamma: T,
+    /// am of generalised-alpha.
+    pub alpha_m: T,
+    /// af of generalised-alpha.
+    pub alpha_f: T,
+}
+
+impl<T: Real> Integrator<T> {
+    /// The trapezoidal rule: second order, keeps energy best.
+    #[must_use]
+    pub fn trapezoidal() -> Self {
+        Self::newmark(T::from_f64(0.25), T::HALF)
+    }
+
+    /// Newmark's method.
+    pub fn newmark(beta: T, gamma: T) -> Self {
+        Self { beta, gamma, alpha_m: T::ZERO, alpha_f: T::ZERO }
+    }
+
+    /// Generalised-alpha (Chung and Hulbert, 1993) with spectral radius `rho` at infinity, in `[0, 1]`: 1 damps nothing.
+    pub fn generalised_alpha(rho: T) -> Self {
+        let alpha_m = (T::TWO * rho - T::ONE) / (rho + T::ONE);
+        let alpha_f = rho / (rho + T::ONE);
+        Self::second_order(alpha_m, alpha_f)
+    }
+
+    /// HHT with damping `alpha` in `[0, 1/3]`: 0 is the trapezoidal rule.
+    pub fn hht(alpha: T) -> Self {
+        Self::second_order(T::ZERO, alpha)
+    }
+
+    /// gamma = 1/2 + af - am, beta = (gamma + 1/2)^2 / 4: second order and unconditionally stable.
+    fn second_order(alpha_m: T, alpha_f: T) -> Self {
+        let gamma = T::HALF + alpha_f - alpha_m;
+        let half = (gamma + T::HALF) * T::HALF;
+        Self { beta: half * half, gamma, alpha_m, alpha_f }
+    }
+
+    /// The coefficients for steps of length `dt` [s].
+    pub fn rule(&self, dt: T) -> Rule<T> {
+        let auxiliary = T::ONE / (self.beta * dt * dt);
+        Rule {
+            dt,
+            velocity: self.gamma / (self.beta * dt),
+            acceleration: (T::ONE - self.alpha_m) / (T::ONE - self.alpha_f) * auxiliary,
+            auxiliary,
+            alpha_f: self.alpha_f,
+        }
+    }
+}
+
+/// An integrator at a step length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rule<T> {
+    /// h [s].
+    pub dt: T,
+    /// v' [1/s].
+    pub velocity: T,
+    /// a' [1/s^2].
+    pub acceleration: T,
+    /// 1 / (beta h^2) [1/s^2].
+    pub auxiliary: T,
+    /// af.
+    pub alpha_f: T,
+}
+
+impl<T: Real> Rule<T> {
+    /// Predicted increment of the position and predicted velocity and acceleration at the end of the step.
+    #[inline(always)]
+    pub fn predict(&self, v: T, a: T, a_aux: T) -> (T, T, T) {
+        let h = self.dt;
+        let dq = h * (v + h * T::HALF * a_aux);
+        let a_next = if self.alpha_f == T::ZERO {
+            a_aux
+        } else {
+            (a_aux - self.alpha_f * a) / (T::ONE - self.alpha_f)
+        };
+        (dq, v + h * a_aux, a_next)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rounding of one step on numbers of order one.
+    const ROUNDING: f64 = 1e-13;
+
+    /// The correction that solves a = -q at the end of the step, by one linear equation.
+    fn step(rule: &Rule<f64>, q: f64, v: f64, a: f64, aux: f64) -> (f64, f64, f64, f64) {
+        let (dq, vp, ap) = rule.predict(v, a, aux);
+        let d = -(ap + q + dq) / (1.0 + rule.acceleration);
+        let q = q + dq + d;
+        (q, vp + rule.velocity * d, ap + rule.acceleration * d, aux + rule.auxiliary * d)
+    }
+
+    fn error_at_one(integrator: Integrator<f64>, n: u32) -> f64 {
+        let rule = integrator.rule(1.0 / f64::from(n));
+        let (mut q, mut v, mut a, mut aux) = (1.0, 0.0, -1.0, -1.0);
+        for _ in 0..n {
+            (q, v, a, aux) = step(&rule, q, v, a, aux);
+        }
+        (q - libm::cos(1.0)).abs().max((v + libm::sin(1.0)).abs())
+    }
+
+    #[test]
+    fn every_member_of_the_family_is_of_second_order_on_the_oscillator() {
+        for integrator in [
+            Integrator::trapezoidal(),
+            Integrator::newmark(1.0 / 6.0, 0.5),
+            Integrator::generalised_alpha(0.8),
+            Integrator::generalised_alpha(1.0),
+            Integrator::hht(0.05),
+        ] {
+            let ratio = error_at_one(integrator, 100) / error_at_one(integrator, 200);
+            assert!((3.6..4.4).contains(&ratio), "{integrator:?}: error ratio {ratio}");
+        }
+    }
+
+    #[test]
+    fn trapezoidal_rule_is_the_printed_one() {
+        let rule = Integrator::trapezoidal().rule(0.1);
+        let (q, v, a) = (1.0, 0.5, -1.0);
+        let (q1, v1, a1, aux) = step(&rule, q, v, a, a);
+        assert!((q1 - q - 0.05 * (v + v1)).abs() < ROUNDING);
+        assert!((v1 - v - 0.05 * (a + a1)).abs() < ROUNDING);
+        assert!((a1 - aux).abs() < ROUNDING);
+    }
+}

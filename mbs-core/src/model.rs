@@ -1,0 +1,244 @@
+//! What a formulation sees of a mechanism: [`Model`], with the numbers of one instant in [`Terms`].
+//!
+//! ```text
+//! M q'' + phi_q^T lambda = Q(q, q', t),   phi(q, t) = 0
+//! ```
+//!
+//! Vectors over coordinates have [`Model::n_extended`] places: the n unknowns, then constants (zero in velocities and
+//! accelerations). Vectors over constraints have [`Model::n_constraints`] places.
+
+use crate::Real;
+use crate::blocks::{BlockSource, Cliques};
+use alloc::vec::Vec;
+
+/// Everything a model evaluates at one instant. Allocated once by [`Model::terms`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Terms<T> {
+    /// Constraint values phi [m or -], m.
+    pub phi: Vec<T>,
+    /// Partial time derivative of phi; zero where no guide acts, m.
+    pub phi_t: Vec<T>,
+    /// phi'' without accelerations, so that phi'' = phi_q q'' + bias, m.
+    pub phi_bias: Vec<T>,
+    /// Jacobian rows, element by element (the model's own layout).
+    pub jacobian: Vec<T>,
+    /// Applied forces, element by element (the model's own layout).
+    pub force: Vec<T>,
+    /// Laws with tangents: one record for each scalar measure (spring length, joint angle).
+    pub measures: Vec<Measure<T>>,
+    /// Inputs at this instant: value, rate and acceleration of each guide.
+    pub guides: Vec<[T; 3]>,
+    /// Inputs at this instant: the vector of each force or torque course.
+    pub courses: Vec<[T; 3]>,
+}
+
+/// The state of one scalar force law: a tension along a measured length or angle.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Measure<T> {
+    /// Length or angle [m, rad].
+    pub value: T,
+    /// Its rate [m/s, rad/s].
+    pub rate: T,
+    /// Generalised force against growth [N, N m].
+    pub tension: T,
+    /// d tension / d value [N/m, N m/rad].
+    pub stiffness: T,
+    /// d tension / d rate [N s/m, N m s/rad].
+    pub damping: T,
+    /// tension / length, for the turning of a line of action [N/m]; zero for angles.
+    pub transverse: T,
+}
+
+/// Weights of the tangent matrix T = M + damping C + stiffness (K + K_geo(lambda)) + J^T diag(penalty) J.
+#[derive(Debug, Clone, Copy)]
+pub struct Tangent<'a, T> {
+    /// Weight of K = -dQ/dq.
+    pub stiffness: T,
+    /// Weight of C = -dQ/dq'.
+    pub damping: T,
+    /// Weight of each row in mass units, m.
+    pub penalty: &'a [T],
+    /// Multipliers (already times the weight of K) of the geometric stiffness; `None`: left out.
+    pub geometric: Option<&'a [T]>,
+}
+
+/// A residual f = M x + J^T mu - force Q.
+#[derive(Debug, Clone, Copy)]
+pub struct Load<'a, T> {
+    /// x, extended; `None`: no mass term.
+    pub mass: Option<&'a [T]>,
+    /// mu, m; `None`: no constraint term.
+    pub multipliers: Option<&'a [T]>,
+    /// Factor of the applied forces.
+    pub force: T,
+}
+
+/// A mechanism in dependent coordinates with constant mass matrix.
+pub trait Model<T: Real>: Cliques {
+    /// Unknowns and constants together.
+    fn n_extended(&self) -> usize;
+    /// Number of constraint rows m.
+    fn n_constraints(&self) -> usize;
+    /// Numbers a state must remember besides coordinates (turns of measured angles).
+    fn n_memory(&self) -> usize;
+    /// Does any element apply forces that change with state or time?
+    fn has_forces(&self) -> bool;
+    /// Is any row driven by time?
+    fn has_guides(&self) -> bool;
+    /// A store for the evaluated terms, with all constant parts filled in.
+    fn terms(&self) -> Terms<T>;
+    /// Writes the unknowns' reference values and all constants.
+    fn write_reference(&self, q: &mut [T]);
+    /// Evaluates the scene's guides and courses at time `t` into `terms`.
+    fn set_inputs(&self, t: T, terms: &mut Terms<T>);
+    /// phi and J at `q`.
+    fn evaluate(&self, q: &[T], terms: &mut Terms<T>);
+    /// phi and J at `q + dq`, from `phi_n` at `q`: free of the cancellation in phi.
+    fn advance(&self, q: &[T], dq: &[T], phi_n: &[T], terms: &mut Terms<T>);
+    /// Applied forces and their tangents at (`q`, `v`); `memory` holds the angles of the last step.
+    fn evaluate_forces(&self, q: &[T], v: &[T], memory: &[T], terms: &mut Terms<T>);
+    /// Writes the measured angles of `terms` into `memory`, at the end of a step.
+    fn remember(&self, terms: &Terms<T>, memory: &mut [T]);
+    /// phi_t at `q`. Does nothing without guides.
+    fn evaluate_phi_t(&self, q: &[T], terms: &mut Terms<T>);
+    /// Bias of phi'' at (`q`, `v`).
+    fn evaluate_bias(&self, q: &[T], v: &[T], terms: &mut Terms<T>);
+    /// rates = J x, over the constraints.
+    fn multiply_jacobian(&self, terms: &Terms<T>, x: &[T], rates: &mut [T]);
+    /// The effective mass of each row, 1 / (J_k M^-1 J_k^T) with the diagonal of M [kg]: the scale of its penalty.
+    fn effective_masses(&self, terms: &Terms<T>, masses: &mut [T]);
+    /// The block of one element in the tangent, packed lower triangle.
+    fn write_block(
+        &self,
+        terms: &Terms<T>,
+        tangent: &Tangent<'_, T>,
+        element: usize,
+        block: &mut [T],
+    );
+    /// The residual of one element.
+    fn write_residual(
+        &self,
+        terms: &Terms<T>,
+        load: &Load<'_, T>,
+        element: usize,
+        residual: &mut [T],
+    );
+    /// Kinetic energy [J].
+    fn kinetic_energy(&self, v: &[T]) -> T;
+    /// Potential energy of gravity, constant forces and springs [J]; springs as last evaluated in `terms`.
+    fn potential_energy(&self, q: &[T], terms: &Terms<T>) -> T;
+    /// Power that enters through dampers, courses and guides (multipliers `lambda`) [W], terms as last evaluated.
+    fn power(&self, q: &[T], v: &[T], lambda: &[T], terms: &Terms<T>) -> T;
+    /// What an unknown belongs to, for messages.
+    fn owner_of_unknown(&self, unknown: usize) -> Owner;
+    /// What a constraint row belongs to, for messages.
+    fn owner_of_row(&self, row: usize) -> Owner;
+}
+
+/// A body or joint of the scene, for messages.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Owner {
+    /// `scene.bodies[i]`.
+    Body(usize),
+    /// `scene.joints[i]`.
+    Joint(usize),
+    /// `scene.effects[i]`.
+    Effect(usize),
+}
+
+/// A model at one instant with the weights of a linear system: what a solver takes.
+#[derive(Debug, Clone, Copy)]
+pub struct System<'a, T, M> {
+    /// The model.
+    pub model: &'a M,
+    /// Its evaluated terms.
+    pub terms: &'a Terms<T>,
+    /// Weights of the matrix.
+    pub tangent: Tangent<'a, T>,
+    /// Parts of the right-hand side.
+    pub load: Load<'a, T>,
+}
+
+impl<T: Real, M: Model<T>> BlockSource<T> for System<'_, T, M> {
+    #[inline]
+    fn write_block(&self, element: usize, block: &mut [T]) {
+        self.model.write_block(self.terms, &self.tangent, element, block);
+    }
+    #[inline]
+    fn write_residual(&self, element: usize, residual: &mut [T]) {
+        self.model.write_residual(self.terms, &self.load, element, residual);
+    }
+}
+
+/// Position, velocity and acceleration of a mechanism at a time, with what a step must remember.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State<T> {
+    /// Time [s].
+    pub t: T,
+    /// Coordinates, extended [m or -].
+    pub q: Vec<T>,
+    /// What `q` lost to rounding, extended: the position is q + q_low.
+    pub q_low: Vec<T>,
+    /// Velocities, extended; zero in the constants.
+    pub v: Vec<T>,
+    /// Accelerations, extended; zero in the constants.
+    pub a: Vec<T>,
+    /// Auxiliary accelerations of the generalised-alpha family, extended; equal to `a` in the Newmark family.
+    pub a_aux: Vec<T>,
+    /// Multipliers of the last step [N or N m], m.
+    pub lambda: Vec<T>,
+    /// Multipliers of the step before, m.
+    pub lambda_previous: Vec<T>,
+    /// Multipliers of dynamic equilibrium with the projected accelerations: what reactions are made of, m.
+    pub reaction: Vec<T>,
+    /// phi carried along without rounding, m.
+    pub phi: Vec<T>,
+    /// Measured angles with their turns.
+    pub memory: Vec<T>,
+    /// Work done on the mechanism by dampers, courses and guides since the start [J].
+    pub work: T,
+    /// Their power at this instant [W].
+    pub power: T,
+}
+
+impl<T: Real> State<T> {
+    /// A state at rest in the reference configuration at time zero. Not yet consistent: assemble it.
+    pub fn at_rest(model: &impl Model<T>) -> Self {
+        let (n, m) = (model.n_extended(), model.n_constraints());
+        let zeros = |k| alloc::vec![T::ZERO; k];
+        let mut q = zeros(n);
+        model.write_reference(&mut q);
+        Self {
+            t: T::ZERO,
+            q,
+            q_low: zeros(n),
+            v: zeros(n),
+            a: zeros(n),
+            a_aux: zeros(n),
+            lambda: zeros(m),
+            lambda_previous: zeros(m),
+            reaction: zeros(m),
+            phi: zeros(m),
+            memory: zeros(model.n_memory()),
+            work: T::ZERO,
+            power: T::ZERO,
+        }
+    }
+
+    /// Overwrites this state with another of the same model, without allocating.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.t = other.t;
+        self.q.copy_from_slice(&other.q);
+        self.q_low.copy_from_slice(&other.q_low);
+        self.v.copy_from_slice(&other.v);
+        self.a.copy_from_slice(&other.a);
+        self.a_aux.copy_from_slice(&other.a_aux);
+        self.lambda.copy_from_slice(&other.lambda);
+        self.lambda_previous.copy_from_slice(&other.lambda_previous);
+        self.reaction.copy_from_slice(&other.reaction);
+        self.phi.copy_from_slice(&other.phi);
+        self.memory.copy_from_slice(&other.memory);
+        self.work = other.work;
+        self.power = other.power;
+    }
+}

@@ -1,0 +1,342 @@
+//! The basis of a body: the entities whose combinations are all its points, and its constant mass matrix.
+//!
+//! ```text
+//! plane:  r(p) = e_1 + w (e_2 - e_1)  or  e_1 + w u,   w complex          M = G (x) complex 2x2
+//! space:  r(p) = sum_k a_k b_k,  a = D^-1 [p; 1],  D = columns [b_k; 1 or 0]
+//!         G = D^-1 [[S, m c], [m c^T, m]] D^-T,   S = tr(I)/2 1 - I,      M = G (x) 1_3
+//! rod:    r(p) = e_1 + w (e_2 - e_1),  w real
+//! ```
+//!
+//! Shared entities come first; an own point or own unit vectors fill what is missing. Entities on the ground are
+//! preferred (they cost nothing); a direction is taken when it stands at least [`INDEPENDENCE`] out of those before.
+
+use super::cluster::Cluster;
+use super::sharing::{Entity, EntityKind};
+use crate::Real;
+use crate::algebra::{Coef, Vector, across, cross, inverse, norm};
+use alloc::vec::Vec;
+use nalgebra::SMatrix;
+
+/// Smallest share of a candidate direction that must be new for it to enter a basis.
+pub const INDEPENDENCE: f64 = 0.2;
+
+/// A combination of entities (by number), before coordinates are numbered.
+pub(crate) type Combination<T> = Vec<(usize, Coef<T>)>;
+
+/// The basis of one cluster.
+#[derive(Debug, Clone)]
+pub(crate) struct Basis<T: Real> {
+    /// Entities of the basis; the first is a point.
+    pub(crate) entities: Vec<usize>,
+    frame: Frame<T>,
+}
+
+#[derive(Debug, Clone)]
+enum Frame<T: Real> {
+    /// Origin and the second entity's vector as a complex number; is it a point?
+    Planar { origin: Vector<T, 3>, second: Coef<T>, is_point: bool },
+    /// Two points of a rod.
+    Rod { origin: Vector<T, 3>, along: Vector<T, 3> },
+    /// Origin (subtracted before D is formed) and D^-1.
+    Spatial { origin: Vector<T, 3>, inverse: SMatrix<T, 4, 4> },
+}
+
+impl<T: Real> Basis<T> {
+    /// Chooses the basis of a planar cluster among its shared entities, adding own ones to `entities`.
+    pub(crate) fn planar(
+        cluster: &Cluster<T>,
+        shared: &[usize],
+        entities: &mut Vec<Entity<T>>,
+    ) -> Self {
+        let points = points_of(shared, entities);
+        let origin = first_point(cluster, &points, entities);
+        let at = entities[origin].at;
+        let far = farthest(&points, &at, entities);
+        let direction = shared.iter().copied().find(|&e| entities[e].kind == EntityKind::Direction);
+        let size = far.map_or(T::ZERO, |(_, d)| d);
+        let (second, is_point) = match (far, direction) {
+            (_, Some(d)) if entities[d].is_constant => (d, false),
+            (Some((p, _)), _) if size > cluster_size(cluster, &at) * T::from_f64(0.05) => (p, true),
+            (_, Some(d)) => (d, false),
+            _ => (own_direction(Vector::<T, 3>::new(T::ONE, T::ZERO, T::ZERO), entities), false),
+        };
+        let v = if is_point { entities[second].at - at } else { entities[second].at };
+        let frame = Frame::Planar { origin: at, second: Coef { re: v[0], im: v[1] }, is_point };
+        Self { entities: alloc::vec![origin, second], frame }
+    }
+
+    /// Two points of a slender rod.
+    pub(crate) fn rod(
+        ends: &[Vector<T, 3>; 2],
+        shared: &[usize],
+        entities: &mut Vec<Entity<T>>,
+    ) -> Self {
+        let points = points_of(shared, entities);
+        let middle = (ends[0] + ends[1]) * T::HALF;
+        let origin = points.first().copied().unwrap_or_else(|| own_point(ends[0], entities));
+        let at = entities[origin].at;
+        let length = norm(&(ends[1] - ends[0]));
+        let second = match farthest(&points, &at, entities) {
+            Some((p, d)) if d > length * T::from_f64(0.05) => p,
+            _ => {
+                let far =
+                    if norm(&(ends[0] - at)) > norm(&(ends[1] - at)) { ends[0] } else { ends[1] };
+                debug_assert!(norm(&(far - middle)) > T::ZERO);
+                own_point(far, entities)
+            }
+        };
+        let along = entities[second].at - at;
+        Self { entities: alloc::vec![origin, second], frame: Frame::Rod { origin: at, along } }
+    }
+
+    /// Four entities of a spatial cluster; `None` when they turn out dependent (never for finite data).
+    pub(crate) fn spatial(
+        cluster: &Cluster<T>,
+        shared: &[usize],
+        entities: &mut Vec<Entity<T>>,
+    ) -> Option<Self> {
+        let points = points_of(shared, entities);
+        let origin = first_point(cluster, &points, entities);
+        let at = entities[origin].at;
+        let mut chosen = alloc::vec![origin];
+        let mut units: Vec<Vector<T, 3>> = Vec::new();
+        for constants in [true, false] {
+            while chosen.len() < 4 {
+                let best = most_independent(shared, &chosen, &units, &at, entities, constants);
+                let Some((e, unit)) = best else { break };
+                chosen.push(e);
+                units.push(unit);
+            }
+        }
+        while chosen.len() < 4 {
+            let unit = match units.as_slice() {
+                [] => Vector::<T, 3>::new(T::ONE, T::ZERO, T::ZERO),
+                [a] => across(a),
+                [a, b, ..] => {
+                    let c = cross(a, b);
+                    c * (T::ONE / norm(&c))
+                }
+            };
+            chosen.push(own_direction(unit, entities));
+            units.push(unit);
+        }
+        let mut d = SMatrix::<T, 4, 4>::zeros();
+        for (k, &e) in chosen.iter().enumerate() {
+            let is_point = entities[e].kind == EntityKind::Point;
+            let v = if is_point { entities[e].at - at } else { entities[e].at };
+            for i in 0..3 {
+                d[(i, k)] = v[i];
+            }
+            d[(3, k)] = if is_point { T::ONE } else { T::ZERO };
+        }
+        let inverse = inverse(&d)?;
+        Some(Self { entities: chosen, frame: Frame::Spatial { origin: at, inverse } })
+    }
+
+    /// Does the basis carry a rotation about every axis (a rod's does not)?
+    pub(crate) fn is_full(&self) -> bool {
+        !matches!(self.frame, Frame::Rod { .. })
+    }
+
+    /// The combination that is the material point `p`.
+    pub(crate) fn point(&self, p: &Vector<T, 3>) -> Combination<T> {
+        self.combination(p, true)
+    }
+
+    /// The combination that is the body-fixed direction `d`.
+    pub(crate) fn direction(&self, d: &Vector<T, 3>) -> Combination<T> {
+        self.combination(d, false)
+    }
+
+    fn combination(&self, p: &Vector<T, 3>, is_point: bool) -> Combination<T> {
+        let unit = if is_point { Coef::one() } else { Coef::zero() };
+        let coefs: Vec<Coef<T>> = match &self.frame {
+            Frame::Planar { origin, second, is_point: two_points } => {
+                let v = if is_point { p - origin } else { *p };
+                let w = quotient(Coef { re: v[0], im: v[1] }, *second);
+                alloc::vec![if *two_points { unit.minus(w) } else { unit }, w]
+            }
+            Frame::Rod { origin, along } => {
+                let v = if is_point { p - origin } else { *p };
+                let w = Coef::real(v.dot(along) / along.dot(along));
+                alloc::vec![unit.minus(w), w]
+            }
+            Frame::Spatial { origin, inverse } => {
+                let v = if is_point { p - origin } else { *p };
+                (0..4)
+                    .map(|k| {
+                        let sum = inverse[(k, 0)] * v[0]
+                            + inverse[(k, 1)] * v[1]
+                            + inverse[(k, 2)] * v[2];
+                        Coef::real(if is_point { sum + inverse[(k, 3)] } else { sum })
+                    })
+                    .collect()
+            }
+        };
+        self.entities
+            .iter()
+            .copied()
+            .zip(coefs.into_iter().map(snap))
+            .filter(|(_, c)| !c.is_zero())
+            .collect()
+    }
+
+    /// G, row by row, of the basis entities [kg, kg m, kg m^2].
+    pub(crate) fn mass_matrix(&self, cluster: &Cluster<T>) -> Vec<Coef<T>> {
+        let (m, c, inertia) = (cluster.mass, &cluster.center, &cluster.inertia);
+        match &self.frame {
+            Frame::Planar { origin, second, is_point } => {
+                let r = c - origin;
+                let polar = inertia[(2, 2)] + m * (r[0] * r[0] + r[1] * r[1]);
+                let g22 = Coef::real(polar / second.norm_squared());
+                let moment = quotient(Coef { re: r[0], im: r[1] }, *second).scaled(m);
+                two_by_two(m, moment, g22, *is_point)
+            }
+            Frame::Rod { origin, along } => {
+                let r = c - origin;
+                let square = along.dot(along);
+                // The transverse moment of a slender rod is the integral of the squared distance along it.
+                let transverse = (inertia[(0, 0)] + inertia[(1, 1)] + inertia[(2, 2)]) * T::HALF;
+                let g22 = Coef::real((transverse + m * r.dot(&r)) / square);
+                two_by_two(m, Coef::real(m * r.dot(along) / square), g22, true)
+            }
+            Frame::Spatial { origin, inverse } => {
+                let r = c - origin;
+                let half_trace = (inertia[(0, 0)] + inertia[(1, 1)] + inertia[(2, 2)]) * T::HALF;
+                let mut j = SMatrix::<T, 4, 4>::zeros();
+                for i in 0..3 {
+                    for k in 0..3 {
+                        let s = if i == k { half_trace } else { T::ZERO } - inertia[(i, k)];
+                        j[(i, k)] = s + m * r[i] * r[k];
+                    }
+                    j[(i, 3)] = m * r[i];
+                    j[(3, i)] = m * r[i];
+                }
+                j[(3, 3)] = m;
+                let g = inverse * j * inverse.transpose();
+                let mut rows = Vec::with_capacity(16);
+                for i in 0..4 {
+                    for k in 0..4 {
+                        rows.push(Coef::real((g[(i, k)] + g[(k, i)]) * T::HALF));
+                    }
+                }
+                rows
+            }
+        }
+    }
+}
+
+/// G of a two-entity basis: r = e_1 + w (e_2 - e_1) for two points, e_1 + w u for a point and a direction.
+fn two_by_two<T: Real>(m: T, moment: Coef<T>, g22: Coef<T>, two_points: bool) -> Vec<Coef<T>> {
+    if two_points {
+        let g11 = Coef::real(m).minus(Coef::real(moment.re * T::TWO)).plus(g22);
+        let g12 = moment.minus(g22);
+        alloc::vec![g11, g12, g12.conj(), g22]
+    } else {
+        alloc::vec![Coef::real(m), moment, moment.conj(), g22]
+    }
+}
+
+/// Coefficients that are rounding of zero are zero, so that no element touches coordinates for nothing.
+fn snap<T: Real>(c: Coef<T>) -> Coef<T> {
+    let tiny = T::EPSILON * T::from_f64(32.0);
+    let clean = |x: T| {
+        if x.abs() <= tiny {
+            T::ZERO
+        } else if (x - T::ONE).abs() <= tiny {
+            T::ONE
+        } else {
+            x
+        }
+    };
+    Coef { re: clean(c.re), im: clean(c.im) }
+}
+
+fn quotient<T: Real>(a: Coef<T>, b: Coef<T>) -> Coef<T> {
+    a.times(b.conj()).scaled(T::ONE / b.norm_squared())
+}
+
+fn points_of<T: Real>(shared: &[usize], entities: &[Entity<T>]) -> Vec<usize> {
+    shared.iter().copied().filter(|&e| entities[e].kind == EntityKind::Point).collect()
+}
+
+/// The first point: one on the ground if there is one, else the first shared, else an own point at the centre.
+fn first_point<T: Real>(
+    cluster: &Cluster<T>,
+    points: &[usize],
+    entities: &mut Vec<Entity<T>>,
+) -> usize {
+    let on_ground = points.iter().copied().find(|&e| entities[e].is_constant);
+    on_ground.or(points.first().copied()).unwrap_or_else(|| own_point(cluster.center, entities))
+}
+
+fn own_point<T: Real>(at: Vector<T, 3>, entities: &mut Vec<Entity<T>>) -> usize {
+    entities.push(Entity { kind: EntityKind::Point, at, is_constant: false });
+    entities.len() - 1
+}
+
+fn own_direction<T: Real>(at: Vector<T, 3>, entities: &mut Vec<Entity<T>>) -> usize {
+    entities.push(Entity { kind: EntityKind::Direction, at, is_constant: false });
+    entities.len() - 1
+}
+
+fn farthest<T: Real>(
+    points: &[usize],
+    from: &Vector<T, 3>,
+    entities: &[Entity<T>],
+) -> Option<(usize, T)> {
+    let mut best: Option<(usize, T)> = None;
+    for &p in points {
+        let d = norm(&(entities[p].at - from));
+        if d > T::ZERO && best.is_none_or(|(_, largest)| d > largest) {
+            best = Some((p, d));
+        }
+    }
+    best
+}
+
+/// A length typical of a cluster: from a point to its centre, or its radius of gyration.
+fn cluster_size<T: Real>(cluster: &Cluster<T>, from: &Vector<T, 3>) -> T {
+    let gyration = if cluster.mass > T::ZERO {
+        (cluster.inertia[(2, 2)] / cluster.mass).sqrt()
+    } else {
+        T::ZERO
+    };
+    norm(&(cluster.center - from)).max(gyration)
+}
+
+/// The candidate whose unit vector stands most out of those chosen, with that orthonormal part.
+fn most_independent<T: Real>(
+    shared: &[usize],
+    chosen: &[usize],
+    units: &[Vector<T, 3>],
+    origin: &Vector<T, 3>,
+    entities: &[Entity<T>],
+    constants: bool,
+) -> Option<(usize, Vector<T, 3>)> {
+    let mut best: Option<(usize, Vector<T, 3>, T)> = None;
+    for &e in shared {
+        if chosen.contains(&e) || (constants && !entities[e].is_constant) {
+            continue;
+        }
+        let v = match entities[e].kind {
+            EntityKind::Point => entities[e].at - origin,
+            EntityKind::Direction => entities[e].at,
+        };
+        let length = norm(&v);
+        if length == T::ZERO {
+            continue;
+        }
+        let mut w = v * (T::ONE / length);
+        for u in units {
+            w -= u * u.dot(&w);
+        }
+        let new = norm(&w);
+        // A later candidate must be clearly better, so that rounding does not choose.
+        let is_better = best.as_ref().is_none_or(|(_, _, b)| new > *b * T::from_f64(1.01));
+        if new > T::from_f64(INDEPENDENCE) && is_better {
+            best = Some((e, w * (T::ONE / new), new));
+        }
+    }
+    best.map(|(e, unit, _)| (e, unit))
+}

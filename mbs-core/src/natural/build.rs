@@ -1,0 +1,231 @@
+//! From a scene to a [`NaturalModel`]: sharing, bases, rigid-body rows, joint rows, effects.
+
+use super::basis::{Basis, Combination};
+use super::cluster::{Clusters, scene_length};
+use super::draft::{GroupDraft, RowDraft, constant_entity};
+use super::error::ModelError;
+use super::finish::finish;
+use super::input::{CourseInput, GuideInput};
+use super::model::NaturalModel;
+use super::sharing::{Entity, EntityKind, Sharing};
+use crate::Real;
+use crate::algebra::{Vector, norm};
+use crate::model::Owner;
+use crate::scene::{BodyRef, Dimension, EffectKind, InitialTarget, JointKind, Quantity, Scene};
+use alloc::vec::Vec;
+
+impl<T: Real, const D: usize> NaturalModel<T, D> {
+    /// Builds the smallest natural-coordinate model of a scene.
+    ///
+    /// # Errors
+    /// [`ModelError`] when the scene's dimension is not D, or a body's data leave a point undefined.
+    pub fn new(scene: &Scene<T>) -> Result<Self, ModelError> {
+        if scene.dimension.count() != D {
+            return Err(ModelError::Dimension);
+        }
+        let mut builder = Builder::new(scene)?;
+        builder.add_bodies();
+        for joint in 0..scene.joints.len() {
+            builder.add_joint(joint);
+        }
+        builder.add_guides();
+        builder.add_effects()?;
+        Ok(finish(builder))
+    }
+}
+
+/// Everything known while a model is built.
+pub(super) struct Builder<'a, T: Real> {
+    pub(super) scene: &'a Scene<T>,
+    pub(super) length: T,
+    pub(super) clusters: Clusters<T>,
+    pub(super) entities: Vec<Entity<T>>,
+    pub(super) bases: Vec<Basis<T>>,
+    pub(super) shared: Vec<Vec<usize>>,
+    pub(super) groups: Vec<GroupDraft<T>>,
+    pub(super) guides: Vec<GuideInput<T>>,
+    pub(super) courses: Vec<CourseInput<T>>,
+    /// Group of each joint that has rows.
+    joint_group: Vec<Option<usize>>,
+}
+
+impl<'a, T: Real> Builder<'a, T> {
+    fn new(scene: &'a Scene<T>) -> Result<Self, ModelError> {
+        let length = scene_length(scene);
+        let clusters = Clusters::new(scene);
+        let Sharing { mut entities, of_cluster: shared } = Sharing::new(scene, &clusters, length);
+        let mut bases = Vec::with_capacity(shared.len());
+        for (c, cluster) in clusters.clusters.iter().enumerate() {
+            let basis = match (scene.dimension, &cluster.rod) {
+                (Dimension::Planar, _) => Basis::planar(cluster, &shared[c], &mut entities),
+                (Dimension::Spatial, Some(ends))
+                    if stays_rod(scene, cluster.bodies[0], ends, length) =>
+                {
+                    Basis::rod(ends, &shared[c], &mut entities)
+                }
+                (Dimension::Spatial, _) => Basis::spatial(cluster, &shared[c], &mut entities)
+                    .ok_or(ModelError::Basis { body: cluster.bodies[0] })?,
+            };
+            bases.push(basis);
+        }
+        Ok(Self {
+            scene,
+            length,
+            clusters,
+            entities,
+            bases,
+            shared,
+            groups: Vec::new(),
+            guides: Vec::new(),
+            courses: Vec::new(),
+            joint_group: alloc::vec![None; scene.joints.len()],
+        })
+    }
+
+    /// The combination that is material point `at` of a body.
+    pub(super) fn point(&mut self, body: BodyRef, at: [T; 3]) -> Combination<T> {
+        let at = Vector::from(at);
+        match self.clusters.of(body) {
+            Some(c) => self.bases[c].point(&at),
+            None => self.constant(at, EntityKind::Point),
+        }
+    }
+
+    /// The combination that is body-fixed direction `d` of a body.
+    pub(super) fn direction(&mut self, body: BodyRef, d: Vector<T, 3>) -> Combination<T> {
+        match self.clusters.of(body) {
+            Some(c) => self.bases[c].direction(&d),
+            None => self.constant(d, EntityKind::Direction),
+        }
+    }
+
+    fn constant(&mut self, at: Vector<T, 3>, kind: EntityKind) -> Combination<T> {
+        let e = constant_entity(at, kind, &mut self.entities);
+        alloc::vec![(e, crate::algebra::Coef::one())]
+    }
+
+    /// One group for each cluster: mass, gravity, rigid-body rows, dependent points.
+    fn add_bodies(&mut self) {
+        let zero = constant_entity(Vector::zeros(), EntityKind::Direction, &mut self.entities);
+        for c in 0..self.bases.len() {
+            let cluster = &self.clusters.clusters[c];
+            let basis = &self.bases[c];
+            let mut group = GroupDraft::new(Owner::Body(cluster.bodies[0]));
+            group.mass = Some((basis.entities.clone(), basis.mass_matrix(cluster)));
+            if let Some(g) = self.scene.gravity {
+                let weight = Vector::<T, 3>::from(g) * cluster.mass;
+                for (e, coef) in basis.point(&cluster.center) {
+                    group.forces.push((e, super::finish::lifted(coef, &weight)));
+                }
+            }
+            rigid_rows(basis, &self.entities, zero, &mut group.rows);
+            for &e in self.shared[c].iter().filter(|e| !basis.entities.contains(e)) {
+                let entity = self.entities[e];
+                let mut x = match entity.kind {
+                    EntityKind::Point => basis.point(&entity.at),
+                    EntityKind::Direction => basis.direction(&entity.at),
+                };
+                x = super::draft::difference(&x, &alloc::vec![(e, crate::algebra::Coef::one())]);
+                group.rows.push(RowDraft::Linear { x });
+            }
+            self.groups.push(group);
+        }
+    }
+
+    /// The group of a joint, made when first asked for.
+    pub(super) fn joint_group(&mut self, joint: usize) -> &mut GroupDraft<T> {
+        let index = match self.joint_group[joint] {
+            Some(index) => index,
+            None => {
+                self.groups.push(GroupDraft::new(Owner::Joint(joint)));
+                let index = self.groups.len() - 1;
+                self.joint_group[joint] = Some(index);
+                index
+            }
+        };
+        &mut self.groups[index]
+    }
+}
+
+/// Constant lengths and angles of the basis: ½ nb (nb - 1) rows.
+fn rigid_rows<T: Real>(
+    basis: &Basis<T>,
+    entities: &[Entity<T>],
+    zero: usize,
+    rows: &mut Vec<RowDraft<T>>,
+) {
+    let origin = basis.entities[0];
+    let others = &basis.entities[1..];
+    let vector = |e: usize| match entities[e].kind {
+        EntityKind::Point => (origin, entities[e].at - entities[origin].at),
+        EntityKind::Direction => (zero, entities[e].at),
+    };
+    for (i, &e) in others.iter().enumerate() {
+        let (from, v) = vector(e);
+        rows.push(RowDraft::Distance { ends: [from, e], length: norm(&v) });
+        for &other in &others[..i] {
+            let (from_other, w) = vector(other);
+            let scale = T::ONE / (norm(&v) * norm(&w));
+            let as_combination = |e: usize, from: usize| {
+                let one = crate::algebra::Coef::one();
+                let mut x = alloc::vec![(e, one)];
+                if from != zero {
+                    x.push((from, one.scaled(-T::ONE)));
+                }
+                x
+            };
+            rows.push(RowDraft::Dot {
+                x: as_combination(e, from),
+                y: as_combination(other, from_other),
+                scale,
+                constant: v.dot(&w) * scale,
+            });
+        }
+    }
+}
+
+/// May a spatial rod stay two points? Only balls hold it, every point used lies on it, nothing needs its spin.
+fn stays_rod<T: Real>(scene: &Scene<T>, body: usize, ends: &[Vector<T, 3>; 2], length: T) -> bool {
+    let me = BodyRef::Body(body);
+    let along = ends[1] - ends[0];
+    let on_line = |p: &[T; 3]| {
+        let r = Vector::<T, 3>::from(*p) - ends[0];
+        let off = r - along * (r.dot(&along) / along.dot(&along));
+        norm(&off)
+            <= length * T::from_f64(super::sharing::TOLERANCE).max(T::EPSILON * T::from_f64(64.0))
+    };
+    let joints_allow = scene.joints.iter().all(|j| {
+        let side = j.bodies.iter().position(|b| *b == me);
+        side.is_none_or(|side| {
+            let is_ball = j.kind == JointKind::Spherical
+                || (j.kind == JointKind::Distance && (j.axes[0].is_none() || side == 1));
+            is_ball && on_line(&j.points[side])
+        })
+    });
+    let initials_allow = scene.initials.iter().all(|i| match &i.target {
+        InitialTarget::Body { body: b, velocity, angular_velocity } => {
+            *b != body
+                || (angular_velocity.is_none() && velocity.as_ref().is_none_or(|(p, _)| on_line(p)))
+        }
+        InitialTarget::Joint { joint, .. } => !scene.joints[*joint].bodies.contains(&me),
+    });
+    let effects_allow = scene.effects.iter().filter(|e| e.enabled).all(|e| match &e.kind {
+        EffectKind::SpringDamper { bodies, points, .. } => {
+            (0..2).all(|k| bodies[k] != me || on_line(&points[k]))
+        }
+        EffectKind::Force { body: b, at, frame, .. } => {
+            *b != body || (on_line(at) && *frame == crate::scene::AxisFrame::Global)
+        }
+        EffectKind::BodyTorque { body: b, .. } => *b != body,
+        EffectKind::TorsionSpring { joint, .. } | EffectKind::JointTorque { joint, .. } => {
+            !scene.joints[*joint].bodies.contains(&me)
+        }
+    });
+    let outputs_allow = scene.outputs.iter().all(|o| match &o.quantity {
+        Quantity::Position { body: b, at }
+        | Quantity::Velocity { body: b, at }
+        | Quantity::Acceleration { body: b, at } => *b != body || on_line(&at.map(T::from_f64)),
+        _ => true,
+    });
+    joints_allow && initials_allow && effects_allow && outputs_allow
+}

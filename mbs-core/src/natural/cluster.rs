@@ -1,0 +1,156 @@
+//! Welds first: bodies that never move against each other become one cluster; welded to the ground they vanish.
+
+use crate::Real;
+use crate::algebra::{Matrix, Vector, norm};
+use crate::scene::{BodyRef, Inertia, JointKind, Scene};
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// A rigid cluster of one or more bodies.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Cluster<T: Real> {
+    /// Indices of the bodies.
+    pub(crate) bodies: Vec<usize>,
+    /// Mass [kg].
+    pub(crate) mass: T,
+    /// Centre of mass, reference configuration [m].
+    pub(crate) center: Vector<T, 3>,
+    /// Inertia about the centre of mass, global axes [kg m^2].
+    pub(crate) inertia: Matrix<T, 3>,
+    /// Ends, when it is a single slender rod.
+    pub(crate) rod: Option<[Vector<T, 3>; 2]>,
+}
+
+/// All clusters.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Clusters<T: Real> {
+    /// Cluster of each body; `None`: part of the ground.
+    pub(crate) of_body: Vec<Option<usize>>,
+    /// The clusters, in the order of their first bodies.
+    pub(crate) clusters: Vec<Cluster<T>>,
+}
+
+impl<T: Real> Clusters<T> {
+    /// Merges the welded bodies of a scene.
+    pub(crate) fn new(scene: &Scene<T>) -> Self {
+        let n = scene.bodies.len();
+        // Union-find with the ground as number n; a root is the smallest body, the ground wins.
+        let mut parent: Vec<usize> = (0..=n).collect();
+        let node = |body: BodyRef| match body {
+            BodyRef::Ground => n,
+            BodyRef::Body(i) => i,
+        };
+        for joint in scene.joints.iter().filter(|j| j.kind == JointKind::Weld) {
+            let (a, b) =
+                (root(&parent, node(joint.bodies[0])), root(&parent, node(joint.bodies[1])));
+            let (keep, drop) = if a == n || (b != n && a < b) { (a, b) } else { (b, a) };
+            parent[drop] = keep;
+        }
+        let (mut of_body, mut members) = (vec![None; n], Vec::<Vec<usize>>::new());
+        for body in 0..n {
+            let first = root(&parent, body);
+            if first < body {
+                of_body[body] = of_body[first];
+            } else if first == body {
+                of_body[body] = Some(members.len());
+                members.push(Vec::new());
+            }
+            if let Some(cluster) = of_body[body] {
+                members[cluster].push(body);
+            }
+        }
+        let clusters = members.into_iter().map(|bodies| merge(scene, bodies)).collect();
+        Self { of_body, clusters }
+    }
+
+    /// The cluster of a body reference; `None`: the ground.
+    pub(crate) fn of(&self, body: BodyRef) -> Option<usize> {
+        match body {
+            BodyRef::Ground => None,
+            BodyRef::Body(i) => self.of_body[i],
+        }
+    }
+}
+
+fn root(parent: &[usize], mut i: usize) -> usize {
+    while parent[i] != i {
+        i = parent[i];
+    }
+    i
+}
+
+/// Mass, centre and inertia about the centre of one body.
+pub(crate) fn mass_properties<T: Real>(
+    scene: &Scene<T>,
+    body: usize,
+) -> (T, Vector<T, 3>, Matrix<T, 3>) {
+    let body = &scene.bodies[body];
+    let center = Vector::from(body.center);
+    let mut inertia = Matrix::<T, 3>::zeros();
+    match body.inertia {
+        Inertia::Planar(i) => inertia[(2, 2)] = i,
+        Inertia::Spatial([xx, yy, zz, xy, yz, zx]) => {
+            inertia = Matrix::<T, 3>::new(xx, xy, zx, xy, yy, yz, zx, yz, zz);
+        }
+        Inertia::Rod { from, to } => {
+            let (from, to) = (Vector::from(from), Vector::from(to));
+            let d = to - from;
+            inertia = steiner(body.mass / T::from_f64(12.0), &d);
+            return (body.mass, (from + to) * T::HALF, inertia);
+        }
+    }
+    (body.mass, center, inertia)
+}
+
+/// Inertia of a point mass: m (d.d 1 - d d^T).
+fn steiner<T: Real>(mass: T, d: &Vector<T, 3>) -> Matrix<T, 3> {
+    (Matrix::<T, 3>::identity() * d.dot(d) - d * d.transpose()) * mass
+}
+
+fn merge<T: Real>(scene: &Scene<T>, bodies: Vec<usize>) -> Cluster<T> {
+    let rod = match (bodies.as_slice(), &scene.bodies[bodies[0]].inertia) {
+        ([_], Inertia::Rod { from, to }) => Some([Vector::from(*from), Vector::from(*to)]),
+        _ => None,
+    };
+    if let [one] = bodies.as_slice() {
+        let (mass, center, inertia) = mass_properties(scene, *one);
+        return Cluster { bodies, mass, center, inertia, rod };
+    }
+    let (mut mass, mut moment) = (T::ZERO, Vector::<T, 3>::zeros());
+    for &b in &bodies {
+        let (m, c, _) = mass_properties(scene, b);
+        mass += m;
+        moment += c * m;
+    }
+    let (_, first, _) = mass_properties(scene, bodies[0]);
+    let center = if mass > T::ZERO { moment * (T::ONE / mass) } else { first };
+    let mut inertia = Matrix::<T, 3>::zeros();
+    for &b in &bodies {
+        let (m, c, i) = mass_properties(scene, b);
+        inertia += i + steiner(m, &(c - center));
+    }
+    Cluster { bodies, mass, center, inertia, rod }
+}
+
+/// The length of a scene [m]: the largest distance of a hard point from the first one; one if all coincide.
+pub(crate) fn scene_length<T: Real>(scene: &Scene<T>) -> T {
+    let mut first: Option<Vector<T, 3>> = None;
+    let mut length = T::ZERO;
+    let mut visit = |p: Vector<T, 3>| {
+        let origin = *first.get_or_insert(p);
+        length = length.max(norm(&(p - origin)));
+    };
+    for joint in &scene.joints {
+        for p in joint.points {
+            visit(Vector::from(p));
+        }
+    }
+    for (i, body) in scene.bodies.iter().enumerate() {
+        if let Inertia::Rod { from, to } = body.inertia {
+            visit(Vector::from(from));
+            visit(Vector::from(to));
+        }
+        visit(mass_properties(scene, i).1);
+    }
+    if length > T::ZERO { length } else { T::ONE }
+}

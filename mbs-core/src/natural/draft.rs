@@ -1,0 +1,127 @@
+//! A model being built: groups and rows in terms of entity numbers, before coordinates are numbered.
+
+use super::basis::Combination;
+use super::forces::Law;
+use super::sharing::{Entity, EntityKind};
+use crate::Real;
+use crate::algebra::{Coef, Vector};
+use crate::model::Owner;
+use alloc::vec::Vec;
+
+/// A constraint row (or D of them) in terms of entities.
+#[derive(Debug, Clone)]
+pub(crate) enum RowDraft<T: Real> {
+    Distance { ends: [usize; 2], length: T },
+    Dot { x: Combination<T>, y: Combination<T>, scale: T, constant: T },
+    Linear { x: Combination<T> },
+    GuidedAngle { x1: Combination<T>, x2: Combination<T>, y: Combination<T>, guide: usize },
+    GuidedSlide { x: Combination<T>, y: Combination<T>, guide: usize },
+}
+
+impl<T: Real> RowDraft<T> {
+    /// The combinations whose entities the row touches.
+    pub(crate) fn combinations(&self) -> Vec<&Combination<T>> {
+        match self {
+            Self::Distance { .. } => Vec::new(),
+            Self::Dot { x, y, .. } | Self::GuidedSlide { x, y, .. } => alloc::vec![x, y],
+            Self::Linear { x } => alloc::vec![x],
+            Self::GuidedAngle { x1, x2, y, .. } => alloc::vec![x1, x2, y],
+        }
+    }
+
+    /// Every entity the row touches, in order, repeated ones included.
+    pub(crate) fn entities(&self) -> Vec<usize> {
+        match self {
+            Self::Distance { ends, .. } => ends.to_vec(),
+            _ => self.combinations().into_iter().flatten().map(|(e, _)| *e).collect(),
+        }
+    }
+}
+
+/// What an effect group measures or applies.
+#[derive(Debug, Clone)]
+pub(crate) enum EffectDraft<T: Real> {
+    Length { x: Combination<T>, law: Law<T> },
+    Angle { x1: Combination<T>, x2: Combination<T>, y: Combination<T>, law: Law<T> },
+    Force { point: Combination<T>, frame: Option<[Combination<T>; 3]>, course: usize },
+    Torque { frame: [Combination<T>; 3], course: usize },
+}
+
+impl<T: Real> EffectDraft<T> {
+    pub(crate) fn combinations(&self) -> Vec<&Combination<T>> {
+        match self {
+            Self::Length { x, .. } => alloc::vec![x],
+            Self::Angle { x1, x2, y, .. } => alloc::vec![x1, x2, y],
+            Self::Force { point, frame, .. } => {
+                let mut all = alloc::vec![point];
+                all.extend(frame.iter().flatten());
+                all
+            }
+            Self::Torque { frame, .. } => frame.iter().collect(),
+        }
+    }
+}
+
+/// A group being built.
+#[derive(Debug, Clone)]
+pub(crate) struct GroupDraft<T: Real> {
+    pub(crate) owner: Owner,
+    /// Entities with mass and their G.
+    pub(crate) mass: Option<(Vec<usize>, Vec<Coef<T>>)>,
+    /// Constant generalised forces of gravity and constant point forces: entity, force.
+    pub(crate) forces: Vec<(usize, Vector<T, 3>)>,
+    pub(crate) rows: Vec<RowDraft<T>>,
+    pub(crate) effect: Option<EffectDraft<T>>,
+}
+
+impl<T: Real> GroupDraft<T> {
+    pub(crate) fn new(owner: Owner) -> Self {
+        Self { owner, mass: None, forces: Vec::new(), rows: Vec::new(), effect: None }
+    }
+
+    /// The distinct entities of the group, unknown ones first, each part in order of first use.
+    pub(crate) fn slots(&self, entities: &[Entity<T>]) -> Vec<usize> {
+        let mut seen: Vec<usize> = Vec::new();
+        let mut visit = |e: usize| {
+            if !seen.contains(&e) {
+                seen.push(e);
+            }
+        };
+        if let Some((basis, _)) = &self.mass {
+            basis.iter().for_each(|&e| visit(e));
+        }
+        self.rows.iter().flat_map(RowDraft::entities).for_each(&mut visit);
+        if let Some(effect) = &self.effect {
+            effect.combinations().into_iter().flatten().for_each(|(e, _)| visit(*e));
+        }
+        let (unknown, constant): (Vec<usize>, Vec<usize>) =
+            seen.into_iter().partition(|&e| !entities[e].is_constant);
+        unknown.into_iter().chain(constant).collect()
+    }
+}
+
+/// The entity that is constant with value `at`, added if there is none.
+pub(crate) fn constant_entity<T: Real>(
+    at: Vector<T, 3>,
+    kind: EntityKind,
+    entities: &mut Vec<Entity<T>>,
+) -> usize {
+    let same = |e: &Entity<T>| e.is_constant && e.kind == kind && e.at == at;
+    entities.iter().position(same).unwrap_or_else(|| {
+        entities.push(Entity { kind, at, is_constant: true });
+        entities.len() - 1
+    })
+}
+
+/// a - b, entities merged, zero coefficients dropped.
+pub(crate) fn difference<T: Real>(a: &Combination<T>, b: &Combination<T>) -> Combination<T> {
+    let mut result = a.clone();
+    for &(e, c) in b {
+        match result.iter_mut().find(|(r, _)| *r == e) {
+            Some((_, coef)) => *coef = coef.minus(c),
+            None => result.push((e, Coef::zero().minus(c))),
+        }
+    }
+    result.retain(|(_, c)| !c.is_zero());
+    result
+}

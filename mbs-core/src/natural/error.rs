@@ -1,0 +1,38 @@
+//! What can keep a checked scene from becoming a model.
+
+/// A scene that passed its checks but gives no model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum ModelError {
+    /// The model's dimension is not the scene's.
+    Dimension,
+    /// No basis for this body could be found.
+    Basis {
+        /// The body.
+        body: usize,
+    },
+    /// An effect or output asks for a rotation that this body, a rod held by balls, does not carry.
+    NoRotation {
+        /// The body.
+        body: usize,
+    },
+}
+
+impl core::fmt::Display for ModelError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Dimension => write!(f, "the model's dimension is not the scene's"),
+            Self::Basis { .. } => {
+                write!(f, "no independent points and directions for the body: check its data")
+            }
+            Self::NoRotation { .. } => {
+                write!(
+                    f,
+                    "a rod held by balls carries no rotation about itself: give the body a full inertia"
+                )
+            }
+        }
+    }
+}
+
+impl core::error::Error for ModelError {}

@@ -1,0 +1,353 @@
+//! The last pass of building: numbers the coordinates, lays out rows, and fills the tables of a [`NaturalModel`].
+
+use super::basis::Combination;
+use super::build::Builder;
+use super::cluster::Clusters;
+use super::draft::{EffectDraft, GroupDraft, RowDraft};
+use super::forces::{BodyTorque, Gauge, Law, MeasureElement, PointForce};
+use super::group::{Group, packed};
+use super::model::NaturalModel;
+use super::sharing::Entity;
+use crate::Real;
+use crate::algebra::{Coef, Vector};
+use crate::elements::{Distance, Dot, Guided, GuidedMotion, Linear, Span, Term};
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// An index as stored in tables. A model of four thousand million entries does not fit any memory.
+#[allow(clippy::cast_possible_truncation, reason = "tables are shorter than 2^32")]
+pub(crate) fn index(i: usize) -> u32 {
+    debug_assert!(u32::try_from(i).is_ok());
+    i as u32
+}
+
+/// C^T F in three dimensions (planar coefficients turn the first two components).
+pub(crate) fn lifted<T: Real>(c: Coef<T>, f: &Vector<T, 3>) -> Vector<T, 3> {
+    let c = c.conj();
+    Vector::<T, 3>::new(f[0] * c.re - f[1] * c.im, f[0] * c.im + f[1] * c.re, f[2] * c.re)
+}
+
+/// Numbers and lays out everything.
+pub(super) fn finish<T: Real, const D: usize>(builder: Builder<'_, T>) -> NaturalModel<T, D> {
+    let Builder { entities, groups, clusters, bases, guides, courses, length, .. } = builder;
+    let mut layout = Layout::<T, D>::new(entities, groups.as_slice(), clusters, length);
+    for group in &groups {
+        layout.add(group);
+    }
+    let mut model = layout.model;
+    model.bases = bases;
+    model.guides = guides;
+    model.courses = courses;
+    model
+}
+
+struct Layout<T: Real, const D: usize> {
+    model: NaturalModel<T, D>,
+    entities: Vec<Entity<T>>,
+}
+
+/// Where a combination's columns are in the group at hand.
+struct Columns<'a> {
+    slots: &'a [usize],
+}
+
+impl Columns<'_> {
+    fn of(&self, entity: usize) -> usize {
+        self.slots.iter().position(|&s| s == entity).unwrap_or(usize::MAX)
+    }
+}
+
+impl<T: Real, const D: usize> Layout<T, D> {
+    /// Unknown entities first, in the order in which the groups use them, then constants.
+    fn new(
+        entities: Vec<Entity<T>>,
+        groups: &[GroupDraft<T>],
+        clusters: Clusters<T>,
+        length: T,
+    ) -> Self {
+        let mut entity_at = vec![u32::MAX; entities.len()];
+        let (mut order, mut unknown_owner) = (Vec::new(), Vec::new());
+        for group in groups {
+            for e in group.slots(&entities).into_iter().filter(|&e| !entities[e].is_constant) {
+                if entity_at[e] == u32::MAX {
+                    entity_at[e] = index(order.len() * D);
+                    order.push(e);
+                    unknown_owner.push(group.owner);
+                }
+            }
+        }
+        let n_unknowns = order.len() * D;
+        for (e, entity) in entities.iter().enumerate() {
+            if entity.is_constant {
+                entity_at[e] = index(order.len() * D);
+                order.push(e);
+            }
+        }
+        let reference: Vec<T> = order
+            .iter()
+            .flat_map(|&e| (0..D).map(move |i| (e, i)))
+            .map(|(e, i)| entities[e].at[i])
+            .collect();
+        let weight = vec![T::ZERO; reference.len()];
+        let model = NaturalModel {
+            n_unknowns,
+            n_rows: 0,
+            n_jacobian: 0,
+            reference,
+            weight,
+            pool: Vec::new(),
+            distances: Vec::new(),
+            dots: Vec::new(),
+            linears: Vec::new(),
+            guided: Vec::new(),
+            groups: Vec::new(),
+            slots: Vec::new(),
+            cliques: Vec::new(),
+            mass: Vec::new(),
+            blocks: Vec::new(),
+            constant_force: Vec::new(),
+            measures: Vec::new(),
+            n_memory: 0,
+            point_forces: Vec::new(),
+            torques: Vec::new(),
+            guides: Vec::new(),
+            courses: Vec::new(),
+            row_owner: Vec::new(),
+            unknown_owner,
+            clusters,
+            bases: Vec::new(),
+            entity_at,
+            length,
+        };
+        Self { model, entities }
+    }
+
+    fn add(&mut self, draft: &GroupDraft<T>) {
+        let slots = draft.slots(&self.entities);
+        let n_unknown = slots.iter().filter(|&&e| !self.entities[e].is_constant).count();
+        let columns = Columns { slots: &slots };
+        self.add_weight(&draft.forces);
+        if n_unknown == 0 {
+            return;
+        }
+        let m = &mut self.model;
+        let slot_span = extend(&mut m.slots, slots.iter().map(|&e| m.entity_at[e]));
+        let unknowns = &slots[..n_unknown];
+        let clique = extend(
+            &mut m.cliques,
+            unknowns
+                .iter()
+                .flat_map(|&e| (0..D).map(move |i| (e, i)))
+                .map(|(e, i)| m.entity_at[e] + index(i)),
+        );
+        let mut group = Group {
+            slots: slot_span,
+            n_unknown: index(n_unknown),
+            clique,
+            rows: Span { start: index(m.n_rows), end: index(m.n_rows) },
+            jacobian: index(m.n_jacobian),
+            width: index(slots.len() * D),
+            mass: Span::default(),
+            block: Span::default(),
+            force: Span::default(),
+            distances: empty(m.distances.len()),
+            dots: empty(m.dots.len()),
+            measures: empty(m.measures.len()),
+            owner: draft.owner,
+        };
+        for row in &draft.rows {
+            if self.is_live(row) {
+                self.add_row(row, &columns, &mut group);
+            }
+        }
+        self.add_mass(draft, unknowns, &mut group);
+        self.add_forces(draft, &columns, n_unknown, &mut group);
+        let m = &mut self.model;
+        group.distances.end = index(m.distances.len());
+        group.dots.end = index(m.dots.len());
+        group.rows.end = index(m.n_rows);
+        m.groups.push(group);
+    }
+
+    /// Gravity and constant forces, on constants too: their potential needs them.
+    fn add_weight(&mut self, forces: &[(usize, Vector<T, 3>)]) {
+        for (e, f) in forces {
+            let at = self.model.entity_at[*e] as usize;
+            for i in 0..D {
+                self.model.weight[at + i] += f[i];
+            }
+        }
+    }
+
+    /// A row that touches no unknown says nothing.
+    fn is_live(&self, row: &RowDraft<T>) -> bool {
+        row.entities().iter().any(|&e| !self.entities[e].is_constant)
+    }
+
+    fn span(&mut self, x: &Combination<T>, columns: &Columns<'_>) -> Span {
+        let m = &mut self.model;
+        extend(
+            &mut m.pool,
+            x.iter().map(|&(e, coef)| Term {
+                entity: m.entity_at[e],
+                column: index(columns.of(e) * D),
+                coef,
+            }),
+        )
+    }
+
+    /// Claims `n` rows and their place in the Jacobian store.
+    fn claim(&mut self, n: usize, group: &Group) -> (u32, Span) {
+        let m = &mut self.model;
+        let (row, start) = (m.n_rows, m.n_jacobian);
+        m.n_rows += n;
+        m.n_jacobian += n * group.width as usize;
+        m.row_owner.extend(core::iter::repeat_n(group.owner, n));
+        (index(row), Span { start: index(start), end: index(m.n_jacobian) })
+    }
+
+    fn add_row(&mut self, draft: &RowDraft<T>, columns: &Columns<'_>, group: &mut Group) {
+        let n = if matches!(draft, RowDraft::Linear { .. }) { D } else { 1 };
+        let (row, place) = self.claim(n, group);
+        match draft {
+            RowDraft::Distance { ends, length } => {
+                let at = |e: usize| place.start + index(columns.of(e) * D);
+                let (ends, places) = (ends.map(|e| self.model.entity_at[e]), ends.map(at));
+                let inverse = T::ONE / *length;
+                self.model.distances.push(Distance { ends, places, row, length: *length, inverse });
+            }
+            RowDraft::Dot { x, y, scale, constant } => {
+                let (x, y) = (self.span(x, columns), self.span(y, columns));
+                let (scale, constant) = (*scale, *constant);
+                self.model.dots.push(Dot { x, y, scale, constant, row, place });
+            }
+            RowDraft::Linear { x } => {
+                let x = self.span(x, columns);
+                self.model.linears.push(Linear { x, row, place });
+            }
+            RowDraft::GuidedAngle { x1, x2, y, guide } => {
+                let (x1, x2) = (self.span(x1, columns), self.span(x2, columns));
+                let y = self.span(y, columns);
+                let motion = GuidedMotion::Angle { x1, x2 };
+                self.model.guided.push(Guided { motion, y, guide: index(*guide), row, place });
+            }
+            RowDraft::GuidedSlide { x, y, guide } => {
+                let (x, y) = (self.span(x, columns), self.span(y, columns));
+                let motion = GuidedMotion::Slide { x };
+                self.model.guided.push(Guided { motion, y, guide: index(*guide), row, place });
+            }
+        }
+    }
+
+    /// G of the unknown entities and the constant mass block.
+    fn add_mass(&mut self, draft: &GroupDraft<T>, unknowns: &[usize], group: &mut Group) {
+        let Some((basis, g)) = &draft.mass else { return };
+        let nb = basis.len();
+        let place = |e: usize| basis.iter().position(|&b| b == e);
+        let k = unknowns.len() * D;
+        let mut block = vec![T::ZERO; k * (k + 1) / 2];
+        let mut coefs = Vec::with_capacity(unknowns.len() * unknowns.len());
+        for (i, &ei) in unknowns.iter().enumerate() {
+            for (j, &ej) in unknowns.iter().enumerate() {
+                let c = match (place(ei), place(ej)) {
+                    (Some(a), Some(b)) => g[a * nb + b],
+                    _ => Coef::zero(),
+                };
+                coefs.push(c);
+                if i >= j {
+                    for a in 0..D {
+                        for b in 0..D {
+                            if i > j || a >= b {
+                                block[packed(k, i * D + a, j * D + b)] = entry(c, a, b);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        group.mass = extend(&mut self.model.mass, coefs.into_iter());
+        group.block = extend(&mut self.model.blocks, block.into_iter());
+    }
+
+    fn add_forces(
+        &mut self,
+        draft: &GroupDraft<T>,
+        columns: &Columns<'_>,
+        n_unknown: usize,
+        group: &mut Group,
+    ) {
+        if draft.forces.is_empty() && draft.effect.is_none() {
+            return;
+        }
+        let mut force = vec![T::ZERO; n_unknown * D];
+        for (e, f) in &draft.forces {
+            let column = columns.of(*e);
+            if column < n_unknown {
+                for i in 0..D {
+                    force[column * D + i] += f[i];
+                }
+            }
+        }
+        group.force = extend(&mut self.model.constant_force, force.into_iter());
+        if let Some(effect) = &draft.effect {
+            self.add_effect(effect, columns, group);
+        }
+        group.measures.end = index(self.model.measures.len());
+    }
+
+    fn add_effect(&mut self, effect: &EffectDraft<T>, columns: &Columns<'_>, group: &mut Group) {
+        match effect {
+            EffectDraft::Length { x, law } => {
+                let x = self.span(x, columns);
+                self.add_measure(Gauge::Length { x }, *law, group);
+            }
+            EffectDraft::Angle { x1, x2, y, law } => {
+                let (x1, x2) = (self.span(x1, columns), self.span(x2, columns));
+                let y = self.span(y, columns);
+                let memory = index(self.model.n_memory);
+                self.model.n_memory += 1;
+                self.add_measure(Gauge::Angle { x1, x2, y, memory }, *law, group);
+            }
+            EffectDraft::Force { point, frame, course } => {
+                let point = self.span(point, columns);
+                let frame = frame.as_ref().map(|f| [0, 1, 2].map(|i| self.span(&f[i], columns)));
+                let (course, force) = (index(*course), group.force);
+                self.model.point_forces.push(PointForce { point, course, frame, force });
+            }
+            EffectDraft::Torque { frame, course } => {
+                let frame = [0, 1, 2].map(|i| self.span(&frame[i], columns));
+                let (course, force) = (index(*course), group.force);
+                self.model.torques.push(BodyTorque { frame, course, force });
+            }
+        }
+    }
+
+    /// A measure's gradient stands after the constraint rows of its group.
+    fn add_measure(&mut self, gauge: Gauge, law: Law<T>, group: &Group) {
+        let m = &mut self.model;
+        let start = m.n_jacobian;
+        m.n_jacobian += group.width as usize;
+        let place = Span { start: index(start), end: index(m.n_jacobian) };
+        m.measures.push(MeasureElement { gauge, law, place });
+    }
+}
+
+/// Entry (a, b) of alpha 1 + beta J.
+fn entry<T: Real>(c: Coef<T>, a: usize, b: usize) -> T {
+    match (a, b) {
+        (0, 1) => -c.im,
+        (1, 0) => c.im,
+        _ if a == b => c.re,
+        _ => T::ZERO,
+    }
+}
+
+fn empty(at: usize) -> Span {
+    Span { start: index(at), end: index(at) }
+}
+
+fn extend<U>(table: &mut Vec<U>, items: impl Iterator<Item = U>) -> Span {
+    let start = index(table.len());
+    table.extend(items);
+    Span { start, end: index(table.len()) }
+}

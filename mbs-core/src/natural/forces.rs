@@ -1,0 +1,192 @@
+//! Effects as elements: scalar laws along a length or an angle, point forces, torques on bodies.
+//!
+//! ```text
+//! measure m(q), tension f(m, m'):   Q = -f dm/dq
+//! force F at p = sum a_k e_k:       Q_k = A_k^T F
+//! torque tau on a spatial body:     Q = 1/2 sum_i (tau x u_i) on its three orthonormal directions u_i
+//! ```
+
+use crate::Real;
+use crate::algebra::{Vector, cross, norm};
+use crate::elements::{Span, Term, combine};
+use crate::model::Measure;
+
+/// What a scalar law measures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Gauge {
+    /// Length of a combination.
+    Length { x: Span },
+    /// Angle of y in the frame x1, x2, unwrapped against `memory`.
+    Angle { x1: Span, x2: Span, y: Span, memory: u32 },
+}
+
+/// A scalar law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Law<T> {
+    /// stiffness (m - free) + damping m'.
+    SpringDamper { stiffness: T, damping: T, free: T },
+    /// A course's first component, with the sign of growth.
+    Torque { course: u32 },
+}
+
+/// A scalar law along a gauge, with its gradient's place in the Jacobian store.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct MeasureElement<T> {
+    pub(crate) gauge: Gauge,
+    pub(crate) law: Law<T>,
+    pub(crate) place: Span,
+}
+
+/// A force at a point; in body axes the direction combinations turn it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct PointForce {
+    pub(crate) point: Span,
+    pub(crate) course: u32,
+    /// Three (two) directions of the body when the force turns with it.
+    pub(crate) frame: Option<[Span; 3]>,
+    pub(crate) force: Span,
+}
+
+/// A torque vector on a spatial body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct BodyTorque {
+    pub(crate) frame: [Span; 3],
+    pub(crate) course: u32,
+    pub(crate) force: Span,
+}
+
+impl<T: Real> MeasureElement<T> {
+    /// Value, rate, gradient and law at (q, v).
+    pub(crate) fn evaluate<const D: usize>(
+        &self,
+        pool: &[Term<T>],
+        (q, v, memory): (&[T], &[T], &[T]),
+        courses: &[[T; 3]],
+        jacobian: &mut [T],
+    ) -> Measure<T> {
+        let row = self.place.of_mut(jacobian);
+        row.fill(T::ZERO);
+        let (value, rate) = match self.gauge {
+            Gauge::Length { x } => length::<T, D>(x.of(pool), q, v, row),
+            Gauge::Angle { x1, x2, y, memory: turn } => {
+                let spans = [x1.of(pool), x2.of(pool), y.of(pool)];
+                angle::<T, D>(spans, q, v, memory[turn as usize], row)
+            }
+        };
+        match self.law {
+            Law::Torque { course } => {
+                Measure { value, rate, tension: -courses[course as usize][0], ..Measure::default() }
+            }
+            Law::SpringDamper { stiffness, damping, free } => {
+                let tension = stiffness * (value - free) + damping * rate;
+                let transverse = match self.gauge {
+                    Gauge::Length { .. } if value > T::ZERO && tension > T::ZERO => tension / value,
+                    _ => T::ZERO,
+                };
+                Measure { value, rate, tension, stiffness, damping, transverse }
+            }
+        }
+    }
+
+    /// Stored energy [J] of the elastic part at the measure's value.
+    pub(crate) fn energy(&self, measure: &Measure<T>) -> T {
+        match self.law {
+            Law::SpringDamper { stiffness, free, .. } => {
+                let stretch = measure.value - free;
+                stiffness * stretch * stretch * T::HALF
+            }
+            Law::Torque { .. } => T::ZERO,
+        }
+    }
+
+    /// Power that is not stored: dampers take, courses give [W].
+    pub(crate) fn power(&self, measure: &Measure<T>) -> T {
+        match self.law {
+            Law::SpringDamper { damping, .. } => -damping * measure.rate * measure.rate,
+            Law::Torque { .. } => -measure.tension * measure.rate,
+        }
+    }
+}
+
+/// Length of a combination, its rate, and its gradient (zero at zero length, where it has no direction).
+fn length<T: Real, const D: usize>(x: &[Term<T>], q: &[T], v: &[T], row: &mut [T]) -> (T, T) {
+    let (d, w): (Vector<T, D>, Vector<T, D>) = (combine(x, q), combine(x, v));
+    let value = norm(&d);
+    if value == T::ZERO {
+        return (value, T::ZERO);
+    }
+    let n = d * (T::ONE / value);
+    for term in x {
+        crate::algebra::add_to(row, term.column as usize, &term.coef.apply_transposed(&n));
+    }
+    (value, n.dot(&w))
+}
+
+/// Angle atan2(x2.y, x1.y) nearest to `last`, its rate and gradient.
+fn angle<T: Real, const D: usize>(
+    [x1, x2, y]: [&[Term<T>]; 3],
+    q: &[T],
+    v: &[T],
+    last: T,
+    row: &mut [T],
+) -> (T, T) {
+    let (p1, p2, py): (Vector<T, D>, Vector<T, D>, Vector<T, D>) =
+        (combine(x1, q), combine(x2, q), combine(y, q));
+    let (w1, w2, wy): (Vector<T, D>, Vector<T, D>, Vector<T, D>) =
+        (combine(x1, v), combine(x2, v), combine(y, v));
+    let (c, s) = (p1.dot(&py), p2.dot(&py));
+    let inverse = T::ONE / (c * c + s * s);
+    let (c, s) = (c * inverse, s * inverse);
+    // d theta = c d(x2.y) - s d(x1.y)
+    let across = p2 * c - p1 * s;
+    for (terms, g) in [(x2, py * c), (x1, py * -s), (y, across)] {
+        for term in terms {
+            crate::algebra::add_to(row, term.column as usize, &term.coef.apply_transposed(&g));
+        }
+    }
+    let rate = (w2 * c - w1 * s).dot(&py) + across.dot(&wy);
+    (unwrap(s.atan2(c), last), rate)
+}
+
+/// The angle that differs from `angle` by whole turns and is nearest to `last`.
+pub fn unwrap<T: Real>(angle: T, last: T) -> T {
+    let turn = T::TWO * T::PI;
+    let mut unwrapped = angle;
+    let gap = (last - unwrapped) / turn;
+    // Rounding to the nearest whole number, without a floor function in the scalar trait.
+    let whole = T::from_f64(libm::round(gap.to_f64()));
+    unwrapped += whole * turn;
+    unwrapped
+}
+
+/// Local forces of a torque on a spatial body.
+pub(crate) fn add_torque<T: Real, const D: usize>(
+    pool: &[Term<T>],
+    frame: &[Span; 3],
+    torque: [T; 3],
+    q: &[T],
+    local: &mut [T],
+) {
+    let tau = Vector::<T, 3>::from(torque);
+    for span in frame {
+        let u: Vector<T, D> = combine(span.of(pool), q);
+        let u3 = Vector::<T, 3>::from_fn(|i, _| if i < D { u[i] } else { T::ZERO });
+        let f3 = cross(&tau, &u3) * T::HALF;
+        let f: Vector<T, D> = Vector::from_fn(|i, _| f3[i]);
+        add_terms(span.of(pool), &f, local);
+    }
+}
+
+/// Local forces A_k^T F of a force on a combination; constants are skipped.
+pub(crate) fn add_terms<T: Real, const D: usize>(
+    terms: &[Term<T>],
+    f: &Vector<T, D>,
+    local: &mut [T],
+) {
+    for term in terms {
+        let column = term.column as usize;
+        if column + D <= local.len() {
+            crate::algebra::add_to(local, column, &term.coef.apply_transposed(f));
+        }
+    }
+}

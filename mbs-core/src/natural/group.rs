@@ -1,0 +1,107 @@
+//! A group: the mass and the rows of one body, the rows of one joint, or one effect. It is the *element* of the border to
+//! the algebra; its block is dense over its own coordinates.
+
+use crate::Real;
+use crate::algebra::{Coef, Vector, add_to, load};
+use crate::elements::Span;
+use crate::model::Owner;
+
+/// One element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Group {
+    /// Its entities in the slot table (extended coordinates): unknown ones first, then constants.
+    pub(crate) slots: Span,
+    /// How many of them are unknown.
+    pub(crate) n_unknown: u32,
+    /// Its unknowns in the clique table; k = n_unknown * D of them.
+    pub(crate) clique: Span,
+    /// Its constraint rows.
+    pub(crate) rows: Span,
+    /// Start of its rows in the Jacobian store; each is `width` long, the unknowns first.
+    pub(crate) jacobian: u32,
+    /// Columns of a row: entities times D.
+    pub(crate) width: u32,
+    /// Its G in the coefficient table (n_unknown squared), empty without mass.
+    pub(crate) mass: Span,
+    /// Its constant mass block in the block table (packed k (k + 1) / 2), empty without mass.
+    pub(crate) block: Span,
+    /// Its force vector in the force store, k long; empty when nothing applies.
+    pub(crate) force: Span,
+    /// Its rows of each kind, in the tables of those kinds.
+    pub(crate) distances: Span,
+    /// Likewise.
+    pub(crate) dots: Span,
+    /// Its scalar laws in the measure table; their gradients follow the constraint rows.
+    pub(crate) measures: Span,
+    /// Whose it is.
+    pub(crate) owner: Owner,
+}
+
+/// y += G x over the entities of a group, x and y local.
+#[inline(always)]
+pub(crate) fn add_mass_product<T: Real, const D: usize>(
+    g: &[Coef<T>],
+    clique: &[u32],
+    x: &[T],
+    y: &mut [T],
+) {
+    let nb = clique.len() / D;
+    for i in 0..nb {
+        let mut sum = Vector::<T, D>::zeros();
+        for j in 0..nb {
+            sum += g[i * nb + j].apply(&load::<T, D>(x, clique[j * D]));
+        }
+        add_to(y, i * D, &sum);
+    }
+}
+
+/// Place of (row, column), row >= column, in a packed lower triangle of size k.
+#[inline(always)]
+pub(crate) fn packed(k: usize, row: usize, column: usize) -> usize {
+    column * k - column * (column + 1) / 2 + row
+}
+
+/// block += w g g^T for the first k entries of g.
+#[inline(always)]
+pub(crate) fn add_rank_one<T: Real>(block: &mut [T], g: &[T], w: T) {
+    let mut rest = block;
+    for c in 0..g.len() {
+        let (column, next) = rest.split_at_mut(g.len() - c);
+        let t = g[c] * w;
+        for (b, &gr) in column.iter_mut().zip(&g[c..]) {
+            *b += gr * t;
+        }
+        rest = next;
+    }
+}
+
+/// Adds s C_i^T C_j at entity columns (i, j) of a packed block of size k, symmetrically; constants (>= k) are left out.
+///
+/// Summed over all ordered pairs (i, j) of two term lists this adds the Hessian of s x.y.
+#[inline(always)]
+pub(crate) fn add_curvature<T: Real, const D: usize>(
+    block: &mut [T],
+    k: usize,
+    (i, ci): (usize, Coef<T>),
+    (j, cj): (usize, Coef<T>),
+    s: T,
+) {
+    if i >= k || j >= k {
+        return;
+    }
+    let c = if i >= j { ci.conj().times(cj) } else { cj.conj().times(ci) }.scaled(s);
+    let (i, j) = if i >= j { (i, j) } else { (j, i) };
+    if i == j {
+        for a in 0..D {
+            block[packed(k, i + a, i + a)] += c.re * T::TWO;
+        }
+        return;
+    }
+    for a in 0..D {
+        block[packed(k, i + a, j + a)] += c.re;
+    }
+    if D == 2 {
+        block[packed(k, i + 1, j)] += c.im;
+        block[packed(k, i, j + 1)] -= c.im;
+    }
+}

@@ -1,0 +1,66 @@
+//! Prescribed functions of time: guide laws and courses, prepared once.
+
+use crate::Real;
+use crate::laws::guide;
+use crate::scene::{Course, GuideLaw};
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// A guide law with its spline prepared.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct GuideInput<T> {
+    law: GuideLaw<T>,
+    curvature: Vec<T>,
+}
+
+impl<T: Real> GuideInput<T> {
+    pub(crate) fn new(law: &GuideLaw<T>) -> Self {
+        let mut curvature = Vec::new();
+        if let GuideLaw::Table(table) = law {
+            curvature.resize(table.len(), T::ZERO);
+            guide::spline_curvatures(table, &mut curvature, &mut vec![T::ZERO; table.len()]);
+        }
+        Self { law: law.clone(), curvature }
+    }
+
+    /// Value, rate, acceleration at time `t`.
+    pub(crate) fn at(&self, t: T) -> [T; 3] {
+        let m = match &self.law {
+            GuideLaw::Table(table) => guide::spline(table, &self.curvature, t),
+            GuideLaw::Sine { amplitude, frequency, phase } => {
+                guide::sine(*amplitude, *frequency, *phase, t)
+            }
+            GuideLaw::Ramp { rate } => guide::ramp(*rate, t),
+        };
+        [m.value, m.rate, m.acceleration]
+    }
+}
+
+/// A constant or a table, linear between its rows.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct CourseInput<T> {
+    course: Course<T>,
+}
+
+impl<T: Real> CourseInput<T> {
+    pub(crate) fn new(course: &Course<T>) -> Self {
+        Self { course: course.clone() }
+    }
+
+    /// Value at time `t`.
+    pub(crate) fn at(&self, t: T) -> [T; 3] {
+        let rows = match &self.course {
+            Course::Constant(value) => return *value,
+            Course::Table(rows) => rows,
+        };
+        let next = rows.partition_point(|row| row.0 <= t);
+        match (next.checked_sub(1).and_then(|i| rows.get(i)), rows.get(next)) {
+            (Some((t0, a)), Some((t1, b))) => {
+                let s = (t - *t0) / (*t1 - *t0);
+                core::array::from_fn(|i| a[i] + (b[i] - a[i]) * s)
+            }
+            (Some((_, held)), None) | (None, Some((_, held))) => *held,
+            (None, None) => [T::ZERO; 3],
+        }
+    }
+}

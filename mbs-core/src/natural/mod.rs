@@ -1,0 +1,26 @@
+//! Natural coordinates: shared points and unit vectors with a constant mass matrix, made from a scene.
+//!
+//! The way down: [`cluster`] (welds), [`sharing`] (what joints make common), [`basis`] (entities of each body), [`build`],
+//! [`joints`], [`effects`] (rows and laws), [`finish`] (numbering and tables), [`evaluate`] (the numbers).
+
+mod basis;
+mod build;
+mod cluster;
+mod draft;
+mod effects;
+mod error;
+mod evaluate;
+mod finish;
+mod forces;
+mod group;
+mod input;
+mod joints;
+mod model;
+mod sharing;
+
+pub use basis::INDEPENDENCE;
+pub use error::ModelError;
+pub use evaluate::sizes;
+pub use forces::unwrap;
+pub use model::NaturalModel;
+pub use sharing::TOLERANCE;

@@ -1,0 +1,79 @@
+//! [`NaturalModel`]: elements by kind in contiguous arrays, gathered into groups.
+
+use super::basis::Basis;
+use super::cluster::Clusters;
+use super::forces::{BodyTorque, MeasureElement, PointForce};
+use super::group::Group;
+use super::input::{CourseInput, GuideInput};
+use crate::Real;
+use crate::algebra::Coef;
+use crate::blocks::Cliques;
+use crate::elements::{Distance, Dot, Guided, Linear, Term};
+use crate::model::Owner;
+use alloc::vec::Vec;
+
+/// A mechanism in natural coordinates of D dimensions: shared points and unit vectors, constant mass matrix.
+///
+/// Built from a scene by [`NaturalModel::new`](Self::new); constant from then on.
+#[derive(Debug, Clone)]
+pub struct NaturalModel<T: Real, const D: usize> {
+    pub(super) n_unknowns: usize,
+    pub(super) n_rows: usize,
+    pub(super) n_jacobian: usize,
+    /// Reference configuration, extended.
+    pub(super) reference: Vec<T>,
+    /// Gravity and constant forces over the extended coordinates: V = -weight.q.
+    pub(super) weight: Vec<T>,
+    pub(super) pool: Vec<Term<T>>,
+    pub(super) distances: Vec<Distance<T>>,
+    pub(super) dots: Vec<Dot<T>>,
+    pub(super) linears: Vec<Linear>,
+    pub(super) guided: Vec<Guided>,
+    pub(super) groups: Vec<Group>,
+    pub(super) slots: Vec<u32>,
+    pub(super) cliques: Vec<u32>,
+    pub(super) mass: Vec<Coef<T>>,
+    pub(super) blocks: Vec<T>,
+    /// Constant parts of the force store.
+    pub(super) constant_force: Vec<T>,
+    pub(super) measures: Vec<MeasureElement<T>>,
+    pub(super) n_memory: usize,
+    pub(super) point_forces: Vec<PointForce>,
+    pub(super) torques: Vec<BodyTorque>,
+    pub(super) guides: Vec<GuideInput<T>>,
+    pub(super) courses: Vec<CourseInput<T>>,
+    pub(super) row_owner: Vec<Owner>,
+    pub(super) unknown_owner: Vec<Owner>,
+    pub(super) clusters: Clusters<T>,
+    pub(super) bases: Vec<Basis<T>>,
+    /// First extended coordinate of each entity of the builder.
+    pub(super) entity_at: Vec<u32>,
+    /// The scene's length [m].
+    pub(super) length: T,
+}
+
+impl<T: Real, const D: usize> Cliques for NaturalModel<T, D> {
+    fn n_unknowns(&self) -> usize {
+        self.n_unknowns
+    }
+    fn n_elements(&self) -> usize {
+        self.groups.len()
+    }
+    #[inline(always)]
+    fn clique(&self, element: usize) -> &[u32] {
+        self.groups[element].clique.of(&self.cliques)
+    }
+}
+
+impl<T: Real, const D: usize> NaturalModel<T, D> {
+    /// The scene's length [m]: what tolerances are relative to.
+    pub fn length(&self) -> T {
+        self.length
+    }
+
+    /// How many elements stand behind each kind of row: (distance, dot product, linear, guided).
+    #[must_use]
+    pub fn n_elements_by_kind(&self) -> [usize; 4] {
+        [self.distances.len(), self.dots.len(), self.linears.len(), self.guided.len()]
+    }
+}

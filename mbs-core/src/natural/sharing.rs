@@ -1,0 +1,157 @@
+//! Which points and directions bodies share, by union-find over (body, point) and (body, direction) in file order.
+//!
+//! The rule: a joint names what its two bodies keep common. A point (direction) named again on the same body at the
+//! same place (parallel, either sign) within [`TOLERANCE`] of the scene's length is the same feature. Features joined by
+//! any chain of joints are one *entity*. An entity that the ground has is a constant.
+
+use super::cluster::Clusters;
+use crate::Real;
+use crate::algebra::{Vector, cross, norm};
+use crate::scene::{Dimension, Joint, JointKind, Scene};
+use alloc::vec::Vec;
+
+/// Features closer than this, relative to the scene's length (points) or as an angle (directions), are one.
+pub const TOLERANCE: f64 = 1e-9;
+
+/// Point or direction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum EntityKind {
+    Point,
+    Direction,
+}
+
+/// A natural coordinate vector: a point or a unit direction of one or more bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Entity<T: Real> {
+    pub(crate) kind: EntityKind,
+    /// Value in the reference configuration.
+    pub(crate) at: Vector<T, 3>,
+    /// Fixed to the ground.
+    pub(crate) is_constant: bool,
+}
+
+#[derive(Debug)]
+struct Feature<T: Real> {
+    owner: Option<usize>,
+    kind: EntityKind,
+    at: Vector<T, 3>,
+    parent: usize,
+}
+
+/// The shared entities and who has them.
+#[derive(Debug)]
+pub(crate) struct Sharing<T: Real> {
+    /// The entities.
+    pub(crate) entities: Vec<Entity<T>>,
+    /// For each cluster, the entities it shares, in file order.
+    pub(crate) of_cluster: Vec<Vec<usize>>,
+}
+
+impl<T: Real> Sharing<T> {
+    /// Finds what the joints of a scene make common.
+    pub(crate) fn new(scene: &Scene<T>, clusters: &Clusters<T>, length: T) -> Self {
+        let mut table = Table {
+            features: Vec::new(),
+            by_owner: Vec::new(),
+            tolerance: length * tolerance::<T>(),
+        };
+        table.by_owner.resize_with(clusters.clusters.len() + 1, Vec::new);
+        for joint in &scene.joints {
+            let owners = joint.bodies.map(|b| clusters.of(b));
+            if owners[0] != owners[1] {
+                for (kind, at) in common(joint, scene.dimension) {
+                    table.share(owners, kind, at);
+                }
+            }
+        }
+        table.collect(clusters.clusters.len())
+    }
+}
+
+fn tolerance<T: Real>() -> T {
+    T::from_f64(TOLERANCE).max(T::EPSILON * T::from_f64(64.0))
+}
+
+/// What a joint keeps common.
+fn common<T: Real>(
+    joint: &Joint<T>,
+    dimension: Dimension,
+) -> impl Iterator<Item = (EntityKind, Vector<T, 3>)> {
+    let point = Some((EntityKind::Point, Vector::from(joint.points[0])));
+    let axis = joint.axes[0].map(|a| {
+        let a = Vector::from(a);
+        (EntityKind::Direction, a * (T::ONE / norm(&a)))
+    });
+    let (point, axis) = match (joint.kind, dimension) {
+        (JointKind::Revolute, Dimension::Spatial) => (point, axis),
+        (JointKind::Revolute | JointKind::Spherical | JointKind::Universal, _) => (point, None),
+        (JointKind::Prismatic | JointKind::Cylindrical | JointKind::Planar, _) => (None, axis),
+        (JointKind::Weld | JointKind::Free | JointKind::Distance, _) => (None, None),
+    };
+    point.into_iter().chain(axis)
+}
+
+struct Table<T: Real> {
+    features: Vec<Feature<T>>,
+    /// Features of each cluster; the ground's last.
+    by_owner: Vec<Vec<usize>>,
+    tolerance: T,
+}
+
+impl<T: Real> Table<T> {
+    fn share(&mut self, owners: [Option<usize>; 2], kind: EntityKind, at: Vector<T, 3>) {
+        let [a, b] = owners.map(|owner| self.feature(owner, kind, at));
+        let (a, b) = (self.root(a), self.root(b));
+        let (keep, drop) = if a < b { (a, b) } else { (b, a) };
+        self.features[drop].parent = keep;
+    }
+
+    fn feature(&mut self, owner: Option<usize>, kind: EntityKind, at: Vector<T, 3>) -> usize {
+        let list = owner.unwrap_or(self.by_owner.len() - 1);
+        let same = |f: &Feature<T>| {
+            f.kind == kind
+                && match kind {
+                    EntityKind::Point => norm(&(f.at - at)) <= self.tolerance,
+                    EntityKind::Direction => norm(&cross(&f.at, &at)) <= tolerance::<T>(),
+                }
+        };
+        if let Some(&found) = self.by_owner[list].iter().find(|&&f| same(&self.features[f])) {
+            return found;
+        }
+        let index = self.features.len();
+        self.features.push(Feature { owner, kind, at, parent: index });
+        self.by_owner[list].push(index);
+        index
+    }
+
+    fn root(&self, mut i: usize) -> usize {
+        while self.features[i].parent != i {
+            i = self.features[i].parent;
+        }
+        i
+    }
+
+    /// One entity for each class; the ground's value where it is among the owners.
+    fn collect(self, n_clusters: usize) -> Sharing<T> {
+        let mut entities: Vec<Entity<T>> = Vec::new();
+        let mut of_root = alloc::vec![usize::MAX; self.features.len()];
+        let mut of_cluster = alloc::vec![Vec::new(); n_clusters];
+        for i in 0..self.features.len() {
+            let (root, f) = (self.root(i), &self.features[i]);
+            if of_root[root] == usize::MAX {
+                of_root[root] = entities.len();
+                entities.push(Entity { kind: f.kind, at: f.at, is_constant: false });
+            }
+            let e = of_root[root];
+            match f.owner {
+                None => {
+                    entities[e].is_constant = true;
+                    entities[e].at = f.at;
+                }
+                Some(c) if !of_cluster[c].contains(&e) => of_cluster[c].push(e),
+                Some(_) => {}
+            }
+        }
+        Sharing { entities, of_cluster }
+    }
+}
