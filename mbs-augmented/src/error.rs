@@ -1,0 +1,96 @@
+//! What can stop a step, and what options cannot be.
+
+use mbs_core::FactorError;
+
+/// A step that could not be made. The state is as it was before the step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum StepError {
+    /// The iteration did not converge.
+    NotConverged {
+        /// Iterations made.
+        iterations: u32,
+        /// Last correction of a coordinate, relative to the scene's length.
+        correction: f64,
+        /// The unknown that was corrected most.
+        unknown: u32,
+    },
+    /// The tangent matrix lost positive definiteness: a force meets no inertia, or a coordinate is not determined.
+    Singular(FactorError),
+    /// A number became infinite or NaN.
+    NotFinite {
+        /// The unknown concerned.
+        unknown: u32,
+    },
+    /// A projection did not reach its level.
+    Violated {
+        /// 0 position, 1 velocity, 2 acceleration.
+        level: u8,
+        /// Violation left.
+        violation: f64,
+        /// The row that is violated most.
+        row: u32,
+    },
+    /// A guided angle ended at the false root, half a turn from its guide.
+    OppositeBranch {
+        /// The row of the guide.
+        row: u32,
+    },
+}
+
+impl core::fmt::Display for StepError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::NotConverged { iterations, correction, .. } => write!(
+                f,
+                "no convergence in {iterations} iterations (last correction {correction:.1e} of the scene's length): try a smaller step"
+            ),
+            Self::Singular(e) => write!(
+                f,
+                "the tangent matrix is not positive definite (pivot {:.1e}): a force meets no inertia there, or nothing determines the coordinate; give the body mass or inertia, or try a smaller step",
+                e.pivot
+            ),
+            Self::NotFinite { .. } => {
+                write!(f, "a number became infinite or NaN: try a smaller step")
+            }
+            Self::Violated { level, violation, .. } => {
+                let name = ["position", "velocity", "acceleration"][usize::from(*level).min(2)];
+                write!(
+                    f,
+                    "the projection left a {name} violation of {violation:.1e}: the mechanism may stand in a singular position or lock; try a smaller step or another penalty"
+                )
+            }
+            Self::OppositeBranch { .. } => {
+                write!(f, "the guided angle jumped half a turn away from its guide: try a smaller step")
+            }
+        }
+    }
+}
+
+impl core::error::Error for StepError {}
+
+impl From<FactorError> for StepError {
+    fn from(error: FactorError) -> Self {
+        Self::Singular(error)
+    }
+}
+
+/// An option outside its range, by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum OptionError {
+    /// Must be positive and finite.
+    NotPositive(&'static str),
+    /// The combination is not built.
+    NotBuilt(&'static str),
+}
+
+impl core::fmt::Display for OptionError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::NotPositive(name) => write!(f, "option `{name}` must be positive and finite"),
+            Self::NotBuilt(name) => write!(f, "option `{name}`: this combination is not built"),
+        }
+    }
+}
+
+impl core::error::Error for OptionError {}

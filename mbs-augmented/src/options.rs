@@ -1,0 +1,129 @@
+//! What the caller chooses. Public fields; start from [`Options::index3`] or [`Options::index1`].
+
+use crate::error::OptionError;
+use mbs_core::Real;
+use mbs_core::integrator::Integrator;
+
+/// Choices for a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options<T> {
+    /// Time integrator.
+    pub integrator: Integrator<T>,
+    /// Penalty on the constraints.
+    pub penalty: Penalty<T>,
+    /// A correction of the coordinates below this times the scene's length is small [-].
+    pub tolerance: T,
+    /// Iterations allowed in one step.
+    pub max_iterations: u32,
+    /// Sweeps of a projection after which its level must be reached.
+    pub max_sweeps: u32,
+    /// Start value of the multipliers.
+    pub multipliers: Multipliers,
+    /// How velocities and accelerations are projected.
+    pub projection: Projection,
+    /// Put the geometric stiffness of the constraints into the tangent.
+    pub geometric_stiffness: bool,
+    /// Evaluate phi by increments and carry q as a compensated pair.
+    pub compensated: bool,
+    /// Choose the penalty anew at each step from the contraction that the projections showed.
+    pub adaptive_penalty: bool,
+}
+
+/// The penalty.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Penalty<T> {
+    /// In proportion to the effective mass of each row: alpha = factor a' m_k in index-3 (a' = 4/dt^2 for the trapezoidal
+    /// rule), alpha = factor m_k in index-1 [-]. Conditioning then does not depend on the step.
+    Scaled(T),
+    /// The printed, fixed alpha on every row [N/m in index-3, kg in index-1].
+    Fixed(T),
+}
+
+/// Start value of the multipliers of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Multipliers {
+    /// 2 lambda_n - lambda_(n-1) [P3 (3)], filtered by s J T^-1 J^T so that no component grows that the constraints cannot feed.
+    Filtered,
+    /// 2 lambda_n - lambda_(n-1) [P3 (3)].
+    Extrapolated,
+    /// Zero [P1 (16)], [P2].
+    FromZero,
+}
+
+/// How velocities and accelerations are projected on their constraints.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Projection {
+    /// Mass-orthogonal, solved for the correction from the residual, swept until the level is reached.
+    Correction,
+    /// The printed iteration [P1 (13), (19)]: T v = M v* - ..., a fixed number of sweeps, no level.
+    Printed {
+        /// Sweeps.
+        sweeps: u32,
+    },
+    /// The printed one with the already factored tangent [P3 (11)-(12)]: one sweep, weight M + C + K.
+    PrintedTangent,
+}
+
+impl<T: Real> Options<T> {
+    /// Defaults of index-3.
+    ///
+    /// Penalty 1e6 effective masses in double precision (methods: 1e2 to 1e8 work in regular motion), the square root of
+    /// 1/eps in others; tolerance 1e-10; at most 40 iterations: passages of singular positions take up to 20.
+    #[must_use]
+    pub fn index3() -> Self {
+        let scale = if T::EPSILON < T::from_f64(1e-12) {
+            T::from_f64(1e6)
+        } else {
+            T::from_f64(3e3)
+        };
+        Self {
+            integrator: Integrator::trapezoidal(),
+            penalty: Penalty::Scaled(scale),
+            tolerance: T::from_f64(1e-10).max(T::EPSILON * T::from_f64(64.0)),
+            max_iterations: 40,
+            max_sweeps: 12,
+            multipliers: Multipliers::Filtered,
+            projection: Projection::Correction,
+            geometric_stiffness: false,
+            compensated: true,
+            adaptive_penalty: false,
+        }
+    }
+
+    /// Defaults of index-1: penalty 1e6 effective masses, at most 4 iterations, since iterating on at a singular position
+    /// leads away from the solution there.
+    #[must_use]
+    pub fn index1() -> Self {
+        Self { max_iterations: 4, max_sweeps: 20, ..Self::index3() }
+    }
+
+    /// The form of publications 1 and 2: fixed alpha, multipliers from zero, printed projections, plain arithmetic.
+    #[must_use]
+    pub fn printed(alpha: T) -> Self {
+        Self {
+            penalty: Penalty::Fixed(alpha),
+            multipliers: Multipliers::FromZero,
+            projection: Projection::Printed { sweeps: 1 },
+            compensated: false,
+            max_iterations: 20,
+            ..Self::index3()
+        }
+    }
+
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// [`OptionError`] names the option.
+    pub fn validate(&self) -> Result<(), OptionError> {
+        let (Penalty::Scaled(penalty) | Penalty::Fixed(penalty)) = self.penalty;
+        for (name, value) in [("penalty", penalty), ("tolerance", self.tolerance)] {
+            if !(value > T::ZERO && value.is_finite()) {
+                return Err(OptionError::NotPositive(name));
+            }
+        }
+        if self.max_iterations == 0 {
+            return Err(OptionError::NotPositive("max_iterations"));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,157 @@
+//! Scratch of a step, made once; and what a step reports.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use mbs_core::model::{Load, Model, Tangent, Terms};
+use mbs_core::{Real, SpdSolver};
+
+/// Why the iteration of a step ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stop {
+    /// The next correction, estimated from the last two, is below the tolerance of the step.
+    Converged,
+    /// Corrections no longer shrink and are at the level of rounding.
+    Rounding,
+    /// The allowed iterations are used and the last correction is below `tolerance` times the scene's length.
+    Tolerance,
+}
+
+/// What a step did. Counts only; time is measured from outside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepReport<T> {
+    /// Newton iterations.
+    pub iterations: u32,
+    /// Factorisations.
+    pub factorizations: u32,
+    /// Back-substitutions.
+    pub solves: u32,
+    /// Last correction of a coordinate [m or -].
+    pub correction: T,
+    /// What ended the iteration.
+    pub stop: Stop,
+    /// Largest |phi|, |phi'|, |phi''| after the step [m, m/s, m/s^2].
+    pub violation: [T; 3],
+}
+
+/// Scratch of the augmented Lagrangian steps over a solver `S`. Nothing is allocated after [`Workspace::new`].
+#[derive(Debug, Clone)]
+pub struct Workspace<T, S> {
+    pub(crate) solver: S,
+    pub(crate) terms: Terms<T>,
+    /// q_(n+1) - q_n and q_(n+1), v, a/a' (index-3) or a (index-1), extended.
+    pub(crate) dq: Vec<T>,
+    pub(crate) q: Vec<T>,
+    pub(crate) v: Vec<T>,
+    pub(crate) a: Vec<T>,
+    /// x - x* of a projection, extended.
+    pub(crate) change: Vec<T>,
+    /// Right-hand side and correction, n.
+    pub(crate) f: Vec<T>,
+    pub(crate) scratch: Vec<T>,
+    /// lambda / a' (index-3) or lambda (index-1), m.
+    pub(crate) lambda: Vec<T>,
+    pub(crate) sigma: Vec<T>,
+    pub(crate) mu: Vec<T>,
+    pub(crate) rates: Vec<T>,
+    /// Penalty of each row in mass units, m, and the effective masses it comes from.
+    pub(crate) penalty: Vec<T>,
+    pub(crate) masses: Vec<T>,
+    /// Factor on a scaled penalty that adapts from step to step.
+    pub(crate) boost: T,
+    pub(crate) counts: Counts,
+}
+
+/// Counters within a step.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Counts {
+    pub(crate) factorizations: u32,
+    pub(crate) solves: u32,
+}
+
+impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
+    /// Scratch for `model`, with a solver analysed for its cliques.
+    pub fn new(model: &impl Model<T>, solver: S) -> Self {
+        let (n, e, m) = (model.n_unknowns(), model.n_extended(), model.n_constraints());
+        let zeros = |k| vec![T::ZERO; k];
+        let mut terms = model.terms();
+        let mut q = zeros(e);
+        model.write_reference(&mut q);
+        model.set_inputs(T::ZERO, &mut terms);
+        model.evaluate(&q, &mut terms);
+        let mut masses = zeros(m);
+        model.effective_masses(&terms, &mut masses);
+        let scratch = zeros(solver.n_scratch());
+        Self {
+            solver,
+            terms,
+            dq: zeros(e),
+            q,
+            v: zeros(e),
+            a: zeros(e),
+            change: zeros(e),
+            f: zeros(n),
+            scratch,
+            lambda: zeros(m),
+            sigma: zeros(m),
+            mu: zeros(m),
+            rates: zeros(m),
+            penalty: zeros(m),
+            masses,
+            boost: T::ONE,
+            counts: Counts::default(),
+        }
+    }
+
+    /// The terms as last evaluated.
+    pub fn terms(&self) -> &Terms<T> {
+        &self.terms
+    }
+
+    /// The solver.
+    pub fn solver(&self) -> &S {
+        &self.solver
+    }
+
+    /// Factors T with the given weights of stiffness and damping.
+    pub(crate) fn factor<M: Model<T>>(
+        &mut self,
+        model: &M,
+        (stiffness, damping): (T, T),
+        geometric: bool,
+    ) -> Result<(), mbs_core::FactorError> {
+        self.counts.factorizations += 1;
+        let geometric = geometric.then_some(&self.lambda[..]);
+        let tangent = Tangent { stiffness, damping, penalty: &self.penalty, geometric };
+        let load = Load { mass: None, multipliers: None, force: T::ZERO };
+        let system = mbs_core::model::System { model, terms: &self.terms, tangent, load };
+        self.solver.factor(&system)
+    }
+
+    /// f = T^-1 f.
+    pub(crate) fn solve(&mut self) {
+        self.counts.solves += 1;
+        self.solver.solve(&mut self.f, &mut self.scratch);
+    }
+
+    /// f = M x + J^T mu - force Q.
+    pub(crate) fn assemble<M: Model<T>>(&mut self, model: &M, mass: Mass, force: T) {
+        let mass = match mass {
+            Mass::None => None,
+            Mass::Acceleration => Some(&self.a[..]),
+            Mass::Change => Some(&self.change[..]),
+        };
+        let load = Load { mass, multipliers: Some(&self.mu), force };
+        let tangent =
+            Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty: &self.penalty, geometric: None };
+        let system = mbs_core::model::System { model, terms: &self.terms, tangent, load };
+        self.solver.assemble(&system, &mut self.f);
+    }
+}
+
+/// Which vector stands at M in a residual.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Mass {
+    None,
+    Acceleration,
+    Change,
+}
