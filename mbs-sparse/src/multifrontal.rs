@@ -95,41 +95,37 @@ impl<T: Real> Multifrontal<T> {
     #[inline(always)]
     fn visit(&self, front: &Front, y: &mut [T], scratch: &mut [T], direction: Direction) {
         let Front { p, f, offset, first, .. } = *front;
-        let a = &self.fronts[offset..offset + column(f, p)];
-        let (head, tail) = y.split_at_mut(first + p);
-        let y1 = &mut head[first..];
+        let a = &self.fronts[offset..offset + column(f, f)];
         let taken = self.taken.get(first..first + p);
-        if let (Direction::Forward, Some(taken)) = (direction, taken) {
-            let before = &mut scratch[..p];
-            before.copy_from_slice(y1);
-            for (y, &row) in y1.iter_mut().zip(taken) {
-                *y = before[row as usize];
-            }
+        if taken.is_none() && front.is_consecutive {
+            let z = &mut y[first..first + f];
+            return match direction {
+                Direction::Forward => sweep::forward(a, z, p),
+                Direction::Backward => sweep::backward(a, z, p),
+            };
         }
-        let is_forward = direction == Direction::Forward;
-        if let Some(from) = front.rows_from {
-            let w = &mut tail[from - first - p..][..f - p];
-            if is_forward { sweep::forward(a, y1, w) } else { sweep::backward(a, y1, w) }
-        } else {
-            let rows = &self.plan.rows[front.rows.clone()];
-            let w = &mut scratch[..f - p];
-            for (w, &row) in w.iter_mut().zip(rows) {
-                *w = tail[row as usize - first - p];
-            }
-            if is_forward {
-                sweep::forward(a, y1, w);
-                for (&w, &row) in w.iter().zip(rows) {
-                    tail[row as usize - first - p] = w;
+        let rows = &self.plan.rows[front.rows.clone()];
+        let (z1, z2) = scratch[..f].split_at_mut(p);
+        let place = |k: usize| first + taken.map_or(k, |taken| taken[k] as usize);
+        match direction {
+            Direction::Forward => (0..p).for_each(|k| z1[k] = y[place(k)]),
+            Direction::Backward => z1.copy_from_slice(&y[first..first + p]),
+        }
+        for (z, &row) in z2.iter_mut().zip(rows) {
+            *z = y[row as usize];
+        }
+        let z = &mut scratch[..f];
+        match direction {
+            Direction::Forward => {
+                sweep::forward(a, z, p);
+                y[first..first + p].copy_from_slice(&z[..p]);
+                for (&z, &row) in z[p..].iter().zip(rows) {
+                    y[row as usize] = z;
                 }
-            } else {
-                sweep::backward(a, y1, w);
             }
-        }
-        if let (Direction::Backward, Some(taken)) = (direction, taken) {
-            let after = &mut scratch[..p];
-            after.copy_from_slice(y1);
-            for (&y, &row) in after.iter().zip(taken) {
-                y1[row as usize] = y;
+            Direction::Backward => {
+                sweep::backward(a, z, p);
+                (0..p).for_each(|k| y[place(k)] = z[k]);
             }
         }
     }

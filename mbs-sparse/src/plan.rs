@@ -46,8 +46,8 @@ pub(crate) struct Front {
     pub(crate) offset: usize,
     /// Place of the first pivot in the elimination order.
     pub(crate) first: usize,
-    /// The remaining rows: consecutive places from here when `Some`, else listed in `rows`.
-    pub(crate) rows_from: Option<usize>,
+    /// Whether its unknowns are the consecutive places `first`, ..., `first + f - 1`.
+    pub(crate) is_consecutive: bool,
     /// Places of the remaining rows in the list of all rows.
     pub(crate) rows: Range<usize>,
     /// Whether the first element writes every number of the front.
@@ -153,7 +153,7 @@ impl Planner {
                 f: 0,
                 offset: 0,
                 first,
-                rows_from: None,
+                is_consecutive: false,
                 rows: 0..0,
                 is_first_whole: false,
                 elements: 0..0,
@@ -169,11 +169,8 @@ impl Planner {
             }
             let rows = &mut plan.rows[start..];
             rows.sort_unstable();
-            front.rows_from = match (rows.first(), rows.last()) {
-                (Some(&a), Some(&b)) if (b - a) as usize + 1 == rows.len() => Some(a as usize),
-                (None, None) => Some(front.first + front.p),
-                _ => None,
-            };
+            front.is_consecutive =
+                rows.iter().enumerate().all(|(k, &q)| q as usize == front.first + front.p + k);
             front.rows = start..plan.rows.len();
             front.f = front.p + front.rows.len();
             front.offset = offset;

@@ -1,57 +1,100 @@
-//! The two triangular sweeps through one front.
+//! The two triangular sweeps through one front, a block of at most [`BLOCK`] pivots at a time.
 //!
 //! ```text
 //! forward:    y_1 <- L_11^-1 y_1,                      y_2 <- y_2 - L_21 y_1
 //! backward:   y_1 <- L_11^-T (D^-1 y_1 - L_21^T y_2)
 //! ```
 //!
-//! L_11 is p x p with 1 / d on its diagonal, L_21 is (f - p) x p, both in the first p columns of the packed front.
+//! `y` holds all f unknowns of the front, pivots first; L_11 has 1 / d on its diagonal.
 
+use crate::kernel::{BLOCK, subtract};
 use crate::plan::column;
 use mbs_core::Real;
 
-/// Forward sweep: `y` holds the p pivots, `w` the f - p remaining rows.
+/// Forward sweep through a packed front that eliminates `p` unknowns.
 #[inline(always)]
-pub(crate) fn forward<T: Real>(a: &[T], y: &mut [T], w: &mut [T]) {
-    let (p, f) = (y.len(), y.len() + w.len());
-    for k in 0..p {
-        let from = column(f, k);
-        let (l11, l21) = a[from..from + f - k].split_at(p - k);
-        let yk = y[k];
-        for (y, &l) in y[k + 1..].iter_mut().zip(&l11[1..]) {
-            *y -= l * yk;
+pub(crate) fn forward<T: Real>(mut a: &[T], mut y: &mut [T], mut p: usize) {
+    loop {
+        match p {
+            0 => return,
+            1 => return forward_block::<T, 1>(a, y),
+            2 => return forward_block::<T, 2>(a, y),
+            3 => return forward_block::<T, 3>(a, y),
+            4 => return forward_block::<T, 4>(a, y),
+            5 => return forward_block::<T, 5>(a, y),
+            _ => forward_block::<T, BLOCK>(a, y),
         }
-        for (w, &l) in w.iter_mut().zip(l21) {
-            *w -= l * yk;
-        }
+        a = &a[column(y.len(), BLOCK)..];
+        y = &mut y[BLOCK..];
+        p -= BLOCK;
     }
 }
 
-/// Backward sweep: `y` holds the p pivots, `w` the f - p remaining rows, which are known.
+/// Backward sweep through a packed front that eliminates `p` unknowns; the others are known.
 #[inline(always)]
-pub(crate) fn backward<T: Real>(a: &[T], y: &mut [T], w: &[T]) {
-    let (p, f) = (y.len(), y.len() + w.len());
-    for k in (0..p).rev() {
-        let from = column(f, k);
-        let (l11, l21) = a[from..from + f - k].split_at(p - k);
-        let (head, tail) = y.split_at_mut(k + 1);
-        let inverse = l11[0];
-        head[k] = head[k] * inverse - dot(&l11[1..], tail) - dot(l21, w);
+pub(crate) fn backward<T: Real>(a: &[T], y: &mut [T], p: usize) {
+    let f = y.len();
+    let mut k = p - p % BLOCK;
+    let (last, z) = (&a[column(f, k)..], &mut y[k..]);
+    match p % BLOCK {
+        1 => backward_block::<T, 1>(last, z),
+        2 => backward_block::<T, 2>(last, z),
+        3 => backward_block::<T, 3>(last, z),
+        4 => backward_block::<T, 4>(last, z),
+        5 => backward_block::<T, 5>(last, z),
+        _ => {}
+    }
+    while k > 0 {
+        k -= BLOCK;
+        backward_block::<T, BLOCK>(&a[column(f, k)..], &mut y[k..]);
     }
 }
 
-/// Sum of products in two interleaved chains.
+/// The first `P` columns of a packed triangle of `f` unknowns.
 #[inline(always)]
-fn dot<T: Real>(a: &[T], b: &[T]) -> T {
-    let mut even = T::ZERO;
-    let mut odd = T::ZERO;
-    let (mut a, mut b) = (a.chunks_exact(2), b.chunks_exact(2));
-    for (a, b) in (&mut a).zip(&mut b) {
-        even += a[0] * b[0];
-        odd += a[1] * b[1];
+fn columns<T, const P: usize>(mut a: &[T], f: usize) -> [&[T]; P] {
+    std::array::from_fn(|k| {
+        let (column, tail) = a.split_at(f - k);
+        a = tail;
+        column
+    })
+}
+
+/// Forward sweep through one block.
+#[inline(always)]
+fn forward_block<T: Real, const P: usize>(a: &[T], y: &mut [T]) {
+    let columns: [&[T]; P] = columns(a, y.len());
+    let (y1, y2) = y.split_at_mut(P);
+    let mut v: [T; P] = std::array::from_fn(|k| y1[k]);
+    for k in 0..P {
+        for i in k + 1..P {
+            let product = columns[k][i - k] * v[k];
+            v[i] -= product;
+        }
     }
-    for (&a, &b) in a.remainder().iter().zip(b.remainder()) {
-        even += a * b;
+    y1.copy_from_slice(&v);
+    if !y2.is_empty() {
+        subtract(y2, std::array::from_fn(|k| &columns[k][P - k..]), v);
     }
-    even + odd
+}
+
+/// Backward sweep through one block.
+#[inline(always)]
+fn backward_block<T: Real, const P: usize>(a: &[T], y: &mut [T]) {
+    let columns: [&[T]; P] = columns(a, y.len());
+    let (y1, y2) = y.split_at_mut(P);
+    let mut v: [T; P] = std::array::from_fn(|k| y1[k] * columns[k][0]);
+    let below: [&[T]; P] = std::array::from_fn(|k| &columns[k][P - k..][..y2.len()]);
+    for i in 0..y2.len() {
+        for k in 0..P {
+            v[k] -= below[k][i] * y2[i];
+        }
+    }
+    for k in (0..P).rev() {
+        for i in k + 1..P {
+            let product = columns[k][i - k] * v[i];
+            v[k] -= product;
+        }
+    }
+    y1.copy_from_slice(&v);
 }
