@@ -1,1 +1,15 @@
 #![doc = include_str!("../README.md")]
+
+mod graph;
+mod kernel;
+mod multifrontal;
+mod options;
+mod pivoting;
+mod plan;
+mod sweep;
+mod tree;
+
+pub use multifrontal::Multifrontal;
+pub use options::{Counters, Options, Pivoting};
+
+pub use mbs_core::{BlockSource, Cliques, FactorError, Real, SpdSolver};

@@ -1,0 +1,106 @@
+//! faer's simplicial sparse Cholesky on the same sum of blocks: the measured rival.
+//!
+//! ```text
+//! upper triangle in compressed columns; slot[t] = place of packed entry t of all blocks in turn
+//! ```
+
+use crate::common::Sum;
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
+use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
+use faer::{Conj, MatMut, Par, Side};
+use mbs_sparse::BlockSource;
+
+pub(crate) struct Rival {
+    pattern: SymbolicSparseColMat<usize>,
+    values: Vec<f64>,
+    slots: Vec<usize>,
+    block: Vec<f64>,
+    symbolic: SymbolicCholesky<usize>,
+    factor: Vec<f64>,
+    memory: MemBuffer,
+}
+
+impl Rival {
+    pub(crate) fn analyse(sum: &Sum) -> Self {
+        let mut entries: Vec<(usize, usize)> = Vec::new();
+        for clique in &sum.cliques {
+            for (j, &a) in clique.iter().enumerate() {
+                entries.extend(clique[j..].iter().map(|&b| (a.max(b) as usize, a.min(b) as usize)));
+            }
+        }
+        let mut distinct = entries.clone();
+        distinct.sort_unstable();
+        distinct.dedup();
+        let slots = entries.iter().map(|e| distinct.binary_search(e).unwrap()).collect();
+        let mut start = vec![0; sum.n + 1];
+        for &(col, _) in &distinct {
+            start[col + 1] += 1;
+        }
+        for i in 0..sum.n {
+            start[i + 1] += start[i];
+        }
+        let rows = distinct.iter().map(|&(_, row)| row).collect();
+        let pattern = SymbolicSparseColMat::new_checked(sum.n, sum.n, start, None, rows);
+        let params = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SIMPLICIAL,
+            ..CholeskySymbolicParams::default()
+        };
+        let amd = SymmetricOrdering::Amd;
+        let symbolic =
+            factorize_symbolic_cholesky(pattern.as_ref(), Side::Upper, amd, params).unwrap();
+        let scratch = StackReq::or(
+            symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()),
+            symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
+        );
+        let mut rival = Self {
+            values: vec![0.0; distinct.len()],
+            pattern,
+            slots,
+            block: vec![0.0; 1000],
+            factor: vec![0.0; symbolic.len_val()],
+            symbolic,
+            memory: MemBuffer::new(scratch),
+        };
+        rival.assemble(sum);
+        rival
+    }
+
+    pub(crate) fn assemble(&mut self, sum: &Sum) {
+        self.values.fill(0.0);
+        let mut slots = self.slots.iter();
+        for (e, clique) in sum.cliques.iter().enumerate() {
+            let k = clique.len();
+            let block = &mut self.block[..k * (k + 1) / 2];
+            sum.write_block(e, block);
+            for (&value, &slot) in block.iter().zip(&mut slots) {
+                self.values[slot] += value;
+            }
+        }
+    }
+
+    pub(crate) fn factor_and_solve(&mut self, x: &mut [f64]) {
+        let a = SparseColMatRef::new(self.pattern.as_ref(), self.values.as_slice());
+        let stack = MemStack::new(&mut self.memory);
+        let factor = self
+            .symbolic
+            .factorize_numeric_llt(
+                &mut self.factor,
+                a,
+                Side::Upper,
+                LltRegularization::default(),
+                Par::Seq,
+                stack,
+                Default::default(),
+            )
+            .unwrap();
+        let n = x.len();
+        let rhs = MatMut::from_column_major_slice_mut(x, n, 1);
+        let stack = MemStack::new(&mut self.memory);
+        factor.solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+    }
+}

@@ -1,0 +1,182 @@
+//! From cliques to a small graph and its order: unknowns with the same elements become one node.
+//!
+//! ```text
+//! u ~ v  when  { e : u in clique e } = { e : v in clique e }      (such unknowns have equal columns in the pattern)
+//! nodes = classes of ~,   edges = pairs of nodes that meet in an element,   order = approximate minimum degree
+//! ```
+//!
+//! The classes come from refining one class by every clique in turn, which is exact and linear in the cliques' length.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::amd;
+use mbs_core::Cliques;
+
+/// Lists of indices, one after the other: list `i` is `items[start[i]..start[i + 1]]`.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Lists {
+    pub(crate) start: Vec<usize>,
+    pub(crate) items: Vec<u32>,
+}
+
+impl Lists {
+    /// No lists yet, room for `n_lists` of them.
+    pub(crate) fn with_capacity(n_lists: usize) -> Self {
+        let mut start = Vec::with_capacity(n_lists + 1);
+        start.push(0);
+        Self { start, items: Vec::new() }
+    }
+
+    /// Ends the list whose items were pushed last.
+    pub(crate) fn close(&mut self) {
+        self.start.push(self.items.len());
+    }
+
+    /// Number of lists.
+    pub(crate) fn len(&self) -> usize {
+        self.start.len() - 1
+    }
+
+    /// List `i`.
+    pub(crate) fn get(&self, i: usize) -> &[u32] {
+        &self.items[self.start[i]..self.start[i + 1]]
+    }
+
+    /// For each value `< n` the lists that hold it, ascending.
+    pub(crate) fn transposed(&self, n: usize) -> Self {
+        let mut start = vec![0; n + 1];
+        for &item in &self.items {
+            start[item as usize + 1] += 1;
+        }
+        for i in 0..n {
+            start[i + 1] += start[i];
+        }
+        let mut next = start.clone();
+        let mut items = vec![0; self.items.len()];
+        for i in 0..self.len() {
+            for &item in self.get(i) {
+                items[next[item as usize]] = index(i);
+                next[item as usize] += 1;
+            }
+        }
+        Self { start, items }
+    }
+}
+
+/// `i` as a stored index.
+///
+/// # Panics
+/// When there are more than 2^32 - 1 unknowns or elements.
+pub(crate) fn index(i: usize) -> u32 {
+    u32::try_from(i).expect("at most 2^32 - 1 unknowns and elements")
+}
+
+/// The cliques as lists, checked.
+///
+/// # Panics
+/// When a clique names an unknown outside `0..n` or names one twice.
+pub(crate) fn checked_cliques(cliques: &impl Cliques) -> Lists {
+    let n = cliques.n_unknowns();
+    let mut last_seen = vec![usize::MAX; n];
+    let mut lists = Lists::with_capacity(cliques.n_elements());
+    for e in 0..cliques.n_elements() {
+        for &u in cliques.clique(e) {
+            assert!((u as usize) < n, "element {e} names unknown {u}, but there are {n}");
+            assert!(last_seen[u as usize] != e, "element {e} names unknown {u} twice");
+            last_seen[u as usize] = e;
+        }
+        lists.items.extend_from_slice(cliques.clique(e));
+        lists.close();
+    }
+    lists
+}
+
+/// Node of each unknown, nodes numbered by their first unknown, and the number of nodes.
+pub(crate) fn nodes(cliques: &Lists, n: usize) -> (Vec<u32>, usize) {
+    let mut class = vec![0_u32; n];
+    let mut n_classes = 1;
+    // The class into which `split_by[c]`, the last clique that met class c, moved its members.
+    let mut split_into = vec![0_u32];
+    let mut split_by = vec![usize::MAX];
+    for e in 0..cliques.len() {
+        for &u in cliques.get(e) {
+            let c = class[u as usize] as usize;
+            if split_by[c] != e {
+                split_by[c] = e;
+                split_into[c] = index(n_classes);
+                n_classes += 1;
+                split_into.push(0);
+                split_by.push(usize::MAX);
+            }
+            class[u as usize] = split_into[c];
+        }
+    }
+    // Unknowns of no element are still in class 0 and are no neighbours of each other: a node each.
+    let mut node_of_class = vec![u32::MAX; n_classes];
+    let mut n_nodes = 0;
+    for c in &mut class {
+        let seen = &mut node_of_class[*c as usize];
+        if *c == 0 || *seen == u32::MAX {
+            *seen = index(n_nodes);
+            n_nodes += 1;
+        }
+        *c = *seen;
+    }
+    (class, n_nodes)
+}
+
+/// The distinct nodes of every element.
+pub(crate) fn elements_by_node(cliques: &Lists, node: &[u32], n_nodes: usize) -> Lists {
+    let mut last_seen = vec![usize::MAX; n_nodes];
+    let mut lists = Lists::with_capacity(cliques.len());
+    for e in 0..cliques.len() {
+        for &u in cliques.get(e) {
+            let v = node[u as usize];
+            if last_seen[v as usize] != e {
+                last_seen[v as usize] = e;
+                lists.items.push(v);
+            }
+        }
+        lists.close();
+    }
+    lists
+}
+
+/// Place of each node in an elimination order of small fill.
+pub(crate) fn minimum_degree(elements: &Lists, n_nodes: usize) -> Vec<u32> {
+    let of_node = elements.transposed(n_nodes);
+    let mut last_seen = vec![usize::MAX; n_nodes];
+    let mut neighbours = Lists::with_capacity(n_nodes);
+    for v in 0..n_nodes {
+        last_seen[v] = v;
+        for &e in of_node.get(v) {
+            for &w in elements.get(e as usize) {
+                if last_seen[w as usize] != v {
+                    last_seen[w as usize] = v;
+                    neighbours.items.push(w);
+                }
+            }
+        }
+        let from = neighbours.start[v];
+        neighbours.items[from..].sort_unstable();
+        neighbours.close();
+    }
+    ordered_by_amd(&neighbours, n_nodes)
+}
+
+/// Calls faer's approximate minimum degree; the given order stands in should it refuse for lack of memory.
+fn ordered_by_amd(neighbours: &Lists, n_nodes: usize) -> Vec<u32> {
+    type Index = usize;
+    let rows: Vec<Index> = neighbours.items.iter().map(|&w| w as Index).collect();
+    let pattern =
+        SymbolicSparseColMatRef::new_checked(n_nodes, n_nodes, &neighbours.start, None, &rows);
+    let mut order = vec![0; n_nodes];
+    let mut place = vec![0; n_nodes];
+    let mut memory = MemBuffer::new(amd::order_scratch::<Index>(n_nodes, rows.len()));
+    let stack = MemStack::new(&mut memory);
+    let control = amd::Control::default();
+    match amd::order(&mut order, &mut place, pattern, control, stack) {
+        Ok(_) => place.into_iter().map(index).collect(),
+        Err(_) => (0..n_nodes).map(index).collect(),
+    }
+}

@@ -1,0 +1,195 @@
+//! Partial L D L^T of one packed front, a block of at most [`BLOCK`] pivots at a time.
+//!
+//! ```text
+//! [ A_11        ]  =  [ L_11   ] [ D    ] [ L_11^T  L_21^T ]        A_11 = L_11 D L_11^T
+//! [ A_21   A_22 ]     [ L_21 I ] [    U ] [         I      ]        L_21 = A_21 L_11^-T D^-1
+//!                                                                   U    = A_22 - L_21 D L_21^T
+//! ```
+//!
+//! The triangle that remains is a packed front itself, so the next block starts from there. Block sizes are known to
+//! the compiler; the diagonal of L_11 holds 1 / d.
+
+use crate::plan::column;
+use mbs_core::Real;
+
+/// Pivots eliminated together.
+pub(crate) const BLOCK: usize = 6;
+
+/// A pivot that is not positive: its column in the front and its value.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BadPivot<T> {
+    pub(crate) column: usize,
+    pub(crate) pivot: T,
+}
+
+/// Eliminates the first `d.len()` unknowns of the packed front `a` of `f` unknowns; `d` receives the pivots.
+#[inline(always)]
+pub(crate) fn eliminate<T: Real>(
+    mut a: &mut [T],
+    d: &mut [T],
+    mut f: usize,
+) -> Result<(), BadPivot<T>> {
+    let mut done = 0;
+    let mut d = d;
+    loop {
+        let p = d.len().min(BLOCK);
+        let result = match p {
+            6 => block_of_six(a, d, f),
+            5 => block::<T, 5>(a, d, f),
+            4 => block::<T, 4>(a, d, f),
+            3 => block::<T, 3>(a, d, f),
+            2 => block::<T, 2>(a, d, f),
+            1 => block::<T, 1>(a, d, f),
+            _ => return Ok(()),
+        };
+        result.map_err(|bad| BadPivot { column: bad.column + done, ..bad })?;
+        if p == d.len() {
+            return Ok(());
+        }
+        a = &mut a[column(f, p)..];
+        d = &mut d[p..];
+        f -= p;
+        done += p;
+    }
+}
+
+/// [`block`] of six, with the sizes of fronts that bodies with shared points make known to the compiler.
+#[inline(always)]
+fn block_of_six<T: Real>(a: &mut [T], d: &mut [T], f: usize) -> Result<(), BadPivot<T>> {
+    block::<T, 6>(a, d, f)
+}
+
+/// Eliminates the first `P` unknowns of the packed front `a` of `f` unknowns.
+#[inline(always)]
+fn block<T: Real, const P: usize>(a: &mut [T], d: &mut [T], f: usize) -> Result<(), BadPivot<T>> {
+    let (panel, update) = a.split_at_mut(column(f, P));
+    let d = &mut d[..P];
+    let mut rest = panel;
+    let mut columns: [&mut [T]; P] = std::array::from_fn(|k| {
+        let (column, tail) = std::mem::take(&mut rest).split_at_mut(f - k);
+        rest = tail;
+        column
+    });
+
+    // A_11 = L_11 D L_11^T
+    let l = factor_diagonal_block(&mut columns, d)?;
+    let r = f - P;
+    if r == 0 {
+        return Ok(());
+    }
+
+    // L_21 = A_21 L_11^-T D^-1
+    let mut k = 0;
+    let mut below: [&mut [T]; P] = columns.map(|column| {
+        k += 1;
+        &mut column[P + 1 - k..][..r]
+    });
+    let mut i = 0;
+    while i + 2 <= r {
+        divide_rows::<T, P, 2>(&mut below, &l, i);
+        i += 2;
+    }
+    if i < r {
+        divide_rows::<T, P, 1>(&mut below, &l, i);
+    }
+
+    // U = A_22 - L_21 D L_21^T
+    let below: [&[T]; P] = below.map(|column| &*column);
+    let mut rest = update;
+    for j in 0..r {
+        let (target, tail) = rest.split_at_mut(r - j);
+        rest = tail;
+        let columns = below.map(|column| &column[j..r]);
+        subtract(target, columns, std::array::from_fn(|m| columns[m][0] * d[m]));
+    }
+    Ok(())
+}
+
+/// Factors the first `P` rows of the columns; the result holds L_11, `l[column][row]`, and 1 / d on its diagonal.
+#[inline(always)]
+fn factor_diagonal_block<T: Real, const P: usize>(
+    columns: &mut [&mut [T]; P],
+    d: &mut [T],
+) -> Result<[[T; P]; P], BadPivot<T>> {
+    let mut l = [[T::ZERO; P]; P];
+    for k in 0..P {
+        l[k][k..].copy_from_slice(&columns[k][..P - k]);
+    }
+    for k in 0..P {
+        let pivot = l[k][k];
+        let inverse = checked_inverse(pivot, k)?;
+        d[k] = pivot;
+        for j in k + 1..P {
+            let ljk = l[k][j] * inverse;
+            for i in j..P {
+                l[j][i] -= l[k][i] * ljk;
+            }
+        }
+        l[k][k] = inverse;
+        for i in k + 1..P {
+            l[k][i] *= inverse;
+        }
+    }
+    for k in 0..P {
+        columns[k][..P - k].copy_from_slice(&l[k][k..]);
+    }
+    Ok(l)
+}
+
+/// Turns rows `i`, ..., `i + R - 1` of A_21 into rows of L_21.
+#[inline(always)]
+fn divide_rows<T: Real, const P: usize, const R: usize>(
+    below: &mut [&mut [T]; P],
+    l: &[[T; P]; P],
+    i: usize,
+) {
+    let mut v = [[T::ZERO; R]; P];
+    for k in 0..P {
+        v[k].copy_from_slice(&below[k][i..i + R]);
+    }
+    for k in 0..P {
+        for m in 0..k {
+            for lane in 0..R {
+                let product = v[m][lane] * l[m][k];
+                v[k][lane] -= product;
+            }
+        }
+    }
+    for k in 0..P {
+        for lane in 0..R {
+            below[k][i + lane] = v[k][lane] * l[k][k];
+        }
+    }
+}
+
+/// target_i <- target_i - sum_m w_m column_m,i
+#[inline(always)]
+pub(crate) fn subtract<T: Real, const M: usize>(target: &mut [T], columns: [&[T]; M], w: [T; M]) {
+    let len = target.len();
+    let columns = columns.map(|c| &c[..len]);
+    for i in 0..len {
+        let mut sum = columns[0][i] * w[0];
+        for m in 1..M {
+            sum += columns[m][i] * w[m];
+        }
+        target[i] -= sum;
+    }
+}
+
+/// Adds `from` to `to`, entry by entry.
+#[inline(always)]
+pub(crate) fn add<T: Real>(to: &mut [T], from: &[T]) {
+    for (to, &from) in to.iter_mut().zip(from) {
+        *to += from;
+    }
+}
+
+/// 1 / pivot, if the pivot is positive and finite.
+#[inline(always)]
+pub(crate) fn checked_inverse<T: Real>(pivot: T, column: usize) -> Result<T, BadPivot<T>> {
+    if pivot > T::ZERO && pivot.is_finite() {
+        Ok(T::ONE / pivot)
+    } else {
+        Err(BadPivot { column, pivot })
+    }
+}

@@ -1,0 +1,280 @@
+//! Everything a factorisation needs to know before it sees a number: fronts, their storage and all index maps.
+//!
+//! A front of p pivots and f unknowns is a lower triangle packed by columns. Its first p columns become columns of L,
+//! the rest is its update for the parent and stays where it is: every front owns one stretch of one array.
+//!
+//! ```text
+//! column j of a front starts at   j f - j (j - 1) / 2   and holds rows j, ..., f - 1
+//! ```
+
+use crate::graph::{self, Lists, index};
+use crate::options::{Counters, Options};
+use crate::tree::{self, Fronts};
+use mbs_core::Cliques;
+use std::ops::Range;
+
+/// Where a packed triangle of k unknowns lands in a packed front of f unknowns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Place {
+    /// Unknown i at row `f - k + i`: one stretch, from this offset to the end of the front.
+    Tail(u32),
+    /// Unknown i at row `first + i`: one stretch for every column.
+    Shifted(u32),
+    /// Entry t at `targets[start + t]`.
+    Scattered(u32),
+}
+
+/// One element or one child update that is added into a front.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Part {
+    /// The element; of a child, where its update starts in the array of all fronts.
+    pub(crate) source: usize,
+    /// Unknowns of the part.
+    pub(crate) size: u32,
+    /// Where they are in the front.
+    pub(crate) place: Place,
+}
+
+/// One dense step of the elimination.
+#[derive(Debug, Clone)]
+pub(crate) struct Front {
+    /// Unknowns eliminated here.
+    pub(crate) p: usize,
+    /// Unknowns of the front.
+    pub(crate) f: usize,
+    /// Start in the array of all fronts.
+    pub(crate) offset: usize,
+    /// Place of the first pivot in the elimination order.
+    pub(crate) first: usize,
+    /// Whether its unknowns are the consecutive places `first`, ..., `first + f - 1`.
+    pub(crate) is_consecutive: bool,
+    /// Places of the remaining rows in the list of all rows.
+    pub(crate) rows: Range<usize>,
+    /// Whether the first element writes every number of the front.
+    pub(crate) is_first_whole: bool,
+    /// Its elements in the list of all elements.
+    pub(crate) elements: Range<usize>,
+    /// Its children in the list of all children.
+    pub(crate) children: Range<usize>,
+}
+
+/// The result of the analysis.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Plan {
+    pub(crate) fronts: Vec<Front>,
+    pub(crate) elements: Vec<Part>,
+    pub(crate) children: Vec<Part>,
+    /// Targets of scattered parts, as offsets in their front.
+    pub(crate) targets: Vec<u32>,
+    /// Elimination places of the remaining rows of all fronts.
+    pub(crate) rows: Vec<u32>,
+    /// Unknown at each place of the elimination.
+    pub(crate) order: Vec<u32>,
+    /// Whether `order` is 0, 1, 2, ...
+    pub(crate) is_natural: bool,
+    pub(crate) cliques: Lists,
+    pub(crate) largest_clique: usize,
+    pub(crate) counters: Counters,
+}
+
+/// Start of column `j` in a packed front of `f` unknowns.
+#[inline(always)]
+pub(crate) fn column(f: usize, j: usize) -> usize {
+    j * (2 * f + 1 - j) / 2
+}
+
+/// Analyses the cliques.
+pub(crate) fn plan(cliques: &impl Cliques, options: Options) -> Plan {
+    let n = cliques.n_unknowns();
+    let cliques = graph::checked_cliques(cliques);
+    let (node, fronts) = if n <= options.dense_up_to {
+        (vec![0; n], one_front(n))
+    } else {
+        let (node, n_nodes) = graph::nodes(&cliques, n);
+        let mut weight = vec![0; n_nodes];
+        for &v in &node {
+            weight[v as usize] += 1;
+        }
+        let elements = graph::elements_by_node(&cliques, &node, n_nodes);
+        let place = graph::minimum_degree(&elements, n_nodes);
+        (node, tree::fronts(&elements, &place, &weight))
+    };
+    Planner::new(cliques, &node, &fronts).finish(&fronts)
+}
+
+/// One front for all unknowns, if there are any.
+fn one_front(n: usize) -> Fronts {
+    let mut fronts = Fronts::default();
+    fronts.pivots = Lists::with_capacity(1);
+    fronts.rows = Lists::with_capacity(1);
+    if n > 0 {
+        fronts.pivots.items.push(0);
+        fronts.pivots.close();
+        fronts.rows.close();
+        fronts.parent.push(tree::NONE);
+    }
+    fronts
+}
+
+/// State of turning fronts of nodes into fronts of unknowns with all their maps.
+struct Planner {
+    plan: Plan,
+    /// Place of each unknown in the elimination.
+    place: Vec<u32>,
+    /// Row of each place in the front at hand.
+    row: Vec<u32>,
+    /// The elements of each front.
+    elements_of: Lists,
+}
+
+impl Planner {
+    /// Numbers the unknowns and sizes the fronts.
+    fn new(cliques: Lists, node: &[u32], fronts: &Fronts) -> Self {
+        let n = node.len();
+        let n_fronts = fronts.parent.len();
+        let by_node = Lists { start: (0..=n).collect(), items: node.to_vec() };
+        let unknowns = by_node.transposed(node.iter().max().map_or(0, |&m| m as usize + 1));
+        let mut plan = Plan { cliques, ..Plan::default() };
+        let mut place = vec![0; n];
+        let mut front_of_place = Vec::with_capacity(n);
+        for s in 0..n_fronts {
+            let first = plan.order.len();
+            for &v in fronts.pivots.get(s) {
+                plan.order.extend_from_slice(unknowns.get(v as usize));
+            }
+            // Ascending unknowns keep the maps of ascending cliques ascending.
+            plan.order[first..].sort_unstable();
+            for k in first..plan.order.len() {
+                place[plan.order[k] as usize] = index(k);
+                front_of_place.push(index(s));
+            }
+            plan.fronts.push(Front {
+                p: plan.order.len() - first,
+                f: 0,
+                offset: 0,
+                first,
+                is_consecutive: false,
+                rows: 0..0,
+                is_first_whole: false,
+                elements: 0..0,
+                children: 0..0,
+            });
+        }
+        plan.is_natural = plan.order.iter().enumerate().all(|(k, &u)| k == u as usize);
+        let mut offset = 0;
+        for (s, front) in plan.fronts.iter_mut().enumerate() {
+            let start = plan.rows.len();
+            for &v in fronts.rows.get(s) {
+                plan.rows.extend(unknowns.get(v as usize).iter().map(|&u| place[u as usize]));
+            }
+            let rows = &mut plan.rows[start..];
+            rows.sort_unstable();
+            front.is_consecutive =
+                rows.iter().enumerate().all(|(k, &q)| q as usize == front.first + front.p + k);
+            front.rows = start..plan.rows.len();
+            front.f = front.p + front.rows.len();
+            front.offset = offset;
+            offset += column(front.f, front.f);
+        }
+        let elements_of = elements_by_front(&plan.cliques, &place, &front_of_place, n_fronts);
+        Self { plan, row: vec![0; n], place, elements_of }
+    }
+
+    /// Makes the maps of elements and children, front by front.
+    fn finish(mut self, fronts: &Fronts) -> Plan {
+        let children_of = children(&fronts.parent);
+        for s in 0..self.plan.fronts.len() {
+            let front = self.plan.fronts[s].clone();
+            for k in 0..front.p {
+                self.row[front.first + k] = index(k);
+            }
+            for (k, &q) in self.plan.rows[front.rows.clone()].iter().enumerate() {
+                self.row[q as usize] = index(front.p + k);
+            }
+            self.add_elements(s, front.f);
+            self.add_children(s, front.f, children_of.get(s));
+            self.plan.counters.count_front(front.p, front.f);
+        }
+        let mut plan = self.plan;
+        plan.counters.n = plan.order.len();
+        plan.counters.n_elements = plan.cliques.len();
+        plan.largest_clique =
+            (0..plan.cliques.len()).map(|e| plan.cliques.get(e).len()).max().unwrap_or(0);
+        plan
+    }
+
+    /// Appends the elements of front `s`; one that covers the whole front comes first, and is written, not added.
+    fn add_elements(&mut self, s: usize, f: usize) {
+        let from = self.plan.elements.len();
+        for &e in self.elements_of.get(s) {
+            let clique = self.plan.cliques.get(e as usize);
+            let map: Vec<u32> =
+                clique.iter().map(|&u| self.row[self.place[u as usize] as usize]).collect();
+            let place = place_of(&map, f, &mut self.plan.targets);
+            self.plan.elements.push(Part { source: e as usize, size: index(map.len()), place });
+        }
+        let elements = &mut self.plan.elements[from..];
+        let whole = elements.iter().position(|part| part.place == Place::Tail(0));
+        if let Some(whole) = whole {
+            elements[..=whole].rotate_right(1);
+        }
+        let front = &mut self.plan.fronts[s];
+        front.is_first_whole = whole.is_some();
+        front.elements = from..self.plan.elements.len();
+    }
+
+    /// Appends the updates that front `s` receives.
+    fn add_children(&mut self, s: usize, f: usize, children: &[u32]) {
+        let from = self.plan.children.len();
+        for &c in children {
+            let child = &self.plan.fronts[c as usize];
+            let map: Vec<u32> =
+                self.plan.rows[child.rows.clone()].iter().map(|&q| self.row[q as usize]).collect();
+            let source = child.offset + column(child.f, child.p);
+            let place = place_of(&map, f, &mut self.plan.targets);
+            self.plan.children.push(Part { source, size: index(map.len()), place });
+        }
+        self.plan.fronts[s].children = from..self.plan.children.len();
+    }
+}
+
+/// The elements of each front: an element goes where its first unknown is eliminated.
+fn elements_by_front(cliques: &Lists, place: &[u32], front_of: &[u32], n_fronts: usize) -> Lists {
+    let mut firsts = Lists::with_capacity(cliques.len());
+    for e in 0..cliques.len() {
+        let first = cliques.get(e).iter().map(|&u| place[u as usize]).min();
+        firsts.items.extend(first.map(|q| front_of[q as usize]));
+        firsts.close();
+    }
+    firsts.transposed(n_fronts)
+}
+
+/// The children of each front, ascending.
+fn children(parent: &[u32]) -> Lists {
+    let mut lists = Lists::with_capacity(parent.len());
+    for &parent in parent {
+        lists.items.extend((parent != tree::NONE).then_some(parent));
+        lists.close();
+    }
+    lists.transposed(parent.len())
+}
+
+/// Finds the cheapest description of the map `map` into a front of `f` unknowns.
+fn place_of(map: &[u32], f: usize, targets: &mut Vec<u32>) -> Place {
+    let first = map[0] as usize;
+    if map.iter().enumerate().all(|(i, &row)| row as usize == first + i) {
+        return if first + map.len() == f {
+            Place::Tail(index(column(f, first)))
+        } else {
+            Place::Shifted(index(first))
+        };
+    }
+    let start = targets.len();
+    for (j, &a) in map.iter().enumerate() {
+        for &b in &map[j..] {
+            let (col, row) = (a.min(b) as usize, a.max(b) as usize);
+            targets.push(index(column(f, col) + row - col));
+        }
+    }
+    Place::Scattered(index(start))
+}

@@ -1,0 +1,205 @@
+//! Elimination tree of the nodes, and the fronts that result from merging nodes upwards.
+//!
+//! ```text
+//! rows(v)   = ( union of elements whose first node is v,  and of rows(c), c child of v )  without v
+//! parent(v) = first of rows(v)
+//! a front merged into its parent:   p = p_child + p_parent,   f = p_child + f_parent
+//! ```
+//!
+//! A child is merged when the zeros it brings cost less than the pass of its update to the parent.
+
+use crate::graph::Lists;
+
+/// Time of one multiply-subtract in a front [ns].
+const MULTIPLY_SUBTRACT: f64 = 0.25;
+/// Time to carry one number of an update into the parent [ns].
+const EXTEND_ADD: f64 = 0.6;
+/// Time that every front costs whatever its size [ns].
+const FRONT: f64 = 20.0;
+/// Marks the absence of a parent.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// The fronts in an order where children precede parents.
+#[derive(Debug, Default)]
+pub(crate) struct Fronts {
+    /// Nodes eliminated by each front.
+    pub(crate) pivots: Lists,
+    /// Nodes that remain in each front, all eliminated later.
+    pub(crate) rows: Lists,
+    /// Parent of each front, or [`NONE`].
+    pub(crate) parent: Vec<u32>,
+}
+
+/// Builds the fronts for nodes of `weight` unknowns eliminated at `place`.
+pub(crate) fn fronts(elements: &Lists, place: &[u32], weight: &[usize]) -> Fronts {
+    let n = place.len();
+    let mut at = vec![0_u32; n];
+    for v in 0..n {
+        at[place[v] as usize] = crate::graph::index(v);
+    }
+    let rows = structure(elements, place);
+    let parent: Vec<u32> =
+        (0..n).map(|v| rows.get(v).iter().copied().min().unwrap_or(NONE)).collect();
+    let size = |v: usize| weight[at[v] as usize];
+    let representative = merged(&rows, &parent, size);
+
+    // Parent of each surviving front, by the front that swallowed the parent.
+    let above: Vec<u32> = (0..n)
+        .map(|v| if parent[v] == NONE { NONE } else { representative[parent[v] as usize] })
+        .collect();
+    let order = postorder(&representative, &above);
+
+    let mut number = vec![NONE; n];
+    for (s, &v) in order.iter().enumerate() {
+        number[v as usize] = crate::graph::index(s);
+    }
+    let front_of_node: Lists = Lists {
+        start: (0..=n).collect(),
+        items: representative.iter().map(|&r| number[r as usize]).collect(),
+    };
+    let mut pivots = front_of_node.transposed(order.len());
+    let mut kept = Lists::with_capacity(order.len());
+    for &v in &order {
+        kept.items.extend(rows.get(v as usize).iter().map(|&w| at[w as usize]));
+        kept.close();
+    }
+    for v in &mut pivots.items {
+        *v = at[*v as usize];
+    }
+    let parent = order
+        .iter()
+        .map(|&v| match above[v as usize] {
+            NONE => NONE,
+            above => number[above as usize],
+        })
+        .collect();
+    Fronts { pivots, rows: kept, parent }
+}
+
+/// rows(v) for every place v of the elimination, as places.
+fn structure(elements: &Lists, place: &[u32]) -> Lists {
+    let n = place.len();
+    let mut first_here = chains(n);
+    for e in 0..elements.len() {
+        let first = elements.get(e).iter().map(|&v| place[v as usize]).min();
+        if let Some(first) = first {
+            first_here.push(first as usize, e, elements.len());
+        }
+    }
+    let mut children = chains(n);
+    let mut last_seen = vec![usize::MAX; n];
+    let mut rows = Lists::with_capacity(n);
+    for v in 0..n {
+        last_seen[v] = v;
+        let mut see = |w: u32, items: &mut Vec<u32>| {
+            if last_seen[w as usize] != v {
+                last_seen[w as usize] = v;
+                items.push(w);
+            }
+        };
+        for e in first_here.iter(v) {
+            for &node in elements.get(e) {
+                see(place[node as usize], &mut rows.items);
+            }
+        }
+        for child in children.iter(v) {
+            for i in rows.start[child]..rows.start[child + 1] {
+                let w = rows.items[i];
+                see(w, &mut rows.items);
+            }
+        }
+        rows.close();
+        if let Some(&parent) = rows.get(v).iter().min() {
+            children.push(parent as usize, v, n);
+        }
+    }
+    rows
+}
+
+/// Merges fronts upwards; the result names for each node the node whose front eliminates it.
+fn merged(rows: &Lists, parent: &[u32], size: impl Fn(usize) -> usize) -> Vec<u32> {
+    let n = parent.len();
+    let mut p: Vec<usize> = (0..n).map(&size).collect();
+    let mut f: Vec<usize> = (0..n)
+        .map(|v| p[v] + rows.get(v).iter().map(|&w| size(w as usize)).sum::<usize>())
+        .collect();
+    let mut into: Vec<u32> = (0..n).map(crate::graph::index).collect();
+    for child in 0..n {
+        // A node is visited after all its own children, and before its parent.
+        let Some(&above) = parent.get(child).filter(|&&above| above != NONE) else { continue };
+        let above_at = above as usize;
+        if is_merge_cheaper((p[child], f[child]), (p[above_at], f[above_at])) {
+            into[child] = above;
+            p[above_at] += p[child];
+            f[above_at] += p[child];
+        }
+    }
+    for v in (0..n).rev() {
+        into[v] = into[into[v] as usize];
+    }
+    into
+}
+
+/// Whether a child front (pivots, size) costs less inside its parent than beside it.
+fn is_merge_cheaper(child: (usize, usize), parent: (usize, usize)) -> bool {
+    let update = child.1 - child.0;
+    let together = work(child.0 + parent.0, child.0 + parent.1);
+    let apart = work(child.0, child.1) + work(parent.0, parent.1);
+    let carried = (update * (update + 1) / 2) as f64;
+    (together - apart) * MULTIPLY_SUBTRACT < carried * EXTEND_ADD + FRONT
+}
+
+/// Multiply-subtracts of `p` pivots in a front of `f` unknowns, with those of the two triangular sweeps.
+fn work(p: usize, f: usize) -> f64 {
+    (0..p).map(|k| ((f - k) * (f - k + 5)) as f64 / 2.0).sum()
+}
+
+/// Surviving fronts with children before parents, each subtree together.
+fn postorder(representative: &[u32], above: &[u32]) -> Vec<u32> {
+    let n = representative.len();
+    let mut children = chains(n);
+    let mut roots = Vec::new();
+    for v in (0..n).rev().filter(|&v| representative[v] as usize == v) {
+        match above[v] {
+            NONE => roots.push(v),
+            above => children.push(above as usize, v, n),
+        }
+    }
+    // A parent before its children, last child first; read backwards it is the postorder.
+    let mut order = Vec::with_capacity(n);
+    let mut open = roots;
+    open.reverse();
+    while let Some(v) = open.pop() {
+        order.push(crate::graph::index(v));
+        open.extend(children.iter(v));
+    }
+    order.reverse();
+    order
+}
+
+/// For each of a number of owners a chain of members, newest first.
+struct Chains {
+    head: Vec<usize>,
+    next: Vec<usize>,
+}
+
+/// No members for any of `n` owners.
+fn chains(n: usize) -> Chains {
+    Chains { head: vec![usize::MAX; n], next: Vec::new() }
+}
+
+impl Chains {
+    /// Puts `member`, one of `n_members`, in front of the chain of `owner`.
+    fn push(&mut self, owner: usize, member: usize, n_members: usize) {
+        if self.next.is_empty() {
+            self.next = vec![usize::MAX; n_members];
+        }
+        self.next[member] = std::mem::replace(&mut self.head[owner], member);
+    }
+
+    /// The members of `owner`.
+    fn iter(&self, owner: usize) -> impl Iterator<Item = usize> + '_ {
+        let some = |i: usize| (i != usize::MAX).then_some(i);
+        std::iter::successors(some(self.head[owner]), move |&i| some(self.next[i]))
+    }
+}

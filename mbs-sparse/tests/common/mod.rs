@@ -1,0 +1,164 @@
+//! Sums of random blocks for the tests, and a dense L D L^T to compare with.
+//!
+//! ```text
+//! T_e = sum_i g_i g_i^T + k I ,   g_i with k random entries in [-1, 1]: positive definite
+//! ```
+
+#![allow(dead_code, reason = "each test binary uses a part")]
+
+use mbs_sparse::{BlockSource, Cliques, Real};
+
+/// A sum of blocks with its own numbers.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Sum {
+    pub(crate) n: usize,
+    pub(crate) cliques: Vec<Vec<u32>>,
+    pub(crate) blocks: Vec<Vec<f64>>,
+    pub(crate) residuals: Vec<Vec<f64>>,
+}
+
+/// Numbers in [-1, 1] from a linear congruence: the same on every machine.
+#[derive(Debug, Clone)]
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    pub(crate) fn next(&mut self) -> f64 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    pub(crate) fn below(&mut self, n: usize) -> usize {
+        (((self.next() + 1.0) / 2.0 * n as f64) as usize).min(n - 1)
+    }
+}
+
+impl Sum {
+    /// Random positive definite blocks on the given cliques.
+    pub(crate) fn random(n: usize, cliques: Vec<Vec<u32>>, seed: u64) -> Self {
+        let mut random = Random(seed);
+        let blocks = cliques.iter().map(|c| random_block(c.len(), &mut random)).collect();
+        let residuals = cliques.iter().map(|c| c.iter().map(|_| random.next()).collect()).collect();
+        Self { n, cliques, blocks, residuals }
+    }
+
+    /// `length` elements of `size` unknowns, neighbours share `overlap` of them.
+    pub(crate) fn chain(length: usize, size: usize, overlap: usize) -> Self {
+        let pitch = size - overlap;
+        let clique = |e: usize| (0..size).map(|i| (e * pitch + i) as u32).collect();
+        Self::random(length * pitch + overlap, (0..length).map(clique).collect(), 1)
+    }
+
+    /// `branches` chains of `length` elements of 12 unknowns overlapping by 6, that meet at a hub of 12.
+    pub(crate) fn star(branches: usize, length: usize) -> Self {
+        let mut cliques = vec![(0..12).collect::<Vec<u32>>()];
+        let mut n = 12_u32;
+        for branch in 0..branches {
+            let side = if branch % 2 == 0 { 0 } else { 6 };
+            let mut near: Vec<u32> = (side..side + 6).collect();
+            for _ in 0..length {
+                let far: Vec<u32> = (n..n + 6).collect();
+                cliques.push(near.iter().chain(&far).copied().collect());
+                near = far;
+                n += 6;
+            }
+        }
+        Self::random(n as usize, cliques, 2)
+    }
+
+    /// The full matrix, row by row.
+    pub(crate) fn dense(&self) -> Vec<f64> {
+        let mut t = vec![0.0; self.n * self.n];
+        for (clique, block) in self.cliques.iter().zip(&self.blocks) {
+            let mut entries = block.iter();
+            for (j, &b) in clique.iter().enumerate() {
+                for (i, &a) in clique.iter().enumerate().skip(j) {
+                    let value = entries.next().unwrap();
+                    t[a as usize * self.n + b as usize] += value;
+                    if i != j {
+                        t[b as usize * self.n + a as usize] += value;
+                    }
+                }
+            }
+        }
+        t
+    }
+
+    /// T x, element by element.
+    pub(crate) fn times(&self, x: &[f64]) -> Vec<f64> {
+        let mut b = vec![0.0; self.n];
+        for (clique, block) in self.cliques.iter().zip(&self.blocks) {
+            let mut entries = block.iter();
+            for (j, &v) in clique.iter().enumerate() {
+                for (i, &u) in clique.iter().enumerate().skip(j) {
+                    let value = entries.next().unwrap();
+                    b[u as usize] += value * x[v as usize];
+                    if i != j {
+                        b[v as usize] += value * x[u as usize];
+                    }
+                }
+            }
+        }
+        b
+    }
+}
+
+/// A random positive definite block of `k` unknowns, packed.
+fn random_block(k: usize, random: &mut Random) -> Vec<f64> {
+    let g: Vec<f64> = (0..k * k).map(|_| random.next()).collect();
+    let mut block = Vec::new();
+    for j in 0..k {
+        for i in j..k {
+            let product: f64 = (0..k).map(|m| g[m * k + i] * g[m * k + j]).sum();
+            block.push(product + if i == j { k as f64 } else { 0.0 });
+        }
+    }
+    block
+}
+
+/// Solves by dense L D L^T in the given order; the slow and obvious way.
+pub(crate) fn dense_solve(t: &[f64], b: &[f64]) -> Vec<f64> {
+    let n = b.len();
+    let (mut a, mut x) = (t.to_vec(), b.to_vec());
+    for k in 0..n {
+        for i in k + 1..n {
+            let l = a[i * n + k] / a[k * n + k];
+            for j in k..n {
+                a[i * n + j] -= l * a[k * n + j];
+            }
+            x[i] -= l * x[k];
+        }
+    }
+    for k in (0..n).rev() {
+        for j in k + 1..n {
+            x[k] -= a[k * n + j] * x[j];
+        }
+        x[k] /= a[k * n + k];
+    }
+    x
+}
+
+impl Cliques for Sum {
+    fn n_unknowns(&self) -> usize {
+        self.n
+    }
+    fn n_elements(&self) -> usize {
+        self.cliques.len()
+    }
+    fn clique(&self, element: usize) -> &[u32] {
+        &self.cliques[element]
+    }
+}
+
+impl<T: Real> BlockSource<T> for Sum {
+    fn write_block(&self, element: usize, block: &mut [T]) {
+        for (to, &from) in block.iter_mut().zip(&self.blocks[element]) {
+            *to = T::from_f64(from);
+        }
+    }
+    fn write_residual(&self, element: usize, residual: &mut [T]) {
+        for (to, &from) in residual.iter_mut().zip(&self.residuals[element]) {
+            *to = T::from_f64(from);
+        }
+    }
+}
