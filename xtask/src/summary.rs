@@ -40,7 +40,10 @@ impl Summary {
     ) -> Result<(), String> {
         eprintln!("== {name}");
         let start = Instant::now();
-        let outcome = job().map_err(|why| format!("{name} failed: {why}"))?;
+        let outcome = job().map_err(|why| {
+            self.lines.push(format!("  FAILED    {name}"));
+            format!("{name} failed: {why}")
+        })?;
         let seconds = start.elapsed().as_secs_f64();
         match outcome {
             Outcome::Passed(remark) => {
