@@ -1,2 +1,51 @@
-//! Jobs of this repository.
-fn main() {}
+//! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates.
+
+mod check;
+mod nostd;
+mod process;
+mod simulate;
+mod summary;
+#[cfg(test)]
+mod tidy;
+
+use clap::{Parser, Subcommand};
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+/// The command line.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask", about = "Jobs of the mbs repository")]
+struct Cli {
+    /// The job.
+    #[command(subcommand)]
+    job: Job,
+}
+
+/// The jobs.
+#[derive(Debug, Subcommand)]
+enum Job {
+    /// Build `mbs` in release mode and run a scene: `mbs run ARGS`
+    #[command(disable_help_flag = true)]
+    Simulate {
+        /// Arguments of `mbs run`: a scene file and options (`--help` lists them)
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "ARGS")]
+        args: Vec<OsString>,
+    },
+    /// Format, lints, tests, documentation, features, no_std; stops at the first failure
+    #[command(alias = "ci")]
+    Test {
+        /// Skip lints and documentation
+        #[arg(long)]
+        quick: bool,
+    },
+    /// Cross-compile the no_std crates for a microcontroller, without and with alloc
+    CheckNostd,
+}
+
+fn main() -> ExitCode {
+    match Cli::parse().job {
+        Job::Simulate { args } => simulate::simulate(&args),
+        Job::Test { quick } => check::test(quick),
+        Job::CheckNostd => nostd::check_nostd(),
+    }
+}

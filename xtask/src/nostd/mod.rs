@@ -1,0 +1,64 @@
+//! `cargo xtask check-nostd`: the `no_std` crates are cross-compiled for a microcontroller.
+//!
+//! A host build cannot show that a crate works without the standard library: the library is there, and a
+//! dependency that asks for it goes unnoticed. The target has none.
+
+mod table;
+mod toolchain;
+
+use crate::process;
+use crate::summary::{LeftOut, Outcome};
+use std::process::ExitCode;
+use table::{BUILDS, Build, TARGETS};
+use toolchain::Toolchain;
+
+/// Runs the check by itself: here a toolchain that is missing is a failure.
+pub(crate) fn check_nostd() -> ExitCode {
+    match check() {
+        Ok(Outcome::Passed(remark)) => {
+            eprintln!("check-nostd holds: {remark}");
+            ExitCode::SUCCESS
+        }
+        Ok(Outcome::LeftOut(LeftOut { why, remedy })) => {
+            eprintln!("check-nostd did not run: {why}\n{remedy}");
+            ExitCode::FAILURE
+        }
+        Err(why) => {
+            eprintln!("check-nostd failed: {why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Builds every row of the table for every target.
+///
+/// # Errors
+///
+/// The first build that failed, with crate, features and target.
+pub(crate) fn check() -> Result<Outcome, String> {
+    let mut used = Vec::new();
+    for target in TARGETS {
+        let toolchain = match toolchain::find(target) {
+            Ok(toolchain) => toolchain,
+            Err(left_out) => return Ok(Outcome::LeftOut(left_out)),
+        };
+        for build in BUILDS {
+            cross_compile(&toolchain, build, target)?;
+        }
+        used.push(format!("{target} by {}", toolchain.name()));
+    }
+    Ok(Outcome::Passed(format!("{} builds, {}", BUILDS.len() * TARGETS.len(), used.join(", "))))
+}
+
+/// Cross-compiles one crate with one feature set.
+fn cross_compile(toolchain: &Toolchain, build: &Build, target: &str) -> Result<(), String> {
+    eprintln!("   {} [{}] for {target}", build.package, build.features.join(", "));
+    let mut command = toolchain.cargo(build);
+    command.args(["build", "--quiet", "--locked", "--no-default-features"]);
+    command.args(["--package", build.package, "--target", target]);
+    if !build.features.is_empty() {
+        command.args(["--features", &build.features.join(",")]);
+    }
+    command.arg("--target-dir").arg(process::target_dir().join("nostd"));
+    process::run(command.current_dir(process::root()))
+}

@@ -1,0 +1,21 @@
+//! What is cross-compiled: crates, feature sets, targets.
+
+/// One build: a crate with a feature set.
+#[derive(Debug)]
+pub(crate) struct Build {
+    /// Name of the crate.
+    pub(crate) package: &'static str,
+    /// Its features; the default ones are always off.
+    pub(crate) features: &'static [&'static str],
+    /// Whether the build may use `alloc`.
+    pub(crate) is_alloc: bool,
+}
+
+/// The builds, each made for every target.
+pub(crate) const BUILDS: &[Build] = &[
+    Build { package: "mbs-core", features: &[], is_alloc: false },
+    Build { package: "mbs-core", features: &["alloc"], is_alloc: true },
+];
+
+/// The targets: Cortex-M4F and Cortex-M7 with hardware floating point.
+pub(crate) const TARGETS: &[&str] = &["thumbv7em-none-eabihf"];

@@ -1,0 +1,166 @@
+//! A Rust that can compile for a bare target: one with the target's libraries installed, or the system's with
+//! its sources. Debian's packages are installed where that is possible; toolchains and targets are never fetched.
+
+use super::table::Build;
+use crate::process::{cargo, output, run};
+use crate::summary::LeftOut;
+use std::path::Path;
+use std::process::Command;
+
+/// Debian's Rust for building browsers, kept current in stable releases.
+const DEBIAN_PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"];
+
+/// The system's compiler and cargo, by path: proxies of rustup come earlier in `PATH`.
+const SYSTEM_RUSTC: &str = "/usr/bin/rustc";
+const SYSTEM_CARGO: &str = "/usr/bin/cargo";
+
+/// Variables that `cargo run` and rustup set for the outer toolchain and that would mislead the system's.
+const OUTER_VARIABLES: [&str; 12] = [
+    "RUSTUP_TOOLCHAIN",
+    "RUSTUP_HOME",
+    "RUST_RECURSION_COUNT",
+    "LD_LIBRARY_PATH",
+    "CARGO",
+    "CARGO_TARGET_DIR",
+    "CARGO_BUILD_TARGET",
+    "CARGO_BUILD_RUSTC",
+    "CARGO_ENCODED_RUSTFLAGS",
+    "RUSTFLAGS",
+    "RUSTC_WRAPPER",
+    "RUSTC_WORKSPACE_WRAPPER",
+];
+
+/// A Rust that can build for the target.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Toolchain {
+    /// The Rust that runs this job; the target's libraries are installed.
+    Installed,
+    /// The system's Rust, which compiles `core` and `alloc` from its sources.
+    System,
+}
+
+impl Toolchain {
+    /// For the summary.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Installed => "the installed target",
+            Self::System => "the system's Rust with its sources",
+        }
+    }
+
+    /// A cargo of this toolchain, prepared for the build.
+    pub(crate) fn cargo(self, build: &Build) -> Command {
+        match self {
+            Self::Installed => cargo(),
+            Self::System => {
+                let mut command = system(SYSTEM_CARGO);
+                // Building the libraries from source is not stable yet; the variable admits the option.
+                command.env("RUSTC", SYSTEM_RUSTC).env("RUSTC_BOOTSTRAP", "1");
+                let libraries = if build.is_alloc { "core,alloc" } else { "core" };
+                command.arg("-Z").arg(format!("build-std={libraries}"));
+                command
+            }
+        }
+    }
+}
+
+/// Finds a toolchain for the target, installing Debian's packages where they are missing and that is possible.
+///
+/// # Errors
+///
+/// What is missing, and how to get it.
+pub(crate) fn find(target: &str) -> Result<Toolchain, LeftOut> {
+    if is_installed(target) {
+        return Ok(Toolchain::Installed);
+    }
+    let Err(missing) = system_rust() else { return Ok(Toolchain::System) };
+    let why = match install() {
+        Ok(()) => match system_rust() {
+            Ok(()) => return Ok(Toolchain::System),
+            Err(still) => format!("after installing packages, {still}"),
+        },
+        Err(refusal) => format!("{missing}; {refusal}"),
+    };
+    Err(LeftOut {
+        why: format!("the libraries of {target} are not installed, and {why}"),
+        remedy: format!(
+            "Get it with `rustup target add {target}`, or on Debian, as root, with\n\
+             `apt-get install --no-install-recommends {}`; then run `cargo xtask check-nostd`.",
+            DEBIAN_PACKAGES.join(" ")
+        ),
+    })
+}
+
+/// Whether the Rust that runs this job has the target's libraries.
+fn is_installed(target: &str) -> bool {
+    let args = ["--print", "target-libdir", "--target", target];
+    output(Command::new("rustc").args(args)).is_some_and(|folder| Path::new(&folder).is_dir())
+}
+
+/// Whether the system's Rust has its sources and is recent enough; otherwise what it lacks.
+fn system_rust() -> Result<(), String> {
+    let wanted = env!("CARGO_PKG_RUST_VERSION");
+    if !Path::new(SYSTEM_CARGO).is_file() {
+        return Err(format!("there is no {SYSTEM_CARGO}"));
+    }
+    // A proxy of rustup in that place answers with a toolchain outside /usr.
+    if output(system(SYSTEM_RUSTC).args(["--print", "sysroot"])).as_deref() != Some("/usr") {
+        return Err(format!("{SYSTEM_RUSTC} is not the system's own Rust"));
+    }
+    let version = output(system(SYSTEM_RUSTC).arg("--version")).unwrap_or_default();
+    if release(&version) < release(wanted) {
+        return Err(format!("{version} in {SYSTEM_RUSTC} is older than {wanted}"));
+    }
+    if !Path::new("/usr/lib/rustlib/src/rust/library/core").is_dir() {
+        return Err("the sources of the system's Rust are not installed".to_owned());
+    }
+    Ok(())
+}
+
+/// A command free of the outer toolchain's variables.
+fn system(program: &str) -> Command {
+    let mut command = Command::new(program);
+    for variable in OUTER_VARIABLES {
+        command.env_remove(variable);
+    }
+    command
+}
+
+/// Major and minor number of a version such as `rustc 1.96.0 (ac68faa20 2026-05-25)` or `1.95`.
+fn release(version: &str) -> Option<(u32, u32)> {
+    let number = version.split_whitespace().find(|word| word.starts_with(char::is_numeric))?;
+    let mut parts = number.split('.').map(|part| part.parse().ok());
+    Some((parts.next()??, parts.next()??))
+}
+
+/// Installs Debian's packages, as root on a system that has `apt-get`.
+fn install() -> Result<(), String> {
+    if output(Command::new("id").arg("-u")).as_deref() != Some("0") {
+        return Err("packages can be installed as root only".to_owned());
+    }
+    if output(Command::new("apt-get").arg("--version")).is_none() {
+        return Err("this system has no apt-get".to_owned());
+    }
+    eprintln!("   installing {} with apt-get", DEBIAN_PACKAGES.join(", "));
+    let apt = |args: &[&str]| {
+        run(Command::new("apt-get").args(args).env("DEBIAN_FRONTEND", "noninteractive"))
+    };
+    apt(&["update", "--quiet=2"])?;
+    let mut args = vec!["install", "--yes", "--quiet=2", "--no-install-recommends"];
+    args.extend(DEBIAN_PACKAGES);
+    apt(&args)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::release;
+
+    #[test]
+    fn release_is_read_from_both_spellings() {
+        assert_eq!(release("rustc 1.96.0 (ac68faa20 2026-05-25)"), Some((1, 96)));
+        assert_eq!(release("1.95"), Some((1, 95)));
+        assert_eq!(release("rustc unknown"), None);
+        assert!(release("rustc 1.63.0") < release("1.95"));
+        assert!(release("") < release("1.95"));
+    }
+}

@@ -1,0 +1,96 @@
+//! What ran, what was left out and how to get it: the last lines of `cargo xtask test`.
+
+use std::time::Instant;
+
+/// How a check ended, when it did not fail.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// It ran and holds; a remark, possibly empty.
+    Passed(String),
+    /// It could not run on this machine.
+    LeftOut(LeftOut),
+}
+
+/// A check that did not run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct LeftOut {
+    /// What is missing.
+    pub(crate) why: String,
+    /// What to do to have it run.
+    pub(crate) remedy: String,
+}
+
+/// The checks so far.
+#[derive(Debug, Default)]
+pub(crate) struct Summary {
+    lines: Vec<String>,
+    left_out: Vec<(String, LeftOut)>,
+}
+
+impl Summary {
+    /// Runs one check and notes how it ended.
+    ///
+    /// # Errors
+    ///
+    /// What the check says, with its name.
+    pub(crate) fn check(
+        &mut self,
+        name: &str,
+        job: impl FnOnce() -> Result<Outcome, String>,
+    ) -> Result<(), String> {
+        eprintln!("== {name}");
+        let start = Instant::now();
+        let outcome = job().map_err(|why| {
+            self.lines.push(format!("  FAILED    {name}"));
+            format!("{name} failed: {why}")
+        })?;
+        let seconds = start.elapsed().as_secs_f64();
+        match outcome {
+            Outcome::Passed(remark) => {
+                self.lines.push(format!("  ok        {name:<14} {seconds:>7.1} s  {remark}"));
+            }
+            Outcome::LeftOut(left_out) => {
+                self.lines.push(format!("  left out  {name}"));
+                self.left_out.push((name.to_owned(), left_out));
+            }
+        }
+        Ok(())
+    }
+
+    /// Notes a check that was not asked for.
+    pub(crate) fn skip(&mut self, name: &str, why: &str) {
+        self.lines.push(format!("  skipped   {name:<14} {why}"));
+    }
+
+    /// The summary as text: one line a check, then what was left out and how to get it.
+    pub(crate) fn text(&self) -> String {
+        let mut text = format!("cargo xtask test:\n{}\n", self.lines.join("\n"));
+        for (name, LeftOut { why, remedy }) in &self.left_out {
+            text.push_str(&format!("\n{name} was left out: {why}\n{remedy}\n"));
+        }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LeftOut, Outcome, Summary};
+
+    #[test]
+    fn summary_names_what_was_left_out_and_the_remedy() {
+        let mut summary = Summary::default();
+        summary.check("format", || Ok(Outcome::Passed(String::new()))).unwrap();
+        let left_out = LeftOut { why: "no target".into(), remedy: "add it".into() };
+        summary.check("check-nostd", || Ok(Outcome::LeftOut(left_out))).unwrap();
+        let text = summary.text();
+        assert!(text.contains("ok        format"));
+        assert!(text.contains("check-nostd was left out: no target\nadd it\n"));
+    }
+
+    #[test]
+    fn failure_carries_the_name_of_the_check() {
+        let mut summary = Summary::default();
+        let failure = summary.check("lints", || Err("two warnings".into()));
+        assert_eq!(failure, Err("lints failed: two warnings".into()));
+    }
+}

@@ -1,0 +1,63 @@
+//! Rules for scenes and documents.
+
+use super::{between, entries, read, report};
+use crate::process::root;
+use std::collections::BTreeSet;
+use toml::Table;
+
+/// Markdown files at the top level that a reader expects.
+const DOCUMENTS: [&str; 4] = ["README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md"];
+
+/// Longest ARCHITECTURE.md, in lines: it is read in one go.
+const MAX_ARCHITECTURE: usize = 150;
+
+/// The names in `scenes/`, without their ending.
+fn scenes() -> BTreeSet<String> {
+    let files = entries(&root().join("scenes"));
+    let files = files.iter().filter(|path| path.extension().is_some_and(|e| e == "toml"));
+    files.filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned())).collect()
+}
+
+#[test]
+fn readme_lists_exactly_the_scenes_there_are() {
+    let readme = read("README.md");
+    let rows = between(&readme, "scenes").lines().filter_map(|line| line.strip_prefix("| `"));
+    let listed: BTreeSet<_> =
+        rows.filter_map(|row| Some(row.split_once('`')?.0.to_owned())).collect();
+    let scenes = scenes();
+    assert!(scenes.len() >= 10, "ten scenes at least, found {}", scenes.len());
+    let odd = listed.symmetric_difference(&scenes);
+    let findings: Vec<_> = odd.map(|name| format!("scenes/{name}.toml")).collect();
+    report("README.md lists exactly the scenes there are", &findings);
+}
+
+#[test]
+fn every_scene_says_what_it_shows() {
+    let mut findings = Vec::new();
+    for name in scenes() {
+        let text = read(format!("scenes/{name}.toml"));
+        let table: Table = text.parse().unwrap_or_else(|e| panic!("scenes/{name}.toml: {e}"));
+        if !text.starts_with("# ") || !table.contains_key("scene") || !table.contains_key("output")
+        {
+            findings.push(format!("scenes/{name}.toml"));
+        }
+    }
+    report("A scene begins with a comment and has a [scene] and an [[output]]", &findings);
+}
+
+#[test]
+fn documents_are_there() {
+    let findings: Vec<_> = DOCUMENTS
+        .iter()
+        .chain(&["LICENSE-MIT", "LICENSE-APACHE", "docs/NOTATION.md"])
+        .filter(|name| !root().join(name).is_file())
+        .map(|name| (*name).to_owned())
+        .collect();
+    report("These documents are expected", &findings);
+    assert!(read("ARCHITECTURE.md").lines().count() <= MAX_ARCHITECTURE);
+}
+
+#[test]
+fn changelog_has_an_unreleased_section() {
+    assert!(read("CHANGELOG.md").lines().any(|line| line == "## [Unreleased]"));
+}

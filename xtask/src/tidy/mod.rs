@@ -1,0 +1,62 @@
+//! Rules for the text of this repository, as tests: what a reader relies on and no compiler checks.
+
+mod crates;
+mod documents;
+mod sources;
+mod tags;
+
+use crate::process::root;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The text of a file of the repository.
+fn read(path: impl AsRef<Path>) -> String {
+    let path = root().join(path);
+    fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// A path as seen from the root of the repository.
+fn name(path: &Path) -> String {
+    path.strip_prefix(root()).unwrap_or(path).display().to_string()
+}
+
+/// The crates' folders: those at the top level that hold a `Cargo.toml`.
+fn crate_folders() -> Vec<PathBuf> {
+    let mut folders = entries(&root());
+    folders.retain(|path| path.join("Cargo.toml").is_file());
+    folders
+}
+
+/// The files under a folder whose name ends with `.ending`, in order; `target` folders are not entered.
+fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for path in entries(folder) {
+        if path.is_dir() && !path.ends_with("target") {
+            found.extend(files(&path, ending));
+        } else if path.extension().is_some_and(|e| e == ending) {
+            found.push(path);
+        }
+    }
+    found
+}
+
+/// What a folder holds, in order; nothing when it is not there.
+fn entries(folder: &Path) -> Vec<PathBuf> {
+    let mut paths: Vec<_> =
+        fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    paths
+}
+
+/// The text between `<!-- mark:begin -->` and `<!-- mark:end -->`.
+fn between<'a>(text: &'a str, mark: &str) -> &'a str {
+    let (begin, end) = (format!("<!-- {mark}:begin -->"), format!("<!-- {mark}:end -->"));
+    let inner = text.split_once(&begin).and_then(|(_, rest)| rest.split_once(&end));
+    inner.unwrap_or_else(|| panic!("`{begin}` ... `{end}` is missing")).0
+}
+
+/// Fails with all findings at once.
+#[track_caller]
+fn report(rule: &str, findings: &[String]) {
+    assert!(findings.is_empty(), "{rule}:\n  {}", findings.join("\n  "));
+}
