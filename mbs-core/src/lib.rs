@@ -5,6 +5,7 @@
 extern crate alloc;
 
 pub mod blocks;
+pub mod laws;
 pub mod real;
 #[cfg(feature = "alloc")]
 pub mod scene;

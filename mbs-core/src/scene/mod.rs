@@ -10,7 +10,8 @@ mod error;
 mod output;
 
 pub use data::{
-    Body, BodyRef, Dimension, Guide, GuideLaw, Initial, InitialTarget, Inertia, Joint, JointKind, Scene,
+    Body, BodyRef, Dimension, Guide, GuideLaw, Inertia, Initial, InitialTarget, Joint, JointKind,
+    Scene,
 };
 pub use effect::{AxisFrame, Course, Effect, EffectKind};
 pub use error::{Entry, SceneError, SceneFault};

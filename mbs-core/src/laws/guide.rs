@@ -1,0 +1,157 @@
+//! Guide laws: value, first and second derivative of a prescribed coordinate at a time.
+//!
+//! ```text
+//! sine    g(t) = A sin(2π f t + φ)
+//! ramp    g(t) = r t
+//! spline  natural cubic through (tᵢ, gᵢ); the end values are held outside
+//! ```
+//!
+//! A spline is prepared once by [`spline_curvatures`]; the curvatures live in a slice of the caller.
+
+use crate::Real;
+
+/// Value, rate and acceleration of a guided coordinate [rad or m, per s, per s^2].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion<T> {
+    /// g(t).
+    pub value: T,
+    /// dg/dt.
+    pub rate: T,
+    /// d^2 g/dt^2.
+    pub acceleration: T,
+}
+
+/// Evaluates `amplitude * sin(2 pi frequency t + phase)` [rad or m, Hz, rad].
+pub fn sine<T: Real>(amplitude: T, frequency: T, phase: T, t: T) -> Motion<T> {
+    let omega = T::TWO * T::PI * frequency;
+    let (sin, cos) = (omega * t + phase).sin_cos();
+    Motion {
+        value: amplitude * sin,
+        rate: amplitude * omega * cos,
+        acceleration: -amplitude * omega * omega * sin,
+    }
+}
+
+/// Evaluates `rate * t`.
+pub fn ramp<T: Real>(rate: T, t: T) -> Motion<T> {
+    Motion { value: rate * t, rate, acceleration: T::ZERO }
+}
+
+/// Writes the second derivatives of the natural cubic spline through the rows (time, value).
+///
+/// ```text
+/// hᵢ₋₁ cᵢ₋₁ + 2 (hᵢ₋₁ + hᵢ) cᵢ + hᵢ cᵢ₊₁ = 6 ((gᵢ₊₁ − gᵢ)/hᵢ − (gᵢ − gᵢ₋₁)/hᵢ₋₁),   c₀ = cₙ = 0
+/// ```
+///
+/// Times must increase. Cost: one tridiagonal elimination; no allocation.
+///
+/// # Panics
+/// If `curvature` or `scratch` is not as long as `table`.
+pub fn spline_curvatures<T: Real>(table: &[[T; 2]], curvature: &mut [T], scratch: &mut [T]) {
+    let n = table.len();
+    assert_eq!(curvature.len(), n, "one curvature per row");
+    assert_eq!(scratch.len(), n, "one scratch number per row");
+    curvature.fill(T::ZERO);
+    scratch.fill(T::ZERO);
+    let six = T::from_f64(6.0);
+    // elimination: scratch keeps the upper coefficient, curvature the right side; both zero at the ends
+    for i in 1..n.saturating_sub(1) {
+        let [[t0, g0], [t1, g1], [t2, g2]] = [table[i - 1], table[i], table[i + 1]];
+        let (h0, h1) = (t1 - t0, t2 - t1);
+        let pivot = T::TWO * (h0 + h1) - h0 * scratch[i - 1];
+        scratch[i] = h1 / pivot;
+        curvature[i] = (six * ((g2 - g1) / h1 - (g1 - g0) / h0) - h0 * curvature[i - 1]) / pivot;
+    }
+    for i in (1..n.saturating_sub(1)).rev() {
+        let next = curvature[i + 1];
+        curvature[i] -= scratch[i] * next;
+    }
+}
+
+/// Evaluates the natural cubic spline at `t`; before the first and after the last row the end value is held
+/// at rest. An empty table is zero.
+///
+/// Cost: one binary search; no allocation.
+///
+/// # Panics
+/// If `curvature` is not as long as `table`.
+pub fn spline<T: Real>(table: &[[T; 2]], curvature: &[T], t: T) -> Motion<T> {
+    assert_eq!(curvature.len(), table.len(), "one curvature per row");
+    let held = |value| Motion { value, rate: T::ZERO, acceleration: T::ZERO };
+    let (Some(first), Some(last)) = (table.first(), table.last()) else { return held(T::ZERO) };
+    if t < first[0] || table.len() == 1 {
+        return held(first[1]);
+    }
+    if t > last[0] {
+        return held(last[1]);
+    }
+    let i = table.partition_point(|row| row[0] <= t).clamp(1, table.len() - 1) - 1;
+    let ([t0, g0], [t1, g1]) = (table[i], table[i + 1]);
+    let (c0, c1, h) = (curvature[i], curvature[i + 1], t1 - t0);
+    let (a, b) = ((t1 - t) / h, (t - t0) / h);
+    let sixth = T::ONE / T::from_f64(6.0);
+    let three = T::from_f64(3.0);
+    Motion {
+        value: a * g0 + b * g1 + ((a * a * a - a) * c0 + (b * b * b - b) * c1) * h * h * sixth,
+        rate: (g1 - g0) / h
+            + ((three * b * b - T::ONE) * c1 - (three * a * a - T::ONE) * c0) * h * sixth,
+        acceleration: a * c0 + b * c1,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TABLE: [[f64; 2]; 5] = [[-1.0, 0.3], [0.0, 0.0], [0.5, -0.2], [1.7, 1.1], [2.0, 1.0]];
+
+    fn prepared() -> [f64; 5] {
+        let (mut curvature, mut scratch) = ([0.0; 5], [0.0; 5]);
+        spline_curvatures(&TABLE, &mut curvature, &mut scratch);
+        curvature
+    }
+
+    /// Central differences of step 1e-5: truncation 1e-10 times a third derivative of order 100.
+    fn derivatives_match(g: impl Fn(f64) -> Motion<f64>, t: f64) {
+        let h = 1.0e-5;
+        let (before, now, after) = (g(t - h), g(t), g(t + h));
+        assert!(((after.value - before.value) / (2.0 * h) - now.rate).abs() < 1.0e-6, "t = {t}");
+        let curvature = (after.rate - before.rate) / (2.0 * h);
+        assert!((curvature - now.acceleration).abs() < 1.0e-5 * (1.0 + curvature.abs()), "t = {t}");
+    }
+
+    #[test]
+    fn derivatives_agree_with_finite_differences() {
+        let curvature = prepared();
+        for i in 0..50 {
+            let t = -0.99 + 0.0597 * f64::from(i);
+            derivatives_match(|t| sine(0.7, 0.5, 0.3, t), t);
+            derivatives_match(|t| ramp(-2.5, t), t);
+            derivatives_match(|t| spline(&TABLE, &curvature, t), t);
+        }
+    }
+
+    #[test]
+    fn spline_passes_through_its_rows_and_holds_its_ends() {
+        let curvature = prepared();
+        for [t, g] in TABLE {
+            assert!((spline(&TABLE, &curvature, t).value - g).abs() < 1.0e-14);
+        }
+        assert_eq!(curvature[0].to_bits(), 0);
+        assert_eq!(curvature[4].to_bits(), 0);
+        let before = spline(&TABLE, &curvature, -3.0);
+        assert_eq!(before, Motion { value: 0.3, rate: 0.0, acceleration: 0.0 });
+        assert_eq!(spline(&TABLE, &curvature, 9.0).value.to_bits(), 1.0_f64.to_bits());
+    }
+
+    #[test]
+    fn two_rows_are_a_straight_line_and_one_row_is_a_constant() {
+        let table = [[0.0, 0.0], [1.0, 0.05]];
+        let (mut curvature, mut scratch) = ([1.0; 2], [0.0; 2]);
+        spline_curvatures(&table, &mut curvature, &mut scratch);
+        let middle = spline(&table, &curvature, 0.5);
+        assert!((middle.value - 0.025).abs() < 1.0e-17 && (middle.rate - 0.05).abs() < 1.0e-17);
+        let held = spline(&[[3.0, 2.0]], &[0.0], 0.0);
+        assert_eq!(held, Motion { value: 2.0, rate: 0.0, acceleration: 0.0 });
+    }
+}

@@ -1,0 +1,3 @@
+//! Laws as pure functions of numbers and slices: no allocation, no knowledge of scenes.
+
+pub mod guide;
