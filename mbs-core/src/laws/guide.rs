@@ -63,7 +63,8 @@ pub fn spline_curvatures<T: Real>(table: &[[T; 2]], curvature: &mut [T], scratch
         curvature[i] = (six * ((g2 - g1) / h1 - (g1 - g0) / h0) - h0 * curvature[i - 1]) / pivot;
     }
     for i in (1..n.saturating_sub(1)).rev() {
-        curvature[i] = curvature[i] - scratch[i] * curvature[i + 1];
+        let next = curvature[i + 1];
+        curvature[i] -= scratch[i] * next;
     }
 }
 

@@ -1,1 +1,154 @@
-//! Checks of a scene as a whole.
+//! Checks of a scene as a whole: what cannot be meant is refused, what is merely unusual passes.
+//!
+//! Order: names, numbers and references of each entry, then what entries say about one another. Comparisons
+//! are written so that a NaN fails them.
+
+mod body;
+mod effect;
+mod joint;
+mod motion;
+#[cfg(test)]
+mod tests;
+mod vector;
+
+use crate::Real;
+use crate::scene::{BodyRef, Dimension, Entry, Scene, SceneError, SceneFault};
+use vector::Place;
+
+impl<T: Real> Scene<T> {
+    /// Refuses a scene that cannot be meant: the first fault found, with its entry and key.
+    ///
+    /// A body without joints and redundant constraints are unusual, not wrong: they pass.
+    ///
+    /// # Errors
+    /// [`SceneError`] with the entry, the key as in scene files, and the fault with its numbers.
+    ///
+    /// # Examples
+    /// ```
+    /// # use mbs_core::scene::{Dimension, Entry, Scene, SceneFault, SolverChoice};
+    /// let mut scene = Scene::<f64> {
+    ///     name: "empty".into(),
+    ///     dimension: Dimension::Planar,
+    ///     gravity: None,
+    ///     duration: 1.0,
+    ///     bodies: Vec::new(),
+    ///     joints: Vec::new(),
+    ///     initials: Vec::new(),
+    ///     guides: Vec::new(),
+    ///     effects: Vec::new(),
+    ///     outputs: Vec::new(),
+    ///     solver: SolverChoice::default(),
+    /// };
+    /// assert!(scene.check().is_ok());
+    /// scene.duration = -1.0;
+    /// let error = scene.check().unwrap_err();
+    /// assert_eq!((error.entry, error.field), (Entry::Scene, "duration"));
+    /// assert_eq!(error.fault, SceneFault::NotPositive(-1.0));
+    /// ```
+    pub fn check(&self) -> Result<(), SceneError> {
+        self.check_names()?;
+        let place = Place { entry: Entry::Scene, dimension: self.dimension };
+        place.positive("duration", self.duration)?;
+        if let Some(gravity) = self.gravity {
+            place.vector("gravity", gravity)?;
+        }
+        self.check_solver()?;
+        for (i, body) in self.bodies.iter().enumerate() {
+            body::check(body, self.place(Entry::Body(i)))?;
+        }
+        for (i, joint) in self.joints.iter().enumerate() {
+            joint::check(self, joint, self.place(Entry::Joint(i)))?;
+        }
+        motion::check_guides(self)?;
+        motion::check_initials(self)?;
+        for (i, effect) in self.effects.iter().enumerate() {
+            effect::check(self, &effect.kind, self.place(Entry::Effect(i)))?;
+        }
+        for (i, output) in self.outputs.iter().enumerate() {
+            effect::check_output(self, &output.quantity, self.place(Entry::Output(i)))?;
+        }
+        Ok(())
+    }
+
+    fn place(&self, entry: Entry) -> Place {
+        Place { entry, dimension: self.dimension }
+    }
+
+    fn check_names(&self) -> Result<(), SceneError> {
+        unique(self.bodies.iter().map(|b| b.name.as_str()), Some("ground"), Entry::Body)?;
+        unique(self.joints.iter().map(|j| j.name.as_str()), None, Entry::Joint)?;
+        unique(self.effects.iter().map(|e| e.name.as_str()), None, Entry::Effect)?;
+        unique(self.outputs.iter().map(|o| o.name.as_str()), Some("t"), Entry::Output)
+    }
+
+    fn check_solver(&self) -> Result<(), SceneError> {
+        let place = self.place(Entry::Solver);
+        let solver = &self.solver;
+        for (field, number) in [
+            ("step", solver.step),
+            ("step_max", solver.step_max),
+            ("tolerance", solver.tolerance),
+            ("penalty", solver.penalty),
+        ] {
+            if let Some(number) = number {
+                place.positive(field, number)?;
+            }
+        }
+        if let Some([upper, lower]) = solver.energy_tolerance {
+            place.positive("energy_tolerance", upper)?;
+            place.positive("energy_tolerance", lower)?;
+            if upper <= lower {
+                let limits = [upper.to_f64(), lower.to_f64()];
+                return place.fault("energy_tolerance", SceneFault::LimitOrder(limits));
+            }
+        }
+        Ok(())
+    }
+
+    /// The index is in range, or the reference is the ground.
+    fn knows(&self, body: BodyRef) -> bool {
+        match body {
+            BodyRef::Ground => true,
+            BodyRef::Body(i) => i < self.bodies.len(),
+        }
+    }
+}
+
+/// Names are there, free and different. Cost: a sort, so that scenes of many bodies stay cheap.
+fn unique<'a>(
+    names: impl Iterator<Item = &'a str>,
+    reserved: Option<&str>,
+    entry: fn(usize) -> Entry,
+) -> Result<(), SceneError> {
+    let refuse = |i, fault| Err(SceneError { entry: entry(i), field: "name", fault });
+    let mut seen = alloc::collections::BTreeMap::new();
+    for (i, name) in names.enumerate() {
+        if name.trim().is_empty() || Some(name) == reserved {
+            return refuse(i, SceneFault::ReservedName);
+        }
+        if let Some(first) = seen.insert(name, i) {
+            return refuse(i, SceneFault::DuplicateName(first));
+        }
+    }
+    Ok(())
+}
+
+/// The entry's two bodies exist and differ.
+fn check_pair<T: Real>(
+    scene: &Scene<T>,
+    bodies: [BodyRef; 2],
+    place: Place,
+) -> Result<(), SceneError> {
+    if !bodies.into_iter().all(|body| scene.knows(body)) {
+        return place.fault("bodies", SceneFault::UnknownReference);
+    }
+    if bodies[0] == bodies[1] {
+        return place.fault("bodies", SceneFault::SameBody);
+    }
+    Ok(())
+}
+
+/// A planar scene.
+fn is_planar(dimension: Dimension) -> bool {
+    dimension == Dimension::Planar
+}

@@ -142,6 +142,31 @@ impl JointKind {
         }
     }
 
+    /// Number of rotations among the joint coordinates in a scene of that dimension.
+    #[must_use]
+    pub fn n_rotations(self, dimension: Dimension) -> usize {
+        match (self, dimension) {
+            (Self::Revolute | Self::Cylindrical | Self::Planar, _)
+            | (Self::Free, Dimension::Planar) => 1,
+            (Self::Universal, _) => 2,
+            (Self::Spherical, _) | (Self::Free, Dimension::Spatial) => 3,
+            (Self::Prismatic | Self::Weld | Self::Distance, _) => 0,
+        }
+    }
+
+    /// Every kind, in the order of the scene format.
+    pub const ALL: [Self; 9] = [
+        Self::Revolute,
+        Self::Spherical,
+        Self::Universal,
+        Self::Prismatic,
+        Self::Cylindrical,
+        Self::Planar,
+        Self::Weld,
+        Self::Free,
+        Self::Distance,
+    ];
+
     /// The name used in scene files.
     #[must_use]
     pub fn name(self) -> &'static str {

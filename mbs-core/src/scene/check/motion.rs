@@ -1,0 +1,208 @@
+//! Guides and initial conditions, and whether they agree.
+
+use super::is_planar;
+use super::vector::Place;
+use crate::Real;
+use crate::laws::guide::{Motion, ramp, sine, spline, spline_curvatures};
+use crate::scene::{Entry, Guide, GuideLaw, Initial, InitialTarget, Scene, SceneError, SceneFault};
+use alloc::vec;
+use alloc::vec::Vec;
+
+pub(super) fn check_guides<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
+    let mut guided = vec![None; scene.joints.len()];
+    for (i, guide) in scene.guides.iter().enumerate() {
+        let place = scene.place(Entry::Guide(i));
+        let Some(joint) = scene.joints.get(guide.joint) else {
+            return place.fault("joint", SceneFault::UnknownReference);
+        };
+        let n = joint.kind.n_coordinates(scene.dimension);
+        if n != 1 {
+            return place.fault("joint", SceneFault::NoSingleCoordinate(n));
+        }
+        if let Some(first) = guided[guide.joint].replace(i) {
+            return place.fault("joint", SceneFault::GivenTwice(first));
+        }
+        check_law(&guide.law, place)?;
+    }
+    Ok(())
+}
+
+fn check_law<T: Real>(law: &GuideLaw<T>, place: Place) -> Result<(), SceneError> {
+    match law {
+        GuideLaw::Table(rows) => {
+            for row in rows {
+                place.finite("table", row[0])?;
+                place.finite("table", row[1])?;
+            }
+            check_times(rows.iter().map(|row| row[0]), place)
+        }
+        GuideLaw::Sine { amplitude, frequency, phase } => {
+            for x in [*amplitude, *frequency, *phase] {
+                place.finite("sine", x)?;
+            }
+            Ok(())
+        }
+        GuideLaw::Ramp { rate } => place.finite("ramp", *rate),
+    }
+}
+
+/// At least one row; each time later than the one before.
+pub(super) fn check_times<T: Real>(
+    times: impl Iterator<Item = T>,
+    place: Place,
+) -> Result<(), SceneError> {
+    let mut previous = None;
+    for (row, time) in times.enumerate() {
+        if previous.is_some_and(|before| time <= before) {
+            return place.fault("table", SceneFault::TableOrder(row));
+        }
+        previous = Some(time);
+    }
+    match previous {
+        Some(_) => Ok(()),
+        None => place.fault("table", SceneFault::WrongCount { needed: 1, found: 0 }),
+    }
+}
+
+/// The law at t = 0.
+fn start<T: Real>(law: &GuideLaw<T>) -> Motion<T> {
+    match law {
+        GuideLaw::Table(rows) => {
+            let (mut curvature, mut scratch) =
+                (vec![T::ZERO; rows.len()], vec![T::ZERO; rows.len()]);
+            spline_curvatures(rows, &mut curvature, &mut scratch);
+            spline(rows, &curvature, T::ZERO)
+        }
+        GuideLaw::Sine { amplitude, frequency, phase } => {
+            sine(*amplitude, *frequency, *phase, T::ZERO)
+        }
+        GuideLaw::Ramp { rate } => ramp(*rate, T::ZERO),
+    }
+}
+
+pub(super) fn check_initials<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
+    let mut seen = Seen {
+        value: vec![None; scene.joints.len()],
+        rate: vec![None; scene.joints.len()],
+        spin: vec![None; scene.bodies.len()],
+    };
+    for (i, initial) in scene.initials.iter().enumerate() {
+        check_initial(scene, i, initial, &mut seen)?;
+    }
+    Ok(())
+}
+
+/// Which initial entry prescribed what, by joint or body.
+struct Seen {
+    value: Vec<Option<usize>>,
+    rate: Vec<Option<usize>>,
+    spin: Vec<Option<usize>>,
+}
+
+fn check_initial<T: Real>(
+    scene: &Scene<T>,
+    i: usize,
+    initial: &Initial<T>,
+    seen: &mut Seen,
+) -> Result<(), SceneError> {
+    let place = scene.place(Entry::Initial(i));
+    match &initial.target {
+        InitialTarget::Joint { joint, value, rate } => {
+            if *joint >= scene.joints.len() {
+                return place.fault("joint", SceneFault::UnknownReference);
+            }
+            let guide = scene.guides.iter().find(|guide| guide.joint == *joint);
+            if value.is_none() && rate.is_none() {
+                return place.fault("value", SceneFault::Missing);
+            }
+            if let Some(numbers) = value {
+                once(&mut seen.value[*joint], i, "value", place)?;
+                check_numbers(scene, *joint, ("value", numbers), place)?;
+                agrees(guide, |motion| motion.value, ("value", numbers), place)?;
+            }
+            if let Some(numbers) = rate {
+                once(&mut seen.rate[*joint], i, "rate", place)?;
+                check_numbers(scene, *joint, ("rate", numbers), place)?;
+                agrees(guide, |motion| motion.rate, ("rate", numbers), place)?;
+            }
+            Ok(())
+        }
+        InitialTarget::Body { body, velocity, angular_velocity } => {
+            if *body >= scene.bodies.len() {
+                return place.fault("body", SceneFault::UnknownReference);
+            }
+            if velocity.is_none() && angular_velocity.is_none() {
+                return place.fault("velocity", SceneFault::Missing);
+            }
+            if let Some((at, velocity)) = velocity {
+                place.vector("at", *at)?;
+                place.vector("velocity", *velocity)?;
+            }
+            if let Some(spin) = angular_velocity {
+                once(&mut seen.spin[*body], i, "angular_velocity", place)?;
+                check_spin(*spin, place)?;
+            }
+            Ok(())
+        }
+    }
+}
+
+fn once(
+    slot: &mut Option<usize>,
+    i: usize,
+    field: &'static str,
+    place: Place,
+) -> Result<(), SceneError> {
+    match slot.replace(i) {
+        Some(first) => place.fault(field, SceneFault::GivenTwice(first)),
+        None => Ok(()),
+    }
+}
+
+fn check_numbers<T: Real>(
+    scene: &Scene<T>,
+    joint: usize,
+    (field, numbers): (&'static str, &[T]),
+    place: Place,
+) -> Result<(), SceneError> {
+    let needed = scene.joints[joint].kind.n_coordinates(scene.dimension);
+    if needed == 0 {
+        return place.fault("joint", SceneFault::NoCoordinate);
+    }
+    if numbers.len() != needed {
+        return place.fault(field, SceneFault::WrongCount { needed, found: numbers.len() });
+    }
+    numbers.iter().try_for_each(|x| place.finite(field, *x))
+}
+
+/// A guided joint starts as its guide does, within 1e-9 (or rounding, where that is coarser).
+fn agrees<T: Real>(
+    guide: Option<&Guide<T>>,
+    part: impl Fn(Motion<T>) -> T,
+    (field, numbers): (&'static str, &[T]),
+    place: Place,
+) -> Result<(), SceneError> {
+    let (Some(guide), Some(given)) = (guide, numbers.first()) else { return Ok(()) };
+    let expected = part(start(&guide.law));
+    let tolerance = T::from_f64(1.0e-9).max(T::from_f64(8.0) * T::EPSILON);
+    if (*given - expected).abs() <= tolerance * expected.abs().max(T::ONE) {
+        return Ok(());
+    }
+    let (given, guide) = (given.to_f64(), expected.to_f64());
+    place.fault(field, SceneFault::Contradiction { given, guide })
+}
+
+/// Planar bodies turn about z only.
+fn check_spin<T: Real>(spin: [T; 3], place: Place) -> Result<(), SceneError> {
+    for x in spin {
+        place.finite("angular_velocity", x)?;
+    }
+    if is_planar(place.dimension) {
+        for x in [spin[0], spin[1]] {
+            if !x.is_zero() {
+                return place.fault("angular_velocity", SceneFault::OutOfPlane(x.to_f64()));
+            }
+        }
+    }
+    Ok(())
+}

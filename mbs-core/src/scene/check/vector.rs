@@ -1,0 +1,82 @@
+//! Checks of single numbers and vectors.
+
+use super::is_planar;
+use crate::Real;
+use crate::scene::{Dimension, Entry, SceneError, SceneFault};
+
+/// Where a check speaks, and in which dimension.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub(super) entry: Entry,
+    pub(super) dimension: Dimension,
+}
+
+impl Place {
+    pub(super) fn fault(self, field: &'static str, fault: SceneFault) -> Result<(), SceneError> {
+        Err(SceneError { entry: self.entry, field, fault })
+    }
+
+    pub(super) fn finite<T: Real>(self, field: &'static str, x: T) -> Result<(), SceneError> {
+        if x.is_finite() { Ok(()) } else { self.fault(field, SceneFault::NotFinite) }
+    }
+
+    pub(super) fn positive<T: Real>(self, field: &'static str, x: T) -> Result<(), SceneError> {
+        self.finite(field, x)?;
+        if x > T::ZERO { Ok(()) } else { self.fault(field, SceneFault::NotPositive(x.to_f64())) }
+    }
+
+    pub(super) fn not_negative<T: Real>(self, field: &'static str, x: T) -> Result<(), SceneError> {
+        self.finite(field, x)?;
+        if x >= T::ZERO { Ok(()) } else { self.fault(field, SceneFault::Negative(x.to_f64())) }
+    }
+
+    /// Finite components; in planar scenes the third is zero.
+    pub(super) fn vector<T: Real>(self, field: &'static str, v: [T; 3]) -> Result<(), SceneError> {
+        for x in v {
+            self.finite(field, x)?;
+        }
+        if is_planar(self.dimension) && !v[2].is_zero() {
+            return self.fault(field, SceneFault::OutOfPlane(v[2].to_f64()));
+        }
+        Ok(())
+    }
+
+    /// A vector with a direction.
+    pub(super) fn axis<T: Real>(self, field: &'static str, v: [T; 3]) -> Result<(), SceneError> {
+        self.vector(field, v)?;
+        if largest(v).is_zero() { self.fault(field, SceneFault::ZeroAxis) } else { Ok(()) }
+    }
+
+    /// Two vectors in two places.
+    pub(super) fn apart<T: Real>(
+        self,
+        field: &'static str,
+        [p, q]: [[T; 3]; 2],
+    ) -> Result<(), SceneError> {
+        self.vector(field, p)?;
+        self.vector(field, q)?;
+        let distance = largest([p[0] - q[0], p[1] - q[1], p[2] - q[2]]);
+        let size = largest(p).max(largest(q));
+        if distance <= T::from_f64(8.0) * T::EPSILON * size {
+            return self.fault(field, SceneFault::CoincidentPoints);
+        }
+        Ok(())
+    }
+}
+
+/// The largest component.
+pub(super) fn largest<T: Real>(v: [T; 3]) -> T {
+    v[0].abs().max(v[1].abs()).max(v[2].abs())
+}
+
+/// Two directions agree or oppose, to rounding: |a × b| against |a| |b| in largest components.
+pub(super) fn is_parallel<T: Real>(a: [T; 3], b: [T; 3]) -> bool {
+    let (a, b) = (scaled(a), scaled(b));
+    let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    largest(cross) <= T::from_f64(64.0) * T::EPSILON
+}
+
+fn scaled<T: Real>(v: [T; 3]) -> [T; 3] {
+    let size = largest(v);
+    v.map(|x| x / size)
+}
