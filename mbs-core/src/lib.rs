@@ -16,6 +16,8 @@ pub mod natural;
 pub mod real;
 #[cfg(feature = "alloc")]
 pub mod scene;
+#[cfg(feature = "alloc")]
+pub mod start;
 
 pub use blocks::{BlockSource, Cliques, FactorError, SpdSolver};
 pub use real::Real;

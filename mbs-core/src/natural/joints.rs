@@ -142,3 +142,40 @@ impl<T: Real> Builder<'_, T> {
 fn dot<T: Real>(x: Combination<T>, y: Combination<T>, constant: T) -> RowDraft<T> {
     RowDraft::Dot { x, y, scale: T::ONE, constant }
 }
+
+/// Unit axes of a joint: the planar joint's direction is made perpendicular to its normal.
+pub(crate) fn joint_axes<T: Real>(joint: &Joint<T>, dimension: Dimension) -> [[T; 3]; 2] {
+    let n = unit_axis(joint, 0);
+    let second = match joint.kind {
+        JointKind::Planar => {
+            let d = if joint.axes[1].is_some() { unit_axis(joint, 1) } else { transverse(&n, dimension)[0] };
+            let d = d - n * n.dot(&d);
+            d * (T::ONE / norm(&d))
+        }
+        _ => unit_axis(joint, 1),
+    };
+    [n.into(), second.into()]
+}
+
+/// Directions [x1, x2, y] whose angle atan2(x2.y, x1.y) is a joint coordinate: number 0 with x1, x2 in the first body and y in
+/// the second; number 1 (universal, minus its second angle) with x1, x2 in the second body and y in the first.
+pub(crate) fn angle_directions<T: Real>(
+    joint: &Joint<T>,
+    dimension: Dimension,
+    number: usize,
+) -> [[T; 3]; 3] {
+    let [n, b] = joint_axes(joint, dimension).map(Vector::<T, 3>::from);
+    if joint.kind != JointKind::Universal {
+        let n = if matches!(joint.kind, JointKind::Free) { unit_z() } else { n };
+        let [v, w] = transverse(&n, dimension);
+        return [v.into(), w.into(), v.into()];
+    }
+    let (axis, other) = if number == 0 { (n, b) } else { (b, n) };
+    let v = other - axis * axis.dot(&other);
+    let v = v * (T::ONE / norm(&v));
+    [v.into(), cross(&axis, &v).into(), other.into()]
+}
+
+fn unit_z<T: Real>() -> Vector<T, 3> {
+    Vector::<T, 3>::new(T::ZERO, T::ZERO, T::ONE)
+}

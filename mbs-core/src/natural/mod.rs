@@ -3,6 +3,7 @@
 //! The way down: [`cluster`] (welds), [`sharing`] (what joints make common), [`basis`] (entities of each body), [`build`],
 //! [`joints`], [`effects`] (rows and laws), [`finish`] (numbering and tables), [`evaluate`] (the numbers).
 
+mod affine;
 mod basis;
 mod build;
 mod cluster;
@@ -18,9 +19,13 @@ mod joints;
 mod model;
 mod sharing;
 
+pub use affine::Affine;
 pub use basis::INDEPENDENCE;
 pub use error::ModelError;
 pub use evaluate::sizes;
+pub(crate) use finish::index;
 pub use forces::unwrap;
+pub(crate) use group::{add_rank_one, packed};
+pub(crate) use joints::{angle_directions, joint_axes};
 pub use model::NaturalModel;
 pub use sharing::TOLERANCE;

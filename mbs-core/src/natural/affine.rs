@@ -1,0 +1,94 @@
+//! A material point or direction of any body as a function of the coordinates: for outputs and starts, not for the step.
+
+use super::basis::Combination;
+use super::model::NaturalModel;
+use crate::Real;
+use crate::algebra::{Coef, Vector, add_to, load};
+use crate::scene::BodyRef;
+use alloc::vec::Vec;
+
+/// x(q) = sum_k A_k e_k + c: a body point or direction; on the ground only c is left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Affine<T: Real, const D: usize> {
+    terms: Vec<(u32, Coef<T>)>,
+    constant: Vector<T, D>,
+}
+
+impl<T: Real, const D: usize> Affine<T, D> {
+    /// Value at the extended coordinates `q`.
+    pub fn value(&self, q: &[T]) -> Vector<T, D> {
+        self.rate(q) + self.constant
+    }
+
+    /// Rate for velocities `v`; acceleration for accelerations.
+    pub fn rate(&self, v: &[T]) -> Vector<T, D> {
+        let mut x = Vector::<T, D>::zeros();
+        for (e, c) in &self.terms {
+            x += c.apply(&load::<T, D>(v, *e));
+        }
+        x
+    }
+
+    /// This less another.
+    #[must_use]
+    pub fn minus(&self, other: &Self) -> Self {
+        let mut terms = self.terms.clone();
+        for &(e, c) in &other.terms {
+            match terms.iter_mut().find(|(t, _)| *t == e) {
+                Some((_, mine)) => *mine = mine.minus(c),
+                None => terms.push((e, Coef::zero().minus(c))),
+            }
+        }
+        terms.retain(|(_, c)| !c.is_zero());
+        Self { terms, constant: self.constant - other.constant }
+    }
+
+    /// Adds the gradient of (x . y) for fixed y to a dense gradient over the extended coordinates.
+    pub fn add_gradient(&self, y: &Vector<T, D>, gradient: &mut [T]) {
+        for (e, c) in &self.terms {
+            add_to(gradient, *e as usize, &c.apply_transposed(y));
+        }
+    }
+
+    /// The extended coordinates at which its entities start.
+    pub fn entities(&self) -> impl Iterator<Item = u32> + '_ {
+        self.terms.iter().map(|(e, _)| *e)
+    }
+}
+
+impl<T: Real, const D: usize> NaturalModel<T, D> {
+    /// Material point of a body, given in the reference configuration [m].
+    #[must_use]
+    pub fn point(&self, body: BodyRef, at: [T; 3]) -> Affine<T, D> {
+        let at = Vector::from(at);
+        match self.clusters.of(body) {
+            Some(c) => self.affine(&self.bases[c].point(&at)),
+            None => fixed(&at),
+        }
+    }
+
+    /// Body-fixed direction of a body, given in the reference configuration.
+    #[must_use]
+    pub fn direction(&self, body: BodyRef, d: [T; 3]) -> Affine<T, D> {
+        let d = Vector::from(d);
+        match self.clusters.of(body) {
+            Some(c) => self.affine(&self.bases[c].direction(&d)),
+            None => fixed(&d),
+        }
+    }
+
+    /// Does the body carry all rotations? A spatial rod held by balls only has no rotation about itself.
+    #[must_use]
+    pub fn has_full_rotation(&self, body: BodyRef) -> bool {
+        self.clusters.of(body).is_none_or(|c| self.bases[c].is_full())
+    }
+
+    fn affine(&self, x: &Combination<T>) -> Affine<T, D> {
+        let terms = x.iter().map(|&(e, c)| (self.entity_at[e], c)).collect();
+        Affine { terms, constant: Vector::zeros() }
+    }
+}
+
+fn fixed<T: Real, const D: usize>(x: &Vector<T, 3>) -> Affine<T, D> {
+    Affine { terms: Vec::new(), constant: Vector::from_fn(|i, _| x[i]) }
+}

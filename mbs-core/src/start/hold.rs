@@ -1,0 +1,304 @@
+//! Held coordinates and rates: rows that exist only while a mechanism is put together.
+
+use crate::Real;
+use crate::algebra::{Matrix, Vector, cross, rotation};
+use crate::natural::{Affine, NaturalModel, joint_axes, unwrap};
+use crate::scene::{BodyRef, Dimension, InitialTarget, Joint, JointKind, Scene};
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+
+/// What a row measures.
+#[derive(Debug, Clone)]
+enum Kind<T: Real, const D: usize> {
+    /// Angle of y in the frame x1, x2.
+    Angle { x1: Affine<T, D>, x2: Affine<T, D>, y: Affine<T, D> },
+    /// x.y.
+    Slide { x: Affine<T, D>, y: Affine<T, D> },
+    /// (R a)_i . b_j of the two bodies' frames, R the wanted relative rotation: zero when it is reached.
+    Orientation { first: Box<[Affine<T, D>; 3]>, second: Affine<T, D>, vector: [T; 3], i: usize },
+    /// A velocity component of a point.
+    PointRate { x: Affine<T, D>, axis: usize },
+    /// A component of the second body's angular velocity less the first's.
+    Spin { first: Option<Box<[Affine<T, D>; 3]>>, second: Option<Box<[Affine<T, D>; 3]>>, axis: usize },
+}
+
+/// One held row.
+#[derive(Debug, Clone)]
+pub(super) struct Hold<T: Real, const D: usize> {
+    kind: Kind<T, D>,
+    /// Held value (`None`: only the rate), held rate (`None`: only the value).
+    pub(super) value: Option<T>,
+    pub(super) rate: Option<T>,
+    /// The `[[initial]]` entry.
+    pub(super) initial: usize,
+    /// Joint or body it belongs to.
+    pub(super) owner: crate::model::Owner,
+}
+
+impl<T: Real, const D: usize> Hold<T, D> {
+    /// All rows that a scene's initial entries hold.
+    pub(super) fn all(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Vec<Self> {
+        let mut holds = Vec::new();
+        for (initial, entry) in scene.initials.iter().enumerate() {
+            match &entry.target {
+                InitialTarget::Joint { joint, value, rate } => {
+                    let source = Source { model, joint: &scene.joints[*joint], dimension: scene.dimension };
+                    let owner = crate::model::Owner::Joint(*joint);
+                    let rows = source.rows(value.as_deref(), rate.as_deref());
+                    holds.extend(rows.into_iter().map(|(kind, value, rate)| Self {
+                        kind,
+                        value,
+                        rate,
+                        initial,
+                        owner,
+                    }));
+                }
+                InitialTarget::Body { body, velocity, angular_velocity } => {
+                    let owner = crate::model::Owner::Body(*body);
+                    let me = BodyRef::Body(*body);
+                    let mut push = |kind, rate| {
+                        holds.push(Self { kind, value: None, rate: Some(rate), initial, owner });
+                    };
+                    if let Some((at, v)) = velocity {
+                        for axis in 0..D {
+                            push(Kind::PointRate { x: model.point(me, *at), axis }, v[axis]);
+                        }
+                    }
+                    if let Some(w) = angular_velocity {
+                        for (kind, rate) in spins(model, BodyRef::Ground, me, *w) {
+                            push(kind, rate);
+                        }
+                    }
+                }
+            }
+        }
+        holds
+    }
+
+    /// Largest size of the held value, in radians or scene lengths: how far continuation must go.
+    pub(super) fn distance(&self, length: T) -> T {
+        match (&self.kind, self.value) {
+            (Kind::Orientation { vector, .. }, _) => {
+                crate::algebra::norm(&Vector::<T, 3>::from(*vector))
+            }
+            (Kind::Slide { .. }, Some(value)) => value.abs() / length,
+            (_, Some(value)) => value.abs(),
+            (_, None) => T::ZERO,
+        }
+    }
+
+    /// Residual of the held value at continuation parameter `tau` (0 reference, 1 target), and the row's gradient over the
+    /// extended coordinates (added; `gradient` is zero on entry). The gradient is also that of the rate.
+    pub(super) fn evaluate(&self, q: &[T], tau: T, gradient: &mut [T]) -> T {
+        let target = self.value.map(|v| v * tau);
+        match &self.kind {
+            Kind::Angle { x1, x2, y } => {
+                let (p1, p2, py) = (x1.value(q), x2.value(q), y.value(q));
+                let (c, s) = (p1.dot(&py), p2.dot(&py));
+                let inverse = T::ONE / (c * c + s * s);
+                let (cn, sn) = (c * inverse, s * inverse);
+                x2.add_gradient(&(py * cn), gradient);
+                x1.add_gradient(&(py * -sn), gradient);
+                y.add_gradient(&(p2 * cn - p1 * sn), gradient);
+                target.map_or(T::ZERO, |target| unwrap(s.atan2(c), target) - target)
+            }
+            Kind::Slide { x, y } => {
+                let (px, py) = (x.value(q), y.value(q));
+                x.add_gradient(&py, gradient);
+                y.add_gradient(&px, gradient);
+                target.map_or(T::ZERO, |target| px.dot(&py) - target)
+            }
+            Kind::Orientation { first, second, vector, i } => {
+                let r: Matrix<T, 3> = rotation(&(Vector::<T, 3>::from(*vector) * tau));
+                let b = second.value(q);
+                let mut a = Vector::<T, D>::zeros();
+                for (l, direction) in first.iter().enumerate() {
+                    a += direction.value(q) * r[(l, *i)];
+                    direction.add_gradient(&(b * r[(l, *i)]), gradient);
+                }
+                second.add_gradient(&a, gradient);
+                a.dot(&b)
+            }
+            Kind::PointRate { x, axis } => {
+                let mut e = Vector::<T, D>::zeros();
+                e[*axis] = T::ONE;
+                x.add_gradient(&e, gradient);
+                T::ZERO
+            }
+            Kind::Spin { first, second, axis } => {
+                for (frame, sign) in [(second, T::HALF), (first, -T::HALF)] {
+                    for u in frame.iter().flat_map(|f| f.iter()) {
+                        u.add_gradient(&(spin_arm(&u.value(q), *axis) * sign), gradient);
+                    }
+                }
+                T::ZERO
+            }
+        }
+    }
+
+    /// The extended coordinates it may touch, entity by entity.
+    pub(super) fn entities(&self) -> Vec<u32> {
+        let mut all = Vec::new();
+        let mut visit = |x: &Affine<T, D>| all.extend(x.entities());
+        match &self.kind {
+            Kind::Angle { x1, x2, y } => [x1, x2, y].into_iter().for_each(&mut visit),
+            Kind::Slide { x, y } => [x, y].into_iter().for_each(&mut visit),
+            Kind::Orientation { first, second, .. } => {
+                first.iter().chain(core::iter::once(second)).for_each(&mut visit);
+            }
+            Kind::PointRate { x, .. } => visit(x),
+            Kind::Spin { first, second, .. } => {
+                first.iter().chain(second).flat_map(|f| f.iter()).for_each(&mut visit);
+            }
+        }
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+}
+
+/// e_axis x u.
+fn spin_arm<T: Real, const D: usize>(u: &Vector<T, D>, axis: usize) -> Vector<T, D> {
+    let u3 = Vector::<T, 3>::from_fn(|i, _| if i < D { u[i] } else { T::ZERO });
+    let mut e = Vector::<T, 3>::zeros();
+    e[axis] = T::ONE;
+    let arm = cross(&e, &u3);
+    Vector::from_fn(|i, _| arm[i])
+}
+
+/// Rows that hold an angular velocity: three in space, the angle's rate in the plane.
+fn spins<T: Real, const D: usize>(
+    model: &NaturalModel<T, D>,
+    first: BodyRef,
+    second: BodyRef,
+    w: [T; 3],
+) -> Vec<(Kind<T, D>, T)> {
+    let unit = |i: usize| core::array::from_fn(|k| if k == i { T::ONE } else { T::ZERO });
+    if D == 2 {
+        let (x1, x2) = (model.direction(first, unit(0)), model.direction(first, unit(1)));
+        return alloc::vec![(Kind::Angle { x1, x2, y: model.direction(second, unit(0)) }, w[2])];
+    }
+    let frame = |body: BodyRef| match body {
+        BodyRef::Ground => None,
+        BodyRef::Body(_) => Some(Box::new([0, 1, 2].map(|i| model.direction(body, unit(i))))),
+    };
+    (0..3)
+        .map(|axis| (Kind::Spin { first: frame(first), second: frame(second), axis }, w[axis]))
+        .collect()
+}
+
+/// A joint whose coordinates are to be held.
+struct Source<'a, T: Real, const D: usize> {
+    model: &'a NaturalModel<T, D>,
+    joint: &'a Joint<T>,
+    dimension: Dimension,
+}
+
+type Row<T, const D: usize> = (Kind<T, D>, Option<T>, Option<T>);
+
+impl<T: Real, const D: usize> Source<'_, T, D> {
+    /// The rows of the joint's numbers, in their order; values and rates where they are given.
+    fn rows(&self, value: Option<&[T]>, rate: Option<&[T]>) -> Vec<Row<T, D>> {
+        let at = |x: Option<&[T]>, i: usize| x.and_then(|x| x.get(i).copied());
+        let kinds: Vec<(Kind<T, D>, T)> = match self.joint.kind {
+            JointKind::Weld | JointKind::Distance => Vec::new(),
+            JointKind::Revolute => alloc::vec![(self.angle(0), T::ONE)],
+            JointKind::Prismatic => alloc::vec![(self.slide(self.axes()[0]), T::ONE)],
+            JointKind::Cylindrical => {
+                alloc::vec![(self.slide(self.axes()[0]), T::ONE), (self.angle(0), T::ONE)]
+            }
+            JointKind::Universal => {
+                alloc::vec![(self.angle(0), T::ONE), (self.back_angle(), -T::ONE)]
+            }
+            JointKind::Planar => {
+                let [n, d] = self.axes();
+                let n3 = Vector::<T, 3>::from(n);
+                let second: [T; 3] = cross(&n3, &Vector::from(d)).into();
+                alloc::vec![
+                    (self.slide(d), T::ONE),
+                    (self.slide(second), T::ONE),
+                    (self.angle(0), T::ONE)
+                ]
+            }
+            JointKind::Spherical => return self.turning(value, rate, 0),
+            JointKind::Free => {
+                let mut rows: Vec<Row<T, D>> = (0..D)
+                    .map(|i| {
+                        let e = core::array::from_fn(|k| if k == i { T::ONE } else { T::ZERO });
+                        (self.slide(e), at(value, i), at(rate, i))
+                    })
+                    .collect();
+                if self.dimension == Dimension::Planar {
+                    rows.push((self.angle(0), at(value, 2), at(rate, 2)));
+                } else {
+                    rows.extend(self.turning(value, rate, 3));
+                }
+                return rows;
+            }
+        };
+        let rows = kinds.into_iter().enumerate();
+        rows.map(|(i, (kind, sign))| {
+            (kind, at(value, i).map(|x| x * sign), at(rate, i).map(|x| x * sign))
+        })
+        .collect()
+    }
+
+    fn axes(&self) -> [[T; 3]; 2] {
+        joint_axes(self.joint, self.dimension)
+    }
+
+    /// Angle about axis `i` of the first body: of a universal joint's second axis, else of a transverse direction.
+    fn angle(&self, i: usize) -> Kind<T, D> {
+        let [first, second] = self.joint.bodies;
+        let [v, w, y] = crate::natural::angle_directions(self.joint, self.dimension, i);
+        Kind::Angle {
+            x1: self.model.direction(first, v),
+            x2: self.model.direction(first, w),
+            y: self.model.direction(second, y),
+        }
+    }
+
+    /// Minus the universal joint's second angle: the first axis seen from the second body.
+    fn back_angle(&self) -> Kind<T, D> {
+        let [first, second] = self.joint.bodies;
+        let [v, w, y] = crate::natural::angle_directions(self.joint, self.dimension, 1);
+        Kind::Angle {
+            x1: self.model.direction(second, v),
+            x2: self.model.direction(second, w),
+            y: self.model.direction(first, y),
+        }
+    }
+
+    fn slide(&self, along: [T; 3]) -> Kind<T, D> {
+        let [first, second] = self.joint.bodies;
+        let [p, q] = self.joint.points;
+        Kind::Slide {
+            x: self.model.point(second, q).minus(&self.model.point(first, p)),
+            y: self.model.direction(first, along),
+        }
+    }
+
+    /// Three rows of a relative rotation and three of a relative angular velocity, from number `from` on.
+    fn turning(&self, value: Option<&[T]>, rate: Option<&[T]>, from: usize) -> Vec<Row<T, D>> {
+        let [first, second] = self.joint.bodies;
+        let three = |x: Option<&[T]>| -> Option<[T; 3]> {
+            let x = x?.get(from..from + 3)?;
+            Some([x[0], x[1], x[2]])
+        };
+        let unit = |i: usize| core::array::from_fn(|k| if k == i { T::ONE } else { T::ZERO });
+        let mut rows = Vec::new();
+        if let Some(vector) = three(value) {
+            let frame = [0, 1, 2].map(|i| self.model.direction(first, unit(i)));
+            for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+                let second = self.model.direction(second, unit(j));
+                let kind = Kind::Orientation { first: Box::new(frame.clone()), second, vector, i };
+                rows.push((kind, Some(T::ZERO), None));
+            }
+        }
+        if let Some(w) = three(rate) {
+            let spins = spins(self.model, first, second, w);
+            rows.extend(spins.into_iter().map(|(kind, rate)| (kind, None, Some(rate))));
+        }
+        rows
+    }
+}

@@ -1,0 +1,21 @@
+//! Assembly: positions, velocities and accelerations made consistent from what a scene's `[[initial]]` entries say.
+//!
+//! ```text
+//! q:  min (q - q_ref)^T M (q - q_ref)   s.t.  phi(q, 0) = 0,  held coordinates
+//! v:  min v^T M v                       s.t.  J v + phi_t = 0,  held rates
+//! a:  M a + J^T lambda = Q,  J a + bias = 0
+//! ```
+//!
+//! Large held values are reached by continuation from the reference configuration, so that the assembly branch is the one
+//! that leads there continuously.
+
+mod assemble;
+mod error;
+mod hold;
+mod problem;
+mod rank;
+
+pub use assemble::{Assembled, accelerations, assemble};
+pub use error::AssemblyError;
+pub use problem::Problem;
+pub use rank::constraint_rank;
