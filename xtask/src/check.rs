@@ -1,5 +1,6 @@
 //! `cargo xtask test`: every check of this repository, in order, up to the first failure.
 
+use crate::documentation;
 use crate::nostd;
 use crate::process::{self, cargo, run};
 use crate::summary::{LeftOut, Outcome, Summary};
@@ -44,10 +45,7 @@ fn checks(quick: bool, summary: &mut Summary) -> Result<(), String> {
     if quick {
         summary.skip("documentation", "--quick");
     } else {
-        summary.check("documentation", || {
-            let args = ["doc", "--no-deps", "--workspace", "--quiet"];
-            passed(cargo().args(args).env("RUSTDOCFLAGS", "--deny warnings"))
-        })?;
+        summary.check("documentation", documentation::check)?;
     }
     summary.check("features", || core_features(quick))?;
     summary.check("check-nostd", nostd::check)

@@ -1,6 +1,7 @@
 //! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates.
 
 mod check;
+mod documentation;
 mod nostd;
 mod process;
 mod simulate;

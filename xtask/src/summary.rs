@@ -64,7 +64,11 @@ impl Summary {
 
     /// The summary as text: one line a check, then what was left out and how to get it.
     pub(crate) fn text(&self) -> String {
-        let mut text = format!("cargo xtask test:\n{}\n", self.lines.join("\n"));
+        let mut text = String::from("cargo xtask test:\n");
+        for line in &self.lines {
+            text.push_str(line.trim_end());
+            text.push('\n');
+        }
         for (name, LeftOut { why, remedy }) in &self.left_out {
             text.push_str(&format!("\n{name} was left out: {why}\n{remedy}\n"));
         }

@@ -1,0 +1,61 @@
+//! The documentation builds without warnings, where units in brackets are no links.
+//!
+//! The house style writes units as `[m]` and equations as `[P3 (10)]`. rustdoc takes a lone word in brackets for a
+//! link and warns; it shows the text as written all the same. Denying warnings would forbid the style, allowing
+//! broken links would hide real ones, so the warnings are read here.
+
+use crate::process::{self, cargo};
+use crate::summary::Outcome;
+use std::process::Stdio;
+
+/// Units of one word; rustdoc does not look at `[N/m]`.
+const UNITS: [&str; 9] = ["m", "s", "kg", "N", "J", "W", "Hz", "rad", "Pa"];
+
+/// Builds the documentation of the workspace.
+///
+/// # Errors
+///
+/// The warnings that are not about units, or what cargo said when it failed.
+pub(crate) fn check() -> Result<Outcome, String> {
+    let mut command = cargo();
+    command.args(["doc", "--no-deps", "--workspace", "--quiet"]).env("CARGO_TERM_COLOR", "never");
+    let out = command.current_dir(process::root()).stdin(Stdio::null()).output();
+    let out = out.map_err(|e| format!("cannot start `{}`: {e}", process::line(&command)))?;
+    let messages = String::from_utf8_lossy(&out.stderr);
+    if !out.status.success() {
+        return Err(format!("`{}`: {}\n{messages}", process::line(&command), out.status));
+    }
+    let faults = faults(&messages);
+    if faults.is_empty() {
+        return Ok(Outcome::Passed(String::new()));
+    }
+    Err(format!("{} warnings\n\n{}", faults.len(), faults.join("\n\n")))
+}
+
+/// The messages that are faults: blocks of lines parted by empty ones, less units and cargo's counts.
+fn faults(messages: &str) -> Vec<&str> {
+    let blocks = messages.split("\n\n").map(str::trim).filter(|block| !block.is_empty());
+    blocks.filter(|block| !is_harmless(block.lines().next().unwrap_or_default())).collect()
+}
+
+/// Whether a message's first line speaks of a unit, or counts the messages of a crate.
+fn is_harmless(line: &str) -> bool {
+    let link = line.strip_prefix("warning: unresolved link to `");
+    let word = link.and_then(|rest| rest.strip_suffix('`'));
+    let is_count =
+        line.starts_with("warning: `") && line.contains("` (") && line.contains(" generated ");
+    is_count || word.is_some_and(|word| UNITS.contains(&word))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::faults;
+
+    #[test]
+    fn units_are_no_faults_and_broken_links_are() {
+        let messages = "warning: unresolved link to `m`\n --> a.rs:1:2\n\n\
+                        warning: unresolved link to `Scene`\n --> a.rs:3:4\n\n\
+                        warning: `mbs-core` (lib doc) generated 2 warnings\n";
+        assert_eq!(faults(messages), ["warning: unresolved link to `Scene`\n --> a.rs:3:4"]);
+    }
+}
