@@ -1,1 +1,219 @@
-//! Index-1.
+//! Index-1 augmented Lagrangian with projections of positions and velocities inside the iteration [P1 2.2].
+//!
+//! ```text
+//! q, v <- projected from the integrator's q*, v*                                     [P1 (8)-(14)]
+//! f = M a + J^T (alpha (J a + bias) + lambda) - Q                                     [P1 (5)]
+//! T = M + J^T alpha J + (v'/a') C + (1/a') K                                          [P1 (36)]
+//! T d = -f,   a += d,   q* += d/a',   v* += v' d/a',   lambda <- lambda + alpha phi'' [P1 (7), (34)]
+//! ```
+//!
+//! Differs from the source: positions and velocities are projected within the iteration, in correction form; multipliers start
+//! from the last step; alpha is in proportion to the mass and does not grow with 1/dt^2. Iterated to convergence with the
+//! projections after the step, as printed, the method fails at the first singular position.
+
+use crate::error::StepError;
+use crate::index3::{book, largest_or_nan, take_coordinates};
+use crate::options::{Options, Penalty};
+use crate::projection::{Level, largest};
+use crate::workspace::{Counts, Mass, StepReport, Stop, Workspace};
+use mbs_core::algebra::norm_inf;
+use mbs_core::integrator::Rule;
+use mbs_core::model::{Model, State};
+use mbs_core::{Real, SpdSolver};
+
+/// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    (dt, length): (T, T),
+    options: &Options<T>,
+    s: &mut State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<StepReport<T>, StepError> {
+    let rule = options.integrator.rule(dt);
+    w.counts = Counts::default();
+    begin(model, &rule, options, s, w);
+    let (mut last, mut done) = (T::ZERO, None);
+    let goal = norm_inf(&s.a).max(norm_inf(&s.v) / dt * T::EPSILON) * options.tolerance;
+    let mut iterations = 0;
+    while iterations < options.max_iterations && done.is_none() {
+        iterations += 1;
+        constrain(model, (&rule, length), options, s, w)?;
+        let correction = newton(model, &rule, s, w)?;
+        done = if correction <= goal || (iterations > 1 && correction * correction <= goal * last) {
+            Some(Stop::Converged)
+        } else if iterations > 1 && correction > last * T::HALF {
+            Some(Stop::Rounding)
+        } else {
+            None
+        };
+        last = correction;
+    }
+    let correction = last / rule.acceleration;
+    if !(correction <= length * options.tolerance.sqrt()) {
+        let relative = (correction / length).to_f64();
+        return Err(StepError::NotConverged { iterations, correction: relative, unknown: largest(&w.f) });
+    }
+    let velocity = constrain(model, (&rule, length), options, s, w)?;
+    model.evaluate_bias(&w.q, &w.v, &mut w.terms);
+    let size = norm_inf(&w.a).max(norm_inf(&w.terms.phi_bias));
+    let rounding = T::EPSILON * T::from_f64(1024.0);
+    let limit = (T::ONE + size) * T::from_f64(1e-10).max(rounding);
+    let acceleration =
+        w.project(model, Level::Acceleration, (size * rounding, limit), options.max_sweeps)?;
+    take_coordinates(&rule, options, s, w);
+    for k in 0..w.lambda.len() {
+        s.lambda_previous[k] = s.lambda[k];
+        s.lambda[k] = w.lambda[k];
+        s.reaction[k] = w.lambda[k] + w.sigma[k];
+        s.phi[k] = w.terms.phi[k];
+    }
+    s.t += dt;
+    book(model, dt, s, w);
+    let Counts { factorizations, solves } = w.counts;
+    let violation = [norm_inf(&w.terms.phi), velocity, acceleration];
+    let stop = done.unwrap_or(Stop::Tolerance);
+    Ok(StepReport { iterations, factorizations, solves, correction, stop, violation })
+}
+
+/// Accelerations and multipliers of the last step are the first guess.
+fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    rule: &Rule<T>,
+    options: &Options<T>,
+    s: &State<T>,
+    w: &mut Workspace<T, S>,
+) {
+    for i in 0..w.f.len() {
+        let (_, _, a) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
+        w.a[i] = a;
+    }
+    for k in 0..w.lambda.len() {
+        w.lambda[k] = s.lambda[k];
+        w.penalty[k] = match options.penalty {
+            Penalty::Scaled(factor) => factor * w.masses[k],
+            Penalty::Fixed(alpha) => alpha,
+        };
+    }
+    model.set_inputs(s.t + rule.dt, &mut w.terms);
+}
+
+/// q, v from the accelerations by the integrator, projected; the matrix W at q is left factored. Returns |phi'|.
+fn constrain<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    (rule, length): (&Rule<T>, T),
+    options: &Options<T>,
+    s: &State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<T, StepError> {
+    let inverse = T::ONE / rule.acceleration;
+    for i in 0..w.f.len() {
+        let (dq, v, a) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
+        let d = (w.a[i] - a) * inverse;
+        w.dq[i] = dq + d;
+        w.v[i] = v + rule.velocity * d;
+        w.change[i] = T::ZERO;
+    }
+    positions(model, length, options, s, w)?;
+    let speed = norm_inf(&w.v);
+    let rounding = T::EPSILON * T::from_f64(16.0);
+    model.evaluate_phi_t(&w.q, &mut w.terms);
+    let limit = (length + speed) * T::from_f64(1e-10).max(rounding * T::from_f64(64.0));
+    w.project(model, Level::Velocity, (speed * rounding, limit), options.max_sweeps)
+}
+
+/// W d = -[M (q - q*) + J^T (sigma + s phi)],   q += d,   sigma += s phi: until phi is at rounding.
+fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    length: T,
+    options: &Options<T>,
+    s: &State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<(), StepError> {
+    let goal = length * T::EPSILON * T::from_f64(if options.compensated { 0.01 } else { 4.0 });
+    let limit = length * T::from_f64(1e-12).max(T::EPSILON * T::from_f64(256.0));
+    w.sigma.fill(T::ZERO);
+    move_to(model, options, s, w);
+    let mut violation = norm_inf(&w.terms.phi);
+    for _ in 0..options.max_sweeps {
+        w.factor(model, (T::ZERO, T::ZERO), false)?;
+        if violation <= goal {
+            return Ok(());
+        }
+        for k in 0..w.mu.len() {
+            w.mu[k] = w.sigma[k] + w.penalty[k] * w.terms.phi[k];
+        }
+        w.assemble(model, Mass::Change, T::ZERO);
+        w.solve();
+        for i in 0..w.f.len() {
+            w.dq[i] -= w.f[i];
+            w.change[i] -= w.f[i];
+        }
+        move_to(model, options, s, w);
+        for k in 0..w.sigma.len() {
+            w.sigma[k] += w.penalty[k] * w.terms.phi[k];
+        }
+        let left = norm_inf(&w.terms.phi);
+        let stalls = left > violation * T::HALF;
+        violation = left;
+        if stalls && violation <= limit {
+            return Ok(());
+        }
+    }
+    if violation <= limit {
+        return Ok(());
+    }
+    Err(StepError::Violated { level: 0, violation: violation.to_f64(), row: largest(&w.terms.phi) })
+}
+
+fn move_to<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    options: &Options<T>,
+    s: &State<T>,
+    w: &mut Workspace<T, S>,
+) {
+    for i in 0..w.f.len() {
+        w.q[i] = s.q[i] + w.dq[i];
+    }
+    if options.compensated {
+        model.advance(&s.q, &w.dq, &s.phi, &mut w.terms);
+    } else {
+        model.evaluate(&w.q, &mut w.terms);
+    }
+}
+
+/// One correction of the accelerations at (q, v); returns its size [m/s^2].
+fn newton<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    rule: &Rule<T>,
+    s: &State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<T, StepError> {
+    if model.has_forces() {
+        // With stiffness or damping the matrix of the accelerations is not that of the projections.
+        model.evaluate_forces(&w.q, &w.v, &s.memory, &mut w.terms);
+        w.factor(model, (T::ONE / rule.acceleration, rule.velocity / rule.acceleration), false)?;
+    }
+    model.evaluate_bias(&w.q, &w.v, &mut w.terms);
+    w.violation(model, Level::Acceleration);
+    for k in 0..w.mu.len() {
+        w.mu[k] = w.lambda[k] + w.penalty[k] * w.rates[k];
+    }
+    w.assemble(model, Mass::Acceleration, T::ONE);
+    w.solve();
+    for i in 0..w.f.len() {
+        w.a[i] -= w.f[i];
+    }
+    w.violation(model, Level::Acceleration);
+    for k in 0..w.lambda.len() {
+        w.lambda[k] += w.penalty[k] * w.rates[k];
+    }
+    let correction = norm_inf(&w.f);
+    if correction.is_finite() {
+        Ok(correction)
+    } else {
+        Err(StepError::NotFinite { unknown: largest_or_nan(&w.f) })
+    }
+}

@@ -35,6 +35,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<StepReport<T>, StepError> {
     let rule = options.integrator.rule(dt);
     w.counts = Counts::default();
+    w.boost = (w.boost * T::HALF).max(T::ONE);
     begin(model, &rule, options, s, w);
 
     let (iterations, correction, stop) = iterate(model, &rule, length, options, s, w)?;
@@ -94,6 +95,9 @@ fn evaluate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     }
 }
 
+/// Contraction of the Newton loop beyond which it is slow.
+const SLOW: f64 = 0.3;
+
 /// The Newton loop. Returns iterations, the last correction, and what ended it.
 fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
@@ -138,12 +142,17 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f) });
         }
-        if let Some(stop) = stopping(iterations, correction, last, goal, length * options.tolerance) {
+        let noise = rounding(length, options, w);
+        if let Some(stop) = stopping(iterations, correction, last, goal, noise) {
             return Ok((iterations, correction, stop));
+        }
+        // A direction that the constraints hardly see learns its multiplier slowly: more penalty, faster.
+        if iterations > 2 && correction > last * T::from_f64(SLOW) && options.adaptive_penalty {
+            w.stiffen((correction / last).min(T::ONE));
         }
         last = correction;
     }
-    if last <= length * options.tolerance {
+    if last <= goal / options.tolerance * T::from_f64(1e-6) {
         return Ok((options.max_iterations, last, Stop::Tolerance));
     }
     let (iterations, unknown) = (options.max_iterations, largest(&w.f));
@@ -185,8 +194,14 @@ fn step_scale<T: Real, S>(rule: &Rule<T>, s: &State<T>, w: &Workspace<T, S>) -> 
     (a + v * rule.dt * a) * rule.dt * rule.dt * T::HALF
 }
 
+/// Size of a correction that is rounding [m]: of the increment where increments are carried, else of the coordinates.
+fn rounding<T: Real, S>(length: T, options: &Options<T>, w: &Workspace<T, S>) -> T {
+    let size = if options.compensated { norm_inf(&w.dq) } else { length };
+    size * T::EPSILON * T::from_f64(64.0)
+}
+
 /// Is this correction the last one?
-fn stopping<T: Real>(iterations: u32, correction: T, last: T, goal: T, tolerance: T) -> Option<Stop> {
+fn stopping<T: Real>(iterations: u32, correction: T, last: T, goal: T, noise: T) -> Option<Stop> {
     if correction <= goal {
         return Some(Stop::Converged);
     }
@@ -196,7 +211,7 @@ fn stopping<T: Real>(iterations: u32, correction: T, last: T, goal: T, tolerance
     let contraction = correction / last;
     if contraction < T::HALF && correction * contraction <= goal {
         Some(Stop::Converged)
-    } else if contraction > T::HALF && correction <= tolerance * T::from_f64(1e-3) {
+    } else if contraction > T::HALF && correction <= noise {
         Some(Stop::Rounding)
     } else {
         None
@@ -248,6 +263,24 @@ fn commit<T: Real, M: Model<T>, S: SpdSolver<T>>(
     s: &mut State<T>,
     w: &mut Workspace<T, S>,
 ) {
+    take_coordinates(rule, options, s, w);
+    for k in 0..w.lambda.len() {
+        s.lambda_previous[k] = s.lambda[k];
+        s.lambda[k] = w.lambda[k] * rule.acceleration;
+        s.reaction[k] = s.lambda[k] + w.sigma[k];
+        s.phi[k] = w.terms.phi[k];
+    }
+    s.t += rule.dt;
+    book(model, rule.dt, s, w);
+}
+
+/// (q, q_low) += dq without rounding; v, a and the auxiliary accelerations follow.
+pub(crate) fn take_coordinates<T: Real, S>(
+    rule: &Rule<T>,
+    options: &Options<T>,
+    s: &mut State<T>,
+    w: &Workspace<T, S>,
+) {
     let shift = rule.auxiliary / rule.acceleration;
     for i in 0..w.f.len() {
         let (_, _, a_predicted) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
@@ -265,14 +298,6 @@ fn commit<T: Real, M: Model<T>, S: SpdSolver<T>>(
             s.q[i] = w.q[i];
         }
     }
-    for k in 0..w.lambda.len() {
-        s.lambda_previous[k] = s.lambda[k];
-        s.lambda[k] = w.lambda[k] * rule.acceleration;
-        s.reaction[k] = s.lambda[k] + w.sigma[k];
-        s.phi[k] = w.terms.phi[k];
-    }
-    s.t += rule.dt;
-    book(model, rule.dt, s, w);
 }
 
 /// Adds the work of this step, by the trapezoidal rule in time.
@@ -295,7 +320,7 @@ pub(crate) fn book<T: Real, M: Model<T>, S: SpdSolver<T>>(
 }
 
 /// The first entry that is not finite, else the largest.
-fn largest_or_nan<T: Real>(x: &[T]) -> u32 {
+pub(crate) fn largest_or_nan<T: Real>(x: &[T]) -> u32 {
     let bad = x.iter().position(|x| !x.is_finite());
     bad.map_or_else(|| largest(x), |i| u32::try_from(i).unwrap_or(u32::MAX))
 }

@@ -16,6 +16,11 @@ use mbs_core::algebra::norm_inf;
 use mbs_core::model::Model;
 use mbs_core::{Real, SpdSolver};
 
+/// A sweep that leaves more than this share of the violation is slow.
+const SLOW: f64 = 1e-2;
+/// The most that slow sweeps may raise the penalties.
+const MOST: f64 = 1e7;
+
 /// Which vector is projected, with its right-hand side b.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Level {
@@ -64,10 +69,14 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             for i in 0..self.sigma.len() {
                 self.sigma[i] += self.penalty[i] * self.rates[i];
             }
-            let stalls = left > violation * T::HALF;
+            let contraction = left / violation;
             violation = left;
-            if stalls && violation <= limit {
+            if contraction > T::HALF && violation <= limit {
                 return Ok(violation);
+            }
+            let is_slow = contraction > T::from_f64(SLOW) && violation > limit;
+            if is_slow && self.stiffen(contraction.min(T::ONE)) {
+                self.factor(model, (T::ZERO, T::ZERO), false)?;
             }
         }
         if violation <= limit {
@@ -76,6 +85,23 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         let level = if level == Level::Velocity { 1 } else { 2 };
         let row = largest(&self.rates);
         Err(StepError::Violated { level, violation: violation.to_f64(), row })
+    }
+
+    /// Raises the penalties until corrections contract by [`SLOW`]: a direction is nearly lost to the constraints.
+    ///
+    /// One correction leaves rho = m / (m + s sigma^2): for rho' = SLOW the penalty must grow by rho / (1 - rho) / SLOW.
+    /// Returns whether anything changed.
+    pub(crate) fn stiffen(&mut self, contraction: T) -> bool {
+        let kept = (T::ONE - contraction).max(T::from_f64(1e-2));
+        let growth = (contraction / kept / T::from_f64(SLOW)).min(T::from_f64(MOST) / self.boost);
+        if growth <= T::ONE {
+            return false;
+        }
+        self.boost *= growth;
+        for p in &mut self.penalty {
+            *p *= growth;
+        }
+        true
     }
 
     fn sweep<M: Model<T>>(&mut self, model: &M, level: Level) {
