@@ -34,7 +34,7 @@ pub(crate) fn eliminate<T: Real>(
     loop {
         let p = d.len().min(BLOCK);
         let result = match p {
-            6 => block_of_six(a, d, f),
+            6 => block::<T, 6>(a, d, f),
             5 => block::<T, 5>(a, d, f),
             4 => block::<T, 4>(a, d, f),
             3 => block::<T, 3>(a, d, f),
@@ -53,15 +53,19 @@ pub(crate) fn eliminate<T: Real>(
     }
 }
 
-/// [`block`] of six, with the sizes of fronts that bodies with shared points make known to the compiler.
+/// Eliminates the first `P` unknowns of a packed front; without further rows the compiler knows all sizes.
 #[inline(always)]
-fn block_of_six<T: Real>(a: &mut [T], d: &mut [T], f: usize) -> Result<(), BadPivot<T>> {
-    block::<T, 6>(a, d, f)
+fn block<T: Real, const P: usize>(a: &mut [T], d: &mut [T], f: usize) -> Result<(), BadPivot<T>> {
+    if f == P { block_sized::<T, P>(a, d, P) } else { block_sized::<T, P>(a, d, f) }
 }
 
 /// Eliminates the first `P` unknowns of the packed front `a` of `f` unknowns.
 #[inline(always)]
-fn block<T: Real, const P: usize>(a: &mut [T], d: &mut [T], f: usize) -> Result<(), BadPivot<T>> {
+fn block_sized<T: Real, const P: usize>(
+    a: &mut [T],
+    d: &mut [T],
+    f: usize,
+) -> Result<(), BadPivot<T>> {
     let (panel, update) = a.split_at_mut(column(f, P));
     let d = &mut d[..P];
     let mut rest = panel;

@@ -104,9 +104,11 @@ pub(crate) fn plan(cliques: &impl Cliques, options: Options) -> Plan {
 
 /// One front for all unknowns, if there are any.
 fn one_front(n: usize) -> Fronts {
-    let mut fronts = Fronts::default();
-    fronts.pivots = Lists::with_capacity(1);
-    fronts.rows = Lists::with_capacity(1);
+    let mut fronts = Fronts {
+        pivots: Lists::with_capacity(1),
+        rows: Lists::with_capacity(1),
+        parent: Vec::new(),
+    };
     if n > 0 {
         fronts.pivots.items.push(0);
         fronts.pivots.close();

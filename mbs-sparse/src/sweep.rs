@@ -90,8 +90,8 @@ fn backward_block<T: Real, const P: usize>(a: &[T], y: &mut [T]) {
             v[k] -= below[k][i] * y2[i];
         }
     }
-    for k in (0..P).rev() {
-        for i in k + 1..P {
+    for i in (1..P).rev() {
+        for k in 0..i {
             let product = columns[k][i - k] * v[i];
             v[k] -= product;
         }

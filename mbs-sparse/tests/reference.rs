@@ -18,7 +18,7 @@ fn right_hand_side(n: usize) -> Vec<f64> {
 
 fn solve(sum: &Sum, options: Options, b: &[f64]) -> Vec<f64> {
     let mut solver = Multifrontal::<f64>::analyse(sum, options);
-    solver.factor(sum).unwrap();
+    solver.factor(sum).expect("positive definite");
     let mut x = b.to_vec();
     let mut scratch = vec![f64::NAN; solver.n_scratch()];
     solver.solve(&mut x, &mut scratch);

@@ -73,7 +73,7 @@ impl Sum {
             let mut entries = block.iter();
             for (j, &b) in clique.iter().enumerate() {
                 for (i, &a) in clique.iter().enumerate().skip(j) {
-                    let value = entries.next().unwrap();
+                    let value = entries.next().expect("a packed triangle");
                     t[a as usize * self.n + b as usize] += value;
                     if i != j {
                         t[b as usize * self.n + a as usize] += value;
@@ -91,7 +91,7 @@ impl Sum {
             let mut entries = block.iter();
             for (j, &v) in clique.iter().enumerate() {
                 for (i, &u) in clique.iter().enumerate().skip(j) {
-                    let value = entries.next().unwrap();
+                    let value = entries.next().expect("a packed triangle");
                     b[u as usize] += value * x[v as usize];
                     if i != j {
                         b[v as usize] += value * x[u as usize];

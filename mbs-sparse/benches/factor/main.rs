@@ -8,9 +8,8 @@
 #![allow(missing_docs, reason = "the harness makes undocumented functions")]
 #![allow(clippy::print_stdout, reason = "the counts are part of the report")]
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../../tests/common/mod.rs"]
 mod common;
-#[path = "faer_rival.rs"]
 mod faer_rival;
 
 use common::Sum;

@@ -36,7 +36,7 @@ impl Rival {
         let mut distinct = entries.clone();
         distinct.sort_unstable();
         distinct.dedup();
-        let slots = entries.iter().map(|e| distinct.binary_search(e).unwrap()).collect();
+        let slots = entries.iter().map(|e| distinct.binary_search(e).expect("listed")).collect();
         let mut start = vec![0; sum.n + 1];
         for &(col, _) in &distinct {
             start[col + 1] += 1;
@@ -51,8 +51,8 @@ impl Rival {
             ..CholeskySymbolicParams::default()
         };
         let amd = SymmetricOrdering::Amd;
-        let symbolic =
-            factorize_symbolic_cholesky(pattern.as_ref(), Side::Upper, amd, params).unwrap();
+        let symbolic = factorize_symbolic_cholesky(pattern.as_ref(), Side::Upper, amd, params)
+            .expect("memory");
         let scratch = StackReq::or(
             symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()),
             symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
@@ -97,7 +97,7 @@ impl Rival {
                 stack,
                 Default::default(),
             )
-            .unwrap();
+            .expect("positive definite");
         let n = x.len();
         let rhs = MatMut::from_column_major_slice_mut(x, n, 1);
         let stack = MemStack::new(&mut self.memory);
