@@ -1,1 +1,5 @@
 #![doc = include_str!("../README.md")]
+
+mod read;
+
+pub use read::{Document, Place, ReadError, ReadFault};
