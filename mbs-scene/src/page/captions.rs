@@ -23,7 +23,7 @@ pub(super) fn violation(series: &ViolationSeries) -> String {
     format!(
         "How far the constraints are from being met, largest residual at each level: position {:.1e} \
          m, velocity {:.1e} m/s, acceleration {:.1e} m/s^2 (or rad). Zeros are not drawn on this \
-         logarithmic axis.",
+         logarithmic axis of at most sixteen decades.",
         largest(&series.position),
         largest(&series.velocity),
         largest(&series.acceleration)

@@ -2,6 +2,8 @@
 function makeMotion(motion, clock) {
   const stage = document.getElementById("stage"), pencil = stage.getContext("2d");
   const spatial = motion.dimension === 3, n = motion.dimension;
+  // numbers that are not finite come as null: they must not be drawn at zero
+  motion.frames = motion.frames.map((frame) => frame.map((x) => (x === null ? NaN : x)));
   const home = { yaw: -0.6, pitch: 0.35 };
   let view = { ...home };
 
@@ -25,7 +27,7 @@ function makeMotion(motion, clock) {
   // box of all positions: in the plane as it is, in space as a ball so that turning does not zoom
   const low = Array(n).fill(Infinity), high = Array(n).fill(-Infinity);
   const include = (p) => p.forEach((x, k) => {
-    if (x !== null && k < n) { low[k] = Math.min(low[k], x); high[k] = Math.max(high[k], x); }
+    if (Number.isFinite(x) && k < n) { low[k] = Math.min(low[k], x); high[k] = Math.max(high[k], x); }
   });
   motion.frames.forEach((frame) => { for (let i = 0; i * n < frame.length; i++) include(point(frame, i)); });
   motion.ground.forEach(include);

@@ -33,7 +33,7 @@ function legendEntry(parent, i, name, marked) {
 function show(x) {
   if (x === null || x === undefined) return "none";
   const size = Math.abs(x);
-  return size !== 0 && (size < 1e-3 || size >= 1e6) ? x.toExponential(3) : String(+x.toPrecision(5));
+  return size !== 0 && (size < 1e-3 || size >= 1e6) ? (+x.toPrecision(4)).toExponential() : String(+x.toPrecision(5));
 }
 
 function niceTicks(low, high, wanted) {
@@ -75,16 +75,17 @@ function makePlot(panel, clock, parent) {
   caption.className = "caption";
   caption.textContent = panel.caption;
   parent.appendChild(card);
-  const when = legend.appendChild(document.createElement("span"));
   const marked = panel.lines.length > 1;
   const values = panel.lines.map((line, i) => legendEntry(legend, i, line.name, marked));
+  const when = legend.appendChild(document.createElement("span"));
 
   // value to be drawn: logarithms of positive numbers only
   const drawn = (y) => (y === null || (panel.log && !(y > 0)) ? null : panel.log ? Math.log10(y) : y);
   const lines = panel.lines.map((line) => ({ t: line.t, y: line.y.map(drawn) }));
   let [t0, t1] = clock.span;
   let [low, high] = limits(lines.flatMap((line) => line.y));
-  if (panel.log) { low = Math.floor(low); high = Math.max(Math.ceil(high), low + 1); }
+  // zero crossings dip without end on a logarithmic axis: sixteen decades are the digits of a number
+  if (panel.log) { high = Math.ceil(high); low = Math.min(Math.max(Math.floor(low), high - 16), high - 1); }
   else if (panel.steps) { low = 0; high += 0.5; }
   else {
     const room = (high - low) * 0.06 || Math.abs(high) * 0.1 || 1;
@@ -99,7 +100,7 @@ function makePlot(panel, clock, parent) {
     svg.replaceChildren();
     area = { left: 62, right: width - 10, top: 8, bottom: height - 36 };
     x = (t) => area.left + ((t - t0) / (t1 - t0)) * (area.right - area.left);
-    y = (v) => area.bottom - ((v - low) / (high - low)) * (area.bottom - area.top);
+    y = (v) => area.bottom - ((Math.max(v, low) - low) / (high - low)) * (area.bottom - area.top);
     axes(width, height);
     lines.forEach((line, i) => trace(line, i));
     now = element("line", { class: "now", y1: area.top, y2: area.bottom }, svg);
@@ -116,7 +117,7 @@ function makePlot(panel, clock, parent) {
       const label = element("text", { x: area.left - 6, y: y(v) + 4, "text-anchor": "end" }, svg);
       label.textContent = panel.log ? `1e${v}` : Math.abs(v) < (high - low) * 1e-9 ? "0" : show(v);
     }
-    for (const t of niceTicks(t0, t1, width < 420 ? 4 : 7)) {
+    for (const t of niceTicks(t0, t1, width < 420 ? 5 : 7)) {
       element("line", { class: "grid", x1: x(t), x2: x(t), y1: area.top, y2: area.bottom }, svg);
       const label = element("text", { x: x(t), y: area.bottom + 16, "text-anchor": "middle" }, svg);
       label.textContent = show(t);

@@ -74,7 +74,7 @@ pub struct RunError {
     pub hint: String,
 }
 
-/// The energy invariant Pi = T + V - work of non-conservative forces and guides [J].
+/// The energy invariant Pi = T + V - work of non-conservative forces and guides, in joules.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
 pub struct EnergySummary {
     /// Pi at the start.
