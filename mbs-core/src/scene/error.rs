@@ -172,7 +172,8 @@ impl SceneFault {
             Self::OutOfPlane(x) => write!(f, "leaves the plane of a planar scene by {x}"),
             Self::WrongDimension => write!(f, "does not fit the dimension of the scene"),
             Self::WrongCount { needed, found } => {
-                write!(f, "needs {needed} numbers, but has {found}")
+                let plural = if *needed == 1 { "" } else { "s" };
+                write!(f, "needs {needed} number{plural}, but has {found}")
             }
             Self::NoCoordinate => write!(f, "is a joint without coordinates"),
             Self::NoSingleCoordinate(n) => {

@@ -1,0 +1,52 @@
+//! The sentence under each plot.
+
+use crate::record::{EnergySeries, IterationSeries, ViolationSeries};
+
+pub(super) fn energy_error(series: &EnergySeries) -> String {
+    let Some((time, value)) = peak(&series.times, &series.invariant_error) else {
+        return String::new();
+    };
+    format!(
+        "How far the energy invariant Pi = T + V - work of dampers, forces and guides is from its \
+         start: at most {value:.3e} J, at t = {time:.4} s. A drift grows; rounding scatters."
+    )
+}
+
+pub(super) fn energies() -> String {
+    "Kinetic energy T and potential energy V: what one loses the other gains, but for work done from \
+     outside and by dampers."
+        .to_owned()
+}
+
+pub(super) fn violation(series: &ViolationSeries) -> String {
+    let largest = |values| peak(&series.times, values).map_or(0.0, |(_, value)| value);
+    format!(
+        "How far the constraints are from being met, largest residual at each level: position {:.1e} \
+         m, velocity {:.1e} m/s, acceleration {:.1e} m/s^2 (or rad). Zeros are not drawn on this \
+         logarithmic axis of at most sixteen decades.",
+        largest(&series.position),
+        largest(&series.velocity),
+        largest(&series.acceleration)
+    )
+}
+
+pub(super) fn iterations(series: &IterationSeries) -> String {
+    let n = series.counts.len().max(1);
+    let sum: u64 = series.counts.iter().map(|count| u64::from(*count)).sum();
+    let most = series.counts.iter().max().copied().unwrap_or(0);
+    #[allow(clippy::cast_precision_loss, reason = "a mean for reading")]
+    let mean = sum as f64 / n as f64;
+    format!("Newton iterations of each step: {mean:.2} on average, {most} at most.")
+}
+
+pub(super) fn channel(names: &[&str], unit: &str) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    let verb = if names.len() == 1 { "Output" } else { "Outputs" };
+    format!("{verb} {} over time [{unit}].", names.join(", "))
+}
+
+/// Time and size of the largest absolute value.
+fn peak(times: &[f64], values: &[f64]) -> Option<(f64, f64)> {
+    let pairs = times.iter().zip(values).filter(|(_, value)| value.is_finite());
+    pairs.map(|(t, x)| (*t, x.abs())).max_by(|(_, a), (_, b)| a.total_cmp(b))
+}

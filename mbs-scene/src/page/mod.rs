@@ -1,0 +1,56 @@
+//! The page of a run: one self-contained HTML file with animation and plots.
+//!
+//! Style, script and data are inside the file; it opens from disk and asks the network for nothing.
+
+mod captions;
+mod data;
+mod decimate;
+#[cfg(test)]
+mod tests;
+
+use crate::record::RunRecord;
+
+const TEMPLATE: &str = include_str!("page.html");
+const STYLE: &str = include_str!("style.css");
+const PLOT: &str = include_str!("plot.js");
+const MOTION: &str = include_str!("motion.js");
+const MAIN: &str = include_str!("main.js");
+
+/// Writes the page of a run: one HTML file without references to anything outside.
+///
+/// Series are thinned to at most 1500 points per line; the smallest and largest value of every stretch stay,
+/// so peaks survive. Numbers that are not finite leave gaps.
+///
+/// # Examples
+/// ```
+/// let record = mbs_scene::RunRecord { scene: "pendulum".into(), ..Default::default() };
+/// let html = mbs_scene::page(&record);
+/// assert!(html.starts_with("<!doctype html>") && html.contains("<title>pendulum</title>"));
+/// ```
+#[must_use]
+pub fn page(record: &RunRecord) -> String {
+    let title = escape(&record.scene);
+    // `<` inside a text of the data must not end the script element it stands in
+    let data = data::json(record).replace('<', "\\u003c");
+    let scripts = [PLOT, MOTION, MAIN].concat();
+    let mut out = String::with_capacity(TEMPLATE.len() + data.len() + scripts.len() + STYLE.len());
+    // the parts are inserted in one pass, so what they contain is never taken for a mark
+    let mut rest = TEMPLATE;
+    for (mark, part) in [
+        ("{{title}}", title.as_str()),
+        ("{{style}}", STYLE),
+        ("{{data}}", data.as_str()),
+        ("{{script}}", scripts.as_str()),
+    ] {
+        if let Some((before, after)) = rest.split_once(mark) {
+            out += before;
+            out += part;
+            rest = after;
+        }
+    }
+    out + rest
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

@@ -1,0 +1,42 @@
+//! `[[body]]`.
+
+use crate::read::fields::{Fields, Read};
+use mbs_core::Real;
+use mbs_core::scene::{Body, Inertia};
+
+const KEYS: [&str; 5] = ["name", "mass", "center", "inertia", "rod"];
+
+pub(crate) fn read<T: Real>(fields: &Fields<'_>) -> Read<Body<T>> {
+    fields.allow(&KEYS, &[])?;
+    let context = fields.context;
+    let (name, mass) = (fields.name()?, fields.number::<T>("mass")?);
+    if let Some(item) = fields.get("rod") {
+        fields.exclusive("rod", "center")?;
+        fields.exclusive("rod", "inertia")?;
+        let ends = context.table(item, "a table: { from = [..], to = [..] }")?;
+        ends.allow(&["from", "to"], &[])?;
+        let (from, to) = (ends.vector::<T>("from")?, ends.vector::<T>("to")?);
+        let center = core::array::from_fn(|i| T::HALF * (from[i] + to[i]));
+        return Ok(Body { name, mass, center, inertia: Inertia::Rod { from, to } });
+    }
+    // a body without mass has neither a centre of mass nor inertia to speak of
+    let center = match fields.get("center") {
+        None if mass.is_zero() => [T::ZERO; 3],
+        _ => fields.vector("center")?,
+    };
+    let inertia = match (fields.get("inertia"), context.is_planar()) {
+        (None, true) if mass.is_zero() => Inertia::Planar(T::ZERO),
+        (None, false) if mass.is_zero() => Inertia::Spatial([T::ZERO; 6]),
+        (_, true) => Inertia::Planar(fields.number("inertia")?),
+        (_, false) => {
+            let form = "a list of six numbers: [Ixx, Iyy, Izz, Ixy, Iyz, Izx]";
+            let items = context.exactly::<6>(fields.need("inertia")?, form)?;
+            let mut six = [T::ZERO; 6];
+            for (entry, item) in six.iter_mut().zip(items) {
+                *entry = context.number(item)?;
+            }
+            Inertia::Spatial(six)
+        }
+    };
+    Ok(Body { name, mass, center, inertia })
+}

@@ -1,0 +1,231 @@
+//! A scene file as read, before the precision of the run is known.
+
+use crate::read::fields::{Context, Fields, Read};
+use crate::read::tree::{self, Item, Member, Node, Span};
+use crate::read::{Place, ReadError, ReadFault, body, effect, joint, motion, output};
+use mbs_core::Real;
+use mbs_core::scene::{Dimension, Entry, Scene, SceneError, SceneFault};
+use std::collections::BTreeMap;
+
+/// A scene file: syntax tree, text and name. Numbers are still decimal text.
+#[derive(Debug, Clone)]
+pub struct Document {
+    file: String,
+    text: String,
+    root: Vec<Member>,
+}
+
+const TABLES: [&str; 8] =
+    ["scene", "body", "joint", "initial", "guide", "effect", "solver", "output"];
+const SCENE_KEYS: [&str; 5] = ["name", "dimension", "gravity", "duration", "start"];
+
+impl Document {
+    /// Reads the text of a scene file; `file` is the name that messages show.
+    ///
+    /// # Errors
+    /// [`ReadFault::Syntax`] when the text is not TOML. What the text means is read by [`Self::scene`].
+    pub fn parse(text: &str, file: &str) -> Result<Self, ReadError> {
+        match tree::parse(text) {
+            Ok(root) => Ok(Self { file: file.to_owned(), text: text.to_owned(), root }),
+            Err((message, span)) => {
+                let place = Place::of(text, &span);
+                Err(ReadError::new(file, place, ReadFault::Syntax(message)))
+            }
+        }
+    }
+
+    /// Reads the bytes of a scene file.
+    ///
+    /// # Errors
+    /// [`ReadFault::NotUtf8`] with the place of the first bad byte, and those of [`Self::parse`].
+    pub fn from_bytes(bytes: &[u8], file: &str) -> Result<Self, ReadError> {
+        match core::str::from_utf8(bytes) {
+            Ok(text) => Self::parse(text, file),
+            Err(error) => {
+                let good = error.valid_up_to();
+                let text = String::from_utf8_lossy(bytes);
+                let place = Place::of(&text, &(good..good));
+                Err(ReadError::new(file, place, ReadFault::NotUtf8))
+            }
+        }
+    }
+
+    /// The scene in the precision `T`, checked: every number is the one of `T` nearest to its decimal text.
+    ///
+    /// # Errors
+    /// The first thing in the file that is unknown, missing, or cannot be meant, with its place.
+    pub fn scene<T: Real>(&self) -> Result<Scene<T>, ReadError> {
+        let (bodies, joints) = (self.names("body"), self.names("joint"));
+        // the dimension is not known yet; nothing dimensional is read before it is
+        let dimension = Dimension::Planar;
+        let context = Context { document: self, dimension, bodies: &bodies, joints: &joints };
+        self.check_tables(&context)?;
+        self.refuse_duplicates(&bodies, Entry::Body)?;
+        self.refuse_duplicates(&joints, Entry::Joint)?;
+        let Some(item) = self.top("scene") else {
+            return context.fault(&(0..0), ReadFault::Missing { key: "[scene]" });
+        };
+        let dimension = read_dimension(&context.table(item, "a table: [scene]")?)?;
+        let context = Context { dimension, ..context };
+        let header = context.table(item, "a table: [scene]")?;
+        header.allow(&SCENE_KEYS, &[])?;
+        refuse_start(&header)?;
+        let body_data = self.entries(&context, "body", |_, fields| body::read(fields))?;
+        let centers: Vec<[T; 3]> = body_data.iter().map(|body| body.center).collect();
+        let scene = Scene {
+            name: self.scene_name(&header)?,
+            dimension,
+            gravity: header.get("gravity").map(|item| context.vector(item)).transpose()?,
+            duration: header.number("duration")?,
+            bodies: body_data,
+            joints: self.entries(&context, "joint", |_, fields| joint::read(fields, &centers))?,
+            initials: self
+                .entries(&context, "initial", |_, fields| motion::read_initial(fields))?,
+            guides: self.entries(&context, "guide", |_, fields| motion::read_guide(fields))?,
+            effects: self.entries(&context, "effect", effect::read)?,
+            outputs: self.entries(&context, "output", |_, fields| output::read(fields))?,
+            solver: match self.top("solver") {
+                Some(item) => output::read_solver(&context.table(item, "a table: [solver]")?)?,
+                None => Default::default(),
+            },
+        };
+        match scene.check() {
+            Ok(()) => Ok(scene),
+            Err(error) => Err(self.meaning(error)),
+        }
+    }
+
+    /// The place of a key's value, of the entry's header when the key is not written, or of the file's start.
+    #[must_use]
+    pub fn place(&self, entry: Entry, field: &str) -> Place {
+        let (table, index) = match entry {
+            Entry::Scene => ("scene", None),
+            Entry::Solver => ("solver", None),
+            Entry::Body(i) => ("body", Some(i)),
+            Entry::Joint(i) => ("joint", Some(i)),
+            Entry::Initial(i) => ("initial", Some(i)),
+            Entry::Guide(i) => ("guide", Some(i)),
+            Entry::Effect(i) => ("effect", Some(i)),
+            Entry::Output(i) => ("output", Some(i)),
+        };
+        let item = self.top(table).and_then(|item| match (&item.node, index) {
+            (Node::List(items), Some(i)) => items.get(i),
+            (_, None) => Some(item),
+            _ => None,
+        });
+        let span = match item {
+            Some(Item { node: Node::Table(members), span }) => {
+                members.iter().find(|m| m.key == field).map_or(span, |m| &m.item.span)
+            }
+            Some(item) => &item.span,
+            None => &(0..0),
+        };
+        Place::of(&self.text, span)
+    }
+
+    /// The file as it was named to [`Self::parse`].
+    #[must_use]
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// The text of the file.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    pub(crate) fn error(&self, span: &Span, fault: ReadFault) -> ReadError {
+        ReadError::new(&self.file, Place::of(&self.text, span), fault)
+    }
+
+    fn top(&self, key: &str) -> Option<&Item> {
+        self.root.iter().find(|member| member.key == key).map(|member| &member.item)
+    }
+
+    /// Names of bodies or joints as far as they are texts; the rest is refused when the entry is read.
+    fn names(&self, key: &str) -> Vec<String> {
+        let Some(Item { node: Node::List(items), .. }) = self.top(key) else { return Vec::new() };
+        let name = |item: &Item| match &item.node {
+            Node::Table(members) => members.iter().find(|m| m.key == "name").and_then(|m| {
+                if let Node::Text(text) = &m.item.node { Some(text.clone()) } else { None }
+            }),
+            _ => None,
+        };
+        items.iter().map(|item| name(item).unwrap_or_default()).collect()
+    }
+
+    /// Names are told apart before they are referred to: else a repeated name reads as an unknown one.
+    fn refuse_duplicates(&self, names: &[String], entry: fn(usize) -> Entry) -> Read<()> {
+        let mut seen = BTreeMap::new();
+        for (i, name) in names.iter().enumerate().filter(|(_, name)| !name.is_empty()) {
+            if let Some(first) = seen.insert(name, i) {
+                let fault = SceneFault::DuplicateName(first);
+                return Err(self.meaning(SceneError { entry: entry(i), field: "name", fault }));
+            }
+        }
+        Ok(())
+    }
+
+    /// A fault of the scene at its place in the file.
+    ///
+    /// Also for scenes that were changed after reading (by a command line) and checked again.
+    #[must_use]
+    pub fn meaning(&self, error: SceneError) -> ReadError {
+        let place = self.place(error.entry, error.field);
+        ReadError::new(&self.file, place, ReadFault::Scene(error))
+    }
+
+    fn entries<'a, R>(
+        &'a self,
+        context: &Context<'a>,
+        key: &'static str,
+        read: impl Fn(usize, &Fields<'a>) -> Read<R>,
+    ) -> Read<Vec<R>> {
+        let Some(item) = self.top(key) else { return Ok(Vec::new()) };
+        context
+            .list(item, "a list of tables, each under a header in double brackets like [[body]]")?
+            .iter()
+            .enumerate()
+            .map(|(i, item)| read(i, &context.table(item, "a table")?))
+            .collect()
+    }
+
+    fn check_tables(&self, context: &Context<'_>) -> Read<()> {
+        if let Some(road) = self.root.iter().find(|member| member.key == "road") {
+            let fault = ReadFault::NotBuilt { found: "`[road]`".to_owned(), built: Vec::new() };
+            return context.fault(&road.key_span, fault);
+        }
+        Fields { context: *context, header: &(0..0), members: &self.root }.allow(&TABLES, &[])
+    }
+
+    /// The name as written, else the file's name without directories and ending.
+    fn scene_name(&self, header: &Fields<'_>) -> Read<String> {
+        if header.get("name").is_some() {
+            return header.name();
+        }
+        let file = self.file.rsplit(['/', '\\']).next().unwrap_or_default();
+        Ok(file.strip_suffix(".toml").unwrap_or(file).to_owned())
+    }
+}
+
+fn read_dimension(header: &Fields<'_>) -> Read<Dimension> {
+    let item = header.need("dimension")?;
+    match &item.node {
+        Node::Number(text) if text == "2" => Ok(Dimension::Planar),
+        Node::Number(text) if text == "3" => Ok(Dimension::Spatial),
+        Node::Number(text) => header.unknown_word("dimension", (text, &item.span), &["2", "3"]),
+        _ => header.number::<f64>("dimension").map(|_| Dimension::Planar),
+    }
+}
+
+fn refuse_start(header: &Fields<'_>) -> Read<()> {
+    let Some(item) = header.get("start") else { return Ok(()) };
+    match header.context.text(item)? {
+        "equilibrium" => {
+            let found = "`start = \"equilibrium\"`".to_owned();
+            header.context.fault(&item.span, ReadFault::NotBuilt { found, built: Vec::new() })
+        }
+        other => header.unknown_word("start", (other, &item.span), &["equilibrium"]),
+    }
+}

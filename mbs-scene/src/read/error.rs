@@ -1,0 +1,220 @@
+//! What can be wrong with a scene file.
+
+use crate::read::Place;
+use crate::read::nearest::nearest;
+use core::fmt::{self, Display, Formatter, Write};
+use mbs_core::scene::SceneError;
+
+/// A refused scene file: the fault, its place, and what to do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReadError(Box<Parts>);
+
+#[derive(Debug, Clone, PartialEq)]
+struct Parts {
+    file: String,
+    place: Place,
+    fault: ReadFault,
+}
+
+/// The faults of a scene file.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum ReadFault {
+    /// The file is not UTF-8 text.
+    NotUtf8,
+    /// The file is not TOML; the parser's message.
+    Syntax(String),
+    /// A key or table that nobody knows.
+    UnknownKey {
+        /// The key as written.
+        key: String,
+        /// The keys that may stand there.
+        known: Vec<&'static str>,
+    },
+    /// A key that exists, but not for this kind or dimension.
+    UnusedKey {
+        /// The key as written.
+        key: String,
+        /// The keys that may stand there.
+        known: Vec<&'static str>,
+    },
+    /// A word outside a fixed list (kind, quantity, frame, dimension).
+    UnknownWord {
+        /// The key whose value it is.
+        key: &'static str,
+        /// The word as written.
+        found: String,
+        /// The words that may stand there.
+        known: Vec<&'static str>,
+    },
+    /// A part of the format that this version does not build.
+    NotBuilt {
+        /// The part as written.
+        found: String,
+        /// What is built in its place.
+        built: Vec<&'static str>,
+    },
+    /// A body of that name is not in the file.
+    UnknownBody {
+        /// The name as written.
+        name: String,
+        /// The names that are there.
+        known: Vec<String>,
+    },
+    /// A joint of that name is not in the file.
+    UnknownJoint {
+        /// The name as written.
+        name: String,
+        /// The names that are there.
+        known: Vec<String>,
+    },
+    /// The ground where a moving body is needed.
+    GroundDoesNotMove,
+    /// A value of another type.
+    WrongType {
+        /// What is needed.
+        expected: &'static str,
+        /// What is there.
+        found: &'static str,
+    },
+    /// The count of numbers or entries in a list is wrong.
+    WrongCount {
+        /// How many are needed.
+        needed: usize,
+        /// How many are there.
+        found: usize,
+    },
+    /// A number that is infinite, not a number, or beyond the precision of the run.
+    NotFinite {
+        /// The number as written.
+        text: String,
+    },
+    /// A key or table that must be there.
+    Missing {
+        /// The key.
+        key: &'static str,
+    },
+    /// Two keys that exclude each other.
+    Both {
+        /// The keys.
+        keys: [&'static str; 2],
+    },
+    /// The scene is read, but cannot be meant.
+    Scene(SceneError),
+}
+
+impl ReadError {
+    pub(crate) fn new(file: &str, place: Place, fault: ReadFault) -> Self {
+        Self(Box::new(Parts { file: file.to_owned(), place, fault }))
+    }
+
+    /// The file as it was named to the reader.
+    #[must_use]
+    pub fn file(&self) -> &str {
+        &self.0.file
+    }
+
+    /// Line, column and the offending line.
+    #[must_use]
+    pub fn place(&self) -> &Place {
+        &self.0.place
+    }
+
+    /// What is wrong.
+    #[must_use]
+    pub fn fault(&self) -> &ReadFault {
+        &self.0.fault
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        self.0.fault.hint()
+    }
+
+    /// `file:line:column: message`, the line with a caret, and `hint: ...`; ends with a line end.
+    #[must_use]
+    pub fn render(&self) -> String {
+        self.0.place.render(&self.0.file, &self.0.fault.to_string(), &self.hint())
+    }
+}
+
+impl Display for ReadError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Parts { file, place, fault } = &*self.0;
+        write!(f, "{file}:{}:{}: {fault}", place.line, place.column)
+    }
+}
+
+impl core::error::Error for ReadError {}
+
+impl Display for ReadFault {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotUtf8 => write!(f, "the file is not UTF-8 text"),
+            Self::Syntax(message) => write!(f, "not TOML: {message}"),
+            Self::UnknownKey { key, .. } => write!(f, "unknown key `{key}`"),
+            Self::UnusedKey { key, .. } => write!(f, "`{key}` has no meaning here"),
+            Self::UnknownWord { key, found, .. } => write!(f, "unknown {key} `{found}`"),
+            Self::NotBuilt { found, .. } => write!(f, "{found} is not built yet"),
+            Self::UnknownBody { name, .. } => write!(f, "unknown body `{name}`"),
+            Self::UnknownJoint { name, .. } => write!(f, "unknown joint `{name}`"),
+            Self::GroundDoesNotMove => write!(f, "the ground does not move"),
+            Self::WrongType { expected, found } => write!(f, "expected {expected}, found {found}"),
+            Self::WrongCount { needed, found } => {
+                write!(f, "expected {needed} entries, found {found}")
+            }
+            Self::NotFinite { text } => write!(f, "`{text}` is not a finite number"),
+            Self::Missing { key } => write!(f, "`{key}` is missing"),
+            Self::Both { keys: [one, other] } => write!(f, "both `{one}` and `{other}` are given"),
+            Self::Scene(error) => write!(f, "`{}` {:#}", error.field, error.fault),
+        }
+    }
+}
+
+impl ReadFault {
+    fn hint(&self) -> String {
+        match self {
+            Self::NotUtf8 => "save the file as UTF-8".to_owned(),
+            Self::Syntax(_) => "see https://toml.io for the syntax of the file".to_owned(),
+            Self::UnknownKey { key, known } => suggestion(key, known, "keys"),
+            Self::UnusedKey { known, .. } => format!("remove it; {}", listing(known, "keys")),
+            Self::UnknownWord { found, known, .. } => suggestion(found, known, "choices"),
+            Self::NotBuilt { built, .. } if built.is_empty() => "remove it".to_owned(),
+            Self::NotBuilt { built, .. } => format!("built are: {}", built.join(", ")),
+            Self::UnknownBody { name, known } => suggestion(name, known, "bodies"),
+            Self::UnknownJoint { name, known } => suggestion(name, known, "joints"),
+            Self::GroundDoesNotMove => "name a body".to_owned(),
+            Self::WrongType { expected, .. } => format!("write {expected}"),
+            Self::WrongCount { needed, .. } => {
+                format!("write {needed}, in the order of the format")
+            }
+            Self::NotFinite { .. } => "write a finite decimal number".to_owned(),
+            Self::Missing { key } => format!("add `{key}`"),
+            Self::Both { .. } => "keep one of the two".to_owned(),
+            Self::Scene(error) => error.fault.advice().to_owned(),
+        }
+    }
+}
+
+fn suggestion<S: AsRef<str>>(found: &str, known: &[S], what: &str) -> String {
+    match nearest(found, known) {
+        Some(name) => format!("did you mean `{name}`?"),
+        None => listing(known, what),
+    }
+}
+
+/// All names when they are few, else the first of them.
+fn listing<S: AsRef<str>>(known: &[S], what: &str) -> String {
+    const MOST: usize = 16;
+    if known.is_empty() {
+        return format!("there are no {what} yet");
+    }
+    let names: Vec<&str> = known.iter().take(MOST).map(AsRef::as_ref).collect();
+    let mut out = format!("{what}: {}", names.join(", "));
+    if known.len() > MOST {
+        // writing into a String does not fail
+        let _ = write!(out, " and {} more", known.len() - MOST);
+    }
+    out
+}

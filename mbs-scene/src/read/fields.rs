@@ -1,0 +1,239 @@
+//! Typed access to the keys of one table.
+
+use crate::read::tree::{Item, Member, Node, Span};
+use crate::read::{Document, ReadError, ReadFault};
+use mbs_core::Real;
+use mbs_core::scene::{BodyRef, Dimension};
+
+/// What the readers of all entries share.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Context<'a> {
+    pub(crate) document: &'a Document,
+    pub(crate) dimension: Dimension,
+    pub(crate) bodies: &'a [String],
+    pub(crate) joints: &'a [String],
+}
+
+/// One table of the file.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Fields<'a> {
+    pub(crate) context: Context<'a>,
+    pub(crate) header: &'a Span,
+    pub(crate) members: &'a [Member],
+}
+
+pub(crate) type Read<T> = Result<T, ReadError>;
+
+impl<'a> Context<'a> {
+    pub(crate) fn fault<R>(&self, span: &Span, fault: ReadFault) -> Read<R> {
+        Err(self.document.error(span, fault))
+    }
+
+    pub(crate) fn is_planar(&self) -> bool {
+        self.dimension == Dimension::Planar
+    }
+
+    fn wrong_type<R>(&self, item: &Item, expected: &'static str) -> Read<R> {
+        let found = item.node.description();
+        self.fault(&item.span, ReadFault::WrongType { expected, found })
+    }
+
+    pub(crate) fn table(&self, item: &'a Item, expected: &'static str) -> Read<Fields<'a>> {
+        match &item.node {
+            Node::Table(members) => Ok(Fields { context: *self, header: &item.span, members }),
+            _ => self.wrong_type(item, expected),
+        }
+    }
+
+    pub(crate) fn list(&self, item: &'a Item, expected: &'static str) -> Read<&'a [Item]> {
+        match &item.node {
+            Node::List(items) => Ok(items),
+            _ => self.wrong_type(item, expected),
+        }
+    }
+
+    /// A list of exactly `N` entries.
+    pub(crate) fn exactly<const N: usize>(
+        &self,
+        item: &'a Item,
+        expected: &'static str,
+    ) -> Read<&'a [Item; N]> {
+        let items = self.list(item, expected)?;
+        match items.try_into() {
+            Ok(items) => Ok(items),
+            Err(_) => {
+                self.fault(&item.span, ReadFault::WrongCount { needed: N, found: items.len() })
+            }
+        }
+    }
+
+    pub(crate) fn text(&self, item: &'a Item) -> Read<&'a str> {
+        match &item.node {
+            Node::Text(text) => Ok(text),
+            _ => self.wrong_type(item, "a text in quotes"),
+        }
+    }
+
+    /// The nearest number to the decimal text; finite.
+    pub(crate) fn number<T: Real>(&self, item: &Item) -> Read<T> {
+        let Node::Number(text) = &item.node else { return self.wrong_type(item, "a number") };
+        match T::from_decimal(text) {
+            Some(number) if number.is_finite() => Ok(number),
+            _ => self.fault(&item.span, ReadFault::NotFinite { text: text.clone() }),
+        }
+    }
+
+    /// One number or a list of numbers.
+    pub(crate) fn numbers<T: Real>(&self, item: &'a Item) -> Read<Vec<T>> {
+        match &item.node {
+            Node::Number(_) => Ok(vec![self.number(item)?]),
+            Node::List(items) => items.iter().map(|entry| self.number(entry)).collect(),
+            _ => self.wrong_type(item, "a number or a list of numbers"),
+        }
+    }
+
+    /// A vector of the scene's dimension; a third component in a planar scene is left to the check.
+    pub(crate) fn vector<T: Real>(&self, item: &'a Item) -> Read<[T; 3]> {
+        let items = self.list(item, "a list of numbers")?;
+        self.components(item, items)
+    }
+
+    /// The components of a vector that stand in `items`, a part of `whole`.
+    pub(crate) fn components<T: Real>(&self, whole: &Item, items: &[Item]) -> Read<[T; 3]> {
+        let needed = self.dimension.count();
+        if items.len() != needed && items.len() != 3 {
+            return self.fault(&whole.span, ReadFault::WrongCount { needed, found: items.len() });
+        }
+        let mut vector = [T::ZERO; 3];
+        for (component, item) in vector.iter_mut().zip(items) {
+            *component = self.number(item)?;
+        }
+        Ok(vector)
+    }
+
+    pub(crate) fn body(&self, item: &'a Item) -> Read<BodyRef> {
+        let name = self.text(item)?;
+        if name == "ground" {
+            return Ok(BodyRef::Ground);
+        }
+        match self.bodies.iter().position(|body| body == name) {
+            Some(i) => Ok(BodyRef::Body(i)),
+            None => {
+                let mut known = vec!["ground".to_owned()];
+                known.extend_from_slice(self.bodies);
+                self.fault(&item.span, ReadFault::UnknownBody { name: name.to_owned(), known })
+            }
+        }
+    }
+
+    pub(crate) fn moving_body(&self, item: &'a Item) -> Read<usize> {
+        match self.body(item)? {
+            BodyRef::Body(i) => Ok(i),
+            BodyRef::Ground => self.fault(&item.span, ReadFault::GroundDoesNotMove),
+        }
+    }
+
+    pub(crate) fn joint(&self, item: &'a Item) -> Read<usize> {
+        let name = self.text(item)?;
+        match self.joints.iter().position(|joint| joint == name) {
+            Some(i) => Ok(i),
+            None => {
+                let (name, known) = (name.to_owned(), self.joints.to_vec());
+                self.fault(&item.span, ReadFault::UnknownJoint { name, known })
+            }
+        }
+    }
+}
+
+impl<'a> Fields<'a> {
+    pub(crate) fn get(&self, key: &str) -> Option<&'a Item> {
+        self.members.iter().find(|member| member.key == key).map(|member| &member.item)
+    }
+
+    pub(crate) fn need(&self, key: &'static str) -> Read<&'a Item> {
+        match self.get(key) {
+            Some(item) => Ok(item),
+            None => self.context.fault(self.header, ReadFault::Missing { key }),
+        }
+    }
+
+    /// Refuses keys outside `known`; those in `elsewhere` are told apart as known but not used here.
+    pub(crate) fn allow(&self, known: &[&'static str], elsewhere: &[&'static str]) -> Read<()> {
+        let Some(stranger) = self.members.iter().find(|m| !known.contains(&m.key.as_str())) else {
+            return Ok(());
+        };
+        let (key, known) = (stranger.key.clone(), known.to_vec());
+        let fault = if elsewhere.contains(&stranger.key.as_str()) {
+            ReadFault::UnusedKey { key, known }
+        } else {
+            ReadFault::UnknownKey { key, known }
+        };
+        self.context.fault(&stranger.key_span, fault)
+    }
+
+    /// At most one of two keys.
+    pub(crate) fn exclusive(&self, one: &'static str, other: &'static str) -> Read<()> {
+        match (self.get(one), self.get(other)) {
+            (Some(_), Some(item)) => {
+                self.context.fault(&item.span, ReadFault::Both { keys: [one, other] })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    pub(crate) fn name(&self) -> Read<String> {
+        Ok(self.context.text(self.need("name")?)?.to_owned())
+    }
+
+    pub(crate) fn number<T: Real>(&self, key: &'static str) -> Read<T> {
+        self.context.number(self.need(key)?)
+    }
+
+    pub(crate) fn optional<T: Real>(&self, key: &str) -> Read<Option<T>> {
+        self.get(key).map(|item| self.context.number(item)).transpose()
+    }
+
+    pub(crate) fn number_or_zero<T: Real>(&self, key: &str) -> Read<T> {
+        Ok(self.optional(key)?.unwrap_or(T::ZERO))
+    }
+
+    pub(crate) fn vector<T: Real>(&self, key: &'static str) -> Read<[T; 3]> {
+        self.context.vector(self.need(key)?)
+    }
+
+    pub(crate) fn word(&self, key: &'static str) -> Read<(&'a str, &'a Span)> {
+        let item = self.need(key)?;
+        Ok((self.context.text(item)?, &item.span))
+    }
+
+    pub(crate) fn flag(&self, key: &str, default: bool) -> Read<bool> {
+        match self.get(key) {
+            None => Ok(default),
+            Some(Item { node: Node::Bool(flag), .. }) => Ok(*flag),
+            Some(item) => self.context.wrong_type(item, "true or false"),
+        }
+    }
+
+    /// `bodies = ["first", "second"]`.
+    pub(crate) fn pair(&self) -> Read<[BodyRef; 2]> {
+        let [first, second] =
+            self.context.exactly(self.need("bodies")?, "a list of two body names")?;
+        Ok([self.context.body(first)?, self.context.body(second)?])
+    }
+
+    /// Two vectors, one per body.
+    pub(crate) fn two_vectors<T: Real>(&self, key: &'static str) -> Read<[[T; 3]; 2]> {
+        let [first, second] = self.context.exactly(self.need(key)?, "a list of two vectors")?;
+        Ok([self.context.vector(first)?, self.context.vector(second)?])
+    }
+
+    pub(crate) fn unknown_word<R>(
+        &self,
+        key: &'static str,
+        (found, span): (&str, &Span),
+        known: &[&'static str],
+    ) -> Read<R> {
+        let fault = ReadFault::UnknownWord { key, found: found.to_owned(), known: known.to_vec() };
+        self.context.fault(span, fault)
+    }
+}

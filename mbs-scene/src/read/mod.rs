@@ -1,0 +1,19 @@
+//! Reading of scene files: text → syntax tree with places → scene data in any precision.
+
+mod body;
+mod document;
+mod effect;
+mod error;
+mod fields;
+mod joint;
+mod motion;
+mod nearest;
+mod output;
+mod place;
+#[cfg(test)]
+mod tests;
+mod tree;
+
+pub use document::Document;
+pub use error::{ReadError, ReadFault};
+pub use place::Place;

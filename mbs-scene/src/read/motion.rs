@@ -1,0 +1,88 @@
+//! `[[initial]]` and `[[guide]]`.
+
+use crate::read::ReadFault;
+use crate::read::fields::{Fields, Read};
+use mbs_core::Real;
+use mbs_core::scene::{Guide, GuideLaw, Initial, InitialTarget};
+
+const INITIAL_KEYS: [&str; 7] =
+    ["joint", "value", "rate", "body", "at", "velocity", "angular_velocity"];
+
+pub(crate) fn read_initial<T: Real>(fields: &Fields<'_>) -> Read<Initial<T>> {
+    let context = fields.context;
+    fields.exclusive("joint", "body")?;
+    let target = match fields.get("body") {
+        Some(body) => {
+            fields.allow(&["body", "at", "velocity", "angular_velocity"], &INITIAL_KEYS)?;
+            InitialTarget::Body {
+                body: context.moving_body(body)?,
+                velocity: point_velocity(fields)?,
+                angular_velocity: angular_velocity(fields)?,
+            }
+        }
+        None => {
+            fields.allow(&["joint", "value", "rate"], &INITIAL_KEYS)?;
+            let numbers = |key| fields.get(key).map(|item| context.numbers(item)).transpose();
+            let joint = context.joint(fields.need("joint")?)?;
+            InitialTarget::Joint { joint, value: numbers("value")?, rate: numbers("rate")? }
+        }
+    };
+    Ok(Initial { target })
+}
+
+/// `at` and `velocity` come together.
+fn point_velocity<T: Real>(fields: &Fields<'_>) -> Read<Option<([T; 3], [T; 3])>> {
+    if fields.get("at").is_none() && fields.get("velocity").is_none() {
+        return Ok(None);
+    }
+    Ok(Some((fields.vector("at")?, fields.vector("velocity")?)))
+}
+
+/// Planar: one number, about z. Spatial: a vector in global axes.
+fn angular_velocity<T: Real>(fields: &Fields<'_>) -> Read<Option<[T; 3]>> {
+    let Some(item) = fields.get("angular_velocity") else { return Ok(None) };
+    if fields.context.is_planar() {
+        return Ok(Some([T::ZERO, T::ZERO, fields.context.number(item)?]));
+    }
+    fields.context.vector(item).map(Some)
+}
+
+pub(crate) fn read_guide<T: Real>(fields: &Fields<'_>) -> Read<Guide<T>> {
+    fields.allow(&["joint", "table", "sine", "ramp"], &[])?;
+    for (one, other) in [("table", "sine"), ("table", "ramp"), ("sine", "ramp")] {
+        fields.exclusive(one, other)?;
+    }
+    let context = fields.context;
+    let joint = context.joint(fields.need("joint")?)?;
+    let law = if let Some(item) = fields.get("sine") {
+        let sine =
+            context.table(item, "a table: { amplitude = .., frequency = .., phase = .. }")?;
+        sine.allow(&["amplitude", "frequency", "phase"], &[])?;
+        GuideLaw::Sine {
+            amplitude: sine.number("amplitude")?,
+            frequency: sine.number("frequency")?,
+            phase: sine.number_or_zero("phase")?,
+        }
+    } else if let Some(item) = fields.get("ramp") {
+        let ramp = context.table(item, "a table: { rate = .. }")?;
+        ramp.allow(&["rate"], &[])?;
+        GuideLaw::Ramp { rate: ramp.number("rate")? }
+    } else if fields.get("table").is_some() {
+        GuideLaw::Table(read_table(fields)?)
+    } else {
+        return context.fault(fields.header, ReadFault::Missing { key: "table, sine or ramp" });
+    };
+    Ok(Guide { joint, law })
+}
+
+fn read_table<T: Real>(fields: &Fields<'_>) -> Read<Vec<[T; 2]>> {
+    let context = fields.context;
+    context
+        .list(fields.need("table")?, "a list of rows [time, value]")?
+        .iter()
+        .map(|row| {
+            let [time, value] = context.exactly(row, "a row [time, value]")?;
+            Ok([context.number(time)?, context.number(value)?])
+        })
+        .collect()
+}

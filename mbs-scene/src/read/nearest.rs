@@ -1,0 +1,57 @@
+//! The nearest of several names, for "did you mean".
+
+/// The name at the smallest edit distance, when it is near enough to be meant.
+pub(crate) fn nearest<'a, S: AsRef<str>>(found: &str, known: &'a [S]) -> Option<&'a str> {
+    const LONGEST: usize = 64;
+    let found: Vec<char> = found.to_lowercase().chars().take(LONGEST + 1).collect();
+    let allowed = 1 + found.len() / 4;
+    if found.is_empty() || found.len() > LONGEST {
+        return None;
+    }
+    known
+        .iter()
+        .filter_map(|name| {
+            let letters: Vec<char> = name.as_ref().to_lowercase().chars().collect();
+            if letters.len().abs_diff(found.len()) > allowed {
+                return None;
+            }
+            let distance = distance(&found, &letters);
+            (distance <= allowed && distance < found.len()).then_some((distance, name.as_ref()))
+        })
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, name)| name)
+}
+
+/// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
+fn distance(a: &[char], b: &[char]) -> usize {
+    let mut two_back = vec![0; b.len() + 1];
+    let mut previous: Vec<usize> = (0..=b.len()).collect();
+    for i in 0..a.len() {
+        let mut current = vec![i + 1; b.len() + 1];
+        for j in 0..b.len() {
+            let replace = previous[j] + usize::from(a[i] != b[j]);
+            current[j + 1] = replace.min(previous[j + 1] + 1).min(current[j] + 1);
+            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+                current[j + 1] = current[j + 1].min(two_back[j - 1] + 1);
+            }
+        }
+        two_back = previous;
+        previous = current;
+    }
+    previous[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn slips_of_the_pen_are_recognised() {
+        let kinds = ["revolute", "prismatic", "spherical"];
+        assert_eq!(nearest("revolut", &kinds), Some("revolute"));
+        assert_eq!(nearest("Rveolute", &kinds), Some("revolute"));
+        assert_eq!(nearest("hinge", &kinds), None);
+        assert_eq!(nearest("", &kinds), None);
+        assert_eq!(nearest("ab", &["cd", "ac"]), Some("ac"));
+    }
+}

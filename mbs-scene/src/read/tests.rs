@@ -1,0 +1,299 @@
+//! Scenes of the format, each refusal with its exact place, and no panic on anything.
+#![allow(clippy::float_cmp, reason = "numbers are read exactly")]
+
+use crate::{Document, ReadError, ReadFault};
+use mbs_core::scene::*;
+
+mod random;
+
+const PLANAR: &str = r#"[scene]
+name = "double pendulum"
+dimension = 2
+gravity = [0.0, -9.81]
+duration = 10.0
+
+[[body]]
+name = "upper"
+rod = { from = [0.0, 0.0], to = [1.0, 0.0] }
+mass = 1.0
+
+[[body]]
+name = "lower"
+mass = 1.0
+center = [1.5, 0.0]
+inertia = 0.08333333333333333
+
+[[joint]]
+name = "pivot"
+kind = "revolute"
+bodies = ["ground", "upper"]
+at = [0.0, 0.0]
+
+[[joint]]
+name = "elbow"
+kind = "revolute"
+bodies = ["upper", "lower"]
+at = [1.0, 0.0]
+
+[[initial]]
+joint = "pivot"
+value = 0.1
+rate = 0.0
+
+[[initial]]
+body = "lower"
+at = [2.0, 0.0]
+velocity = [0.0, 0.0]
+
+[[guide]]
+joint = "elbow"
+sine = { amplitude = 0.05, frequency = 0.5, phase = 0.0 }
+
+[[effect]]
+name = "strut"
+kind = "spring-damper"
+bodies = ["ground", "lower"]
+points = [[2.0, 1.0], [2.0, 0.0]]
+stiffness = 35900.0
+damping = 1000.0
+free_length = 0.5
+
+[[effect]]
+kind = "torque"
+joint = "pivot"
+table = [[0.0, 1.0], [1.0, 2.0]]
+enabled = false
+
+[solver]
+formulation = "auto"
+step = 1.0e-3
+tolerance = 1.0e-10
+penalty = 1.0e7
+
+[[output]]
+name = "tip"
+body = "lower"
+at = [2.0, 0.0]
+quantity = "position"
+"#;
+
+const SPATIAL: &str = r#"[scene]
+dimension = 3
+duration = 1
+[[body]]
+name = "a"
+mass = 2
+center = [0, 0, 1]
+inertia = [0.1, 0.1, 0.1, 0.0, 0.0, 0.0]
+[[body]]
+name = "b"
+mass = 0
+[[joint]]
+name = "cross"
+kind = "universal"
+bodies = ["ground", "a"]
+at = [0, 0, 0]
+axes = [[1, 0, 0], [0, 1, 0]]
+[[joint]]
+name = "table"
+kind = "planar"
+bodies = ["a", "b"]
+at = [0, 0, 0]
+axis = [0, 0, 1]
+direction = [1, 0, 0]
+[[joint]]
+name = "drift"
+kind = "free"
+bodies = ["ground", "a"]
+[[joint]]
+name = "link"
+kind = "distance"
+bodies = ["ground", "b"]
+points = [[0, 0, 0], [1, 0, 0]]
+axis = [0, 1, 0]
+[[effect]]
+kind = "force"
+body = "a"
+at = [0, 0, 1]
+table = [[0, 1, 2, 3], [1, [4, 5, 6]]]
+frame = "body"
+"#;
+
+fn read(text: &str) -> Result<Scene<f64>, ReadError> {
+    Document::parse(text, "test.toml")?.scene()
+}
+
+/// The planar scene with one passage replaced, which must be refused; `line:column: message`.
+fn spoiled(from: &str, to: &str) -> ReadError {
+    spoil(PLANAR, from, to)
+}
+
+fn spoil(scene: &str, from: &str, to: &str) -> ReadError {
+    assert_eq!(scene.matches(from).count(), 1, "{from} stands once in the scene");
+    read(&scene.replacen(from, to, 1)).expect_err(to)
+}
+
+/// Asserts place, message and hint of a refusal.
+fn refused(error: &ReadError, place: &str, message: &str, hint: &str) {
+    let expected = format!("test.toml:{place}: {message}");
+    assert_eq!(error.to_string(), expected);
+    assert!(error.hint().contains(hint), "{} <> {hint}", error.hint());
+}
+
+#[test]
+fn the_planar_scene_of_the_format_is_read() {
+    let scene = read(PLANAR).unwrap();
+    assert_eq!(scene.name, "double pendulum");
+    assert_eq!(scene.gravity, Some([0.0, -9.81, 0.0]));
+    assert_eq!(scene.bodies[0].center, [0.5, 0.0, 0.0]);
+    assert_eq!(scene.joints[1].bodies, [BodyRef::Body(0), BodyRef::Body(1)]);
+    assert_eq!(scene.effects[1].name, "effect-2");
+    assert!(!scene.effects[1].enabled);
+    assert_eq!(scene.solver.formulation.as_deref(), Some("auto"));
+    assert_eq!(scene.outputs[0].quantity, Quantity::Position { body: 1, at: [2.0, 0.0, 0.0] });
+    let velocity = Some(([2.0, 0.0, 0.0], [0.0; 3]));
+    let expected = InitialTarget::Body { body: 1, velocity, angular_velocity: None };
+    assert_eq!(scene.initials[1].target, expected);
+}
+
+#[test]
+fn the_spatial_kinds_are_read() {
+    let scene = read(SPATIAL).unwrap();
+    assert_eq!(scene.name, "test");
+    assert_eq!(scene.gravity, None);
+    assert_eq!(scene.joints[0].axes, [Some([1.0, 0.0, 0.0]), Some([0.0, 1.0, 0.0])]);
+    assert_eq!(scene.joints[1].axes, [Some([0.0, 0.0, 1.0]), Some([1.0, 0.0, 0.0])]);
+    assert_eq!(scene.joints[2].points, [[0.0, 0.0, 1.0]; 2]);
+    assert_eq!(scene.joints[3].points, [[0.0; 3], [1.0, 0.0, 0.0]]);
+    let EffectKind::Force { course, frame, .. } = &scene.effects[0].kind else { panic!() };
+    let rows = vec![(0.0, [1.0, 2.0, 3.0]), (1.0, [4.0, 5.0, 6.0])];
+    assert_eq!((course, *frame), (&Course::Table(rows), AxisFrame::Body));
+}
+
+#[test]
+fn numbers_keep_their_decimal_text_until_the_precision_is_known() {
+    let document = Document::parse(PLANAR, "x").unwrap();
+    assert_eq!(
+        document.scene::<f32>().unwrap().gravity.unwrap()[1].to_bits(),
+        (-9.81_f32).to_bits()
+    );
+    assert_eq!(
+        document.scene::<f64>().unwrap().gravity.unwrap()[1].to_bits(),
+        (-9.81_f64).to_bits()
+    );
+    // halfway cases: through f64 this text would round to 1.0 in f32
+    let text = PLANAR.replace("duration = 10.0", "duration = 1.00000005960464477540");
+    let document = Document::parse(&text, "x").unwrap();
+    assert_eq!(document.scene::<f32>().unwrap().duration.to_bits(), 1.000_000_1_f32.to_bits());
+    let text = PLANAR.replace("duration = 10.0", "duration = 1_0.2_5e+0_1");
+    assert_eq!(read(&text).unwrap().duration.to_bits(), 102.5_f64.to_bits());
+    let text = PLANAR.replace("duration = 10.0", "duration = 0xF_F");
+    assert_eq!(read(&text).unwrap().duration.to_bits(), 255.0_f64.to_bits());
+}
+
+#[test]
+fn unknown_words_are_refused_with_the_nearest_name() {
+    let e = spoiled("rate = 0.0\n", "rat = 0.0\n");
+    refused(&e, "33:1", "unknown key `rat`", "did you mean `rate`?");
+    let e = spoiled("[solver]", "[solvr]");
+    refused(&e, "59:2", "unknown key `solvr`", "did you mean `solver`?");
+    let e = spoiled("[\"upper\", \"lower\"]", "[\"uper\", \"lower\"]");
+    refused(&e, "27:11", "unknown body `uper`", "did you mean `upper`?");
+    let e = spoiled("joint = \"elbow\"", "joint = \"ellbow\"");
+    refused(&e, "41:9", "unknown joint `ellbow`", "did you mean `elbow`?");
+    let e = spoiled("name = \"pivot\"\nkind = \"revolute\"", "name = \"pivot\"\nkind = \"hinge\"");
+    refused(&e, "20:8", "unknown kind `hinge`", "choices: revolute, spherical");
+    let e = spoiled("quantity = \"position\"", "quantity = \"positon\"");
+    refused(&e, "69:12", "unknown quantity `positon`", "did you mean `position`?");
+    let e = spoiled("dimension = 2", "dimension = 4");
+    refused(&e, "3:13", "unknown dimension `4`", "choices: 2, 3");
+    let e = spoiled("phase = 0.0", "fase = 0.0");
+    refused(&e, "42:45", "unknown key `fase`", "did you mean `phase`?");
+}
+
+#[test]
+fn what_is_not_built_says_what_is() {
+    let e = spoiled("kind = \"spring-damper\"", "kind = \"tire\"");
+    refused(&e, "46:8", "effect kind `tire` is not built yet", "built are: spring-damper, torque");
+    let e = spoiled("[solver]", "[road]\nkind = \"flat\"\n[solver]");
+    refused(&e, "59:2", "`[road]` is not built yet", "remove it");
+    let e = spoiled("duration = 10.0", "duration = 10.0\nstart = \"equilibrium\"");
+    refused(&e, "6:9", "`start = \"equilibrium\"` is not built yet", "remove it");
+}
+
+#[test]
+fn types_counts_and_missing_keys_have_places() {
+    let e = spoiled("duration = 10.0\n", "");
+    refused(&e, "1:1", "`duration` is missing", "add `duration`");
+    let e = spoiled("duration = 10.0", "duration = \"10\"");
+    refused(&e, "5:12", "expected a number, found a text", "write a number");
+    let e = spoiled("-9.81]", "-9.81, 0.0, 0.0]");
+    refused(&e, "4:11", "expected 2 entries, found 4", "write 2");
+    let e = spoiled("-9.81]", "-9.81, 0.5]");
+    refused(&e, "4:11", "`gravity` leaves the plane of a planar scene by 0.5", "x-y plane");
+    let e = spoiled("duration = 10.0", "duration = inf");
+    refused(&e, "5:12", "`inf` is not a finite number", "finite");
+    let e = spoiled("damping = 1000.0", "damping = 1e999");
+    refused(&e, "50:11", "`1e999` is not a finite number", "finite");
+    let e = spoiled("center = [1.5, 0.0]", "center = [nan, 0.0]");
+    refused(&e, "15:11", "`nan` is not a finite number", "finite");
+    let e = spoiled("mass = 1.0\n\n[[body]]", "mass = 1.0\ncenter = [0.0, 0.0]\n\n[[body]]");
+    refused(&e, "11:10", "both `rod` and `center` are given", "keep one");
+    let e = spoiled("at = [1.0, 0.0]", "at = [1.0, 0.0]\naxis = [0.0, 1.0]");
+    refused(&e, "29:1", "`axis` has no meaning here", "remove it; keys: name, kind, bodies, at");
+    let e = spoiled(
+        "body = \"lower\"\nat = [2.0, 0.0]\nvelocity",
+        "body = \"ground\"\nat = [2.0, 0.0]\nvelocity",
+    );
+    refused(&e, "36:8", "the ground does not move", "name a body");
+    let e = spoiled("duration = 10.0", "duration = = 10.0");
+    assert_eq!((e.place().line, e.place().column), (5, 12), "{e}");
+    assert!(matches!(e.fault(), ReadFault::Syntax(_)));
+    refused(&read("").unwrap_err(), "1:1", "`[scene]` is missing", "add");
+}
+
+#[test]
+fn scenes_that_cannot_be_meant_are_refused_at_the_value() {
+    let e = spoiled("mass = 1.0\ncenter", "mass = -1.0\ncenter");
+    refused(&e, "14:8", "`mass` must not be negative, but is -1", "zero or more");
+    let e = spoiled("name = \"lower\"", "name = \"upper\"");
+    refused(&e, "13:8", "`name` repeats the name of number 1", "own name");
+    let e = spoiled("[\"ground\", \"upper\"]", "[\"upper\", \"upper\"]");
+    refused(&e, "21:10", "`bodies` has the same body twice", "two different bodies");
+    let e = spoiled("to = [1.0, 0.0] }", "to = [0.0, 0.0] }");
+    refused(&e, "9:7", "`rod` has both points in the same place", "move");
+    let e = spoiled("step = 1.0e-3", "step = 0");
+    refused(&e, "61:8", "`step` must be larger than zero, but is 0", "larger than zero");
+    let e = spoiled("joint = \"pivot\"\nvalue = 0.1", "joint = \"elbow\"\nvalue = 0.1");
+    refused(&e, "32:9", "`value` is 0.1, but the guide of the joint starts with 0", "guide gives");
+    let e = spoiled("value = 0.1", "value = [0.1, 0.2]");
+    refused(&e, "32:9", "`value` needs 1 number, but has 2", "as many");
+    let e = spoil(SPATIAL, "[0.1, 0.1, 0.1, 0.0, 0.0, 0.0]", "[0.1, 0.1, 0.3, 0.0, 0.0, 0.0]");
+    let message = "`inertia` breaks the triangle inequality: the largest principal moment 0.3 is more \
+                   than the sum 0.2 of the other two";
+    refused(&e, "8:11", message, "digits");
+    let e = spoil(SPATIAL, "axis = [0, 1, 0]", "axis = [0, 0.0, 0]");
+    refused(&e, "34:8", "`axis` has no direction: all components are zero", "not zero");
+    let e =
+        spoiled("name = \"elbow\"\nkind = \"revolute\"", "name = \"elbow\"\nkind = \"spherical\"");
+    refused(&e, "26:8", "`kind` needs a spatial scene", "dimension = 3");
+}
+
+#[test]
+fn rendering_shows_the_line_with_carets_under_the_text() {
+    let text = "[scene]\n\tname = \"Zwölf\"; # ö\n";
+    let error = Document::parse(text, "a b.toml").unwrap_err();
+    assert_eq!(error.place().line, 2);
+    let e = spoiled("[\"upper\", \"lower\"]", "[\"üpper\", \"löwer\"]");
+    let expected = "test.toml:27:11: unknown body `üpper`\n\
+                    27 | bodies = [\"üpper\", \"löwer\"]\n   |           ^^^^^^^\n\
+                    hint: did you mean `upper`?\n";
+    assert_eq!(e.render(), expected);
+    let document = Document::parse(PLANAR, "x").unwrap();
+    let place = document.place(Entry::Solver, "formulation");
+    assert_eq!((place.line, place.column, place.width), (60, 15, 6));
+    assert_eq!(document.place(Entry::Body(1), "rod").line, 12);
+    assert_eq!(document.place(Entry::Body(9), "rod").line, 1);
+    let error = Document::from_bytes(b"[scene]\nname = \"\xff\"", "x").unwrap_err();
+    assert_eq!((error.place().line, error.place().column), (2, 9));
+}

@@ -1,0 +1,96 @@
+//! The syntax tree: every value with its bytes in the file, numbers as decimal text, keys in file order.
+
+use core::ops::Range;
+use toml::de::{DeInteger, DeTable, DeValue};
+
+/// Bytes of the file.
+pub(crate) type Span = Range<usize>;
+
+/// A value and where it stands.
+#[derive(Debug, Clone)]
+pub(crate) struct Item {
+    pub(crate) span: Span,
+    pub(crate) node: Node,
+}
+
+/// A value.
+#[derive(Debug, Clone)]
+pub(crate) enum Node {
+    Text(String),
+    /// Decimal text, without underscores.
+    Number(String),
+    Bool(bool),
+    Date,
+    List(Vec<Item>),
+    Table(Vec<Member>),
+}
+
+/// A key with its value.
+#[derive(Debug, Clone)]
+pub(crate) struct Member {
+    pub(crate) key: String,
+    pub(crate) key_span: Span,
+    pub(crate) item: Item,
+}
+
+impl Node {
+    /// What it is, for messages.
+    pub(crate) fn description(&self) -> &'static str {
+        match self {
+            Self::Text(_) => "a text",
+            Self::Number(_) => "a number",
+            Self::Bool(_) => "true or false",
+            Self::Date => "a date",
+            Self::List(_) => "a list",
+            Self::Table(_) => "a table",
+        }
+    }
+}
+
+/// The tree of a whole file, or the message and place of its first syntax error.
+pub(crate) fn parse(text: &str) -> Result<Vec<Member>, (String, Span)> {
+    match DeTable::parse(text) {
+        Ok(root) => Ok(members(root.get_ref())),
+        Err(error) => Err((error.message().to_owned(), error.span().unwrap_or(0..0))),
+    }
+}
+
+fn members(table: &DeTable<'_>) -> Vec<Member> {
+    let mut members: Vec<Member> = table
+        .iter()
+        .map(|(key, value)| Member {
+            key: key.get_ref().clone().into_owned(),
+            key_span: key.span(),
+            item: item(value.get_ref(), value.span()),
+        })
+        .collect();
+    // the parser sorts by name; messages speak about the first fault in the file
+    members.sort_by_key(|member| member.key_span.start);
+    members
+}
+
+fn item(value: &DeValue<'_>, span: Span) -> Item {
+    let node = match value {
+        DeValue::String(text) => Node::Text(text.clone().into_owned()),
+        DeValue::Integer(number) => Node::Number(decimal(number)),
+        DeValue::Float(number) => Node::Number(number.as_str().to_owned()),
+        DeValue::Boolean(flag) => Node::Bool(*flag),
+        DeValue::Datetime(_) => Node::Date,
+        DeValue::Array(array) => {
+            Node::List(array.iter().map(|entry| item(entry.get_ref(), entry.span())).collect())
+        }
+        DeValue::Table(table) => Node::Table(members(table)),
+    };
+    Item { span, node }
+}
+
+/// Hexadecimal and binary integers too large for 128 bits keep their text and are refused as numbers later.
+fn decimal(number: &DeInteger<'_>) -> String {
+    if number.radix() == 10 {
+        return number.as_str().to_owned();
+    }
+    match u128::from_str_radix(number.as_str(), number.radix()) {
+        Ok(value) => value.to_string(),
+        Err(_) => number.to_string(),
+    }
+}

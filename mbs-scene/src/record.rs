@@ -1,0 +1,228 @@
+//! What a run leaves behind, as plain data: channels, pictures, energies, counts.
+
+use mbs_core::scene::{Dimension, JointKind, Quantity, Scene};
+
+/// A recorded channel: its name and its components.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Channel {
+    /// Name, unique among the channels.
+    pub name: String,
+    /// Components in the order of the record; one for a number.
+    pub components: Vec<Component>,
+}
+
+/// A component of a channel.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Component {
+    /// What follows the dot in a column's name; empty when the channel is one number.
+    pub label: String,
+    /// Unit, such as `m` or `rad/s`.
+    pub unit: String,
+}
+
+impl Channel {
+    /// The channels of a scene: its outputs, or every joint coordinate when it names none.
+    ///
+    /// Vectors have components `x`, `y`, `z`; joints with several coordinates `1`, `2`, ...; reactions
+    /// `Fx`, `Fy`, `Mz` or `Fx`, `Fy`, `Fz`, `Mx`, `My`, `Mz`.
+    ///
+    /// # Panics
+    /// If an output points to a joint that is not there; [`Scene::check`] refuses those.
+    #[must_use]
+    pub fn of_scene<T>(scene: &Scene<T>) -> Vec<Self> {
+        if scene.outputs.is_empty() {
+            let joints = scene.joints.iter().map(|joint| {
+                Self::numbered(&joint.name, &coordinate_units(joint.kind, scene.dimension), "")
+            });
+            return joints.filter(|channel| !channel.components.is_empty()).collect();
+        }
+        let vector = |name: &str, unit| {
+            let labels = &["x", "y", "z"][..scene.dimension.count()];
+            Self::labelled(name, labels.iter().map(|label| (*label, unit)))
+        };
+        let units = |joint: usize| coordinate_units(scene.joints[joint].kind, scene.dimension);
+        scene
+            .outputs
+            .iter()
+            .map(|output| match output.quantity {
+                Quantity::Position { .. } => vector(&output.name, "m"),
+                Quantity::Velocity { .. } => vector(&output.name, "m/s"),
+                Quantity::Acceleration { .. } => vector(&output.name, "m/s^2"),
+                Quantity::JointValue { joint } => Self::numbered(&output.name, &units(joint), ""),
+                Quantity::JointRate { joint } => Self::numbered(&output.name, &units(joint), "/s"),
+                Quantity::Reaction { .. } => reaction(&output.name, scene.dimension),
+            })
+            .collect()
+    }
+
+    /// The names of its columns: `name`, or `name.x`, `name.y`, ...
+    pub fn columns(&self) -> impl Iterator<Item = String> + '_ {
+        self.components.iter().map(|component| {
+            if component.label.is_empty() {
+                return self.name.clone();
+            }
+            format!("{}.{}", self.name, component.label)
+        })
+    }
+
+    fn labelled<'a>(name: &str, parts: impl Iterator<Item = (&'a str, &'a str)>) -> Self {
+        let components = parts
+            .map(|(label, unit)| Component { label: label.to_owned(), unit: unit.to_owned() })
+            .collect();
+        Self { name: name.to_owned(), components }
+    }
+
+    fn numbered(name: &str, units: &[&str], per: &str) -> Self {
+        let label = |i| if units.len() == 1 { String::new() } else { format!("{}", i + 1) };
+        let components = units
+            .iter()
+            .enumerate()
+            .map(|(i, unit)| Component { label: label(i), unit: format!("{unit}{per}") })
+            .collect();
+        Self { name: name.to_owned(), components }
+    }
+}
+
+fn reaction(name: &str, dimension: Dimension) -> Channel {
+    let planar = [("Fx", "N"), ("Fy", "N"), ("Mz", "N m")];
+    let spatial =
+        [("Fx", "N"), ("Fy", "N"), ("Fz", "N"), ("Mx", "N m"), ("My", "N m"), ("Mz", "N m")];
+    match dimension {
+        Dimension::Planar => Channel::labelled(name, planar.into_iter()),
+        Dimension::Spatial => Channel::labelled(name, spatial.into_iter()),
+    }
+}
+
+fn coordinate_units(kind: JointKind, dimension: Dimension) -> Vec<&'static str> {
+    let n = kind.n_coordinates(dimension);
+    let n_rotations = kind.n_rotations(dimension);
+    // every kind with both lists its translations first
+    (0..n).map(|i| if i + n_rotations < n { "m" } else { "rad" }).collect()
+}
+
+/// Everything the page of a run shows. Series may have any number of points; the page thins them.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct RunRecord {
+    /// Name of the scene.
+    pub scene: String,
+    /// How the run was made.
+    pub provenance: Provenance,
+    /// Recorded channels.
+    pub channels: Vec<ChannelSeries>,
+    /// Pictures of the motion.
+    pub animation: Option<Animation>,
+    /// Energies.
+    pub energy: Option<EnergySeries>,
+    /// Constraint violation.
+    pub violation: Option<ViolationSeries>,
+    /// Newton iterations.
+    pub iterations: Option<IterationSeries>,
+    /// Rows of the summary table: label and value.
+    pub summary: Vec<(String, String)>,
+    /// What the user should know, such as redundant constraints.
+    pub notes: Vec<String>,
+    /// Why the run stopped early.
+    pub error: Option<String>,
+}
+
+/// How a run was made; empty texts are left out.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Provenance {
+    /// The command line that makes the run again.
+    pub command: String,
+    /// `f32`, `f64`, `dd`.
+    pub precision: String,
+    /// Formulation that ran.
+    pub formulation: String,
+    /// Integrator that ran.
+    pub integrator: String,
+    /// Step with its unit.
+    pub step: String,
+    /// Version or commit.
+    pub version: String,
+    /// Processor.
+    pub cpu: String,
+}
+
+/// A channel over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChannelSeries {
+    /// Name and components.
+    pub channel: Channel,
+    /// Times [s].
+    pub times: Vec<f64>,
+    /// One series per component, each as long as `times`.
+    pub values: Vec<Vec<f64>>,
+}
+
+/// A stick figure over time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Animation {
+    /// 2 or 3: how many numbers a point has.
+    pub dimension: usize,
+    /// The direction that points up in the picture of a spatial scene; zero: +z.
+    pub up: [f64; 3],
+    /// Times of the frames [s].
+    pub times: Vec<f64>,
+    /// Frames: the numbers of all points, one after the other [m].
+    pub frames: Vec<Vec<f64>>,
+    /// What is drawn between the points.
+    pub bodies: Vec<Polyline>,
+    /// Points of the ground [m]; planar scenes leave the third number zero.
+    pub ground: Vec<[f64; 3]>,
+    /// Points whose path is drawn.
+    pub traces: Vec<Trace>,
+}
+
+/// A body as lines between moving points.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Polyline {
+    /// Name of the body.
+    pub name: String,
+    /// Chains of point indices; a chain of one point is a dot.
+    pub chains: Vec<Vec<usize>>,
+}
+
+/// The path of a point.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Trace {
+    /// Name, for the legend.
+    pub name: String,
+    /// Index of the point in a frame.
+    pub point: usize,
+}
+
+/// Energies over time [J].
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct EnergySeries {
+    /// Times [s].
+    pub times: Vec<f64>,
+    /// Kinetic energy T.
+    pub kinetic: Vec<f64>,
+    /// Potential energy V.
+    pub potential: Vec<f64>,
+    /// Pi(t) - Pi(0) of the invariant Pi = T + V - work.
+    pub invariant_error: Vec<f64>,
+}
+
+/// Largest residual at the three levels over time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ViolationSeries {
+    /// Times [s].
+    pub times: Vec<f64>,
+    /// Position level [m or rad].
+    pub position: Vec<f64>,
+    /// Velocity level [m/s or rad/s].
+    pub velocity: Vec<f64>,
+    /// Acceleration level [m/s^2 or rad/s^2].
+    pub acceleration: Vec<f64>,
+}
+
+/// Newton iterations per step.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct IterationSeries {
+    /// Ends of the steps [s].
+    pub times: Vec<f64>,
+    /// Iterations of each step.
+    pub counts: Vec<u32>,
+}

@@ -1,0 +1,72 @@
+//! CSV: one row per recorded time, written as the run goes.
+
+use crate::record::Channel;
+use std::io::{self, Write};
+
+/// Writes a header and then one row per recorded time; floats in the shortest form that reads back exactly.
+///
+/// Rows reach the file every [`CsvWriter::FLUSH_EVERY`] rows, at [`CsvWriter::finish`], and when the writer
+/// is dropped, so a run that stops keeps what it recorded.
+#[derive(Debug)]
+pub struct CsvWriter<W: Write> {
+    out: csv::Writer<W>,
+    n_columns: usize,
+    n_rows: usize,
+}
+
+impl<W: Write> CsvWriter<W> {
+    /// Rows between two flushes.
+    pub const FLUSH_EVERY: usize = 256;
+
+    /// Starts a file: the header is `t`, then the columns of the channels.
+    ///
+    /// # Errors
+    /// Those of the sink.
+    pub fn new(sink: W, channels: &[Channel]) -> io::Result<Self> {
+        let mut out = csv::Writer::from_writer(sink);
+        let header: Vec<String> = core::iter::once("t".to_owned())
+            .chain(channels.iter().flat_map(Channel::columns))
+            .collect();
+        out.write_record(&header).map_err(io::Error::from)?;
+        out.flush()?;
+        Ok(Self { out, n_columns: header.len(), n_rows: 0 })
+    }
+
+    /// Writes one row: the time [s] and the components of all channels in order.
+    ///
+    /// # Errors
+    /// Those of the sink.
+    ///
+    /// # Panics
+    /// If the count of values is not that of the header.
+    pub fn row(&mut self, time: f64, values: &[f64]) -> io::Result<()> {
+        assert_eq!(values.len() + 1, self.n_columns, "one value per column");
+        for number in core::iter::once(&time).chain(values) {
+            self.out.write_field(shortest(*number)).map_err(io::Error::from)?;
+        }
+        self.out.write_record(None::<&[u8]>).map_err(io::Error::from)?;
+        self.n_rows += 1;
+        if self.n_rows.is_multiple_of(Self::FLUSH_EVERY) {
+            self.out.flush()?;
+        }
+        Ok(())
+    }
+
+    /// Writes what is still buffered.
+    ///
+    /// # Errors
+    /// Those of the sink.
+    pub fn finish(mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}
+
+/// The shortest decimal text that reads back as the same number; exponents where they are shorter.
+fn shortest(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 || !x.is_finite() || (1.0e-4..1.0e15).contains(&size) {
+        format!("{x}")
+    } else {
+        format!("{x:e}")
+    }
+}

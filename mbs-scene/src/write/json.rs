@@ -1,0 +1,132 @@
+//! JSON: the summary of a run, with the keys of the scene format.
+
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+/// The summary of a run: one JSON object. Numbers that are not finite are written as `null`.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+pub struct RunSummary {
+    /// Name of the scene.
+    pub scene: String,
+    /// Formulation as asked, `auto` included.
+    pub formulation: String,
+    /// `f32`, `f64`, `dd`.
+    pub precision: String,
+    /// 2 or 3.
+    pub dimension: usize,
+    /// Coordinates of the formulation that ran.
+    pub coordinates: usize,
+    /// Constraint rows of the formulation that ran.
+    pub constraints: usize,
+    /// Rank of their Jacobian at the start.
+    pub constraint_rank: usize,
+    /// Coordinates minus rank.
+    pub dof: usize,
+    /// Step as asked [s].
+    pub step: f64,
+    /// Steps done.
+    pub steps: u64,
+    /// The whole duration was reached.
+    pub completed: bool,
+    /// Why it was not.
+    pub error: Option<RunError>,
+    /// Time reached [s].
+    pub end_time: f64,
+    /// CPU time of all threads from the first step to the last [s].
+    pub cpu_seconds: f64,
+    /// Time reached over the time it took.
+    pub real_time_factor: f64,
+    /// The slowest step [s].
+    pub worst_step_seconds: f64,
+    /// Newton iterations.
+    pub iterations: u64,
+    /// Factorisations.
+    pub factorizations: u64,
+    /// Energy invariant.
+    pub energy: EnergySummary,
+    /// Largest constraint violation.
+    pub violation: ViolationSummary,
+    /// Channels at `end_time`.
+    pub outputs: Outputs,
+    /// What `auto` chose and why.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub chosen: Option<Chosen>,
+    /// Joints whose reaction is not unique; the smallest one is given.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub not_unique: Vec<String>,
+}
+
+/// Why a run stopped early.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+pub struct RunError {
+    /// Short fixed word for programs, such as `not-converged`.
+    pub code: String,
+    /// One sentence.
+    pub message: String,
+    /// Time reached [s].
+    pub time: f64,
+    /// Name of the joint concerned.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint: Option<String>,
+    /// Name of the body concerned.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub body: Option<String>,
+    /// What to try.
+    pub hint: String,
+}
+
+/// The energy invariant Pi = T + V - work of non-conservative forces and guides, in joules.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+pub struct EnergySummary {
+    /// Pi at the start.
+    pub initial: f64,
+    /// Largest |Pi(t) - Pi(0)| over every step.
+    pub max_error: f64,
+    /// |Pi - Pi(0)| at the end.
+    pub final_error: f64,
+}
+
+/// Largest residuals over every step.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+pub struct ViolationSummary {
+    /// Position level [m or rad].
+    pub position: f64,
+    /// Velocity level [m/s or rad/s].
+    pub velocity: f64,
+    /// Acceleration level [m/s^2 or rad/s^2].
+    pub acceleration: f64,
+}
+
+/// What `auto` chose.
+#[derive(Debug, Clone, Default, PartialEq, Eq, serde::Serialize)]
+pub struct Chosen {
+    /// Formulation that ran.
+    pub formulation: String,
+    /// Why, one sentence each.
+    pub reasons: Vec<String>,
+}
+
+/// Channels by name, in order; one number is written as a number, several as a list.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Outputs(pub Vec<(String, Vec<f64>)>);
+
+impl Serialize for Outputs {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (name, values) in &self.0 {
+            match values.as_slice() {
+                [one] => map.serialize_entry(name, one)?,
+                several => map.serialize_entry(name, several)?,
+            }
+        }
+        map.end()
+    }
+}
+
+impl RunSummary {
+    /// One JSON object in indented form, without a line end.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        // all keys are texts and the sink is memory: serialisation has nothing to fail on
+        serde_json::to_string_pretty(self).unwrap_or_default()
+    }
+}

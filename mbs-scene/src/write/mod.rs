@@ -1,0 +1,9 @@
+//! Files out: CSV rows as the run goes, JSON at its end.
+
+mod csv;
+mod json;
+#[cfg(test)]
+mod tests;
+
+pub use csv::CsvWriter;
+pub use json::{Chosen, EnergySummary, Outputs, RunError, RunSummary, ViolationSummary};
