@@ -34,6 +34,8 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<StepReport<T>, StepError> {
     let rule = options.integrator.rule(dt);
     w.counts = Counts::default();
+    w.boost = (w.boost * T::from_f64(0.25)).max(T::ONE);
+    w.base = options.penalty.factor();
     begin(model, &rule, options, s, w);
     let (mut last, mut done) = (T::ZERO, None);
     let goal = norm_inf(&s.a).max(norm_inf(&s.v) / dt * T::EPSILON) * options.tolerance;
@@ -60,7 +62,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model.evaluate_bias(&w.q, &w.v, &mut w.terms);
     let size = norm_inf(&w.a).max(norm_inf(&w.terms.phi_bias));
     let rounding = T::EPSILON * T::from_f64(1024.0);
-    let limit = (T::ONE + size) * T::from_f64(1e-10).max(rounding);
+    let limit = (T::ONE + size) * T::from_f64(5e-10).max(rounding);
     let acceleration =
         w.project(model, Level::Acceleration, (size * rounding, limit), options.max_sweeps)?;
     take_coordinates(&rule, options, s, w);
@@ -93,7 +95,7 @@ fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
     for k in 0..w.lambda.len() {
         w.lambda[k] = s.lambda[k];
         w.penalty[k] = match options.penalty {
-            Penalty::Scaled(factor) => factor * w.masses[k],
+            Penalty::Scaled(factor) => factor * w.boost * w.masses[k],
             Penalty::Fixed(alpha) => alpha,
         };
     }
@@ -120,7 +122,7 @@ fn constrain<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let speed = norm_inf(&w.v);
     let rounding = T::EPSILON * T::from_f64(16.0);
     model.evaluate_phi_t(&w.q, &mut w.terms);
-    let limit = (length + speed) * T::from_f64(1e-10).max(rounding * T::from_f64(64.0));
+    let limit = (length + speed) * T::from_f64(5e-10).max(rounding * T::from_f64(64.0));
     w.project(model, Level::Velocity, (speed * rounding, limit), options.max_sweeps)
 }
 
@@ -137,8 +139,11 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w.sigma.fill(T::ZERO);
     move_to(model, options, s, w);
     let mut violation = norm_inf(&w.terms.phi);
-    for _ in 0..options.max_sweeps {
+    for sweep in 0..options.max_sweeps {
         w.factor(model, (T::ZERO, T::ZERO), false)?;
+        if sweep == 0 && options.adaptive_penalty && w.adapt(model) {
+            w.factor(model, (T::ZERO, T::ZERO), false)?;
+        }
         if violation <= goal {
             return Ok(());
         }

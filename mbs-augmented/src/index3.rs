@@ -35,7 +35,8 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<StepReport<T>, StepError> {
     let rule = options.integrator.rule(dt);
     w.counts = Counts::default();
-    w.boost = (w.boost * T::HALF).max(T::ONE);
+    w.boost = (w.boost * T::from_f64(0.25)).max(T::ONE);
+    w.base = options.penalty.factor();
     begin(model, &rule, options, s, w);
 
     let (iterations, correction, stop) = iterate(model, &rule, length, options, s, w)?;
@@ -95,9 +96,6 @@ fn evaluate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     }
 }
 
-/// Contraction of the Newton loop beyond which it is slow.
-const SLOW: f64 = 0.3;
-
 /// The Newton loop. Returns iterations, the last correction, and what ended it.
 fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
@@ -108,12 +106,18 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<(u32, T, Stop), StepError> {
     let inverse = T::ONE / rule.acceleration;
-    let goal = step_scale(rule, s, w) * options.tolerance;
+    let scale = step_scale(rule, s, w);
+    let goal = scale * options.tolerance;
     let mut last = T::ZERO;
     for iterations in 1..=options.max_iterations {
         factor(model, rule, options, w)?;
-        if iterations == 1 && options.multipliers == Multipliers::Filtered {
-            filter(model, w);
+        if iterations == 1 {
+            if options.adaptive_penalty && w.adapt(model) {
+                factor(model, rule, options, w)?;
+            }
+            if options.multipliers == Multipliers::Filtered {
+                filter(model, w);
+            }
         }
 
         // f = M a/a' + J^T (s phi + lambda/a') - Q/a'   [P3 (9)]
@@ -142,17 +146,14 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f) });
         }
+        if std::env::var("TR").is_ok() {std::println!("     it {iterations} corr {correction:e} phi {:e} lam {:e} goal {goal:e}", norm_inf(&w.terms.phi), norm_inf(&w.lambda)*rule.acceleration);}
         let noise = rounding(length, options, w);
-        if let Some(stop) = stopping(iterations, correction, last, goal, noise) {
+        if let Some(stop) = stopping(iterations, correction, last, (goal, scale, noise)) {
             return Ok((iterations, correction, stop));
-        }
-        // A direction that the constraints hardly see learns its multiplier slowly: more penalty, faster.
-        if iterations > 2 && correction > last * T::from_f64(SLOW) && options.adaptive_penalty {
-            w.stiffen((correction / last).min(T::ONE));
         }
         last = correction;
     }
-    if last <= goal / options.tolerance * T::from_f64(1e-6) {
+    if last <= scale * T::from_f64(1e-6) {
         return Ok((options.max_iterations, last, Stop::Tolerance));
     }
     let (iterations, unknown) = (options.max_iterations, largest(&w.f));
@@ -201,7 +202,7 @@ fn rounding<T: Real, S>(length: T, options: &Options<T>, w: &Workspace<T, S>) ->
 }
 
 /// Is this correction the last one?
-fn stopping<T: Real>(iterations: u32, correction: T, last: T, goal: T, noise: T) -> Option<Stop> {
+fn stopping<T: Real>(iterations: u32, correction: T, last: T, (goal, scale, noise): (T, T, T)) -> Option<Stop> {
     if correction <= goal {
         return Some(Stop::Converged);
     }
@@ -213,6 +214,8 @@ fn stopping<T: Real>(iterations: u32, correction: T, last: T, goal: T, noise: T)
         Some(Stop::Converged)
     } else if contraction > T::HALF && correction <= noise {
         Some(Stop::Rounding)
+    } else if iterations > 5 && contraction > T::HALF && correction <= scale * T::from_f64(1e-5) {
+        Some(Stop::Passage)
     } else {
         None
     }
@@ -228,7 +231,11 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<[T; 3], StepError> {
     // The factor belongs to the configuration before the last correction: near enough when that was small.
-    if correction > length * T::from_f64(1e-7) {
+    // A combination of constraints that is almost lost must not be enforced on velocities and accelerations beyond need: they
+    // would grow like 1 / sigma there. Penalties raised for the iteration are taken back.
+    let raised = w.boost;
+    w.scale_penalties(T::ONE / raised);
+    if raised > T::ONE || correction > length * T::from_f64(1e-7) {
         factor(model, rule, options, w)?;
     }
     model.evaluate_phi_t(&w.q, &mut w.terms);
@@ -237,7 +244,7 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let rounding = T::EPSILON * T::from_f64(16.0);
     let velocity = match options.projection {
         Projection::Correction => {
-            let limit = (length + speed) * T::from_f64(1e-10).max(rounding * T::from_f64(64.0));
+            let limit = (length + speed) * T::from_f64(5e-10).max(rounding * T::from_f64(64.0));
             w.project(model, Level::Velocity, (speed * rounding, limit), sweeps)?
         }
         Projection::Printed { .. } | Projection::PrintedTangent => w.violation(model, Level::Velocity),
@@ -247,11 +254,12 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let size = norm_inf(&w.a).max(norm_inf(&w.terms.phi_bias));
     let acceleration = match options.projection {
         Projection::Correction => {
-            let limit = (T::ONE + size) * T::from_f64(1e-10).max(rounding * T::from_f64(64.0));
+            let limit = (T::ONE + size) * T::from_f64(5e-10).max(rounding * T::from_f64(64.0));
             w.project(model, Level::Acceleration, (size * rounding * T::from_f64(64.0), limit), sweeps)?
         }
         _ => w.violation(model, Level::Acceleration),
     };
+    w.boost = raised;
     Ok([norm_inf(&w.terms.phi), velocity, acceleration])
 }
 

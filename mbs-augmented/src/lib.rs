@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
-#![no_std]
+//NOSTD
 
-extern crate alloc;
+extern crate alloc; extern crate std;
 
 mod error;
 pub mod index1;

@@ -39,6 +39,16 @@ pub enum Penalty<T> {
     Fixed(T),
 }
 
+impl<T: Real> Penalty<T> {
+    /// The factor of a scaled penalty; one for a fixed alpha, which is never raised.
+    pub(crate) fn factor(&self) -> T {
+        match self {
+            Self::Scaled(factor) => *factor,
+            Self::Fixed(_) => T::ONE,
+        }
+    }
+}
+
 /// Start value of the multipliers of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Multipliers {
@@ -86,7 +96,7 @@ impl<T: Real> Options<T> {
             projection: Projection::Correction,
             geometric_stiffness: false,
             compensated: true,
-            adaptive_penalty: false,
+            adaptive_penalty: true,
         }
     }
 
@@ -105,6 +115,7 @@ impl<T: Real> Options<T> {
             multipliers: Multipliers::FromZero,
             projection: Projection::Printed { sweeps: 1 },
             compensated: false,
+            adaptive_penalty: false,
             max_iterations: 20,
             ..Self::index3()
         }

@@ -16,10 +16,10 @@ use mbs_core::algebra::norm_inf;
 use mbs_core::model::Model;
 use mbs_core::{Real, SpdSolver};
 
-/// A sweep that leaves more than this share of the violation is slow.
-const SLOW: f64 = 1e-2;
-/// The most that slow sweeps may raise the penalties.
-const MOST: f64 = 1e7;
+/// What one correction may leave of the multiplier of the least felt combination of constraints.
+const FELT: f64 = 0.03;
+/// Most that penalties may be, in effective masses times EPSILON: above, rounding of T^-1 looks like a lost direction.
+const MOST: f64 = 0.2;
 
 /// Which vector is projected, with its right-hand side b.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,8 +74,8 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             if contraction > T::HALF && violation <= limit {
                 return Ok(violation);
             }
-            let is_slow = contraction > T::from_f64(SLOW) && violation > limit;
-            if is_slow && self.stiffen(contraction.min(T::ONE)) {
+            let is_slow = contraction > T::from_f64(0.1) && violation > limit;
+            if is_slow && self.stiffen(contraction.min(T::ONE), self.room()) {
                 self.factor(model, (T::ZERO, T::ZERO), false)?;
             }
         }
@@ -87,21 +87,66 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         Err(StepError::Violated { level, violation: violation.to_f64(), row })
     }
 
-    /// Raises the penalties until corrections contract by [`SLOW`]: a direction is nearly lost to the constraints.
+    /// Chooses the penalties of a step: follows the least felt combination u of constraints by one power iteration,
     ///
-    /// One correction leaves rho = m / (m + s sigma^2): for rho' = SLOW the penalty must grow by rho / (1 - rho) / SLOW.
-    /// Returns whether anything changed.
-    pub(crate) fn stiffen(&mut self, contraction: T) -> bool {
-        let kept = (T::ONE - contraction).max(T::from_f64(1e-2));
-        let growth = (contraction / kept / T::from_f64(SLOW)).min(T::from_f64(MOST) / self.boost);
-        if growth <= T::ONE {
+    /// ```text
+    /// u <- (1 + s H)^-1 u = u - s J T^-1 J^T u,   H = J M^-1 J^T,   rho = |u_new| / |u|
+    /// ```
+    ///
+    /// and raises s until rho is at most [`FELT`]. A combination that no allowed penalty makes felt is redundant and left.
+    /// Returns whether the penalties changed, so that T must be factored anew. Needs T factored. Cost: one solve.
+    pub(crate) fn adapt<M: Model<T>>(&mut self, model: &M) -> bool {
+        let size = norm_inf(&self.probe);
+        for (k, u) in self.probe.iter_mut().enumerate() {
+            // A little of every constraint, with changing signs, so that no direction is out of sight.
+            let fresh = T::from_f64(if k % 3 == 1 { -1e-3 } else { 1e-3 });
+            *u = *u / size + fresh;
+        }
+        let size = norm_inf(&self.probe);
+        self.mu.copy_from_slice(&self.probe);
+        self.assemble(model, Mass::None, T::ZERO);
+        self.solve();
+        let n = self.f.len();
+        self.change[..n].copy_from_slice(&self.f);
+        model.multiply_jacobian(&self.terms, &self.change, &mut self.rates);
+        for k in 0..self.probe.len() {
+            self.probe[k] -= self.penalty[k] * self.rates[k];
+        }
+        let rho = norm_inf(&self.probe) / size;
+        if std::env::var("TR").is_ok() {std::println!("   rho {rho:e} boost {:e} phi {:e} dq {:e}", self.boost, norm_inf(&self.terms.phi), norm_inf(&self.dq));}
+        if !(rho > T::from_f64(FELT)) {
+            if !(rho > T::ZERO) {
+                self.probe.fill(T::ONE);
+            }
             return false;
         }
-        self.boost *= growth;
-        for p in &mut self.penalty {
-            *p *= growth;
+        let room = self.room();
+        // What even the largest penalty cannot make felt is redundant, or so near a singular position that nothing is lost.
+        rho / (T::ONE - rho).max(T::EPSILON) < room * T::from_f64(FELT) && self.stiffen(rho, room)
+    }
+
+    /// Raises the penalties so that corrections that leave `rho` leave [`FELT`], by rho / (1 - rho) / FELT, at most `room`.
+    /// Returns whether they changed.
+    fn stiffen(&mut self, rho: T, room: T) -> bool {
+        let growth = rho / (T::ONE - rho).max(T::EPSILON) / T::from_f64(FELT);
+        let growth = growth.min(room);
+        if growth > T::ONE {
+            self.scale_penalties(growth);
         }
-        true
+        growth > T::ONE
+    }
+
+    /// By how much penalties may still be raised.
+    fn room(&self) -> T {
+        T::from_f64(MOST) / T::EPSILON / (self.boost * self.base)
+    }
+
+    /// Multiplies all penalties.
+    pub(crate) fn scale_penalties(&mut self, factor: T) {
+        for p in &mut self.penalty {
+            *p *= factor;
+        }
+        self.boost *= factor;
     }
 
     fn sweep<M: Model<T>>(&mut self, model: &M, level: Level) {

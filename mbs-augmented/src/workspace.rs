@@ -12,6 +12,9 @@ pub enum Stop {
     Converged,
     /// Corrections no longer shrink and are at the level of rounding.
     Rounding,
+    /// The step ended within reach of a singular position: the multiplier of a combination of constraints that has almost no
+    /// effect there is left as it was extrapolated.
+    Passage,
     /// The allowed iterations are used and the last correction is below `tolerance` times the scene's length.
     Tolerance,
 }
@@ -58,6 +61,10 @@ pub struct Workspace<T, S> {
     pub(crate) masses: Vec<T>,
     /// Factor on a scaled penalty that adapts from step to step.
     pub(crate) boost: T,
+    /// Penalty factor of the options, or what it is for a fixed alpha [effective masses].
+    pub(crate) base: T,
+    /// The combination of constraints that the mechanism feels least, followed from step to step, m.
+    pub(crate) probe: Vec<T>,
     pub(crate) counts: Counts,
 }
 
@@ -98,6 +105,8 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             penalty: zeros(m),
             masses,
             boost: T::ONE,
+            base: T::ONE,
+            probe: vec![T::ONE; m],
             counts: Counts::default(),
         }
     }
