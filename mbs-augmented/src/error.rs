@@ -61,7 +61,10 @@ impl core::fmt::Display for StepError {
                 )
             }
             Self::OppositeBranch { .. } => {
-                write!(f, "the guided angle jumped half a turn away from its guide: try a smaller step")
+                write!(
+                    f,
+                    "the guided angle jumped half a turn away from its guide: try a smaller step"
+                )
             }
         }
     }

@@ -34,7 +34,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<StepReport<T>, StepError> {
     let rule = options.integrator.rule(dt);
     w.counts = Counts::default();
-    w.boost = (w.boost * T::from_f64(0.25)).max(T::ONE);
+    w.boost = T::ONE;
     w.base = options.penalty.factor();
     begin(model, &rule, options, s, w);
     let (mut last, mut done) = (T::ZERO, None);
@@ -56,7 +56,11 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let correction = last / rule.acceleration;
     if !(correction <= length * options.tolerance.sqrt()) {
         let relative = (correction / length).to_f64();
-        return Err(StepError::NotConverged { iterations, correction: relative, unknown: largest(&w.f) });
+        return Err(StepError::NotConverged {
+            iterations,
+            correction: relative,
+            unknown: largest(&w.f),
+        });
     }
     let velocity = constrain(model, (&rule, length), options, s, w)?;
     model.evaluate_bias(&w.q, &w.v, &mut w.terms);
@@ -95,7 +99,7 @@ fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
     for k in 0..w.lambda.len() {
         w.lambda[k] = s.lambda[k];
         w.penalty[k] = match options.penalty {
-            Penalty::Scaled(factor) => factor * w.boost * w.masses[k],
+            Penalty::Scaled(factor) => factor * w.masses[k],
             Penalty::Fixed(alpha) => alpha,
         };
     }
@@ -115,16 +119,28 @@ fn constrain<T: Real, M: Model<T>, S: SpdSolver<T>>(
         let (dq, v, a) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
         let d = (w.a[i] - a) * inverse;
         w.dq[i] = dq + d;
-        w.v[i] = v + rule.velocity * d;
+        w.v[i] = v;
+        w.dq_predicted[i] = dq;
         w.change[i] = T::ZERO;
     }
     positions(model, length, options, s, w)?;
+    // The velocity follows the projected position, so that both tell of the same motion near a singular position.
+    for i in 0..w.f.len() {
+        w.v[i] += rule.velocity * (w.dq[i] - w.dq_predicted[i]);
+    }
     let speed = norm_inf(&w.v);
     let rounding = T::EPSILON * T::from_f64(16.0);
     model.evaluate_phi_t(&w.q, &mut w.terms);
     let limit = (length + speed) * T::from_f64(5e-10).max(rounding * T::from_f64(64.0));
-    w.project(model, Level::Velocity, (speed * rounding, limit), options.max_sweeps)
+    let left = w.project(model, Level::Velocity, (speed * rounding, limit), options.max_sweeps)?;
+    if w.restore_penalties() {
+        w.factor(model, (T::ZERO, T::ZERO), false)?;
+    }
+    Ok(left)
 }
+
+/// Position residual that is accepted when no sweep lowers it further, relative to the scene's length.
+const LIMIT: f64 = 1e-11;
 
 /// W d = -[M (q - q*) + J^T (sigma + s phi)],   q += d,   sigma += s phi: until phi is at rounding.
 fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
@@ -135,17 +151,14 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<(), StepError> {
     let goal = length * T::EPSILON * T::from_f64(if options.compensated { 0.01 } else { 4.0 });
-    let limit = length * T::from_f64(1e-12).max(T::EPSILON * T::from_f64(256.0));
+    let limit = length * T::from_f64(LIMIT).max(T::EPSILON * T::from_f64(256.0));
     w.sigma.fill(T::ZERO);
     move_to(model, options, s, w);
     let mut violation = norm_inf(&w.terms.phi);
-    for sweep in 0..options.max_sweeps {
+    for _ in 0..options.max_sweeps {
         w.factor(model, (T::ZERO, T::ZERO), false)?;
-        if sweep == 0 && options.adaptive_penalty && w.adapt(model) {
-            w.factor(model, (T::ZERO, T::ZERO), false)?;
-        }
         if violation <= goal {
-            return Ok(());
+            break;
         }
         for k in 0..w.mu.len() {
             w.mu[k] = w.sigma[k] + w.penalty[k] * w.terms.phi[k];
@@ -160,12 +173,16 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
         for k in 0..w.sigma.len() {
             w.sigma[k] += w.penalty[k] * w.terms.phi[k];
         }
-        let left = norm_inf(&w.terms.phi);
-        let stalls = left > violation * T::HALF;
-        violation = left;
-        if stalls && violation <= limit {
-            return Ok(());
+        let contraction = norm_inf(&w.terms.phi) / violation;
+        violation = norm_inf(&w.terms.phi);
+        let is_raised = contraction > T::from_f64(0.1) && w.raise_penalties(contraction);
+        if contraction > T::from_f64(0.9) && !is_raised {
+            break;
         }
+    }
+    // What is almost lost is enforced on positions only: velocities and accelerations would grow like 1 / sigma there.
+    if w.restore_penalties() {
+        w.factor(model, (T::ZERO, T::ZERO), false)?;
     }
     if violation <= limit {
         return Ok(());

@@ -146,7 +146,13 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f) });
         }
-        if std::env::var("TR").is_ok() {std::println!("     it {iterations} corr {correction:e} phi {:e} lam {:e} goal {goal:e}", norm_inf(&w.terms.phi), norm_inf(&w.lambda)*rule.acceleration);}
+        if std::env::var("TR").is_ok() {
+            std::println!(
+                "     it {iterations} corr {correction:e} phi {:e} lam {:e} goal {goal:e}",
+                norm_inf(&w.terms.phi),
+                norm_inf(&w.lambda) * rule.acceleration
+            );
+        }
         let noise = rounding(length, options, w);
         if let Some(stop) = stopping(iterations, correction, last, (goal, scale, noise)) {
             return Ok((iterations, correction, stop));
@@ -202,7 +208,12 @@ fn rounding<T: Real, S>(length: T, options: &Options<T>, w: &Workspace<T, S>) ->
 }
 
 /// Is this correction the last one?
-fn stopping<T: Real>(iterations: u32, correction: T, last: T, (goal, scale, noise): (T, T, T)) -> Option<Stop> {
+fn stopping<T: Real>(
+    iterations: u32,
+    correction: T,
+    last: T,
+    (goal, scale, noise): (T, T, T),
+) -> Option<Stop> {
     if correction <= goal {
         return Some(Stop::Converged);
     }
@@ -247,7 +258,9 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
             let limit = (length + speed) * T::from_f64(5e-10).max(rounding * T::from_f64(64.0));
             w.project(model, Level::Velocity, (speed * rounding, limit), sweeps)?
         }
-        Projection::Printed { .. } | Projection::PrintedTangent => w.violation(model, Level::Velocity),
+        Projection::Printed { .. } | Projection::PrintedTangent => {
+            w.violation(model, Level::Velocity)
+        }
     };
     let _ = s;
     model.evaluate_bias(&w.q, &w.v, &mut w.terms);
@@ -255,7 +268,12 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let acceleration = match options.projection {
         Projection::Correction => {
             let limit = (T::ONE + size) * T::from_f64(5e-10).max(rounding * T::from_f64(64.0));
-            w.project(model, Level::Acceleration, (size * rounding * T::from_f64(64.0), limit), sweeps)?
+            w.project(
+                model,
+                Level::Acceleration,
+                (size * rounding * T::from_f64(64.0), limit),
+                sweeps,
+            )?
         }
         _ => w.violation(model, Level::Acceleration),
     };

@@ -1,7 +1,8 @@
 #![doc = include_str!("../README.md")]
 //NOSTD
 
-extern crate alloc; extern crate std;
+extern crate alloc;
+extern crate std;
 
 mod error;
 pub mod index1;
@@ -12,4 +13,4 @@ mod workspace;
 
 pub use error::{OptionError, StepError};
 pub use options::{Multipliers, Options, Penalty, Projection};
-pub use workspace::{Stop, StepReport, Workspace};
+pub use workspace::{StepReport, Stop, Workspace};

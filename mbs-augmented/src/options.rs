@@ -81,11 +81,8 @@ impl<T: Real> Options<T> {
     /// 1/eps in others; tolerance 1e-10; at most 40 iterations: passages of singular positions take up to 20.
     #[must_use]
     pub fn index3() -> Self {
-        let scale = if T::EPSILON < T::from_f64(1e-12) {
-            T::from_f64(1e6)
-        } else {
-            T::from_f64(3e3)
-        };
+        let scale =
+            if T::EPSILON < T::from_f64(1e-12) { T::from_f64(1e6) } else { T::from_f64(3e3) };
         Self {
             integrator: Integrator::trapezoidal(),
             penalty: Penalty::Scaled(scale),

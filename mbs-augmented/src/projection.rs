@@ -75,7 +75,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
                 return Ok(violation);
             }
             let is_slow = contraction > T::from_f64(0.1) && violation > limit;
-            if is_slow && self.stiffen(contraction.min(T::ONE), self.room()) {
+            if is_slow && self.raise_penalties(contraction) {
                 self.factor(model, (T::ZERO, T::ZERO), false)?;
             }
         }
@@ -113,7 +113,14 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             self.probe[k] -= self.penalty[k] * self.rates[k];
         }
         let rho = norm_inf(&self.probe) / size;
-        if std::env::var("TR").is_ok() {std::println!("   rho {rho:e} boost {:e} phi {:e} dq {:e}", self.boost, norm_inf(&self.terms.phi), norm_inf(&self.dq));}
+        if std::env::var("TR").is_ok() {
+            std::println!(
+                "   rho {rho:e} boost {:e} phi {:e} dq {:e}",
+                self.boost,
+                norm_inf(&self.terms.phi),
+                norm_inf(&self.dq)
+            );
+        }
         if !(rho > T::from_f64(FELT)) {
             if !(rho > T::ZERO) {
                 self.probe.fill(T::ONE);
@@ -134,6 +141,20 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             self.scale_penalties(growth);
         }
         growth > T::ONE
+    }
+
+    /// Raises the penalties after a slow sweep; returns whether they changed.
+    pub(crate) fn raise_penalties(&mut self, contraction: T) -> bool {
+        self.stiffen(contraction.min(T::ONE), self.room())
+    }
+
+    /// Takes raised penalties back; returns whether there were any.
+    pub(crate) fn restore_penalties(&mut self) -> bool {
+        let was_raised = self.boost > T::ONE;
+        if was_raised {
+            self.scale_penalties(T::ONE / self.boost);
+        }
+        was_raised
     }
 
     /// By how much penalties may still be raised.

@@ -46,6 +46,8 @@ pub struct Workspace<T, S> {
     pub(crate) q: Vec<T>,
     pub(crate) v: Vec<T>,
     pub(crate) a: Vec<T>,
+    /// Predicted increment of the position (index-1), extended.
+    pub(crate) dq_predicted: Vec<T>,
     /// x - x* of a projection, extended.
     pub(crate) change: Vec<T>,
     /// Right-hand side and correction, n.
@@ -95,6 +97,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             q,
             v: zeros(e),
             a: zeros(e),
+            dq_predicted: zeros(e),
             change: zeros(e),
             f: zeros(n),
             scratch,
@@ -150,8 +153,12 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             Mass::Change => Some(&self.change[..]),
         };
         let load = Load { mass, multipliers: Some(&self.mu), force };
-        let tangent =
-            Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty: &self.penalty, geometric: None };
+        let tangent = Tangent {
+            stiffness: T::ZERO,
+            damping: T::ZERO,
+            penalty: &self.penalty,
+            geometric: None,
+        };
         let system = mbs_core::model::System { model, terms: &self.terms, tangent, load };
         self.solver.assemble(&system, &mut self.f);
     }

@@ -71,7 +71,8 @@ pub trait Real:
     /// Neither infinite nor NaN.
     #[inline]
     fn is_finite(self) -> bool {
-        (self - self).is_zero()
+        let zero = self * Self::ZERO;
+        zero.is_zero()
     }
 }
 

@@ -148,7 +148,11 @@ pub(crate) fn joint_axes<T: Real>(joint: &Joint<T>, dimension: Dimension) -> [[T
     let n = unit_axis(joint, 0);
     let second = match joint.kind {
         JointKind::Planar => {
-            let d = if joint.axes[1].is_some() { unit_axis(joint, 1) } else { transverse(&n, dimension)[0] };
+            let d = if joint.axes[1].is_some() {
+                unit_axis(joint, 1)
+            } else {
+                transverse(&n, dimension)[0]
+            };
             let d = d - n * n.dot(&d);
             d * (T::ONE / norm(&d))
         }

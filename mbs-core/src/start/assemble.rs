@@ -151,13 +151,16 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
             self.drive(&s.q, tau);
             self.grow_positions();
             let left = self.largest_position();
-            let stalls = left > residual * T::HALF && norm_inf(&self.f) <= self.length * T::from_f64(1e-9);
+            let stalls =
+                left > residual * T::HALF && norm_inf(&self.f) <= self.length * T::from_f64(1e-9);
             residual = left;
             if stalls && residual <= self.length * accepted() {
                 break;
             }
         }
-        if residual <= self.length * accepted::<T>() || (!is_last && residual <= self.length * T::from_f64(1e-3)) {
+        if residual <= self.length * accepted::<T>()
+            || (!is_last && residual <= self.length * T::from_f64(1e-3))
+        {
             return Ok(());
         }
         let (owner, initial) = self.culprit(Level::Position);
@@ -315,7 +318,8 @@ pub fn accelerations<T: Real, M: Model<T>>(
     let mut penalty = vec![T::ZERO; m];
     model.effective_masses(terms, &mut penalty);
     penalty.iter_mut().for_each(|p| *p *= T::from_f64(1e6));
-    let tangent = Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty: &penalty, geometric: None };
+    let tangent =
+        Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty: &penalty, geometric: None };
     let (mut f, mut scratch) = (vec![T::ZERO; n], vec![T::ZERO; solver.n_scratch()]);
     let (mut lambda, mut mu, mut rates) = (vec![T::ZERO; m], vec![T::ZERO; m], vec![T::ZERO; m]);
     let load = Load { mass: None, multipliers: None, force: T::ZERO };

@@ -19,7 +19,11 @@ enum Kind<T: Real, const D: usize> {
     /// A velocity component of a point.
     PointRate { x: Affine<T, D>, axis: usize },
     /// A component of the second body's angular velocity less the first's.
-    Spin { first: Option<Box<[Affine<T, D>; 3]>>, second: Option<Box<[Affine<T, D>; 3]>>, axis: usize },
+    Spin {
+        first: Option<Box<[Affine<T, D>; 3]>>,
+        second: Option<Box<[Affine<T, D>; 3]>>,
+        axis: usize,
+    },
 }
 
 /// One held row.
@@ -42,7 +46,8 @@ impl<T: Real, const D: usize> Hold<T, D> {
         for (initial, entry) in scene.initials.iter().enumerate() {
             match &entry.target {
                 InitialTarget::Joint { joint, value, rate } => {
-                    let source = Source { model, joint: &scene.joints[*joint], dimension: scene.dimension };
+                    let source =
+                        Source { model, joint: &scene.joints[*joint], dimension: scene.dimension };
                     let owner = crate::model::Owner::Joint(*joint);
                     let rows = source.rows(value.as_deref(), rate.as_deref());
                     holds.extend(rows.into_iter().map(|(kind, value, rate)| Self {

@@ -64,8 +64,7 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
         for &unknown in &lent {
             add(&mut core::iter::once(unknown));
         }
-        let typical = diagonal.iter().fold(T::ZERO, |a, &b| a + b)
-            / T::from_f64(n.max(1) as f64);
+        let typical = diagonal.iter().fold(T::ZERO, |a, &b| a + b) / T::from_f64(n.max(1) as f64);
         let n_gradient = spans[..holds.len()].iter().map(|s| s.len()).sum();
         Self {
             model,
@@ -114,9 +113,10 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
         let mut at = 0;
         for (h, hold) in self.holds.iter().enumerate() {
             let clique = self.spans[h].of(&self.cliques);
-            let rate = clique.iter().zip(&self.gradients[at..]).fold(T::ZERO, |sum, (&u, &g)| {
-                sum + g * v[u as usize]
-            });
+            let rate = clique
+                .iter()
+                .zip(&self.gradients[at..])
+                .fold(T::ZERO, |sum, (&u, &g)| sum + g * v[u as usize]);
             self.residuals[h] = hold.rate.map_or(T::ZERO, |wanted| rate - wanted);
             at += clique.len();
         }
@@ -168,8 +168,12 @@ impl<T: Real, const D: usize> BlockSource<T> for Sweep<'_, '_, T, D> {
     fn write_block(&self, element: usize, block: &mut [T]) {
         let p = self.problem;
         let Some(extra) = element.checked_sub(p.model.n_elements()) else {
-            let tangent =
-                Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty: &p.penalty, geometric: None };
+            let tangent = Tangent {
+                stiffness: T::ZERO,
+                damping: T::ZERO,
+                penalty: &p.penalty,
+                geometric: None,
+            };
             p.model.write_block(&p.terms, &tangent, element, block);
             return;
         };

@@ -9,7 +9,10 @@ use alloc::vec::Vec;
 /// The rank of J as last evaluated in `terms`; `None` when the dense factorisation would be too large (n m > 4e6).
 ///
 /// Counts pivots above max(n, m) eps^(2/3) of the largest. Cost: about 2 n m^2 operations, dense; meant for reports.
-pub fn constraint_rank<T: Real, M: Model<T> + Cliques>(model: &M, terms: &Terms<T>) -> Option<usize> {
+pub fn constraint_rank<T: Real, M: Model<T> + Cliques>(
+    model: &M,
+    terms: &Terms<T>,
+) -> Option<usize> {
     let (n, m) = (model.n_unknowns(), model.n_constraints());
     if n * m > 4_000_000 {
         return None;
