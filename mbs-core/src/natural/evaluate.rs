@@ -421,6 +421,6 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
 }
 
 /// A model's number of unknowns, rows and elements, for reports.
-pub fn sizes<T: Real>(model: &(impl Model<T> + Cliques)) -> (usize, usize, usize) {
+pub fn sizes<T: Real>(model: &impl Model<T>) -> (usize, usize, usize) {
     (model.n_unknowns(), model.n_constraints(), model.n_elements())
 }
