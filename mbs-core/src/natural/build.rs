@@ -12,6 +12,7 @@ use crate::Real;
 use crate::algebra::{Vector, norm};
 use crate::model::Owner;
 use crate::scene::{BodyRef, Dimension, EffectKind, InitialTarget, JointKind, Quantity, Scene};
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
@@ -107,6 +108,7 @@ impl<'a, T: Real> Builder<'a, T> {
     /// One group for each cluster: mass, gravity, rigid-body rows, dependent points.
     fn add_bodies(&mut self) {
         let zero = constant_entity(Vector::zeros(), EntityKind::Direction, &mut self.entities);
+        let mut told = BTreeSet::new();
         for c in 0..self.bases.len() {
             let cluster = &self.clusters.clusters[c];
             let basis = &self.bases[c];
@@ -118,7 +120,7 @@ impl<'a, T: Real> Builder<'a, T> {
                     group.forces.push((e, super::finish::lifted(coef, &weight)));
                 }
             }
-            rigid_rows(basis, &self.entities, zero, &mut group.rows);
+            rigid_rows(basis, &self.entities, zero, &mut told, &mut group.rows);
             for &e in self.shared[c].iter().filter(|e| !basis.entities.contains(e)) {
                 let entity = self.entities[e];
                 let mut x = match entity.kind {
@@ -147,11 +149,13 @@ impl<'a, T: Real> Builder<'a, T> {
     }
 }
 
-/// Constant lengths and angles of the basis: ½ nb (nb - 1) rows.
+/// Constant lengths and angles of the basis: ½ nb (nb - 1) rows, less those that a body before has `told` of the same
+/// shared entities (the unit length of a common axis, say).
 fn rigid_rows<T: Real>(
     basis: &Basis<T>,
     entities: &[Entity<T>],
     zero: usize,
+    told: &mut BTreeSet<[usize; 4]>,
     rows: &mut Vec<RowDraft<T>>,
 ) {
     let origin = basis.entities[0];
@@ -162,9 +166,16 @@ fn rigid_rows<T: Real>(
     };
     for (i, &e) in others.iter().enumerate() {
         let (from, v) = vector(e);
-        rows.push(RowDraft::Distance { ends: [from, e], length: norm(&v) });
+        if told.insert([from.min(e), from.max(e), zero, zero]) {
+            rows.push(RowDraft::Distance { ends: [from, e], length: norm(&v) });
+        }
         for &other in &others[..i] {
             let (from_other, w) = vector(other);
+            let (one, two) = ([e, from], [other, from_other]);
+            let (one, two) = if one <= two { (one, two) } else { (two, one) };
+            if !told.insert([one[0], one[1], two[0], two[1]]) {
+                continue;
+            }
             let scale = T::ONE / (norm(&v) * norm(&w));
             let as_combination = |e: usize, from: usize| {
                 let one = crate::algebra::Coef::one();

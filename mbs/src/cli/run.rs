@@ -1,0 +1,272 @@
+//! `mbs run SCENE`.
+
+use super::{STOPPED, refuse, table};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mbs::{Outcome, Overrides, Precision, Progress, Settings, SettingsError};
+use mbs_core::Real;
+use mbs_core::scene::{Dimension, Entry, Scene};
+use mbs_scene::{Document, Provenance};
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Arguments of `mbs run`.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Scene file (TOML).
+    scene: PathBuf,
+    /// auto, index-1, index-3.
+    #[arg(long, value_name = "F")]
+    formulation: Option<String>,
+    /// Step [s].
+    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    step: Option<f64>,
+    /// Duration [s].
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    duration: Option<f64>,
+    /// Fixed penalty alpha: N/m in index-3, kg in index-1 (left out: in proportion to the mass).
+    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    penalty: Option<f64>,
+    /// Newton tolerance, relative to the scene's length.
+    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    tolerance: Option<f64>,
+    /// Threads (1 for now).
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// Directory for run.csv, run.json and run.html; made if missing.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// One JSON object on standard output and nothing else.
+    #[arg(long)]
+    json: bool,
+    /// f32, f64.
+    #[arg(long, value_name = "P")]
+    precision: Option<String>,
+    /// trapezoidal, newmark, generalised-alpha, hht.
+    #[arg(long, value_name = "I")]
+    integrator: Option<String>,
+    /// Wanted error (not built).
+    #[arg(long, value_name = "E", hide = true)]
+    error: Option<String>,
+    /// Deadline (not built).
+    #[arg(long, value_name = "S", hide = true)]
+    deadline: Option<String>,
+    /// Paced run (not built).
+    #[arg(long, hide = true)]
+    realtime: bool,
+}
+
+impl Arguments {
+    fn overrides(&self) -> Overrides {
+        Overrides {
+            formulation: self.formulation.clone(),
+            integrator: self.integrator.clone(),
+            precision: self.precision.clone(),
+            step: self.step,
+            duration: self.duration,
+            penalty: self.penalty,
+            tolerance: self.tolerance,
+            threads: self.threads,
+        }
+    }
+
+    /// The first option that is part of the contract and not built.
+    fn not_built(&self) -> Option<&'static str> {
+        let options = [
+            (self.error.is_some(), "--error"),
+            (self.deadline.is_some(), "--deadline"),
+            (self.realtime, "--realtime"),
+        ];
+        options.into_iter().find(|(given, _)| *given).map(|(_, name)| name)
+    }
+}
+
+/// Runs the command.
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    if let Some(option) = arguments.not_built() {
+        return refuse(&format!(
+            "error: {option} is not built\nhint: leave it out; give --step instead"
+        ));
+    }
+    let file = arguments.scene.display().to_string();
+    let bytes = match std::fs::read(&arguments.scene) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            return refuse(&format!(
+                "error: cannot read `{file}`: {error}\nhint: give the path of a scene file"
+            ));
+        }
+    };
+    let document = match Document::from_bytes(&bytes, &file) {
+        Ok(document) => document,
+        Err(error) => return refuse(&error.render()),
+    };
+    let scene = match document.scene::<f64>() {
+        Ok(scene) => scene,
+        Err(error) => return refuse(&error.render()),
+    };
+    let settings = match Settings::new(&scene, &arguments.overrides()) {
+        Ok(settings) => settings,
+        Err(error) => return refuse(&explain(&error, &document)),
+    };
+    let outcome = match settings.precision {
+        Precision::F64 => dispatch(&scene, &settings, arguments),
+        Precision::F32 => match document.scene::<f32>() {
+            Ok(scene) => dispatch(&scene, &settings, arguments),
+            Err(error) => return refuse(&error.render()),
+        },
+    };
+    report(&outcome, arguments, &settings, &document)
+}
+
+fn dispatch<T: Real>(scene: &Scene<T>, settings: &Settings, arguments: &Arguments) -> Outcome {
+    let mut bar = Bar::new(settings.duration, arguments.json);
+    let outcome = match scene.dimension {
+        Dimension::Planar => mbs::run::<T, 2>(scene, settings, &mut bar),
+        Dimension::Spatial => mbs::run::<T, 3>(scene, settings, &mut bar),
+    };
+    bar.bar.finish_and_clear();
+    outcome
+}
+
+/// A refusal of settings, with its place when the scene asks for them.
+fn explain(error: &SettingsError, document: &Document) -> String {
+    match error {
+        SettingsError::NotBuilt { key, from_scene: true, .. } => {
+            let place = document.place(Entry::Solver, key);
+            place.render(document.file(), &error.to_string(), "use one of those that are built")
+        }
+        _ => format!("error: {error}"),
+    }
+}
+
+/// Files, then JSON or table; the exit status says whether the run was completed.
+fn report(
+    outcome: &Outcome,
+    arguments: &Arguments,
+    settings: &Settings,
+    document: &Document,
+) -> ExitCode {
+    if let Some(out) = &arguments.out
+        && let Err(error) = write_files(outcome, out, arguments, settings)
+    {
+        return refuse(&format!("error: cannot write to `{}`: {error}", out.display()));
+    }
+    let text = if arguments.json {
+        outcome.summary.to_json()
+    } else {
+        table::text(outcome, arguments.out.as_deref())
+    };
+    // A reader that has gone away is no error of the run.
+    let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
+    let Some(error) = &outcome.error else { return ExitCode::SUCCESS };
+    if !arguments.json {
+        eprint!("{}", stopped(outcome, error, document));
+    }
+    ExitCode::from(STOPPED)
+}
+
+/// The error of a run that stopped, with the place in the scene that it is about.
+fn stopped(outcome: &Outcome, error: &mbs::StopError, document: &Document) -> String {
+    let Some(report) = &outcome.summary.error else { return String::new() };
+    let named = |label: &str, name: &Option<String>| {
+        name.as_ref().map(|n| format!(" ({label} `{n}`)")).unwrap_or_default()
+    };
+    let whose = if report.joint.is_some() {
+        named("joint", &report.joint)
+    } else {
+        named("body", &report.body)
+    };
+    let message = format!("stopped at t = {} s{whose}: {}", report.time, report.message);
+    match error.entry() {
+        Some(entry) => {
+            let field = if matches!(entry, Entry::Initial(_)) { "joint" } else { "name" };
+            document.place(entry, field).render(document.file(), &message, &report.hint)
+        }
+        None => format!("{message}\nhint: {}\n", report.hint),
+    }
+}
+
+fn write_files(
+    outcome: &Outcome,
+    out: &Path,
+    arguments: &Arguments,
+    settings: &Settings,
+) -> std::io::Result<()> {
+    std::fs::create_dir_all(out)?;
+    outcome.write_csv(std::io::BufWriter::new(std::fs::File::create(out.join("run.csv"))?))?;
+    std::fs::write(out.join("run.json"), outcome.summary.to_json() + "\n")?;
+    std::fs::write(out.join("run.html"), outcome.page(provenance(arguments, settings)))
+}
+
+fn provenance(arguments: &Arguments, settings: &Settings) -> Provenance {
+    let mut command = format!("mbs run {}", arguments.scene.display());
+    for (key, value) in [
+        ("formulation", arguments.formulation.clone()),
+        ("step", arguments.step.map(|x| x.to_string())),
+        ("duration", arguments.duration.map(|x| x.to_string())),
+        ("penalty", arguments.penalty.map(|x| x.to_string())),
+        ("tolerance", arguments.tolerance.map(|x| x.to_string())),
+        ("precision", arguments.precision.clone()),
+        ("integrator", arguments.integrator.clone()),
+    ] {
+        if let Some(value) = value {
+            command.push_str(&format!(" --{key} {value}"));
+        }
+    }
+    Provenance {
+        command,
+        precision: settings.precision.name().to_owned(),
+        formulation: settings.formulation.name().to_owned(),
+        integrator: settings.integrator.name().to_owned(),
+        step: format!("{} s", settings.step),
+        version: format!("mbs {}", env!("CARGO_PKG_VERSION")),
+        cpu: processor(),
+    }
+}
+
+/// The processor's name, where the system tells it.
+fn processor() -> String {
+    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let line = info.lines().find(|l| l.starts_with("model name"));
+    line.and_then(|l| l.split_once(':')).map(|(_, name)| name.trim().to_owned()).unwrap_or_default()
+}
+
+/// A progress bar on a terminal, nothing elsewhere.
+struct Bar {
+    bar: ProgressBar,
+    duration: f64,
+}
+
+/// Ticks of a whole run.
+const TICKS: f64 = 1000.0;
+
+impl Bar {
+    fn new(duration: f64, quiet: bool) -> Self {
+        let target = if quiet || !std::io::stderr().is_terminal() {
+            ProgressDrawTarget::hidden()
+        } else {
+            ProgressDrawTarget::stderr()
+        };
+        let bar = ProgressBar::with_draw_target(Some(1000), target);
+        if let Ok(style) = ProgressStyle::with_template("{wide_bar} {percent:>3} %  {eta} left") {
+            bar.set_style(style);
+        }
+        Self { bar, duration }
+    }
+}
+
+impl Progress for Bar {
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a share between 0 and 1000"
+    )]
+    fn reached(&mut self, t: f64) {
+        let ticks = (t / self.duration * TICKS).clamp(0.0, TICKS) as u64;
+        if ticks != self.bar.position() {
+            self.bar.set_position(ticks);
+        }
+    }
+}

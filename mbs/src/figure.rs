@@ -1,0 +1,150 @@
+//! The stick figure of a scene: which points are drawn and what lines join them.
+
+use mbs_core::Real;
+use mbs_core::natural::{Affine, NaturalModel};
+use mbs_core::scene::{BodyRef, Dimension, Inertia, Quantity, Scene};
+use mbs_scene::{Animation, Polyline, Trace};
+
+/// Pictures kept of a run at most.
+const MOST_FRAMES: usize = 600;
+
+/// Points of the figure, and the animation they fill.
+#[derive(Debug)]
+pub(crate) struct Figure<T: Real, const D: usize> {
+    points: Vec<Affine<T, D>>,
+    pub(crate) animation: Animation,
+    every: usize,
+    calls: usize,
+}
+
+impl<T: Real, const D: usize> Figure<T, D> {
+    /// Lays out the figure; `n_rows` pictures will be offered.
+    pub(crate) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, n_rows: usize) -> Self {
+        let mut layout = Layout { scene, model, points: Vec::new() };
+        let bodies = (0..scene.bodies.len()).map(|b| layout.body(b)).collect();
+        let traces = layout.traces();
+        let up = scene.gravity.map_or([0.0; 3], |g| g.map(|x| -x.to_f64()));
+        let ground = scene.joints.iter().flat_map(|j| {
+            (0..2)
+                .filter(|&k| j.bodies[k] == BodyRef::Ground)
+                .map(|k| j.points[k].map(Real::to_f64))
+        });
+        let animation = Animation {
+            dimension: D,
+            up: if scene.dimension == Dimension::Spatial { up } else { [0.0; 3] },
+            bodies,
+            traces,
+            ground: ground.collect(),
+            ..Animation::default()
+        };
+        Self {
+            points: layout.points,
+            animation,
+            every: n_rows.div_ceil(MOST_FRAMES).max(1),
+            calls: 0,
+        }
+    }
+
+    /// Takes a picture at every so-many-th call.
+    pub(crate) fn offer(&mut self, t: f64, q: &[T], is_last: bool) {
+        if self.calls % self.every == 0 || is_last {
+            let numbers = self.points.iter().flat_map(|p| {
+                let x = p.value(q);
+                (0..D).map(move |i| x[i].to_f64())
+            });
+            self.animation.frames.push(numbers.collect());
+            self.animation.times.push(t);
+        }
+        self.calls += 1;
+    }
+}
+
+struct Layout<'a, T: Real, const D: usize> {
+    scene: &'a Scene<T>,
+    model: &'a NaturalModel<T, D>,
+    points: Vec<Affine<T, D>>,
+}
+
+impl<T: Real, const D: usize> Layout<'_, T, D> {
+    fn add(&mut self, body: usize, at: [T; 3]) -> usize {
+        self.points.push(self.model.point(BodyRef::Body(body), at));
+        self.points.len() - 1
+    }
+
+    /// Places worth drawing on a body: joints, rod ends, springs, outputs; the centre where there are fewer than two.
+    fn places(&self, body: usize) -> Vec<[T; 3]> {
+        let me = BodyRef::Body(body);
+        let mut places: Vec<[T; 3]> = Vec::new();
+        let mut visit = |p: [T; 3]| {
+            if !places.contains(&p) {
+                places.push(p);
+            }
+        };
+        if let Inertia::Rod { from, to } = self.scene.bodies[body].inertia {
+            visit(from);
+            visit(to);
+        }
+        for joint in &self.scene.joints {
+            (0..2).filter(|&k| joint.bodies[k] == me).for_each(|k| visit(joint.points[k]));
+        }
+        for output in &self.scene.outputs {
+            if let Quantity::Position { body: b, at } = output.quantity
+                && b == body
+            {
+                visit(at.map(T::from_f64));
+            }
+        }
+        if places.len() < 2 {
+            let center = self.scene.bodies[body].center;
+            if !places.contains(&center) {
+                places.push(center);
+            }
+        }
+        places
+    }
+
+    fn body(&mut self, body: usize) -> Polyline {
+        let places = self.places(body);
+        let name = self.scene.bodies[body].name.clone();
+        let mut chain: Vec<usize> = places.iter().map(|p| self.add(body, *p)).collect();
+        if chain.len() == 1 {
+            return Polyline { name, chains: self.cross(body, places[0]) };
+        }
+        if chain.len() > 2 && D == 2 {
+            chain.push(chain[0]);
+        }
+        Polyline { name, chains: vec![chain] }
+    }
+
+    /// A body with one place only: three (two) strokes as long as its radius of gyration.
+    fn cross(&mut self, body: usize, at: [T; 3]) -> Vec<Vec<usize>> {
+        let data = &self.scene.bodies[body];
+        let moment = match data.inertia {
+            Inertia::Planar(i) => i,
+            Inertia::Spatial([xx, yy, zz, ..]) => xx.max(yy).max(zz),
+            Inertia::Rod { .. } => T::ZERO,
+        };
+        let reach = if data.mass > T::ZERO { (moment / data.mass).sqrt() } else { T::ZERO };
+        let reach = if reach > T::ZERO { reach } else { self.model.length() * T::from_f64(0.05) };
+        (0..D)
+            .map(|i| {
+                let (mut a, mut b) = (at, at);
+                a[i] -= reach;
+                b[i] += reach;
+                vec![self.add(body, a), self.add(body, b)]
+            })
+            .collect()
+    }
+
+    fn traces(&mut self) -> Vec<Trace> {
+        let scene = self.scene;
+        let mut traces = Vec::new();
+        for output in &scene.outputs {
+            if let Quantity::Position { body, at } = output.quantity {
+                let point = self.add(body, at.map(T::from_f64));
+                traces.push(Trace { name: output.name.clone(), point });
+            }
+        }
+        traces
+    }
+}

@@ -1,0 +1,349 @@
+//! A whole run: from a scene to its summary, rows and page.
+
+use crate::figure::Figure;
+use crate::recorder::{Recorder, StepMark};
+use crate::settings::Settings;
+use crate::simulation::Simulation;
+use crate::stop::{Names, StopError};
+use core::time::Duration;
+use cpu_time::ProcessTime;
+use mbs_augmented::StepReport;
+use mbs_core::Real;
+use mbs_core::outputs::Measures;
+use mbs_core::scene::Scene;
+use mbs_scene::{Channel, Chosen, CsvWriter, Outputs, Provenance, RunRecord, RunSummary};
+use std::io;
+use std::time::Instant;
+
+/// Share of the energy turned over that the invariant may be off by.
+const ENERGY_ALARM: f64 = 0.1;
+
+/// Called now and then with the time reached; does nothing by default.
+pub trait Progress {
+    /// Time reached [s].
+    fn reached(&mut self, t: f64) {
+        let _ = t;
+    }
+}
+
+impl Progress for () {}
+
+/// What a run gives.
+#[derive(Debug)]
+pub struct Outcome {
+    /// The JSON object.
+    pub summary: RunSummary,
+    /// Why it stopped early.
+    pub error: Option<StopError>,
+    record: RunRecord,
+    channels: Vec<Channel>,
+    table: Vec<(f64, Vec<f64>)>,
+}
+
+impl Outcome {
+    /// Writes the rows as CSV.
+    ///
+    /// # Errors
+    /// Those of the sink.
+    pub fn write_csv(&self, sink: impl io::Write) -> io::Result<()> {
+        let mut csv = CsvWriter::new(sink, &self.channels)?;
+        for (t, row) in &self.table {
+            csv.row(*t, row)?;
+        }
+        csv.finish()
+    }
+
+    /// The page, with how the run was made.
+    #[must_use]
+    pub fn page(&self, provenance: Provenance) -> String {
+        let record = RunRecord { provenance, ..self.record.clone() };
+        mbs_scene::page(&record)
+    }
+
+    /// The rows: time and all components of all channels.
+    #[must_use]
+    pub fn rows(&self) -> &[(f64, Vec<f64>)] {
+        &self.table
+    }
+
+    /// What the user should know.
+    #[must_use]
+    pub fn notes(&self) -> &[String] {
+        &self.record.notes
+    }
+}
+
+/// Runs a checked scene to its end, or to where it stops.
+pub fn run<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    progress: &mut impl Progress,
+) -> Outcome {
+    let names = Names::new(scene);
+    let channels = Channel::of_scene(scene);
+    let started = Simulation::<T, D>::new(scene, settings).and_then(|simulation| {
+        let measures = Measures::new(scene, simulation.model())?;
+        Ok((simulation, measures))
+    });
+    let (simulation, measures) = match started {
+        Ok(both) => both,
+        Err(error) => {
+            return not_started(scene, settings, &channels, &names, StopError::Start(error));
+        }
+    };
+    let n_steps = settings.n_steps();
+    let recorder = Recorder::new(channels, n_steps, simulation.initial_energies());
+    let figure = Figure::new(scene, simulation.model(), recorder.n_rows(n_steps));
+    let mut run = Run {
+        scene,
+        settings,
+        simulation,
+        measures,
+        recorder,
+        figure,
+        values: Vec::new(),
+        counts: Counts::default(),
+    };
+    run.start();
+    let cpu = ProcessTime::now();
+    let error = run.steps(n_steps, progress).err();
+    let cpu = cpu.elapsed();
+    run.finish(cpu, error, &names)
+}
+
+#[derive(Debug, Default)]
+struct Counts {
+    steps: u64,
+    iterations: u64,
+    factorizations: u64,
+    worst: Duration,
+}
+
+struct Run<'a, T: Real, const D: usize> {
+    scene: &'a Scene<T>,
+    settings: &'a Settings,
+    simulation: Simulation<T, D>,
+    measures: Measures<T, D>,
+    recorder: Recorder,
+    figure: Figure<T, D>,
+    values: Vec<f64>,
+    counts: Counts,
+}
+
+impl<T: Real, const D: usize> Run<'_, T, D> {
+    /// The first row.
+    fn start(&mut self) {
+        let n = self.recorder.channels.iter().map(|c| c.components.len()).sum();
+        self.values = vec![0.0; n];
+        let violation = self.simulation.start.residual.map(Real::to_f64);
+        let energies = self.simulation.initial_energies();
+        let mark = StepMark { t: 0.0, energies, violation, iterations: 0 };
+        self.recorder.mark(&mark);
+        self.row(&mark, false);
+    }
+
+    fn row(&mut self, mark: &StepMark, is_last: bool) {
+        let state = self.simulation.state();
+        self.measures.write(state, |_| [T::ZERO; 6], &mut self.values);
+        self.figure.offer(mark.t, &state.q, is_last);
+        self.recorder.keep(mark, &self.values);
+    }
+
+    fn steps(&mut self, n_steps: u64, progress: &mut impl Progress) -> Result<(), StopError> {
+        let (h, end) = (self.settings.step, self.settings.duration);
+        let mut clock = Instant::now();
+        for k in 1..=n_steps {
+            #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
+            let (from, to) = ((k - 1) as f64 * h, if k == n_steps { end } else { k as f64 * h });
+            let is_full = k < n_steps || (to - from - h).abs() <= 1e-9 * h * k as f64;
+            let dt = if is_full { h } else { to - from };
+            let report = match self.simulation.step(T::from_f64(dt)) {
+                Ok(report) => report,
+                Err(error) => {
+                    let stop = StopError::step(error, self.simulation.model());
+                    return self.stop(stop);
+                }
+            };
+            self.simulation.set_time(T::from_f64(to));
+            let mark = self.take(to, &report);
+            if self.recorder.keeps(k) || k == n_steps {
+                self.row(&mark, k == n_steps);
+                progress.reached(to);
+            }
+            let now = Instant::now();
+            self.counts.worst = self.counts.worst.max(now - clock);
+            clock = now;
+            if let Some(stop) = self.alarm(&mark) {
+                return self.stop(stop);
+            }
+        }
+        Ok(())
+    }
+
+    /// Keeps the state at which the run stops.
+    fn stop(&mut self, stop: StopError) -> Result<(), StopError> {
+        let t = self.simulation.state().t.to_f64();
+        if self.recorder.times.last().is_none_or(|&last| last < t) {
+            let energies = self.simulation.energies();
+            let mark = StepMark { t, energies, violation: [0.0; 3], iterations: 0 };
+            self.row(&mark, true);
+        }
+        Err(stop)
+    }
+
+    /// Counts and maxima of a step.
+    fn take(&mut self, t: f64, report: &StepReport<T>) -> StepMark {
+        self.counts.steps += 1;
+        self.counts.iterations += u64::from(report.iterations);
+        self.counts.factorizations += u64::from(report.factorizations);
+        self.measures.track(self.simulation.state());
+        let mark = StepMark {
+            t,
+            energies: self.simulation.energies(),
+            violation: report.violation.map(Real::to_f64),
+            iterations: report.iterations,
+        };
+        self.recorder.mark(&mark);
+        mark
+    }
+
+    /// Has the invariant drifted too far? Nothing is said while what was turned over is rounding of what is stored.
+    fn alarm(&self, mark: &StepMark) -> Option<StopError> {
+        let (turned_over, error) = self.recorder.turnover();
+        let stored = mark.energies[1].abs() + mark.energies[0];
+        let rounding = stored * T::EPSILON.to_f64().sqrt();
+        let is_off = !(error <= ENERGY_ALARM * turned_over) && !(error <= rounding);
+        is_off.then_some(StopError::Energy { error, turned_over })
+    }
+
+    fn finish(self, cpu: Duration, error: Option<StopError>, names: &Names) -> Outcome {
+        let end_time = self.simulation.state().t.to_f64();
+        let cpu_seconds = cpu.as_secs_f64();
+        let [coordinates, constraints, constraint_rank] = self.simulation.sizes();
+        let settings = self.settings;
+        let summary = RunSummary {
+            steps: self.counts.steps,
+            completed: error.is_none(),
+            error: error.as_ref().map(|e| e.report(end_time, names)),
+            end_time,
+            cpu_seconds,
+            real_time_factor: if cpu_seconds > 0.0 { end_time / cpu_seconds } else { 0.0 },
+            worst_step_seconds: self.counts.worst.as_secs_f64(),
+            iterations: self.counts.iterations,
+            factorizations: self.counts.factorizations,
+            energy: self.recorder.energy_summary(),
+            violation: self.recorder.violation_summary(),
+            outputs: Outputs(self.recorder.last()),
+            coordinates,
+            constraints,
+            constraint_rank,
+            dof: coordinates - constraint_rank,
+            ..plain_summary(self.scene, settings)
+        };
+        let (energy, violation, iterations) = self.recorder.page_series();
+        let record = RunRecord {
+            scene: self.scene.name.clone(),
+            channels: self.recorder.series(),
+            animation: Some(self.figure.animation),
+            energy: Some(energy),
+            violation: Some(violation),
+            iterations: Some(iterations),
+            summary: summary_rows(&summary),
+            notes: notes(self.scene, &summary, &self.simulation.start.change.to_f64()),
+            error: error.as_ref().map(ToString::to_string),
+            ..RunRecord::default()
+        };
+        let table = self.recorder.table().map(|(t, row)| (t, row.to_vec())).collect();
+        Outcome { summary, error, record, channels: self.recorder.channels.clone(), table }
+    }
+}
+
+fn plain_summary<T: Real>(scene: &Scene<T>, settings: &Settings) -> RunSummary {
+    let chosen = (settings.asked == "auto").then(|| Chosen {
+        formulation: settings.formulation.name().to_owned(),
+        reasons: vec!["auto means index-3: no choice by measurement is built yet".to_owned()],
+    });
+    RunSummary {
+        scene: scene.name.clone(),
+        formulation: settings.asked.clone(),
+        precision: settings.precision.name().to_owned(),
+        dimension: scene.dimension.count(),
+        step: settings.step,
+        chosen,
+        ..RunSummary::default()
+    }
+}
+
+fn not_started<T: Real>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    channels: &[Channel],
+    names: &Names,
+    error: StopError,
+) -> Outcome {
+    let summary =
+        RunSummary { error: Some(error.report(0.0, names)), ..plain_summary(scene, settings) };
+    let record = RunRecord {
+        scene: scene.name.clone(),
+        summary: summary_rows(&summary),
+        error: Some(error.to_string()),
+        ..RunRecord::default()
+    };
+    Outcome { summary, error: Some(error), record, channels: channels.to_vec(), table: Vec::new() }
+}
+
+fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
+    let row = |label: &str, value: String| (label.to_owned(), value);
+    vec![
+        row(
+            "coordinates / constraints / rank",
+            format!("{} / {} / {}", s.coordinates, s.constraints, s.constraint_rank),
+        ),
+        row("degrees of freedom", s.dof.to_string()),
+        row("steps", s.steps.to_string()),
+        row("time reached", format!("{} s", s.end_time)),
+        row(
+            "Newton iterations / factorisations",
+            format!("{} / {}", s.iterations, s.factorizations),
+        ),
+        row("largest energy error", format!("{:.3e} J", s.energy.max_error)),
+        row(
+            "largest violation of position / velocity / acceleration",
+            format!(
+                "{:.1e} m / {:.1e} m/s / {:.1e} m/s^2",
+                s.violation.position, s.violation.velocity, s.violation.acceleration
+            ),
+        ),
+        row("CPU time of the steps", format!("{:.4} s", s.cpu_seconds)),
+        row("real-time factor", format!("{:.0}", s.real_time_factor)),
+        row("slowest step", format!("{:.1} us", s.worst_step_seconds * 1e6)),
+    ]
+}
+
+/// What is unusual about a scene, said once.
+fn notes<T: Real>(scene: &Scene<T>, s: &RunSummary, change: &f64) -> Vec<String> {
+    let mut notes = Vec::new();
+    let redundant = s.constraints - s.constraint_rank;
+    if redundant > 0 {
+        notes.push(format!(
+            "{redundant} constraint equations are redundant: the motion is determined, some internal forces are not"
+        ));
+    }
+    for (i, body) in scene.bodies.iter().enumerate() {
+        let me = mbs_core::scene::BodyRef::Body(i);
+        if !scene.joints.iter().any(|j| j.bodies.contains(&me)) {
+            notes.push(format!("body `{}` has no joint: it moves freely", body.name));
+        }
+    }
+    if *change > 1e-6 {
+        notes.push(format!(
+            "the start differs from the reference configuration by up to {change:.3e} m (or rad)"
+        ));
+    }
+    for joint in &s.not_unique {
+        notes.push(format!(
+            "the reaction of joint `{joint}` is not unique: the smallest one is given"
+        ));
+    }
+    notes
+}

@@ -1,0 +1,193 @@
+//! Why a run stopped, in words and with names.
+
+use mbs_augmented::StepError;
+use mbs_core::model::{Model, Owner};
+use mbs_core::scene::{BodyRef, Entry, Scene};
+use mbs_core::start::AssemblyError;
+use mbs_scene::RunError;
+
+/// Names of bodies and joints, and which joint holds which body: what errors need to speak.
+#[derive(Debug, Clone)]
+pub struct Names {
+    bodies: Vec<String>,
+    joints: Vec<String>,
+    effects: Vec<String>,
+    /// First joint in the file that touches each body.
+    joint_of_body: Vec<Option<usize>>,
+}
+
+impl Names {
+    /// Takes the names of a scene.
+    pub fn new<T>(scene: &Scene<T>) -> Self {
+        let mut joint_of_body = vec![None; scene.bodies.len()];
+        for (j, joint) in scene.joints.iter().enumerate() {
+            for body in joint.bodies {
+                if let BodyRef::Body(b) = body {
+                    joint_of_body[b].get_or_insert(j);
+                }
+            }
+        }
+        Self {
+            bodies: scene.bodies.iter().map(|b| b.name.clone()).collect(),
+            joints: scene.joints.iter().map(|j| j.name.clone()).collect(),
+            effects: scene.effects.iter().map(|e| e.name.clone()).collect(),
+            joint_of_body,
+        }
+    }
+
+    /// Joint and body names of an owner.
+    fn of(&self, owner: Owner) -> (Option<String>, Option<String>) {
+        match owner {
+            Owner::Joint(j) => (self.joints.get(j).cloned(), None),
+            Owner::Body(b) => {
+                let joint = self.joint_of_body.get(b).copied().flatten();
+                (joint.and_then(|j| self.joints.get(j).cloned()), self.bodies.get(b).cloned())
+            }
+            Owner::Effect(e) => (None, self.effects.get(e).cloned()),
+        }
+    }
+}
+
+/// Why a run stopped early.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum StopError {
+    /// No consistent start.
+    Start(AssemblyError),
+    /// A step that could not be made, and whose it is.
+    Step(StepError, Option<Owner>),
+    /// The energy invariant drifted by more than a tenth of the energy turned over.
+    Energy {
+        /// |Pi - Pi(0)| [J].
+        error: f64,
+        /// Largest kinetic energy plus gross work [J].
+        turned_over: f64,
+    },
+}
+
+impl StopError {
+    /// With the owner looked up in the model.
+    pub(crate) fn step<T: mbs_core::Real>(error: StepError, model: &impl Model<T>) -> Self {
+        let unknown = |u: u32| Some(model.owner_of_unknown(u as usize));
+        let owner = match error {
+            StepError::NotConverged { unknown: u, .. } | StepError::NotFinite { unknown: u } => {
+                unknown(u)
+            }
+            StepError::Singular(e) => unknown(e.unknown),
+            StepError::Violated { row, .. } | StepError::OppositeBranch { row } => {
+                Some(model.owner_of_row(row as usize))
+            }
+            _ => None,
+        };
+        Self::Step(error, owner)
+    }
+
+    /// The place in the scene file that the error is about.
+    #[must_use]
+    pub fn entry(&self) -> Option<Entry> {
+        let owner = match self {
+            Self::Start(
+                AssemblyError::Position { initial: Some(i), .. }
+                | AssemblyError::Velocity { initial: Some(i), .. },
+            ) => return Some(Entry::Initial(*i)),
+            Self::Start(error) => start_owner(error)?,
+            Self::Step(_, owner) => (*owner)?,
+            Self::Energy { .. } => return None,
+        };
+        Some(match owner {
+            Owner::Body(b) => Entry::Body(b),
+            Owner::Joint(j) => Entry::Joint(j),
+            Owner::Effect(e) => Entry::Effect(e),
+        })
+    }
+
+    /// A short fixed word for programs.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Start(AssemblyError::Model(_)) => "no-model",
+            Self::Start(AssemblyError::Position { .. }) => "cannot-assemble",
+            Self::Start(AssemblyError::Velocity { .. }) => "contradicting-velocities",
+            Self::Start(AssemblyError::NoInertia { .. }) => "no-inertia",
+            Self::Start(_) => "no-accelerations",
+            Self::Step(StepError::NotConverged { .. }, _) => "not-converged",
+            Self::Step(StepError::Singular(_), _) => "singular-matrix",
+            Self::Step(StepError::NotFinite { .. }, _) => "not-finite",
+            Self::Step(StepError::Violated { .. }, _) => "violated",
+            Self::Step(StepError::OppositeBranch { .. }, _) => "opposite-branch",
+            Self::Step(..) => "step-failed",
+            Self::Energy { .. } => "energy-drift",
+        }
+    }
+
+    /// What to try.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Start(AssemblyError::Model(_)) => "check the data of the body",
+            Self::Start(AssemblyError::Position { .. }) => {
+                "check the places of the joints, and that held values and guides fit together"
+            }
+            Self::Start(AssemblyError::Velocity { .. }) => {
+                "hold fewer velocities: what is not written follows from the joints"
+            }
+            Self::Start(AssemblyError::NoInertia { .. }) => {
+                "give the body mass and inertia, or remove the freedom nothing determines"
+            }
+            Self::Start(_) => "start a little away from this position",
+            Self::Step(StepError::Singular(_), _) => {
+                "try a smaller step; give every free coordinate mass or inertia"
+            }
+            Self::Step(..) => "try a smaller step, or another formulation",
+            Self::Energy { .. } => "try a smaller step: the motion is not resolved",
+        }
+    }
+
+    /// As it stands in JSON.
+    #[must_use]
+    pub fn report(&self, time: f64, names: &Names) -> RunError {
+        let owner = match self {
+            Self::Start(error) => start_owner(error),
+            Self::Step(_, owner) => *owner,
+            Self::Energy { .. } => None,
+        };
+        let (joint, body) = owner.map_or((None, None), |o| names.of(o));
+        RunError {
+            code: self.code().to_owned(),
+            message: self.to_string(),
+            time,
+            joint,
+            body,
+            hint: self.hint().to_owned(),
+        }
+    }
+}
+
+fn start_owner(error: &AssemblyError) -> Option<Owner> {
+    use mbs_core::natural::ModelError;
+    match error {
+        AssemblyError::Position { owner, .. }
+        | AssemblyError::Velocity { owner, .. }
+        | AssemblyError::NoInertia { owner }
+        | AssemblyError::Acceleration { owner, .. } => Some(*owner),
+        AssemblyError::Model(ModelError::Basis { body } | ModelError::NoRotation { body }) => {
+            Some(Owner::Body(*body))
+        }
+        _ => None,
+    }
+}
+
+impl core::fmt::Display for StopError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Start(error) => write!(f, "{error}"),
+            Self::Step(error, _) => write!(f, "{error}"),
+            Self::Energy { error, turned_over } => write!(
+                f,
+                "the energy invariant is off by {error:.3e} J, more than a tenth of the {turned_over:.3e} J turned over"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for StopError {}
