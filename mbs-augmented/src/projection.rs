@@ -17,7 +17,9 @@ use mbs_core::model::Model;
 use mbs_core::{Real, SpdSolver};
 
 /// What one correction may leave of the multiplier of the least felt combination of constraints.
-const FELT: f64 = 0.03;
+const FELT: f64 = 0.003;
+/// A combination of which more than this was left is followed in the next step.
+const FOLLOWED: f64 = 0.001;
 /// Most that penalties may be, in effective masses times EPSILON: above, rounding of T^-1 looks like a lost direction.
 const MOST: f64 = 0.2;
 
@@ -96,11 +98,11 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     /// and raises s until rho is at most [`FELT`]. A combination that no allowed penalty makes felt is redundant and left.
     /// Returns whether the penalties changed, so that T must be factored anew. Needs T factored. Cost: one solve.
     pub(crate) fn adapt<M: Model<T>>(&mut self, model: &M) -> bool {
-        let size = norm_inf(&self.probe);
-        for (k, u) in self.probe.iter_mut().enumerate() {
-            // A little of every constraint, with changing signs, so that no direction is out of sight.
-            let fresh = T::from_f64(if k % 3 == 1 { -1e-3 } else { 1e-3 });
-            *u = *u / size + fresh;
+        if self.rho > T::from_f64(FOLLOWED) {
+            let inverse = T::ONE / norm_inf(&self.probe);
+            self.probe.iter_mut().for_each(|u| *u *= inverse);
+        } else {
+            spread(&mut self.probe);
         }
         let size = norm_inf(&self.probe);
         self.mu.copy_from_slice(&self.probe);
@@ -121,10 +123,8 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
                 norm_inf(&self.dq)
             );
         }
+        self.rho = if rho.is_finite() { rho } else { T::ZERO };
         if !(rho > T::from_f64(FELT)) {
-            if !(rho > T::ZERO) {
-                self.probe.fill(T::ONE);
-            }
             return false;
         }
         let room = self.room();
@@ -184,6 +184,15 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             x[i] -= self.f[i];
             self.change[i] -= self.f[i];
         }
+    }
+}
+
+/// A vector with a little of everything, always the same: no combination of constraints is out of its sight by symmetry.
+fn spread<T: Real>(x: &mut [T]) {
+    let mut seed = 1_u32;
+    for x in x {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        *x = T::from_f64(f64::from(seed) / f64::from(u32::MAX) - 0.5);
     }
 }
 
