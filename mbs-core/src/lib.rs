@@ -13,6 +13,8 @@ pub mod laws;
 pub mod model;
 #[cfg(feature = "alloc")]
 pub mod natural;
+#[cfg(feature = "alloc")]
+pub mod outputs;
 pub mod real;
 #[cfg(feature = "alloc")]
 pub mod scene;

@@ -5,7 +5,6 @@ use super::group::{Group, add_curvature, add_mass_product, add_rank_one};
 use super::model::NaturalModel;
 use crate::Real;
 use crate::algebra::Vector;
-use crate::blocks::Cliques;
 use crate::elements::combine;
 use crate::model::{Load, Measure, Model, Owner, Tangent, Terms};
 use alloc::vec;

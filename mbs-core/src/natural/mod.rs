@@ -26,6 +26,7 @@ pub use evaluate::sizes;
 pub(crate) use finish::index;
 pub use forces::unwrap;
 pub(crate) use group::{add_rank_one, packed};
+pub(crate) use input::GuideInput;
 pub(crate) use joints::{angle_directions, joint_axes};
 pub use model::NaturalModel;
 pub use sharing::TOLERANCE;

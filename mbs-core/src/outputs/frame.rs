@@ -1,0 +1,128 @@
+//! The turning of a body, read off its directions.
+//!
+//! ```text
+//! R = [u1 u2 u3],   omega = 1/2 sum u_k x u_k',   omega' = 1/2 sum u_k x u_k''
+//! rod (d: along it, d0 in the reference configuration):
+//!     R = the smallest rotation that carries d0 to d,   omega = d x d',   omega' = d x d''
+//! ```
+
+use crate::Real;
+use crate::algebra::{Matrix, Vector, across, cross, norm, rotation};
+use crate::natural::{Affine, NaturalModel};
+use crate::scene::{BodyRef, Inertia, Scene};
+use alloc::boxed::Box;
+
+/// The directions that carry a body's rotation.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Frame<T: Real, const D: usize> {
+    /// Plane: what was the x axis in the reference configuration.
+    Planar(Affine<T, D>),
+    /// Space: what were the three axes.
+    Full(Box<[Affine<T, D>; 3]>),
+    /// A spatial rod of two points: from one end to the other, now and in the reference configuration.
+    Rod { along: Affine<T, D>, reference: Vector<T, 3> },
+}
+
+impl<T: Real, const D: usize> Frame<T, D> {
+    /// The frame of a body, or of the ground.
+    pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, body: BodyRef) -> Self {
+        if D == 2 {
+            return Self::Planar(model.direction(body, unit(0).into()));
+        }
+        match body {
+            BodyRef::Body(i) if !model.has_full_rotation(body) => {
+                let (from, to) = match scene.bodies[i].inertia {
+                    Inertia::Rod { from, to } => (from, to),
+                    // Only rods lack a rotation: unreachable, and harmless if it were not.
+                    _ => (scene.bodies[i].center, scene.bodies[i].center),
+                };
+                let d = Vector::<T, 3>::from(to) - Vector::from(from);
+                let along = model.point(body, to).minus(&model.point(body, from));
+                Self::Rod { along, reference: normalised(&d) }
+            }
+            _ => Self::Full(Box::new([0, 1, 2].map(|i| model.direction(body, unit(i).into())))),
+        }
+    }
+
+    /// R: its columns are the present directions of what were the global axes.
+    pub(super) fn rotation(&self, q: &[T]) -> Matrix<T, 3> {
+        match self {
+            Self::Planar(x) => {
+                let u = x.value(q);
+                let mut r = Matrix::<T, 3>::identity();
+                (r[(0, 0)], r[(1, 1)], r[(1, 0)], r[(0, 1)]) = (u[0], u[0], u[1], -u[1]);
+                r
+            }
+            Self::Full(axes) => Matrix::from_columns(&[0, 1, 2].map(|i| lifted(&axes[i].value(q)))),
+            Self::Rod { along, reference } => {
+                carry(reference, &normalised(&lifted(&along.value(q))))
+            }
+        }
+    }
+
+    /// The angular velocity for velocities `x`, the angular acceleration for accelerations.
+    pub(super) fn turning(&self, q: &[T], x: &[T]) -> Vector<T, 3> {
+        let arm = |u: &Affine<T, D>| cross(&lifted(&u.value(q)), &lifted(&u.rate(x)));
+        match self {
+            Self::Planar(u) => arm(u),
+            Self::Full(axes) => (arm(&axes[0]) + arm(&axes[1]) + arm(&axes[2])) * T::HALF,
+            Self::Rod { along, .. } => {
+                let d = along.value(q);
+                arm(along) * (T::ONE / d.dot(&d))
+            }
+        }
+    }
+}
+
+/// The smallest rotation that carries unit vector `a` to unit vector `b`; half a turn about one axis when they are opposite.
+///
+/// ```text
+/// R = 1 + [w] + [w]^2 / (1 + a.b),   w = a x b
+/// ```
+fn carry<T: Real>(a: &Vector<T, 3>, b: &Vector<T, 3>) -> Matrix<T, 3> {
+    let (w, share) = (cross(a, b), T::ONE + a.dot(b));
+    if share <= T::EPSILON {
+        return rotation(&(across(a) * T::PI));
+    }
+    let columns = [0, 1, 2].map(|i| {
+        let e = unit(i);
+        let turned = cross(&w, &e);
+        e + turned + cross(&w, &turned) * (T::ONE / share)
+    });
+    Matrix::from_columns(&columns)
+}
+
+/// The unit vector along axis `i`.
+pub(super) fn unit<T: Real>(i: usize) -> Vector<T, 3> {
+    let mut e = Vector::<T, 3>::zeros();
+    e[i] = T::ONE;
+    e
+}
+
+/// x / |x|; zero stays zero.
+pub(super) fn normalised<T: Real>(x: &Vector<T, 3>) -> Vector<T, 3> {
+    let length = norm(x);
+    if length > T::ZERO { x * (T::ONE / length) } else { *x }
+}
+
+/// A vector of the plane or of space, in space.
+pub(super) fn lifted<T: Real, const D: usize>(x: &Vector<T, D>) -> Vector<T, 3> {
+    Vector::from_fn(|i, _| if i < D { x[i] } else { T::ZERO })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_smallest_rotation_carries_one_direction_to_the_other() {
+        let a = normalised(&Vector::<f64, 3>::new(1.0, 2.0, -0.5));
+        for b in [[0.3, -0.2, 0.9], [-1.0, -2.0, 0.5], [1.0, 2.0, -0.5]] {
+            let b = normalised(&Vector::from(b));
+            let r = carry(&a, &b);
+            let orthogonal = r.transpose() * r - Matrix::<f64, 3>::identity();
+            assert!(norm(&(r * a - b)) < 1e-14, "{b}");
+            assert!(crate::algebra::norm_inf(orthogonal.as_slice()) < 1e-14, "{b}");
+        }
+    }
+}
