@@ -58,9 +58,7 @@ fn loops(
     while let Some(&joint) = block.joints.get(next) {
         next += 1;
         for body in ends(joints[joint]) {
-            if !block.bodies.contains(&body) {
-                block.bodies.push(body);
-            }
+            block.bodies.push(body);
             for &j in &at_body[body] {
                 if !is_solved[j] {
                     is_solved[j] = true;
@@ -70,6 +68,7 @@ fn loops(
         }
     }
     block.bodies.sort_unstable();
+    block.bodies.dedup();
     block.joints.sort_unstable();
     block
 }
