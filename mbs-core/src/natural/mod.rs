@@ -25,7 +25,7 @@ pub use error::ModelError;
 pub use evaluate::sizes;
 pub(crate) use finish::index;
 pub use forces::unwrap;
-pub(crate) use group::{add_rank_one, packed};
+pub(crate) use group::{add_squares, packed};
 pub(crate) use joints::{angle_directions, joint_axes};
 pub use model::NaturalModel;
 pub use sharing::TOLERANCE;
