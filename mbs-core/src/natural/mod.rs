@@ -27,7 +27,7 @@ pub use error::ModelError;
 pub use evaluate::sizes;
 pub(crate) use finish::index;
 pub use forces::unwrap;
-pub(crate) use group::{add_rank_one, packed};
+pub(crate) use group::{add_squares, packed};
 pub(crate) use input::{CourseInput, GuideInput};
 pub(crate) use joints::{angle_directions, joint_axes, transverse};
 pub use model::NaturalModel;

@@ -181,7 +181,8 @@ impl<T: Real, const D: usize> BlockSource<T> for Sweep<'_, '_, T, D> {
         if extra >= p.holds.len() {
             block[0] = p.lent_mass;
         } else if p.acts(extra, self.level) {
-            crate::natural::add_rank_one(block, p.gradient(extra), p.hold_mass);
+            let g = p.gradient(extra);
+            crate::natural::add_squares(block, g.len(), [g], [p.hold_mass]);
         }
     }
 
