@@ -146,13 +146,6 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f) });
         }
-        if std::env::var("TR").is_ok() {
-            std::println!(
-                "     it {iterations} corr {correction:e} phi {:e} lam {:e} goal {goal:e}",
-                norm_inf(&w.terms.phi),
-                norm_inf(&w.lambda) * rule.acceleration
-            );
-        }
         let noise = rounding(length, options, w);
         if let Some(stop) = stopping(iterations, correction, last, (goal, scale, noise)) {
             return Ok((iterations, correction, stop));

@@ -113,14 +113,6 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             self.probe[k] -= self.penalty[k] * self.rates[k];
         }
         let rho = norm_inf(&self.probe) / size;
-        if std::env::var("TR").is_ok() {
-            std::println!(
-                "   rho {rho:e} boost {:e} phi {:e} dq {:e}",
-                self.boost,
-                norm_inf(&self.terms.phi),
-                norm_inf(&self.dq)
-            );
-        }
         if !(rho > T::from_f64(FELT)) {
             if !(rho > T::ZERO) {
                 self.probe.fill(T::ONE);
