@@ -12,6 +12,7 @@ use crate::Real;
 use crate::algebra::{Vector, norm};
 use crate::model::Owner;
 use crate::scene::{BodyRef, Dimension, EffectKind, InitialTarget, JointKind, Quantity, Scene};
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
@@ -107,6 +108,7 @@ impl<'a, T: Real> Builder<'a, T> {
     /// One group for each cluster: mass, gravity, rigid-body rows, dependent points.
     fn add_bodies(&mut self) {
         let zero = constant_entity(Vector::zeros(), EntityKind::Direction, &mut self.entities);
+        let mut kept = BTreeSet::new();
         for c in 0..self.bases.len() {
             let cluster = &self.clusters.clusters[c];
             let basis = &self.bases[c];
@@ -119,6 +121,11 @@ impl<'a, T: Real> Builder<'a, T> {
                 }
             }
             rigid_rows(basis, &self.entities, zero, &mut group.rows);
+            // The length of an axis that several bodies share is kept by the first of them.
+            group.rows.retain(|row| match row {
+                RowDraft::Distance { ends: [a, b], .. } => kept.insert((*a.min(b), *a.max(b))),
+                _ => true,
+            });
             for &e in self.shared[c].iter().filter(|e| !basis.entities.contains(e)) {
                 let entity = self.entities[e];
                 let mut x = match entity.kind {
