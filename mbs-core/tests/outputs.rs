@@ -1,8 +1,8 @@
 //! Channels measured at known states.
 
-mod common;
+mod small;
 
-use common::{GROUND, add_body, add_joint, add_rod, hold, output, scene, start};
+use small::{GROUND, add_body, add_joint, add_rod, hold, output, scene, start};
 use mbs_core::algebra::{Matrix, Vector, rotation, rotation_vector};
 use mbs_core::outputs::Measures;
 use mbs_core::scene::{BodyRef, Dimension, Inertia, JointKind, Quantity, Scene};
@@ -164,7 +164,7 @@ fn counting_starts_from_the_initial_value_or_the_guide() {
         let pivot = add_joint(&mut s, JointKind::Revolute, [GROUND, rod], [0.0; 3], [None; 2]);
         if is_guided {
             let law = mbs_core::scene::GuideLaw::Table(vec![[0.0, 7.5], [1.0, 8.0]]);
-            common::guide(&mut s, pivot, law);
+            small::guide(&mut s, pivot, law);
         } else {
             hold(&mut s, pivot, &[7.5], &[]);
         }

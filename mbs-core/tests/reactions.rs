@@ -1,8 +1,8 @@
 //! Joint reactions against closed forms and against the balance of the whole.
 
-mod common;
+mod small;
 
-use common::{GROUND, add_body, add_joint, add_rod, guide, hold, scene, start};
+use small::{GROUND, add_body, add_joint, add_rod, guide, hold, scene, start};
 use mbs_core::algebra::{Vector, rotation};
 use mbs_core::outputs::{LARGEST_BLOCK, ReactionError, Reactions};
 use mbs_core::scene::{
