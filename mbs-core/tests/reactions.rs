@@ -17,7 +17,7 @@ const PLANE: [f64; 3] = [0.0, -G, 0.0];
 
 fn reactions<const D: usize>(scene: &Scene<f64>) -> Reactions<f64, D> {
     let (model, state) = start::<D>(scene);
-    let mut reactions = Reactions::new(scene, &model).unwrap();
+    let mut reactions = Reactions::new(scene, &model).expect("reactions");
     reactions.update(&state);
     assert!(reactions.residual() < CLOSED, "{:e} N are left", reactions.residual());
     reactions
