@@ -12,7 +12,7 @@ const CLOSED: f64 = 1e-11;
 
 fn measured<const D: usize>(scene: &Scene<f64>) -> Vec<f64> {
     let (model, state) = start::<D>(scene);
-    let mut measures = Measures::new(scene, &model).unwrap();
+    let mut measures = Measures::new(scene, &model).expect("channels");
     let mut out = vec![0.0; measures.n_components()];
     measures.write(&state, |_| [0.0; 6], &mut out);
     out
@@ -72,10 +72,13 @@ fn without_outputs_every_joint_coordinate_is_a_channel() {
     assert_eq!(measures.n_components(), 5);
 }
 
+/// Kind, axes, held values and rates.
+type Case = (JointKind, [Option<[f64; 3]>; 2], &'static [f64], &'static [f64]);
+
 #[test]
 fn held_values_and_rates_are_measured_as_they_were_held() {
     let (a, b) = (Some([0.0, 3.0, 4.0]), Some([1.0, 0.5, 0.2]));
-    let cases: [(JointKind, [Option<[f64; 3]>; 2], &[f64], &[f64]); 7] = [
+    let cases: [Case; 7] = [
         (JointKind::Revolute, [a, None], &[1.2], &[-0.7]),
         (JointKind::Prismatic, [a, None], &[0.3], &[0.4]),
         (JointKind::Cylindrical, [a, None], &[-0.3, 2.5], &[0.4, 1.1]),

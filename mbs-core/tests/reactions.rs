@@ -17,7 +17,7 @@ const PLANE: [f64; 3] = [0.0, -G, 0.0];
 
 fn reactions<const D: usize>(scene: &Scene<f64>) -> Reactions<f64, D> {
     let (model, state) = start::<D>(scene);
-    let mut reactions = Reactions::new(scene, &model).unwrap();
+    let mut reactions = Reactions::new(scene, &model).expect("reactions");
     reactions.update(&state);
     assert!(reactions.residual() < CLOSED, "{:e} N are left", reactions.residual());
     reactions
@@ -163,7 +163,15 @@ fn four_bar(dimension: Dimension, w: [f64; 3]) -> Scene<f64> {
         |x: [f64; 3]| -> [f64; 3] { (rotation(&Vector::from(w)) * Vector::from(x)).into() };
     let mut s = scene(dimension, turned(PLANE));
     let [a, b, c, d] = [[0.0; 3], [0.0, 1.0, 0.0], [1.5, 1.4, 0.0], [1.2, 0.0, 0.0]].map(turned);
-    let bars = [(a, b), (b, c), (c, d)].map(|(p, q)| add_rod(&mut s, 1.3, p, q));
+    let inertia = match dimension {
+        Dimension::Planar => Inertia::Planar(0.2),
+        // a ball's, so that it need not be turned
+        Dimension::Spatial => Inertia::Spatial([0.2, 0.2, 0.2, 0.0, 0.0, 0.0]),
+    };
+    let bars = [(a, b), (b, c), (c, d)].map(|(p, q)| {
+        let center = core::array::from_fn(|i| 0.5 * (p[i] + q[i]));
+        add_body(&mut s, 1.3, center, inertia)
+    });
     let axis = [(dimension == Dimension::Spatial).then(|| turned([0.0, 0.0, 1.0])), None];
     let pairs = [[GROUND, bars[0]], [bars[0], bars[1]], [bars[1], bars[2]], [bars[2], GROUND]];
     for (pair, at) in pairs.into_iter().zip([a, b, c, d]) {

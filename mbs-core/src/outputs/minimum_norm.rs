@@ -19,9 +19,11 @@ pub(super) struct MinimumNorm<T> {
     m: usize,
     n: usize,
     rank: usize,
-    /// A, column by column; after the solution Q's vectors are gone and R stands on top.
+    /// A, column by column; after the factorisation R stands on top.
     a: Vec<T>,
     b: Vec<T>,
+    /// The vector of the reflection at hand.
+    reflector: Vec<T>,
     x: Vec<T>,
     order: Vec<usize>,
     /// Z, column by column, r long each.
@@ -40,6 +42,7 @@ impl<T: Real> MinimumNorm<T> {
             rank: 0,
             a: zeros(rows * columns),
             b: zeros(rows),
+            reflector: zeros(rows),
             x: zeros(columns),
             order: vec![0; columns],
             z: zeros(columns * columns),
@@ -130,18 +133,16 @@ impl<T: Real> MinimumNorm<T> {
         let pivot = if head > T::ZERO { -size } else { size };
         self.a[c + step] = head - pivot;
         let scale = T::ONE / (size * (size + head.abs()));
-        for j in step + 1..self.n {
-            let to = self.order[j] * m;
-            let dot = (step..m).fold(T::ZERO, |s, i| s + self.a[c + i] * self.a[to + i]);
-            for i in step..m {
-                let v = self.a[c + i];
-                self.a[to + i] -= v * (dot * scale);
-            }
+        let v = &mut self.reflector[step..m];
+        v.copy_from_slice(&self.a[c + step..c + m]);
+        let carry = |x: &mut [T]| {
+            let dot = v.iter().zip(x.iter()).fold(T::ZERO, |s, (&v, &x)| s + v * x) * scale;
+            x.iter_mut().zip(v.iter()).for_each(|(x, &v)| *x -= v * dot);
+        };
+        for &j in &self.order[step + 1..self.n] {
+            carry(&mut self.a[j * m + step..(j + 1) * m]);
         }
-        let dot = (step..m).fold(T::ZERO, |s, i| s + self.a[c + i] * self.b[i]);
-        for i in step..m {
-            self.b[i] -= self.a[c + i] * (dot * scale);
-        }
+        carry(&mut self.b[step..m]);
         self.a[c + step] = pivot;
     }
 

@@ -83,7 +83,7 @@ pub(crate) fn output(scene: &mut Scene<f64>, quantity: Quantity) {
 /// The model of a checked scene and its consistent start.
 pub(crate) fn start<const D: usize>(scene: &Scene<f64>) -> (NaturalModel<f64, D>, State<f64>) {
     scene.check().expect("the scene of a test can be meant");
-    let model = NaturalModel::<f64, D>::new(scene).unwrap();
+    let model = NaturalModel::<f64, D>::new(scene).expect("a model");
     let mut solver = Multifrontal::<f64>::analyse(&model, Options::default());
     let assembled = assemble(
         scene,
@@ -91,6 +91,6 @@ pub(crate) fn start<const D: usize>(scene: &Scene<f64>) -> (NaturalModel<f64, D>
         |problem| Multifrontal::<f64>::analyse(problem, Options::default()),
         &mut solver,
     )
-    .unwrap();
+    .expect("a consistent start");
     (model, assembled.state)
 }
