@@ -62,11 +62,11 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.sigma.fill(T::ZERO);
         self.change.fill(T::ZERO);
         let mut violation = self.violation(model, level);
-        for _ in 0..max_sweeps {
+        for sweeps in 0..max_sweeps {
             if violation <= goal {
                 return Ok(violation);
             }
-            self.sweep(model, level);
+            self.sweep(model, level, sweeps > 0);
             let left = self.violation(model, level);
             for i in 0..self.sigma.len() {
                 self.sigma[i] += self.penalty[i] * self.rates[i];
@@ -162,11 +162,12 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.boost *= factor;
     }
 
-    fn sweep<M: Model<T>>(&mut self, model: &M, level: Level) {
+    /// One sweep; as long as nothing `is_changed` the mass has no part in it.
+    fn sweep<M: Model<T>>(&mut self, model: &M, level: Level, is_changed: bool) {
         for i in 0..self.mu.len() {
             self.mu[i] = self.sigma[i] + self.penalty[i] * self.rates[i];
         }
-        self.assemble(model, Mass::Change, T::ZERO);
+        self.assemble(model, if is_changed { Mass::Change } else { Mass::None }, T::ZERO);
         self.solve();
         let x = match level {
             Level::Velocity => &mut self.v,
