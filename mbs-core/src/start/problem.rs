@@ -123,8 +123,8 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
     }
 
     fn gradient(&self, h: usize) -> &[T] {
-        let start: usize = self.spans[..h].iter().map(|s| s.len()).sum();
-        &self.gradients[start..start + self.spans[h].len()]
+        // Holds come first among the cliques, so that the gradients stand at the same places.
+        self.spans[h].of(&self.gradients)
     }
 
     pub(super) fn acts(&self, h: usize, level: Level) -> bool {
