@@ -1,8 +1,7 @@
 #![doc = include_str!("../README.md")]
-//NOSTD
+#![no_std]
 
 extern crate alloc;
-extern crate std;
 
 mod error;
 pub mod index1;
