@@ -45,7 +45,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     for a in &mut w.a {
         *a *= rule.acceleration;
     }
-    let violation = clean(model, &rule, (correction, length), options, s, w)?;
+    let violation = clean(model, &rule, (correction, length), options, w)?;
     commit(model, &rule, options, s, w);
     let Counts { factorizations, solves } = w.counts;
     Ok(StepReport { iterations, factorizations, solves, correction, stop, violation })
@@ -106,7 +106,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<(u32, T, Stop), StepError> {
     let inverse = T::ONE / rule.acceleration;
-    let scale = step_scale(rule, s, w);
+    let scale = step_scale(rule, s);
     let goal = scale * options.tolerance;
     let mut last = T::ZERO;
     for iterations in 1..=options.max_iterations {
@@ -187,10 +187,8 @@ fn filter<T: Real, M: Model<T>, S: SpdSolver<T>>(model: &M, w: &mut Workspace<T,
 }
 
 /// The displacement that accelerations cause in this step: what corrections are small against [m].
-fn step_scale<T: Real, S>(rule: &Rule<T>, s: &State<T>, w: &Workspace<T, S>) -> T {
+fn step_scale<T: Real>(rule: &Rule<T>, s: &State<T>) -> T {
     let (a, v) = (norm_inf(&s.a), norm_inf(&s.v));
-    // v^2 / L is the size of the accelerations that a rotation at this speed can have; L is of order one in q.
-    let _ = w;
     (a + v * rule.dt * a) * rule.dt * rule.dt * T::HALF
 }
 
@@ -231,7 +229,6 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
     rule: &Rule<T>,
     (correction, length): (T, T),
     options: &Options<T>,
-    s: &State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<[T; 3], StepError> {
     // The factor belongs to the configuration before the last correction: near enough when that was small.
@@ -239,7 +236,8 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
     // would grow like 1 / sigma there. Penalties raised for the iteration are taken back.
     let raised = w.boost;
     w.scale_penalties(T::ONE / raised);
-    if raised > T::ONE || correction > length * T::from_f64(1e-7) {
+    let is_stale = raised > T::ONE || correction > length * T::from_f64(1e-7);
+    if options.projection == Projection::Correction && is_stale {
         factor(model, rule, options, w)?;
     }
     model.evaluate_phi_t(&w.q, &mut w.terms);
@@ -251,11 +249,16 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
             let limit = (length + speed) * T::from_f64(5e-10).max(rounding * T::from_f64(64.0));
             w.project(model, Level::Velocity, (speed * rounding, limit), sweeps)?
         }
-        Projection::Printed { .. } | Projection::PrintedTangent => {
-            w.violation(model, Level::Velocity)
+        Projection::Printed { sweeps } => {
+            // W = M + J^T alpha J with alpha as it is: the penalty of the iteration is alpha / a'.
+            for p in &mut w.penalty {
+                *p *= rule.acceleration;
+            }
+            w.factor(model, (T::ZERO, T::ZERO), false)?;
+            w.project_as_printed(model, Level::Velocity, sweeps)
         }
+        Projection::PrintedTangent => w.project_with_tangent(model, Level::Velocity),
     };
-    let _ = s;
     model.evaluate_bias(&w.q, &w.v, &mut w.terms);
     let size = norm_inf(&w.a).max(norm_inf(&w.terms.phi_bias));
     let acceleration = match options.projection {
@@ -268,7 +271,8 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
                 sweeps,
             )?
         }
-        _ => w.violation(model, Level::Acceleration),
+        Projection::Printed { sweeps } => w.project_as_printed(model, Level::Acceleration, sweeps),
+        Projection::PrintedTangent => w.project_with_tangent(model, Level::Acceleration),
     };
     w.boost = raised;
     Ok([norm_inf(&w.terms.phi), velocity, acceleration])

@@ -65,12 +65,13 @@ pub enum Multipliers {
 pub enum Projection {
     /// Mass-orthogonal, solved for the correction from the residual, swept until the level is reached.
     Correction,
-    /// The printed iteration [P1 (13), (19)]: T v = M v* - ..., a fixed number of sweeps, no level.
+    /// The printed iteration [P1 (13), (19)]: (M + J^T alpha J) v <- M v - J^T alpha phi_t at the final q, factored anew, a
+    /// fixed number of sweeps, no level. Index-3 only.
     Printed {
         /// Sweeps.
         sweeps: u32,
     },
-    /// The printed one with the already factored tangent [P3 (11)-(12)]: one sweep, weight M + C + K.
+    /// The printed one with the already factored tangent [P3 (11)-(12)]: one sweep, weight M + C + K. Index-3 only.
     PrintedTangent,
 }
 

@@ -89,6 +89,63 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         Err(StepError::Violated { level, violation: violation.to_f64(), row })
     }
 
+    /// As printed, with W = M + J^T alpha J factored [P1 (13), (19)]:
+    ///
+    /// ```text
+    /// W x <- M x - J^T alpha b,   a fixed number of times
+    /// ```
+    ///
+    /// Solves for x itself and so loses cond(W) eps each time. Returns the violation left, whatever it is.
+    pub(crate) fn project_as_printed<M: Model<T>>(
+        &mut self,
+        model: &M,
+        level: Level,
+        sweeps: u32,
+    ) -> T {
+        self.sigma.fill(T::ZERO);
+        let mut violation = self.violation(model, level);
+        for _ in 0..sweeps {
+            let (b, mass) = match level {
+                Level::Velocity => (&self.terms.phi_t, Mass::Velocity),
+                Level::Acceleration => (&self.terms.phi_bias, Mass::Acceleration),
+            };
+            for k in 0..self.mu.len() {
+                self.mu[k] = -self.penalty[k] * b[k];
+            }
+            self.assemble(model, mass, T::ZERO);
+            self.solve();
+            let x = match level {
+                Level::Velocity => &mut self.v,
+                Level::Acceleration => &mut self.a,
+            };
+            x[..self.f.len()].copy_from_slice(&self.f);
+            violation = self.violation(model, level);
+            for k in 0..self.sigma.len() {
+                self.sigma[k] += self.penalty[k] * self.rates[k];
+            }
+        }
+        violation
+    }
+
+    /// One sweep with the tangent as the iteration left it [P3 (11), (12)]:
+    ///
+    /// ```text
+    /// T x = (T - J^T s J) x* - J^T s b,   that is   T (x - x*) = -J^T s (J x* + b)
+    /// ```
+    ///
+    /// Returns the violation left, whatever it is.
+    pub(crate) fn project_with_tangent<M: Model<T>>(&mut self, model: &M, level: Level) -> T {
+        self.sigma.fill(T::ZERO);
+        self.change.fill(T::ZERO);
+        self.violation(model, level);
+        self.sweep(model, level);
+        let violation = self.violation(model, level);
+        for k in 0..self.sigma.len() {
+            self.sigma[k] = self.penalty[k] * self.rates[k];
+        }
+        violation
+    }
+
     /// Chooses the penalties of a step: follows the least felt combination u of constraints by one power iteration,
     ///
     /// ```text

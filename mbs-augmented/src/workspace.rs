@@ -152,6 +152,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     pub(crate) fn assemble<M: Model<T>>(&mut self, model: &M, mass: Mass, force: T) {
         let mass = match mass {
             Mass::None => None,
+            Mass::Velocity => Some(&self.v[..]),
             Mass::Acceleration => Some(&self.a[..]),
             Mass::Change => Some(&self.change[..]),
         };
@@ -171,6 +172,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mass {
     None,
+    Velocity,
     Acceleration,
     Change,
 }

@@ -1,0 +1,332 @@
+//! The `mbs` command as its users meet it: files, JSON, exit status, refusals.
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A scene of the repository.
+fn scene(name: &str) -> String {
+    format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// An empty directory for one test.
+fn scratch(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("command-{name}"));
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).unwrap();
+    path
+}
+
+/// `mbs run` with arguments.
+fn run(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_mbs")).arg("run").args(arguments).output().unwrap()
+}
+
+fn status(output: &Output) -> i32 {
+    output.status.code().unwrap()
+}
+
+/// Standard output as one JSON object and nothing else.
+fn json(output: &Output) -> Value {
+    let value: Value = serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&output.stdout)));
+    assert!(value.is_object());
+    value
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// The keys of the contract.
+const KEYS: [&str; 22] = [
+    "scene",
+    "formulation",
+    "precision",
+    "dimension",
+    "coordinates",
+    "constraints",
+    "constraint_rank",
+    "dof",
+    "step",
+    "steps",
+    "completed",
+    "error",
+    "end_time",
+    "cpu_seconds",
+    "real_time_factor",
+    "worst_step_seconds",
+    "iterations",
+    "factorizations",
+    "energy",
+    "violation",
+    "outputs",
+    "chosen",
+];
+
+#[test]
+fn json_is_one_object_with_the_keys_of_the_contract() {
+    let output = run(&[&scene("double-pendulum"), "--json", "--step", "1e-2"]);
+    assert_eq!(status(&output), 0);
+    let value = json(&output);
+    for key in KEYS {
+        assert!(value.get(key).is_some(), "{key}: {value}");
+    }
+    for key in ["initial", "max_error", "final_error"] {
+        assert!(value["energy"][key].is_number(), "energy.{key}");
+    }
+    for key in ["position", "velocity", "acceleration"] {
+        assert!(value["violation"][key].is_number(), "violation.{key}");
+    }
+    assert_eq!(value["scene"], "double pendulum");
+    assert_eq!(value["formulation"], "auto");
+    assert_eq!(value["chosen"]["formulation"], "index-3");
+    assert_eq!((&value["dof"], &value["dimension"]), (&2.into(), &2.into()));
+    assert_eq!(value["steps"], 1000);
+    assert_eq!(value["completed"], true);
+    assert_eq!(value["error"], Value::Null);
+    assert_eq!(value["end_time"], 10.0);
+    assert_eq!(value["outputs"]["tip"].as_array().map(Vec::len), Some(2));
+}
+
+#[test]
+fn json_repeats_formulation_and_step_as_asked() {
+    let output =
+        run(&[&scene("slider-crank"), "--json", "--formulation", "index-1", "--step", "2e-3"]);
+    let value = json(&output);
+    assert_eq!(value["formulation"], "index-1");
+    assert_eq!(value["step"], 2e-3);
+    assert!(value.get("chosen").is_none_or(Value::is_null));
+}
+
+#[test]
+fn out_gets_csv_json_and_page_that_agree_with_standard_output() {
+    let out = scratch("out");
+    let directory = out.to_str().unwrap();
+    let output = run(&[&scene("guided-four-bar"), "--json", "--out", directory]);
+    assert_eq!(status(&output), 0);
+    let csv = std::fs::read_to_string(out.join("run.csv")).unwrap();
+    let header = csv.lines().next().unwrap();
+    assert!(header.starts_with("t,crank-angle,"), "{header}");
+    let columns = header.split(',').count();
+    assert!(csv.lines().all(|l| l.split(',').count() == columns));
+    assert_eq!(csv.lines().count(), 1 + 4001);
+    let file: Value =
+        serde_json::from_slice(&std::fs::read(out.join("run.json")).unwrap()).unwrap();
+    assert_eq!(file, json(&output));
+    let page = std::fs::read_to_string(out.join("run.html")).unwrap();
+    assert!(page.contains("guided four-bar"));
+    assert!(!page.contains("http://") || page.contains("http://www.w3.org"), "no network");
+    assert!(!page.contains("https://"), "no network");
+}
+
+#[test]
+fn two_runs_give_the_same_bytes() {
+    let csv = ["first", "second"].map(|name| {
+        let out = scratch(&format!("same-{name}"));
+        let output = run(&[&scene("spatial-four-bar"), "--json", "--out", out.to_str().unwrap()]);
+        assert_eq!(status(&output), 0);
+        std::fs::read(out.join("run.csv")).unwrap()
+    });
+    assert!(csv[0] == csv[1]);
+}
+
+#[test]
+fn durations_end_exactly_whether_or_not_the_step_divides_them() {
+    for (duration, step, steps) in [
+        ("1", "0.1", 10),
+        ("1", "0.3", 4),
+        ("0.05", "0.1", 1),
+        ("0.7", "0.1", 7),
+        ("10", "1e-3", 10_000),
+    ] {
+        let output =
+            run(&[&scene("simple-pendulum"), "--json", "--duration", duration, "--step", step]);
+        let value = json(&output);
+        assert_eq!(status(&output), 0, "{value}");
+        assert_eq!(value["steps"], steps, "{duration} in steps of {step}");
+        assert_eq!(value["end_time"], duration.parse::<f64>().unwrap());
+    }
+}
+
+/// A scene of one planar pendulum; `replace` changes parts of its text.
+fn pendulum(replace: &[(&str, &str)]) -> String {
+    let mut text = "[scene]\nname = \"one\"\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n\n\
+        [[body]]\nname = \"bar\"\nmass = 1.0\ncenter = [0.5, 0.0]\ninertia = 0.1\n\n\
+        [[joint]]\nname = \"pivot\"\nkind = \"revolute\"\nbodies = [\"ground\", \"bar\"]\nat = [0.0, 0.0]\n"
+        .to_owned();
+    for (from, to) in replace {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    text
+}
+
+/// Writes a scene file and runs it.
+fn run_text(name: &str, text: &str, arguments: &[&str]) -> (Output, String) {
+    let path = scratch(name).join("scene.toml");
+    std::fs::write(&path, text).unwrap();
+    let file = path.to_str().unwrap().to_owned();
+    (run(&[&[file.as_str()], arguments].concat()), file)
+}
+
+#[test]
+fn scenes_that_cannot_be_meant_are_refused_with_place_and_hint() {
+    let spatial: &[(&str, &str)] = &[
+        ("dimension = 2", "dimension = 3"),
+        ("[0.0, -9.81]", "[0.0, 0.0, -9.81]"),
+        ("[0.5, 0.0]", "[0.5, 0.0, 0.0]"),
+        ("at = [0.0, 0.0]", "at = [0.0, 0.0, 0.0]\naxis = [0.0, 0.0, 1.0]"),
+        ("inertia = 0.1", "inertia = [0.1, 0.1, 0.1, 0.0, 0.0, 0.0]"),
+    ];
+    let thin = "inertia = [0.1, 0.1, 0.5, 0.0, 0.0, 0.0]";
+    // What is wrong, how, and the line and text to point at.
+    let cases: [(&str, Vec<(&str, &str)>, &str); 9] = [
+        ("unknown-key", vec![("mass = 1.0", "mass = 1.0\nmas = 1.0")], "mas = 1.0"),
+        ("unknown-body", vec![("\"ground\", \"bar\"", "\"ground\", \"baar\"")], "baar"),
+        ("negative-mass", vec![("mass = 1.0", "mass = -1.0")], "mass = -1.0"),
+        (
+            "triangle",
+            [spatial, &[("inertia = [0.1, 0.1, 0.1, 0.0, 0.0, 0.0]", thin)]].concat(),
+            thin,
+        ),
+        (
+            "zero-axis",
+            [spatial, &[("axis = [0.0, 0.0, 1.0]", "axis = [0.0, 0.0, 0.0]")]].concat(),
+            "axis = [0.0, 0.0, 0.0]",
+        ),
+        (
+            "duplicate",
+            vec![(
+                "[[joint]]",
+                "[[body]]\nname = \"bar\" # again\nmass = 1.0\ncenter = [0.5, 0.0]\ninertia = 0.1\n\n[[joint]]",
+            )],
+            "\"bar\" # again",
+        ),
+        (
+            "itself",
+            vec![("\"ground\", \"bar\"", "\"bar\", \"bar\"")],
+            "bodies = [\"bar\", \"bar\"]",
+        ),
+        ("nan", vec![("mass = 1.0", "mass = nan")], "mass = nan"),
+        ("syntax", vec![("mass = 1.0", "mass = = 1.0")], "mass = = 1.0"),
+    ];
+    for (name, replace, offending) in cases {
+        let scene = pendulum(&replace);
+        let (output, file) = run_text(name, &scene, &["--json"]);
+        let errors = text(&output.stderr);
+        assert_eq!(status(&output), 1, "{name}: {errors}");
+        assert!(output.stdout.is_empty(), "{name}");
+        let line = scene.lines().position(|l| l.contains(offending)).unwrap() + 1;
+        assert!(errors.contains(&format!("{file}:{line}:")), "{name}: line {line}: {errors}");
+        let column = errors.split(&format!("{file}:{line}:")).nth(1).unwrap();
+        assert!(column.starts_with(|c: char| c.is_ascii_digit()), "{name}: {errors}");
+        assert!(errors.contains("hint") || errors.contains("help"), "{name}: {errors}");
+        let shown = scene.lines().nth(line - 1).unwrap();
+        assert!(errors.contains(shown), "{name}: the line itself: {errors}");
+    }
+}
+
+#[test]
+fn what_is_not_built_is_refused_with_the_list_of_what_is() {
+    let file = scene("double-pendulum");
+    for (arguments, built) in [
+        (["--formulation", "recursive"], "index-1, index-3"),
+        (["--integrator", "rk853"], "trapezoidal, newmark"),
+        (["--precision", "dd"], "f32, f64"),
+        (["--threads", "4"], "1"),
+    ] {
+        let output = run(&[&[file.as_str(), "--json"], &arguments[..]].concat());
+        let errors = text(&output.stderr);
+        assert_eq!(status(&output), 1, "{arguments:?}");
+        assert!(output.stdout.is_empty());
+        assert!(errors.contains(built), "{arguments:?}: {errors}");
+    }
+    let asks =
+        pendulum(&[("duration = 1.0", "duration = 1.0\n\n[solver]\nformulation = \"recursive\"")]);
+    let (output, file) = run_text("asks", &asks, &[]);
+    let errors = text(&output.stderr);
+    assert_eq!(status(&output), 1);
+    assert!(errors.contains(&format!("{file}:8:")) && errors.contains("index-3"), "{errors}");
+}
+
+#[test]
+fn wrong_usage_and_missing_files_are_refused() {
+    let file = scene("double-pendulum");
+    for arguments in [
+        &["no-such-scene.toml"][..],
+        &[],
+        &[&file, "--no-such-option"],
+        &[&file, "--step", "0"],
+        &[&file, "--step", "-1e-3"],
+        &[&file, "--duration", "nan"],
+        &[&file, "--step", "fast"],
+    ] {
+        let output = run(arguments);
+        assert_eq!(status(&output), 1, "{arguments:?}");
+        assert!(output.stdout.is_empty() && !output.stderr.is_empty(), "{arguments:?}");
+    }
+}
+
+#[test]
+fn a_run_that_cannot_go_on_names_time_and_joint_and_keeps_its_rows() {
+    let out = scratch("stops");
+    // A guide that turns the crank of a rocker-rocker on through where the linkage can no longer close.
+    let scene = "[scene]\nname = \"locks\"\ndimension = 2\nduration = 2.0\n\n\
+        [[body]]\nname = \"crank\"\nrod = { from = [0.0, 0.0], to = [0.0, 1.0] }\nmass = 1.0\n\n\
+        [[body]]\nname = \"coupler\"\nrod = { from = [0.0, 1.0], to = [1.0, 1.0] }\nmass = 1.0\n\n\
+        [[body]]\nname = \"rocker\"\nrod = { from = [1.5, 0.0], to = [1.0, 1.0] }\nmass = 1.0\n\n\
+        [[joint]]\nname = \"a\"\nkind = \"revolute\"\nbodies = [\"ground\", \"crank\"]\nat = [0.0, 0.0]\n\n\
+        [[joint]]\nname = \"b\"\nkind = \"revolute\"\nbodies = [\"crank\", \"coupler\"]\nat = [0.0, 1.0]\n\n\
+        [[joint]]\nname = \"c\"\nkind = \"revolute\"\nbodies = [\"coupler\", \"rocker\"]\nat = [1.0, 1.0]\n\n\
+        [[joint]]\nname = \"d\"\nkind = \"revolute\"\nbodies = [\"rocker\", \"ground\"]\nat = [1.5, 0.0]\n\n\
+        [[guide]]\njoint = \"a\"\nramp = { rate = 1.0 }\n";
+    for formulation in ["index-3", "index-1"] {
+        let (output, _) = run_text(
+            "locks",
+            scene,
+            &["--json", "--formulation", formulation, "--out", out.to_str().unwrap()],
+        );
+        let value = json(&output);
+        assert_eq!(status(&output), 2, "{value}");
+        println!("{formulation}: {}", value["error"]);
+        assert_eq!(value["completed"], false);
+        let error = &value["error"];
+        let end = value["end_time"].as_f64().unwrap();
+        assert!(end > 0.1 && end < 2.0, "{value}");
+        assert_eq!(error["time"], value["end_time"]);
+        for key in ["code", "message", "hint"] {
+            assert!(error[key].as_str().is_some_and(|s| !s.is_empty()), "{error}");
+        }
+        assert!(error["joint"].is_string() || error["body"].is_string(), "{error}");
+        let csv = std::fs::read_to_string(out.join("run.csv")).unwrap();
+        let last: f64 = csv.lines().last().unwrap().split(',').next().unwrap().parse().unwrap();
+        assert!((last - end).abs() < 1e-9, "the last row is where the run stopped: {last} {end}");
+        assert!(
+            csv.lines()
+                .skip(1)
+                .all(|l| l.split(',').all(|x| x.parse::<f64>().is_ok_and(f64::is_finite)))
+        );
+        assert!(out.join("run.html").exists() && out.join("run.json").exists());
+    }
+}
+
+#[test]
+fn a_loop_that_cannot_close_at_the_start_gives_a_header_and_no_rows() {
+    let out = scratch("impossible");
+    let scene = pendulum(&[(
+        "at = [0.0, 0.0]\n",
+        "at = [0.0, 0.0]\n\n[[joint]]\nname = \"far\"\nkind = \"distance\"\nbodies = [\"ground\", \"bar\"]\npoints = [[0.0, 3.0], [0.5, 0.0]]\n\n[[initial]]\njoint = \"pivot\"\nvalue = 1.0\n",
+    )]);
+    let (output, _) =
+        run_text("impossible-scene", &scene, &["--json", "--out", out.to_str().unwrap()]);
+    let value = json(&output);
+    println!("{}", value["error"]);
+    assert_eq!(status(&output), 2);
+    assert_eq!(value["completed"], false);
+    assert_eq!(value["error"]["time"], 0.0);
+    assert!(value["error"]["joint"].is_string(), "{value}");
+    let csv = std::fs::read_to_string(out.join("run.csv")).unwrap();
+    assert_eq!(csv.lines().count(), 1, "{csv}");
+    assert!(csv.starts_with("t,"));
+}

@@ -1,0 +1,129 @@
+//! What the test binaries share: scenes of the repository, and stepping without recording.
+#![allow(dead_code, reason = "each binary uses its part")]
+
+use mbs::augmented::{StepError, StepReport};
+use mbs::core::natural::Affine;
+use mbs::core::scene::{BodyRef, Scene};
+use mbs::scene_file::Document;
+use mbs::{Overrides, Settings, Simulation};
+use std::path::PathBuf;
+
+/// All scenes of the repository.
+pub(crate) const SCENES: [&str; 10] = [
+    "simple-pendulum",
+    "double-pendulum",
+    "two-four-bars",
+    "n-four-bar-10",
+    "slider-crank",
+    "guided-four-bar",
+    "spinning-top",
+    "free-body",
+    "spatial-four-bar",
+    "spatial-chain-20",
+];
+
+/// The formulations, by name.
+pub(crate) const FORMULATIONS: [&str; 2] = ["index-3", "index-1"];
+
+/// Path of a scene of the repository.
+pub(crate) fn path(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(format!("{name}.toml"))
+}
+
+/// Reads a scene of the repository.
+pub(crate) fn scene(name: &str) -> Scene<f64> {
+    let bytes = std::fs::read(path(name)).expect("the scene is in the repository");
+    let document = Document::from_bytes(&bytes, name).unwrap_or_else(|e| panic!("{}", e.render()));
+    document.scene().unwrap_or_else(|e| panic!("{}", e.render()))
+}
+
+/// Settings of a scene with formulation and step; without a step, the scene's own.
+pub(crate) fn settings(scene: &Scene<f64>, formulation: &str, step: Option<f64>) -> Settings {
+    let formulation = Some(formulation.to_owned());
+    let overrides = Overrides { formulation, step, ..Overrides::default() };
+    Settings::new(scene, &overrides).expect("the settings are built")
+}
+
+/// A simulation that is stepped by hand.
+pub(crate) struct Bench<const D: usize> {
+    pub(crate) simulation: Simulation<f64, D>,
+    pub(crate) step: f64,
+    initial: f64,
+}
+
+impl<const D: usize> Bench<D> {
+    pub(crate) fn new(name: &str, formulation: &str, step: f64) -> Self {
+        Self::of_scene(&scene(name), formulation, step)
+    }
+
+    pub(crate) fn of_scene(scene: &Scene<f64>, formulation: &str, step: f64) -> Self {
+        let settings = settings(scene, formulation, Some(step));
+        let simulation = Simulation::new(scene, &settings).expect("the scene assembles");
+        let [kinetic, potential, _] = simulation.initial_energies();
+        Self { simulation, step, initial: kinetic + potential }
+    }
+
+    pub(crate) fn step(&mut self) -> Result<StepReport<f64>, StepError> {
+        self.simulation.step(self.step)
+    }
+
+    /// Steps until `duration`, calling `look` after each step; `Err` with the time at which a step failed.
+    pub(crate) fn run(
+        &mut self,
+        duration: f64,
+        mut look: impl FnMut(&Self),
+    ) -> Result<(), (f64, StepError)> {
+        for k in 1..=steps(duration, self.step) {
+            self.step().map_err(|e| (k as f64 * self.step, e))?;
+            self.simulation.set_time(k as f64 * self.step);
+            look(self);
+        }
+        Ok(())
+    }
+
+    /// |Pi - Pi(0)| [J].
+    pub(crate) fn energy_error(&self) -> f64 {
+        let [kinetic, potential, work] = self.simulation.energies();
+        (kinetic + potential - work - self.initial).abs()
+    }
+
+    /// A material point of a body.
+    pub(crate) fn point(&self, body: usize, at: [f64; 3]) -> Affine<f64, D> {
+        self.simulation.model().point(BodyRef::Body(body), at)
+    }
+
+    pub(crate) fn position(&self, point: &Affine<f64, D>) -> [f64; D] {
+        point.value(&self.simulation.state().q).into()
+    }
+
+    pub(crate) fn velocity(&self, point: &Affine<f64, D>) -> [f64; D] {
+        point.rate(&self.simulation.state().v).into()
+    }
+
+    pub(crate) fn acceleration(&self, point: &Affine<f64, D>) -> [f64; D] {
+        point.rate(&self.simulation.state().a).into()
+    }
+}
+
+/// Number of steps of a duration that is a multiple of the step.
+pub(crate) fn steps(duration: f64, step: f64) -> u64 {
+    (duration / step).round() as u64
+}
+
+/// Distance of two points.
+pub(crate) fn distance<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| (x - y) * (x - y)).sum::<f64>().sqrt()
+}
+
+/// The largest value; NaN if any value is.
+pub(crate) fn worst(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}
+
+pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}

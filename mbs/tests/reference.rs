@@ -1,0 +1,246 @@
+//! Motions against references: elliptic functions, extrapolation with 34 digits, closed-form kinematics; and the report's
+//! breakdown of the printed form.
+
+mod common;
+
+use common::{Bench, FORMULATIONS, distance, steps, worst};
+use mbs::augmented::{Options, Projection, StepError};
+
+/// Errors at a step and at half of it have this ratio in a method of order 2; higher orders of the step make the rest.
+const SECOND_ORDER: core::ops::Range<f64> = 3.7..4.3;
+
+/// Asserts that errors fall by 4 with each halving.
+fn assert_second_order(case: &str, errors: &[f64]) {
+    for pair in errors.windows(2) {
+        let ratio = pair[0] / pair[1];
+        println!("{case}: {:.3e} -> {:.3e}, ratio {ratio:.2}", pair[0], pair[1]);
+        assert!(SECOND_ORDER.contains(&ratio), "{case}: {errors:?}");
+    }
+}
+
+/// Distances of a point from references at their times.
+fn errors_at<const N: usize>(
+    (name, formulation, step): (&str, &str, f64),
+    (body, at): (usize, [f64; 3]),
+    references: &[(f64, [f64; 2]); N],
+) -> [f64; N] {
+    let mut bench = Bench::<2>::new(name, formulation, step);
+    let point = bench.point(body, at);
+    let (mut errors, mut next, mut k) = ([f64::NAN; N], 0, 0);
+    let end = references[N - 1].0;
+    bench
+        .run(end, |b| {
+            k += 1;
+            if next < N && k == steps(references[next].0, step) {
+                errors[next] = distance(b.position(&point), references[next].1);
+                next += 1;
+            }
+        })
+        .unwrap_or_else(|(t, e)| panic!("{name} {formulation} {step}: {e} at {t}"));
+    errors
+}
+
+/// Extrapolation with 34 digits, two settings agree (benchmarks, section 6).
+const DOUBLE_PENDULUM_TIP: [(f64, [f64; 2]); 3] = [
+    (1.0, [-1.662_115_135_816_127_6, -1.041_466_667_193_224_7]),
+    (2.0, [0.313_524_776_450_181_57, -1.914_746_617_562_305_2]),
+    (3.0, [1.330_436_825_144_049_1, -1.398_644_860_519_204]),
+];
+/// Error constants of the trapezoidal rule there [m/s^2]: error = c dt^2, with a tenth of room.
+const DOUBLE_PENDULUM_LEVEL: [f64; 3] = [6.0, 60.0, 60.0];
+
+#[test]
+fn double_pendulum_tip_converges_with_order_2_to_the_reference() {
+    for formulation in FORMULATIONS {
+        let of = |step| {
+            errors_at(
+                ("double-pendulum", formulation, step),
+                (1, [2.0, 0.0, 0.0]),
+                &DOUBLE_PENDULUM_TIP,
+            )
+        };
+        let errors = [1e-3, 5e-4, 2.5e-4].map(of);
+        for i in 0..3 {
+            let t = DOUBLE_PENDULUM_TIP[i].0;
+            assert_second_order(
+                &format!("double-pendulum {formulation} t = {t}"),
+                &errors.map(|e| e[i]),
+            );
+            let level = errors[2][i] / 2.5e-4_f64.powi(2);
+            println!("  error / dt^2 = {level:.3}");
+            assert!(level <= DOUBLE_PENDULUM_LEVEL[i], "{formulation} t = {t}: {level}");
+        }
+    }
+}
+
+/// Jacobi elliptic functions, 18 digits (benchmarks, section 2).
+const PENDULUM: [(f64, [f64; 2]); 4] = [
+    (1.0, [0.986_291_751_131_875_3, -0.165_010_853_125_541_17]),
+    (2.0, [-0.793_566_195_343_321_7, -0.608_483_930_443_791_5]),
+    (5.0, [-0.942_305_435_043_757_3, -0.334_754_338_414_000_6]),
+    (10.0, [-0.275_087_462_576_116_86, -0.961_419_205_099_125_1]),
+];
+/// Error constant of the trapezoidal rule at 10 s [m/s^2].
+const PENDULUM_LEVEL: f64 = 40.0;
+
+#[test]
+fn simple_pendulum_follows_the_elliptic_functions_with_order_2() {
+    for formulation in FORMULATIONS {
+        let of = |step| {
+            errors_at(("simple-pendulum", formulation, step), (0, [-1.0, 0.0, 0.0]), &PENDULUM)
+        };
+        let errors = [1e-3, 5e-4, 2.5e-4].map(of);
+        for i in 0..PENDULUM.len() {
+            let case = format!("simple-pendulum {formulation} t = {}", PENDULUM[i].0);
+            assert_second_order(&case, &errors.map(|e| e[i]));
+            let level = errors[2][i] / 2.5e-4_f64.powi(2);
+            println!("  error / dt^2 = {level:.3}");
+            assert!(level <= PENDULUM_LEVEL, "{case}: {level}");
+        }
+    }
+}
+
+/// Elliptic functions, 20 digits (benchmarks, section 3).
+const CRANK_END: [(f64, [f64; 2]); 1] =
+    [(10.0, [0.328_458_111_540_815_4, 0.944_518_538_178_600_9])];
+
+#[test]
+fn two_four_bars_crank_end_converges_with_order_2_to_the_exact_row_down_to_1e_5() {
+    let of =
+        |step| errors_at(("two-four-bars", "index-3", step), (0, [0.0, 1.0, 0.0]), &CRANK_END)[0];
+    for coarse in [1e-3, 1e-4, 2e-5] {
+        assert_second_order(
+            &format!("two-four-bars dt {coarse:e}"),
+            &[of(coarse), of(coarse / 2.0)],
+        );
+    }
+}
+
+/// Outcome of the double pendulum in the printed form to 10 s: largest energy error, or the error of the step that failed.
+fn printed(alpha: f64, step: f64, projection: Projection) -> Result<f64, (f64, StepError)> {
+    let mut bench = Bench::<2>::new("double-pendulum", "index-3", step);
+    *bench.simulation.options_mut() = Options { projection, ..Options::printed(alpha) };
+    let mut error = 0.0;
+    let outcome = bench.run(10.0, |b| error = worst(error, b.energy_error()));
+    println!("printed alpha {alpha:e} dt {step:e} {projection:?}: {outcome:?}, {error:.3e} J");
+    outcome.map(|()| error)
+}
+
+/// The forms of the projections in publications 1 and 3.
+const PRINTED_PROJECTIONS: [Projection; 2] =
+    [Projection::Printed { sweeps: 1 }, Projection::PrintedTangent];
+
+/// Publication 1's index-3 column, with room for how each program measures its energy [J].
+const PRINTED_AT_1E_2: f64 = 4.7e-1;
+const PRINTED_AT_1E_3: f64 = 5e-3;
+const PRINTED_AT_1E_4: f64 = 5e-5;
+
+#[test]
+fn printed_form_with_alpha_1e7_works_to_1e_3_and_does_not_converge_at_1e_4() {
+    for projection in PRINTED_PROJECTIONS {
+        for (step, limit) in [(1e-2, PRINTED_AT_1E_2), (1e-3, PRINTED_AT_1E_3)] {
+            let error = printed(1e7, step, projection).expect("the report's table has this entry");
+            assert!(error <= limit, "{step}: {error:e}");
+        }
+        let broken = printed(1e7, 1e-4, projection);
+        assert!(matches!(broken, Err((_, StepError::NotConverged { .. }))), "{broken:?}");
+    }
+}
+
+#[test]
+fn printed_form_with_alpha_1e9_works_to_1e_4_and_does_not_converge_at_1e_5() {
+    for projection in PRINTED_PROJECTIONS {
+        let error = printed(1e9, 1e-4, projection).expect("a larger alpha reaches a smaller step");
+        assert!(error <= PRINTED_AT_1E_4, "{error:e}");
+        let broken = printed(1e9, 1e-5, projection);
+        assert!(matches!(broken, Err((_, StepError::NotConverged { .. }))), "{broken:?}");
+    }
+}
+
+type Point = [f64; 2];
+
+fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+fn minus(a: Point, b: Point) -> Point {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+/// A moving point: position, velocity, acceleration.
+type Motion = [Point; 3];
+
+/// The four-bar of the scene guided-four-bar in closed form: crank pin A and rocker pin B at a time.
+fn four_bar(t: f64) -> [Motion; 2] {
+    let rate = core::f64::consts::PI;
+    let (s, c) = (0.24_f64.atan2(0.18) + rate * t).sin_cos();
+    let a = [
+        [0.3 * c, 0.3 * s],
+        [-0.3 * rate * s, 0.3 * rate * c],
+        [-0.3 * rate * rate * c, -0.3 * rate * rate * s],
+    ];
+    // B is where the circle of the coupler about A meets that of the rocker about its pivot D, on the left of A to D.
+    let (coupler2, rocker2, pivot) = (0.58624_f64, 0.36, [0.7, 0.0]);
+    let d = minus(pivot, a[0]);
+    let d2 = dot(d, d);
+    let along = (coupler2 - rocker2 + d2) / (2.0 * d2);
+    let across = (coupler2 / d2 - along * along).sqrt();
+    let b = [a[0][0] + along * d[0] - across * d[1], a[0][1] + along * d[1] + across * d[0]];
+    // The lengths are constant: (B - A) . (B - A)' = 0 and (B - D) . B' = 0, and once more.
+    let (r, p) = (minus(b, a[0]), minus(b, pivot));
+    let solve = |x: f64, y: f64| {
+        let det = r[0] * p[1] - r[1] * p[0];
+        [(x * p[1] - y * r[1]) / det, (r[0] * y - p[0] * x) / det]
+    };
+    let v = solve(dot(r, a[1]), 0.0);
+    let w = minus(v, a[1]);
+    let acceleration = solve(dot(r, a[2]) - dot(w, w), -dot(v, v));
+    [a, [b, v, acceleration]]
+}
+
+/// d(T + V)/dt of a uniform rod between two moving points [W].
+fn rod_power(mass: f64, x: &Motion, y: &Motion) -> f64 {
+    let kinetic = 2.0 * dot(x[1], x[2]) + dot(x[1], y[2]) + dot(y[1], x[2]) + 2.0 * dot(y[1], y[2]);
+    mass * kinetic / 6.0 + mass * 9.81 * (x[1][1] + y[1][1]) / 2.0
+}
+
+/// Everything is determined: positions and velocities are as exact as their projections [m, m/s].
+const KINEMATICS: f64 = 1e-9;
+/// Accelerations and torque, in shares of 1 + their size: the level of the acceleration projection.
+const DYNAMICS: f64 = 1e-7;
+
+#[test]
+fn guided_four_bar_follows_its_closed_form_kinematics_and_inverse_dynamics() {
+    for formulation in FORMULATIONS {
+        let mut bench = Bench::<2>::new("guided-four-bar", formulation, 1e-3);
+        let pins = [bench.point(0, [0.18, 0.24, 0.0]), bench.point(2, [0.868, 0.576, 0.0])];
+        let fixed = |at| [at, [0.0; 2], [0.0; 2]];
+        let mut off = [0.0; 4];
+        let mut k = 0;
+        bench
+            .run(4.0, |b| {
+                k += 1;
+                let [crank, rocker] = four_bar(f64::from(k) * 1e-3);
+                for (pin, exact) in pins.iter().zip([crank, rocker]) {
+                    off[0] = worst(off[0], distance(b.position(pin), exact[0]));
+                    off[1] = worst(off[1], distance(b.velocity(pin), exact[1]));
+                    let size = 1.0 + dot(exact[2], exact[2]).sqrt();
+                    off[2] = worst(off[2], distance(b.acceleration(pin), exact[2]) / size);
+                }
+                // Virtual power: torque times crank rate is what kinetic and potential energy gain.
+                let power = rod_power(0.4, &fixed([0.0, 0.0]), &crank)
+                    + rod_power(1.0, &crank, &rocker)
+                    + rod_power(0.8, &fixed([0.7, 0.0]), &rocker);
+                let torque = power / core::f64::consts::PI;
+                let found = b.simulation.state().power / core::f64::consts::PI;
+                off[3] = worst(off[3], (found - torque).abs() / (1.0 + torque.abs()));
+            })
+            .unwrap_or_else(|(t, e)| panic!("{formulation}: {e} at {t}"));
+        println!(
+            "guided-four-bar {formulation}: position {:.1e} velocity {:.1e} acceleration {:.1e} torque {:.1e}",
+            off[0], off[1], off[2], off[3]
+        );
+        assert!(off[0] <= KINEMATICS && off[1] <= KINEMATICS, "{formulation}: {off:?}");
+        assert!(off[2] <= DYNAMICS && off[3] <= DYNAMICS, "{formulation}: {off:?}");
+    }
+}
