@@ -37,7 +37,13 @@ function makeControls(clock) {
     slider.value = end > start ? (1000 * (t - start)) / (end - start) : 0;
     by("clock").textContent = `${t.toFixed(3)} s`;
   });
-  clock.seek(start);
+  // an address like run.html#t=1.5 opens at that instant
+  const seekAddress = () => {
+    const asked = /[#&]t=([-+.\deE]+)/.exec(location.hash);
+    clock.seek(asked && Number.isFinite(Number(asked[1])) ? Number(asked[1]) : start);
+  };
+  window.addEventListener("hashchange", seekAddress);
+  seekAddress();
 }
 
 function fillTable(id, rows) {

@@ -33,6 +33,10 @@ function makeMotion(motion, clock) {
   motion.ground.forEach(include);
   const center = low.map((x, k) => (x <= high[k] ? (x + high[k]) / 2 : 0));
   const extent = low.map((x, k) => Math.max(high[k] - x, 0) || 0);
+  let reach = 0;
+  const reaches = (p) => { const r = Math.hypot(...p.map((x, k) => x - center[k])); if (r > reach) reach = r; };
+  motion.frames.forEach((frame) => { for (let i = 0; i * n < frame.length; i++) reaches(point(frame, i)); });
+  motion.ground.forEach((p) => reaches(p.slice(0, n)));
 
   function draw(t) {
     const ratio = window.devicePixelRatio || 1, width = stage.clientWidth, height = stage.clientHeight;
@@ -41,7 +45,7 @@ function makeMotion(motion, clock) {
     pencil.scale(ratio, ratio);
     const colours = getComputedStyle(document.documentElement);
     const colour = (name) => colours.getPropertyValue("--" + name).trim();
-    const ball = Math.hypot(...extent) || 1, flat = 1e-9 + ball * 1e-3;
+    const ball = 2 * reach || 1, flat = 1e-9 + ball * 1e-3;
     const [w, h] = spatial ? [ball, ball] : [Math.max(extent[0], flat), Math.max(extent[1], flat)];
     const scale = Math.min((width - 70) / w, (height - 70) / h);
     const [cx, cy] = project(center);
@@ -65,6 +69,11 @@ function makeMotion(motion, clock) {
         pencil.stroke();
       }
       pencil.globalAlpha = 1;
+    });
+    motion.rails.forEach(([p, d]) => {
+      const s = (2 * ball) / (Math.hypot(...d) || 1), end = (sign) => place(p.slice(0, n).map((x, k) => x + sign * s * d[k]));
+      pencil.strokeStyle = colour("rule"); pencil.lineWidth = 5;
+      pencil.beginPath(); pencil.moveTo(...end(-1)); pencil.lineTo(...end(1)); pencil.stroke();
     });
     motion.ground.forEach((p) => support(place(p.slice(0, n)), colour("soft")));
     motion.bodies.forEach(([, chains], at) => {
@@ -125,7 +134,9 @@ function makeMotion(motion, clock) {
     return [swatch, `path of ${name}`];
   }
   document.getElementById("motion-caption").textContent =
-    "The mechanism as lines between its points; triangles are fixed to the ground." +
+    "The mechanism as lines between its points" +
+    (motion.ground.length ? "; triangles are fixed to the ground" : "") +
+    (motion.rails.length ? "; grey bars are fixed guides." : ".") +
     (motion.traces.length ? " Faint lines are paths over the whole run, strong ones up to now." : "") +
     (spatial ? " Drag to turn; the picture has no perspective." : "");
   if (spatial) turning();
