@@ -121,7 +121,7 @@ pub struct RunRecord {
     pub summary: Vec<(String, String)>,
     /// What the user should know, such as redundant constraints.
     pub notes: Vec<String>,
-    /// Why the run stopped early.
+    /// When and why the run stopped early: what follows after "The run stopped".
     pub error: Option<String>,
 }
 

@@ -106,6 +106,7 @@ pub fn run<T: Real, const D: usize>(
         values: Vec::new(),
         counts: Counts::default(),
         weight,
+        reached: 0.0,
     };
     run.start();
     let cpu = ProcessTime::now();
@@ -133,6 +134,8 @@ struct Run<'a, T: Real, const D: usize> {
     counts: Counts,
     /// Weight of all bodies times the scene's length [J].
     weight: f64,
+    /// Time reached [s].
+    reached: f64,
 }
 
 impl<T: Real, const D: usize> Run<'_, T, D> {
@@ -187,7 +190,7 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
 
     /// Keeps the state at which the run stops.
     fn stop(&mut self, stop: StopError) -> Result<(), StopError> {
-        let t = self.simulation.state().t.to_f64();
+        let t = self.reached;
         if self.recorder.times.last().is_none_or(|&last| last < t) {
             let energies = self.simulation.energies();
             let mark = StepMark { t, energies, violation: [0.0; 3], iterations: 0 };
@@ -199,6 +202,7 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
     /// Counts and maxima of a step.
     fn take(&mut self, t: f64, report: &StepReport<T>) -> StepMark {
         self.counts.steps += 1;
+        self.reached = t;
         self.counts.iterations += u64::from(report.iterations);
         self.counts.factorizations += u64::from(report.factorizations);
         self.measures.track(self.simulation.state());
@@ -222,7 +226,7 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
     }
 
     fn finish(self, cpu: Duration, error: Option<StopError>, names: &Names) -> Outcome {
-        let end_time = self.simulation.state().t.to_f64();
+        let end_time = self.reached;
         let cpu_seconds = cpu.as_secs_f64();
         let [coordinates, constraints, constraint_rank] = self.simulation.sizes();
         let settings = self.settings;

@@ -44,7 +44,9 @@ pub fn size(x: f64) -> String {
 #[must_use]
 pub fn violation(s: &RunSummary) -> String {
     let v = &s.violation;
-    format!("{:.1e} m, {:.1e} m/s, {:.1e} m/s^2 (or rad)", v.position, v.velocity, v.acceleration)
+    let short = |x: f64| if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") };
+    let [position, velocity, acceleration] = [v.position, v.velocity, v.acceleration].map(short);
+    format!("{position} m, {velocity} m/s, {acceleration} m/s^2 (or rad)")
 }
 
 /// A time span for a table.
@@ -66,7 +68,8 @@ pub(crate) fn stop_text(error: &RunError) -> String {
 #[must_use]
 pub fn stopped_at(error: &RunError) -> String {
     let whose = match (&error.joint, &error.body) {
-        (Some(joint), _) => format!(" (joint `{joint}`)"),
+        (Some(joint), Some(body)) => format!(" (body `{body}`, joint `{joint}`)"),
+        (Some(joint), None) => format!(" (joint `{joint}`)"),
         (None, Some(body)) => format!(" (body `{body}`)"),
         (None, None) => String::new(),
     };

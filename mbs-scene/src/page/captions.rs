@@ -43,7 +43,9 @@ pub(super) fn iterations(series: &IterationSeries) -> String {
     let most = series.counts.iter().max().copied().unwrap_or(0);
     #[allow(clippy::cast_precision_loss, reason = "a mean for reading")]
     let mean = sum as f64 / n as f64;
-    format!("Newton iterations of each step: {mean:.2} on average, {most} at most.")
+    format!(
+        "Newton iterations of each step: {mean:.2} on average, {most} at most. The line is an upper edge."
+    )
 }
 
 pub(super) fn channel(names: &[&str], unit: &str) -> String {

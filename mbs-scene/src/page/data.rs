@@ -177,7 +177,7 @@ fn health_panels(record: &RunRecord) -> Vec<Panel> {
     }
     if let Some(iterations) = &record.iterations {
         let counts: Vec<f64> = iterations.counts.iter().map(|count| f64::from(*count)).collect();
-        let lines = vec![line("iterations", &iterations.times, &counts)];
+        let lines = vec![upper_edge("iterations", &iterations.times, &counts)];
         add("Newton iterations", "per step", captions::iterations(iterations), lines);
     }
     for panel in &mut panels {

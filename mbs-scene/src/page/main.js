@@ -63,7 +63,7 @@ function fillTable(id, rows) {
   if (data.error !== null) {
     const box = document.getElementById("error");
     box.hidden = false;
-    box.textContent = "The run stopped early: " + data.error;
+    box.textContent = "The run stopped " + data.error;
   }
   const notes = document.getElementById("notes");
   notes.hidden = !data.notes.length;
@@ -72,7 +72,7 @@ function fillTable(id, rows) {
   fillTable("provenance", data.provenance);
 
   const clock = makeClock(data), redraws = [];
-  if (data.motion && data.motion.t.length) {
+  if (data.motion && data.motion.t.length && data.motion.bodies.length) {
     document.getElementById("motion").hidden = false;
     redraws.push(makeMotion(data.motion, clock));
   }

@@ -80,15 +80,19 @@ function makeMotion(motion, clock) {
       pencil.strokeStyle = pencil.fillStyle = colour(`line-${at % 6}`);
       pencil.lineJoin = pencil.lineCap = "round";
       for (const chain of chains) {
-        pencil.lineWidth = 4;
+        // short links have small dots, so that a long chain stays a chain
+        const places = chain.map((i) => place(point(position, i)));
+        const longest = Math.max(...places.slice(1).map((p, k) => Math.hypot(p[0] - places[k][0], p[1] - places[k][1])));
+        const dot = chain.length > 1 ? Math.min(4, Math.max(1.6, 0.3 * longest)) : 6;
+        pencil.lineWidth = Math.min(4, 1.25 * dot);
         pencil.setLineDash(DASHES[at % 6].split(" ").filter(Boolean).map((d) => d * 1.6));
         pencil.beginPath();
-        for (const i of chain) pencil.lineTo(...place(point(position, i)));
+        for (const p of places) pencil.lineTo(...p);
         pencil.stroke();
         pencil.setLineDash([]);
-        for (const i of chain) {
+        for (const p of places) {
           pencil.beginPath();
-          pencil.arc(...place(point(position, i)), chain.length > 1 ? 4 : 6, 0, 7);
+          pencil.arc(...p, dot, 0, 7);
           pencil.fill();
         }
       }

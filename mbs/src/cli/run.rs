@@ -161,7 +161,9 @@ fn report(
         table::text(outcome, arguments.out.as_deref())
     };
     // A reader that has gone away is no error of the run.
-    let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
+    if !text.is_empty() {
+        let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
+    }
     let Some(error) = &outcome.error else { return ExitCode::SUCCESS };
     if !arguments.json {
         eprint!("{}", stopped(outcome, error, document));
