@@ -6,6 +6,7 @@ mod run;
 mod settings;
 mod simulation;
 mod stop;
+pub mod words;
 
 pub use mbs_augmented as augmented;
 pub use mbs_core as core;
