@@ -138,7 +138,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.sigma.fill(T::ZERO);
         self.change.fill(T::ZERO);
         self.violation(model, level);
-        self.sweep(model, level);
+        self.sweep(model, level, false);
         let violation = self.violation(model, level);
         for k in 0..self.sigma.len() {
             self.sigma[k] = self.penalty[k] * self.rates[k];

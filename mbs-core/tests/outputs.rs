@@ -2,10 +2,10 @@
 
 mod small;
 
-use small::{GROUND, add_body, add_joint, add_rod, hold, output, scene, start};
 use mbs_core::algebra::{Matrix, Vector, rotation, rotation_vector};
 use mbs_core::outputs::Measures;
 use mbs_core::scene::{BodyRef, Dimension, Inertia, JointKind, Quantity, Scene};
+use small::{GROUND, add_body, add_joint, add_rod, hold, output, scene, start};
 
 /// Assembly closes to rounding of a few products of numbers of order one.
 const CLOSED: f64 = 1e-11;

@@ -2,13 +2,13 @@
 
 mod small;
 
-use small::{GROUND, add_body, add_joint, add_rod, guide, hold, scene, start};
 use mbs_core::algebra::{Vector, rotation};
 use mbs_core::outputs::{LARGEST_BLOCK, ReactionError, Reactions};
 use mbs_core::scene::{
     AxisFrame, BodyRef, Course, Dimension, Effect, EffectKind, GuideLaw, Inertia, Joint, JointKind,
     Scene,
 };
+use small::{GROUND, add_body, add_joint, add_rod, guide, hold, scene, start};
 
 const G: f64 = 9.81;
 /// Forces are of order 10 to 100 N; assembled accelerations are good to eleven digits.

@@ -1,5 +1,6 @@
 //! A whole run: from a scene to its summary, rows and page.
 
+use crate::channels::Channels;
 use crate::figure::Figure;
 use crate::recorder::{Recorder, StepMark};
 use crate::settings::Settings;
@@ -10,7 +11,6 @@ use core::time::Duration;
 use cpu_time::ProcessTime;
 use mbs_augmented::StepReport;
 use mbs_core::Real;
-use mbs_core::outputs::Measures;
 use mbs_core::scene::Scene;
 use mbs_scene::{Channel, Chosen, CsvWriter, Outputs, Provenance, RunRecord, RunSummary};
 use std::io;
@@ -82,15 +82,14 @@ pub fn run<T: Real, const D: usize>(
 ) -> Outcome {
     let names = Names::new(scene);
     let channels = Channel::of_scene(scene);
-    let started = Simulation::<T, D>::new(scene, settings).and_then(|simulation| {
-        let measures = Measures::new(scene, simulation.model())?;
+    let started = Simulation::<T, D>::new(scene, settings).map_err(StopError::Start);
+    let started = started.and_then(|simulation| {
+        let measures = Channels::new(scene, simulation.model())?;
         Ok((simulation, measures))
     });
     let (simulation, measures) = match started {
         Ok(both) => both,
-        Err(error) => {
-            return not_started(scene, settings, &channels, &names, StopError::Start(error));
-        }
+        Err(error) => return not_started(scene, settings, &channels, &names, error),
     };
     let n_steps = settings.n_steps();
     let recorder = Recorder::new(channels, n_steps, simulation.initial_energies());
@@ -127,7 +126,7 @@ struct Run<'a, T: Real, const D: usize> {
     scene: &'a Scene<T>,
     settings: &'a Settings,
     simulation: Simulation<T, D>,
-    measures: Measures<T, D>,
+    measures: Channels<T, D>,
     recorder: Recorder,
     figure: Figure<T, D>,
     values: Vec<f64>,
@@ -152,7 +151,7 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
 
     fn row(&mut self, mark: &StepMark, is_last: bool) {
         let state = self.simulation.state();
-        self.measures.write(state, |_| [T::ZERO; 6], &mut self.values);
+        self.measures.write(state, &mut self.values);
         self.figure.offer(mark.t, &state.q, is_last);
         self.recorder.keep(mark, &self.values);
     }
@@ -247,6 +246,7 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
             constraints,
             constraint_rank,
             dof: coordinates - constraint_rank,
+            not_unique: self.measures.not_unique(self.scene),
             ..plain_summary(self.scene, settings)
         };
         let (energy, violation, iterations) = self.recorder.page_series();

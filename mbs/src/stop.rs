@@ -3,6 +3,7 @@
 use crate::words::few;
 use mbs_augmented::StepError;
 use mbs_core::model::{Model, Owner};
+use mbs_core::outputs::ReactionError;
 use mbs_core::scene::{BodyRef, Entry, Scene};
 use mbs_core::start::AssemblyError;
 use mbs_scene::RunError;
@@ -55,6 +56,8 @@ impl Names {
 pub enum StopError {
     /// No consistent start.
     Start(AssemblyError),
+    /// Joint reactions were asked for that cannot be given.
+    Reaction(ReactionError),
     /// A step that could not be made, and whose it is.
     Step(StepError, Option<Owner>),
     /// The energy invariant drifted by more than a tenth of the energy turned over.
@@ -93,7 +96,7 @@ impl StopError {
             ) => return Some(Entry::Initial(*i)),
             Self::Start(error) => start_owner(error)?,
             Self::Step(_, owner) => (*owner)?,
-            Self::Energy { .. } => return None,
+            Self::Reaction(_) | Self::Energy { .. } => return None,
         };
         Some(match owner {
             Owner::Body(b) => Entry::Body(b),
@@ -117,6 +120,7 @@ impl StopError {
             Self::Step(StepError::Violated { .. }, _) => "violated",
             Self::Step(StepError::OppositeBranch { .. }, _) => "opposite-branch",
             Self::Step(..) => "step-failed",
+            Self::Reaction(_) => "no-reactions",
             Self::Energy { .. } => "energy-drift",
         }
     }
@@ -145,6 +149,7 @@ impl StopError {
                 "try a smaller step or another formulation; if it always stops here, the mechanism locks or cannot follow its guides"
             }
             Self::Step(..) => "try a smaller step, or another formulation",
+            Self::Reaction(_) => "leave the reaction outputs out",
             Self::Energy { .. } => {
                 "try a smaller step; if it always stops here, the mechanism locks, or cannot follow its guides"
             }
@@ -169,7 +174,7 @@ impl StopError {
         let owner = match self {
             Self::Start(error) => start_owner(error),
             Self::Step(_, owner) => *owner,
-            Self::Energy { .. } => None,
+            Self::Reaction(_) | Self::Energy { .. } => None,
         };
         let (joint, body) = owner.map_or((None, None), |o| names.of(o));
         RunError {
@@ -202,6 +207,7 @@ impl core::fmt::Display for StopError {
         match self {
             Self::Start(error) => write_start(error, f),
             Self::Step(error, _) => write_step(error, f),
+            Self::Reaction(error) => write!(f, "{error}"),
             Self::Energy { error, turned_over } => write!(
                 f,
                 "the energy is off by {} J, more than a tenth of the {} J turned over: the motion is not resolved",
