@@ -87,7 +87,8 @@ fn run(spatial: bool) -> RunRecord {
         notes: vec![
             "joint `elbow` repeats what joint `pivot` already holds: 1 redundant row".into(),
         ],
-        error: spatial.then(|| "Newton did not converge at t = 9.998 s; try half the step".into()),
+        error: spatial
+            .then(|| "at t = 9.998 s: Newton did not converge. Hint: try half the step.".into()),
     }
 }
 
@@ -135,6 +136,7 @@ fn animation(times: Vec<f64>, frames: Vec<Vec<f64>>, spatial: bool) -> Animation
         frames,
         bodies: vec![rod("upper", 0), rod("lower", 1)],
         ground: vec![[0.0; 3]],
+        rails: vec![],
         traces: vec![Trace { name: "tip".into(), point: 2 }],
     }
 }

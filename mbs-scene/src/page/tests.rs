@@ -71,7 +71,7 @@ fn numbers_of_one_unit_share_a_panel_and_vectors_have_their_own() {
     let titles: Vec<_> =
         json["panels"].as_array().unwrap().iter().map(|p| p["title"].as_str().unwrap()).collect();
     assert_eq!(titles, ["tip", "a, c", "b"]);
-    assert_eq!(json["panels"][1]["caption"], "Outputs `a`, `c` over time [rad].");
+    assert_eq!(json["panels"][1]["caption"], "Outputs a, c over time [rad].");
 }
 
 #[test]
