@@ -62,6 +62,8 @@ pub enum StopError {
         error: f64,
         /// Largest kinetic energy plus gross work [J].
         turned_over: f64,
+        /// Whose constraint carries the largest force, or whose coordinate accelerates most.
+        owner: Owner,
     },
 }
 
@@ -92,7 +94,7 @@ impl StopError {
             ) => return Some(Entry::Initial(*i)),
             Self::Start(error) => start_owner(error)?,
             Self::Step(_, owner) => (*owner)?,
-            Self::Energy { .. } => return None,
+            Self::Energy { owner, .. } => *owner,
         };
         Some(match owner {
             Owner::Body(b) => Entry::Body(b),
@@ -149,7 +151,7 @@ impl StopError {
         let owner = match self {
             Self::Start(error) => start_owner(error),
             Self::Step(_, owner) => *owner,
-            Self::Energy { .. } => None,
+            Self::Energy { owner, .. } => Some(*owner),
         };
         let (joint, body) = owner.map_or((None, None), |o| names.of(o));
         RunError {
@@ -182,7 +184,7 @@ impl core::fmt::Display for StopError {
         match self {
             Self::Start(error) => write!(f, "{error}"),
             Self::Step(error, _) => write!(f, "{error}"),
-            Self::Energy { error, turned_over } => write!(
+            Self::Energy { error, turned_over, .. } => write!(
                 f,
                 "the energy invariant is off by {error:.3e} J, more than a tenth of the {turned_over:.3e} J turned over"
             ),
