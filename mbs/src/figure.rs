@@ -47,7 +47,7 @@ impl<T: Real, const D: usize> Figure<T, D> {
 
     /// Takes a picture at every so-many-th call.
     pub(crate) fn offer(&mut self, t: f64, q: &[T], is_last: bool) {
-        if self.calls % self.every == 0 || is_last {
+        if self.calls.is_multiple_of(self.every) || is_last {
             let numbers = self.points.iter().flat_map(|p| {
                 let x = p.value(q);
                 (0..D).map(move |i| x[i].to_f64())

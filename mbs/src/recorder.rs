@@ -75,7 +75,7 @@ impl Recorder {
 
     /// Is step `k` (0: the start) kept as a row?
     pub(crate) fn keeps(&self, k: u64) -> bool {
-        k % self.every == 0
+        k.is_multiple_of(self.every)
     }
 
     /// Takes the maxima of a step.

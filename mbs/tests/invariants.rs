@@ -1,4 +1,5 @@
 //! What must be kept whatever moves: angular momenta, constraints after projection, the frame of reference, and memory.
+#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
 #[path = "common/allocations.rs"]
 mod allocations;

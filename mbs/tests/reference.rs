@@ -1,5 +1,10 @@
 //! Motions against references: elliptic functions, extrapolation with 34 digits, closed-form kinematics; and the report's
 //! breakdown of the printed form.
+#![allow(
+    clippy::print_stdout,
+    clippy::excessive_precision,
+    reason = "what is measured is shown with --nocapture; references keep their digits"
+)]
 
 mod common;
 

@@ -169,10 +169,10 @@ fn start_values<T: Real>(scene: &Scene<T>, joint: usize) -> Vec<T> {
         values.fill(value);
     }
     for initial in &scene.initials {
-        if let InitialTarget::Joint { joint: j, value: Some(value), .. } = &initial.target {
-            if *j == joint {
-                values.iter_mut().zip(value).for_each(|(to, from)| *to = *from);
-            }
+        if let InitialTarget::Joint { joint: j, value: Some(value), .. } = &initial.target
+            && *j == joint
+        {
+            values.iter_mut().zip(value).for_each(|(to, from)| *to = *from);
         }
     }
     values
