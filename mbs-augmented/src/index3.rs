@@ -274,8 +274,32 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
         Projection::Printed { sweeps } => w.project_as_printed(model, Level::Acceleration, sweeps),
         Projection::PrintedTangent => w.project_with_tangent(model, Level::Acceleration),
     };
+    if model.has_guides() {
+        balance(model, rule, w);
+    }
     w.boost = raised;
     Ok([norm_inf(&w.terms.phi), velocity, acceleration])
+}
+
+/// sigma <- sigma - s J T^-1 (M a + J^T (lambda + sigma) - Q): multipliers in balance with the projected accelerations.
+///
+/// alpha times the rounding of phi stands in lambda (4e-4 N for 1 kg at 1 ms), and with it in the power of guides.
+fn balance<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    rule: &Rule<T>,
+    w: &mut Workspace<T, S>,
+) {
+    for k in 0..w.mu.len() {
+        w.mu[k] = w.lambda[k] * rule.acceleration + w.sigma[k];
+    }
+    w.assemble(model, Mass::Acceleration, T::ONE);
+    w.solve();
+    let n = w.f.len();
+    w.change[..n].copy_from_slice(&w.f);
+    model.multiply_jacobian(&w.terms, &w.change, &mut w.rates);
+    for k in 0..w.sigma.len() {
+        w.sigma[k] -= w.penalty[k] * w.rates[k];
+    }
 }
 
 /// Takes the new state over.

@@ -10,8 +10,9 @@ use crate::words::{notes, stop_text, summary_rows};
 use core::time::Duration;
 use cpu_time::ProcessTime;
 use mbs_augmented::StepReport;
-use mbs_core::Real;
+use mbs_core::model::{Model, Owner};
 use mbs_core::scene::Scene;
+use mbs_core::{Cliques, Real};
 use mbs_scene::{Channel, Chosen, CsvWriter, Outputs, Provenance, RunRecord, RunSummary};
 use std::io;
 use std::time::Instant;
@@ -221,7 +222,20 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
         let stored = mark.energies[1].abs() + mark.energies[0];
         let rounding = stored.max(self.weight) * T::EPSILON.to_f64().sqrt();
         let is_off = !(error <= ENERGY_ALARM * turned_over) && !(error <= rounding);
-        is_off.then_some(StopError::Energy { error, turned_over })
+        is_off.then(|| StopError::Energy { error, turned_over, owner: self.most_loaded() })
+    }
+
+    /// Whose constraint carries the largest force; without constraints, whose coordinate accelerates most.
+    fn most_loaded(&self) -> Owner {
+        let largest = |x: &[T]| {
+            let size = |x: T| x.to_f64().abs();
+            (0..x.len()).max_by(|&i, &j| size(x[i]).total_cmp(&size(x[j])))
+        };
+        let (state, model) = (self.simulation.state(), self.simulation.model());
+        match largest(&state.reaction) {
+            Some(row) => model.owner_of_row(row),
+            None => model.owner_of_unknown(largest(&state.a[..model.n_unknowns()]).unwrap_or(0)),
+        }
     }
 
     fn finish(self, cpu: Duration, error: Option<StopError>, names: &Names) -> Outcome {

@@ -66,6 +66,8 @@ pub enum StopError {
         error: f64,
         /// Largest kinetic energy plus gross work [J].
         turned_over: f64,
+        /// Whose constraint carries the largest force, or whose coordinate accelerates most.
+        owner: Owner,
     },
 }
 
@@ -96,7 +98,8 @@ impl StopError {
             ) => return Some(Entry::Initial(*i)),
             Self::Start(error) => start_owner(error)?,
             Self::Step(_, owner) => (*owner)?,
-            Self::Reaction(_) | Self::Energy { .. } => return None,
+            Self::Reaction(_) => return None,
+            Self::Energy { owner, .. } => *owner,
         };
         Some(match owner {
             Owner::Body(b) => Entry::Body(b),
@@ -174,7 +177,8 @@ impl StopError {
         let owner = match self {
             Self::Start(error) => start_owner(error),
             Self::Step(_, owner) => *owner,
-            Self::Reaction(_) | Self::Energy { .. } => None,
+            Self::Reaction(_) => None,
+            Self::Energy { owner, .. } => Some(*owner),
         };
         let (joint, body) = owner.map_or((None, None), |o| names.of(o));
         RunError {
@@ -208,7 +212,7 @@ impl core::fmt::Display for StopError {
             Self::Start(error) => write_start(error, f),
             Self::Step(error, _) => write_step(error, f),
             Self::Reaction(error) => write!(f, "{error}"),
-            Self::Energy { error, turned_over } => write!(
+            Self::Energy { error, turned_over, .. } => write!(
                 f,
                 "the energy is off by {} J, more than a tenth of the {} J turned over: the motion is not resolved",
                 few(*error),

@@ -1,4 +1,5 @@
 //! Energy books: how far the invariant may drift, step by step, and that no run drifts far in silence.
+#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
 mod common;
 

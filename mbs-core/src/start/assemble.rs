@@ -31,6 +31,10 @@ pub struct Assembled<T> {
 const MAX_SWEEPS: u32 = 60;
 /// Sweeps without halving the smallest residual after which positions are given up: what contradicts itself drifts away.
 const PATIENCE: u32 = 10;
+/// Factor on all penalties after a slow sweep: long chains of light links hardly feel some combinations of rows.
+pub(super) const RAISE: f64 = 30.0;
+/// A sweep that leaves more than this share of a residual is slow.
+const SLOW: f64 = 0.3;
 /// Largest held angle of one continuation stage [rad], or slide in scene lengths.
 const STAGE: f64 = 0.25;
 
@@ -187,7 +191,7 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
         self.measure_rates(&s.v);
         let scale = self.worst();
         let floor = scale * T::EPSILON * T::from_f64(16.0);
-        let mut residual = scale;
+        let (mut residual, mut raises) = (scale, raises::<T>());
         for _ in 0..MAX_SWEEPS {
             if residual <= floor {
                 break;
@@ -201,10 +205,15 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
             self.measure_rates(&s.v);
             self.grow_rates();
             let left = self.worst();
-            let stalls = left > residual * T::HALF;
+            let (stalls, is_slow) =
+                (left > residual * T::HALF, left > residual * T::from_f64(SLOW));
             residual = left;
             if stalls && residual <= scale * accepted() {
                 break;
+            }
+            if is_slow && residual > scale * accepted() && raises > 0 {
+                self.problem.raise_penalties();
+                raises -= 1;
             }
         }
         if residual <= scale * accepted() {
@@ -305,6 +314,11 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
     }
 }
 
+/// How often penalties may be raised: in double precision to 1e9 effective masses, in others not at all.
+fn raises<T: Real>() -> u32 {
+    if T::EPSILON < T::from_f64(1e-12) { 2 } else { 0 }
+}
+
 /// Residual that counts as closed, relative to the scene's length or the largest speed.
 fn accepted<T: Real>() -> T {
     T::from_f64(1e-11).max(T::EPSILON * T::from_f64(256.0))
@@ -330,15 +344,11 @@ pub fn accelerations<T: Real, M: Model<T>>(
     let mut penalty = vec![T::ZERO; m];
     model.effective_masses(terms, &mut penalty);
     penalty.iter_mut().for_each(|p| *p *= T::from_f64(1e6));
-    let tangent =
-        Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty: &penalty, geometric: None };
     let (mut f, mut scratch) = (vec![T::ZERO; n], vec![T::ZERO; solver.n_scratch()]);
     let (mut lambda, mut mu, mut rates) = (vec![T::ZERO; m], vec![T::ZERO; m], vec![T::ZERO; m]);
-    let load = Load { mass: None, multipliers: None, force: T::ZERO };
-    let system = System { model, terms: &*terms, tangent, load };
-    solver.factor(&system).map_err(|e| no_inertia(model, e.unknown))?;
+    factor(model, solver, terms, &penalty)?;
     check_pivots(model, solver, terms, &penalty)?;
-    let mut last = None;
+    let (mut last, mut raises) = (None, raises::<T>());
     for _ in 0..MAX_SWEEPS {
         model.multiply_jacobian(terms, &s.a, &mut rates);
         for k in 0..m {
@@ -346,6 +356,7 @@ pub fn accelerations<T: Real, M: Model<T>>(
             mu[k] = lambda[k] + penalty[k] * rates[k];
         }
         let load = Load { mass: Some(&s.a), multipliers: Some(&mu), force: T::ONE };
+        let tangent = tangent(&penalty);
         solver.assemble(&System { model, terms: &*terms, tangent, load }, &mut f);
         solver.solve(&mut f, &mut scratch);
         for i in 0..n {
@@ -357,13 +368,19 @@ pub fn accelerations<T: Real, M: Model<T>>(
             lambda[k] += penalty[k] * rates[k];
         }
         let correction = norm_inf(&f);
-        if last.is_some_and(|last| correction > last * T::HALF) {
+        let is_slow = last.is_some_and(|last| correction > last * T::HALF);
+        last = Some(correction);
+        if is_slow && raises > 0 && !(norm_inf(&rates) <= limit(&s.a)) {
+            penalty.iter_mut().for_each(|p| *p *= T::from_f64(RAISE));
+            factor(model, solver, terms, &penalty)?;
+            raises -= 1;
+            last = None;
+        } else if is_slow {
             break;
         }
-        last = Some(correction);
     }
-    let (residual, size) = (norm_inf(&rates), norm_inf(&s.a));
-    if !(residual <= (T::ONE + size) * T::from_f64(1e-9).max(T::EPSILON * T::from_f64(1e4))) {
+    let residual = norm_inf(&rates);
+    if !(residual <= limit(&s.a)) {
         let row = (0..m).find(|&k| !(rates[k].abs() < residual)).unwrap_or(0);
         let owner = model.owner_of_row(row);
         return Err(AssemblyError::Acceleration { residual: residual.to_f64(), owner });
@@ -378,6 +395,27 @@ pub fn accelerations<T: Real, M: Model<T>>(
     Ok(residual)
 }
 
+/// Acceleration residual that is accepted.
+fn limit<T: Real>(a: &[T]) -> T {
+    (T::ONE + norm_inf(a)) * T::from_f64(1e-9).max(T::EPSILON * T::from_f64(1e4))
+}
+
+fn tangent<T: Real>(penalty: &[T]) -> Tangent<'_, T> {
+    Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty, geometric: None }
+}
+
+/// Factors M + J^T alpha J.
+fn factor<T: Real, M: Model<T>>(
+    model: &M,
+    solver: &mut impl SpdSolver<T>,
+    terms: &Terms<T>,
+    penalty: &[T],
+) -> Result<(), AssemblyError> {
+    let load = Load { mass: None, multipliers: None, force: T::ZERO };
+    let system = System { model, terms, tangent: tangent(penalty), load };
+    solver.factor(&system).map_err(|e| no_inertia(model, e.unknown))
+}
+
 fn no_inertia<T: Real>(model: &impl Model<T>, unknown: u32) -> AssemblyError {
     AssemblyError::NoInertia { owner: model.owner_of_unknown(unknown as usize) }
 }
@@ -389,7 +427,7 @@ fn check_pivots<T: Real, M: Model<T>>(
     terms: &Terms<T>,
     penalty: &[T],
 ) -> Result<(), AssemblyError> {
-    let tangent = Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty, geometric: None };
+    let tangent = tangent(penalty);
     let mut diagonal = vec![T::ZERO; model.n_unknowns()];
     let mut block = Vec::new();
     for e in 0..model.n_elements() {

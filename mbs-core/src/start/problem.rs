@@ -134,6 +134,13 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
         }
     }
 
+    /// Raises all penalties after a slow sweep.
+    pub(super) fn raise_penalties(&mut self) {
+        let factor = T::from_f64(super::assemble::RAISE);
+        self.penalty.iter_mut().for_each(|p| *p *= factor);
+        self.hold_mass *= factor;
+    }
+
     pub(super) fn hold_penalty(&self) -> T {
         self.hold_mass
     }
