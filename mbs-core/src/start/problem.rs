@@ -12,6 +12,8 @@ use alloc::vec::Vec;
 
 /// Penalty of a start row in effective masses: the middle of the range that works in double precision.
 const PENALTY: f64 = 1e6;
+/// Most that penalties are raised to, in effective masses times EPSILON: enough digits are left for a correction.
+const MOST: f64 = 2e-8;
 /// Mass lent to massless coordinates, relative to the largest: it only picks one of many equally small changes.
 const LENT: f64 = 1e-6;
 
@@ -33,6 +35,8 @@ pub struct Problem<'a, T: Real, const D: usize> {
     /// Penalties of the model's rows, then of the holds.
     pub(super) penalty: Vec<T>,
     hold_mass: T,
+    /// Penalties in effective masses, as raised.
+    factor: T,
     scratch: Vec<T>,
 }
 
@@ -78,6 +82,7 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
             gradients: vec![T::ZERO; n_gradient],
             penalty: vec![T::ONE; model.n_constraints()],
             hold_mass: typical * T::from_f64(PENALTY),
+            factor: T::from_f64(PENALTY),
             scratch: vec![T::ZERO; model.n_extended()],
         }
     }
@@ -87,6 +92,19 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
         self.model.effective_masses(&self.terms, &mut self.penalty);
         for p in &mut self.penalty {
             *p *= T::from_f64(PENALTY);
+        }
+    }
+
+    /// Raises all penalties tenfold while enough digits are left.
+    pub(super) fn raise_penalties(&mut self) {
+        let ten = T::from_f64(10.0);
+        if self.factor * ten * T::EPSILON > T::from_f64(MOST) {
+            return;
+        }
+        self.factor *= ten;
+        self.hold_mass *= ten;
+        for p in &mut self.penalty {
+            *p *= ten;
         }
     }
 
