@@ -146,7 +146,10 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f) });
         }
-        let noise = rounding(length, options, w);
+        // At rest nothing moves but the rounding of forces in balance: what no longer shrinks below the last digit of the
+        // coordinates is that.
+        let digit = if iterations > 5 { length * T::EPSILON } else { T::ZERO };
+        let noise = rounding(length, options, w).max(digit);
         if let Some(stop) = stopping(iterations, correction, last, (goal, scale, noise)) {
             return Ok((iterations, correction, stop));
         }

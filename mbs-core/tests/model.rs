@@ -322,3 +322,24 @@ fn degrees_of_freedom_are_those_of_the_joints() {
         }
     }
 }
+
+#[test]
+fn the_elements_of_a_hub_stay_small_however_many_joints_it_has() {
+    let mut text = String::from(
+        "[scene]\nname = \"hub\"\ndimension = 2\nduration = 1.0\n[[body]]\nname = \"hub\"\nmass = 1.0\ncenter = [0.0, 0.0]\ninertia = 0.5\n",
+    );
+    for i in 0..200 {
+        let (y, x) = (0.03 * f64::from(i)).sin_cos();
+        text += &format!(
+            "[[body]]\nname = \"b{i}\"\nmass = 1.0\ncenter = [{:?}, {:?}]\ninertia = 0.1\n[[joint]]\nname = \"j{i}\"\nkind = \"revolute\"\nbodies = [\"hub\", \"b{i}\"]\nat = [{x:?}, {y:?}]\n",
+            1.5 * x,
+            1.5 * y
+        );
+    }
+    let scene = scene(&text);
+    let model = model::<2>(&scene);
+    let widest = (0..model.n_elements()).map(|e| model.clique(e).len()).max();
+    assert_eq!(widest, Some(8), "two basis points and two that depend on them");
+    let (n, m, r) = rank::<2>(&scene);
+    assert_eq!((n - r, m - r), (203, 0));
+}

@@ -435,3 +435,18 @@ fn a_scene_of_a_millimetre_assembles_as_one_of_a_metre() {
         assert!(found.is_ok(), "size {size}: {:?}", found.err());
     }
 }
+
+#[test]
+fn a_chain_of_forty_joints_that_are_all_held_assembles() {
+    let mut text = String::from("[scene]\nname = \"c\"\ndimension = 2\nduration = 1.0\n");
+    for i in 0..40 {
+        let before = if i == 0 { "ground".to_owned() } else { format!("b{}", i - 1) };
+        text += &format!(
+            "[[body]]\nname = \"b{i}\"\nmass = 1.0\ncenter = [{}, 0.0]\ninertia = 0.003\n[[joint]]\nname = \"j{i}\"\nkind = \"revolute\"\nbodies = [\"{before}\", \"b{i}\"]\nat = [{}, 0.0]\n[[initial]]\njoint = \"j{i}\"\nvalue = 0.02\nrate = 0.1\n",
+            0.2 * f64::from(i) + 0.1,
+            0.2 * f64::from(i)
+        );
+    }
+    let (model, assembled) = start::<2>(&scene(&text)).unwrap_or_else(|e| panic!("{e}"));
+    assert!((heading(&model, &assembled.state.q, 39) - 0.8).abs() < HELD);
+}

@@ -15,6 +15,9 @@ use crate::scene::{BodyRef, Dimension, EffectKind, InitialTarget, JointKind, Qua
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
+/// Dependent entities that share an element with their body; each further one is an element of its own.
+const TOGETHER: usize = 2;
+
 impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// Builds the smallest natural-coordinate model of a scene.
     ///
@@ -121,16 +124,25 @@ impl<'a, T: Real> Builder<'a, T> {
                 }
             }
             rigid_rows(basis, &self.entities, zero, &mut told, &mut group.rows);
-            for &e in self.shared[c].iter().filter(|e| !basis.entities.contains(e)) {
+            let owner = group.owner;
+            self.groups.push(group);
+            let dependent = self.shared[c].iter().filter(|e| !basis.entities.contains(e));
+            for (i, &e) in dependent.enumerate() {
                 let entity = self.entities[e];
-                let mut x = match entity.kind {
+                let x = match entity.kind {
                     EntityKind::Point => basis.point(&entity.at),
                     EntityKind::Direction => basis.direction(&entity.at),
                 };
-                x = super::draft::difference(&x, &alloc::vec![(e, crate::algebra::Coef::one())]);
-                group.rows.push(RowDraft::Linear { x });
+                let x =
+                    super::draft::difference(&x, &alloc::vec![(e, crate::algebra::Coef::one())]);
+                // The block of a hub with many joints would grow like the square of their number.
+                if i >= TOGETHER {
+                    self.groups.push(GroupDraft::new(owner));
+                }
+                if let Some(group) = self.groups.last_mut() {
+                    group.rows.push(RowDraft::Linear { x });
+                }
             }
-            self.groups.push(group);
         }
     }
 
