@@ -155,7 +155,7 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w.sigma.fill(T::ZERO);
     move_to(model, options, s, w);
     let mut violation = norm_inf(&w.terms.phi);
-    for _ in 0..options.max_sweeps {
+    for sweeps in 0..options.max_sweeps {
         w.factor(model, (T::ZERO, T::ZERO), false)?;
         if violation <= goal {
             break;
@@ -163,7 +163,7 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
         for k in 0..w.mu.len() {
             w.mu[k] = w.sigma[k] + w.penalty[k] * w.terms.phi[k];
         }
-        w.assemble(model, Mass::Change, T::ZERO);
+        w.assemble(model, if sweeps > 0 { Mass::Change } else { Mass::None }, T::ZERO);
         w.solve();
         for i in 0..w.f.len() {
             w.dq[i] -= w.f[i];

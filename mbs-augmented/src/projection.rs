@@ -17,7 +17,9 @@ use mbs_core::model::Model;
 use mbs_core::{Real, SpdSolver};
 
 /// What one correction may leave of the multiplier of the least felt combination of constraints.
-const FELT: f64 = 0.03;
+const FELT: f64 = 0.003;
+/// A combination of which more than this was left is followed in the next step.
+const FOLLOWED: f64 = 0.001;
 /// Most that penalties may be, in effective masses times EPSILON: above, rounding of T^-1 looks like a lost direction.
 const MOST: f64 = 0.2;
 
@@ -60,11 +62,11 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.sigma.fill(T::ZERO);
         self.change.fill(T::ZERO);
         let mut violation = self.violation(model, level);
-        for _ in 0..max_sweeps {
+        for sweeps in 0..max_sweeps {
             if violation <= goal {
                 return Ok(violation);
             }
-            self.sweep(model, level);
+            self.sweep(model, level, sweeps > 0);
             let left = self.violation(model, level);
             for i in 0..self.sigma.len() {
                 self.sigma[i] += self.penalty[i] * self.rates[i];
@@ -136,7 +138,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.sigma.fill(T::ZERO);
         self.change.fill(T::ZERO);
         self.violation(model, level);
-        self.sweep(model, level);
+        self.sweep(model, level, false);
         let violation = self.violation(model, level);
         for k in 0..self.sigma.len() {
             self.sigma[k] = self.penalty[k] * self.rates[k];
@@ -153,11 +155,11 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     /// and raises s until rho is at most [`FELT`]. A combination that no allowed penalty makes felt is redundant and left.
     /// Returns whether the penalties changed, so that T must be factored anew. Needs T factored. Cost: one solve.
     pub(crate) fn adapt<M: Model<T>>(&mut self, model: &M) -> bool {
-        let size = norm_inf(&self.probe);
-        for (k, u) in self.probe.iter_mut().enumerate() {
-            // A little of every constraint, with changing signs, so that no direction is out of sight.
-            let fresh = T::from_f64(if k % 3 == 1 { -1e-3 } else { 1e-3 });
-            *u = *u / size + fresh;
+        if self.rho > T::from_f64(FOLLOWED) {
+            let inverse = T::ONE / norm_inf(&self.probe);
+            self.probe.iter_mut().for_each(|u| *u *= inverse);
+        } else {
+            spread(&mut self.probe);
         }
         let size = norm_inf(&self.probe);
         self.mu.copy_from_slice(&self.probe);
@@ -170,10 +172,8 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             self.probe[k] -= self.penalty[k] * self.rates[k];
         }
         let rho = norm_inf(&self.probe) / size;
+        self.rho = if rho.is_finite() { rho } else { T::ZERO };
         if !(rho > T::from_f64(FELT)) {
-            if !(rho > T::ZERO) {
-                self.probe.fill(T::ONE);
-            }
             return false;
         }
         let room = self.room();
@@ -219,11 +219,12 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.boost *= factor;
     }
 
-    fn sweep<M: Model<T>>(&mut self, model: &M, level: Level) {
+    /// One sweep; as long as nothing `is_changed` the mass has no part in it.
+    fn sweep<M: Model<T>>(&mut self, model: &M, level: Level, is_changed: bool) {
         for i in 0..self.mu.len() {
             self.mu[i] = self.sigma[i] + self.penalty[i] * self.rates[i];
         }
-        self.assemble(model, Mass::Change, T::ZERO);
+        self.assemble(model, if is_changed { Mass::Change } else { Mass::None }, T::ZERO);
         self.solve();
         let x = match level {
             Level::Velocity => &mut self.v,
@@ -233,6 +234,15 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             x[i] -= self.f[i];
             self.change[i] -= self.f[i];
         }
+    }
+}
+
+/// A vector with a little of everything, always the same: no combination of constraints is out of its sight by symmetry.
+fn spread<T: Real>(x: &mut [T]) {
+    let mut seed = 1_u32;
+    for x in x {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        *x = T::from_f64(f64::from(seed) / f64::from(u32::MAX) - 0.5);
     }
 }
 

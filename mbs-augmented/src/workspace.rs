@@ -67,6 +67,8 @@ pub struct Workspace<T, S> {
     pub(crate) base: T,
     /// The combination of constraints that the mechanism feels least, followed from step to step, m.
     pub(crate) probe: Vec<T>,
+    /// What one correction left of it in the last step.
+    pub(crate) rho: T,
     pub(crate) counts: Counts,
 }
 
@@ -110,6 +112,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             boost: T::ONE,
             base: T::ONE,
             probe: vec![T::ONE; m],
+            rho: T::ZERO,
             counts: Counts::default(),
         }
     }

@@ -6,11 +6,11 @@ mod record;
 mod write;
 
 pub use page::page;
-pub use read::{Document, Place, ReadError, ReadFault};
+pub use read::{Document, Place, ReadError, ReadFault, suggestion};
 pub use record::{
     Animation, Channel, ChannelSeries, Component, EnergySeries, IterationSeries, Polyline,
     Provenance, RunRecord, Trace, ViolationSeries,
 };
 pub use write::{
-    Chosen, CsvWriter, EnergySummary, Outputs, RunError, RunSummary, ViolationSummary,
+    Chosen, CsvWriter, EnergySummary, Outputs, RunError, RunSummary, ViolationSummary, readable,
 };

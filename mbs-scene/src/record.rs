@@ -121,7 +121,7 @@ pub struct RunRecord {
     pub summary: Vec<(String, String)>,
     /// What the user should know, such as redundant constraints.
     pub notes: Vec<String>,
-    /// Why the run stopped early.
+    /// When and why the run stopped early: what follows after "The run stopped".
     pub error: Option<String>,
 }
 
@@ -170,6 +170,8 @@ pub struct Animation {
     pub bodies: Vec<Polyline>,
     /// Points of the ground [m]; planar scenes leave the third number zero.
     pub ground: Vec<[f64; 3]>,
+    /// Fixed straight guides: a place [m] and a direction.
+    pub rails: Vec<[[f64; 3]; 2]>,
     /// Points whose path is drawn.
     pub traces: Vec<Trace>,
 }

@@ -53,10 +53,17 @@ pub(crate) fn eliminate<T: Real>(
     }
 }
 
-/// Eliminates the first `P` unknowns of a packed front; without further rows the compiler knows all sizes.
+/// Eliminates the first `P` unknowns of a packed front; without further rows, and with as many again (a link of a chain),
+/// the compiler knows all sizes.
 #[inline(always)]
 fn block<T: Real, const P: usize>(a: &mut [T], d: &mut [T], f: usize) -> Result<(), BadPivot<T>> {
-    if f == P { block_sized::<T, P>(a, d, P) } else { block_sized::<T, P>(a, d, f) }
+    if f == P {
+        block_sized::<T, P>(&mut a[..column(P, P)], d, P)
+    } else if P >= 3 && f == 2 * P {
+        block_sized::<T, P>(&mut a[..column(2 * P, 2 * P)], d, 2 * P)
+    } else {
+        block_sized::<T, P>(a, d, f)
+    }
 }
 
 /// Eliminates the first `P` unknowns of the packed front `a` of `f` unknowns.

@@ -23,6 +23,8 @@ pub struct Multifrontal<T: Real> {
     pivots: Vec<T>,
     /// Unknowns in the order in which they were eliminated last.
     order: Vec<u32>,
+    /// Whether there is one front, in the given order and without pivoting.
+    is_one_block: bool,
     /// For each pivot its row in its front before the swaps of [`Pivoting::Diagonal`].
     taken: Vec<u32>,
     /// One block or one residual of an element.
@@ -44,6 +46,7 @@ impl<T: Real> Multifrontal<T> {
         let n_taken = if options.pivoting == Pivoting::Diagonal { plan.order.len() } else { 0 };
         Self {
             pivoting: options.pivoting,
+            is_one_block: plan.fronts.len() == 1 && plan.is_natural && n_taken == 0,
             fronts: vec![T::ZERO; plan.counters.stored],
             pivots: vec![T::ZERO; plan.order.len()],
             order: plan.order.clone(),
@@ -197,6 +200,9 @@ impl<T: Real> SpdSolver<T> for Multifrontal<T> {
         let n = self.plan.order.len();
         assert_eq!(x.len(), n, "solve needs one number for each unknown");
         assert!(scratch.len() >= self.n_scratch(), "solve needs n_scratch() places");
+        if self.is_one_block && sweep::solve_small(&self.fronts, x) {
+            return;
+        }
         if self.plan.is_natural {
             return self.sweep(x, scratch);
         }

@@ -50,6 +50,45 @@ pub(crate) fn backward<T: Real>(a: &[T], y: &mut [T], p: usize) {
     }
 }
 
+/// Both sweeps through a packed front that eliminates all its unknowns, if there are at most [`BLOCK`]; else `false`.
+#[inline(always)]
+pub(crate) fn solve_small<T: Real>(a: &[T], y: &mut [T]) -> bool {
+    match y.len() {
+        1 => solve_block::<T, 1>(a, y),
+        2 => solve_block::<T, 2>(a, y),
+        3 => solve_block::<T, 3>(a, y),
+        4 => solve_block::<T, 4>(a, y),
+        5 => solve_block::<T, 5>(a, y),
+        6 => solve_block::<T, 6>(a, y),
+        _ => return false,
+    }
+    true
+}
+
+/// Both sweeps through one block without further rows.
+#[inline(always)]
+fn solve_block<T: Real, const P: usize>(a: &[T], y: &mut [T]) {
+    let columns: [&[T]; P] = columns(&a[..column(P, P)], P);
+    let y = &mut y[..P];
+    let mut v: [T; P] = std::array::from_fn(|k| y[k]);
+    for k in 0..P {
+        for i in k + 1..P {
+            let product = columns[k][i - k] * v[k];
+            v[i] -= product;
+        }
+    }
+    for k in 0..P {
+        v[k] *= columns[k][0];
+    }
+    for i in (1..P).rev() {
+        for k in 0..i {
+            let product = columns[k][i - k] * v[i];
+            v[k] -= product;
+        }
+    }
+    y.copy_from_slice(&v);
+}
+
 /// The first `P` columns of a packed triangle of `f` unknowns.
 #[inline(always)]
 fn columns<T, const P: usize>(mut a: &[T], f: usize) -> [&[T]; P] {

@@ -2,7 +2,7 @@
 
 use mbs_core::Real;
 use mbs_core::natural::{Affine, NaturalModel};
-use mbs_core::scene::{BodyRef, Dimension, Inertia, Quantity, Scene};
+use mbs_core::scene::{BodyRef, Dimension, Inertia, Joint, JointKind, Quantity, Scene};
 use mbs_scene::{Animation, Polyline, Trace};
 
 /// Pictures kept of a run at most.
@@ -26,7 +26,7 @@ impl<T: Real, const D: usize> Figure<T, D> {
         let up = scene.gravity.map_or([0.0; 3], |g| g.map(|x| -x.to_f64()));
         let ground = scene.joints.iter().flat_map(|j| {
             (0..2)
-                .filter(|&k| j.bodies[k] == BodyRef::Ground)
+                .filter(|&k| j.bodies[k] == BodyRef::Ground && !slides(j.kind))
                 .map(|k| j.points[k].map(Real::to_f64))
         });
         let animation = Animation {
@@ -35,6 +35,7 @@ impl<T: Real, const D: usize> Figure<T, D> {
             bodies,
             traces,
             ground: ground.collect(),
+            rails: rails(scene),
             ..Animation::default()
         };
         Self {
@@ -57,6 +58,19 @@ impl<T: Real, const D: usize> Figure<T, D> {
         }
         self.calls += 1;
     }
+}
+
+fn slides(kind: JointKind) -> bool {
+    matches!(kind, JointKind::Prismatic | JointKind::Cylindrical)
+}
+
+/// Straight guides on the ground: place and direction.
+fn rails<T: Real>(scene: &Scene<T>) -> Vec<[[f64; 3]; 2]> {
+    let joints =
+        scene.joints.iter().filter(|j| slides(j.kind) && j.bodies.contains(&BodyRef::Ground));
+    let axis =
+        |j: &Joint<T>| j.axes[0].map(|axis| [j.points[0], axis].map(|p| p.map(Real::to_f64)));
+    joints.filter_map(axis).collect()
 }
 
 struct Layout<'a, T: Real, const D: usize> {
@@ -113,7 +127,16 @@ impl<T: Real, const D: usize> Layout<'_, T, D> {
         if chain.len() > 2 && D == 2 {
             chain.push(chain[0]);
         }
+        if chain.len() > 2 && D == 3 {
+            return Polyline { name, chains: self.star(body, &chain) };
+        }
         Polyline { name, chains: vec![chain] }
+    }
+
+    /// A spatial body with many places: strokes from its centre to each.
+    fn star(&mut self, body: usize, places: &[usize]) -> Vec<Vec<usize>> {
+        let center = self.add(body, self.scene.bodies[body].center);
+        places.iter().map(|&place| vec![center, place]).collect()
     }
 
     /// A body with one place only: three (two) strokes as long as its radius of gyration.

@@ -1,11 +1,13 @@
 #![doc = include_str!("../README.md")]
 
+mod channels;
 mod figure;
 mod recorder;
 mod run;
 mod settings;
 mod simulation;
 mod stop;
+pub mod words;
 
 pub use mbs_augmented as augmented;
 pub use mbs_core as core;

@@ -1,15 +1,16 @@
 //! A whole run: from a scene to its summary, rows and page.
 
+use crate::channels::Channels;
 use crate::figure::Figure;
 use crate::recorder::{Recorder, StepMark};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::{Names, StopError};
+use crate::words::{notes, stop_text, summary_rows};
 use core::time::Duration;
 use cpu_time::ProcessTime;
 use mbs_augmented::StepReport;
 use mbs_core::model::{Model, Owner};
-use mbs_core::outputs::Measures;
 use mbs_core::scene::Scene;
 use mbs_core::{Cliques, Real};
 use mbs_scene::{Channel, Chosen, CsvWriter, Outputs, Provenance, RunRecord, RunSummary};
@@ -82,18 +83,18 @@ pub fn run<T: Real, const D: usize>(
 ) -> Outcome {
     let names = Names::new(scene);
     let channels = Channel::of_scene(scene);
-    let started = Simulation::<T, D>::new(scene, settings).and_then(|simulation| {
-        let measures = Measures::new(scene, simulation.model())?;
+    let started = Simulation::<T, D>::new(scene, settings).map_err(StopError::Start);
+    let started = started.and_then(|simulation| {
+        let measures = Channels::new(scene, simulation.model())?;
         Ok((simulation, measures))
     });
     let (simulation, measures) = match started {
         Ok(both) => both,
-        Err(error) => {
-            return not_started(scene, settings, &channels, &names, StopError::Start(error));
-        }
+        Err(error) => return not_started(scene, settings, &channels, &names, error),
     };
     let n_steps = settings.n_steps();
     let recorder = Recorder::new(channels, n_steps, simulation.initial_energies());
+    let weight = weight(scene) * simulation.model().length().to_f64();
     let figure = Figure::new(scene, simulation.model(), recorder.n_rows(n_steps));
     let mut run = Run {
         scene,
@@ -104,6 +105,8 @@ pub fn run<T: Real, const D: usize>(
         figure,
         values: Vec::new(),
         counts: Counts::default(),
+        weight,
+        reached: 0.0,
     };
     run.start();
     let cpu = ProcessTime::now();
@@ -124,11 +127,15 @@ struct Run<'a, T: Real, const D: usize> {
     scene: &'a Scene<T>,
     settings: &'a Settings,
     simulation: Simulation<T, D>,
-    measures: Measures<T, D>,
+    measures: Channels<T, D>,
     recorder: Recorder,
     figure: Figure<T, D>,
     values: Vec<f64>,
     counts: Counts,
+    /// Weight of all bodies times the scene's length [J].
+    weight: f64,
+    /// Time reached [s].
+    reached: f64,
 }
 
 impl<T: Real, const D: usize> Run<'_, T, D> {
@@ -145,7 +152,7 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
 
     fn row(&mut self, mark: &StepMark, is_last: bool) {
         let state = self.simulation.state();
-        self.measures.write(state, |_| [T::ZERO; 6], &mut self.values);
+        self.measures.write(state, &mut self.values);
         self.figure.offer(mark.t, &state.q, is_last);
         self.recorder.keep(mark, &self.values);
     }
@@ -183,7 +190,7 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
 
     /// Keeps the state at which the run stops.
     fn stop(&mut self, stop: StopError) -> Result<(), StopError> {
-        let t = self.simulation.state().t.to_f64();
+        let t = self.reached;
         if self.recorder.times.last().is_none_or(|&last| last < t) {
             let energies = self.simulation.energies();
             let mark = StepMark { t, energies, violation: [0.0; 3], iterations: 0 };
@@ -195,6 +202,7 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
     /// Counts and maxima of a step.
     fn take(&mut self, t: f64, report: &StepReport<T>) -> StepMark {
         self.counts.steps += 1;
+        self.reached = t;
         self.counts.iterations += u64::from(report.iterations);
         self.counts.factorizations += u64::from(report.factorizations);
         self.measures.track(self.simulation.state());
@@ -212,7 +220,7 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
     fn alarm(&self, mark: &StepMark) -> Option<StopError> {
         let (turned_over, error) = self.recorder.turnover();
         let stored = mark.energies[1].abs() + mark.energies[0];
-        let rounding = stored * T::EPSILON.to_f64().sqrt();
+        let rounding = stored.max(self.weight) * T::EPSILON.to_f64().sqrt();
         let is_off = !(error <= ENERGY_ALARM * turned_over) && !(error <= rounding);
         is_off.then(|| StopError::Energy { error, turned_over, owner: self.most_loaded() })
     }
@@ -231,7 +239,7 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
     }
 
     fn finish(self, cpu: Duration, error: Option<StopError>, names: &Names) -> Outcome {
-        let end_time = self.simulation.state().t.to_f64();
+        let end_time = self.reached;
         let cpu_seconds = cpu.as_secs_f64();
         let [coordinates, constraints, constraint_rank] = self.simulation.sizes();
         let settings = self.settings;
@@ -252,6 +260,7 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
             constraints,
             constraint_rank,
             dof: coordinates - constraint_rank,
+            not_unique: self.measures.not_unique(self.scene),
             ..plain_summary(self.scene, settings)
         };
         let (energy, violation, iterations) = self.recorder.page_series();
@@ -263,13 +272,20 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
             violation: Some(violation),
             iterations: Some(iterations),
             summary: summary_rows(&summary),
-            notes: notes(self.scene, &summary, &self.simulation.start.change.to_f64()),
-            error: error.as_ref().map(ToString::to_string),
+            notes: notes(self.scene, settings, &summary, self.simulation.start.change.to_f64()),
+            error: summary.error.as_ref().map(stop_text),
             ..RunRecord::default()
         };
         let table = self.recorder.table().map(|(t, row)| (t, row.to_vec())).collect();
         Outcome { summary, error, record, channels: self.recorder.channels.clone(), table }
     }
+}
+
+/// Weight of all bodies [N].
+fn weight<T: Real>(scene: &Scene<T>) -> f64 {
+    let mass: f64 = scene.bodies.iter().map(|body| body.mass.to_f64()).sum();
+    let squares = scene.gravity.map_or(0.0, |g| g.iter().map(|x| x.to_f64() * x.to_f64()).sum());
+    mass * f64::sqrt(squares)
 }
 
 fn plain_summary<T: Real>(scene: &Scene<T>, settings: &Settings) -> RunSummary {
@@ -300,64 +316,8 @@ fn not_started<T: Real>(
     let record = RunRecord {
         scene: scene.name.clone(),
         summary: summary_rows(&summary),
-        error: Some(error.to_string()),
+        error: summary.error.as_ref().map(stop_text),
         ..RunRecord::default()
     };
     Outcome { summary, error: Some(error), record, channels: channels.to_vec(), table: Vec::new() }
-}
-
-fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
-    let row = |label: &str, value: String| (label.to_owned(), value);
-    vec![
-        row(
-            "coordinates / constraints / rank",
-            format!("{} / {} / {}", s.coordinates, s.constraints, s.constraint_rank),
-        ),
-        row("degrees of freedom", s.dof.to_string()),
-        row("steps", s.steps.to_string()),
-        row("time reached", format!("{} s", s.end_time)),
-        row(
-            "Newton iterations / factorisations",
-            format!("{} / {}", s.iterations, s.factorizations),
-        ),
-        row("largest energy error", format!("{:.3e} J", s.energy.max_error)),
-        row(
-            "largest violation of position / velocity / acceleration",
-            format!(
-                "{:.1e} m / {:.1e} m/s / {:.1e} m/s^2",
-                s.violation.position, s.violation.velocity, s.violation.acceleration
-            ),
-        ),
-        row("CPU time of the steps", format!("{:.4} s", s.cpu_seconds)),
-        row("real-time factor", format!("{:.0}", s.real_time_factor)),
-        row("slowest step", format!("{:.1} us", s.worst_step_seconds * 1e6)),
-    ]
-}
-
-/// What is unusual about a scene, said once.
-fn notes<T: Real>(scene: &Scene<T>, s: &RunSummary, change: &f64) -> Vec<String> {
-    let mut notes = Vec::new();
-    let redundant = s.constraints - s.constraint_rank;
-    if redundant > 0 {
-        notes.push(format!(
-            "{redundant} constraint equations are redundant: the motion is determined, some internal forces are not"
-        ));
-    }
-    for (i, body) in scene.bodies.iter().enumerate() {
-        let me = mbs_core::scene::BodyRef::Body(i);
-        if !scene.joints.iter().any(|j| j.bodies.contains(&me)) {
-            notes.push(format!("body `{}` has no joint: it moves freely", body.name));
-        }
-    }
-    if *change > 1e-6 {
-        notes.push(format!(
-            "the start differs from the reference configuration by up to {change:.3e} m (or rad)"
-        ));
-    }
-    for joint in &s.not_unique {
-        notes.push(format!(
-            "the reaction of joint `{joint}` is not unique: the smallest one is given"
-        ));
-    }
-    notes
 }

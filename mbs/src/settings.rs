@@ -4,6 +4,7 @@ use mbs_augmented::{Options, Penalty};
 use mbs_core::Real;
 use mbs_core::integrator::Integrator;
 use mbs_core::scene::Scene;
+use mbs_scene::readable;
 
 /// Formulations that are built, by their names in scenes and on the command line.
 pub const FORMULATIONS: [&str; 3] = ["auto", "index-1", "index-3"];
@@ -11,6 +12,20 @@ pub const FORMULATIONS: [&str; 3] = ["auto", "index-1", "index-3"];
 pub const INTEGRATORS: [&str; 4] = ["trapezoidal", "newmark", "generalised-alpha", "hht"];
 /// Precisions that are built.
 pub const PRECISIONS: [&str; 2] = ["f32", "f64"];
+/// Names of the scene format that are not built yet.
+const NOT_BUILT: [&str; 9] = [
+    "multi-index",
+    "classical",
+    "state-space",
+    "recursive",
+    "rk4",
+    "rk54",
+    "rk853",
+    "radau5",
+    "dd",
+];
+/// Steps of a run at most: at a microsecond each they take eleven days.
+const MOST_STEPS: f64 = 1e12;
 /// Step when neither scene nor command line gives one [s].
 const DEFAULT_STEP: f64 = 1e-3;
 
@@ -155,17 +170,50 @@ pub enum SettingsError {
         /// The value.
         value: f64,
     },
+    /// The step is so short that the run would not end.
+    TooManySteps {
+        /// Step [s].
+        step: f64,
+        /// Duration [s].
+        duration: f64,
+    },
+}
+
+impl SettingsError {
+    /// What to do about it.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match self {
+            Self::NotBuilt { key: "threads", .. } => "leave it out, or write 1".to_owned(),
+            Self::NotBuilt { value, built, .. } if NOT_BUILT.contains(&value.as_str()) => {
+                format!("built are: {}", built.join(", "))
+            }
+            Self::NotBuilt { value, built, .. } => mbs_scene::suggestion(value, built, "built are"),
+            Self::NotPositive { .. } => "write a number larger than zero".to_owned(),
+            Self::TooManySteps { .. } => "write a longer step, or a shorter duration".to_owned(),
+        }
+    }
 }
 
 impl core::fmt::Display for SettingsError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::NotBuilt { key, value, built, .. } => {
-                write!(f, "{key} `{value}` is not built; built are: {}", built.join(", "))
+            Self::NotBuilt { key: "threads", value, .. } => {
+                write!(f, "{value} threads: runs have one thread so far")
             }
+            Self::NotBuilt { key, value, .. } if NOT_BUILT.contains(&value.as_str()) => {
+                write!(f, "{key} `{value}` is not built yet")
+            }
+            Self::NotBuilt { key, value, .. } => write!(f, "unknown {key} `{value}`"),
             Self::NotPositive { key, value } => {
-                write!(f, "{key} must be positive and finite, not {value}")
+                write!(f, "{key} must be positive and finite, but is {}", readable(*value))
             }
+            Self::TooManySteps { step, duration } => write!(
+                f,
+                "a step of {} s is too short for a run of {} s: more than {MOST_STEPS:e} steps",
+                readable(*step),
+                readable(*duration)
+            ),
         }
     }
 }
@@ -212,16 +260,20 @@ impl Settings {
             });
         }
         let of_scene = |x: Option<T>| x.map(Real::to_f64);
+        let step = overrides.step.or(of_scene(solver.step)).unwrap_or(DEFAULT_STEP);
+        let step = positive("step", step)?;
+        let duration = overrides.duration.unwrap_or(scene.duration.to_f64());
+        let duration = positive("duration", duration)?;
+        if duration / step > MOST_STEPS {
+            return Err(SettingsError::TooManySteps { step, duration });
+        }
         Ok(Self {
             asked,
             formulation,
             integrator,
             precision,
-            step: positive(
-                "step",
-                overrides.step.or(of_scene(solver.step)).unwrap_or(DEFAULT_STEP),
-            )?,
-            duration: positive("duration", overrides.duration.unwrap_or(scene.duration.to_f64()))?,
+            step,
+            duration,
             penalty: checked("penalty", overrides.penalty.or(of_scene(solver.penalty)))?,
             tolerance: checked("tolerance", overrides.tolerance.or(of_scene(solver.tolerance)))?,
         })

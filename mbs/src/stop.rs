@@ -1,7 +1,9 @@
 //! Why a run stopped, in words and with names.
 
+use crate::words::few;
 use mbs_augmented::StepError;
 use mbs_core::model::{Model, Owner};
+use mbs_core::outputs::ReactionError;
 use mbs_core::scene::{BodyRef, Entry, Scene};
 use mbs_core::start::AssemblyError;
 use mbs_scene::RunError;
@@ -54,6 +56,8 @@ impl Names {
 pub enum StopError {
     /// No consistent start.
     Start(AssemblyError),
+    /// Joint reactions were asked for that cannot be given.
+    Reaction(ReactionError),
     /// A step that could not be made, and whose it is.
     Step(StepError, Option<Owner>),
     /// The energy invariant drifted by more than a tenth of the energy turned over.
@@ -95,6 +99,7 @@ impl StopError {
             Self::Start(error) => start_owner(error)?,
             Self::Step(_, owner) => (*owner)?,
             Self::Energy { owner, .. } => *owner,
+            Self::Reaction(_) => return None,
         };
         Some(match owner {
             Owner::Body(b) => Entry::Body(b),
@@ -118,6 +123,7 @@ impl StopError {
             Self::Step(StepError::Violated { .. }, _) => "violated",
             Self::Step(StepError::OppositeBranch { .. }, _) => "opposite-branch",
             Self::Step(..) => "step-failed",
+            Self::Reaction(_) => "no-reactions",
             Self::Energy { .. } => "energy-drift",
         }
     }
@@ -136,12 +142,32 @@ impl StopError {
             Self::Start(AssemblyError::NoInertia { .. }) => {
                 "give the body mass and inertia, or remove the freedom nothing determines"
             }
-            Self::Start(_) => "start a little away from this position",
+            Self::Start(_) => {
+                "start a little away from this position, or check that guides and joints fit together"
+            }
             Self::Step(StepError::Singular(_), _) => {
-                "try a smaller step; give every free coordinate mass or inertia"
+                "try a smaller step; give every body that can move mass and inertia"
+            }
+            Self::Step(StepError::Violated { .. }, _) => {
+                "try a smaller step or another formulation; if it always stops here, the mechanism locks or cannot follow its guides"
             }
             Self::Step(..) => "try a smaller step, or another formulation",
-            Self::Energy { .. } => "try a smaller step: the motion is not resolved",
+            Self::Reaction(_) => "leave the reaction outputs out",
+            Self::Energy { .. } => {
+                "try a smaller step; if it always stops here, the mechanism locks, or cannot follow its guides"
+            }
+        }
+    }
+
+    /// The keys that may stand behind the error, the likeliest first.
+    #[must_use]
+    pub fn fields(&self) -> &'static [&'static str] {
+        match self {
+            Self::Start(AssemblyError::Velocity { initial: Some(_), .. }) => {
+                &["rate", "velocity", "angular_velocity"]
+            }
+            Self::Start(AssemblyError::Position { initial: Some(_), .. }) => &["value"],
+            _ => &["name"],
         }
     }
 
@@ -152,6 +178,7 @@ impl StopError {
             Self::Start(error) => start_owner(error),
             Self::Step(_, owner) => *owner,
             Self::Energy { owner, .. } => Some(*owner),
+            Self::Reaction(_) => None,
         };
         let (joint, body) = owner.map_or((None, None), |o| names.of(o));
         RunError {
@@ -182,14 +209,70 @@ fn start_owner(error: &AssemblyError) -> Option<Owner> {
 impl core::fmt::Display for StopError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::Start(error) => write!(f, "{error}"),
-            Self::Step(error, _) => write!(f, "{error}"),
+            Self::Start(error) => write_start(error, f),
+            Self::Step(error, _) => write_step(error, f),
+            Self::Reaction(error) => write!(f, "{error}"),
             Self::Energy { error, turned_over, .. } => write!(
                 f,
-                "the energy invariant is off by {error:.3e} J, more than a tenth of the {turned_over:.3e} J turned over"
+                "the energy is off by {} J, more than a tenth of the {} J turned over: the motion is not resolved",
+                few(*error),
+                few(*turned_over)
             ),
         }
     }
 }
 
 impl core::error::Error for StopError {}
+
+fn write_start(error: &AssemblyError, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+    match error {
+        AssemblyError::Position { residual, .. } => write!(
+            f,
+            "the mechanism cannot be closed at the start: a gap of {} m (or rad) is left",
+            few(*residual)
+        ),
+        AssemblyError::Velocity { residual, .. } => write!(
+            f,
+            "the initial velocities contradict the joints or each other: {} m/s (or rad/s) is left",
+            few(*residual)
+        ),
+        AssemblyError::Acceleration { residual, .. } => write!(
+            f,
+            "no accelerations meet the constraints at the start ({} m/s^2 is left): the mechanism stands in a singular position or locks",
+            few(*residual)
+        ),
+        other => write!(f, "{other}"),
+    }
+}
+
+/// What happened; what to try is the hint's.
+fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+    match error {
+        StepError::NotConverged { iterations, correction, .. } => write!(
+            f,
+            "the step did not converge in {iterations} iterations; the last correction was {} of the scene's length",
+            few(*correction)
+        ),
+        StepError::Singular(_) => write!(
+            f,
+            "the tangent matrix is not positive definite: a force meets no inertia, or nothing determines a coordinate"
+        ),
+        StepError::NotFinite { .. } => write!(f, "a number became infinite or not a number"),
+        StepError::Violated { level, violation, .. } => {
+            let (name, unit) = [
+                ("positions", "m (or rad)"),
+                ("velocities", "m/s (or rad/s)"),
+                ("accelerations", "m/s^2 (or rad/s^2)"),
+            ][usize::from(*level).min(2)];
+            write!(
+                f,
+                "the constraints on {name} could not be met: {} {unit} is left",
+                few(*violation)
+            )
+        }
+        StepError::OppositeBranch { .. } => {
+            write!(f, "the guided angle jumped half a turn away from its guide")
+        }
+        other => write!(f, "{other}"),
+    }
+}

@@ -90,6 +90,7 @@ impl<T: Real> GroupDraft<T> {
         if let Some((basis, _)) = &self.mass {
             basis.iter().for_each(|&e| visit(e));
         }
+        self.forces.iter().for_each(|(e, _)| visit(*e));
         self.rows.iter().flat_map(RowDraft::entities).for_each(&mut visit);
         if let Some(effect) = &self.effect {
             effect.combinations().into_iter().flatten().for_each(|(e, _)| visit(*e));

@@ -1,7 +1,7 @@
 //! The numbers of a [`NaturalModel`]: constraints, forces, blocks and residuals, element by element.
 
 use super::forces::{Gauge, add_terms, add_torque};
-use super::group::{Group, add_curvature, add_mass_product, add_rank_one};
+use super::group::{Group, add_curvature, add_mass_product, add_multiples, add_squares};
 use super::model::NaturalModel;
 use crate::Real;
 use crate::algebra::Vector;
@@ -140,20 +140,13 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
 
     fn multiply_jacobian(&self, terms: &Terms<T>, x: &[T], rates: &mut [T]) {
         for group in &self.groups {
-            let slots = group.slots.of(&self.slots);
-            let slots = &slots[..group.n_unknown as usize];
-            let (mut at, width) = (group.jacobian as usize, group.width as usize);
-            for row in group.rows.range() {
-                let mut sum = T::ZERO;
-                for (j, &slot) in slots.iter().enumerate() {
-                    let g = &terms.jacobian[at + j * D..at + j * D + D];
-                    let x = &x[slot as usize..slot as usize + D];
-                    for i in 0..D {
-                        sum += g[i] * x[i];
-                    }
-                }
-                rates[row] = sum;
-                at += width;
+            match group.clique.len() {
+                2 => self.multiply_sized_jacobian::<2>(group, terms, x, rates),
+                4 => self.multiply_sized_jacobian::<4>(group, terms, x, rates),
+                6 => self.multiply_sized_jacobian::<6>(group, terms, x, rates),
+                9 => self.multiply_sized_jacobian::<9>(group, terms, x, rates),
+                12 => self.multiply_sized_jacobian::<12>(group, terms, x, rates),
+                _ => self.multiply_sized_jacobian::<0>(group, terms, x, rates),
             }
         }
     }
@@ -183,26 +176,13 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         block: &mut [T],
     ) {
         let group = &self.groups[element];
-        let k = group.clique.len();
-        if group.block.is_empty() {
-            block.fill(T::ZERO);
-        } else {
-            block.copy_from_slice(group.block.of(&self.blocks));
-        }
-        let (mut at, width) = (group.jacobian as usize, group.width as usize);
-        for row in group.rows.range() {
-            add_rank_one(block, &terms.jacobian[at..at + k], tangent.penalty[row]);
-            at += width;
-        }
-        for measure in &terms.measures[group.measures.range()] {
-            let stiffness = measure.stiffness - measure.transverse;
-            let w = tangent.stiffness * stiffness + tangent.damping * measure.damping;
-            add_rank_one(block, &terms.jacobian[at..at + k], w);
-            at += width;
-        }
-        self.add_transverse(terms, tangent, group, block);
-        if let Some(lambda) = tangent.geometric {
-            self.add_geometric(lambda, group, block);
+        match group.clique.len() {
+            2 => self.write_sized_block::<2>(terms, tangent, group, block),
+            4 => self.write_sized_block::<4>(terms, tangent, group, block),
+            6 => self.write_sized_block::<6>(terms, tangent, group, block),
+            9 => self.write_sized_block::<9>(terms, tangent, group, block),
+            12 => self.write_sized_block::<12>(terms, tangent, group, block),
+            _ => self.write_sized_block::<0>(terms, tangent, group, block),
         }
     }
 
@@ -215,35 +195,13 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         residual: &mut [T],
     ) {
         let group = &self.groups[element];
-        let clique = group.clique.of(&self.cliques);
-        residual.fill(T::ZERO);
-        if let (Some(x), false) = (load.mass, group.mass.is_empty()) {
-            add_mass_product::<T, D>(group.mass.of(&self.mass), clique, x, residual);
-        }
-        let (mut at, width) = (group.jacobian as usize, group.width as usize);
-        if let Some(mu) = load.multipliers {
-            for row in group.rows.range() {
-                let m = mu[row];
-                for (r, &g) in residual.iter_mut().zip(&terms.jacobian[at..]) {
-                    *r += g * m;
-                }
-                at += width;
-            }
-        } else {
-            at += width * group.rows.len();
-        }
-        if load.force == T::ZERO {
-            return;
-        }
-        for measure in &terms.measures[group.measures.range()] {
-            let tension = measure.tension * load.force;
-            for (r, &g) in residual.iter_mut().zip(&terms.jacobian[at..]) {
-                *r += g * tension;
-            }
-            at += width;
-        }
-        for (r, &f) in residual.iter_mut().zip(group.force.of(&terms.force)) {
-            *r -= f * load.force;
+        match group.clique.len() {
+            2 => self.write_sized_residual::<2>(terms, load, group, residual),
+            4 => self.write_sized_residual::<4>(terms, load, group, residual),
+            6 => self.write_sized_residual::<6>(terms, load, group, residual),
+            9 => self.write_sized_residual::<9>(terms, load, group, residual),
+            12 => self.write_sized_residual::<12>(terms, load, group, residual),
+            _ => self.write_sized_residual::<0>(terms, load, group, residual),
         }
     }
 
@@ -322,6 +280,125 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         diagonal
     }
 
+    /// The rates of a group of `K` unknowns; `K` = 0: of any number, known at run time only.
+    #[inline(always)]
+    fn multiply_sized_jacobian<const K: usize>(
+        &self,
+        group: &Group,
+        terms: &Terms<T>,
+        x: &[T],
+        rates: &mut [T],
+    ) {
+        let slots = &group.slots.of(&self.slots)[..group.n_unknown as usize];
+        let rates = group.rows.of_mut(rates);
+        let width = group.width as usize;
+        let jacobian = &terms.jacobian[group.jacobian as usize..][..width * rates.len()];
+        if K == 0 {
+            for (rate, g) in rates.iter_mut().zip(jacobian.chunks_exact(width.max(1))) {
+                let terms = slots.iter().zip(g.chunks_exact(D));
+                *rate = terms.fold(T::ZERO, |sum, (&slot, g)| {
+                    (0..D).fold(sum, |sum, i| sum + g[i] * x[slot as usize + i])
+                });
+            }
+            return;
+        }
+        let mut local = [T::ZERO; K];
+        for (to, &slot) in local.chunks_exact_mut(D).zip(slots) {
+            to.copy_from_slice(&x[slot as usize..slot as usize + D]);
+        }
+        for (rate, g) in rates.iter_mut().zip(jacobian.chunks_exact(width.max(1))) {
+            let g = &g[..K];
+            *rate = (0..K).fold(T::ZERO, |sum, i| sum + g[i] * local[i]);
+        }
+    }
+
+    /// The block of a group of `K` unknowns; `K` = 0: of any number, known at run time only.
+    #[inline(always)]
+    fn write_sized_block<const K: usize>(
+        &self,
+        terms: &Terms<T>,
+        tangent: &Tangent<'_, T>,
+        group: &Group,
+        block: &mut [T],
+    ) {
+        let k = if K == 0 { group.clique.len() } else { K };
+        let block = &mut block[..k * (k + 1) / 2];
+        if group.block.is_empty() {
+            block.fill(T::ZERO);
+        } else {
+            block.copy_from_slice(&group.block.of(&self.blocks)[..k * (k + 1) / 2]);
+        }
+        let width = group.width as usize;
+        let mut jacobian = &terms.jacobian[group.jacobian as usize..];
+        let mut penalty = group.rows.of(tangent.penalty);
+        while let [w1, w2, w3, rest @ ..] = penalty {
+            let g = [jacobian, &jacobian[width..], &jacobian[2 * width..]];
+            add_squares(block, k, g, [*w1, *w2, *w3]);
+            (jacobian, penalty) = (&jacobian[3 * width..], rest);
+        }
+        for &w in penalty {
+            add_squares(block, k, [jacobian], [w]);
+            jacobian = &jacobian[width..];
+        }
+        if !group.measures.is_empty() {
+            for measure in group.measures.of(&terms.measures) {
+                let stiffness = measure.stiffness - measure.transverse;
+                let w = tangent.stiffness * stiffness + tangent.damping * measure.damping;
+                add_squares(block, k, [jacobian], [w]);
+                jacobian = &jacobian[width..];
+            }
+            self.add_transverse(terms, tangent, group, block);
+        }
+        if let Some(lambda) = tangent.geometric {
+            self.add_geometric(lambda, group, block);
+        }
+    }
+
+    /// The residual of a group of `K` unknowns; `K` = 0: of any number, known at run time only.
+    #[inline(always)]
+    fn write_sized_residual<const K: usize>(
+        &self,
+        terms: &Terms<T>,
+        load: &Load<'_, T>,
+        group: &Group,
+        residual: &mut [T],
+    ) {
+        let clique = group.clique.of(&self.cliques);
+        let k = if K == 0 { clique.len() } else { K };
+        let (clique, residual) = (&clique[..k], &mut residual[..k]);
+        residual.fill(T::ZERO);
+        if let (Some(x), false) = (load.mass, group.mass.is_empty()) {
+            add_mass_product::<T, D>(group.mass.of(&self.mass), clique, x, residual);
+        }
+        let width = group.width as usize;
+        let mut jacobian = &terms.jacobian[group.jacobian as usize..];
+        if let Some(mu) = load.multipliers {
+            let mut mu = group.rows.of(mu);
+            while let [m1, m2, m3, rest @ ..] = mu {
+                let g = [jacobian, &jacobian[width..], &jacobian[2 * width..]];
+                add_multiples(residual, g, [*m1, *m2, *m3]);
+                (jacobian, mu) = (&jacobian[3 * width..], rest);
+            }
+            for &m in mu {
+                add_multiples(residual, [jacobian], [m]);
+                jacobian = &jacobian[width..];
+            }
+        } else {
+            jacobian = &jacobian[width * group.rows.len()..];
+        }
+        if load.force == T::ZERO {
+            return;
+        }
+        for measure in group.measures.of(&terms.measures) {
+            add_multiples(residual, [jacobian], [measure.tension * load.force]);
+            jacobian = &jacobian[width..];
+        }
+        for (r, &f) in residual.iter_mut().zip(group.force.of(&terms.force)) {
+            *r -= f * load.force;
+        }
+    }
+
+    #[cold]
     fn add_transverse(
         &self,
         terms: &Terms<T>,

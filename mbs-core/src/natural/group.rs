@@ -2,7 +2,7 @@
 //! the algebra; its block is dense over its own coordinates.
 
 use crate::Real;
-use crate::algebra::{Coef, Vector, add_to, load};
+use crate::algebra::Coef;
 use crate::elements::Span;
 use crate::model::Owner;
 
@@ -46,12 +46,22 @@ pub(crate) fn add_mass_product<T: Real, const D: usize>(
     y: &mut [T],
 ) {
     let nb = clique.len() / D;
-    for i in 0..nb {
-        let mut sum = Vector::<T, D>::zeros();
-        for j in 0..nb {
-            sum += g[i * nb + j].apply(&load::<T, D>(x, clique[j * D]));
+    let g = &g[..nb * nb];
+    let y = &mut y[..nb * D];
+    for j in 0..nb {
+        let at = clique[j * D] as usize;
+        let x = &x[at..at + D];
+        for i in 0..nb {
+            // G is Hermitian: column j is the conjugate of row j, which is contiguous.
+            let c = g[j * nb + i];
+            for a in 0..D {
+                y[i * D + a] += c.re * x[a];
+            }
+            if D == 2 {
+                y[i * D] += c.im * x[1];
+                y[i * D + 1] -= c.im * x[0];
+            }
         }
-        add_to(y, i * D, &sum);
     }
 }
 
@@ -61,17 +71,41 @@ pub(crate) fn packed(k: usize, row: usize, column: usize) -> usize {
     column * k - column * (column + 1) / 2 + row
 }
 
-/// block += w g g^T for the first k entries of g.
+/// block += sum_r w_r g_r g_r^T for the first k entries of each g_r.
 #[inline(always)]
-pub(crate) fn add_rank_one<T: Real>(block: &mut [T], g: &[T], w: T) {
+pub(crate) fn add_squares<T: Real, const R: usize>(
+    block: &mut [T],
+    k: usize,
+    g: [&[T]; R],
+    w: [T; R],
+) {
+    let g = g.map(|g| &g[..k]);
     let mut rest = block;
-    for c in 0..g.len() {
-        let (column, next) = rest.split_at_mut(g.len() - c);
-        let t = g[c] * w;
-        for (b, &gr) in column.iter_mut().zip(&g[c..]) {
-            *b += gr * t;
-        }
+    for c in 0..k {
+        let (column, next) = rest.split_at_mut(k - c);
         rest = next;
+        let g = g.map(|g| &g[c..]);
+        let t: [T; R] = core::array::from_fn(|r| g[r][0] * w[r]);
+        for i in 0..k - c {
+            let mut sum = column[i];
+            for r in 0..R {
+                sum += g[r][i] * t[r];
+            }
+            column[i] = sum;
+        }
+    }
+}
+
+/// y += sum_r w_r g_r over the first k entries of each g_r.
+#[inline(always)]
+pub(crate) fn add_multiples<T: Real, const R: usize>(y: &mut [T], g: [&[T]; R], w: [T; R]) {
+    let g = g.map(|g| &g[..y.len()]);
+    for i in 0..y.len() {
+        let mut sum = y[i];
+        for r in 0..R {
+            sum += g[r][i] * w[r];
+        }
+        y[i] = sum;
     }
 }
 

@@ -4,7 +4,15 @@
 //! [`Reactions`] closes the balance of every body of the scene from them.
 
 mod coordinate;
+mod error;
 mod frame;
+mod load;
 mod measure;
+mod minimum_norm;
+mod peel;
+mod reaction;
+mod wrench;
 
+pub use error::ReactionError;
 pub use measure::Measures;
+pub use reaction::{LARGEST_BLOCK, Reactions};

@@ -33,6 +33,8 @@ const MAX_SWEEPS: u32 = 60;
 pub(super) const RAISE: f64 = 30.0;
 /// A sweep that leaves more than this share of a residual is slow.
 const SLOW: f64 = 0.3;
+/// Sweeps without halving the smallest residual after which positions are given up: what contradicts itself drifts away.
+const PATIENCE: u32 = 10;
 /// Largest held angle of one continuation stage [rad], or slide in scene lengths.
 const STAGE: f64 = 0.25;
 
@@ -142,12 +144,17 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
         self.sigma.fill(T::ZERO);
         self.change.fill(T::ZERO);
         let mut residual = self.largest_position();
-        for _ in 0..MAX_SWEEPS {
-            if residual <= floor {
+        let (mut best, mut idle) = (residual, 0);
+        for sweep in 0..MAX_SWEEPS {
+            if residual <= floor || idle > PATIENCE {
                 break;
             }
             self.load_positions();
-            self.sweep(Level::Position)?;
+            match self.sweep(Level::Position) {
+                // Coordinates that drifted far away drown the mass: that is no lack of inertia.
+                Err(_) if sweep > 0 => break,
+                result => result?,
+            }
             for i in 0..n {
                 s.q[i] -= self.f[i];
                 self.change[i] -= self.f[i];
@@ -160,6 +167,11 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
             residual = left;
             if stalls && residual <= self.length * accepted() {
                 break;
+            }
+            if left < best * T::HALF {
+                (best, idle) = (left, 0);
+            } else {
+                idle += 1;
             }
         }
         if residual <= self.length * accepted::<T>()

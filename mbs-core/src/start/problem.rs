@@ -123,8 +123,8 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
     }
 
     fn gradient(&self, h: usize) -> &[T] {
-        let start: usize = self.spans[..h].iter().map(|s| s.len()).sum();
-        &self.gradients[start..start + self.spans[h].len()]
+        // Holds come first among the cliques, so that the gradients stand at the same places.
+        self.spans[h].of(&self.gradients)
     }
 
     pub(super) fn acts(&self, h: usize, level: Level) -> bool {
@@ -188,7 +188,8 @@ impl<T: Real, const D: usize> BlockSource<T> for Sweep<'_, '_, T, D> {
         if extra >= p.holds.len() {
             block[0] = p.lent_mass;
         } else if p.acts(extra, self.level) {
-            crate::natural::add_rank_one(block, p.gradient(extra), p.hold_mass);
+            let g = p.gradient(extra);
+            crate::natural::add_squares(block, g.len(), [g], [p.hold_mass]);
         }
     }
 

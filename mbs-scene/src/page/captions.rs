@@ -1,14 +1,21 @@
 //! The sentence under each plot.
 
 use crate::record::{EnergySeries, IterationSeries, ViolationSeries};
+use crate::write::readable;
 
 pub(super) fn energy_error(series: &EnergySeries) -> String {
     let Some((time, value)) = peak(&series.times, &series.invariant_error) else {
         return String::new();
     };
+    if value == 0.0 {
+        return "The energy invariant Pi = T + V - work of dampers, forces and guides stayed where it was, \
+                to the last digit."
+            .to_owned();
+    }
+    let time = readable(time);
     format!(
         "How far the energy invariant Pi = T + V - work of dampers, forces and guides is from its \
-         start: at most {value:.3e} J, at t = {time:.4} s. A drift grows; rounding scatters."
+         start: at most {value:.3e} J, at t = {time} s. A drift grows; rounding scatters."
     )
 }
 
@@ -22,8 +29,8 @@ pub(super) fn violation(series: &ViolationSeries) -> String {
     let largest = |values| peak(&series.times, values).map_or(0.0, |(_, value)| value);
     format!(
         "How far the constraints are from being met, largest residual at each level: position {:.1e} \
-         m, velocity {:.1e} m/s, acceleration {:.1e} m/s^2 (or rad). Zeros are not drawn on this \
-         logarithmic axis of at most sixteen decades.",
+         m, velocity {:.1e} m/s, acceleration {:.1e} m/s^2 (or rad). The lines are upper edges; zeros have \
+         no place on a logarithmic axis, which shows sixteen decades at most.",
         largest(&series.position),
         largest(&series.velocity),
         largest(&series.acceleration)
@@ -36,11 +43,12 @@ pub(super) fn iterations(series: &IterationSeries) -> String {
     let most = series.counts.iter().max().copied().unwrap_or(0);
     #[allow(clippy::cast_precision_loss, reason = "a mean for reading")]
     let mean = sum as f64 / n as f64;
-    format!("Newton iterations of each step: {mean:.2} on average, {most} at most.")
+    format!(
+        "Newton iterations of each step: {mean:.2} on average, {most} at most. The line is an upper edge."
+    )
 }
 
 pub(super) fn channel(names: &[&str], unit: &str) -> String {
-    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     let verb = if names.len() == 1 { "Output" } else { "Outputs" };
     format!("{verb} {} over time [{unit}].", names.join(", "))
 }

@@ -1,8 +1,9 @@
 //! The data of the page as compact JSON.
 
 use crate::page::captions;
-use crate::page::decimate::{kept, rounded, spread};
+use crate::page::decimate::{envelope, kept, spread};
 use crate::record::{Animation, ChannelSeries, RunRecord};
+use crate::write::rounded;
 use serde::Serialize;
 
 /// Significant digits of what is drawn; a screen resolves four.
@@ -31,6 +32,7 @@ struct Motion<'a> {
     frames: Vec<Vec<f64>>,
     bodies: Vec<(&'a str, &'a [Vec<usize>])>,
     ground: &'a [[f64; 3]],
+    rails: &'a [[[f64; 3]; 2]],
     traces: Vec<(&'a str, usize)>,
 }
 
@@ -88,13 +90,23 @@ fn motion(animation: &Animation) -> Motion<'_> {
         frames: indices.iter().map(frame).collect(),
         bodies: animation.bodies.iter().map(|b| (b.name.as_str(), b.chains.as_slice())).collect(),
         ground: &animation.ground,
+        rails: &animation.rails,
         traces: animation.traces.iter().map(|trace| (trace.name.as_str(), trace.point)).collect(),
     }
 }
 
 fn line(name: &str, times: &[f64], values: &[f64]) -> Line {
     let n = times.len().min(values.len());
-    let indices = kept(&values[..n]);
+    thinned(name, (times, values), &kept(&values[..n]))
+}
+
+/// The upper edge only: what a residual falls to between its peaks says nothing.
+fn upper_edge(name: &str, times: &[f64], values: &[f64]) -> Line {
+    let n = times.len().min(values.len());
+    thinned(name, (times, values), &envelope(&values[..n]))
+}
+
+fn thinned(name: &str, (times, values): (&[f64], &[f64]), indices: &[usize]) -> Line {
     Line {
         name: name.to_owned(),
         t: indices.iter().map(|i| rounded(times[*i], TIME_DIGITS)).collect(),
@@ -156,16 +168,16 @@ fn health_panels(record: &RunRecord) -> Vec<Panel> {
     }
     if let Some(violation) = &record.violation {
         let lines = vec![
-            line("position", &violation.times, &violation.position),
-            line("velocity", &violation.times, &violation.velocity),
-            line("acceleration", &violation.times, &violation.acceleration),
+            upper_edge("position", &violation.times, &violation.position),
+            upper_edge("velocity", &violation.times, &violation.velocity),
+            upper_edge("acceleration", &violation.times, &violation.acceleration),
         ];
         let caption = captions::violation(violation);
         add("constraint violation", "m, m/s, m/s^2 (rad, ...)", caption, lines);
     }
     if let Some(iterations) = &record.iterations {
         let counts: Vec<f64> = iterations.counts.iter().map(|count| f64::from(*count)).collect();
-        let lines = vec![line("iterations", &iterations.times, &counts)];
+        let lines = vec![upper_edge("iterations", &iterations.times, &counts)];
         add("Newton iterations", "per step", captions::iterations(iterations), lines);
     }
     for panel in &mut panels {

@@ -1,4 +1,4 @@
-//! Thinning of series so that peaks survive, and rounding of numbers for compact pages.
+//! Thinning of series so that peaks survive.
 
 /// Most points of a line.
 pub(super) const MOST: usize = 1500;
@@ -28,20 +28,30 @@ pub(super) fn kept(values: &[f64]) -> Vec<usize> {
     indices
 }
 
+/// Stretches of an upper edge.
+const EDGE: usize = 240;
+
+/// Indices of the first value, of the largest of each of 240 stretches, and of the last.
+pub(super) fn envelope(values: &[f64]) -> Vec<usize> {
+    if values.len() <= EDGE {
+        return (0..values.len()).collect();
+    }
+    let mut indices = vec![0];
+    for stretch in 0..EDGE {
+        let range = stretch * values.len() / EDGE..(stretch + 1) * values.len() / EDGE;
+        indices.extend(range.max_by(|i, j| values[*i].total_cmp(&values[*j])));
+    }
+    indices.push(values.len() - 1);
+    indices.dedup();
+    indices
+}
+
 /// Evenly spread indices, the first and the last among them.
 pub(super) fn spread(n: usize) -> Vec<usize> {
     if n <= MOST {
         return (0..n).collect();
     }
     (0..MOST).map(|i| i * (n - 1) / (MOST - 1)).collect()
-}
-
-/// Rounds to so many significant digits, which shortens the decimal text.
-pub(super) fn rounded(x: f64, digits: usize) -> f64 {
-    if !x.is_finite() {
-        return x;
-    }
-    format!("{x:.*e}", digits.saturating_sub(1)).parse().unwrap_or(x)
 }
 
 #[cfg(test)]
@@ -63,16 +73,20 @@ mod tests {
     }
 
     #[test]
+    fn the_upper_edge_keeps_every_peak_and_drops_the_dips() {
+        let mut values: Vec<f64> = (0..24_000).map(|i| f64::from(i % 7)).collect();
+        values[12_345] = 9.0;
+        let indices = envelope(&values);
+        assert!(indices.len() <= EDGE + 2 && indices.contains(&12_345));
+        let inner = &indices[1..indices.len() - 1];
+        assert!(inner.iter().all(|i| values[*i] >= 6.0));
+    }
+
+    #[test]
     fn short_series_are_kept_whole() {
         assert_eq!(kept(&[1.0, 2.0, 3.0]), [0, 1, 2]);
         assert_eq!(spread(3), [0, 1, 2]);
         let indices = spread(10_000);
         assert_eq!((indices.len(), indices[0], indices[MOST - 1]), (MOST, 0, 9_999));
-    }
-
-    #[test]
-    fn rounding_keeps_leading_digits() {
-        assert_eq!(rounded(123_456.789, 4).to_bits(), 123_500.0_f64.to_bits());
-        assert!(rounded(f64::NAN, 4).is_nan());
     }
 }

@@ -37,7 +37,13 @@ function makeControls(clock) {
     slider.value = end > start ? (1000 * (t - start)) / (end - start) : 0;
     by("clock").textContent = `${t.toFixed(3)} s`;
   });
-  clock.seek(start);
+  // an address like run.html#t=1.5 opens at that instant
+  const seekAddress = () => {
+    const asked = /[#&]t=([-+.\deE]+)/.exec(location.hash);
+    clock.seek(asked && Number.isFinite(Number(asked[1])) ? Number(asked[1]) : start);
+  };
+  window.addEventListener("hashchange", seekAddress);
+  seekAddress();
 }
 
 function fillTable(id, rows) {
@@ -57,7 +63,7 @@ function fillTable(id, rows) {
   if (data.error !== null) {
     const box = document.getElementById("error");
     box.hidden = false;
-    box.textContent = "The run stopped early: " + data.error;
+    box.textContent = "The run stopped " + data.error;
   }
   const notes = document.getElementById("notes");
   notes.hidden = !data.notes.length;
@@ -66,7 +72,7 @@ function fillTable(id, rows) {
   fillTable("provenance", data.provenance);
 
   const clock = makeClock(data), redraws = [];
-  if (data.motion && data.motion.t.length) {
+  if (data.motion && data.motion.t.length && data.motion.bodies.length) {
     document.getElementById("motion").hidden = false;
     redraws.push(makeMotion(data.motion, clock));
   }

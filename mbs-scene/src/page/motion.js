@@ -33,6 +33,10 @@ function makeMotion(motion, clock) {
   motion.ground.forEach(include);
   const center = low.map((x, k) => (x <= high[k] ? (x + high[k]) / 2 : 0));
   const extent = low.map((x, k) => Math.max(high[k] - x, 0) || 0);
+  let reach = 0;
+  const reaches = (p) => { const r = Math.hypot(...p.map((x, k) => x - center[k])); if (r > reach) reach = r; };
+  motion.frames.forEach((frame) => { for (let i = 0; i * n < frame.length; i++) reaches(point(frame, i)); });
+  motion.ground.forEach((p) => reaches(p.slice(0, n)));
 
   function draw(t) {
     const ratio = window.devicePixelRatio || 1, width = stage.clientWidth, height = stage.clientHeight;
@@ -41,7 +45,7 @@ function makeMotion(motion, clock) {
     pencil.scale(ratio, ratio);
     const colours = getComputedStyle(document.documentElement);
     const colour = (name) => colours.getPropertyValue("--" + name).trim();
-    const ball = Math.hypot(...extent) || 1, flat = 1e-9 + ball * 1e-3;
+    const ball = 2 * reach || 1, flat = 1e-9 + ball * 1e-3;
     const [w, h] = spatial ? [ball, ball] : [Math.max(extent[0], flat), Math.max(extent[1], flat)];
     const scale = Math.min((width - 70) / w, (height - 70) / h);
     const [cx, cy] = project(center);
@@ -66,20 +70,29 @@ function makeMotion(motion, clock) {
       }
       pencil.globalAlpha = 1;
     });
+    motion.rails.forEach(([p, d]) => {
+      const s = (2 * ball) / (Math.hypot(...d) || 1), end = (sign) => place(p.slice(0, n).map((x, k) => x + sign * s * d[k]));
+      pencil.strokeStyle = colour("rule"); pencil.lineWidth = 5;
+      pencil.beginPath(); pencil.moveTo(...end(-1)); pencil.lineTo(...end(1)); pencil.stroke();
+    });
     motion.ground.forEach((p) => support(place(p.slice(0, n)), colour("soft")));
     motion.bodies.forEach(([, chains], at) => {
       pencil.strokeStyle = pencil.fillStyle = colour(`line-${at % 6}`);
       pencil.lineJoin = pencil.lineCap = "round";
       for (const chain of chains) {
-        pencil.lineWidth = 4;
+        // short links have small dots, so that a long chain stays a chain
+        const places = chain.map((i) => place(point(position, i)));
+        const longest = Math.max(...places.slice(1).map((p, k) => Math.hypot(p[0] - places[k][0], p[1] - places[k][1])));
+        const dot = chain.length > 1 ? Math.min(4, Math.max(1.6, 0.3 * longest)) : 6;
+        pencil.lineWidth = Math.min(4, 1.25 * dot);
         pencil.setLineDash(DASHES[at % 6].split(" ").filter(Boolean).map((d) => d * 1.6));
         pencil.beginPath();
-        for (const i of chain) pencil.lineTo(...place(point(position, i)));
+        for (const p of places) pencil.lineTo(...p);
         pencil.stroke();
         pencil.setLineDash([]);
-        for (const i of chain) {
+        for (const p of places) {
           pencil.beginPath();
-          pencil.arc(...place(point(position, i)), chain.length > 1 ? 4 : 6, 0, 7);
+          pencil.arc(...p, dot, 0, 7);
           pencil.fill();
         }
       }
@@ -125,7 +138,9 @@ function makeMotion(motion, clock) {
     return [swatch, `path of ${name}`];
   }
   document.getElementById("motion-caption").textContent =
-    "The mechanism as lines between its points; triangles are fixed to the ground." +
+    "The mechanism as lines between its points" +
+    (motion.ground.length ? "; triangles are fixed to the ground" : "") +
+    (motion.rails.length ? "; grey bars are fixed guides." : ".") +
     (motion.traces.length ? " Faint lines are paths over the whole run, strong ones up to now." : "") +
     (spatial ? " Drag to turn; the picture has no perspective." : "");
   if (spatial) turning();

@@ -103,6 +103,10 @@ function makePlot(panel, clock, parent) {
     y = (v) => area.bottom - ((Math.max(v, low) - low) / (high - low)) * (area.bottom - area.top);
     axes(width, height);
     lines.forEach((line, i) => trace(line, i));
+    if (lines.every((line) => line.y.every((v) => v === null))) {
+      const empty = element("text", { x: (area.left + area.right) / 2, y: (area.top + area.bottom) / 2, "text-anchor": "middle" }, svg);
+      empty.textContent = panel.log && panel.lines.some((line) => line.y.some((v) => v === 0)) ? "zero throughout" : "no numbers to draw";
+    }
     now = element("line", { class: "now", y1: area.top, y2: area.bottom }, svg);
     cursor = element("line", { class: "cursor", y1: area.top, y2: area.bottom, visibility: "hidden" }, svg);
     setNow(clock.now());

@@ -3,7 +3,7 @@
 use crate::read::Place;
 use crate::read::nearest::nearest;
 use core::fmt::{self, Display, Formatter, Write};
-use mbs_core::scene::SceneError;
+use mbs_core::scene::{Entry, SceneError, SceneFault};
 
 /// A refused scene file: the fault, its place, and what to do.
 #[derive(Debug, Clone, PartialEq)]
@@ -167,6 +167,12 @@ impl Display for ReadFault {
             Self::NotFinite { text } => write!(f, "`{text}` is not a finite number"),
             Self::Missing { key } => write!(f, "`{key}` is missing"),
             Self::Both { keys: [one, other] } => write!(f, "both `{one}` and `{other}` are given"),
+            Self::Scene(SceneError { entry, fault: SceneFault::DuplicateName(first), .. }) => {
+                write!(f, "this name is already that of {}", numbered(*entry, *first))
+            }
+            Self::Scene(SceneError { entry, field, fault: SceneFault::GivenTwice(first) }) => {
+                write!(f, "`{field}` is already prescribed by {}", numbered(*entry, *first))
+            }
             Self::Scene(error) => write!(f, "`{}` {:#}", error.field, error.fault),
         }
     }
@@ -190,6 +196,13 @@ impl ReadFault {
                 format!("write {needed}, in the order of the format")
             }
             Self::NotFinite { .. } => "write a finite decimal number".to_owned(),
+            Self::Missing { key: "[scene]" } => {
+                "add a table [scene] with `dimension` and `duration`".to_owned()
+            }
+            Self::Missing { key: "dimension" } => {
+                "add `dimension = 2` (planar) or `dimension = 3` (spatial)".to_owned()
+            }
+            Self::Missing { key: "duration" } => "add `duration`, in seconds".to_owned(),
             Self::Missing { key } => format!("add `{key}`"),
             Self::Both { .. } => "keep one of the two".to_owned(),
             Self::Scene(error) => error.fault.advice().to_owned(),
@@ -197,7 +210,22 @@ impl ReadFault {
     }
 }
 
-fn suggestion<S: AsRef<str>>(found: &str, known: &[S], what: &str) -> String {
+/// Entry number `index` (from 0) of the same table as `entry`.
+fn numbered(entry: Entry, index: usize) -> Entry {
+    match entry {
+        Entry::Body(_) => Entry::Body(index),
+        Entry::Joint(_) => Entry::Joint(index),
+        Entry::Initial(_) => Entry::Initial(index),
+        Entry::Guide(_) => Entry::Guide(index),
+        Entry::Effect(_) => Entry::Effect(index),
+        Entry::Output(_) => Entry::Output(index),
+        Entry::Scene | Entry::Solver => entry,
+    }
+}
+
+/// What to say about a word that is not in a list: the nearest, or all.
+#[must_use]
+pub fn suggestion<S: AsRef<str>>(found: &str, known: &[S], what: &str) -> String {
     match nearest(found, known) {
         Some(name) => format!("did you mean `{name}`?"),
         None => listing(known, what),

@@ -15,5 +15,5 @@ mod tests;
 mod tree;
 
 pub use document::Document;
-pub use error::{ReadError, ReadFault};
+pub use error::{ReadError, ReadFault, suggestion};
 pub use place::Place;

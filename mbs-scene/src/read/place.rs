@@ -34,22 +34,37 @@ impl Place {
     /// `file:line:column: message`, the line with carets under the offending text, and the hint.
     #[must_use]
     pub fn render(&self, file: &str, message: &str, hint: &str) -> String {
+        let Self { column, width, text, .. } = &self.shortened();
         let number = self.line.to_string();
         let margin = " ".repeat(number.len());
         // tabs stay tabs, so that the caret stands under its text in any terminal
-        let indent: String = self
-            .text
-            .chars()
-            .take(self.column - 1)
-            .map(|c| if c == '\t' { '\t' } else { ' ' })
-            .collect();
+        let indent: String =
+            text.chars().take(column - 1).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
         let mut out = format!("{file}:{number}:{}: {message}\n", self.column);
-        out += &format!("{number} | {}\n", self.text);
-        out += &format!("{margin} | {indent}{}\n", "^".repeat(self.width));
+        out += &format!("{number} | {text}\n");
+        out += &format!("{margin} | {indent}{}\n", "^".repeat(*width));
         if !hint.is_empty() {
             out += &format!("hint: {hint}\n");
         }
         out
+    }
+
+    /// The same for a screen: without control characters, and long lines cut to what surrounds the offending text.
+    fn shortened(&self) -> Self {
+        const MOST: usize = 120;
+        const BEFORE: usize = 40;
+        let plain = |c: char| if c.is_control() && c != '\t' { '\u{fffd}' } else { c };
+        let n = self.text.chars().count();
+        if n <= MOST {
+            return Self { text: self.text.chars().map(plain).collect(), ..self.clone() };
+        }
+        let first = (self.column - 1).saturating_sub(BEFORE);
+        let (head, tail) =
+            (if first > 0 { "..." } else { "" }, if first + MOST < n { "..." } else { "" });
+        let cut: String = self.text.chars().skip(first).take(MOST).map(plain).collect();
+        let column = self.column - first + head.len();
+        let width = self.width.min(MOST + head.len() + 1 - column.min(MOST)).max(1);
+        Self { line: self.line, column, width, text: format!("{head}{cut}{tail}") }
     }
 }
 

@@ -257,7 +257,7 @@ fn scenes_that_cannot_be_meant_are_refused_at_the_value() {
     let e = spoiled("mass = 1.0\ncenter", "mass = -1.0\ncenter");
     refused(&e, "14:8", "`mass` must not be negative, but is -1", "zero or more");
     let e = spoiled("name = \"lower\"", "name = \"upper\"");
-    refused(&e, "13:8", "`name` repeats the name of number 1", "own name");
+    refused(&e, "13:8", "this name is already that of joint 1", "own name");
     let e = spoiled("[\"ground\", \"upper\"]", "[\"upper\", \"upper\"]");
     refused(&e, "21:10", "`bodies` has the same body twice", "two different bodies");
     let e = spoiled("to = [1.0, 0.0] }", "to = [0.0, 0.0] }");

@@ -2,8 +2,11 @@
 
 mod csv;
 mod json;
+mod readable;
 #[cfg(test)]
 mod tests;
 
 pub use csv::CsvWriter;
 pub use json::{Chosen, EnergySummary, Outputs, RunError, RunSummary, ViolationSummary};
+pub use readable::readable;
+pub(crate) use readable::rounded;

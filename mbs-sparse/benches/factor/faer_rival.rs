@@ -4,7 +4,6 @@
 //! upper triangle in compressed columns; slot[t] = place of packed entry t of all blocks in turn
 //! ```
 
-use crate::common::Sum;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::sparse::linalg::SupernodalThreshold;
@@ -13,7 +12,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side};
-use mbs_sparse::BlockSource;
+use mbs_sparse::{BlockSource, Cliques};
 
 pub(crate) struct Rival {
     pattern: SymbolicSparseColMat<usize>,
@@ -26,9 +25,11 @@ pub(crate) struct Rival {
 }
 
 impl Rival {
-    pub(crate) fn analyse(sum: &Sum) -> Self {
+    pub(crate) fn analyse(sum: &impl Cliques) -> Self {
+        let n = sum.n_unknowns();
         let mut entries: Vec<(usize, usize)> = Vec::new();
-        for clique in &sum.cliques {
+        for e in 0..sum.n_elements() {
+            let clique = sum.clique(e);
             for (j, &a) in clique.iter().enumerate() {
                 entries.extend(clique[j..].iter().map(|&b| (a.max(b) as usize, a.min(b) as usize)));
             }
@@ -37,15 +38,15 @@ impl Rival {
         distinct.sort_unstable();
         distinct.dedup();
         let slots = entries.iter().map(|e| distinct.binary_search(e).expect("listed")).collect();
-        let mut start = vec![0; sum.n + 1];
+        let mut start = vec![0; n + 1];
         for &(col, _) in &distinct {
             start[col + 1] += 1;
         }
-        for i in 0..sum.n {
+        for i in 0..n {
             start[i + 1] += start[i];
         }
         let rows = distinct.iter().map(|&(_, row)| row).collect();
-        let pattern = SymbolicSparseColMat::new_checked(sum.n, sum.n, start, None, rows);
+        let pattern = SymbolicSparseColMat::new_checked(n, n, start, None, rows);
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SIMPLICIAL,
             ..CholeskySymbolicParams::default()
@@ -57,7 +58,7 @@ impl Rival {
             symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()),
             symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
         );
-        let mut rival = Self {
+        Self {
             values: vec![0.0; distinct.len()],
             pattern,
             slots,
@@ -65,22 +66,26 @@ impl Rival {
             factor: vec![0.0; symbolic.len_val()],
             symbolic,
             memory: MemBuffer::new(scratch),
-        };
-        rival.assemble(sum);
-        rival
+        }
     }
 
-    pub(crate) fn assemble(&mut self, sum: &Sum) {
+    pub(crate) fn assemble(&mut self, cliques: &impl Cliques, source: &impl BlockSource<f64>) {
         self.values.fill(0.0);
         let mut slots = self.slots.iter();
-        for (e, clique) in sum.cliques.iter().enumerate() {
-            let k = clique.len();
+        for e in 0..cliques.n_elements() {
+            let k = cliques.clique(e).len();
             let block = &mut self.block[..k * (k + 1) / 2];
-            sum.write_block(e, block);
+            source.write_block(e, block);
             for (&value, &slot) in block.iter().zip(&mut slots) {
                 self.values[slot] += value;
             }
         }
+    }
+
+    /// Stored entries of the factor.
+    #[allow(dead_code, reason = "only one of the benchmarks prints it")]
+    pub(crate) fn n_entries(&self) -> usize {
+        self.factor.len()
     }
 
     pub(crate) fn factor_and_solve(&mut self, x: &mut [f64]) {

@@ -3,16 +3,25 @@
 mod run;
 mod table;
 
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
 
-/// Dynamics of multibody systems.
+/// Dynamics of multibody systems: a scene file in; motion, energies and plots out.
 #[derive(Debug, Parser)]
-#[command(name = "mbs", version, about, arg_required_else_help = true)]
+#[command(name = "mbs", version, about = ABOUT, arg_required_else_help = true, after_help = STATUS)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
 }
+
+const ABOUT: &str =
+    "Dynamics of multibody systems: a scene file in; motion, energies and plots out.";
+const STATUS: &str = "\
+Example: mbs run scenes/double-pendulum.toml --out out
+Exit status: 0 completed, 1 scene or usage refused, 2 the run stopped early (its data are kept).";
+/// Commands of the format's contract that are not built yet.
+const NOT_BUILT: [&str; 5] = ["explain", "compare", "doctor", "sweep", "export"];
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -32,12 +41,27 @@ pub(crate) fn main() -> ExitCode {
         Err(error) => {
             // Help and version are no refusals; a closed pipe is none of our business.
             let _ = error.print();
+            if let Some(hint) = hint(&error) {
+                eprintln!("\nhint: {hint}");
+            }
             return ExitCode::from(if error.use_stderr() { REFUSED } else { 0 });
         }
     };
     match cli.command {
         Command::Run(arguments) => run::main(&arguments),
     }
+}
+
+/// What to say about a command that is none.
+fn hint(error: &clap::Error) -> Option<String> {
+    let word = match (error.kind(), error.get(ContextKind::InvalidSubcommand)) {
+        (ErrorKind::InvalidSubcommand, Some(ContextValue::String(word))) => word,
+        _ => return None,
+    };
+    if NOT_BUILT.contains(&word.as_str()) {
+        return Some(format!("`mbs {word}` is not built yet; `mbs run` is"));
+    }
+    std::path::Path::new(word).exists().then(|| format!("to run a scene, write `mbs run {word}`"))
 }
 
 /// Writes a refusal to standard error.

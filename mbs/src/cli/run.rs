@@ -3,10 +3,10 @@
 use super::{STOPPED, refuse, table};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use mbs::{Outcome, Overrides, Precision, Progress, Settings, SettingsError};
+use mbs::{Outcome, Overrides, Precision, Progress, Settings, SettingsError, words};
 use mbs_core::Real;
 use mbs_core::scene::{Dimension, Entry, Scene};
-use mbs_scene::{Document, Provenance};
+use mbs_scene::{Document, Provenance, readable};
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -16,10 +16,10 @@ use std::process::ExitCode;
 pub(crate) struct Arguments {
     /// Scene file (TOML).
     scene: PathBuf,
-    /// auto, index-1, index-3.
+    /// auto, index-1, index-3; like the options below: left out, the scene's, else auto.
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
-    /// Step [s].
+    /// Step [s]; else 0.001.
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
     step: Option<f64>,
     /// Duration [s].
@@ -28,10 +28,10 @@ pub(crate) struct Arguments {
     /// Fixed penalty alpha: N/m in index-3, kg in index-1 (left out: in proportion to the mass).
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     penalty: Option<f64>,
-    /// Newton tolerance, relative to the scene's length.
+    /// Newton tolerance, relative to the scene's length; else 1e-10.
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
     tolerance: Option<f64>,
-    /// Threads (1 for now).
+    /// Threads; runs have one so far.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
     /// Directory for run.csv, run.json and run.html; made if missing.
@@ -40,10 +40,10 @@ pub(crate) struct Arguments {
     /// One JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
-    /// f32, f64.
+    /// f32, f64; left out: f64.
     #[arg(long, value_name = "P")]
     precision: Option<String>,
-    /// trapezoidal, newmark, generalised-alpha, hht.
+    /// trapezoidal, newmark, generalised-alpha, hht; else trapezoidal.
     #[arg(long, value_name = "I")]
     integrator: Option<String>,
     /// Wanted error (not built).
@@ -86,17 +86,13 @@ impl Arguments {
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     if let Some(option) = arguments.not_built() {
         return refuse(&format!(
-            "error: {option} is not built\nhint: leave it out; give --step instead"
+            "error: {option} is not built yet\nhint: leave it out; give --step instead"
         ));
     }
     let file = arguments.scene.display().to_string();
     let bytes = match std::fs::read(&arguments.scene) {
         Ok(bytes) => bytes,
-        Err(error) => {
-            return refuse(&format!(
-                "error: cannot read `{file}`: {error}\nhint: give the path of a scene file"
-            ));
-        }
+        Err(error) => return refuse(&unreadable(&arguments.scene, &error)),
     };
     let document = match Document::from_bytes(&bytes, &file) {
         Ok(document) => document,
@@ -110,6 +106,12 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         Ok(settings) => settings,
         Err(error) => return refuse(&explain(&error, &document)),
     };
+    // Before the run: what cannot be written should not be computed.
+    if let Some(out) = &arguments.out
+        && let Err(error) = prepare(out)
+    {
+        return refuse(&unwritable(out, &error));
+    }
     let outcome = match settings.precision {
         Precision::F64 => dispatch(&scene, &settings, arguments),
         Precision::F32 => match document.scene::<f32>() {
@@ -135,9 +137,9 @@ fn explain(error: &SettingsError, document: &Document) -> String {
     match error {
         SettingsError::NotBuilt { key, from_scene: true, .. } => {
             let place = document.place(Entry::Solver, key);
-            place.render(document.file(), &error.to_string(), "use one of those that are built")
+            place.render(document.file(), &error.to_string(), &error.hint())
         }
-        _ => format!("error: {error}"),
+        _ => format!("error: {error}\nhint: {}", error.hint()),
     }
 }
 
@@ -151,7 +153,7 @@ fn report(
     if let Some(out) = &arguments.out
         && let Err(error) = write_files(outcome, out, arguments, settings)
     {
-        return refuse(&format!("error: cannot write to `{}`: {error}", out.display()));
+        return refuse(&unwritable(out, &error));
     }
     let text = if arguments.json {
         outcome.summary.to_json()
@@ -159,7 +161,9 @@ fn report(
         table::text(outcome, arguments.out.as_deref())
     };
     // A reader that has gone away is no error of the run.
-    let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
+    if !text.is_empty() {
+        let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
+    }
     let Some(error) = &outcome.error else { return ExitCode::SUCCESS };
     if !arguments.json {
         eprint!("{}", stopped(outcome, error, document));
@@ -170,22 +174,47 @@ fn report(
 /// The error of a run that stopped, with the place in the scene that it is about.
 fn stopped(outcome: &Outcome, error: &mbs::StopError, document: &Document) -> String {
     let Some(report) = &outcome.summary.error else { return String::new() };
-    let named = |label: &str, name: &Option<String>| {
-        name.as_ref().map(|n| format!(" ({label} `{n}`)")).unwrap_or_default()
+    let message = format!("stopped {}: {}", words::stopped_at(report), report.message);
+    let Some(entry) = error.entry() else {
+        return format!("{}: {message}\nhint: {}\n", document.file(), report.hint);
     };
-    let whose = if report.joint.is_some() {
-        named("joint", &report.joint)
+    // A key that is not written has the place of its entry's header.
+    let header = document.place(entry, "");
+    let places = error.fields().iter().map(|field| document.place(entry, field));
+    let place = places.into_iter().find(|place| *place != header).unwrap_or(header);
+    place.render(document.file(), &message, &report.hint)
+}
+
+/// The message for a scene file that cannot be read.
+fn unreadable(scene: &Path, error: &std::io::Error) -> String {
+    let with_ending = scene.with_extension("toml");
+    let hint = if scene.is_dir() {
+        "that is a directory; give a scene file in it".to_owned()
+    } else if with_ending.is_file() {
+        format!("did you mean `{}`?", with_ending.display())
     } else {
-        named("body", &report.body)
+        "give the path of a scene file; it ends with .toml".to_owned()
     };
-    let message = format!("stopped at t = {} s{whose}: {}", report.time, report.message);
-    match error.entry() {
-        Some(entry) => {
-            let field = if matches!(entry, Entry::Initial(_)) { "joint" } else { "name" };
-            document.place(entry, field).render(document.file(), &message, &report.hint)
-        }
-        None => format!("{message}\nhint: {}\n", report.hint),
-    }
+    format!("error: cannot read `{}`: {}\nhint: {hint}", scene.display(), plain(error))
+}
+
+fn unwritable(out: &Path, error: &std::io::Error) -> String {
+    let (out, error) = (out.display(), plain(error));
+    format!(
+        "error: cannot write to `{out}`: {error}\nhint: give a directory that can be made or written with --out"
+    )
+}
+
+/// The system's words without the number of the error.
+fn plain(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or_default().to_lowercase()
+}
+
+/// Makes the directory and tries to write there.
+fn prepare(out: &Path) -> std::io::Result<()> {
+    std::fs::create_dir_all(out)?;
+    std::fs::File::create(out.join("run.csv")).map(drop)
 }
 
 fn write_files(
@@ -194,7 +223,6 @@ fn write_files(
     arguments: &Arguments,
     settings: &Settings,
 ) -> std::io::Result<()> {
-    std::fs::create_dir_all(out)?;
     outcome.write_csv(std::io::BufWriter::new(std::fs::File::create(out.join("run.csv"))?))?;
     std::fs::write(out.join("run.json"), outcome.summary.to_json() + "\n")?;
     std::fs::write(out.join("run.html"), outcome.page(provenance(arguments, settings)))
@@ -220,7 +248,7 @@ fn provenance(arguments: &Arguments, settings: &Settings) -> Provenance {
         precision: settings.precision.name().to_owned(),
         formulation: settings.formulation.name().to_owned(),
         integrator: settings.integrator.name().to_owned(),
-        step: format!("{} s", settings.step),
+        step: format!("{} s", readable(settings.step)),
         version: format!("mbs {}", env!("CARGO_PKG_VERSION")),
         cpu: processor(),
     }
@@ -250,7 +278,9 @@ impl Bar {
             ProgressDrawTarget::stderr()
         };
         let bar = ProgressBar::with_draw_target(Some(1000), target);
-        if let Ok(style) = ProgressStyle::with_template("{wide_bar} {percent:>3} %  {eta} left") {
+        if let Ok(style) =
+            ProgressStyle::with_template("{wide_bar} {percent:>3} %  {msg}  {eta} left")
+        {
             bar.set_style(style);
         }
         Self { bar, duration }
@@ -267,6 +297,11 @@ impl Progress for Bar {
         let ticks = (t / self.duration * TICKS).clamp(0.0, TICKS) as u64;
         if ticks != self.bar.position() {
             self.bar.set_position(ticks);
+            self.bar.set_message(format!(
+                "t = {} of {} s",
+                words::time(t),
+                readable(self.duration)
+            ));
         }
     }
 }

@@ -1,60 +1,87 @@
 //! The short table at the end of a run.
 
-use mbs::Outcome;
+use mbs::{Outcome, words};
+use mbs_scene::{RunSummary, readable};
 use std::fmt::Write;
 use std::path::Path;
 
 /// Summary, outputs and notes as text.
 pub(crate) fn text(outcome: &Outcome, out: Option<&Path>) -> String {
     let s = &outcome.summary;
-    let formulation = s.chosen.as_ref().map_or(s.formulation.as_str(), |c| c.formulation.as_str());
-    let mut text = format!(
-        "{}: {formulation}, {}, step {} s, {} steps to t = {} s{}\n",
-        s.scene,
-        s.precision,
-        s.step,
-        s.steps,
-        s.end_time,
-        if s.completed { "" } else { " (stopped)" }
-    );
-    let mut row = |label: &str, value: String| {
+    let mut text = String::new();
+    let mut line = |line: String| {
         // Writing into a String has nothing to fail on.
-        let _ = writeln!(text, "  {label:<24} {value}");
+        let _ = writeln!(text, "{line}");
     };
-    row(
-        "degrees of freedom",
-        format!(
-            "{} ({} coordinates, {} constraints of rank {})",
-            s.dof, s.coordinates, s.constraints, s.constraint_rank
-        ),
-    );
-    row("largest energy error", format!("{:.3e} J", s.energy.max_error));
-    row(
-        "largest violation",
-        format!(
-            "{:.1e} m, {:.1e} m/s, {:.1e} m/s^2",
-            s.violation.position, s.violation.velocity, s.violation.acceleration
-        ),
-    );
-    row("iterations", format!("{} ({} factorisations)", s.iterations, s.factorizations));
-    row(
-        "CPU time of the steps",
-        format!(
-            "{:.4} s, {:.0} times real time, slowest step {:.1} us",
-            s.cpu_seconds,
-            s.real_time_factor,
-            s.worst_step_seconds * 1e6
-        ),
-    );
-    for (name, values) in &s.outputs.0 {
-        let values: Vec<String> = values.iter().map(|v| format!("{v:.9}")).collect();
-        row(name, values.join("  "));
+    if s.coordinates > 0 || s.completed {
+        line(headline(s));
+        for (label, value) in rows(s) {
+            line(format!("  {label:<24} {value}"));
+        }
     }
     for note in outcome.notes() {
-        let _ = writeln!(text, "note: {note}");
+        line(format!("note: {note}"));
     }
     if let Some(out) = out {
-        let _ = writeln!(text, "wrote run.csv, run.json and run.html to {}", out.display());
+        line(format!("wrote run.csv, run.json and run.html to {}", out.display()));
     }
     text
+}
+
+fn headline(s: &RunSummary) -> String {
+    let formulation = s.chosen.as_ref().map_or(s.formulation.as_str(), |c| c.formulation.as_str());
+    format!(
+        "{}: {formulation}, {}, {} of {} s to t = {} s{}",
+        s.scene,
+        s.precision,
+        counted(s.steps, "step"),
+        readable(s.step),
+        readable(s.end_time),
+        if s.completed { "" } else { " (stopped)" }
+    )
+}
+
+fn rows(s: &RunSummary) -> Vec<(&str, String)> {
+    let mut rows = vec![
+        (
+            "degrees of freedom",
+            format!(
+                "{} ({}, {} of rank {})",
+                s.dof,
+                counted(s.coordinates as u64, "coordinate"),
+                counted(s.constraints as u64, "constraint"),
+                s.constraint_rank
+            ),
+        ),
+        ("largest energy error", format!("{} J", words::size(s.energy.max_error))),
+        ("largest violation", words::violation(s)),
+        ("iterations", format!("{} ({} factorisations)", s.iterations, s.factorizations)),
+        (
+            "CPU time of the steps",
+            format!(
+                "{}, {:.0} times real time, slowest step {}",
+                words::duration(s.cpu_seconds),
+                s.real_time_factor,
+                words::duration(s.worst_step_seconds)
+            ),
+        ),
+    ];
+    for (name, values) in &s.outputs.0 {
+        let values: Vec<String> = values.iter().map(|v| fixed(*v)).collect();
+        rows.push((name, values.join("  ")));
+    }
+    rows
+}
+
+/// Nine decimals, without a minus before a zero.
+fn fixed(x: f64) -> String {
+    let text = format!("{x:.9}");
+    if text.trim_start_matches('-').chars().all(|c| matches!(c, '0' | '.')) {
+        return "0.000000000".to_owned();
+    }
+    text
+}
+
+fn counted(n: u64, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }

@@ -1,0 +1,19 @@
+//! Where a state remembers the angles of effects.
+
+use super::forces::Gauge;
+use super::model::NaturalModel;
+use crate::Real;
+use crate::model::Owner;
+
+impl<T: Real, const D: usize> NaturalModel<T, D> {
+    /// The place in [`State::memory`](crate::model::State::memory) of the angle that `scene.effects[effect]` measures, with
+    /// its turns; `None` when it measures none.
+    #[must_use]
+    pub fn memory_of_effect(&self, effect: usize) -> Option<usize> {
+        let group = self.groups.iter().find(|group| group.owner == Owner::Effect(effect))?;
+        self.measures[group.measures.range()].iter().find_map(|measure| match measure.gauge {
+            Gauge::Angle { memory, .. } => Some(memory as usize),
+            Gauge::Length { .. } => None,
+        })
+    }
+}

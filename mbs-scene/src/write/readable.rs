@@ -1,0 +1,47 @@
+//! Numbers for people: no digits that say nothing.
+
+/// Significant digits that a message or a table shows.
+const DIGITS: usize = 9;
+
+/// A number with at most nine significant digits and no zeros at its end; powers of ten where it is very large or small.
+///
+/// # Examples
+/// ```
+/// assert_eq!(mbs_scene::readable(0.714_200_000_000_000_1), "0.7142");
+/// assert_eq!(mbs_scene::readable(1.0e-7 / 3.0), "3.33333333e-8");
+/// assert_eq!(mbs_scene::readable(10.0), "10");
+/// ```
+#[must_use]
+pub fn readable(x: f64) -> String {
+    let rounded = rounded(x, DIGITS);
+    let size = rounded.abs();
+    if size == 0.0 {
+        return "0".to_owned();
+    }
+    if (1e-4..1e9).contains(&size) { format!("{rounded}") } else { format!("{rounded:e}") }
+}
+
+/// Rounds to so many significant digits, which shortens the decimal text.
+pub(crate) fn rounded(x: f64, digits: usize) -> f64 {
+    if !x.is_finite() {
+        return x;
+    }
+    format!("{x:.*e}", digits.saturating_sub(1)).parse().unwrap_or(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_keeps_leading_digits() {
+        assert_eq!(rounded(123_456.789, 4).to_bits(), 123_500.0_f64.to_bits());
+        assert!(rounded(f64::NAN, 4).is_nan());
+    }
+
+    #[test]
+    fn numbers_are_short_and_never_lose_their_size() {
+        let texts = [-0.0, 1.0, -2.5e-5, 123_456_789.4, 1e12, f64::NAN].map(readable);
+        assert_eq!(texts, ["0", "1", "-2.5e-5", "123456789", "1e12", "NaN"]);
+    }
+}

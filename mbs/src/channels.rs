@@ -1,0 +1,58 @@
+//! What the channels of a run read: measures, and joint reactions where an output asks for one.
+
+use crate::stop::StopError;
+use mbs_core::Real;
+use mbs_core::model::State;
+use mbs_core::natural::NaturalModel;
+use mbs_core::outputs::{Measures, Reactions};
+use mbs_core::scene::{Quantity, Scene};
+
+/// Measures and reactions of a scene.
+#[derive(Debug)]
+pub(crate) struct Channels<T: Real, const D: usize> {
+    measures: Measures<T, D>,
+    reactions: Option<Reactions<T, D>>,
+    /// Joints whose reaction is an output and was not unique at some row.
+    not_unique: Vec<usize>,
+    asked: Vec<usize>,
+}
+
+impl<T: Real, const D: usize> Channels<T, D> {
+    pub(crate) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, StopError> {
+        let measures = Measures::new(scene, model).map_err(|e| StopError::Start(e.into()))?;
+        let reactions = Reactions::<T, D>::needed(scene)
+            .then(|| Reactions::new(scene, model))
+            .transpose()
+            .map_err(StopError::Reaction)?;
+        let asked = scene.outputs.iter().filter_map(|o| match o.quantity {
+            Quantity::Reaction { joint } => Some(joint),
+            _ => None,
+        });
+        Ok(Self { measures, reactions, not_unique: Vec::new(), asked: asked.collect() })
+    }
+
+    /// Follows angles at every step, so that no turn is lost.
+    pub(crate) fn track(&mut self, state: &State<T>) {
+        self.measures.track(state);
+    }
+
+    /// All components at a state.
+    pub(crate) fn write(&mut self, state: &State<T>, out: &mut [f64]) {
+        if let Some(reactions) = &mut self.reactions {
+            reactions.update(state);
+            for &joint in &self.asked {
+                if !reactions.is_unique(joint) && !self.not_unique.contains(&joint) {
+                    self.not_unique.push(joint);
+                }
+            }
+        }
+        let reactions = &self.reactions;
+        let of = |joint| reactions.as_ref().map_or([T::ZERO; 6], |r| r.reaction(joint));
+        self.measures.write(state, of, out);
+    }
+
+    /// Names of the joints whose reaction was not unique.
+    pub(crate) fn not_unique(&self, scene: &Scene<T>) -> Vec<String> {
+        self.not_unique.iter().map(|&j| scene.joints[j].name.clone()).collect()
+    }
+}

@@ -1,0 +1,130 @@
+//! What is said about a run: rows of a summary, notes, and when and why it stopped.
+
+use crate::settings::Settings;
+use mbs_core::Real;
+use mbs_core::scene::{BodyRef, Scene};
+use mbs_scene::{RunError, RunSummary, readable};
+
+/// Three significant digits: the size is what matters.
+pub(crate) fn few(x: f64) -> String {
+    readable(format!("{x:.2e}").parse().unwrap_or(x))
+}
+
+/// The summary table of a page.
+pub(crate) fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
+    if s.coordinates == 0 && s.error.is_some() {
+        return Vec::new();
+    }
+    let row = |label: &str, value: String| (label.to_owned(), value);
+    vec![
+        row("degrees of freedom", s.dof.to_string()),
+        row(
+            "coordinates, constraints, their rank",
+            format!("{}, {}, {}", s.coordinates, s.constraints, s.constraint_rank),
+        ),
+        row("steps", s.steps.to_string()),
+        row("time reached", format!("{} s", readable(s.end_time))),
+        row("Newton iterations", s.iterations.to_string()),
+        row("factorisations", s.factorizations.to_string()),
+        row("largest energy error", format!("{} J", size(s.energy.max_error))),
+        row("largest violation", violation(s)),
+        row("CPU time of the steps", duration(s.cpu_seconds)),
+        row("times real time", format!("{:.0}", s.real_time_factor)),
+        row("slowest step", duration(s.worst_step_seconds)),
+    ]
+}
+
+/// A size for a table: four digits, and a plain zero.
+#[must_use]
+pub fn size(x: f64) -> String {
+    if x == 0.0 { "0".to_owned() } else { format!("{x:.3e}") }
+}
+
+/// The largest violation at the three levels, for a table.
+#[must_use]
+pub fn violation(s: &RunSummary) -> String {
+    let v = &s.violation;
+    let short = |x: f64| if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") };
+    let [position, velocity, acceleration] = [v.position, v.velocity, v.acceleration].map(short);
+    format!("{position} m, {velocity} m/s, {acceleration} m/s^2 (or rad)")
+}
+
+/// A time span for a table.
+#[must_use]
+pub fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s >= 1.0 => format!("{s:.2} s"),
+        s if s >= 1e-3 => format!("{:.2} ms", s * 1e3),
+        s => format!("{:.1} us", s * 1e6),
+    }
+}
+
+/// When and where a run stopped, why, and what to try, in one sentence each.
+pub(crate) fn stop_text(error: &RunError) -> String {
+    format!("{}: {}. Hint: {}.", stopped_at(error), error.message, error.hint)
+}
+
+/// When and where a run stopped.
+#[must_use]
+pub fn stopped_at(error: &RunError) -> String {
+    let whose = match (&error.joint, &error.body) {
+        (Some(joint), Some(body)) => format!(" (body `{body}`, joint `{joint}`)"),
+        (Some(joint), None) => format!(" (joint `{joint}`)"),
+        (None, Some(body)) => format!(" (body `{body}`)"),
+        (None, None) => String::new(),
+    };
+    format!("at t = {} s{whose}", readable(error.time))
+}
+
+/// What is unusual about a scene, said once.
+pub(crate) fn notes<T: Real>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    s: &RunSummary,
+    change: f64,
+) -> Vec<String> {
+    let mut notes = Vec::new();
+    let redundant = s.constraints - s.constraint_rank;
+    if redundant > 0 {
+        let are = if redundant == 1 { "equation is" } else { "equations are" };
+        notes.push(format!(
+            "{redundant} constraint {are} redundant: the motion is determined, some internal forces are not"
+        ));
+    }
+    if scene.bodies.is_empty() {
+        notes.push("the scene has no body: nothing moves".to_owned());
+    } else if s.dof == 0 && scene.guides.is_empty() {
+        notes.push("no degree of freedom is left and nothing is guided: nothing moves".to_owned());
+    }
+    if settings.step > settings.duration {
+        notes.push(format!(
+            "the step of {} s is longer than the run: there is one step of {} s",
+            readable(settings.step),
+            readable(settings.duration)
+        ));
+    }
+    for (i, body) in scene.bodies.iter().enumerate() {
+        let me = BodyRef::Body(i);
+        if !scene.joints.iter().any(|j| j.bodies.contains(&me)) {
+            notes.push(format!("body `{}` has no joint: it moves freely", body.name));
+        }
+    }
+    if change > 1e-6 {
+        notes.push(format!(
+            "the start differs from the reference configuration by up to {} m (or rad)",
+            few(change)
+        ));
+    }
+    for joint in &s.not_unique {
+        notes.push(format!(
+            "the reaction of joint `{joint}` is not unique: the smallest one is given"
+        ));
+    }
+    notes
+}
+
+/// A time on the way, with as many digits as one can read while it runs.
+#[must_use]
+pub fn time(t: f64) -> String {
+    format!("{t:.3}")
+}
