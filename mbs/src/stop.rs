@@ -98,8 +98,8 @@ impl StopError {
             ) => return Some(Entry::Initial(*i)),
             Self::Start(error) => start_owner(error)?,
             Self::Step(_, owner) => (*owner)?,
-            Self::Reaction(_) => return None,
             Self::Energy { owner, .. } => *owner,
+            Self::Reaction(_) => return None,
         };
         Some(match owner {
             Owner::Body(b) => Entry::Body(b),
@@ -177,8 +177,8 @@ impl StopError {
         let owner = match self {
             Self::Start(error) => start_owner(error),
             Self::Step(_, owner) => *owner,
-            Self::Reaction(_) => None,
             Self::Energy { owner, .. } => Some(*owner),
+            Self::Reaction(_) => None,
         };
         let (joint, body) = owner.map_or((None, None), |o| names.of(o));
         RunError {

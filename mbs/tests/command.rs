@@ -14,17 +14,21 @@ fn scene(name: &str) -> String {
 fn scratch(name: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("command-{name}"));
     let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).unwrap();
+    std::fs::create_dir_all(&path).expect("the scratch directory can be made");
     path
 }
 
 /// `mbs run` with arguments.
 fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_mbs")).arg("run").args(arguments).output().unwrap()
+    Command::new(env!("CARGO_BIN_EXE_mbs"))
+        .arg("run")
+        .args(arguments)
+        .output()
+        .expect("the command is built")
 }
 
 fn status(output: &Output) -> i32 {
-    output.status.code().unwrap()
+    output.status.code().expect("it ended by itself")
 }
 
 /// Standard output as one JSON object and nothing else.
@@ -163,11 +167,14 @@ fn pendulum(replace: &[(&str, &str)]) -> String {
     text
 }
 
+/// What is wrong, how the pendulum is changed for it, and the text to point at.
+type Case<'a> = (&'a str, Vec<(&'a str, &'a str)>, &'a str);
+
 /// Writes a scene file and runs it.
 fn run_text(name: &str, text: &str, arguments: &[&str]) -> (Output, String) {
     let path = scratch(name).join("scene.toml");
-    std::fs::write(&path, text).unwrap();
-    let file = path.to_str().unwrap().to_owned();
+    std::fs::write(&path, text).expect("the scratch directory is ours");
+    let file = path.to_str().expect("a plain path").to_owned();
     (run(&[&[file.as_str()], arguments].concat()), file)
 }
 
@@ -181,8 +188,7 @@ fn scenes_that_cannot_be_meant_are_refused_with_place_and_hint() {
         ("inertia = 0.1", "inertia = [0.1, 0.1, 0.1, 0.0, 0.0, 0.0]"),
     ];
     let thin = "inertia = [0.1, 0.1, 0.5, 0.0, 0.0, 0.0]";
-    // What is wrong, how, and the line and text to point at.
-    let cases: [(&str, Vec<(&str, &str)>, &str); 9] = [
+    let cases: [Case; 9] = [
         ("unknown-key", vec![("mass = 1.0", "mass = 1.0\nmas = 1.0")], "mas = 1.0"),
         ("unknown-body", vec![("\"ground\", \"bar\"", "\"ground\", \"baar\"")], "baar"),
         ("negative-mass", vec![("mass = 1.0", "mass = -1.0")], "mass = -1.0"),

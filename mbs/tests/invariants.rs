@@ -235,8 +235,8 @@ fn apart(
     let points = [first.point(bodies[0], at), second.point(bodies[1], turn(at))];
     let mut off = 0.0;
     for _ in 0..common::steps(RETOLD_DURATION, RETOLD_STEP) {
-        first.step().unwrap();
-        second.step().unwrap();
+        first.step().expect("the motion is regular");
+        second.step().expect("the motion is regular");
         off = worst(off, distance(turn(first.position(&points[0])), second.position(&points[1])));
     }
     off

@@ -267,3 +267,26 @@ fn guided_four_bar_follows_its_closed_form_kinematics_and_inverse_dynamics() {
         assert!(off[2] <= DYNAMICS && off[3] <= DYNAMICS, "{formulation}: {off:?}");
     }
 }
+
+#[test]
+fn guided_four_bar_crank_reaction_carries_the_torque_of_inverse_dynamics() {
+    let scene = common::scene("guided-four-bar");
+    for formulation in FORMULATIONS {
+        let settings = common::settings(&scene, formulation, None);
+        let outcome = mbs::run::<f64, 2>(&scene, &settings, &mut ());
+        assert!(outcome.error.is_none());
+        let fixed = |at| [at, [0.0; 2], [0.0; 2]];
+        let mut off = 0.0;
+        for (t, row) in outcome.rows().iter().skip(1) {
+            let [crank, rocker] = four_bar(*t);
+            let power = rod_power(0.4, &fixed([0.0, 0.0]), &crank)
+                + rod_power(1.0, &crank, &rocker)
+                + rod_power(0.8, &fixed([0.7, 0.0]), &rocker);
+            let torque = power / core::f64::consts::PI;
+            // Three angles, then the two forces and the moment of the crank's pivot.
+            off = worst(off, (row[5] - torque).abs() / (1.0 + torque.abs()));
+        }
+        println!("guided-four-bar {formulation}: moment of the crank reaction {off:.1e}");
+        assert!(off <= DYNAMICS, "{formulation}: {off:e}");
+    }
+}

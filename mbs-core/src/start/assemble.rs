@@ -29,12 +29,12 @@ pub struct Assembled<T> {
 
 /// Sweeps allowed at each level and stage.
 const MAX_SWEEPS: u32 = 60;
-/// Sweeps without halving the smallest residual after which positions are given up: what contradicts itself drifts away.
-const PATIENCE: u32 = 10;
 /// Factor on all penalties after a slow sweep: long chains of light links hardly feel some combinations of rows.
 pub(super) const RAISE: f64 = 30.0;
 /// A sweep that leaves more than this share of a residual is slow.
 const SLOW: f64 = 0.3;
+/// Sweeps without halving the smallest residual after which positions are given up: what contradicts itself drifts away.
+const PATIENCE: u32 = 10;
 /// Largest held angle of one continuation stage [rad], or slide in scene lengths.
 const STAGE: f64 = 0.25;
 
