@@ -40,9 +40,9 @@ unsafe impl GlobalAlloc for Counting {
 static COUNTING: Counting = Counting;
 
 fn check<const D: usize>(text: &str) {
-    let document = Document::parse(text, "test.toml").unwrap();
-    let scene: Scene<f64> = document.scene().unwrap();
-    let model = NaturalModel::<f64, D>::new(&scene).unwrap();
+    let document = Document::parse(text, "test.toml").expect("the text is a document");
+    let scene: Scene<f64> = document.scene().expect("the document is a scene");
+    let model = NaturalModel::<f64, D>::new(&scene).expect("the scene has a model");
     let mut solver = Multifrontal::analyse(&model, mbs_sparse::Options::default());
     let start = assemble(
         &scene,

@@ -324,7 +324,7 @@ fn a_massless_link_that_joints_determine_assembles() {
 /// The assembled change (positions) or velocity is M-orthogonal to every motion that stays admissible.
 fn check_least<const D: usize>(
     scene: &Scene<f64>,
-    holds: &dyn Fn(&NaturalModel<f64, D>, &[f64]) -> Vec<Vec<f64>>,
+    holds: impl Fn(&NaturalModel<f64, D>, &[f64]) -> Vec<Vec<f64>>,
 ) {
     let (model, assembled) = start::<D>(scene).unwrap_or_else(|e| panic!("{e}"));
     let s = &assembled.state;
@@ -354,7 +354,7 @@ fn what_is_not_held_changes_least() {
     // A double pendulum whose tip moves freely while the elbow's angle is held.
     let text = "[scene]\nname = \"d\"\ndimension = 2\nduration = 1.0\n[[body]]\nname = \"u\"\nmass = 1.0\ncenter = [0.5, 0.1]\ninertia = 0.1\n[[body]]\nname = \"l\"\nmass = 2.0\ncenter = [1.5, -0.1]\ninertia = 0.2\n[[joint]]\nname = \"p\"\nkind = \"revolute\"\nbodies = [\"ground\", \"u\"]\nat = [0.0, 0.0]\n[[joint]]\nname = \"e\"\nkind = \"revolute\"\nbodies = [\"u\", \"l\"]\nat = [1.0, 0.0]\n[[initial]]\njoint = \"e\"\nvalue = 0.2\nrate = 1.5\n";
     let scene = scene(text);
-    check_least::<2>(&scene, &|model, q| {
+    check_least::<2>(&scene, |model, q| {
         // Gradient of the elbow's angle by differences of cos and sin: a direction of one body seen from the other.
         let n = model.n_unknowns();
         let angle = |q: &[f64]| {
