@@ -12,7 +12,7 @@
 //! projections after the step, as printed, the method fails at the first singular position.
 
 use crate::error::StepError;
-use crate::index3::{book, largest_or_nan, take_coordinates};
+use crate::index3::{book, check_guides, largest_or_nan, take_coordinates};
 use crate::options::{Options, Penalty};
 use crate::projection::{Level, largest};
 use crate::workspace::{Counts, Mass, StepReport, Stop, Workspace};
@@ -131,6 +131,7 @@ fn constrain<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let speed = norm_inf(&w.v);
     let rounding = T::EPSILON * T::from_f64(16.0);
     model.evaluate_phi_t(&w.q, &mut w.terms);
+    check_guides(model, w)?;
     let limit = (length + speed) * T::from_f64(5e-10).max(rounding * T::from_f64(64.0));
     let left = w.project(model, Level::Velocity, (speed * rounding, limit), options.max_sweeps)?;
     if w.restore_penalties() {

@@ -244,6 +244,7 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
         factor(model, rule, options, w)?;
     }
     model.evaluate_phi_t(&w.q, &mut w.terms);
+    check_guides(model, w)?;
     let sweeps = options.max_sweeps;
     let speed = norm_inf(&w.v);
     let rounding = T::EPSILON * T::from_f64(16.0);
@@ -302,6 +303,20 @@ fn balance<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model.multiply_jacobian(&w.terms, &w.change, &mut w.rates);
     for k in 0..w.sigma.len() {
         w.sigma[k] -= w.penalty[k] * w.rates[k];
+    }
+}
+
+/// A guided angle satisfies its equation half a turn away too: that root is refused.
+pub(crate) fn check_guides<T: Real, M: Model<T>, S>(
+    model: &M,
+    w: &Workspace<T, S>,
+) -> Result<(), StepError> {
+    if !model.has_guides() {
+        return Ok(());
+    }
+    match model.opposite_guide(&w.q, &w.terms) {
+        Some(row) => Err(StepError::OppositeBranch { row: u32::try_from(row).unwrap_or(u32::MAX) }),
+        None => Ok(()),
     }
 }
 

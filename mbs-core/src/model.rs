@@ -129,6 +129,8 @@ pub trait Model<T: Real>: Cliques {
     fn potential_energy(&self, q: &[T], terms: &Terms<T>) -> T;
     /// Power that enters through dampers, courses and guides (multipliers `lambda`) [W], terms as last evaluated.
     fn power(&self, q: &[T], v: &[T], lambda: &[T], terms: &Terms<T>) -> T;
+    /// The row of a guided angle that sits at the false root, half a turn from its guide, if there is one.
+    fn opposite_guide(&self, q: &[T], terms: &Terms<T>) -> Option<usize>;
     /// What an unknown belongs to, for messages.
     fn owner_of_unknown(&self, unknown: usize) -> Owner;
     /// What a constraint row belongs to, for messages.

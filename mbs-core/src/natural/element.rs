@@ -1,0 +1,246 @@
+//! The arithmetic of one element: its block, residual and rates with the clique's length known to the compiler, and the
+//! curvature parts of its tangent.
+
+use super::forces::Gauge;
+use super::group::{Group, add_curvature, add_mass_product, add_multiples, add_squares};
+use super::model::NaturalModel;
+use crate::Real;
+use crate::algebra::Vector;
+use crate::elements::combine;
+use crate::model::{Load, Tangent, Terms};
+use alloc::vec;
+
+impl<T: Real, const D: usize> NaturalModel<T, D> {
+    /// Diagonal of M, lifted where it is (nearly) zero so that it can scale: by 1e-6 of the largest entry.
+    pub(crate) fn mass_diagonal(&self) -> alloc::vec::Vec<T> {
+        let mut diagonal = vec![T::ZERO; self.n_unknowns];
+        for group in self.groups.iter().filter(|g| !g.mass.is_empty()) {
+            let g = group.mass.of(&self.mass);
+            let nb = group.n_unknown as usize;
+            for (j, &u) in group.clique.of(&self.cliques).iter().enumerate() {
+                diagonal[u as usize] += g[(j / D) * (nb + 1)].re;
+            }
+        }
+        let largest = diagonal.iter().fold(T::ZERO, |a, &b| a.max(b));
+        let floor = if largest > T::ZERO { largest * T::from_f64(1e-6) } else { T::ONE };
+        for d in &mut diagonal {
+            *d = d.max(floor);
+        }
+        diagonal
+    }
+
+    /// The rates of a group of `K` unknowns; `K` = 0: of any number, known at run time only.
+    #[inline(always)]
+    pub(super) fn multiply_sized_jacobian<const K: usize>(
+        &self,
+        group: &Group,
+        terms: &Terms<T>,
+        x: &[T],
+        rates: &mut [T],
+    ) {
+        let slots = &group.slots.of(&self.slots)[..group.n_unknown as usize];
+        let rates = group.rows.of_mut(rates);
+        let width = group.width as usize;
+        let jacobian = &terms.jacobian[group.jacobian as usize..][..width * rates.len()];
+        if K == 0 {
+            for (rate, g) in rates.iter_mut().zip(jacobian.chunks_exact(width.max(1))) {
+                let terms = slots.iter().zip(g.chunks_exact(D));
+                *rate = terms.fold(T::ZERO, |sum, (&slot, g)| {
+                    (0..D).fold(sum, |sum, i| sum + g[i] * x[slot as usize + i])
+                });
+            }
+            return;
+        }
+        let mut local = [T::ZERO; K];
+        for (to, &slot) in local.chunks_exact_mut(D).zip(slots) {
+            to.copy_from_slice(&x[slot as usize..slot as usize + D]);
+        }
+        for (rate, g) in rates.iter_mut().zip(jacobian.chunks_exact(width.max(1))) {
+            let g = &g[..K];
+            *rate = (0..K).fold(T::ZERO, |sum, i| sum + g[i] * local[i]);
+        }
+    }
+
+    /// The block of a group of `K` unknowns; `K` = 0: of any number, known at run time only.
+    #[inline(always)]
+    pub(super) fn write_sized_block<const K: usize>(
+        &self,
+        terms: &Terms<T>,
+        tangent: &Tangent<'_, T>,
+        group: &Group,
+        block: &mut [T],
+    ) {
+        let k = if K == 0 { group.clique.len() } else { K };
+        let block = &mut block[..k * (k + 1) / 2];
+        if group.block.is_empty() {
+            block.fill(T::ZERO);
+        } else {
+            block.copy_from_slice(&group.block.of(&self.blocks)[..k * (k + 1) / 2]);
+        }
+        let width = group.width as usize;
+        let mut jacobian = &terms.jacobian[group.jacobian as usize..];
+        let mut penalty = group.rows.of(tangent.penalty);
+        while let [w1, w2, w3, rest @ ..] = penalty {
+            let g = [jacobian, &jacobian[width..], &jacobian[2 * width..]];
+            add_squares(block, k, g, [*w1, *w2, *w3]);
+            (jacobian, penalty) = (&jacobian[3 * width..], rest);
+        }
+        for &w in penalty {
+            add_squares(block, k, [jacobian], [w]);
+            jacobian = &jacobian[width..];
+        }
+        if !group.measures.is_empty() {
+            for measure in group.measures.of(&terms.measures) {
+                let stiffness = measure.stiffness - measure.transverse;
+                let w = tangent.stiffness * stiffness + tangent.damping * measure.damping;
+                add_squares(block, k, [jacobian], [w]);
+                jacobian = &jacobian[width..];
+            }
+            self.add_transverse(terms, tangent, group, block);
+        }
+        if let Some(lambda) = tangent.geometric {
+            self.add_geometric(lambda, group, block);
+        }
+    }
+
+    /// The residual of a group of `K` unknowns; `K` = 0: of any number, known at run time only.
+    #[inline(always)]
+    pub(super) fn write_sized_residual<const K: usize>(
+        &self,
+        terms: &Terms<T>,
+        load: &Load<'_, T>,
+        group: &Group,
+        residual: &mut [T],
+    ) {
+        let clique = group.clique.of(&self.cliques);
+        let k = if K == 0 { clique.len() } else { K };
+        let (clique, residual) = (&clique[..k], &mut residual[..k]);
+        residual.fill(T::ZERO);
+        if let (Some(x), false) = (load.mass, group.mass.is_empty()) {
+            add_mass_product::<T, D>(group.mass.of(&self.mass), clique, x, residual);
+        }
+        let width = group.width as usize;
+        let mut jacobian = &terms.jacobian[group.jacobian as usize..];
+        if let Some(mu) = load.multipliers {
+            let mut mu = group.rows.of(mu);
+            while let [m1, m2, m3, rest @ ..] = mu {
+                let g = [jacobian, &jacobian[width..], &jacobian[2 * width..]];
+                add_multiples(residual, g, [*m1, *m2, *m3]);
+                (jacobian, mu) = (&jacobian[3 * width..], rest);
+            }
+            for &m in mu {
+                add_multiples(residual, [jacobian], [m]);
+                jacobian = &jacobian[width..];
+            }
+        } else {
+            jacobian = &jacobian[width * group.rows.len()..];
+        }
+        if load.force == T::ZERO {
+            return;
+        }
+        for measure in group.measures.of(&terms.measures) {
+            add_multiples(residual, [jacobian], [measure.tension * load.force]);
+            jacobian = &jacobian[width..];
+        }
+        for (r, &f) in residual.iter_mut().zip(group.force.of(&terms.force)) {
+            *r -= f * load.force;
+        }
+    }
+
+    #[cold]
+    pub(super) fn add_transverse(
+        &self,
+        terms: &Terms<T>,
+        tangent: &Tangent<'_, T>,
+        group: &Group,
+        block: &mut [T],
+    ) {
+        for m in group.measures.range() {
+            let (Gauge::Length { x }, t) = (self.measures[m].gauge, terms.measures[m].transverse)
+            else {
+                continue;
+            };
+            if t > T::ZERO {
+                self.add_pairs(
+                    (x.of(&self.pool), x.of(&self.pool)),
+                    t * tangent.stiffness * T::HALF,
+                    group,
+                    block,
+                );
+            }
+        }
+    }
+
+    /// K_geo = sum lambda_k d2 phi_k / dq2.
+    pub(super) fn add_geometric(&self, lambda: &[T], group: &Group, block: &mut [T]) {
+        let k = group.clique.len();
+        for row in &self.distances[group.distances.range()] {
+            let s = lambda[row.row as usize] * row.inverse * T::HALF;
+            let base = group.jacobian + (row.row - group.rows.start) * group.width;
+            let ends = [
+                ((row.places[0] - base) as usize, crate::algebra::Coef::real(-T::ONE)),
+                ((row.places[1] - base) as usize, crate::algebra::Coef::one()),
+            ];
+            for i in ends {
+                for j in ends {
+                    add_curvature::<T, D>(block, k, i, j, s);
+                }
+            }
+        }
+        for row in &self.dots[group.dots.range()] {
+            let s = lambda[row.row as usize] * row.scale;
+            self.add_pairs((row.x.of(&self.pool), row.y.of(&self.pool)), s, group, block);
+        }
+    }
+
+    pub(super) fn add_pairs(
+        &self,
+        (x, y): (&[crate::elements::Term<T>], &[crate::elements::Term<T>]),
+        s: T,
+        group: &Group,
+        block: &mut [T],
+    ) {
+        let k = group.clique.len();
+        for i in x {
+            for j in y {
+                let (pi, pj) = (i.column as usize, j.column as usize);
+                add_curvature::<T, D>(block, k, (pi, i.coef), (pj, j.coef), s);
+            }
+        }
+    }
+
+    pub(super) fn point_force(
+        &self,
+        force: &super::forces::PointForce,
+        q: &[T],
+        value: [T; 3],
+    ) -> Vector<T, D> {
+        match force.frame {
+            None => Vector::from_fn(|i, _| value[i]),
+            Some(frame) => {
+                let mut f = Vector::<T, D>::zeros();
+                for i in 0..D {
+                    f += combine::<T, D>(frame[i].of(&self.pool), q) * value[i];
+                }
+                f
+            }
+        }
+    }
+
+    /// Share of one body direction u in the power of a torque: 1/2 (tau x u).u'.
+    pub(super) fn torque_power(
+        &self,
+        torque: &super::forces::BodyTorque,
+        span: crate::elements::Span,
+        _direction: usize,
+        (q, v): (&[T], &[T]),
+        terms: &Terms<T>,
+    ) -> T {
+        let tau = Vector::<T, 3>::from(terms.courses[torque.course as usize]);
+        let lift =
+            |x: Vector<T, D>| Vector::<T, 3>::from_fn(|i, _| if i < D { x[i] } else { T::ZERO });
+        let u = lift(combine::<T, D>(span.of(&self.pool), q));
+        let w = lift(combine::<T, D>(span.of(&self.pool), v));
+        crate::algebra::cross(&tau, &u).dot(&w) * T::HALF
+    }
+}
