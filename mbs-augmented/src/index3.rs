@@ -191,8 +191,7 @@ fn filter<T: Real, M: Model<T>, S: SpdSolver<T>>(model: &M, w: &mut Workspace<T,
 
 /// The displacement that accelerations cause in this step: what corrections are small against [m].
 fn step_scale<T: Real>(rule: &Rule<T>, s: &State<T>) -> T {
-    let (a, v) = (norm_inf(&s.a), norm_inf(&s.v));
-    (a + v * rule.dt * a) * rule.dt * rule.dt * T::HALF
+    norm_inf(&s.a) * rule.dt * rule.dt * T::HALF
 }
 
 /// Size of a correction that is rounding [m]: of the increment where increments are carried, else of the coordinates.
