@@ -56,7 +56,7 @@ pub enum Multipliers {
     Filtered,
     /// 2 lambda_n - lambda_(n-1) [P3 (3)].
     Extrapolated,
-    /// Zero [P1 (16)], [P2].
+    /// Zero [P1 (16)], publication 2.
     FromZero,
 }
 

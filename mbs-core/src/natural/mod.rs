@@ -1,7 +1,7 @@
 //! Natural coordinates: shared points and unit vectors with a constant mass matrix, made from a scene.
 //!
-//! The way down: [`cluster`] (welds), [`sharing`] (what joints make common), [`basis`] (entities of each body), [`build`],
-//! [`joints`], [`effects`] (rows and laws), [`finish`] (numbering and tables), [`evaluate`] (the numbers).
+//! The way down: `cluster` (welds), `sharing` (what joints make common), `basis` (entities of each body), `build`,
+//! `joints`, `effects` (rows and laws), `finish` (numbering and tables), `evaluate` (the numbers).
 
 mod affine;
 mod basis;
