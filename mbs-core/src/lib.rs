@@ -6,7 +6,11 @@ extern crate alloc;
 
 pub mod algebra;
 pub mod blocks;
+#[cfg(feature = "alloc")]
+pub mod cluster;
 pub mod elements;
+#[cfg(feature = "alloc")]
+pub mod inputs;
 pub mod integrator;
 pub mod laws;
 #[cfg(feature = "alloc")]
@@ -16,10 +20,12 @@ pub mod natural;
 #[cfg(feature = "alloc")]
 pub mod outputs;
 pub mod real;
+pub mod rigid;
 #[cfg(feature = "alloc")]
 pub mod scene;
 #[cfg(feature = "alloc")]
 pub mod start;
+pub mod step;
 
 pub use blocks::{BlockSource, Cliques, FactorError, SpdSolver};
 pub use real::Real;
