@@ -48,6 +48,15 @@ pub struct LoopStore<'a, T: Real, S: Space<T>> {
     pub pivots: &'a mut [T],
 }
 
+/// What is added to the diagonal of Λ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Regularisation<T> {
+    /// This share of the rows' own scale.
+    Scaled(T),
+    /// This number on every row [1/kg].
+    Fixed(T),
+}
+
 /// A row that nothing moves, or that repeats others beyond what the regularisation carries.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RankLost<T> {
@@ -120,7 +129,7 @@ pub(crate) fn pass_again<T: Real, S: Space<T>>(
 #[inline]
 pub(crate) fn close<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
-    (i, regularisation, a_ground): (usize, T, &S::Motion),
+    (i, regularisation, a_ground): (usize, Regularisation<T>, &S::Motion),
     c: &mut Condensed<T, S>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), RankLost<T>> {
@@ -130,10 +139,10 @@ pub(crate) fn close<T: Real, S: Space<T>>(
         let lap = &m.loops[end.lap as usize];
         for row in lap.first as usize..(lap.first + lap.n) as usize {
             // Both branches meet.
-            let other = st.k[n_rows + row];
-            st.k[row] += other;
+            let both = st.k[row] + st.k[n_rows + row];
+            st.k[row] = both;
             if i == 0 {
-                st.l[row] += st.k[row].dot(a_ground);
+                st.l[row] += both.dot(a_ground);
             }
         }
     }
@@ -145,9 +154,9 @@ pub(crate) fn close<T: Real, S: Space<T>>(
         let block = &st.blocks[lap.block as usize..];
         for r in 0..n {
             for s in 0..r {
-                let (c_rs, k_s, l_s) = (block[r * n + s], st.k[first + s], st.l[first + s]);
-                st.k[first + r] -= k_s * c_rs;
-                st.l[first + r] -= l_s * c_rs;
+                let (k_s, l_s) = (st.k[first + s], st.l[first + s]);
+                st.k[first + r] -= k_s * block[r * n + s];
+                st.l[first + r] -= l_s * block[r * n + s];
             }
             let inverse = T::ONE / block[r * n + r];
             st.k[first + r] = st.k[first + r] * inverse;
@@ -167,7 +176,7 @@ pub(crate) fn close<T: Real, S: Space<T>>(
 fn regularise<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
     lap: &Loop<T, S>,
-    regularisation: T,
+    regularisation: Regularisation<T>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), RankLost<T>> {
     let (first, n) = (lap.first as usize, lap.n as usize);
@@ -186,7 +195,11 @@ fn regularise<T: Real, S: Space<T>>(
             }
             block[r * n + s] = x / block[s * n + s];
         }
-        let mut pivot = block[r * n + r] + regularisation * scale;
+        let added = match regularisation {
+            Regularisation::Scaled(share) => share * scale,
+            Regularisation::Fixed(added) => added,
+        };
+        let mut pivot = block[r * n + r] + added;
         for t in 0..r {
             pivot -= block[r * n + t] * block[r * n + t];
         }

@@ -12,7 +12,7 @@
 
 use crate::joint::{self, NoInertia};
 use crate::link::{Condensed, Link, Placed};
-use crate::loops::{self, LoopStore, Loops, RankLost, index};
+use crate::loops::{self, LoopStore, Loops, RankLost, Regularisation, index};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
@@ -23,6 +23,15 @@ pub enum Fault<T> {
     NoInertia(NoInertia<T>),
     /// The regularised rows of loops cannot be factored.
     RankLost(RankLost<T>),
+    /// The equations of loops do not come to their level.
+    Unreached {
+        /// 0 position, 1 velocity, 2 acceleration.
+        level: u8,
+        /// The row that is violated most.
+        row: u32,
+        /// What is left.
+        violation: T,
+    },
 }
 
 /// First pass, outward: places, velocities and velocity products.
@@ -65,7 +74,7 @@ pub fn inertias<T: Real, S: Space<T>>(
 pub fn condense<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
     placed: &[Placed<T, S>],
-    (m, regularisation, a_ground): (&Loops<'_, T, S>, T, &S::Motion),
+    (m, regularisation, a_ground): (&Loops<'_, T, S>, Regularisation<T>, &S::Motion),
     condensed: &mut [Condensed<T, S>],
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Fault<T>> {
