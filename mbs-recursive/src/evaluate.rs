@@ -23,6 +23,8 @@ const MAX_SWEEPS: u32 = 30;
 /// How far sweeps go.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Level {
+    /// One sweep, whatever is left.
+    Once,
     /// To the tolerance of an iteration that goes on.
     Coarse,
     /// To rounding.
@@ -127,6 +129,7 @@ fn sweep<T: Real, S: Space<T>>(
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Fault<T>> {
     let share = match level {
+        Level::Once => return Ok(residual(m, s).0),
         Level::Coarse => T::EPSILON.sqrt() * T::from_f64(0.01),
         Level::Fine => T::EPSILON * T::from_f64(256.0),
     };
