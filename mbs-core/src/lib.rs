@@ -6,6 +6,8 @@ extern crate alloc;
 
 pub mod algebra;
 pub mod blocks;
+#[cfg(feature = "alloc")]
+pub mod dense;
 pub mod elements;
 pub mod integrator;
 pub mod laws;
@@ -21,5 +23,5 @@ pub mod scene;
 #[cfg(feature = "alloc")]
 pub mod start;
 
-pub use blocks::{BlockSource, Cliques, FactorError, SpdSolver};
+pub use blocks::{BlockSource, Cliques, FactorError, SpdSolver, SymmetricSolver};
 pub use real::Real;
