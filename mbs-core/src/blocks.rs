@@ -79,7 +79,7 @@ pub trait SymmetricSolver<T: Real> {
     /// Replaces `x` (n places) by the solution of T x = b, given b in `x`.
     fn solve(&self, x: &mut [T], scratch: &mut [T]);
 
-    /// Places that `solve` and `null_vector` need in `scratch`; it may grow when a factorisation needs more than any before.
+    /// Places that `solve` and `null_vector` need in `scratch`, whatever the numbers.
     fn n_scratch(&self) -> usize;
 
     /// Sums the residuals of the elements of `source` into `f` (n places, overwritten), in the order of the elements.
