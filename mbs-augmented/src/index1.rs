@@ -11,14 +11,13 @@
 //! from the last step; alpha is in proportion to the mass and does not grow with 1/dt^2. Iterated to convergence with the
 //! projections after the step, as printed, the method fails at the first singular position.
 
-use crate::error::StepError;
-use crate::index3::{book, check_guides, largest_or_nan, take_coordinates};
 use crate::options::{Options, Penalty};
-use crate::projection::{Level, largest};
-use crate::workspace::{Counts, Mass, StepReport, Stop, Workspace};
+use crate::projection::Level;
+use crate::workspace::{Counts, Mass, Workspace};
 use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
+use mbs_core::step::{StepError, StepReport, Stop, check_guides, largest, largest_or_nan};
 use mbs_core::{Real, SpdSolver};
 
 /// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
@@ -69,19 +68,19 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let limit = (T::ONE + size) * T::from_f64(5e-10).max(rounding);
     let acceleration =
         w.project(model, Level::Acceleration, (size * rounding, limit), options.max_sweeps)?;
-    take_coordinates(&rule, options, s, w);
-    for k in 0..w.lambda.len() {
-        s.lambda_previous[k] = s.lambda[k];
-        s.lambda[k] = w.lambda[k];
-        s.reaction[k] = w.lambda[k] + w.sigma[k];
-        s.phi[k] = w.terms.phi[k];
-    }
-    s.t += dt;
-    book(model, dt, s, w);
+    w.commit(model, &rule, options.compensated, T::ONE, s);
     let Counts { factorizations, solves } = w.counts;
     let violation = [norm_inf(&w.terms.phi), velocity, acceleration];
     let stop = done.unwrap_or(Stop::Tolerance);
-    Ok(StepReport { iterations, factorizations, solves, correction, stop, violation })
+    Ok(StepReport {
+        iterations,
+        factorizations,
+        solves,
+        correction,
+        stop,
+        violation,
+        ..StepReport::default()
+    })
 }
 
 /// Accelerations and multipliers of the last step are the first guess.
@@ -131,7 +130,7 @@ fn constrain<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let speed = norm_inf(&w.v);
     let rounding = T::EPSILON * T::from_f64(16.0);
     model.evaluate_phi_t(&w.q, &mut w.terms);
-    check_guides(model, w)?;
+    check_guides(model, &w.q, &w.terms)?;
     let limit = (length + speed) * T::from_f64(5e-10).max(rounding * T::from_f64(64.0));
     let left = w.project(model, Level::Velocity, (speed * rounding, limit), options.max_sweeps)?;
     if w.restore_penalties() {

@@ -11,13 +11,15 @@
 //! step; the start value of lambda is filtered, lambda <- s J T^-1 J^T lambda; projections are in correction form. The printed
 //! forms are options.
 
-use crate::error::StepError;
 use crate::options::{Multipliers, Options, Penalty, Projection};
-use crate::projection::{Level, largest};
-use crate::workspace::{Counts, Mass, StepReport, Stop, Workspace};
+use crate::projection::Level;
+use crate::workspace::{Counts, Mass, Workspace};
 use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
+use mbs_core::step::{
+    StepError, StepReport, Stop, check_guides, largest, largest_or_nan, step_scale,
+};
 use mbs_core::{Real, SpdSolver};
 
 /// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
@@ -46,9 +48,17 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
         *a *= rule.acceleration;
     }
     let violation = clean(model, &rule, (correction, length), options, w)?;
-    commit(model, &rule, options, s, w);
+    w.commit(model, &rule, options.compensated, rule.acceleration, s);
     let Counts { factorizations, solves } = w.counts;
-    Ok(StepReport { iterations, factorizations, solves, correction, stop, violation })
+    Ok(StepReport {
+        iterations,
+        factorizations,
+        solves,
+        correction,
+        stop,
+        violation,
+        ..StepReport::default()
+    })
 }
 
 /// Predicts q, v, a and lambda at the end of the step, and evaluates there.
@@ -106,7 +116,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<(u32, T, Stop), StepError> {
     let inverse = T::ONE / rule.acceleration;
-    let scale = step_scale(rule, s);
+    let scale = step_scale(rule.dt, &s.a);
     let goal = scale * options.tolerance;
     let mut last = T::ZERO;
     for iterations in 1..=options.max_iterations {
@@ -189,11 +199,6 @@ fn filter<T: Real, M: Model<T>, S: SpdSolver<T>>(model: &M, w: &mut Workspace<T,
     }
 }
 
-/// The displacement that accelerations cause in this step: what corrections are small against [m].
-fn step_scale<T: Real>(rule: &Rule<T>, s: &State<T>) -> T {
-    norm_inf(&s.a) * rule.dt * rule.dt * T::HALF
-}
-
 /// Size of a correction that is rounding [m]: of the increment where increments are carried, else of the coordinates.
 fn rounding<T: Real, S>(length: T, options: &Options<T>, w: &Workspace<T, S>) -> T {
     let size = if options.compensated { norm_inf(&w.dq) } else { length };
@@ -243,7 +248,7 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
         factor(model, rule, options, w)?;
     }
     model.evaluate_phi_t(&w.q, &mut w.terms);
-    check_guides(model, w)?;
+    check_guides(model, &w.q, &w.terms)?;
     let sweeps = options.max_sweeps;
     let speed = norm_inf(&w.v);
     let rounding = T::EPSILON * T::from_f64(16.0);
@@ -303,88 +308,4 @@ fn balance<T: Real, M: Model<T>, S: SpdSolver<T>>(
     for k in 0..w.sigma.len() {
         w.sigma[k] -= w.penalty[k] * w.rates[k];
     }
-}
-
-/// A guided angle satisfies its equation half a turn away too: that root is refused.
-pub(crate) fn check_guides<T: Real, M: Model<T>, S>(
-    model: &M,
-    w: &Workspace<T, S>,
-) -> Result<(), StepError> {
-    if !model.has_guides() {
-        return Ok(());
-    }
-    match model.opposite_guide(&w.q, &w.terms) {
-        Some(row) => Err(StepError::OppositeBranch { row: u32::try_from(row).unwrap_or(u32::MAX) }),
-        None => Ok(()),
-    }
-}
-
-/// Takes the new state over.
-fn commit<T: Real, M: Model<T>, S: SpdSolver<T>>(
-    model: &M,
-    rule: &Rule<T>,
-    options: &Options<T>,
-    s: &mut State<T>,
-    w: &mut Workspace<T, S>,
-) {
-    take_coordinates(rule, options, s, w);
-    for k in 0..w.lambda.len() {
-        s.lambda_previous[k] = s.lambda[k];
-        s.lambda[k] = w.lambda[k] * rule.acceleration;
-        s.reaction[k] = s.lambda[k] + w.sigma[k];
-        s.phi[k] = w.terms.phi[k];
-    }
-    s.t += rule.dt;
-    book(model, rule.dt, s, w);
-}
-
-/// (q, q_low) += dq without rounding; v, a and the auxiliary accelerations follow.
-pub(crate) fn take_coordinates<T: Real, S>(
-    rule: &Rule<T>,
-    options: &Options<T>,
-    s: &mut State<T>,
-    w: &Workspace<T, S>,
-) {
-    let shift = rule.auxiliary / rule.acceleration;
-    for i in 0..w.f.len() {
-        let (_, _, a_predicted) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
-        s.a_aux[i] += shift * (w.a[i] - a_predicted);
-        s.v[i] = w.v[i];
-        s.a[i] = w.a[i];
-        if options.compensated {
-            // (q, q_low) += dq, exactly
-            let y = w.dq[i] + s.q_low[i];
-            let sum = s.q[i] + y;
-            let back = sum - s.q[i];
-            s.q_low[i] = (s.q[i] - (sum - back)) + (y - back);
-            s.q[i] = sum;
-        } else {
-            s.q[i] = w.q[i];
-        }
-    }
-}
-
-/// Adds the work of this step, by the trapezoidal rule in time.
-pub(crate) fn book<T: Real, M: Model<T>, S: SpdSolver<T>>(
-    model: &M,
-    dt: T,
-    s: &mut State<T>,
-    w: &mut Workspace<T, S>,
-) {
-    if !(model.has_forces() || model.has_guides()) {
-        return;
-    }
-    if model.has_forces() {
-        model.evaluate_forces(&s.q, &s.v, &s.memory, &mut w.terms);
-        model.remember(&w.terms, &mut s.memory);
-    }
-    let power = model.power(&s.q, &s.v, &s.reaction, &w.terms);
-    s.work += (s.power + power) * dt * T::HALF;
-    s.power = power;
-}
-
-/// The first entry that is not finite, else the largest.
-pub(crate) fn largest_or_nan<T: Real>(x: &[T]) -> u32 {
-    let bad = x.iter().position(|x| !x.is_finite());
-    bad.map_or_else(|| largest(x), |i| u32::try_from(i).unwrap_or(u32::MAX))
 }

@@ -3,13 +3,12 @@
 
 extern crate alloc;
 
-mod error;
 pub mod index1;
 pub mod index3;
 mod options;
 mod projection;
 mod workspace;
 
-pub use error::{OptionError, StepError};
+pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use options::{Multipliers, Options, Penalty, Projection};
-pub use workspace::{StepReport, Stop, Workspace};
+pub use workspace::Workspace;

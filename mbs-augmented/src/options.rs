@@ -1,8 +1,8 @@
 //! What the caller chooses. Public fields; start from [`Options::index3`] or [`Options::index1`].
 
-use crate::error::OptionError;
 use mbs_core::Real;
 use mbs_core::integrator::Integrator;
+use mbs_core::step::OptionError;
 
 /// Choices for a step.
 #[derive(Debug, Clone, Copy, PartialEq)]

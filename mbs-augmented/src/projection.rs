@@ -10,10 +10,10 @@
 //! One sweep leaves 1 / (1 + s sigma^2 / m) of a violation in a direction with singular value sigma; it is swept until
 //! the level is reached. Any factored matrix near W will do: the fixed point does not depend on it.
 
-use crate::error::StepError;
 use crate::workspace::{Mass, Workspace};
 use mbs_core::algebra::norm_inf;
 use mbs_core::model::Model;
+use mbs_core::step::{StepError, largest};
 use mbs_core::{Real, SpdSolver};
 
 /// What one correction may leave of the multiplier of the least felt combination of constraints.
@@ -244,15 +244,4 @@ fn spread<T: Real>(x: &mut [T]) {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         *x = T::from_f64(f64::from(seed) / f64::from(u32::MAX) - 0.5);
     }
-}
-
-/// Index of the entry largest in absolute value.
-pub(crate) fn largest<T: Real>(x: &[T]) -> u32 {
-    let mut best = 0;
-    for i in 1..x.len() {
-        if x[i].abs() > x[best].abs() {
-            best = i;
-        }
-    }
-    u32::try_from(best).unwrap_or(u32::MAX)
 }

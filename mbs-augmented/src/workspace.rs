@@ -1,40 +1,11 @@
-//! Scratch of a step, made once; and what a step reports.
+//! Scratch of a step, made once.
 
 use alloc::vec;
 use alloc::vec::Vec;
-use mbs_core::model::{Load, Model, Tangent, Terms};
+use mbs_core::integrator::Rule;
+use mbs_core::model::{Load, Model, State, Tangent, Terms};
+use mbs_core::step::{add_work, take_coordinates};
 use mbs_core::{Real, SpdSolver};
-
-/// Why the iteration of a step ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stop {
-    /// The next correction, estimated from the last two, is below the tolerance of the step.
-    Converged,
-    /// Corrections no longer shrink and are at the level of rounding.
-    Rounding,
-    /// The step ended within reach of a singular position: the multiplier of a combination of constraints that has almost no
-    /// effect there is left as it was extrapolated.
-    Passage,
-    /// The allowed iterations are used and the last correction is below `tolerance` times the scene's length.
-    Tolerance,
-}
-
-/// What a step did. Counts only; time is measured from outside.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StepReport<T> {
-    /// Newton iterations.
-    pub iterations: u32,
-    /// Factorisations.
-    pub factorizations: u32,
-    /// Back-substitutions.
-    pub solves: u32,
-    /// Last correction of a coordinate [m or -].
-    pub correction: T,
-    /// What ended the iteration.
-    pub stop: Stop,
-    /// Largest |phi|, |phi'|, |phi''| after the step [m, m/s, m/s^2].
-    pub violation: [T; 3],
-}
 
 /// Scratch of the augmented Lagrangian steps over a solver `S`. Nothing is allocated after [`Workspace::new`].
 #[derive(Debug, Clone)]
@@ -140,6 +111,26 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         let load = Load { mass: None, multipliers: None, force: T::ZERO };
         let system = mbs_core::model::System { model, terms: &self.terms, tangent, load };
         self.solver.factor(&system)
+    }
+
+    /// Takes the finished step over; `unit` turns `lambda` into multipliers of the equations of motion.
+    pub(crate) fn commit<M: Model<T>>(
+        &mut self,
+        model: &M,
+        rule: &Rule<T>,
+        compensated: bool,
+        unit: T,
+        s: &mut State<T>,
+    ) {
+        take_coordinates(rule, compensated, self.f.len(), s, (&self.dq, &self.v, &self.a));
+        for k in 0..self.lambda.len() {
+            s.lambda_previous[k] = s.lambda[k];
+            s.lambda[k] = self.lambda[k] * unit;
+            s.reaction[k] = s.lambda[k] + self.sigma[k];
+            s.phi[k] = self.terms.phi[k];
+        }
+        s.t += rule.dt;
+        add_work(model, rule.dt, s, &mut self.terms);
     }
 
     /// f = T^-1 f.

@@ -6,7 +6,13 @@ extern crate alloc;
 
 pub mod algebra;
 pub mod blocks;
+#[cfg(feature = "alloc")]
+pub mod cluster;
+#[cfg(feature = "alloc")]
+pub mod dense;
 pub mod elements;
+#[cfg(feature = "alloc")]
+pub mod inputs;
 pub mod integrator;
 pub mod laws;
 #[cfg(feature = "alloc")]
@@ -17,10 +23,12 @@ pub mod ode;
 #[cfg(feature = "alloc")]
 pub mod outputs;
 pub mod real;
+pub mod rigid;
 #[cfg(feature = "alloc")]
 pub mod scene;
 #[cfg(feature = "alloc")]
 pub mod start;
+pub mod step;
 
-pub use blocks::{BlockSource, Cliques, FactorError, SpdSolver};
+pub use blocks::{BlockSource, Cliques, FactorError, SpdSolver, SymmetricSolver};
 pub use real::Real;

@@ -9,7 +9,9 @@
 
 use crate::Real;
 use crate::blocks::{BlockSource, Cliques};
+pub use crate::laws::scalar::Measure;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 /// Everything a model evaluates at one instant. Allocated once by [`Model::terms`].
 #[derive(Debug, Clone, PartialEq)]
@@ -32,23 +34,6 @@ pub struct Terms<T> {
     pub courses: Vec<[T; 3]>,
 }
 
-/// The state of one scalar force law: a tension along a measured length or angle.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Measure<T> {
-    /// Length or angle [m, rad].
-    pub value: T,
-    /// Its rate [m/s, rad/s].
-    pub rate: T,
-    /// Generalised force against growth [N, N m].
-    pub tension: T,
-    /// d tension / d value [N/m, N m/rad].
-    pub stiffness: T,
-    /// d tension / d rate [N s/m, N m s/rad].
-    pub damping: T,
-    /// tension / length, for the turning of a line of action [N/m]; zero for angles.
-    pub transverse: T,
-}
-
 /// Weights of the tangent matrix T = M + damping C + stiffness (K + K_geo(lambda)) + J^T diag(penalty) J.
 #[derive(Debug, Clone, Copy)]
 pub struct Tangent<'a, T> {
@@ -56,7 +41,7 @@ pub struct Tangent<'a, T> {
     pub stiffness: T,
     /// Weight of C = -dQ/dq'.
     pub damping: T,
-    /// Weight of each row in mass units, m.
+    /// Weight of each row in mass units, m; empty: no constraint term.
     pub penalty: &'a [T],
     /// Multipliers (already times the weight of K) of the geometric stiffness; `None`: left out.
     pub geometric: Option<&'a [T]>,
@@ -107,6 +92,10 @@ pub trait Model<T: Real>: Cliques {
     fn multiply_jacobian(&self, terms: &Terms<T>, x: &[T], rates: &mut [T]);
     /// The effective mass of each row, 1 / (J_k M^-1 J_k^T) with the diagonal of M [kg]: the scale of its penalty.
     fn effective_masses(&self, terms: &Terms<T>, masses: &mut [T]);
+    /// The constraint rows of one element; every row belongs to exactly one.
+    fn rows(&self, element: usize) -> Range<usize>;
+    /// The Jacobian rows of one element, one after the other, each as long as the element's clique and in its order.
+    fn write_jacobian(&self, terms: &Terms<T>, element: usize, rows: &mut [T]);
     /// The block of one element in the tangent, packed lower triangle.
     fn write_block(
         &self,

@@ -1,11 +1,12 @@
 //! Why a run stopped, in words and with names.
 
 use crate::words::few;
-use mbs_augmented::StepError;
+
 use mbs_core::model::{Model, Owner};
 use mbs_core::outputs::ReactionError;
 use mbs_core::scene::{BodyRef, Entry, Scene};
 use mbs_core::start::AssemblyError;
+use mbs_core::step::StepError;
 use mbs_scene::RunError;
 
 /// Names of bodies and joints, and which joint holds which body: what errors need to speak.
@@ -80,9 +81,9 @@ impl StopError {
                 unknown(u)
             }
             StepError::Singular(e) => unknown(e.unknown),
-            StepError::Violated { row, .. } | StepError::OppositeBranch { row } => {
-                Some(model.owner_of_row(row as usize))
-            }
+            StepError::Violated { row, .. }
+            | StepError::OppositeBranch { row }
+            | StepError::RankLost { row, .. } => Some(model.owner_of_row(row as usize)),
             _ => None,
         };
         Self::Step(error, owner)
@@ -122,6 +123,8 @@ impl StopError {
             Self::Step(StepError::NotFinite { .. }, _) => "not-finite",
             Self::Step(StepError::Violated { .. }, _) => "violated",
             Self::Step(StepError::OppositeBranch { .. }, _) => "opposite-branch",
+            Self::Step(StepError::RankLost { .. }, _) => "rank-lost",
+            Self::Step(StepError::StepTooSmall { .. }, _) => "step-too-small",
             Self::Step(..) => "step-failed",
             Self::Reaction(_) => "no-reactions",
             Self::Energy { .. } => "energy-drift",
@@ -150,6 +153,12 @@ impl StopError {
             }
             Self::Step(StepError::Violated { .. }, _) => {
                 "try a smaller step or another formulation; if it always stops here, the mechanism locks or cannot follow its guides"
+            }
+            Self::Step(StepError::RankLost { .. }, _) => {
+                "joints repeat each other, or the mechanism stands in a singular position: index-3 and index-1 pass both"
+            }
+            Self::Step(StepError::StepTooSmall { .. }, _) => {
+                "try the trapezoidal integrator or a looser tolerance: the motion may be stiff or not smooth here"
             }
             Self::Step(..) => "try a smaller step, or another formulation",
             Self::Reaction(_) => "leave the reaction outputs out",
@@ -258,6 +267,12 @@ fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) -> core::fmt:
             "the tangent matrix is not positive definite: a force meets no inertia, or nothing determines a coordinate"
         ),
         StepError::NotFinite { .. } => write!(f, "a number became infinite or not a number"),
+        StepError::RankLost { pivot, .. } => {
+            write!(f, "the constraints depend on each other (relative pivot {})", few(*pivot))
+        }
+        StepError::StepTooSmall { step } => {
+            write!(f, "the error control asked for a step of {} s", few(*step))
+        }
         StepError::Violated { level, violation, .. } => {
             let (name, unit) = [
                 ("positions", "m (or rad)"),

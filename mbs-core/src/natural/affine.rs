@@ -83,6 +83,12 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         self.clusters.of(body).is_none_or(|c| self.bases[c].is_full())
     }
 
+    /// Is the body welded to the ground?
+    #[must_use]
+    pub fn is_ground(&self, body: BodyRef) -> bool {
+        self.clusters.of(body).is_none()
+    }
+
     fn affine(&self, x: &Combination<T>) -> Affine<T, D> {
         let terms = x.iter().map(|&(e, c)| (self.entity_at[e], c)).collect();
         Affine { terms, constant: Vector::zeros() }

@@ -10,10 +10,10 @@
 //! Shared entities come first; an own point or own unit vectors fill what is missing. Entities on the ground are
 //! preferred (they cost nothing); a direction is taken when it stands at least [`INDEPENDENCE`] out of those before.
 
-use super::cluster::Cluster;
 use super::sharing::{Entity, EntityKind};
 use crate::Real;
 use crate::algebra::{Coef, Vector, across, cross, inverse, norm};
+use crate::cluster::Cluster;
 use alloc::vec::Vec;
 use nalgebra::SMatrix;
 

@@ -1,15 +1,15 @@
 //! From a scene to a [`NaturalModel`]: sharing, bases, rigid-body rows, joint rows, effects.
 
 use super::basis::{Basis, Combination};
-use super::cluster::{Clusters, scene_length};
 use super::draft::{GroupDraft, RowDraft, constant_entity};
 use super::error::ModelError;
 use super::finish::finish;
-use super::input::{CourseInput, GuideInput};
 use super::model::NaturalModel;
 use super::sharing::{Entity, EntityKind, Sharing};
 use crate::Real;
 use crate::algebra::{Vector, norm};
+use crate::cluster::{Clusters, scene_length};
+use crate::inputs::{CourseInput, GuideInput};
 use crate::model::Owner;
 use crate::scene::{BodyRef, Dimension, EffectKind, InitialTarget, JointKind, Quantity, Scene};
 use alloc::collections::BTreeSet;

@@ -1,10 +1,10 @@
 //! A model being built: groups and rows in terms of entity numbers, before coordinates are numbered.
 
 use super::basis::Combination;
-use super::forces::Law;
 use super::sharing::{Entity, EntityKind};
 use crate::Real;
 use crate::algebra::{Coef, Vector};
+use crate::laws::scalar::Law;
 use crate::model::Owner;
 use alloc::vec::Vec;
 

@@ -3,10 +3,10 @@
 use super::build::Builder;
 use super::draft::{EffectDraft, GroupDraft, difference};
 use super::error::ModelError;
-use super::forces::Law;
-use super::input::CourseInput;
 use crate::Real;
 use crate::algebra::Vector;
+use crate::inputs::CourseInput;
+use crate::laws::scalar::Law;
 use crate::model::Owner;
 use crate::scene::{AxisFrame, BodyRef, Course, Dimension, EffectKind};
 use alloc::vec::Vec;

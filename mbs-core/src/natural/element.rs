@@ -79,7 +79,12 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
         let width = group.width as usize;
         let mut jacobian = &terms.jacobian[group.jacobian as usize..];
-        let mut penalty = group.rows.of(tangent.penalty);
+        let mut penalty: &[T] = &[];
+        if tangent.penalty.is_empty() {
+            jacobian = &jacobian[width * group.rows.len()..];
+        } else {
+            penalty = group.rows.of(tangent.penalty);
+        }
         while let [w1, w2, w3, rest @ ..] = penalty {
             let g = [jacobian, &jacobian[width..], &jacobian[2 * width..]];
             add_squares(block, k, g, [*w1, *w2, *w3]);

@@ -7,6 +7,7 @@ use crate::algebra::Vector;
 use crate::elements::combine;
 use crate::model::{Load, Measure, Model, Owner, Tangent, Terms};
 use alloc::vec;
+use core::ops::Range;
 
 impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     fn n_extended(&self) -> usize {
@@ -163,6 +164,19 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
                 masses[row] = if mobility > T::ZERO { T::ONE / mobility } else { T::ONE };
                 at += width;
             }
+        }
+    }
+
+    fn rows(&self, element: usize) -> Range<usize> {
+        self.groups[element].rows.range()
+    }
+
+    fn write_jacobian(&self, terms: &Terms<T>, element: usize, rows: &mut [T]) {
+        let group = &self.groups[element];
+        let (k, width) = (group.clique.len(), group.width as usize);
+        let jacobian = terms.jacobian[group.jacobian as usize..].chunks_exact(width.max(1));
+        for (to, from) in rows.chunks_exact_mut(k.max(1)).zip(jacobian).take(group.rows.len()) {
+            to.copy_from_slice(&from[..k]);
         }
     }
 

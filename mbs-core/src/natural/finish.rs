@@ -2,15 +2,17 @@
 
 use super::basis::Combination;
 use super::build::Builder;
-use super::cluster::Clusters;
 use super::draft::{EffectDraft, GroupDraft, RowDraft};
-use super::forces::{BodyTorque, Gauge, Law, MeasureElement, PointForce};
+use super::forces::{BodyTorque, Gauge, MeasureElement, PointForce};
 use super::group::{Group, packed};
 use super::model::NaturalModel;
+use super::motion::carriers;
 use super::sharing::Entity;
 use crate::Real;
 use crate::algebra::{Coef, Vector};
+use crate::cluster::Clusters;
 use crate::elements::{Distance, Dot, Guided, GuidedMotion, Linear, Span, Term};
+use crate::laws::scalar::Law;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -29,12 +31,15 @@ pub(crate) fn lifted<T: Real>(c: Coef<T>, f: &Vector<T, 3>) -> Vector<T, 3> {
 
 /// Numbers and lays out everything.
 pub(super) fn finish<T: Real, const D: usize>(builder: Builder<'_, T>) -> NaturalModel<T, D> {
-    let Builder { entities, groups, clusters, bases, guides, courses, length, .. } = builder;
+    let Builder { entities, groups, clusters, bases, shared, guides, courses, length, .. } =
+        builder;
     let mut layout = Layout::<T, D>::new(entities, groups.as_slice(), clusters, length);
     for group in &groups {
         layout.add(group);
     }
     let mut model = layout.model;
+    let owners = (&model.clusters, bases.as_slice(), shared.as_slice());
+    model.carried = carriers(&layout.entities, owners, &model.entity_at);
     model.bases = bases;
     model.guides = guides;
     model.courses = courses;
@@ -117,6 +122,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             clusters,
             bases: Vec::new(),
             entity_at,
+            carried: Vec::new(),
             length,
         };
         Self { model, entities }

@@ -9,7 +9,7 @@
 use crate::Real;
 use crate::algebra::{Vector, cross, norm};
 use crate::elements::{Span, Term, combine};
-use crate::model::Measure;
+use crate::laws::scalar::{Law, Measure};
 
 /// What a scalar law measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,15 +18,6 @@ pub(crate) enum Gauge {
     Length { x: Span },
     /// Angle of y in the frame x1, x2, unwrapped against `memory`.
     Angle { x1: Span, x2: Span, y: Span, memory: u32 },
-}
-
-/// A scalar law.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Law<T> {
-    /// stiffness (m - free) + damping m'.
-    SpringDamper { stiffness: T, damping: T, free: T },
-    /// A course's first component, with the sign of growth.
-    Torque { course: u32 },
 }
 
 /// A scalar law along a gauge, with its gradient's place in the Jacobian store.
@@ -73,38 +64,23 @@ impl<T: Real> MeasureElement<T> {
                 angle::<T, D>(spans, q, v, memory[turn as usize], row)
             }
         };
-        match self.law {
-            Law::Torque { course } => {
-                Measure { value, rate, tension: -courses[course as usize][0], ..Measure::default() }
+        let measure = self.law.evaluate(value, rate, courses);
+        match self.gauge {
+            Gauge::Length { .. } if value > T::ZERO && measure.tension > T::ZERO => {
+                Measure { transverse: measure.tension / value, ..measure }
             }
-            Law::SpringDamper { stiffness, damping, free } => {
-                let tension = stiffness * (value - free) + damping * rate;
-                let transverse = match self.gauge {
-                    Gauge::Length { .. } if value > T::ZERO && tension > T::ZERO => tension / value,
-                    _ => T::ZERO,
-                };
-                Measure { value, rate, tension, stiffness, damping, transverse }
-            }
+            _ => measure,
         }
     }
 
     /// Stored energy [J] of the elastic part at the measure's value.
     pub(crate) fn energy(&self, measure: &Measure<T>) -> T {
-        match self.law {
-            Law::SpringDamper { stiffness, free, .. } => {
-                let stretch = measure.value - free;
-                stiffness * stretch * stretch * T::HALF
-            }
-            Law::Torque { .. } => T::ZERO,
-        }
+        self.law.energy(measure.value)
     }
 
     /// Power that is not stored: dampers take, courses give [W].
     pub(crate) fn power(&self, measure: &Measure<T>) -> T {
-        match self.law {
-            Law::SpringDamper { damping, .. } => -damping * measure.rate * measure.rate,
-            Law::Torque { .. } => -measure.tension * measure.rate,
-        }
+        self.law.power(measure)
     }
 }
 

@@ -13,9 +13,9 @@
 use super::basis::Combination;
 use super::build::Builder;
 use super::draft::{RowDraft, difference};
-use super::input::GuideInput;
 use crate::Real;
 use crate::algebra::{Vector, across, cross, norm};
+use crate::inputs::GuideInput;
 use crate::scene::{Dimension, Joint, JointKind};
 use alloc::vec::Vec;
 
@@ -31,7 +31,7 @@ pub(crate) fn unit_axis<T: Real>(joint: &Joint<T>, i: usize) -> Vector<T, 3> {
 }
 
 /// Two directions across `axis`, the second a quarter turn after the first, right-handed about the axis.
-pub(crate) fn transverse<T: Real>(axis: &Vector<T, 3>, dimension: Dimension) -> [Vector<T, 3>; 2] {
+pub fn transverse<T: Real>(axis: &Vector<T, 3>, dimension: Dimension) -> [Vector<T, 3>; 2] {
     let v = match dimension {
         Dimension::Planar => Vector::<T, 3>::new(T::ONE, T::ZERO, T::ZERO),
         Dimension::Spatial => across(axis),
@@ -144,7 +144,7 @@ fn dot<T: Real>(x: Combination<T>, y: Combination<T>, constant: T) -> RowDraft<T
 }
 
 /// Unit axes of a joint: the planar joint's direction is made perpendicular to its normal.
-pub(crate) fn joint_axes<T: Real>(joint: &Joint<T>, dimension: Dimension) -> [[T; 3]; 2] {
+pub fn joint_axes<T: Real>(joint: &Joint<T>, dimension: Dimension) -> [[T; 3]; 2] {
     let n = unit_axis(joint, 0);
     let second = match joint.kind {
         JointKind::Planar => {
@@ -163,7 +163,7 @@ pub(crate) fn joint_axes<T: Real>(joint: &Joint<T>, dimension: Dimension) -> [[T
 
 /// Directions [x1, x2, y] whose angle atan2(x2.y, x1.y) is a joint coordinate: number 0 with x1, x2 in the first body and y in
 /// the second; number 1 (universal, minus its second angle) with x1, x2 in the second body and y in the first.
-pub(crate) fn angle_directions<T: Real>(
+pub fn angle_directions<T: Real>(
     joint: &Joint<T>,
     dimension: Dimension,
     number: usize,

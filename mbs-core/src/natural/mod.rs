@@ -1,12 +1,11 @@
 //! Natural coordinates: shared points and unit vectors with a constant mass matrix, made from a scene.
 //!
-//! The way down: `cluster` (welds), `sharing` (what joints make common), `basis` (entities of each body), `build`,
+//! The way down: [`cluster`](crate::cluster) (welds), `sharing` (what joints make common), `basis` (entities of each body), `build`,
 //! `joints`, `effects` (rows and laws), `finish` (numbering and tables), `evaluate` (the numbers).
 
 mod affine;
 mod basis;
 mod build;
-mod cluster;
 mod draft;
 mod effects;
 mod element;
@@ -15,20 +14,18 @@ mod evaluate;
 mod finish;
 mod forces;
 mod group;
-mod input;
 mod joints;
 mod memory;
 mod model;
+mod motion;
 mod sharing;
 
 pub use affine::Affine;
 pub use basis::INDEPENDENCE;
-pub(crate) use cluster::mass_properties;
 pub use error::ModelError;
 pub(crate) use finish::index;
 pub use forces::unwrap;
 pub(crate) use group::{add_squares, packed};
-pub(crate) use input::{CourseInput, GuideInput};
-pub(crate) use joints::{angle_directions, joint_axes, transverse};
+pub use joints::{angle_directions, joint_axes, transverse};
 pub use model::NaturalModel;
 pub use sharing::TOLERANCE;

@@ -1,14 +1,15 @@
 //! [`NaturalModel`]: elements by kind in contiguous arrays, gathered into groups.
 
 use super::basis::Basis;
-use super::cluster::Clusters;
 use super::forces::{BodyTorque, MeasureElement, PointForce};
 use super::group::Group;
-use super::input::{CourseInput, GuideInput};
+use super::motion::Carried;
 use crate::Real;
 use crate::algebra::Coef;
 use crate::blocks::Cliques;
+use crate::cluster::Clusters;
 use crate::elements::{Distance, Dot, Guided, Linear, Term};
+use crate::inputs::{CourseInput, GuideInput};
 use crate::model::Owner;
 use alloc::vec::Vec;
 
@@ -48,6 +49,8 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) bases: Vec<Basis<T>>,
     /// First extended coordinate of each entity of the builder.
     pub(super) entity_at: Vec<u32>,
+    /// The unknown entities with a body each.
+    pub(super) carried: Vec<Carried<T>>,
     /// The scene's length [m].
     pub(super) length: T,
 }

@@ -4,9 +4,9 @@
 //! same place (parallel, either sign) within [`TOLERANCE`] of the scene's length is the same feature. Features joined by
 //! any chain of joints are one *entity*. An entity that the ground has is a constant.
 
-use super::cluster::Clusters;
 use crate::Real;
 use crate::algebra::{Vector, cross, norm};
+use crate::cluster::Clusters;
 use crate::scene::{Dimension, Joint, JointKind, Scene};
 use alloc::vec::Vec;
 

@@ -10,8 +10,9 @@ use super::frame::{lifted, unit};
 use super::wrench::Wrench;
 use crate::Real;
 use crate::algebra::{Matrix, Vector, norm};
+use crate::inputs::CourseInput;
 use crate::model::State;
-use crate::natural::{Affine, CourseInput, NaturalModel, joint_axes};
+use crate::natural::{Affine, NaturalModel, joint_axes};
 use crate::scene::{AxisFrame, BodyRef, EffectKind, Scene};
 use alloc::vec::Vec;
 

@@ -2,8 +2,9 @@
 
 use super::coordinate::Coordinate;
 use crate::Real;
+use crate::inputs::GuideInput;
 use crate::model::State;
-use crate::natural::{Affine, GuideInput, ModelError, NaturalModel};
+use crate::natural::{Affine, ModelError, NaturalModel};
 use crate::scene::{BodyRef, InitialTarget, Quantity, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
@@ -161,8 +162,9 @@ fn copy<T: Real>(from: &[T], to: &mut [f64]) {
     }
 }
 
-/// What a joint's coordinates are at time zero as far as the scene says it; zero elsewhere.
-fn start_values<T: Real>(scene: &Scene<T>, joint: usize) -> Vec<T> {
+/// What a joint's coordinates are at time zero as far as the scene says it (initial values, guides); zero elsewhere.
+#[must_use]
+pub fn start_values<T: Real>(scene: &Scene<T>, joint: usize) -> Vec<T> {
     let mut values = vec![T::ZERO; scene.joints[joint].kind.n_coordinates(scene.dimension)];
     for guide in scene.guides.iter().filter(|guide| guide.joint == joint) {
         let [value, ..] = GuideInput::new(&guide.law).at(T::ZERO);

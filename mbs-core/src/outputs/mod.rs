@@ -9,10 +9,11 @@ mod frame;
 mod load;
 mod measure;
 mod minimum_norm;
+mod motion;
 mod peel;
 mod reaction;
 mod wrench;
 
 pub use error::ReactionError;
-pub use measure::Measures;
+pub use measure::{Measures, start_values};
 pub use reaction::{LARGEST_BLOCK, Reactions};

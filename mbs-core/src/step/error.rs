@@ -1,6 +1,6 @@
 //! What can stop a step, and what options cannot be.
 
-use mbs_core::FactorError;
+use crate::FactorError;
 
 /// A step that could not be made. The state is as it was before the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,6 +21,18 @@ pub enum StepError {
     NotFinite {
         /// The unknown concerned.
         unknown: u32,
+    },
+    /// The constraints lost rank: the mechanism stands in (or near) a singular position, or rows repeat each other.
+    RankLost {
+        /// The row that depends on the others.
+        row: u32,
+        /// Size of its pivot, relative to what a row of full effect has.
+        pivot: f64,
+    },
+    /// The step-size control needed a step too short to matter.
+    StepTooSmall {
+        /// The step it asked for [s].
+        step: f64,
     },
     /// A projection did not reach its level.
     Violated {
@@ -49,6 +61,14 @@ impl core::fmt::Display for StepError {
                 f,
                 "the tangent matrix is not positive definite (pivot {:.1e}): a force meets no inertia there, or nothing determines the coordinate; give the body mass or inertia, or try a smaller step",
                 e.pivot
+            ),
+            Self::RankLost { pivot, .. } => write!(
+                f,
+                "the constraints depend on each other here (relative pivot {pivot:.1e}): redundant joints or a singular position; try a formulation that tolerates them, index-3 or index-1"
+            ),
+            Self::StepTooSmall { step } => write!(
+                f,
+                "the error control asked for a step of {step:.1e} s: the motion may be stiff or not smooth here; try an implicit integrator or a looser tolerance"
             ),
             Self::NotFinite { .. } => {
                 write!(f, "a number became infinite or NaN: try a smaller step")

@@ -8,31 +8,31 @@ use alloc::vec::Vec;
 
 /// A rigid cluster of one or more bodies.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Cluster<T: Real> {
+pub struct Cluster<T: Real> {
     /// Indices of the bodies.
-    pub(crate) bodies: Vec<usize>,
+    pub bodies: Vec<usize>,
     /// Mass [kg].
-    pub(crate) mass: T,
+    pub mass: T,
     /// Centre of mass, reference configuration [m].
-    pub(crate) center: Vector<T, 3>,
+    pub center: Vector<T, 3>,
     /// Inertia about the centre of mass, global axes [kg m^2].
-    pub(crate) inertia: Matrix<T, 3>,
+    pub inertia: Matrix<T, 3>,
     /// Ends, when it is a single slender rod.
-    pub(crate) rod: Option<[Vector<T, 3>; 2]>,
+    pub rod: Option<[Vector<T, 3>; 2]>,
 }
 
 /// All clusters.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Clusters<T: Real> {
+pub struct Clusters<T: Real> {
     /// Cluster of each body; `None`: part of the ground.
-    pub(crate) of_body: Vec<Option<usize>>,
+    pub of_body: Vec<Option<usize>>,
     /// The clusters, in the order of their first bodies.
-    pub(crate) clusters: Vec<Cluster<T>>,
+    pub clusters: Vec<Cluster<T>>,
 }
 
 impl<T: Real> Clusters<T> {
     /// Merges the welded bodies of a scene.
-    pub(crate) fn new(scene: &Scene<T>) -> Self {
+    pub fn new(scene: &Scene<T>) -> Self {
         let n = scene.bodies.len();
         // Union-find with the ground as number n; a root is the smallest body, the ground wins.
         let mut parent: Vec<usize> = (0..=n).collect();
@@ -64,7 +64,7 @@ impl<T: Real> Clusters<T> {
     }
 
     /// The cluster of a body reference; `None`: the ground.
-    pub(crate) fn of(&self, body: BodyRef) -> Option<usize> {
+    pub fn of(&self, body: BodyRef) -> Option<usize> {
         match body {
             BodyRef::Ground => None,
             BodyRef::Body(i) => self.of_body[i],
@@ -80,10 +80,7 @@ fn root(parent: &[usize], mut i: usize) -> usize {
 }
 
 /// Mass, centre and inertia about the centre of one body.
-pub(crate) fn mass_properties<T: Real>(
-    scene: &Scene<T>,
-    body: usize,
-) -> (T, Vector<T, 3>, Matrix<T, 3>) {
+pub fn mass_properties<T: Real>(scene: &Scene<T>, body: usize) -> (T, Vector<T, 3>, Matrix<T, 3>) {
     let body = &scene.bodies[body];
     let center = Vector::from(body.center);
     let mut inertia = Matrix::<T, 3>::zeros();
@@ -133,7 +130,7 @@ fn merge<T: Real>(scene: &Scene<T>, bodies: Vec<usize>) -> Cluster<T> {
 }
 
 /// The length of a scene [m]: the largest distance of a hard point from the first one; one if all coincide.
-pub(crate) fn scene_length<T: Real>(scene: &Scene<T>) -> T {
+pub fn scene_length<T: Real>(scene: &Scene<T>) -> T {
     let mut first: Option<Vector<T, 3>> = None;
     let mut length = T::ZERO;
     let mut visit = |p: Vector<T, 3>| {

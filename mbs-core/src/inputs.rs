@@ -8,13 +8,15 @@ use alloc::vec::Vec;
 
 /// A guide law with its spline prepared.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct GuideInput<T> {
+pub struct GuideInput<T> {
     law: GuideLaw<T>,
     curvature: Vec<T>,
 }
 
 impl<T: Real> GuideInput<T> {
-    pub(crate) fn new(law: &GuideLaw<T>) -> Self {
+    /// Prepares a law.
+    #[must_use]
+    pub fn new(law: &GuideLaw<T>) -> Self {
         let mut curvature = Vec::new();
         if let GuideLaw::Table(table) = law {
             curvature.resize(table.len(), T::ZERO);
@@ -23,8 +25,8 @@ impl<T: Real> GuideInput<T> {
         Self { law: law.clone(), curvature }
     }
 
-    /// Value, rate, acceleration at time `t`.
-    pub(crate) fn at(&self, t: T) -> [T; 3] {
+    /// Value, rate, acceleration at time `t`. Cost: one law; no allocation.
+    pub fn at(&self, t: T) -> [T; 3] {
         let m = match &self.law {
             GuideLaw::Table(table) => guide::spline(table, &self.curvature, t),
             GuideLaw::Sine { amplitude, frequency, phase } => {
@@ -38,17 +40,19 @@ impl<T: Real> GuideInput<T> {
 
 /// A constant or a table, linear between its rows.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct CourseInput<T> {
+pub struct CourseInput<T> {
     course: Course<T>,
 }
 
 impl<T: Real> CourseInput<T> {
-    pub(crate) fn new(course: &Course<T>) -> Self {
+    /// Prepares a course.
+    #[must_use]
+    pub fn new(course: &Course<T>) -> Self {
         Self { course: course.clone() }
     }
 
     /// Value at time `t`.
-    pub(crate) fn at(&self, t: T) -> [T; 3] {
+    pub fn at(&self, t: T) -> [T; 3] {
         let rows = match &self.course {
             Course::Constant(value) => return *value,
             Course::Table(rows) => rows,

@@ -1,0 +1,64 @@
+//! Natural coordinates written from the motions of the bodies, for formulations with other coordinates.
+
+use super::basis::Basis;
+use super::model::NaturalModel;
+use super::sharing::{Entity, EntityKind};
+use crate::Real;
+use crate::algebra::Vector;
+use crate::cluster::Clusters;
+use crate::model::State;
+use crate::rigid::RigidMotion;
+use alloc::vec::Vec;
+
+/// An unknown entity with one of the bodies that carry it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Carried<T: Real> {
+    /// Its first coordinate.
+    at: u32,
+    /// Index of the body.
+    body: usize,
+    is_point: bool,
+    reference: Vector<T, 3>,
+}
+
+/// One carrier for each unknown entity: the first body that has it.
+pub(super) fn carriers<T: Real>(
+    entities: &[Entity<T>],
+    (clusters, bases, shared): (&Clusters<T>, &[Basis<T>], &[Vec<usize>]),
+    entity_at: &[u32],
+) -> Vec<Carried<T>> {
+    let mut carried = Vec::new();
+    let mut is_seen = alloc::vec![false; entities.len()];
+    for (c, cluster) in clusters.clusters.iter().enumerate() {
+        for &e in bases[c].entities.iter().chain(&shared[c]) {
+            let (entity, at) = (&entities[e], entity_at[e]);
+            if !(entity.is_constant || is_seen[e] || at == u32::MAX) {
+                is_seen[e] = true;
+                let is_point = entity.kind == EntityKind::Point;
+                let body = cluster.bodies[0];
+                carried.push(Carried { at, body, is_point, reference: entity.at });
+            }
+        }
+    }
+    carried
+}
+
+impl<T: Real, const D: usize> NaturalModel<T, D> {
+    /// Writes positions, velocities and accelerations of all unknowns from the motions of the scene's bodies, one for each.
+    ///
+    /// Cost: two products of a rotation and a vector and four cross products for each point or direction; no allocation.
+    pub fn write_motions(&self, motions: &[RigidMotion<T>], s: &mut State<T>) {
+        for entity in &self.carried {
+            let Some(motion) = motions.get(entity.body) else { continue };
+            let values = if entity.is_point {
+                motion.point(&entity.reference)
+            } else {
+                motion.direction(&entity.reference)
+            };
+            let at = entity.at as usize;
+            for (to, from) in [&mut s.q, &mut s.v, &mut s.a].into_iter().zip(values) {
+                to[at..at + D].copy_from_slice(&from.as_slice()[..D]);
+            }
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! The motion of a body, read off natural coordinates.
+
+use super::frame::{Frame, lifted};
+use crate::Real;
+use crate::algebra::Vector;
+use crate::model::State;
+use crate::natural::NaturalModel;
+use crate::rigid::RigidMotion;
+use crate::scene::{BodyRef, Scene};
+
+impl<T: Real, const D: usize> NaturalModel<T, D> {
+    /// The motion of `scene.bodies[body]` about its centre of mass at a state. A thin rod on balls has no spin about itself:
+    /// its rotation is the smallest that carries its line.
+    ///
+    /// Allocates a few combinations: for starts and reports, not for steps.
+    #[must_use]
+    pub fn motion(&self, scene: &Scene<T>, body: usize, state: &State<T>) -> RigidMotion<T> {
+        let (_, center, _) = crate::cluster::mass_properties(scene, body);
+        let owner = BodyRef::Body(body);
+        if self.is_ground(owner) {
+            return RigidMotion::at_rest(center);
+        }
+        let (point, frame) = (self.point(owner, center.into()), Frame::new(scene, self, owner));
+        let [position, velocity, acceleration] =
+            [point.value(&state.q), point.rate(&state.v), point.rate(&state.a)]
+                .map(|x: Vector<T, D>| lifted(&x));
+        RigidMotion {
+            origin: center,
+            position,
+            rotation: frame.rotation(&state.q),
+            omega: frame.turning(&state.q, &state.v),
+            velocity,
+            angular_acceleration: frame.turning(&state.q, &state.a),
+            acceleration,
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! How a finished step in natural coordinates enters the state, and what steps look for on the way.
+
+use super::error::StepError;
+use crate::Real;
+use crate::integrator::Rule;
+use crate::model::{Model, State, Terms};
+
+/// (q, q_low) += dq without rounding where `compensated`, q += dq where not; v and a are taken over, and the auxiliary
+/// accelerations follow. All slices are read over the unknowns (the length of `dq` or less: `n`).
+pub fn take_coordinates<T: Real>(
+    rule: &Rule<T>,
+    compensated: bool,
+    n: usize,
+    s: &mut State<T>,
+    (dq, v, a): (&[T], &[T], &[T]),
+) {
+    let shift = rule.auxiliary / rule.acceleration;
+    for i in 0..n {
+        let (_, _, a_predicted) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
+        s.a_aux[i] += shift * (a[i] - a_predicted);
+        s.v[i] = v[i];
+        s.a[i] = a[i];
+        if compensated {
+            // (q, q_low) += dq, exactly
+            let y = dq[i] + s.q_low[i];
+            let sum = s.q[i] + y;
+            let back = sum - s.q[i];
+            s.q_low[i] = (s.q[i] - (sum - back)) + (y - back);
+            s.q[i] = sum;
+        } else {
+            s.q[i] += dq[i];
+        }
+    }
+}
+
+/// Adds the work of the last `dt` [s] to the ledger of a state whose q, v and reaction are final, by the trapezoidal rule in
+/// time; measured angles are remembered.
+pub fn add_work<T: Real, M: Model<T>>(model: &M, dt: T, s: &mut State<T>, terms: &mut Terms<T>) {
+    if !(model.has_forces() || model.has_guides()) {
+        return;
+    }
+    if model.has_forces() {
+        model.evaluate_forces(&s.q, &s.v, &s.memory, terms);
+        model.remember(terms, &mut s.memory);
+    }
+    let power = model.power(&s.q, &s.v, &s.reaction, terms);
+    s.work += (s.power + power) * dt * T::HALF;
+    s.power = power;
+}
+
+/// A guided angle satisfies its equation half a turn away too: that root is refused.
+///
+/// # Errors
+/// [`StepError::OppositeBranch`] names the guide's row.
+pub fn check_guides<T: Real, M: Model<T>>(
+    model: &M,
+    q: &[T],
+    terms: &Terms<T>,
+) -> Result<(), StepError> {
+    if !model.has_guides() {
+        return Ok(());
+    }
+    match model.opposite_guide(q, terms) {
+        Some(row) => Err(StepError::OppositeBranch { row: u32::try_from(row).unwrap_or(u32::MAX) }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,13 @@
+//! What the steps of all formulations share: errors, reports, and how a finished step enters the state.
+
+#[cfg(feature = "alloc")]
+mod commit;
+mod error;
+mod report;
+mod scan;
+
+#[cfg(feature = "alloc")]
+pub use commit::{add_work, check_guides, take_coordinates};
+pub use error::{OptionError, StepError};
+pub use report::{StepReport, Stop};
+pub use scan::{largest, largest_or_nan, step_scale};

@@ -1,0 +1,55 @@
+//! What a step did, in counts.
+
+use crate::Real;
+
+/// Why the iteration of a step ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stop {
+    /// The next correction, estimated from the last two, is below the tolerance of the step.
+    Converged,
+    /// Corrections no longer shrink and are at the level of rounding.
+    Rounding,
+    /// The step ended within reach of a singular position: the multiplier of a combination of constraints that has almost no
+    /// effect there is left as it was extrapolated.
+    Passage,
+    /// The allowed iterations are used and the last correction is below `tolerance` times the scene's length.
+    Tolerance,
+    /// Explicit: nothing is iterated.
+    Explicit,
+}
+
+/// What a step did. Counts only; time is measured from outside.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepReport<T> {
+    /// Iterations; evaluations of the accelerations in relative coordinates.
+    pub iterations: u32,
+    /// Factorisations.
+    pub factorizations: u32,
+    /// Back-substitutions.
+    pub solves: u32,
+    /// Accepted steps inside this one: 1, more where a step size is controlled inside.
+    pub steps: u32,
+    /// Rejected steps inside this one.
+    pub rejected: u32,
+    /// Last correction of a coordinate [m or -].
+    pub correction: T,
+    /// What ended the iteration.
+    pub stop: Stop,
+    /// Largest |phi|, |phi'|, |phi''| after the step [m, m/s, m/s^2].
+    pub violation: [T; 3],
+}
+
+impl<T: Real> Default for StepReport<T> {
+    fn default() -> Self {
+        Self {
+            iterations: 0,
+            factorizations: 0,
+            solves: 0,
+            steps: 1,
+            rejected: 0,
+            correction: T::ZERO,
+            stop: Stop::Converged,
+            violation: [T::ZERO; 3],
+        }
+    }
+}

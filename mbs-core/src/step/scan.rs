@@ -1,0 +1,26 @@
+//! What steps look for in a vector.
+
+use crate::Real;
+use crate::algebra::norm_inf;
+
+/// The displacement that accelerations cause in a step: what corrections are small against [m].
+pub fn step_scale<T: Real>(dt: T, a: &[T]) -> T {
+    norm_inf(a) * dt * dt * T::HALF
+}
+
+/// Index of the entry largest in absolute value.
+pub fn largest<T: Real>(x: &[T]) -> u32 {
+    let mut best = 0;
+    for i in 1..x.len() {
+        if x[i].abs() > x[best].abs() {
+            best = i;
+        }
+    }
+    u32::try_from(best).unwrap_or(u32::MAX)
+}
+
+/// The first entry that is not finite, else the largest.
+pub fn largest_or_nan<T: Real>(x: &[T]) -> u32 {
+    let bad = x.iter().position(|x| !x.is_finite());
+    bad.map_or_else(|| largest(x), |i| u32::try_from(i).unwrap_or(u32::MAX))
+}
