@@ -1,0 +1,288 @@
+//! The choice of pivots: Markowitz' count among the entries that are large in what is left of the whole matrix.
+//!
+//! ```text
+//! s = D J E,   D: rows of unit length,   E: column scales
+//! pivot (i, j): |s_ij| >= u max|s|,   least (entries of row i - 1)(entries of column j - 1) among the shortest rows
+//! rank: the pivots until max|s| <= max(m, n) eps^(5/8)
+//! ```
+//!
+//! Comparing with all that is left, and not with one row or column, is what reveals the rank. The matrix is a list of entries
+//! linked along rows and columns; an entry stands for what it is in the pattern even when its number is zero just now, so the
+//! order found holds for other numbers too.
+
+use super::{Choice, Elimination, Pattern, index};
+use alloc::vec;
+use alloc::vec::Vec;
+use mbs_core::Real;
+
+/// u: a pivot has at least this share of the largest entry left.
+const THRESHOLD: f64 = 0.3;
+/// Rows that are searched for one pivot.
+const SEARCHED: usize = 6;
+/// No entry, no row, no column.
+const NONE: u32 = u32::MAX;
+
+/// One entry of the matrix that is eliminated.
+#[derive(Debug, Clone, Copy)]
+struct Entry<T> {
+    row: u32,
+    column: u32,
+    value: T,
+    next_in_row: u32,
+    next_in_column: u32,
+}
+
+/// Scratch of a choice.
+#[derive(Debug, Clone)]
+pub(super) struct Chooser<T> {
+    entries: Vec<Entry<T>>,
+    row_heads: Vec<u32>,
+    column_heads: Vec<u32>,
+    /// Entries left in each row and column.
+    row_counts: Vec<u32>,
+    column_counts: Vec<u32>,
+    /// Size of the largest entry left in each row.
+    row_sizes: Vec<T>,
+    /// The step at which a row or column was eliminated.
+    row_steps: Vec<u32>,
+    column_steps: Vec<u32>,
+    /// Entry of the row at hand in each column.
+    at: Vec<u32>,
+}
+
+impl<T: Real> Chooser<T> {
+    pub(super) fn new(pattern: &Pattern) -> Self {
+        let (m, n) = (pattern.n_rows(), pattern.n_columns);
+        Self {
+            entries: Vec::new(),
+            row_heads: vec![NONE; m],
+            column_heads: vec![NONE; n],
+            row_counts: vec![0; m],
+            column_counts: vec![0; n],
+            row_sizes: vec![T::ZERO; m],
+            row_steps: vec![NONE; m],
+            column_steps: vec![NONE; n],
+            at: vec![NONE; n],
+        }
+    }
+
+    pub(super) fn reserve(&mut self, entries: usize) {
+        self.entries.reserve(entries.saturating_sub(self.entries.len()));
+    }
+
+    fn push(&mut self, row: u32, column: u32, value: T) {
+        let (r, c) = (row as usize, column as usize);
+        let next_in_row = core::mem::replace(&mut self.row_heads[r], index(self.entries.len()));
+        let next_in_column =
+            core::mem::replace(&mut self.column_heads[c], index(self.entries.len()));
+        self.entries.push(Entry { row, column, value, next_in_row, next_in_column });
+        self.row_counts[r] += 1;
+        self.column_counts[c] += 1;
+    }
+
+    fn load(&mut self, pattern: &Pattern, values: &[T]) {
+        self.entries.clear();
+        self.row_heads.fill(NONE);
+        self.column_heads.fill(NONE);
+        self.row_counts.fill(0);
+        self.column_counts.fill(0);
+        self.row_steps.fill(NONE);
+        self.column_steps.fill(NONE);
+        self.at.fill(NONE);
+        for r in 0..pattern.n_rows() {
+            for t in pattern.row(r) {
+                self.push(index(r), pattern.columns[t], values[t]);
+            }
+        }
+    }
+
+    /// The next entry along a row, from its head or after an entry.
+    fn along(&self, at: u32) -> Option<(u32, Entry<T>)> {
+        (at != NONE).then(|| (at, self.entries[at as usize]))
+    }
+
+    fn measure(&mut self, row: usize, (row_scale, column_scales): (T, &[T])) {
+        let (mut size, mut next) = (T::ZERO, self.row_heads[row]);
+        while let Some((_, e)) = self.along(next) {
+            let c = e.column as usize;
+            if self.column_steps[c] == NONE {
+                size = size.max(e.value.abs() * row_scale * column_scales[c]);
+            }
+            next = e.next_in_row;
+        }
+        self.row_sizes[row] = size;
+    }
+
+    /// The largest entry left: its row and size.
+    fn rest(&self) -> (u32, T) {
+        let mut best = (0, T::ZERO);
+        for (r, (&size, &step)) in self.row_sizes.iter().zip(&self.row_steps).enumerate() {
+            if step == NONE && size > best.1 {
+                best = (index(r), size);
+            }
+        }
+        best
+    }
+
+    /// The next pivot, an entry of at least the size `least` that makes few new ones.
+    fn pivot(&self, least: T, (row_scales, column_scales): (&[T], &[T])) -> Option<u32> {
+        let is_open = |r: usize| self.row_steps[r] == NONE && self.row_sizes[r] >= least;
+        let open = || (0..self.row_sizes.len()).filter(|&r| is_open(r));
+        let shortest = open().map(|r| self.row_counts[r]).min()?;
+        let mut best: Option<(u64, T, u32)> = None;
+        for r in open().filter(|&r| self.row_counts[r] == shortest).take(SEARCHED) {
+            let mut next = self.row_heads[r];
+            while let Some((at, e)) = self.along(next) {
+                next = e.next_in_row;
+                let c = e.column as usize;
+                let size = e.value.abs() * row_scales[r] * column_scales[c];
+                if self.column_steps[c] != NONE || !(size >= least) {
+                    continue;
+                }
+                let cost = u64::from(shortest - 1) * u64::from(self.column_counts[c] - 1);
+                let is_better = best.is_none_or(|(c, s, _)| cost < c || (cost == c && size > s));
+                if is_better {
+                    best = Some((cost, size, at));
+                }
+            }
+        }
+        best.map(|(_, _, at)| at)
+    }
+
+    /// Subtracts the pivot's row from every row that has its column.
+    fn eliminate(&mut self, pivot: u32, step: u32, (row_scales, column_scales): (&[T], &[T])) {
+        let pivot = self.entries[pivot as usize];
+        let (p, c) = (pivot.row as usize, pivot.column as usize);
+        self.row_steps[p] = step;
+        self.column_steps[c] = step;
+        let mut next = self.column_heads[c];
+        while let Some((_, e)) = self.along(next) {
+            next = e.next_in_column;
+            let r = e.row as usize;
+            if self.row_steps[r] == NONE {
+                self.subtract(p, r, e.value / pivot.value);
+                self.row_counts[r] -= 1;
+                self.measure(r, (row_scales[r], column_scales));
+            }
+        }
+        let mut next = self.row_heads[p];
+        while let Some((_, e)) = self.along(next) {
+            next = e.next_in_row;
+            self.column_counts[e.column as usize] -= 1;
+        }
+    }
+
+    /// row r -= factor * row p, over the columns left.
+    fn subtract(&mut self, p: usize, r: usize, factor: T) {
+        let mut next = self.row_heads[r];
+        while let Some((at, e)) = self.along(next) {
+            self.at[e.column as usize] = at;
+            next = e.next_in_row;
+        }
+        let mut next = self.row_heads[p];
+        while let Some((_, e)) = self.along(next) {
+            next = e.next_in_row;
+            let c = e.column as usize;
+            if self.column_steps[c] != NONE {
+                continue;
+            }
+            match self.at[c] {
+                NONE => self.push(index(r), e.column, -factor * e.value),
+                at => self.entries[at as usize].value -= factor * e.value,
+            }
+        }
+        let mut next = self.row_heads[r];
+        while let Some((_, e)) = self.along(next) {
+            self.at[e.column as usize] = NONE;
+            next = e.next_in_row;
+        }
+    }
+}
+
+impl<T: Real> Elimination<T> {
+    /// Chooses pivots for the matrix `values` and notes the order; the factors are then those of [`refactor`](Self::refactor).
+    ///
+    /// Cost: the elimination once, and for each pivot a look at every row. Allocates only when the factors need more than
+    /// was reserved.
+    pub fn choose(&mut self, values: &[T]) -> Choice<T> {
+        let (m, n) = (self.pattern.n_rows(), self.pattern.n_columns);
+        self.scale_rows(values);
+        let scales = (&self.row_scales[..], &self.column_scales[..]);
+        let chooser = &mut self.chooser;
+        chooser.load(&self.pattern, values);
+        for r in 0..m {
+            chooser.measure(r, (scales.0[r], scales.1));
+        }
+        let tolerance = rank_tolerance::<T>(m.max(n));
+        let mut last = (0, T::ONE);
+        let mut rank = 0;
+        self.rows.clear();
+        self.unknowns.clear();
+        while rank < m.min(n) {
+            let (_, largest) = chooser.rest();
+            if !(largest > tolerance) {
+                break;
+            }
+            let Some(at) = chooser.pivot(largest * T::from_f64(THRESHOLD), scales) else { break };
+            let e = chooser.entries[at as usize];
+            let (r, c) = (e.row as usize, e.column as usize);
+            last = (e.row, e.value.abs() * scales.0[r] * scales.1[c]);
+            chooser.eliminate(at, index(rank), scales);
+            self.rows.push(e.row);
+            self.unknowns.push(e.column);
+            rank += 1;
+        }
+        let rest = chooser.rest();
+        self.rank = rank;
+        self.rows.extend((0..m).filter(|&r| chooser.row_steps[r] == NONE).map(index));
+        self.unknowns.extend((0..n).filter(|&c| chooser.column_steps[c] == NONE).map(index));
+        for (place, &column) in self.unknowns.iter().enumerate() {
+            self.places[column as usize] = index(place);
+        }
+        self.note_order();
+        self.refactor(values);
+        self.note_pivots();
+        Choice { rank, last, rest }
+    }
+
+    /// D: rows of D J E have unit length; rows of zeros are left.
+    fn scale_rows(&mut self, values: &[T]) {
+        for (r, scale) in self.row_scales.iter_mut().enumerate() {
+            let square = self.pattern.row(r).fold(T::ZERO, |sum, t| {
+                let x = values[t] * self.column_scales[self.pattern.columns[t] as usize];
+                sum + x * x
+            });
+            *scale = if square > T::ZERO { T::ONE / square.sqrt() } else { T::ONE };
+        }
+    }
+
+    /// The patterns of L and U, read off the eliminated entries.
+    fn note_order(&mut self) {
+        self.lower.clear();
+        self.upper.clear();
+        for k in 0..self.rank {
+            let mut next = self.chooser.row_heads[self.rows[k] as usize];
+            while let Some((_, e)) = self.chooser.along(next) {
+                next = e.next_in_row;
+                let place = self.places[e.column as usize];
+                match (place as usize).cmp(&k) {
+                    core::cmp::Ordering::Less => self.lower.places.push(place),
+                    core::cmp::Ordering::Equal => {}
+                    core::cmp::Ordering::Greater => self.upper.places.push(place),
+                }
+            }
+            for triangle in [&mut self.lower, &mut self.upper] {
+                let start = triangle.starts[k] as usize;
+                triangle.places[start..].sort_unstable();
+                triangle.close_row();
+            }
+        }
+    }
+}
+
+/// Entries of the scaled matrix at most this large are nothing: max(m, n) eps^(5/8).
+pub(crate) fn rank_tolerance<T: Real>(size: usize) -> T {
+    let eighth = T::EPSILON.sqrt().sqrt().sqrt();
+    let square = eighth * eighth;
+    square * square * eighth * T::from_f64(size as f64)
+}

@@ -1,0 +1,215 @@
+//! Sparse Gaussian elimination of a rectangular matrix, with pivots chosen once and kept for many numbers.
+//!
+//! ```text
+//! J = [J_d J_i] (columns),   J_d = L U on the r pivot rows,   the other rows of J repeat them
+//! R = [-J_d^-1 J_i; 1],      J R = 0                                                          [P1 (21)]
+//! ```
+//!
+//! [`Elimination::choose`] finds the rank, the pivot rows and the dependent columns; [`Elimination::refactor`] repeats the
+//! arithmetic for new numbers in the same order. The pivot columns are the dependent unknowns, the others the independent ones.
+
+mod choose;
+mod factor;
+
+use alloc::vec;
+use alloc::vec::Vec;
+use choose::Chooser;
+use mbs_core::Real;
+
+/// The pattern of a sparse matrix, row by row. The numbers stand in a slice of their own, in the same order.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Pattern {
+    /// Number of columns n.
+    pub n_columns: usize,
+    /// Where each row starts in `columns`, and the end of the last one: m + 1 places.
+    pub starts: Vec<u32>,
+    /// The columns of the entries, distinct within a row.
+    pub columns: Vec<u32>,
+}
+
+impl Pattern {
+    /// Number of rows m.
+    #[must_use]
+    pub fn n_rows(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+
+    /// The places of the entries of `row`.
+    #[inline]
+    #[must_use]
+    pub fn row(&self, row: usize) -> core::ops::Range<usize> {
+        self.starts[row] as usize..self.starts[row + 1] as usize
+    }
+}
+
+/// How good the pivots are, sized as in the matrix with rows of unit length and scaled columns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pivots<T> {
+    /// The smallest pivot.
+    pub smallest: T,
+    /// Its row.
+    pub row: u32,
+    /// The smallest ratio of a pivot to itself at the last choice.
+    pub decay: T,
+}
+
+/// What [`Elimination::choose`] found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Choice<T> {
+    /// The rank r.
+    pub rank: usize,
+    /// The last pivot accepted: its row and its size in the scaled matrix.
+    pub last: (u32, T),
+    /// The largest entry that no pivot removed, and its row; zero where no row is left.
+    pub rest: (u32, T),
+}
+
+/// An elimination of matrices of one pattern. See the module.
+#[derive(Debug, Clone)]
+pub struct Elimination<T> {
+    pattern: Pattern,
+    rank: usize,
+    /// Pivot rows in the order of elimination, then the rows that were dropped.
+    rows: Vec<u32>,
+    /// Dependent columns in the order of elimination, then the independent ones, ascending.
+    unknowns: Vec<u32>,
+    /// Where each column stands in `unknowns`.
+    places: Vec<u32>,
+    /// L without its unit diagonal, row by row; columns by place.
+    lower: Triangle<T>,
+    /// U without its diagonal, row by row, the independent columns included; columns by place.
+    upper: Triangle<T>,
+    /// 1 / pivot, r.
+    inverses: Vec<T>,
+    /// Scales of rows and columns at the last choice, and the pivots there in that scaling.
+    row_scales: Vec<T>,
+    column_scales: Vec<T>,
+    chosen: Vec<T>,
+    /// One row, by place.
+    work: Vec<T>,
+    chooser: Chooser<T>,
+}
+
+/// A sparse triangle, row by row.
+#[derive(Debug, Clone, Default)]
+struct Triangle<T> {
+    starts: Vec<u32>,
+    places: Vec<u32>,
+    values: Vec<T>,
+}
+
+impl<T: Real> Triangle<T> {
+    fn row(&self, k: usize) -> core::ops::Range<usize> {
+        self.starts[k] as usize..self.starts[k + 1] as usize
+    }
+    fn clear(&mut self) {
+        self.starts.clear();
+        self.places.clear();
+        self.values.clear();
+        self.starts.push(0);
+    }
+    fn close_row(&mut self) {
+        self.values.resize(self.places.len(), T::ZERO);
+        self.starts.push(index(self.places.len()));
+    }
+    fn reserve(&mut self, rows: usize, entries: usize) {
+        self.starts.reserve(rows + 1);
+        self.places.reserve(entries.saturating_sub(self.places.len()));
+        self.values.reserve(entries.saturating_sub(self.values.len()));
+    }
+}
+
+impl<T: Real> Elimination<T> {
+    /// Room for matrices of `pattern`; nothing is chosen yet (rank zero).
+    ///
+    /// Columns are chosen after scaling by `column_scales`: the larger its scale, the sooner a column becomes dependent.
+    ///
+    /// # Panics
+    /// When `column_scales` has not one place for each column.
+    #[must_use]
+    pub fn new(pattern: Pattern, column_scales: Vec<T>) -> Self {
+        let (m, n) = (pattern.n_rows(), pattern.n_columns);
+        assert_eq!(column_scales.len(), n, "one scale for each column");
+        let least = m.min(n);
+        let mut new = Self {
+            rank: 0,
+            rows: (0..m).map(index).collect(),
+            unknowns: (0..n).map(index).collect(),
+            places: (0..n).map(index).collect(),
+            lower: Triangle::default(),
+            upper: Triangle::default(),
+            inverses: Vec::with_capacity(least),
+            row_scales: vec![T::ONE; m],
+            column_scales,
+            chosen: Vec::with_capacity(least),
+            work: vec![T::ZERO; n],
+            chooser: Chooser::new(&pattern),
+            pattern,
+        };
+        new.lower.clear();
+        new.upper.clear();
+        new.reserve(4 * new.pattern.columns.len());
+        new
+    }
+
+    /// The pattern.
+    #[must_use]
+    pub fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+    /// The rank r found at the last choice.
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        self.rank
+    }
+    /// The pivot rows, in the order of elimination.
+    #[must_use]
+    pub fn pivot_rows(&self) -> &[u32] {
+        &self.rows[..self.rank]
+    }
+    /// The rows that repeat the others.
+    #[must_use]
+    pub fn dropped_rows(&self) -> &[u32] {
+        &self.rows[self.rank..]
+    }
+    /// The dependent columns, in the order of elimination.
+    #[must_use]
+    pub fn dependent(&self) -> &[u32] {
+        &self.unknowns[..self.rank]
+    }
+    /// The independent columns, ascending.
+    #[must_use]
+    pub fn independent(&self) -> &[u32] {
+        &self.unknowns[self.rank..]
+    }
+    /// Where a column stands: `k < r` is the k-th dependent one, `r + i` the i-th independent one.
+    #[inline]
+    #[must_use]
+    pub fn place(&self, column: usize) -> usize {
+        self.places[column] as usize
+    }
+    /// The scale of a column in the choice.
+    #[inline]
+    #[must_use]
+    pub fn column_scale(&self, column: usize) -> T {
+        self.column_scales[column]
+    }
+    /// Entries of L and U together, the diagonal of U counted once.
+    #[must_use]
+    pub fn n_entries(&self) -> usize {
+        self.lower.places.len() + self.upper.places.len() + self.rank
+    }
+
+    /// Makes room for factors of `entries` numbers, so that later choices need not grow the store.
+    pub fn reserve(&mut self, entries: usize) {
+        let m = self.pattern.n_rows();
+        self.lower.reserve(m, entries);
+        self.upper.reserve(m, entries);
+        self.chooser.reserve(entries);
+    }
+}
+
+/// Counts fit u32: more than 4e9 entries do not fit a memory.
+fn index(i: usize) -> u32 {
+    u32::try_from(i).unwrap_or(u32::MAX)
+}

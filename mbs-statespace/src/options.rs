@@ -1,0 +1,58 @@
+//! What the caller chooses. Public fields; start from [`Options::default`].
+
+use mbs_core::Real;
+use mbs_core::integrator::Integrator;
+use mbs_core::step::OptionError;
+
+/// Choices for a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options<T> {
+    /// Time integrator, applied to the independent coordinates.
+    pub integrator: Integrator<T>,
+    /// A correction below this times the displacement that accelerations cause in the step is small [-].
+    pub tolerance: T,
+    /// Newton iterations allowed in one step.
+    pub max_iterations: u32,
+    /// When independent coordinates are chosen anew.
+    pub choice: ChoiceOf,
+    /// Put the geometric stiffness of the constraints, the curvature of their surface, into the tangent; P1 (44) has none.
+    pub geometric_stiffness: bool,
+}
+
+/// When independent coordinates are chosen anew, always between steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ChoiceOf {
+    /// When a pivot fell below a hundredth of what it was, R grew above 10, or the position problem took more than 4 iterations.
+    Need,
+    /// At every step.
+    EveryStep,
+}
+
+impl<T: Real> Default for Options<T> {
+    /// The trapezoidal rule, tolerance 1e-10, at most 20 iterations.
+    fn default() -> Self {
+        Self {
+            integrator: Integrator::trapezoidal(),
+            tolerance: T::from_f64(1e-10).max(T::EPSILON * T::from_f64(64.0)),
+            max_iterations: 20,
+            choice: ChoiceOf::Need,
+            geometric_stiffness: true,
+        }
+    }
+}
+
+impl<T: Real> Options<T> {
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// [`OptionError`] names the option.
+    pub fn validate(&self) -> Result<(), OptionError> {
+        if !(self.tolerance > T::ZERO && self.tolerance.is_finite()) {
+            return Err(OptionError::NotPositive("tolerance"));
+        }
+        if self.max_iterations == 0 {
+            return Err(OptionError::NotPositive("max_iterations"));
+        }
+        Ok(())
+    }
+}

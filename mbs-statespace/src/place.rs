@@ -1,0 +1,150 @@
+//! The position, velocity and acceleration problems: dependent coordinates from independent ones.
+//!
+//! ```text
+//! phi(q) = 0:          J_d d = -phi,  q_d += d, until d is rounding
+//! J v + phi_t = 0:     J_d d = -(J v + phi_t),  v_d += d
+//! J a + bias = 0:      J_d d = -(J a + bias),   a_d += d
+//! ```
+//!
+//! The last is a = R z'' + R' z' [P1 (22)] without R': one back-substitution. All are in correction form, with phi by increments, so
+//! that all three levels hold to rounding.
+
+use crate::workspace::Workspace;
+use mbs_core::Real;
+use mbs_core::algebra::norm_inf;
+use mbs_core::model::{Model, State};
+use mbs_core::step::{StepError, largest, largest_or_nan};
+
+/// Iterations of the position problem.
+const MAX_POSITIONS: u32 = 8;
+/// More iterations than this ask for other independent coordinates.
+const MANY_POSITIONS: u32 = 4;
+/// A Newton correction is at most this share of the one before: then the solution is the one that belongs to the prediction
+/// (Newton and Kantorovich: the branch is certain up to 1/2).
+const CONTRACTION: f64 = 0.25;
+/// Pivots below a hundredth of themselves ask for other independent coordinates.
+const DECAY: f64 = 1e-2;
+
+impl<T: Real> Workspace<T> {
+    /// Dependent positions, velocities and accelerations from the independent ones; J is left factored at the position.
+    pub(crate) fn place<M: Model<T>>(
+        &mut self,
+        model: &M,
+        length: T,
+        s: &State<T>,
+    ) -> Result<(), StepError> {
+        self.positions(model, length, s)?;
+        model.evaluate_phi_t(&self.q, &mut self.terms);
+        self.velocity_rates(model);
+        self.solve();
+        add_dependent(self.elimination.dependent(), &self.change, &mut self.v);
+        model.evaluate_bias(&self.q, &self.v, &mut self.terms);
+        self.acceleration_rates(model);
+        self.solve();
+        add_dependent(self.elimination.dependent(), &self.change, &mut self.a);
+        Ok(())
+    }
+
+    /// phi, J and its factors at q_n + dq.
+    fn move_to<M: Model<T>>(&mut self, model: &M, s: &State<T>) -> Result<(), StepError> {
+        self.evaluate(model, s);
+        self.elimination.refactor(&self.jacobian.values);
+        self.counts.factorizations += 1;
+        self.check_pivots()
+    }
+
+    /// phi and J at q_n + dq.
+    pub(crate) fn evaluate<M: Model<T>>(&mut self, model: &M, s: &State<T>) {
+        for i in 0..model.n_unknowns() {
+            self.q[i] = s.q[i] + self.dq[i];
+        }
+        model.advance(&s.q, &self.dq, &s.phi, &mut self.terms);
+        self.jacobian.gather(model, &self.terms);
+    }
+
+    /// Looks at the pivots: decayed ones ask for another choice, lost ones stop the step.
+    ///
+    /// On the branch, rounding of v is eps / sigma and that of a is eps / sigma^2 where sigma is the smallest pivot: below
+    /// eps^(1/4) accelerations would keep less than half of their digits.
+    pub(crate) fn check_pivots(&mut self) -> Result<(), StepError> {
+        self.pivots = self.elimination.pivots();
+        self.is_stale |= self.pivots.decay < T::from_f64(DECAY);
+        if self.rank > 0 && !(self.pivots.smallest > T::EPSILON.sqrt().sqrt() * self.usual) {
+            return Err(self.rank_lost());
+        }
+        Ok(())
+    }
+
+    pub(crate) fn rank_lost(&self) -> StepError {
+        StepError::RankLost { row: self.pivots.row, pivot: self.pivots.smallest.to_f64() }
+    }
+
+    fn positions<M: Model<T>>(
+        &mut self,
+        model: &M,
+        length: T,
+        s: &State<T>,
+    ) -> Result<(), StepError> {
+        let n = model.n_unknowns();
+        let mut last = T::ZERO;
+        for iterations in 0..MAX_POSITIONS {
+            self.move_to(model, s)?;
+            self.rates.copy_from_slice(&self.terms.phi);
+            self.change.fill(T::ZERO);
+            self.solve();
+            let size = norm_inf(&self.change);
+            if !size.is_finite() {
+                return Err(StepError::NotFinite { unknown: largest_or_nan(&self.change) });
+            }
+            let lost = T::EPSILON * T::from_f64(16.0) * norm_inf(&self.dq[..n]);
+            if size <= T::EPSILON * T::from_f64(4.0) * length + lost / self.pivots.smallest {
+                return Ok(());
+            }
+            self.is_stale |= iterations >= MANY_POSITIONS;
+            if iterations > 0 && !(size <= last * T::from_f64(CONTRACTION)) {
+                return Err(self.lost_branch(iterations + 1, size / length));
+            }
+            add_dependent(self.elimination.dependent(), &self.change, &mut self.dq);
+            last = size;
+        }
+        Err(self.lost_branch(MAX_POSITIONS, last / length))
+    }
+
+    /// Positions that are not certain: near a singular position for its sake, elsewhere for the length of the step.
+    fn lost_branch(&self, iterations: u32, correction: T) -> StepError {
+        if self.pivots.smallest < self.usual * T::from_f64(0.1) {
+            return self.rank_lost();
+        }
+        let (correction, unknown) = (correction.to_f64(), largest(&self.change));
+        StepError::NotConverged { iterations, correction, unknown }
+    }
+
+    /// rates = J v + phi_t; returns the largest.
+    pub(crate) fn velocity_rates<M: Model<T>>(&mut self, model: &M) -> T {
+        model.multiply_jacobian(&self.terms, &self.v, &mut self.rates);
+        if model.has_guides() {
+            add(&self.terms.phi_t, &mut self.rates);
+        }
+        norm_inf(&self.rates)
+    }
+
+    /// rates = J a + bias; returns the largest.
+    pub(crate) fn acceleration_rates<M: Model<T>>(&mut self, model: &M) -> T {
+        model.multiply_jacobian(&self.terms, &self.a, &mut self.rates);
+        add(&self.terms.phi_bias, &mut self.rates);
+        norm_inf(&self.rates)
+    }
+}
+
+fn add<T: Real>(x: &[T], y: &mut [T]) {
+    for (y, &x) in y.iter_mut().zip(x) {
+        *y += x;
+    }
+}
+
+/// y += x over the dependent unknowns.
+fn add_dependent<T: Real>(dependent: &[u32], x: &[T], y: &mut [T]) {
+    for &u in dependent {
+        y[u as usize] += x[u as usize];
+    }
+}

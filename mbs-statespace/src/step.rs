@@ -1,0 +1,285 @@
+//! One step of the modified state space [P1 2.4, 3.3].
+//!
+//! ```text
+//! z: independent coordinates,  z = z_p + d,  z' = z'_p + v' d,  z'' = z''_p + a' d             [P1 (40)]
+//! q, v, a: from z by the position, velocity and acceleration problems                          [P1 (22)]
+//! f = R^T (M a - Q) = 0                                                                        [P1 (43)]
+//! R^T (M + (v'/a') C + (1/a') (K + K_geo(lambda))) R d = -f/a'                                  [P1 (42), (44)]
+//! J_d^T lambda = (Q - M a)_d                                                                   [P1 (3)]
+//! ```
+//!
+//! Differs from the source: unknowns are increments; a replaces R z'' + R' z', so R' is never formed; the tangent has the
+//! geometric stiffness, the curvature of the surface on which R lives, which makes Newton quadratic but for velocity terms;
+//! without it (an option) it is the printed one. f is evaluated as (M a - Q)_i + J_i^T lambda, the same without R.
+
+use crate::options::{ChoiceOf, Options};
+use crate::workspace::Workspace;
+use mbs_core::algebra::norm_inf;
+use mbs_core::integrator::Rule;
+use mbs_core::model::{Load, Model, State, System, Tangent};
+use mbs_core::step::{
+    StepError, StepReport, Stop, add_work, check_guides, largest, largest_or_nan, step_scale,
+    take_coordinates,
+};
+use mbs_core::{FactorError, Real};
+
+/// R above this, and above twice what it was at the choice, asks for other independent coordinates.
+const LARGE_BASIS: f64 = 10.0;
+/// Velocities and accelerations off their constraints by more than this, relative to their size, are violations.
+const VIOLATION: f64 = 5e-10;
+
+/// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
+///
+/// Fails at singular positions with [`StepError::RankLost`], which names a row that takes part.
+///
+/// Cost: for each iteration one or two evaluations and sparse factorisations of J, three sparse solves, n f entries of R and
+/// a dense factorisation of size f, the number of freedoms; no allocation.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn step<T: Real, M: Model<T>>(
+    model: &M,
+    (dt, length): (T, T),
+    options: &Options<T>,
+    s: &mut State<T>,
+    w: &mut Workspace<T>,
+) -> Result<StepReport<T>, StepError> {
+    let rule = options.integrator.rule(dt);
+    (w.counts.factorizations, w.counts.solves) = (0, 0);
+    let is_new = w.is_stale || options.choice == ChoiceOf::EveryStep;
+    let mut outcome = attempt(model, (&rule, length), options, s, (w, is_new));
+    if outcome.is_err() && !is_new {
+        outcome = attempt(model, (&rule, length), options, s, (w, true));
+    }
+    w.is_stale |= outcome.is_err();
+    let (iterations, correction, stop, violation) = outcome?;
+    take_coordinates(&rule, true, model.n_unknowns(), s, (&w.dq, &w.v, &w.a));
+    s.phi.copy_from_slice(&w.terms.phi);
+    for k in 0..w.lambda.len() {
+        s.lambda_previous[k] = s.lambda[k];
+        s.lambda[k] = w.lambda[k];
+        s.reaction[k] = w.lambda[k];
+    }
+    s.t += dt;
+    add_work(model, dt, s, &mut w.terms);
+    let (factorizations, solves) = (w.counts.factorizations, w.counts.solves);
+    Ok(StepReport {
+        iterations,
+        factorizations,
+        solves,
+        correction,
+        stop,
+        violation,
+        ..StepReport::default()
+    })
+}
+
+/// Iterations, the last correction, what ended it, and the violations that are left.
+type Done<T> = (u32, T, Stop, [T; 3]);
+
+/// The step with the independent coordinates in hand or, if `is_new`, with others.
+fn attempt<T: Real, M: Model<T>>(
+    model: &M,
+    (rule, length): (&Rule<T>, T),
+    options: &Options<T>,
+    s: &State<T>,
+    (w, is_new): (&mut Workspace<T>, bool),
+) -> Result<Done<T>, StepError> {
+    let n = model.n_unknowns();
+    for i in 0..n {
+        (w.dq[i], w.v[i], w.a[i]) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
+    }
+    if !norm_inf(&w.dq[..n]).is_finite() {
+        return Err(StepError::NotFinite { unknown: largest_or_nan(&w.dq[..n]) });
+    }
+    model.set_inputs(s.t + rule.dt, &mut w.terms);
+    if is_new {
+        choose(model, s, w)?;
+    }
+    w.place(model, length, s)?;
+    let (iterations, correction, stop) = iterate(model, (rule, length), options, s, w)?;
+    check_guides(model, &w.q, &w.terms)?;
+    let violation = check_violation(model, length, w)?;
+    Ok((iterations, correction, stop, violation))
+}
+
+/// Chooses independent coordinates at the predicted position. The rank found at the start must stand.
+fn choose<T: Real, M: Model<T>>(
+    model: &M,
+    s: &State<T>,
+    w: &mut Workspace<T>,
+) -> Result<(), StepError> {
+    w.evaluate(model, s);
+    let choice = w.elimination.choose(&w.jacobian.values);
+    w.counts.choices += 1;
+    w.counts.factorizations += 1;
+    w.first_basis = T::ZERO;
+    w.is_stale = false;
+    let (row, pivot) = match choice.rank.cmp(&w.rank) {
+        core::cmp::Ordering::Less => choice.rest,
+        core::cmp::Ordering::Equal => return w.check_pivots(),
+        core::cmp::Ordering::Greater => choice.last,
+    };
+    w.is_stale = true;
+    Err(StepError::RankLost { row, pivot: pivot.to_f64() })
+}
+
+/// The Newton loop in the independent coordinates. Leaves q, v, a consistent and lambda in balance with them.
+fn iterate<T: Real, M: Model<T>>(
+    model: &M,
+    (rule, length): (&Rule<T>, T),
+    options: &Options<T>,
+    s: &State<T>,
+    w: &mut Workspace<T>,
+) -> Result<(u32, T, Stop), StepError> {
+    let n = model.n_unknowns();
+    let scale = step_scale(rule.dt, &s.a[..n]).max(step_scale(rule.dt, &w.a[..n]));
+    let mut last = T::ZERO;
+    residual(model, s, w);
+    for iterations in 1..=options.max_iterations {
+        if w.d.is_empty() {
+            break;
+        }
+        factor(model, rule, options, w)?;
+
+        // R^T (M + ...) R d = -f/a'   [P1 (42)]
+        for d in &mut w.d {
+            *d = -*d / rule.acceleration;
+        }
+        w.tangent.solve(&mut w.d);
+
+        // z += d,  z' += v' d,  z'' += a' d   [P1 (40)]; the dependent ones follow along R
+        w.basis.expand(&w.elimination, &w.d, &mut w.change);
+        for i in 0..n {
+            w.dq[i] += w.change[i];
+            w.v[i] += rule.velocity * w.change[i];
+            w.a[i] += rule.acceleration * w.change[i];
+        }
+        let correction = norm_inf(&w.d);
+        if !correction.is_finite() {
+            let i = largest_or_nan(&w.d) as usize;
+            return Err(StepError::NotFinite { unknown: w.elimination.independent()[i] });
+        }
+        w.place(model, length, s)?;
+        residual(model, s, w);
+
+        let digits = T::from_f64(64.0) * norm_inf(&w.dq[..n]) + T::from_f64(4.0) * length;
+        let noise = T::EPSILON * digits;
+        if let Some(stop) = stopping((correction, last), (scale * options.tolerance, noise)) {
+            return Ok((iterations, correction, stop));
+        }
+        last = correction;
+    }
+    if last <= scale * T::from_f64(1e-6) {
+        let iterations = if w.d.is_empty() { 0 } else { options.max_iterations };
+        let stop = if w.d.is_empty() { Stop::Converged } else { Stop::Tolerance };
+        return Ok((iterations, last, stop));
+    }
+    let unknown = w.elimination.independent()[largest(&w.d) as usize];
+    let (iterations, correction) = (options.max_iterations, (last / length).to_f64());
+    Err(StepError::NotConverged { iterations, correction, unknown })
+}
+
+/// f = (M a - Q)_i + J_i^T lambda into `d`, with J_d^T lambda = (Q - M a)_d   [P1 (43)]
+fn residual<T: Real, M: Model<T>>(model: &M, s: &State<T>, w: &mut Workspace<T>) {
+    if model.has_forces() {
+        model.evaluate_forces(&w.q, &w.v, &s.memory, &mut w.terms);
+    }
+    w.balance(model);
+    w.solve_transposed();
+    w.jacobian.add_transposed(&w.lambda, &mut w.balance);
+    for (d, &i) in w.d.iter_mut().zip(w.elimination.independent()) {
+        *d = w.balance[i as usize];
+    }
+}
+
+/// R and R^T (M + (v'/a') C + (1/a') (K + K_geo(lambda))) R, factored; K_geo is left out where it makes it indefinite.
+fn factor<T: Real, M: Model<T>>(
+    model: &M,
+    rule: &Rule<T>,
+    options: &Options<T>,
+    w: &mut Workspace<T>,
+) -> Result<(), StepError> {
+    let largest = w.basis.evaluate(&w.elimination);
+    if w.first_basis == T::ZERO {
+        w.first_basis = largest;
+    }
+    w.is_stale |= largest > T::from_f64(LARGE_BASIS).max(T::TWO * w.first_basis);
+    for (mu, &lambda) in w.mu.iter_mut().zip(&w.lambda) {
+        *mu = lambda / rule.acceleration;
+    }
+    let mut failure = None;
+    for is_geometric in [true, false] {
+        if is_geometric && !options.geometric_stiffness {
+            continue;
+        }
+        let tangent = Tangent {
+            stiffness: T::ONE / rule.acceleration,
+            damping: rule.velocity / rule.acceleration,
+            penalty: &[],
+            geometric: is_geometric.then_some(&w.mu[..]),
+        };
+        let load = Load { mass: None, multipliers: None, force: T::ZERO };
+        let system = System { model, terms: &w.terms, tangent, load };
+        w.basis.project(&w.elimination, &system, &mut w.tangent);
+        match w.tangent.factor() {
+            Ok(()) => return Ok(()),
+            Err(found) => failure = Some(found),
+        }
+    }
+    let (i, pivot) = failure.unwrap_or((0, T::ZERO));
+    let unknown = w.elimination.independent()[i];
+    Err(StepError::Singular(FactorError { unknown, pivot: pivot.to_f64() }))
+}
+
+/// Is this correction the last one? Estimated from the last two.
+fn stopping<T: Real>((correction, last): (T, T), (goal, noise): (T, T)) -> Option<Stop> {
+    if correction <= goal {
+        return Some(Stop::Converged);
+    }
+    let is_slow = correction > last * T::HALF;
+    if last > T::ZERO && !is_slow && correction * correction <= goal * last {
+        Some(Stop::Converged)
+    } else if last > T::ZERO && is_slow && correction <= noise {
+        Some(Stop::Rounding)
+    } else {
+        None
+    }
+}
+
+/// The violations of all rows, the dropped ones too: a dropped row that does not hold has become independent.
+fn check_violation<T: Real, M: Model<T>>(
+    model: &M,
+    length: T,
+    w: &mut Workspace<T>,
+) -> Result<[T; 3], StepError> {
+    let share = T::from_f64(VIOLATION).max(T::EPSILON * T::from_f64(1024.0));
+    let mut violation = [norm_inf(&w.terms.phi), T::ZERO, T::ZERO];
+    let mut limit = share * length;
+    for level in 0..3 {
+        let rows = match level {
+            0 => &w.terms.phi,
+            1 => {
+                limit = share * (length + norm_inf(&w.v));
+                violation[1] = w.velocity_rates(model);
+                &w.rates
+            }
+            _ => {
+                limit = share * (T::ONE + norm_inf(&w.a).max(norm_inf(&w.terms.phi_bias)));
+                violation[2] = w.acceleration_rates(model);
+                &w.rates
+            }
+        };
+        if violation[level] <= limit {
+            continue;
+        }
+        let row = largest(rows);
+        let violation = violation[level].to_f64();
+        return Err(if w.elimination.dropped_rows().contains(&row) {
+            StepError::RankLost { row, pivot: violation }
+        } else {
+            StepError::Violated { level: level as u8, violation, row }
+        });
+    }
+    Ok(violation)
+}
