@@ -131,7 +131,7 @@ fn iterate<T: Real, S: Space<T>>(
 }
 
 /// |Φ|, |Φ̇| and |Φ̈| as last evaluated.
-fn violations<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, s: &Store<'_, T, S>) -> [T; 3] {
+pub(crate) fn violations<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, s: &Store<'_, T, S>) -> [T; 3] {
     let n = m.loops.rows.len();
     let mut largest = [T::ZERO; 3];
     for lap in m.loops.loops {
