@@ -87,7 +87,10 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         self.set(t, y);
         if let Err(fault) = accelerations(self.m, self.options, Level::Fine, self.s) {
             let failure = failure(self.m, fault);
-            self.last_failure = Some(failure);
+            // Numbers that follow from a failed stage say nothing.
+            if y.iter().all(|y| y.is_finite()) {
+                self.last_failure = Some(failure);
+            }
             if self.is_patient {
                 // No number: the step is tried shorter.
                 dy.fill(T::ZERO / T::ZERO);
