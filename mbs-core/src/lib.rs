@@ -17,6 +17,7 @@ pub mod laws;
 pub mod model;
 #[cfg(feature = "alloc")]
 pub mod natural;
+pub mod ode;
 #[cfg(feature = "alloc")]
 pub mod outputs;
 pub mod real;

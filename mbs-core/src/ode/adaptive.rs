@@ -1,0 +1,171 @@
+//! Embedded pairs with error control, over given lengths of time.
+
+use super::{OdeError, Rates, StepControl, Tableau};
+use crate::Real;
+
+/// A step below this many roundings of the time is refused.
+const SMALLEST_STEP: f64 = 16.0;
+/// The last step to the end may be this much longer than planned, so that no sliver remains.
+const LAST_STEP: f64 = 1.01;
+
+/// What the caller chooses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options<'a, T> {
+    /// Tolerance as a share of a component's value. `≥ 0`.
+    pub relative: T,
+    /// Tolerance as a share of a component's size. `≥ 0`; not both zero.
+    pub absolute: T,
+    /// Size of each component, in its own unit `> 0`; one for those that are not given.
+    pub sizes: &'a [T],
+    /// No step is longer [s]. `> 0`.
+    pub max_step: T,
+    /// Steps that one call may try.
+    pub max_steps: u32,
+}
+
+impl<T: Real> Options<'_, T> {
+    /// The same relative and absolute tolerance, sizes of one, steps of any length, a million of them.
+    pub fn new(tolerance: T) -> Self {
+        Self {
+            relative: tolerance,
+            absolute: tolerance,
+            sizes: &[],
+            max_step: T::from_f64(f64::INFINITY),
+            max_steps: 1_000_000,
+        }
+    }
+}
+
+/// What the hook did to the state at the end of an accepted step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EndState {
+    /// It left the state, and whatever else its rates depend on, as they were: the rates found there hold.
+    Kept,
+    /// It changed the state, for example by a projection: the rates are evaluated anew.
+    Changed,
+}
+
+/// What was done, over all calls.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Steps accepted.
+    pub accepted: u64,
+    /// Steps rejected.
+    pub rejected: u64,
+    /// Evaluations of the rates; those of a trial that the rates ended are not counted.
+    pub evaluations: u64,
+}
+
+/// An embedded pair with error control: what it remembers from step to step and from call to call.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Adaptive<T, const S: usize> {
+    tableau: Tableau<T, S>,
+    control: StepControl<T>,
+    step: T,
+    counts: Counts,
+}
+
+impl<T: Real, const S: usize> Adaptive<T, S> {
+    /// A driver of this pair, with the step to try first [s].
+    ///
+    /// # Panics
+    ///
+    /// If the step is not positive and finite.
+    #[must_use]
+    pub fn new(tableau: Tableau<T, S>, first_step: T) -> Self {
+        assert!(first_step > T::ZERO && first_step.is_finite(), "a positive step");
+        let control = StepControl::new(tableau.power);
+        Self { tableau, control, step: first_step, counts: Counts::default() }
+    }
+
+    /// The step that will be tried next [s], if the end of the call and the longest step allow it.
+    #[must_use]
+    pub fn step(&self) -> T {
+        self.step
+    }
+
+    /// What was done, over all calls.
+    #[must_use]
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Advances `y` from `t` by exactly `dt` [s], in as many accepted steps as the tolerance asks for.
+    ///
+    /// After each accepted step `hook` gets the system, the time and the state, which it may change, and says whether
+    /// it did: rates at a changed state are evaluated again. The last step is shortened to end at `t + dt`; what the step
+    /// would have been is remembered for the next call. `scratch` is [`Tableau::scratch`] numbers.
+    ///
+    /// Cost, beside the hook: one evaluation, and S − 1 for each step tried; where the hook changed the state, or the pair
+    /// does not end on a stage, one more for each accepted step but the last. About S²/2 n multiplications for a step; no
+    /// allocation.
+    ///
+    /// # Errors
+    ///
+    /// [`OdeError::Rates`] with what the rates or the hook say, [`OdeError::StepTooSmall`] where the error stays too large
+    /// or is no number at the smallest step, [`OdeError::TooManySteps`]. `y` is then the last accepted state (if the hook
+    /// failed, as the hook left it).
+    ///
+    /// # Panics
+    ///
+    /// If `dt` is negative or not finite, or a slice has the wrong length.
+    pub fn advance<R: Rates<T>>(
+        &mut self,
+        system: &mut R,
+        (t, dt): (T, T),
+        (y, scratch): (&mut [T], &mut [T]),
+        options: &Options<'_, T>,
+        mut hook: impl FnMut(&mut R, T, &mut [T]) -> Result<EndState, R::Error>,
+    ) -> Result<(), OdeError<R::Error>> {
+        assert!(dt >= T::ZERO && dt.is_finite(), "a length of time");
+        let n = system.n();
+        let smallest = T::from_f64(SMALLEST_STEP) * T::EPSILON * (t.abs() + dt);
+        let (mut done, mut tried, mut first_is_known) = (T::ZERO, 0, false);
+        while done < dt {
+            let time = t + done;
+            let rest = dt - done;
+            let planned = self.step.min(options.max_step);
+            let is_last = rest <= planned * T::from_f64(LAST_STEP);
+            let h = if is_last { rest } else { planned };
+            if tried == options.max_steps {
+                return Err(OdeError::TooManySteps { time: time.to_f64(), steps: tried });
+            }
+            tried += 1;
+
+            let evaluations = S as u64 - u64::from(first_is_known);
+            self.tableau
+                .stages(system, (time, h), y, first_is_known, scratch)
+                .map_err(|error| OdeError::Rates { time: time.to_f64(), error })?;
+            self.counts.evaluations += evaluations;
+            first_is_known = true;
+            let error = self.tableau.error(h, y, options, scratch);
+
+            // A NaN is no error within the tolerance.
+            if !(error <= T::ONE) {
+                self.counts.rejected += 1;
+                self.step = h * self.control.rejected(error);
+                if self.step < smallest {
+                    let (time, step) = (time.to_f64(), self.step.to_f64());
+                    return Err(OdeError::StepTooSmall { time, step });
+                }
+                continue;
+            }
+
+            self.counts.accepted += 1;
+            y.copy_from_slice(Tableau::<T, S>::end_state(n, scratch));
+            done = if is_last { dt } else { done + h };
+            // A step cut short at the end says nothing about the step that was planned.
+            if h >= planned {
+                self.step = h * self.control.accepted(error);
+            }
+            let at_end = t + done;
+            let end = hook(system, at_end, y)
+                .map_err(|error| OdeError::Rates { time: at_end.to_f64(), error })?;
+            first_is_known = end == EndState::Kept && self.tableau.first_same_as_last;
+            if first_is_known {
+                scratch.copy_within((S - 1) * n..S * n, 0);
+            }
+        }
+        Ok(())
+    }
+}

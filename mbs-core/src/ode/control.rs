@@ -1,0 +1,71 @@
+//! The choice of the next step from the error of the last one: a proportional-integral controller.
+
+use crate::Real;
+
+/// Share of the step that the estimate allows.
+const SAFETY: f64 = 0.9;
+/// Exponent of the last error, times the power of h in the estimate.
+const INTEGRAL: f64 = 0.7;
+/// Exponent of the error before it, times the power of h in the estimate.
+const PROPORTIONAL: f64 = 0.4;
+/// A step is at most so much smaller or larger than the one before.
+const FACTORS: (f64, f64) = (0.2, 5.0);
+/// Smaller errors are remembered as this one: a lucky step says little about the next.
+const SMALLEST_MEMORY: f64 = 1e-4;
+
+/// A proportional-integral controller of the step (Gustafsson, ACM Trans. Math. Softw. 17 (1991) 533-554).
+///
+/// ```text
+/// accepted:  h ← h · 0.9 errorₙ^(−0.7/p) errorₙ₋₁^(0.4/p),   not larger right after a rejection
+/// rejected:  h ← h · 0.9 error^(−1/p)
+/// ```
+///
+/// Errors are in tolerances, p is the power of h in the estimate; the factor stays within 0.2 and 5. The first step, which
+/// has none before it, is followed by 0.9 error^(−1/p).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepControl<T> {
+    power: f64,
+    memory: Option<f64>,
+    was_rejected: bool,
+    scalar: core::marker::PhantomData<T>,
+}
+
+impl<T: Real> StepControl<T> {
+    /// A controller for an estimate that goes with h to the `power`.
+    #[must_use]
+    pub fn new(power: u32) -> Self {
+        Self {
+            power: f64::from(power),
+            memory: None,
+            was_rejected: false,
+            scalar: core::marker::PhantomData,
+        }
+    }
+
+    /// Factor for the step after an accepted one with this `error`, which is remembered.
+    ///
+    /// Cost: two powers, in `f64` for every scalar.
+    pub fn accepted(&mut self, error: T) -> T {
+        let error = error.to_f64();
+        let wish = match self.memory {
+            None => libm::pow(error, -1.0 / self.power),
+            Some(memory) => {
+                libm::pow(error, -INTEGRAL / self.power)
+                    * libm::pow(memory, PROPORTIONAL / self.power)
+            }
+        };
+        let most = if self.was_rejected { 1.0 } else { FACTORS.1 };
+        self.memory = Some(error.max(SMALLEST_MEMORY));
+        self.was_rejected = false;
+        T::from_f64((SAFETY * wish).clamp(FACTORS.0, most))
+    }
+
+    /// Factor for the next trial after a rejected one with this `error`, which may be NaN.
+    ///
+    /// Cost: one power, in `f64` for every scalar.
+    pub fn rejected(&mut self, error: T) -> T {
+        self.was_rejected = true;
+        let wish = SAFETY * libm::pow(error.to_f64(), -1.0 / self.power);
+        T::from_f64(if wish > FACTORS.0 { wish.min(1.0) } else { FACTORS.0 })
+    }
+}

@@ -1,0 +1,43 @@
+//! Explicit Runge-Kutta methods for y' = f(t, y), of any formulation whose state is a vector of numbers.
+//!
+//! ```text
+//! kᵢ = f(t + cᵢ h, y + h Σⱼ aᵢⱼ kⱼ),   y(t + h) = y + h Σᵢ bᵢ kᵢ,   error = h Σᵢ eᵢ kᵢ
+//! ```
+//!
+//! [`rk4_step`] is the classical method of order 4 with a fixed step. [`Tableau`] holds an embedded pair, and [`Adaptive`]
+//! drives it with error control: [`StepControl`] chooses the steps, and a hook after each accepted step may project
+//! the state onto its constraints.
+//!
+//! All storage is in slices of the caller; the module is built without `alloc`, so nothing here can allocate.
+
+mod adaptive;
+mod control;
+mod error;
+mod rk4;
+mod tableau;
+#[cfg(test)]
+mod tests;
+
+pub use adaptive::{Adaptive, Counts, EndState, Options};
+pub use control::StepControl;
+pub use error::OdeError;
+pub use rk4::{rk4_scratch, rk4_step};
+pub use tableau::Tableau;
+
+/// A system of first-order differential equations y' = f(t, y).
+pub trait Rates<T> {
+    /// Why rates could not be evaluated.
+    type Error;
+
+    /// Number of components of y.
+    fn n(&self) -> usize;
+
+    /// Writes y' at time `t` [s] and state `y` into `dy`; both slices have [`Self::n`] components.
+    ///
+    /// A number that is not finite in `dy` makes a step with error control try a shorter one.
+    ///
+    /// # Errors
+    ///
+    /// What makes an answer impossible; the integration ends with it.
+    fn rates(&mut self, t: T, y: &[T], dy: &mut [T]) -> Result<(), Self::Error>;
+}

@@ -1,0 +1,165 @@
+//! Embedded Runge-Kutta pairs: coefficients, the stages of one trial step, and its error.
+
+use super::{Options, Rates};
+use crate::Real;
+
+/// The coefficients of an embedded pair with `S` stages.
+///
+/// The method of higher order gives the new state; its difference from the method of lower order estimates the error.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tableau<T, const S: usize> {
+    /// aᵢⱼ: stage i from the rates of the stages j < i; the rest is not read.
+    pub a: [[T; S]; S],
+    /// bᵢ: the new state.
+    pub b: [T; S],
+    /// cᵢ: times of the stages.
+    pub c: [T; S],
+    /// eᵢ = bᵢ − b̂ᵢ: the error estimate.
+    pub e: [T; S],
+    /// Power of h in the error estimate: its order plus one.
+    pub power: u32,
+    /// Whether the last stage stands at the new state (a of the last row is b), so that its rates serve the next step.
+    pub first_same_as_last: bool,
+}
+
+/// Numerators and the common denominator of a row of coefficients.
+type Row<const S: usize> = ([f64; S], [f64; S]);
+
+/// Coefficients from whole numbers, so that they are exact in every precision.
+fn ratios<T: Real, const S: usize>((over, under): Row<S>) -> [T; S] {
+    core::array::from_fn(|i| T::from_f64(over[i]) / T::from_f64(under[i]))
+}
+
+impl<T: Real> Tableau<T, 7> {
+    /// The pair 5(4) of Dormand and Prince (J. Comp. Appl. Math. 6 (1980) 19-26): six evaluations for a step of order 5.
+    #[must_use]
+    pub fn dormand_prince() -> Self {
+        let b = ([35., 0., 500., 125., -2187., 11., 0.], [384., 1., 1113., 192., 6784., 84., 1.]);
+        Self {
+            a: [
+                ratios(([0.; 7], [1.; 7])),
+                ratios(([1., 0., 0., 0., 0., 0., 0.], [5., 1., 1., 1., 1., 1., 1.])),
+                ratios(([3., 9., 0., 0., 0., 0., 0.], [40., 40., 1., 1., 1., 1., 1.])),
+                ratios(([44., -56., 32., 0., 0., 0., 0.], [45., 15., 9., 1., 1., 1., 1.])),
+                ratios((
+                    [19372., -25360., 64448., -212., 0., 0., 0.],
+                    [6561., 2187., 6561., 729., 1., 1., 1.],
+                )),
+                ratios((
+                    [9017., -355., 46732., 49., -5103., 0., 0.],
+                    [3168., 33., 5247., 176., 18656., 1., 1.],
+                )),
+                ratios(b),
+            ],
+            b: ratios(b),
+            c: ratios(([0., 1., 3., 4., 8., 1., 1.], [1., 5., 10., 5., 9., 1., 1.])),
+            e: ratios((
+                [71., 0., -71., 71., -17253., 22., -1.],
+                [57600., 1., 16695., 1920., 339_200., 525., 40.],
+            )),
+            power: 5,
+            first_same_as_last: true,
+        }
+    }
+}
+
+impl<T: Real, const S: usize> Tableau<T, S> {
+    /// Numbers of scratch for `n` components: the rates of the stages and one state.
+    #[must_use]
+    pub const fn scratch(n: usize) -> usize {
+        (S + 1) * n
+    }
+
+    /// Makes one trial step: the rates of all stages, then the new state, both in `scratch`; `y` is not changed.
+    ///
+    /// With `first_is_known` the rates at (`t`, `y`) stand in the first n numbers of `scratch` already. The new state is
+    /// in its last n numbers ([`Self::end_state`]).
+    ///
+    /// Cost: S evaluations, one less if the first is known; about S²/2 n multiplications.
+    ///
+    /// # Errors
+    ///
+    /// What the rates say.
+    ///
+    /// # Panics
+    ///
+    /// If `y` has not [`Rates::n`] components or `scratch` not [`Self::scratch`] numbers.
+    pub fn stages<R: Rates<T>>(
+        &self,
+        system: &mut R,
+        (t, h): (T, T),
+        y: &[T],
+        first_is_known: bool,
+        scratch: &mut [T],
+    ) -> Result<(), R::Error> {
+        let n = system.n();
+        assert_eq!(y.len(), n, "components of the state");
+        assert_eq!(scratch.len(), Self::scratch(n), "scratch of S + 1 vectors");
+        let (rates, stage) = scratch.split_at_mut(S * n);
+
+        // kᵢ = f(t + cᵢ h, y + h Σⱼ aᵢⱼ kⱼ)
+        for i in usize::from(first_is_known)..S {
+            let (known, rest) = rates.split_at_mut(i * n);
+            combine(&self.a[i][..i], h, y, known, stage);
+            system.rates(t + self.c[i] * h, stage, &mut rest[..n])?;
+        }
+
+        // y + h Σᵢ bᵢ kᵢ: where the last stage stands
+        if !self.first_same_as_last {
+            combine(&self.b, h, y, rates, stage);
+        }
+        Ok(())
+    }
+
+    /// The new state that [`Self::stages`] left in `scratch`, for `n` components.
+    #[must_use]
+    pub fn end_state(n: usize, scratch: &[T]) -> &[T] {
+        &scratch[S * n..]
+    }
+
+    /// Size of the error of the trial step in `scratch`: at most one is within the tolerance.
+    ///
+    /// ```text
+    /// ‖h Σᵢ eᵢ kᵢ‖ = √(1/n Σ (errorₖ / (absolute sizeₖ + relative max(|yₖ|, |y'ₖ|)))²)
+    /// ```
+    ///
+    /// A number that is not finite anywhere in it or in the new state gives NaN or infinity.
+    ///
+    /// Cost: (S + 2) n multiplications; no evaluation.
+    #[must_use]
+    pub fn error(&self, h: T, y: &[T], options: &Options<'_, T>, scratch: &[T]) -> T {
+        let n = y.len();
+        let (rates, end) = scratch.split_at(S * n);
+        let mut sum = T::ZERO;
+        for k in 0..n {
+            let mut error = T::ZERO;
+            for i in 0..S {
+                error += self.e[i] * rates[i * n + k];
+            }
+            error *= h;
+            let size = options.sizes.get(k).copied().unwrap_or(T::ONE);
+            let tolerance =
+                options.absolute * size + options.relative * y[k].abs().max(end[k].abs());
+            // No error needs no tolerance; a state that is not finite must not hide in the denominator.
+            let share = if error == T::ZERO { T::ZERO } else { error / tolerance };
+            sum += share * share + end[k] * T::ZERO;
+        }
+        if n == 0 { T::ZERO } else { (sum / T::from_f64(n as f64)).sqrt() }
+    }
+}
+
+/// y + h Σⱼ wⱼ kⱼ into `to`.
+fn combine<T: Real>(weights: &[T], h: T, y: &[T], rates: &[T], to: &mut [T]) {
+    let n = y.len();
+    to.fill(T::ZERO);
+    for (j, &weight) in weights.iter().enumerate() {
+        if weight != T::ZERO {
+            for k in 0..n {
+                to[k] += weight * rates[j * n + k];
+            }
+        }
+    }
+    for k in 0..n {
+        to[k] = y[k] + h * to[k];
+    }
+}

@@ -1,0 +1,2 @@
+//! Time of one evaluation of accelerations.
+fn main() {}

@@ -1,0 +1,80 @@
+//! Scenes that cannot be made into a tree, and what cannot be asked of one.
+
+/// Why a scene has no tree.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum TreeError {
+    /// The scene is not of this space's dimension.
+    Dimension,
+    /// A guided joint closes a loop in which every joint is guided, or moves nothing.
+    GuideCut {
+        /// `scene.joints[joint]`.
+        joint: usize,
+    },
+    /// A joint with a torsion spring or a torque closes a loop in which every joint has one or is guided.
+    EffectCut {
+        /// `scene.effects[effect]`.
+        effect: usize,
+        /// `scene.joints[joint]`.
+        joint: usize,
+    },
+    /// A body without mass at the end of a branch: its joint meets no inertia.
+    MasslessEnd {
+        /// `scene.bodies[body]`.
+        body: usize,
+    },
+    /// A joint meets no inertia: nothing beyond it resists its motion.
+    NoInertia {
+        /// The joint, or the free body.
+        owner: mbs_core::model::Owner,
+    },
+}
+
+impl core::fmt::Display for TreeError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Dimension => write!(f, "the scene is not of this dimension"),
+            Self::GuideCut { joint } => write!(
+                f,
+                "guided joint {joint} would have to be cut, all joints of its loop being guided or welded: leave one guide out, or try index-3"
+            ),
+            Self::EffectCut { effect, joint } => write!(
+                f,
+                "joint {joint} of effect {effect} would have to be cut, all joints of its loop having effects or guides: try index-3"
+            ),
+            Self::MasslessEnd { body } => write!(
+                f,
+                "body {body} has no mass and ends a branch, so that its joint meets no inertia: give it mass, or replace a massless link with two balls by a distance joint"
+            ),
+            Self::NoInertia { owner } => {
+                write!(f, "{owner:?} meets no inertia: give what hangs on it mass or inertia")
+            }
+        }
+    }
+}
+
+impl core::error::Error for TreeError {}
+
+/// What a closed mechanism has no unique answer for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LoopError {
+    /// The mechanism has loops: joint efforts and the mass matrix of its joint coordinates are not unique.
+    Closed {
+        /// Equations of the cut joints.
+        rows: usize,
+    },
+}
+
+impl core::fmt::Display for LoopError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Closed { rows } => write!(
+                f,
+                "the mechanism has loops ({rows} equations of cut joints), so that this is not unique; ask for the tree's own, or for reactions"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for LoopError {}

@@ -1,0 +1,171 @@
+//! Accelerations of a mechanism, loops included, at the coordinates and velocities of a [`Store`].
+//!
+//! ```text
+//! M a + p + Jᵀ λ = 0,   J a + bias = 0            λ from (J M⁻¹ Jᵀ + ε) Δλ = J a + bias, a −= M⁻¹ Jᵀ Δλ, until it is zero
+//! ```
+//!
+//! One sweep of the regularised system leaves the share ε of the residual; further sweeps, which repeat the affine parts alone, take
+//! it to rounding. Rows that repeat others cost nothing but their own arithmetic, and share their force (least norm).
+//!
+//! The report's own closure is an option: λ = α (Φ̈ + 2 μ Ω Φ̇ + Ω² Φ)   [P3 (39)–(41)], which is the same elimination with
+//! ε = 1/α, bias + 2 μ Ω Φ̇ + Ω² Φ in place of the bias, and one sweep.
+
+use crate::loops::{Regularisation, index};
+use crate::mechanism::{Mechanism, Store};
+use crate::options::{Closure, Options};
+use crate::passes::{self, Fault};
+use crate::space::{Numbers, Space};
+use mbs_core::Real;
+
+/// Sweeps after which the residual must be at its level.
+const MAX_SWEEPS: u32 = 30;
+
+/// How far sweeps go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Level {
+    /// To the tolerance of an iteration that goes on.
+    Coarse,
+    /// To rounding.
+    Fine,
+}
+
+/// Evaluates the accelerations `s.zdd` at (`s.z`, `s.v`, `s.guides`, `s.courses`); returns the largest |Φ̈| left.
+pub(crate) fn accelerations<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    options: &Options<T>,
+    level: Level,
+    s: &mut Store<'_, T, S>,
+) -> Result<T, Fault<T>> {
+    s.counts.condensations += 1;
+    passes::kinematics(m.links, (s.z, s.v, s.guides), s.placed);
+    passes::inertias(m.links, s.placed, s.condensed);
+    let mut condensed = core::mem::take(&mut s.condensed);
+    for load in m.loads {
+        load.apply(&s.instant(m), condensed);
+    }
+    core::mem::swap(&mut s.condensed, &mut condensed);
+
+    let ground = S::motion(S::Spin::zero(), -m.gravity);
+    s.a[0] = ground;
+    let regularisation = begin_loops(m, options, s);
+    passes::condense(
+        m.links,
+        s.placed,
+        (&m.loops, regularisation, &ground),
+        s.condensed,
+        &mut s.loops,
+    )?;
+    let parts = (&*s.placed, &*s.condensed);
+    passes::accelerate(m.links, parts, (&m.loops, true), &mut s.loops, (s.zdd, s.a));
+    if m.loops.loops.is_empty() {
+        return Ok(T::ZERO);
+    }
+    s.lambda.copy_from_slice(s.loops.lambda);
+    match options.closure {
+        Closure::Constraints => sweep(m, level, s),
+        Closure::Report { .. } => Ok(residual(m, s).0),
+    }
+}
+
+/// Evaluates the rows and sets out K, l and Λ = 0; returns ε.
+fn begin_loops<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    options: &Options<T>,
+    s: &mut Store<'_, T, S>,
+) -> Regularisation<T> {
+    let n = m.loops.rows.len();
+    for lap in m.loops.loops {
+        lap.evaluate(m.loops.rows, s.placed, |k, row| {
+            (s.gradient[k], s.gradient[n + k]) = (row.gradient[0], row.gradient[1]);
+            s.rows[k] = [row.value, row.rate, row.bias];
+        });
+    }
+    s.loops.k.copy_from_slice(s.gradient);
+    s.loops.blocks.fill(T::ZERO);
+    for k in 0..n {
+        let [phi, phi_d, bias] = s.rows[k];
+        s.loops.l[k] = match options.closure {
+            Closure::Constraints => bias,
+            // γ = Φ̇_Z Z + 2 μ Ω Φ̇ + Ω² Φ   [P3 (41)]
+            Closure::Report { omega, mu, .. } => {
+                bias + T::TWO * mu * omega * phi_d + omega * omega * phi
+            }
+        };
+    }
+    match options.closure {
+        Closure::Constraints => Regularisation::Scaled(options.regularisation),
+        Closure::Report { alpha, .. } => Regularisation::Fixed(T::ONE / alpha),
+    }
+}
+
+/// J a + bias into l; the largest, the row that has it, and the scale of its parts.
+fn residual<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    s: &mut Store<'_, T, S>,
+) -> (T, u32, T) {
+    let n = m.loops.rows.len();
+    let (mut worst, mut row, mut scale) = (T::ZERO, 0, T::ZERO);
+    for lap in m.loops.loops {
+        let [a, b] = lap.links.map(|i| &s.a[i as usize]);
+        for k in lap.first as usize..(lap.first + lap.n) as usize {
+            let (first, second) = (s.gradient[k].dot(a), s.gradient[n + k].dot(b));
+            let left = first + second + s.rows[k][2];
+            scale = scale.max(first.abs() + second.abs() + s.rows[k][2].abs());
+            s.loops.l[k] = left;
+            if !(left.abs() <= worst) {
+                (worst, row) = (left.abs(), index(k));
+            }
+        }
+    }
+    (worst, row, scale)
+}
+
+/// Repeats the affine parts until J a + bias is at its level; returns what is left.
+fn sweep<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    level: Level,
+    s: &mut Store<'_, T, S>,
+) -> Result<T, Fault<T>> {
+    let share = match level {
+        Level::Coarse => T::EPSILON.sqrt() * T::from_f64(0.01),
+        Level::Fine => T::EPSILON * T::from_f64(256.0),
+    };
+    let enough = T::EPSILON.sqrt();
+    let mut last: Option<T> = None;
+    for _ in 0..MAX_SWEEPS {
+        let (worst, row, scale) = residual(m, s);
+        let is_stuck = last.is_some_and(|last| !(worst < last * T::HALF));
+        if worst <= share * scale || (is_stuck && worst <= enough * scale) {
+            return Ok(worst);
+        }
+        if is_stuck || !worst.is_finite() {
+            return Err(Fault::Unreached { level: 2, row, violation: worst });
+        }
+        last = Some(worst);
+        respond(m, s);
+        for (a, response) in s.a.iter_mut().zip(&*s.a_response) {
+            *a += *response;
+        }
+        for (x, &response) in s.zdd.iter_mut().zip(&*s.v_response) {
+            *x += response;
+        }
+        for (x, &response) in s.lambda.iter_mut().zip(&*s.loops.lambda) {
+            *x += response;
+        }
+    }
+    let (worst, row, scale) = residual(m, s);
+    if worst <= enough * scale { Ok(worst) } else { Err(Fault::Unreached { level: 2, row, violation: worst }) }
+}
+
+/// The smallest mass-weighted change of motion x with J x = −l, as far as one sweep gives it: `s.v_response`, `s.a_response`.
+pub(crate) fn respond<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, s: &mut Store<'_, T, S>) {
+    s.counts.responses += 1;
+    for c in s.condensed.iter_mut() {
+        (c.force, c.effort) = (S::Motion::zero(), T::ZERO);
+    }
+    passes::condense_again(m.links, s.placed, &m.loops, s.condensed, &mut s.loops);
+    s.a_response[0] = S::Motion::zero();
+    let parts = (&*s.placed, &*s.condensed);
+    let out = (&mut *s.v_response, &mut *s.a_response);
+    passes::accelerate(m.links, parts, (&m.loops, false), &mut s.loops, out);
+}

@@ -1,0 +1,254 @@
+//! What the passes ask of a joint, kind by kind.
+//!
+//! ```text
+//! place      R, ω, v of the link from the parent's     [P3 (26)]
+//! eliminate  U = I b, D = bᵀ U, u = τ − bᵀ p           [P3 (36)–(38)]
+//! advance    z'' = D⁻¹ (u − Uᵀ a')                      [P3 (35)]
+//! pass       rows K of loops: K ← K − (K b) D⁻¹ Uᵀ
+//! ```
+
+use crate::link::{Condensed, Kind, Link, Placed};
+use crate::space::{Numbers, Space};
+use mbs_core::Real;
+
+/// A joint that meets no inertia.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NoInertia<T> {
+    /// Its link.
+    pub link: u32,
+    /// What was found: bᵀ I b.
+    pub pivot: T,
+}
+
+/// Where a link is and how it moves, from its parent and its joint's coordinates.
+#[inline(always)]
+pub(crate) fn place<T: Real, S: Space<T>>(
+    link: &Link<T, S>,
+    parent: &Placed<T, S>,
+    z: &[T],
+    v: &[T],
+    guides: &[[T; 3]],
+) -> Placed<T, S> {
+    let (zi, vi) = (link.z as usize, link.v as usize);
+    let still = |freedom, rotation, arm| {
+        let velocity = S::carried(&parent.velocity, &arm);
+        let spin = S::spin(&parent.velocity);
+        let bias = S::motion(S::Spin::zero(), S::centrifugal(&spin, &arm));
+        let center = S::rotate(&rotation, &link.center);
+        let position = parent.position + arm;
+        Placed { rotation, position, arm, freedom, velocity, bias, center }
+    };
+    match link.kind {
+        Kind::Revolute | Kind::GuidedRevolute => {
+            let [angle, rate, second] =
+                if link.kind == Kind::Revolute { [z[zi], v[vi], T::ZERO] } else { guides[vi] };
+            // ω = ω_p + n z',   d = (ω_p × n z', ω_p × (ω_p × r))
+            let axis = S::rotate_spin(&parent.rotation, &link.axis);
+            let rotation = S::turned(&parent.rotation, &link.axis, angle);
+            let arm = S::rotate(&parent.rotation, &link.offset);
+            let mut p = still(S::motion(axis, S::Point::zero()), rotation, arm);
+            let turning = S::cross_spin(&S::spin(&parent.velocity), &axis) * rate + axis * second;
+            p.velocity += S::motion(axis * rate, S::Point::zero());
+            p.bias += S::motion(turning, S::Point::zero());
+            p
+        }
+        Kind::Prismatic | Kind::GuidedPrismatic => {
+            let [slide, rate, second] =
+                if link.kind == Kind::Prismatic { [z[zi], v[vi], T::ZERO] } else { guides[vi] };
+            // v = v_p + ω_p × r + e z',   d = (0, ω_p × (ω_p × r) + 2 ω_p × e z')
+            let along = S::rotate(&parent.rotation, &link.direction);
+            let arm = S::rotate(&parent.rotation, &link.offset) + along * slide;
+            let mut p = still(S::motion(S::Spin::zero(), along), parent.rotation, arm);
+            let turning = S::cross(&S::spin(&parent.velocity), &along) * (T::TWO * rate);
+            p.velocity += S::motion(S::Spin::zero(), along * rate);
+            p.bias += S::motion(S::Spin::zero(), turning + along * second);
+            p
+        }
+        Kind::Ball => {
+            // ω = ω_p + w, w = R v,   d = (ω_p × w, ω_p × (ω_p × r))
+            let arm = S::rotate(&parent.rotation, &link.offset);
+            let rotation = S::turned_by(&parent.rotation, &z[zi..]);
+            let w = S::rotate_spin(&rotation, &read(&v[vi..]));
+            let mut p = still(S::Motion::zero(), rotation, arm);
+            p.velocity += S::motion(w, S::Point::zero());
+            p.bias +=
+                S::motion(S::cross_spin(&S::spin(&parent.velocity), &w), S::Point::zero());
+            p
+        }
+        Kind::Free => {
+            let rotation = S::turned_by(&S::identity(), &z[zi..]);
+            let position: S::Point = read(&z[zi + S::FREE - S::Point::N..]);
+            let w = S::rotate_spin(&rotation, &read(&v[vi..]));
+            let mut p = still(S::Motion::zero(), rotation, position);
+            p.velocity = S::motion(w, read(&v[vi + S::Spin::N..]));
+            p
+        }
+    }
+}
+
+/// The first numbers of a slice.
+#[inline(always)]
+pub(crate) fn read<T: Real, X: Numbers<T>>(from: &[T]) -> X {
+    let mut x = X::zero();
+    for i in 0..X::N {
+        x[i] = from[i];
+    }
+    x
+}
+
+/// Writes numbers at the start of a slice.
+#[inline(always)]
+pub(crate) fn write<T: Real, X: Numbers<T>>(x: &X, to: &mut [T]) {
+    for i in 0..X::N {
+        to[i] = x[i];
+    }
+}
+
+/// Eliminates the joint: its inertia is factored, and what the parent feels is returned: (I^a, p^a).
+#[inline(always)]
+pub(crate) fn eliminate<T: Real, S: Space<T>>(
+    kind: Kind,
+    p: &Placed<T, S>,
+    c: &mut Condensed<T, S>,
+) -> Result<(S::Inertia, S::Motion), T> {
+    let rounding = T::EPSILON * T::from_f64(64.0);
+    match kind {
+        Kind::Revolute | Kind::Prismatic => {
+            let (turning, moving) = S::size(&c.inertia);
+            let (column, pivot, size) = if kind == Kind::Revolute {
+                let n = S::spin(&p.freedom);
+                let column = S::times_spin(&c.inertia, &n);
+                (column, S::spin(&column).dot(&n), turning)
+            } else {
+                let d = S::point(&p.freedom);
+                let column = S::times_point(&c.inertia, &d);
+                (column, S::point(&column).dot(&d), moving)
+            };
+            if !(pivot > rounding * size) {
+                return Err(pivot);
+            }
+            // K I = I − U D⁻¹ Uᵀ   [P3 (36)–(37)]
+            (c.column, c.inverse) = (column, T::ONE / pivot);
+            let left = S::reduced(&c.inertia, &c.column, c.inverse);
+            // p + I^a d + U D⁻¹ u   [P3 (38)]
+            let force = impulse(kind, p, c) + S::times(&left, &p.bias);
+            Ok((left, force))
+        }
+        Kind::Ball => {
+            if !S::invert_turning(&mut c.inertia) {
+                return Err(S::size(&c.inertia).0);
+            }
+            let left = S::ball_reduced(&c.inertia);
+            let force = impulse(kind, p, c) + S::times(&left, &p.bias);
+            Ok((left, force))
+        }
+        Kind::Free => {
+            if !S::factor(&mut c.inertia) {
+                return Err(S::size(&c.inertia).0);
+            }
+            Ok((S::no_inertia(), impulse(kind, p, c)))
+        }
+        Kind::GuidedRevolute | Kind::GuidedPrismatic => {
+            Ok((c.inertia, c.force + S::times(&c.inertia, &p.bias)))
+        }
+    }
+}
+
+/// u = τ − bᵀ p, and the part of p that the parent feels without the bias: p + U D⁻¹ u.
+#[inline(always)]
+pub(crate) fn impulse<T: Real, S: Space<T>>(
+    kind: Kind,
+    p: &Placed<T, S>,
+    c: &mut Condensed<T, S>,
+) -> S::Motion {
+    match kind {
+        Kind::Revolute => {
+            c.drive[0] = c.effort - S::spin(&p.freedom).dot(&S::spin(&c.force));
+            c.force + c.column * (c.drive[0] * c.inverse)
+        }
+        Kind::Prismatic => {
+            c.drive[0] = c.effort - S::point(&p.freedom).dot(&S::point(&c.force));
+            c.force + c.column * (c.drive[0] * c.inverse)
+        }
+        Kind::Ball => {
+            let u = -S::spin(&c.force);
+            c.drive = S::motion(u, S::Point::zero());
+            let turned = S::ball_solve(&c.inertia, &u);
+            S::motion(S::Spin::zero(), S::point(&c.force) + S::ball_column(&c.inertia, &turned))
+        }
+        Kind::Free => {
+            c.drive = -c.force;
+            S::Motion::zero()
+        }
+        Kind::GuidedRevolute | Kind::GuidedPrismatic => c.force,
+    }
+}
+
+/// z'' = D⁻¹ (u − Uᵀ a') in world axes, less what loops hold back; the link's acceleration is returned.
+#[inline(always)]
+pub(crate) fn advance<T: Real, S: Space<T>>(
+    link: &Link<T, S>,
+    p: &Placed<T, S>,
+    c: &Condensed<T, S>,
+    (carried, held): (S::Motion, &S::Motion),
+    zdd: &mut [T],
+) -> S::Motion {
+    let at = link.v as usize;
+    match link.kind {
+        Kind::Revolute | Kind::Prismatic => {
+            let x = c.inverse * (c.drive[0] - c.column.dot(&carried)) - held[0];
+            zdd[at] = x;
+            carried + p.freedom * x
+        }
+        Kind::Ball => {
+            // A⁻¹ (u − A ω'' − H a)
+            let rest = S::spin(&c.drive) - S::ball_row(&c.inertia, &S::point(&carried));
+            let turn = S::ball_solve(&c.inertia, &rest) - S::spin(&carried) - S::spin(held);
+            write(&S::unrotate_spin(&p.rotation, &turn), &mut zdd[at..]);
+            carried + S::motion(turn, S::Point::zero())
+        }
+        Kind::Free => {
+            let a = S::solve(&c.inertia, &c.drive) - *held;
+            let x = a - carried;
+            write(&S::unrotate_spin(&p.rotation, &S::spin(&x)), &mut zdd[at..]);
+            write(&S::point(&x), &mut zdd[at + S::Spin::N..]);
+            a
+        }
+        Kind::GuidedRevolute | Kind::GuidedPrismatic => carried,
+    }
+}
+
+/// The row k of a loop before the joint: h = bᵀ k, g = D⁻¹ h, and k − U g behind it.
+#[inline(always)]
+pub(crate) fn pass<T: Real, S: Space<T>>(
+    kind: Kind,
+    p: &Placed<T, S>,
+    c: &Condensed<T, S>,
+    k: &S::Motion,
+    (h, g): (&mut [T], &mut [T]),
+) -> S::Motion {
+    match kind {
+        Kind::Revolute | Kind::Prismatic => {
+            h[0] = if kind == Kind::Revolute {
+                S::spin(&p.freedom).dot(&S::spin(k))
+            } else {
+                S::point(&p.freedom).dot(&S::point(k))
+            };
+            g[0] = c.inverse * h[0];
+            *k - c.column * g[0]
+        }
+        Kind::Ball => {
+            let spin = S::spin(k);
+            let turn = S::ball_solve(&c.inertia, &spin);
+            write(&spin, h);
+            write(&turn, g);
+            S::motion(S::Spin::zero(), S::point(k) - S::ball_column(&c.inertia, &turn))
+        }
+        Kind::Free => {
+            write(k, h);
+            write(&S::solve(&c.inertia, k), g);
+            S::Motion::zero()
+        }
+        Kind::GuidedRevolute | Kind::GuidedPrismatic => *k,
+    }
+}

@@ -1,0 +1,40 @@
+#![doc = include_str!("../README.md")]
+#![no_std]
+
+#[cfg(feature = "alloc")]
+extern crate alloc;
+
+#[cfg(feature = "alloc")]
+mod cut;
+#[cfg(feature = "alloc")]
+mod error;
+mod evaluate;
+#[cfg(feature = "alloc")]
+mod graph;
+pub mod joint;
+pub mod link;
+pub mod loads;
+pub mod loops;
+pub mod mechanism;
+mod options;
+#[cfg(feature = "alloc")]
+mod order;
+pub mod passes;
+pub mod plan;
+mod project;
+pub mod rows;
+pub mod space;
+#[cfg(feature = "alloc")]
+mod state;
+pub mod trapezoidal;
+#[cfg(feature = "alloc")]
+mod tree;
+
+#[cfg(feature = "alloc")]
+pub use error::{LoopError, TreeError};
+pub use options::{Closure, Options};
+pub use space::{Planar, Spatial};
+#[cfg(feature = "alloc")]
+pub use state::{TreeState, Workspace};
+#[cfg(feature = "alloc")]
+pub use tree::TreeModel;

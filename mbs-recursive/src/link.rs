@@ -1,0 +1,142 @@
+//! A link: one body, or a massless one between the parts of a composed joint, with the joint to its parent.
+
+use crate::space::{Numbers, Space};
+use mbs_core::Real;
+
+/// The joints of the recursion. All others are made of several of these.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Turns about an axis fixed in the parent; one freedom.
+    Revolute,
+    /// Slides along an axis fixed in the parent; one freedom.
+    Prismatic,
+    /// A ball; three freedoms (space only).
+    Ball,
+    /// Free against the ground; six freedoms, in the plane three.
+    Free,
+    /// A revolute joint whose angle is prescribed.
+    GuidedRevolute,
+    /// A prismatic joint whose slide is prescribed.
+    GuidedPrismatic,
+}
+
+impl Kind {
+    /// Number of freedoms.
+    #[must_use]
+    pub fn n_freedoms<T: Real, S: Space<T>>(self) -> usize {
+        match self {
+            Self::Revolute | Self::Prismatic => 1,
+            Self::Ball => S::Spin::N,
+            Self::Free => S::Motion::N,
+            Self::GuidedRevolute | Self::GuidedPrismatic => 0,
+        }
+    }
+
+    /// Number of coordinates that hold the position.
+    #[must_use]
+    pub fn n_coordinates<T: Real, S: Space<T>>(self) -> usize {
+        match self {
+            Self::Ball => S::FREE - S::Point::N,
+            Self::Free => S::FREE,
+            _ => self.n_freedoms::<T, S>(),
+        }
+    }
+
+    /// Is its motion prescribed?
+    #[must_use]
+    pub fn is_guided(self) -> bool {
+        matches!(self, Self::GuidedRevolute | Self::GuidedPrismatic)
+    }
+}
+
+/// A link of the tree. Link 0 is the ground; a parent stands before its children.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Link<T: Real, S: Space<T>> {
+    /// The link it hangs from.
+    pub parent: u32,
+    /// Its joint.
+    pub kind: Kind,
+    /// First of its coordinates in z.
+    pub z: u32,
+    /// First of its freedoms in v; of a guided joint the number of its guide.
+    pub v: u32,
+    /// Unit axis of a revolute joint, reference axes.
+    pub axis: S::Spin,
+    /// Unit direction of a prismatic joint, reference axes.
+    pub direction: S::Point,
+    /// From the parent's origin to the joint, reference axes [m].
+    pub offset: S::Point,
+    /// Mass [kg].
+    pub mass: T,
+    /// From the link's origin to its centre of mass, reference axes [m].
+    pub center: S::Point,
+    /// Inertia about the link's origin, reference axes [kg m^2].
+    pub tensor: S::Tensor,
+}
+
+/// Where a link is and how it moves, world axes, about its own origin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placed<T: Real, S: Space<T>> {
+    /// Rotation from the reference configuration.
+    pub rotation: S::Rotation,
+    /// Its origin, from the tree's base [m].
+    pub position: S::Point,
+    /// From the parent's origin to its own [m].
+    pub arm: S::Point,
+    /// b: the motion of unit rate of a joint with one freedom.
+    pub freedom: S::Motion,
+    /// (ω, v).
+    pub velocity: S::Motion,
+    /// d: what its acceleration is without joint accelerations and the parent's.
+    pub bias: S::Motion,
+    /// From its origin to its centre of mass [m].
+    pub center: S::Point,
+}
+
+impl<T: Real, S: Space<T>> Placed<T, S> {
+    /// The ground.
+    #[must_use]
+    pub fn ground() -> Self {
+        Self {
+            rotation: S::identity(),
+            position: S::Point::zero(),
+            arm: S::Point::zero(),
+            freedom: S::Motion::zero(),
+            velocity: S::Motion::zero(),
+            bias: S::Motion::zero(),
+            center: S::Point::zero(),
+        }
+    }
+}
+
+/// What is left of a link's subtree after condensation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Condensed<T: Real, S: Space<T>> {
+    /// Articulated inertia; after its joint's elimination its factors, where the joint has several freedoms.
+    pub inertia: S::Inertia,
+    /// Bias force p: minus the condensed force.
+    pub force: S::Motion,
+    /// U = I b.
+    pub column: S::Motion,
+    /// 1 / bᵀ I b.
+    pub inverse: T,
+    /// u: the force along the joint, all its freedoms in world axes.
+    pub drive: S::Motion,
+    /// Torque or force of effects along a joint of one freedom.
+    pub effort: T,
+}
+
+impl<T: Real, S: Space<T>> Condensed<T, S> {
+    /// Nothing.
+    #[must_use]
+    pub fn empty() -> Self {
+        Self {
+            inertia: S::no_inertia(),
+            force: S::Motion::zero(),
+            column: S::Motion::zero(),
+            inverse: T::ZERO,
+            drive: S::Motion::zero(),
+            effort: T::ZERO,
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! A mechanism and its scratch as slices, so that every step runs on memory of the caller's choice.
+
+use crate::link::{Condensed, Link, Placed};
+use crate::loads::{Instant, Load};
+use crate::loops::{LoopStore, Loops};
+use crate::space::Space;
+use mbs_core::Real;
+
+/// A mechanism in relative coordinates: constant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mechanism<'a, T: Real, S: Space<T>> {
+    /// The links, parents first; the first is the ground.
+    pub links: &'a [Link<T, S>],
+    /// The closed loops.
+    pub loops: Loops<'a, T, S>,
+    /// The effects.
+    pub loads: &'a [Load<T, S>],
+    /// Acceleration of gravity [m/s^2].
+    pub gravity: S::Point,
+    /// The point that positions are counted from, global axes [m].
+    pub base: S::Point,
+    /// The scene's length [m].
+    pub length: T,
+    /// Numbers in z.
+    pub n_coordinates: usize,
+    /// Numbers in v.
+    pub n_freedoms: usize,
+}
+
+/// Guides and courses as functions of time.
+pub trait Inputs<T> {
+    /// Writes value, rate and acceleration of each guide, and the vector of each course.
+    fn evaluate(&self, t: T, guides: &mut [[T; 3]], courses: &mut [[T; 3]]);
+}
+
+/// Scratch of a step.
+#[derive(Debug)]
+pub struct Store<'a, T: Real, S: Space<T>> {
+    /// Links where the inertias were factored; as many as links.
+    pub placed: &'a mut [Placed<T, S>],
+    /// Links at a trial state; as many as links.
+    pub trial: &'a mut [Placed<T, S>],
+    /// Articulated bodies; as many as links.
+    pub condensed: &'a mut [Condensed<T, S>],
+    /// Accelerations of the links, gravity's taken off.
+    pub a: &'a mut [S::Motion],
+    /// Responses of the links.
+    pub a_response: &'a mut [S::Motion],
+    /// Responses of the freedoms.
+    pub v_response: &'a mut [T],
+    /// Loops.
+    pub loops: LoopStore<'a, T, S>,
+    /// K of the rows on both bodies: first sides, then second ones.
+    pub gradient: &'a mut [S::Motion],
+    /// Φ, Φ̇ and the bias of Φ̈, one of each for each row.
+    pub rows: &'a mut [[T; 3]],
+    /// Multipliers, summed over the sweeps.
+    pub lambda: &'a mut [T],
+    /// Guides at the instant.
+    pub guides: &'a mut [[T; 3]],
+    /// Courses at the instant.
+    pub courses: &'a mut [[T; 3]],
+    /// Coordinates of the step being made.
+    pub z: &'a mut [T],
+    /// Velocities of the step being made.
+    pub v: &'a mut [T],
+    /// Accelerations of the step being made.
+    pub zdd: &'a mut [T],
+    /// Increments of the step being made, or accelerations of the last iteration.
+    pub scratch: &'a mut [T],
+    /// What was done.
+    pub counts: Counts,
+}
+
+/// Work done in a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Evaluations with a condensation of inertias.
+    pub condensations: u32,
+    /// Condensations of forces with the inertias as they were.
+    pub responses: u32,
+}
+
+impl<'a, T: Real, S: Space<T>> Store<'a, T, S> {
+    /// What loads see at the place where inertias were factored.
+    pub(crate) fn instant<'b>(&'b self, m: &'b Mechanism<'_, T, S>) -> Instant<'b, T, S> {
+        Instant {
+            links: m.links,
+            placed: self.placed,
+            coordinates: (self.z, self.v, self.guides),
+            courses: self.courses,
+        }
+    }
+}

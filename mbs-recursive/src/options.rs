@@ -1,0 +1,92 @@
+//! What the caller chooses. Public fields; start from [`Options::default`].
+
+use mbs_core::Real;
+use mbs_core::integrator::Integrator;
+use mbs_core::step::OptionError;
+
+/// Choices for a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options<T> {
+    /// Time integrator of the implicit step, of the Newmark family.
+    pub integrator: Integrator<T>,
+    /// A correction below this times the step's own displacement a dt²/2 is small [-].
+    pub tolerance: T,
+    /// Fixed-point iterations allowed in one step.
+    pub max_iterations: u32,
+    /// Sweeps after which a projection must have reached its level.
+    pub max_sweeps: u32,
+    /// How loops are closed.
+    pub closure: Closure<T>,
+    /// ε in Λ + ε, relative to the rows' own scale [-].
+    pub regularisation: T,
+}
+
+/// How loops are closed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Closure<T> {
+    /// Multipliers that meet Φ̈ = 0 to rounding; positions and velocities projected after each step.
+    Constraints,
+    /// The report's closure forces λ = α (Φ̈ + 2 μ Ω Φ̇ + Ω² Φ) [P3 (39)-(41)], without projections.
+    Report {
+        /// Penalty α [kg].
+        alpha: T,
+        /// Frequency Ω [1/s].
+        omega: T,
+        /// Damping ratio μ.
+        mu: T,
+    },
+}
+
+impl<T: Real> Closure<T> {
+    /// The report's closure with α = 1e7, Ω = 10, μ = 1.
+    #[must_use]
+    pub fn report() -> Self {
+        Self::Report { alpha: T::from_f64(1e7), omega: T::from_f64(10.0), mu: T::ONE }
+    }
+}
+
+impl<T: Real> Default for Options<T> {
+    /// Trapezoidal rule; tolerance 1e-10 (64 roundings in single precision); 50 iterations, 30 sweeps; ε = √rounding / 256.
+    fn default() -> Self {
+        Self {
+            integrator: Integrator::trapezoidal(),
+            tolerance: T::from_f64(1e-10).max(T::EPSILON * T::from_f64(64.0)),
+            max_iterations: 50,
+            max_sweeps: 30,
+            closure: Closure::Constraints,
+            regularisation: T::EPSILON.sqrt() * T::from_f64(1.0 / 256.0),
+        }
+    }
+}
+
+impl<T: Real> Options<T> {
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// [`OptionError`] names the option.
+    pub fn validate(&self) -> Result<(), OptionError> {
+        let closure = match self.closure {
+            Closure::Constraints => [("regularisation", self.regularisation); 3],
+            Closure::Report { alpha, omega, mu } => {
+                [("alpha", alpha), ("omega", omega), ("mu", mu)]
+            }
+        };
+        for (name, value) in closure.into_iter().chain([("tolerance", self.tolerance)]) {
+            if !(value > T::ZERO && value.is_finite()) {
+                return Err(OptionError::NotPositive(name));
+            }
+        }
+        for (name, count) in
+            [("max_iterations", self.max_iterations), ("max_sweeps", self.max_sweeps)]
+        {
+            if count == 0 {
+                return Err(OptionError::NotPositive(name));
+            }
+        }
+        let Integrator { alpha_m, alpha_f, .. } = self.integrator;
+        if alpha_m != T::ZERO || alpha_f != T::ZERO {
+            return Err(OptionError::NotBuilt("integrator"));
+        }
+        Ok(())
+    }
+}

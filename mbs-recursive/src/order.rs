@@ -1,0 +1,220 @@
+//! Builds the lists of [`Plan`](crate::plan::Plan): who meets whom on the way inward, and in which order loops are eliminated.
+//!
+//! Ancestors are taken from the outside in; at the same ancestor the loop with the fewest couplings left comes first
+//! (minimum degree), so that many loops through the ground stay sparse.
+
+use crate::link::Link;
+use crate::loops::index;
+use crate::plan::{Coupling, End, Pair, Pass, Plan, Span, Station, Update};
+use crate::rows::Loop;
+use crate::space::Space;
+use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::vec;
+use alloc::vec::Vec;
+use mbs_core::Real;
+
+/// The owner of a [`Plan`].
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct Order {
+    stations: Vec<Station>,
+    passes: Vec<Pass>,
+    pairs: Vec<Pair>,
+    ends: Vec<End>,
+    couplings: Vec<Coupling>,
+    updates: Vec<Update>,
+    /// Numbers in all blocks.
+    pub(crate) n_blocks: usize,
+    /// Numbers in all gains.
+    pub(crate) n_gains: usize,
+}
+
+impl Order {
+    pub(crate) fn plan(&self) -> Plan<'_> {
+        Plan {
+            stations: &self.stations,
+            passes: &self.passes,
+            pairs: &self.pairs,
+            ends: &self.ends,
+            couplings: &self.couplings,
+            updates: &self.updates,
+        }
+    }
+
+    /// Orders the elimination; writes each loop's ancestor and block.
+    pub(crate) fn new<T: Real, S: Space<T>>(
+        links: &[Link<T, S>],
+        loops: &mut [Loop<T, S>],
+    ) -> Self {
+        let mut order = Self { stations: vec![Station::default(); links.len()], ..Self::default() };
+        for lap in loops.iter_mut() {
+            lap.ancestor = ancestor(links, lap.links);
+        }
+        let mut alive: Vec<Vec<Pass>> = vec![Vec::new(); links.len()];
+        let mut meets: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); loops.len()];
+        for (l, lap) in loops.iter().enumerate() {
+            for side in 0..2 {
+                let mut i = lap.links[side];
+                while i != lap.ancestor {
+                    alive[i as usize].push(Pass { lap: index(l), side: index(side), gain: 0 });
+                    i = links[i as usize].parent;
+                }
+            }
+        }
+        for passes in &alive {
+            for x in passes {
+                for y in passes.iter().filter(|y| y.lap != x.lap) {
+                    meets[x.lap as usize].insert(y.lap as usize);
+                }
+            }
+        }
+        let (sequence, later) = eliminate(links.len(), loops, meets);
+        let mut turn = vec![0; loops.len()];
+        for (t, &l) in sequence.iter().enumerate() {
+            turn[l] = t;
+        }
+        let blocks = order.number_blocks(loops, (&sequence, &later));
+        let block = |x: usize, y: usize| {
+            if turn[x] >= turn[y] { blocks[&(x, y)] } else { blocks[&(y, x)] }
+        };
+        for (i, mut passes) in alive.into_iter().enumerate() {
+            // The later loop of two gives the rows of their block.
+            passes.sort_by_key(|pass| turn[pass.lap as usize]);
+            order.add_passes(links, loops, (i, &mut passes), &block);
+        }
+        order.add_ends(links, loops, (&sequence, &later, &turn), &block);
+        order
+    }
+
+    /// Gives every loop, and every two coupled ones, a block.
+    fn number_blocks<T: Real, S: Space<T>>(
+        &mut self,
+        loops: &mut [Loop<T, S>],
+        (sequence, later): (&[usize], &[Vec<usize>]),
+    ) -> BTreeMap<(usize, usize), u32> {
+        let mut blocks = BTreeMap::new();
+        for &k in sequence {
+            loops[k].block = index(self.n_blocks);
+            blocks.insert((k, k), loops[k].block);
+            self.n_blocks += (loops[k].n * loops[k].n) as usize;
+            for &l in &later[k] {
+                blocks.insert((l, k), index(self.n_blocks));
+                self.n_blocks += (loops[k].n * loops[l].n) as usize;
+            }
+        }
+        blocks
+    }
+
+    fn add_passes<T: Real, S: Space<T>>(
+        &mut self,
+        links: &[Link<T, S>],
+        loops: &[Loop<T, S>],
+        (i, passes): (usize, &mut [Pass]),
+        block: &impl Fn(usize, usize) -> u32,
+    ) {
+        let first = self.passes.len();
+        let freedoms = links[i].kind.n_freedoms::<T, S>();
+        for pass in passes.iter_mut() {
+            pass.gain = index(self.n_gains);
+            self.n_gains += loops[pass.lap as usize].n as usize * freedoms;
+        }
+        self.passes.extend_from_slice(passes);
+        let first_pair = self.pairs.len();
+        if freedoms > 0 {
+            for x in 0..passes.len() {
+                for y in 0..=x {
+                    let block = block(passes[x].lap as usize, passes[y].lap as usize);
+                    let (row, column) = (index(first + x), index(first + y));
+                    self.pairs.push(Pair { row, column, block });
+                }
+            }
+        }
+        self.stations[i].passes = span(first, self.passes.len());
+        self.stations[i].pairs = span(first_pair, self.pairs.len());
+    }
+
+    fn add_ends<T: Real, S: Space<T>>(
+        &mut self,
+        links: &[Link<T, S>],
+        loops: &[Loop<T, S>],
+        (sequence, later, turn): (&[usize], &[Vec<usize>], &[usize]),
+        block: &impl Fn(usize, usize) -> u32,
+    ) {
+        let mut last = u32::MAX;
+        for &k in sequence {
+            let at = loops[k].ancestor;
+            let mut others = later[k].clone();
+            others.sort_by_key(|&l| turn[l]);
+            let (first, first_update) = (self.couplings.len(), self.updates.len());
+            for (x, &l) in others.iter().enumerate() {
+                // A loop that ends here too has been gathered on its first side.
+                let ends_here = loops[l].ancestor == at;
+                let side = u32::from(!ends_here && !hangs_from(links, loops[l].links[0], at));
+                self.couplings.push(Coupling { lap: index(l), side, block: block(l, k) });
+                for (y, &other) in others[..=x].iter().enumerate() {
+                    let (row, column) = (index(first + x), index(first + y));
+                    self.updates.push(Update { row, column, block: block(l, other) });
+                }
+            }
+            let couplings = span(first, self.couplings.len());
+            let updates = span(first_update, self.updates.len());
+            let here = index(self.ends.len());
+            self.ends.push(End { lap: index(k), couplings, updates });
+            let station = &mut self.stations[at as usize];
+            if at != last {
+                station.ends.first = here;
+            }
+            station.ends.end = here + 1;
+            last = at;
+        }
+    }
+}
+
+fn span(first: usize, end: usize) -> Span {
+    Span { first: index(first), end: index(end) }
+}
+
+fn hangs_from<T: Real, S: Space<T>>(links: &[Link<T, S>], mut i: u32, from: u32) -> bool {
+    // Parents have smaller numbers.
+    while i > from {
+        i = links[i as usize].parent;
+    }
+    i == from
+}
+
+/// The nearest link from which both hang.
+fn ancestor<T: Real, S: Space<T>>(links: &[Link<T, S>], [mut a, mut b]: [u32; 2]) -> u32 {
+    while a != b {
+        if a > b {
+            a = links[a as usize].parent;
+        } else {
+            b = links[b as usize].parent;
+        }
+    }
+    a
+}
+
+/// The order of elimination, and for each loop the later ones it is coupled with, fill included.
+fn eliminate<T: Real, S: Space<T>>(
+    n_links: usize,
+    loops: &[Loop<T, S>],
+    mut meets: Vec<BTreeSet<usize>>,
+) -> (Vec<usize>, Vec<Vec<usize>>) {
+    let mut waiting: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); n_links];
+    for (l, lap) in loops.iter().enumerate() {
+        waiting[lap.ancestor as usize].insert(l);
+    }
+    let (mut sequence, mut later) = (Vec::new(), vec![Vec::new(); loops.len()]);
+    for here in waiting.iter_mut().rev() {
+        while let Some(k) = here.iter().copied().min_by_key(|&k| (meets[k].len(), k)) {
+            here.remove(&k);
+            let others = core::mem::take(&mut meets[k]);
+            for &x in &others {
+                meets[x].remove(&k);
+                meets[x].extend(others.iter().copied().filter(|&y| y != x));
+            }
+            sequence.push(k);
+            later[k] = others.into_iter().collect();
+        }
+    }
+    (sequence, later)
+}

@@ -1,0 +1,147 @@
+//! The state of a mechanism in relative coordinates, and the scratch of a step.
+
+use crate::link::{Condensed, Placed};
+use crate::loops::LoopStore;
+use crate::mechanism::{Counts, Store};
+use crate::space::{Numbers, Space};
+use crate::tree::TreeModel;
+use alloc::vec;
+use alloc::vec::Vec;
+use mbs_core::Real;
+
+/// Position, velocity and acceleration of a tree at a time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TreeState<T> {
+    /// Time [s].
+    pub t: T,
+    /// Coordinates: angles [rad], slides [m], quaternions of balls; of free bodies rotation, then position [m].
+    pub z: Vec<T>,
+    /// Velocities: rates of angles and slides; angular velocities in the link's own axes; of free bodies then the velocity of
+    /// their centre in global axes.
+    pub v: Vec<T>,
+    /// Rates of the velocities.
+    pub a: Vec<T>,
+    /// Multipliers of the cut joints' equations [N, N m].
+    pub lambda: Vec<T>,
+    /// Work done by dampers, courses and guides since the start [J].
+    pub work: T,
+    /// Their power at this instant [W].
+    pub power: T,
+}
+
+impl<T: Real> TreeState<T> {
+    /// A state at rest in the reference configuration at time zero; accelerations and multipliers are zero yet.
+    #[must_use]
+    pub fn at_rest<S: Space<T>>(model: &TreeModel<T, S>) -> Self {
+        let mut z = vec![T::ZERO; model.n_coordinates];
+        model.write_reference(&mut z);
+        Self {
+            t: T::ZERO,
+            z,
+            v: vec![T::ZERO; model.n_freedoms],
+            a: vec![T::ZERO; model.n_freedoms],
+            lambda: vec![T::ZERO; model.rows.len()],
+            work: T::ZERO,
+            power: T::ZERO,
+        }
+    }
+
+    /// Overwrites this state with another of the same model, without allocating.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.t = other.t;
+        self.z.copy_from_slice(&other.z);
+        self.v.copy_from_slice(&other.v);
+        self.a.copy_from_slice(&other.a);
+        self.lambda.copy_from_slice(&other.lambda);
+        self.work = other.work;
+        self.power = other.power;
+    }
+}
+
+/// Scratch of the steps of one model. Nothing is allocated after [`Workspace::new`].
+#[derive(Debug, Clone)]
+pub struct Workspace<T: Real, S: Space<T>> {
+    placed: Vec<Placed<T, S>>,
+    trial: Vec<Placed<T, S>>,
+    condensed: Vec<Condensed<T, S>>,
+    motions: Vec<S::Motion>,
+    gradients: Vec<S::Motion>,
+    rows: Vec<[T; 3]>,
+    /// l, λ, pivots, summed λ.
+    multipliers: Vec<T>,
+    blocks: Vec<T>,
+    gains: Vec<T>,
+    inputs: Vec<[T; 3]>,
+    z: Vec<T>,
+    /// v, z̈, response, scratch.
+    freedoms: Vec<T>,
+    n_guides: usize,
+}
+
+impl<T: Real, S: Space<T>> Workspace<T, S> {
+    /// Scratch for `model`.
+    #[must_use]
+    pub fn new(model: &TreeModel<T, S>) -> Self {
+        let (links, rows) = (model.links.len(), model.rows.len());
+        let n_guides = model.guides.len();
+        Self {
+            placed: vec![Placed::ground(); links],
+            trial: vec![Placed::ground(); links],
+            condensed: vec![Condensed::empty(); links],
+            motions: vec![S::Motion::zero(); 2 * links],
+            gradients: vec![S::Motion::zero(); 4 * rows],
+            rows: vec![[T::ZERO; 3]; rows],
+            multipliers: vec![T::ZERO; 4 * rows],
+            blocks: vec![T::ZERO; model.order.n_blocks],
+            gains: vec![T::ZERO; 2 * model.order.n_gains],
+            inputs: vec![[T::ZERO; 3]; n_guides + model.courses.len()],
+            z: vec![T::ZERO; model.n_coordinates],
+            freedoms: vec![T::ZERO; 4 * model.n_freedoms],
+            n_guides,
+        }
+    }
+
+    /// The scratch as slices.
+    pub fn store(&mut self) -> Store<'_, T, S> {
+        let (links, rows) = (self.placed.len(), self.rows.len());
+        let (a, a_response) = self.motions.split_at_mut(links);
+        let (k, gradient) = self.gradients.split_at_mut(2 * rows);
+        let (l, rest) = self.multipliers.split_at_mut(rows);
+        let (lambda_response, rest) = rest.split_at_mut(rows);
+        let (pivots, lambda) = rest.split_at_mut(rows);
+        let half = self.gains.len() / 2;
+        let (gains, heads) = self.gains.split_at_mut(half);
+        let (guides, courses) = self.inputs.split_at_mut(self.n_guides);
+        let n = self.freedoms.len() / 4;
+        let (v, rest) = self.freedoms.split_at_mut(n);
+        let (zdd, rest) = rest.split_at_mut(n);
+        let (v_response, scratch) = rest.split_at_mut(n);
+        Store {
+            placed: &mut self.placed,
+            trial: &mut self.trial,
+            condensed: &mut self.condensed,
+            a,
+            a_response,
+            v_response,
+            loops: LoopStore {
+                k,
+                l,
+                lambda: lambda_response,
+                blocks: &mut self.blocks,
+                gains,
+                heads,
+                pivots,
+            },
+            gradient,
+            rows: &mut self.rows,
+            lambda,
+            guides,
+            courses,
+            z: &mut self.z,
+            v,
+            zdd,
+            scratch,
+            counts: Counts::default(),
+        }
+    }
+}

@@ -1,0 +1,415 @@
+//! [`TreeModel`]: a scene as a tree of links with cut joints. Built once; constant from then on.
+
+use crate::error::TreeError;
+use crate::graph::{Branch, span};
+use crate::link::{Condensed, Kind, Link, Placed};
+use crate::loads::Load;
+use crate::loops::{LoopStore, Loops, Regularisation, index};
+use crate::mechanism::{Inputs, Mechanism};
+use crate::order::Order;
+use crate::passes::{self, Fault};
+use crate::plan::Plan;
+use crate::rows::{Loop, Row};
+use crate::space::{Numbers, Space};
+use alloc::vec;
+use alloc::vec::Vec;
+use mbs_core::Real;
+use mbs_core::algebra::{Matrix, Vector, cross, norm};
+use mbs_core::cluster::{Cluster, Clusters, scene_length};
+use mbs_core::inputs::{CourseInput, GuideInput};
+use mbs_core::model::Owner;
+use mbs_core::natural::joint_axes;
+use mbs_core::scene::{BodyRef, Joint, JointKind, Scene};
+
+/// A part of a joint: one link of the recursion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Part<T: Real> {
+    pub(crate) kind: Kind,
+    /// Axis or direction, reference axes.
+    pub(crate) axis: Vector<T, 3>,
+    /// Its number among the joint's coordinates.
+    pub(crate) number: usize,
+}
+
+/// A cluster's place in the tree.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Seat {
+    pub(crate) branch: Branch,
+    /// The last link of its joint, which carries its body.
+    pub(crate) link: u32,
+    /// The first link of its joint.
+    pub(crate) first: u32,
+}
+
+/// A mechanism in relative coordinates: spanning tree, cut joints, effects.
+#[derive(Debug, Clone)]
+pub struct TreeModel<T: Real, S: Space<T>> {
+    pub(crate) links: Vec<Link<T, S>>,
+    pub(crate) loops: Vec<Loop<T, S>>,
+    pub(crate) rows: Vec<Row<T, S>>,
+    pub(crate) order: Order,
+    pub(crate) loads: Vec<Load<T, S>>,
+    pub(crate) guides: Vec<GuideInput<T>>,
+    pub(crate) courses: Vec<CourseInput<T>>,
+    pub(crate) gravity: S::Point,
+    /// What positions are counted from [m].
+    pub(crate) base: Vector<T, 3>,
+    pub(crate) length: T,
+    pub(crate) floor: [T; 2],
+    pub(crate) n_coordinates: usize,
+    pub(crate) n_freedoms: usize,
+    pub(crate) seats: Vec<Seat>,
+    /// Where each link's origin was in the reference configuration.
+    pub(crate) origins: Vec<Vector<T, 3>>,
+    /// Link of each body of the scene; 0: ground.
+    pub(crate) link_of_body: Vec<u32>,
+    pub(crate) clusters: Clusters<T>,
+    owner_of_link: Vec<Owner>,
+}
+
+impl<T: Real, S: Space<T>> TreeModel<T, S> {
+    /// Makes the tree of a scene that passed its check.
+    ///
+    /// A thin rod in space that is held at points of its line by balls and distances alone gets the inertia of a sphere: starting
+    /// without spin about itself, as it does, it keeps none, and moves as the rod would.
+    ///
+    /// Cost: joints times bodies for the spanning tree, and the elimination order of the loops.
+    ///
+    /// # Errors
+    /// [`TreeError`] names the body or joint.
+    pub fn new(scene: &Scene<T>) -> Result<Self, TreeError> {
+        if scene.dimension.count() != S::DIMENSION {
+            return Err(TreeError::Dimension);
+        }
+        let clusters = Clusters::new(scene);
+        let graph = span(scene, &clusters)?;
+        let mut tree = Self::ground(scene, clusters);
+        for branch in &graph.branches {
+            tree.add_branch(scene, *branch);
+        }
+        tree.check_ends()?;
+        tree.check_inertia()?;
+        for &cut in &graph.cuts {
+            tree.add_loop(scene, cut);
+        }
+        let Self { links, loops, .. } = &mut tree;
+        tree.order = Order::new(links, loops);
+        tree.add_loads(scene);
+        Ok(tree)
+    }
+
+    fn ground(scene: &Scene<T>, clusters: Clusters<T>) -> Self {
+        let at_ground = scene.joints.iter().find_map(|joint| {
+            (0..2).find(|&i| clusters.of(joint.bodies[i]).is_none()).map(|i| joint.points[i])
+        });
+        let base = at_ground
+            .map(Vector::from)
+            .or_else(|| clusters.clusters.first().map(|cluster| cluster.center))
+            .unwrap_or_else(Vector::zeros);
+        let mut total = T::ZERO;
+        for cluster in &clusters.clusters {
+            total += cluster.mass;
+        }
+        let length = scene_length(scene);
+        let least = if total > T::ZERO { T::ONE / total } else { T::ONE };
+        let ground = Link {
+            parent: 0,
+            kind: Kind::GuidedRevolute,
+            z: 0,
+            v: 0,
+            axis: S::Spin::zero(),
+            direction: S::Point::zero(),
+            offset: S::Point::zero(),
+            mass: T::ZERO,
+            center: S::Point::zero(),
+            tensor: S::tensor_from(&Matrix::zeros()),
+        };
+        Self {
+            links: vec![ground],
+            loops: Vec::new(),
+            rows: Vec::new(),
+            order: Order::default(),
+            loads: Vec::new(),
+            guides: scene.guides.iter().map(|guide| GuideInput::new(&guide.law)).collect(),
+            courses: Vec::new(),
+            gravity: scene
+                .gravity
+                .map_or_else(S::Point::zero, |g| S::point_from(&Vector::from(g))),
+            base,
+            length,
+            floor: [least, least / (length * length)],
+            n_coordinates: 0,
+            n_freedoms: 0,
+            seats: Vec::new(),
+            origins: vec![base],
+            link_of_body: vec![0; scene.bodies.len()],
+            clusters,
+            // The ground is never named.
+            owner_of_link: vec![Owner::Body(0)],
+        }
+    }
+
+    /// The link of a cluster that is in the tree; the ground for `None`.
+    fn link_of(&self, cluster: Option<usize>) -> u32 {
+        cluster.map_or(0, |c| self.link_of_body[self.clusters.clusters[c].bodies[0]])
+    }
+
+    /// Adds the links of a branch.
+    fn add_branch(&mut self, scene: &Scene<T>, branch: Branch) {
+        let cluster = self.clusters.clusters[branch.cluster].clone();
+        let guide = scene.guides.iter().position(|g| Some(g.joint) == branch.joint);
+        let parts = parts(scene, &branch, guide.is_some());
+        let joint = branch.joint.map(|j| &scene.joints[j]);
+        let is_free = parts[0].kind == Kind::Free;
+        let place = match joint {
+            Some(joint) if !is_free => Vector::from(joint.points[usize::from(!branch.is_reversed)]),
+            _ => cluster.center,
+        };
+        let owner = branch.joint.map_or(Owner::Body(cluster.bodies[0]), Owner::Joint);
+        let first = index(self.links.len());
+        let mut parent = self.link_of(branch.parent);
+        for (k, part) in parts.iter().enumerate() {
+            let is_last = k + 1 == parts.len();
+            let (mass, center, inertia) = if is_last {
+                (cluster.mass, cluster.center - place, self.tensor(scene, &cluster, &place))
+            } else {
+                (T::ZERO, Vector::zeros(), Matrix::zeros())
+            };
+            self.links.push(Link {
+                parent,
+                kind: part.kind,
+                z: index(self.n_coordinates),
+                v: guide.filter(|_| part.kind.is_guided()).map_or(index(self.n_freedoms), index),
+                axis: S::spin_from(&part.axis),
+                direction: S::point_from(&part.axis),
+                offset: S::point_from(&(place - self.origins[parent as usize])),
+                mass,
+                center: S::point_from(&center),
+                tensor: S::tensor_from(&inertia),
+            });
+            self.origins.push(place);
+            self.owner_of_link.push(owner);
+            self.n_coordinates += part.kind.n_coordinates::<T, S>();
+            self.n_freedoms += part.kind.n_freedoms::<T, S>();
+            parent = index(self.links.len() - 1);
+        }
+        for &body in &cluster.bodies {
+            self.link_of_body[body] = parent;
+        }
+        self.seats.push(Seat { branch, link: parent, first });
+    }
+
+    /// Inertia of a cluster about a point.
+    fn tensor(&self, scene: &Scene<T>, cluster: &Cluster<T>, at: &Vector<T, 3>) -> Matrix<T, 3> {
+        let mut inertia = cluster.inertia;
+        if S::DIMENSION == 3 && has_idle_spin(scene, cluster) {
+            let i = &cluster.inertia;
+            let transverse = (i[(0, 0)] + i[(1, 1)] + i[(2, 2)]) * T::HALF;
+            inertia = Matrix::<T, 3>::identity() * transverse;
+        }
+        let d = cluster.center - at;
+        inertia + (Matrix::<T, 3>::identity() * d.dot(&d) - d * d.transpose()) * cluster.mass
+    }
+
+    /// No branch may end without mass.
+    fn check_ends(&self) -> Result<(), TreeError> {
+        let mut is_heavy: Vec<bool> = self.links.iter().map(|l| l.mass > T::ZERO).collect();
+        for (i, link) in self.links.iter().enumerate().skip(1) {
+            let tensor = S::body_inertia(T::ZERO, &S::Point::zero(), &link.tensor, &S::identity());
+            is_heavy[i] |= S::size(&tensor).0 > T::ZERO;
+        }
+        for i in (1..self.links.len()).rev() {
+            if is_heavy[i] {
+                is_heavy[self.links[i].parent as usize] = true;
+            }
+        }
+        for seat in &self.seats {
+            let is_guided = self.links[seat.link as usize].kind.is_guided();
+            if !is_heavy[seat.link as usize] && !is_guided {
+                let body = self.clusters.clusters[seat.branch.cluster].bodies[0];
+                return Err(TreeError::MasslessEnd { body });
+            }
+        }
+        Ok(())
+    }
+
+    /// Every joint of the tree must meet inertia in the reference configuration.
+    fn check_inertia(&self) -> Result<(), TreeError> {
+        let n = self.links.len();
+        let mut z = vec![T::ZERO; self.n_coordinates];
+        self.write_reference(&mut z);
+        let v = vec![T::ZERO; self.n_freedoms];
+        let guides = vec![[T::ZERO; 3]; self.guides.len()];
+        let mut placed = vec![Placed::<T, S>::ground(); n];
+        let mut condensed = vec![Condensed::<T, S>::empty(); n];
+        passes::kinematics(&self.links, (&z, &v, &guides), &mut placed);
+        passes::inertias(&self.links, &placed, &mut condensed);
+        let plan = Plan { stations: &[], passes: &[], pairs: &[], ends: &[], couplings: &[], updates: &[] };
+        let none = Loops { loops: &[], rows: &[], plan, floor: self.floor };
+        let mut store = LoopStore {
+            k: &mut [],
+            l: &mut [],
+            lambda: &mut [],
+            blocks: &mut [],
+            gains: &mut [],
+            heads: &mut [],
+            pivots: &mut [],
+        };
+        let setting = (&none, Regularisation::Fixed(T::ZERO), &S::Motion::zero());
+        match passes::condense(&self.links, &placed, setting, &mut condensed, &mut store) {
+            Err(Fault::NoInertia(fault)) => {
+                Err(TreeError::NoInertia { owner: self.owner_of_link[fault.link as usize] })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Writes the coordinates of the reference configuration.
+    pub(crate) fn write_reference(&self, z: &mut [T]) {
+        z.fill(T::ZERO);
+        for (link, origin) in self.links.iter().zip(&self.origins).skip(1) {
+            if matches!(link.kind, Kind::Ball | Kind::Free) {
+                S::write_rotation(&S::identity(), &mut z[link.z as usize..]);
+            }
+            if link.kind == Kind::Free {
+                let at = link.z as usize + S::FREE - S::Point::N;
+                crate::joint::write(&S::point_from(&(origin - self.base)), &mut z[at..]);
+            }
+        }
+    }
+
+    /// A point of a body: its link, and the place from the link's origin.
+    pub(crate) fn seat_point(&self, body: BodyRef, at: [T; 3]) -> (u32, S::Point) {
+        let link = match body {
+            BodyRef::Ground => 0,
+            BodyRef::Body(i) => self.link_of_body[i],
+        };
+        (link, S::point_from(&(Vector::from(at) - self.origins[link as usize])))
+    }
+
+    /// The mechanism as slices.
+    #[must_use]
+    pub fn mechanism(&self) -> Mechanism<'_, T, S> {
+        Mechanism {
+            links: &self.links,
+            loops: Loops {
+                loops: &self.loops,
+                rows: &self.rows,
+                plan: self.order.plan(),
+                floor: self.floor,
+            },
+            loads: &self.loads,
+            gravity: self.gravity,
+            base: S::point_from(&self.base),
+            length: self.length,
+            n_coordinates: self.n_coordinates,
+            n_freedoms: self.n_freedoms,
+        }
+    }
+
+    /// Number of joint coordinates counted as freedoms: a ball has three, a free body six (in the plane three). Guided ones do not count.
+    #[must_use]
+    pub fn n_coordinates(&self) -> usize {
+        self.n_freedoms
+    }
+
+    /// Number of equations of cut joints.
+    #[must_use]
+    pub fn n_rows(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Number of links, massless parts of composed joints included.
+    #[must_use]
+    pub fn n_links(&self) -> usize {
+        self.links.len() - 1
+    }
+
+    /// Joints that are cut, one for each loop.
+    pub fn cut_joints(&self) -> impl Iterator<Item = usize> + '_ {
+        self.loops.iter().map(|lap| lap.joint as usize)
+    }
+
+    /// The scene's length [m].
+    pub fn length(&self) -> T {
+        self.length
+    }
+
+    /// What a freedom belongs to, for messages.
+    #[must_use]
+    pub fn owner_of_unknown(&self, unknown: usize) -> Owner {
+        let owns = |link: &Link<T, S>| {
+            let first = link.v as usize;
+            (first..first + link.kind.n_freedoms::<T, S>()).contains(&unknown)
+        };
+        let link = self.links.iter().skip(1).position(owns).map_or(0, |i| i + 1);
+        self.owner_of_link[link]
+    }
+
+    /// What a row belongs to, for messages.
+    #[must_use]
+    pub fn owner_of_row(&self, row: usize) -> Owner {
+        let lap = self.loops.iter().find(|l| (l.first..l.first + l.n).contains(&index(row)));
+        Owner::Joint(lap.map_or(0, |lap| lap.joint as usize))
+    }
+}
+
+impl<T: Real, S: Space<T>> Inputs<T> for TreeModel<T, S> {
+    fn evaluate(&self, t: T, guides: &mut [[T; 3]], courses: &mut [[T; 3]]) {
+        for (to, guide) in guides.iter_mut().zip(&self.guides) {
+            *to = guide.at(t);
+        }
+        for (to, course) in courses.iter_mut().zip(&self.courses) {
+            *to = course.at(t);
+        }
+    }
+}
+
+/// The parts of a branch's joint from the parent to the child.
+pub(crate) fn parts<T: Real>(scene: &Scene<T>, branch: &Branch, is_guided: bool) -> Vec<Part<T>> {
+    let zero = Vector::<T, 3>::zeros();
+    let free = Part { kind: Kind::Free, axis: zero, number: 0 };
+    let Some(joint) = branch.joint else { return vec![free] };
+    let joint: &Joint<T> = &scene.joints[joint];
+    let [n, d] = joint_axes(joint, scene.dimension).map(Vector::<T, 3>::from);
+    let (turn, slide) = if is_guided {
+        (Kind::GuidedRevolute, Kind::GuidedPrismatic)
+    } else {
+        (Kind::Revolute, Kind::Prismatic)
+    };
+    let part = |kind, axis, number| Part { kind, axis, number };
+    let mut parts = match joint.kind {
+        JointKind::Revolute => vec![part(turn, n, 0)],
+        JointKind::Prismatic => vec![part(slide, n, 0)],
+        JointKind::Cylindrical => vec![part(slide, n, 0), part(turn, n, 1)],
+        JointKind::Universal => vec![part(turn, n, 0), part(turn, d, 1)],
+        JointKind::Planar => {
+            vec![part(slide, d, 0), part(slide, cross(&n, &d), 1), part(turn, n, 2)]
+        }
+        JointKind::Spherical => vec![part(Kind::Ball, zero, 0)],
+        JointKind::Free | JointKind::Distance | JointKind::Weld => vec![free],
+    };
+    if branch.is_reversed {
+        parts.reverse();
+        for part in &mut parts {
+            part.axis = -part.axis;
+        }
+    }
+    parts
+}
+
+/// Is it a thin rod that nothing can turn about itself?
+fn has_idle_spin<T: Real>(scene: &Scene<T>, cluster: &Cluster<T>) -> bool {
+    let Some([from, to]) = cluster.rod else { return false };
+    let along = to - from;
+    let off = T::EPSILON.sqrt() * along.dot(&along);
+    let is_on_line = |p: [T; 3]| norm(&cross(&(Vector::from(p) - from), &along)) <= off;
+    scene.joints.iter().all(|joint| {
+        (0..2).all(|i| {
+            joint.bodies[i] != BodyRef::Body(cluster.bodies[0])
+                || (matches!(joint.kind, JointKind::Spherical | JointKind::Distance)
+                    && is_on_line(joint.points[i])
+                    && !(i == 0 && joint.kind == JointKind::Distance && joint.axes[0].is_some()))
+        })
+    })
+}

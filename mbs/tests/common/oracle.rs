@@ -1,0 +1,144 @@
+//! The checker: every formulation that can run a scene must tell of the same motion.
+//!
+//! Each method runs at dt and dt/2. Its error is estimated by the largest difference of the two over the run, channel by
+//! channel; two methods agree when they differ by at most [`SHARE`] times the larger of their estimates.
+#![allow(dead_code, reason = "each binary uses its part")]
+
+use mbs::core::scene::{Dimension, Output, Quantity, Scene};
+use mbs::{Overrides, Settings, StopError};
+
+/// Times the larger of two methods' own errors that they may differ by.
+const SHARE: f64 = 10.0;
+/// Differences below this share of a channel's size are rounding: of a start assembled to 1e-11 of the scene's length, of
+/// positions differenced twice, and of what a second of motion makes of both.
+const ROUNDING: f64 = 1e-7;
+
+/// A formulation with an integrator.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Method(pub(crate) &'static str, pub(crate) &'static str);
+
+/// All that are compared; the first is what the others are held against.
+pub(crate) const METHODS: [Method; 7] = [
+    Method("index-3", "trapezoidal"),
+    Method("index-1", "trapezoidal"),
+    Method("classical", "trapezoidal"),
+    Method("state-space", "trapezoidal"),
+    Method("recursive", "trapezoidal"),
+    Method("recursive", "rk4"),
+    Method("recursive", "rk54"),
+];
+
+/// Rows of a run: times and components.
+pub(crate) type Rows = Vec<(f64, Vec<f64>)>;
+
+/// Positions, velocities and accelerations of all centres, and all joint coordinates and rates, beside the scene's outputs.
+pub(crate) fn everything(scene: &Scene<f64>) -> Scene<f64> {
+    let mut scene = scene.clone();
+    let dimension = scene.dimension;
+    let mut all = Vec::new();
+    for (body, data) in scene.bodies.iter().enumerate() {
+        let at = match data.inertia {
+            mbs::core::scene::Inertia::Rod { from, to } => {
+                [0, 1, 2].map(|i| 0.5 * (from[i] + to[i]))
+            }
+            _ => data.center,
+        };
+        all.push(Quantity::Position { body, at });
+        all.push(Quantity::Velocity { body, at });
+        all.push(Quantity::Acceleration { body, at });
+    }
+    for (joint, data) in scene.joints.iter().enumerate() {
+        if data.kind.n_coordinates(dimension) > 0 {
+            all.push(Quantity::JointValue { joint });
+            all.push(Quantity::JointRate { joint });
+        }
+    }
+    let asked = scene.outputs.drain(..).map(|output| output.quantity);
+    let unique = asked.filter(|q| !matches!(q, Quantity::Reaction { .. }));
+    let named = unique.chain(all).enumerate();
+    scene.outputs =
+        named.map(|(i, quantity)| Output { name: format!("channel-{i}"), quantity }).collect();
+    scene
+}
+
+/// Runs a scene to `duration` and keeps the rows at multiples of `every` steps.
+pub(crate) fn rows(
+    scene: &Scene<f64>,
+    Method(formulation, integrator): Method,
+    (step, duration): (f64, f64),
+    every: usize,
+) -> Result<Rows, StopError> {
+    let overrides = Overrides {
+        formulation: Some(formulation.to_owned()),
+        integrator: Some(integrator.to_owned()),
+        step: Some(step),
+        duration: Some(duration),
+        ..Overrides::default()
+    };
+    let settings = Settings::new(scene, &overrides).unwrap_or_else(|e| panic!("{e}"));
+    let outcome = match scene.dimension {
+        Dimension::Planar => mbs::run::<f64, 2>(scene, &settings, &mut ()),
+        Dimension::Spatial => mbs::run::<f64, 3>(scene, &settings, &mut ()),
+    };
+    match outcome.error {
+        Some(error) => Err(error),
+        None => Ok(outcome.rows().iter().step_by(every).cloned().collect()),
+    }
+}
+
+/// A method's rows at dt/2 with its own error in every component.
+pub(crate) struct Told {
+    pub(crate) rows: Rows,
+    pub(crate) errors: Vec<f64>,
+}
+
+/// Runs a method at dt and dt/2.
+pub(crate) fn tell(
+    scene: &Scene<f64>,
+    method: Method,
+    (step, duration): (f64, f64),
+) -> Result<Told, StopError> {
+    let coarse = rows(scene, method, (step, duration), 1)?;
+    let fine = rows(scene, method, (0.5 * step, duration), 2)?;
+    let errors = differences(&coarse, &fine);
+    Ok(Told { rows: fine, errors })
+}
+
+/// The largest difference of each component.
+pub(crate) fn differences(a: &Rows, b: &Rows) -> Vec<f64> {
+    assert_eq!(a.len(), b.len(), "the same rows");
+    let mut largest = vec![0.0_f64; a[0].1.len()];
+    for ((t, x), (u, y)) in a.iter().zip(b) {
+        assert!((t - u).abs() < 1e-9 * (1.0 + t), "the same times: {t} and {u}");
+        for (largest, (x, y)) in largest.iter_mut().zip(x.iter().zip(y)) {
+            let difference = (x - y).abs();
+            if !(difference <= *largest) {
+                *largest = difference;
+            }
+        }
+    }
+    largest
+}
+
+/// The largest absolute value of each component, at least one.
+fn sizes(rows: &Rows) -> Vec<f64> {
+    let mut sizes = vec![1.0_f64; rows[0].1.len()];
+    for (_, x) in rows {
+        sizes.iter_mut().zip(x).for_each(|(s, x)| *s = s.max(x.abs()));
+    }
+    sizes
+}
+
+/// The worst ratio of difference to allowed difference over all components: at most one when two methods agree.
+pub(crate) fn disagreement(a: &Told, b: &Told) -> (f64, usize) {
+    let sizes = sizes(&a.rows);
+    let mut worst = (0.0, 0);
+    for (i, difference) in differences(&a.rows, &b.rows).into_iter().enumerate() {
+        let allowed = SHARE * a.errors[i].max(b.errors[i]) + ROUNDING * sizes[i];
+        let ratio = difference / allowed;
+        if !(ratio <= worst.0) {
+            worst = (ratio, i);
+        }
+    }
+    worst
+}

@@ -1,0 +1,122 @@
+//! The same mechanism told in another way: turned as a whole, its bodies in another order.
+#![allow(dead_code, reason = "each binary uses its part")]
+
+use mbs::core::scene::{BodyRef, EffectKind, Inertia, InitialTarget, Joint, JointKind, Scene};
+
+type Vector = [f64; 3];
+
+fn add(a: Vector, b: Vector) -> Vector {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// A rotation about a skew axis (a unit quaternion drawn once).
+pub(crate) fn turned(x: Vector) -> Vector {
+    let (w, u) = (0.3, [-0.5, 0.7, 0.412_310_562_561_766_1]);
+    let uv = cross(u, x);
+    let twice = |x: Vector, s: f64| x.map(|x| 2.0 * s * x);
+    add(x, add(twice(uv, w), twice(cross(u, uv), 1.0)))
+}
+
+/// A rotation about z.
+pub(crate) fn turned_in_plane(x: Vector) -> Vector {
+    let (c, s) = (0.6, 0.8);
+    [c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]]
+}
+
+/// The spatial scene with everything in it turned.
+pub(crate) fn turn_scene(scene: &Scene<f64>) -> Scene<f64> {
+    turn_by(scene, turned)
+}
+
+/// The scene with everything in it turned by `turn`, a rotation. Outputs are left out.
+pub(crate) fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Scene<f64> {
+    let mut s = scene.clone();
+    s.gravity = s.gravity.map(turn);
+    for body in &mut s.bodies {
+        body.center = turn(body.center);
+        match &mut body.inertia {
+            Inertia::Spatial([xx, yy, zz, xy, yz, zx]) => {
+                let rows = [[*xx, *xy, *zx], [*xy, *yy, *yz], [*zx, *yz, *zz]];
+                // R I R^T: turn the columns, then the rows.
+                let columns = rows.map(turn);
+                let [a, b, c] =
+                    [0, 1, 2].map(|i| turn([columns[0][i], columns[1][i], columns[2][i]]));
+                (*xx, *yy, *zz, *xy, *yz, *zx) = (a[0], b[1], c[2], a[1], b[2], c[0]);
+            }
+            Inertia::Rod { from, to } => (*from, *to) = (turn(*from), turn(*to)),
+            Inertia::Planar(_) => {}
+        }
+    }
+    for joint in &mut s.joints {
+        joint.points = joint.points.map(turn);
+        joint.axes = joint.axes.map(|a| a.map(turn));
+    }
+    for initial in &mut s.initials {
+        turn_initial(&mut initial.target, &scene.joints, turn);
+    }
+    for effect in &mut s.effects {
+        match &mut effect.kind {
+            EffectKind::SpringDamper { points, .. } => *points = points.map(turn),
+            EffectKind::TorsionSpring { .. } | EffectKind::JointTorque { .. } => {}
+            EffectKind::Force { .. } | EffectKind::BodyTorque { .. } => {
+                panic!("the turning of courses is not told here")
+            }
+        }
+    }
+    s.outputs.clear();
+    s
+}
+
+fn turn_initial(
+    target: &mut InitialTarget<f64>,
+    joints: &[Joint<f64>],
+    turn: impl Fn(Vector) -> Vector,
+) {
+    match target {
+        InitialTarget::Joint { joint, value, rate } => {
+            // Rotation vectors and angular velocities are told in global axes.
+            if joints[*joint].kind == JointKind::Spherical {
+                for x in [value, rate].into_iter().flatten() {
+                    *x = turn([x[0], x[1], x[2]]).to_vec();
+                }
+            }
+        }
+        InitialTarget::Body { velocity, angular_velocity, .. } => {
+            *velocity = velocity.map(|(at, v)| (turn(at), turn(v)));
+            *angular_velocity = angular_velocity.as_ref().copied().map(turn);
+        }
+    }
+}
+
+/// The scene with its bodies in reverse order. Outputs are left out.
+pub(crate) fn reorder(scene: &Scene<f64>) -> Scene<f64> {
+    let n = scene.bodies.len();
+    let mut s = scene.clone();
+    s.bodies.reverse();
+    let renumber = |b: &mut BodyRef| {
+        if let BodyRef::Body(i) = b {
+            *i = n - 1 - *i;
+        }
+    };
+    s.joints.iter_mut().flat_map(|j| &mut j.bodies).for_each(renumber);
+    for initial in &mut s.initials {
+        if let InitialTarget::Body { body, .. } = &mut initial.target {
+            *body = n - 1 - *body;
+        }
+    }
+    for effect in &mut s.effects {
+        match &mut effect.kind {
+            EffectKind::SpringDamper { bodies, .. } => bodies.iter_mut().for_each(renumber),
+            EffectKind::Force { body, .. } | EffectKind::BodyTorque { body, .. } => {
+                *body = n - 1 - *body;
+            }
+            EffectKind::TorsionSpring { .. } | EffectKind::JointTorque { .. } => {}
+        }
+    }
+    s.outputs.clear();
+    s
+}

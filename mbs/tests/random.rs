@@ -1,0 +1,118 @@
+//! The oracle on random trees and random closed loops, as they are, turned as a whole, and told in another order.
+#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
+
+#[path = "common/oracle.rs"]
+mod oracle;
+#[path = "common/random.rs"]
+mod random;
+#[path = "common/retell.rs"]
+mod retell;
+
+use mbs::core::scene::{Dimension, Scene};
+use oracle::{METHODS, differences, disagreement, everything, rows, tell};
+
+/// Step and span [s]: at some metres and radians per second a step is a hundredth of what moves.
+const SPAN: (f64, f64) = (1e-3, 0.2);
+/// How far the same mechanism told in another way may be off, in metres and radians: rounding of a start assembled to 1e-11
+/// of its length, grown by a fifth of a second of motion.
+const RETOLD: f64 = 1e-8;
+
+fn agree(scene: &Scene<f64>) {
+    let scene = everything(scene);
+    let reference =
+        tell(&scene, METHODS[0], SPAN).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+    let ends = [reference.rows.first(), reference.rows.last()].map(|row| {
+        let (_, row) = row.expect("there are rows");
+        vec![(0.0, row.clone())]
+    });
+    let moved = differences(&ends[0], &ends[1]).into_iter().fold(0.0, f64::max);
+    assert!(moved > 0.1, "{}: what rests shows nothing, moved by {moved:.1e}", scene.name);
+    for method in &METHODS[1..] {
+        let told = tell(&scene, *method, SPAN)
+            .unwrap_or_else(|e| panic!("{} {method:?}: {e}", scene.name));
+        let (ratio, component) = disagreement(&reference, &told);
+        println!("{} {method:?}: {ratio:.2}", scene.name);
+        assert!(ratio <= 1.0, "{} {method:?}: {ratio:.2}, component {component}", scene.name);
+    }
+}
+
+#[test]
+fn formulations_agree_on_random_planar_trees() {
+    (1..=6).for_each(|seed| agree(&random::tree(seed, Dimension::Planar, 8)));
+}
+
+#[test]
+fn formulations_agree_on_random_spatial_trees() {
+    (1..=6).for_each(|seed| agree(&random::tree(seed, Dimension::Spatial, 6)));
+}
+
+#[test]
+fn formulations_agree_on_random_planar_loops() {
+    (1..=6).for_each(|seed| agree(&random::loops(seed, Dimension::Planar, 8, 2)));
+}
+
+#[test]
+fn formulations_agree_on_random_spatial_loops() {
+    (1..=6).for_each(|seed| agree(&random::loops(seed, Dimension::Spatial, 6, 2)));
+}
+
+/// Positions of all centres, of a scene and of the same retold with bodies renumbered by `body` and places moved by `turn`.
+fn retold_apart(
+    (scene, other): (&Scene<f64>, &Scene<f64>),
+    body: impl Fn(usize) -> usize,
+    turn: impl Fn([f64; 3]) -> [f64; 3],
+) {
+    let n = scene.bodies.len();
+    let d = scene.dimension.count();
+    let centres = |scene: &Scene<f64>, order: &dyn Fn(usize) -> usize| {
+        let mut scene = scene.clone();
+        scene.outputs = (0..n)
+            .map(|i| {
+                let body = order(i);
+                let at = scene.bodies[body].center;
+                let quantity = mbs::core::scene::Quantity::Position { body, at };
+                mbs::core::scene::Output { name: format!("centre-{i}"), quantity }
+            })
+            .collect();
+        scene
+    };
+    let (first, second) = (centres(scene, &|i| i), centres(other, &body));
+    for method in METHODS {
+        let run = |scene: &Scene<f64>| {
+            rows(scene, method, SPAN, 1)
+                .unwrap_or_else(|e| panic!("{} {method:?}: {e}", scene.name))
+        };
+        let mut a = run(&first);
+        for (_, row) in &mut a {
+            for place in row.chunks_exact_mut(d) {
+                let moved = turn([place[0], place[1], if d == 3 { place[2] } else { 0.0 }]);
+                place.copy_from_slice(&moved[..d]);
+            }
+        }
+        let off = differences(&a, &run(&second)).into_iter().fold(0.0, f64::max);
+        println!("{} {method:?} retold: {off:.1e}", scene.name);
+        assert!(off <= RETOLD, "{} {method:?}: {off:e} m", scene.name);
+    }
+}
+
+#[test]
+fn a_turned_random_mechanism_moves_the_same_in_every_formulation() {
+    for seed in 11..=13 {
+        let scene = random::loops(seed, Dimension::Spatial, 6, 2);
+        let other = retell::turn_scene(&scene);
+        retold_apart((&scene, &other), |i| i, retell::turned);
+        let scene = random::loops(seed, Dimension::Planar, 8, 2);
+        let other = retell::turn_by(&scene, retell::turned_in_plane);
+        retold_apart((&scene, &other), |i| i, retell::turned_in_plane);
+    }
+}
+
+#[test]
+fn a_reordered_random_mechanism_moves_the_same_in_every_formulation() {
+    for (seed, dimension, n) in
+        [(21, Dimension::Spatial, 6), (22, Dimension::Spatial, 6), (23, Dimension::Planar, 8)]
+    {
+        let scene = random::loops(seed, dimension, n, 2);
+        retold_apart((&scene, &retell::reorder(&scene)), |i| n - 1 - i, |x| x);
+    }
+}
