@@ -40,7 +40,8 @@ pub enum Penalty<T> {
 }
 
 impl<T: Real> Penalty<T> {
-    /// The factor of a scaled penalty; one for a fixed alpha, which is never raised.
+    /// The factor of a scaled penalty; one for a fixed alpha, which is raised only inside a projection that would not reach its
+    /// level otherwise.
     pub(crate) fn factor(&self) -> T {
         match self {
             Self::Scaled(factor) => *factor,

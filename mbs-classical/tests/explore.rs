@@ -16,20 +16,36 @@ fn go<const D: usize>(text: &str, index: Index, dt: f64, end: f64) {
                 its += r.iterations;
                 fac += r.factorizations;
                 sol += r.solves;
-                for k in 0..3 { v[k] = v[k].max(r.violation[k]); }
+                for k in 0..3 {
+                    v[k] = v[k].max(r.violation[k]);
+                }
             }
             Err(e) => {
-                println!("{:20} {index:?} {dt:.0e}: step {i} t={:.4}: {e:?}, worst {worst:.1e}", sc.name, run.state.t);
+                println!(
+                    "{:20} {index:?} {dt:.0e}: step {i} t={:.4}: {e:?}, worst {worst:.1e}",
+                    sc.name, run.state.t
+                );
                 return;
             }
         }
         worst = worst.min(run.w.solver().weakest().ratio);
         delays = delays.max(run.w.solver().delays().delayed);
-        if i % 10 == 9 { emax = emax.max((run.invariant() - e0).abs()); }
+        if i % 10 == 9 {
+            emax = emax.max((run.invariant() - e0).abs());
+        }
     }
     let n = n as f64;
-    println!("{:20} {index:?} {dt:.0e}: its {:.2} fac {:.2} sol {:.2} worst {worst:.1e} dE max {emax:.3e} end {:.3e} viol {:.0e} {:.0e} {:.0e} delays {delays}",
-        sc.name, its as f64 / n, fac as f64 / n, sol as f64 / n, run.invariant() - e0, v[0], v[1], v[2]);
+    println!(
+        "{:20} {index:?} {dt:.0e}: its {:.2} fac {:.2} sol {:.2} worst {worst:.1e} dE max {emax:.3e} end {:.3e} viol {:.0e} {:.0e} {:.0e} delays {delays}",
+        sc.name,
+        its as f64 / n,
+        fac as f64 / n,
+        sol as f64 / n,
+        run.invariant() - e0,
+        v[0],
+        v[1],
+        v[2]
+    );
 }
 
 #[test]

@@ -193,10 +193,11 @@ pub fn rk54<T: Real, S: Space<T>>(
     control.max_steps = MAX_STEPS;
     let mut system =
         System { m, inputs, options, s, evaluations: 0, is_patient: true, last_failure: None };
-    let done = driver.advance(&mut system, (start.t, dt), (y, scratch), &control, |system, t, y| {
-        system.last_failure = None;
-        system.clean(t, y)
-    });
+    let done =
+        driver.advance(&mut system, (start.t, dt), (y, scratch), &control, |system, t, y| {
+            system.last_failure = None;
+            system.clean(t, y)
+        });
     match done {
         Ok(()) => {}
         Err(OdeError::Rates { error, .. }) => return Err(error),

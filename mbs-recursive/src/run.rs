@@ -86,8 +86,7 @@ pub fn rk54_step<T: Real, S: Space<T>>(
 ) -> Result<StepReport<T>, StepError> {
     let m = model.mechanism();
     let (mut s, scratch) = workspace.parts();
-    let driver =
-        scratch.driver.get_or_insert_with(|| Adaptive::new(Tableau::dormand_prince(), dt));
+    let driver = scratch.driver.get_or_insert_with(|| Adaptive::new(Tableau::dormand_prince(), dt));
     let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
     let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
     let report = explicit::rk54(&m, model, (dt, options, driver), memory, &mut s)?;
@@ -280,11 +279,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 
     /// The joint's place on the parent, from the base.
-    fn parent_place(
-        &self,
-        seat: &crate::tree::Seat,
-        s: &Store<'_, T, S>,
-    ) -> S::Point {
+    fn parent_place(&self, seat: &crate::tree::Seat, s: &Store<'_, T, S>) -> S::Point {
         let first = &self.links[seat.first as usize];
         let parent = &s.placed[first.parent as usize];
         parent.position + S::rotate(&parent.rotation, &first.offset)

@@ -14,7 +14,8 @@ use nalgebra::Vector3;
 mod common;
 
 fn natural<const D: usize>(scene: &Scene<f64>) -> (NaturalModel<f64, D>, State<f64>) {
-    let model = NaturalModel::<f64, D>::new(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+    let model =
+        NaturalModel::<f64, D>::new(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     let analyse = mbs_sparse::Options::default();
     let mut solver = Multifrontal::analyse(&model, analyse);
     let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver)
@@ -26,8 +27,7 @@ fn natural<const D: usize>(scene: &Scene<f64>) -> (NaturalModel<f64, D>, State<f
 fn compare<S: Space<f64>, const D: usize>(scene: &Scene<f64>) -> [f64; 3] {
     let (model, state) = natural::<D>(scene);
     let tree = TreeModel::<f64, S>::new(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
-    let start =
-        tree.start(scene, &model, &state).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+    let start = tree.start(scene, &model, &state).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     let mut motions = vec![RigidMotion::at_rest(Vector3::zeros()); scene.bodies.len()];
     tree.write_motions(&start, &mut Workspace::new(&tree), &mut motions);
     let mut back = state.clone();

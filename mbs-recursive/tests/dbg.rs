@@ -1,13 +1,17 @@
 //! Debugging.
 mod support;
-use mbs_recursive::{Planar, rk54_step, TreeModel, TreeState, Workspace, Options};
+use mbs_recursive::{Options, Planar, TreeModel, TreeState, Workspace, rk54_step};
 use support::{Run, file};
 #[test]
 fn dbg() {
     let mut run = Run::<Planar>::new::<2>(&file("four-bar"));
     run.options.error = 1e-10;
     for i in 0..10 {
-        if let Err(e) = rk54_step(&run.model, 1.0, &run.options, &mut run.state, &mut run.workspace) { println!("{i} {e:?}"); break; }
+        if let Err(e) = rk54_step(&run.model, 1.0, &run.options, &mut run.state, &mut run.workspace)
+        {
+            println!("{i} {e:?}");
+            break;
+        }
     }
     let scene = file("andrews");
     let model = TreeModel::<f64, Planar>::new(&scene).unwrap();

@@ -4,29 +4,54 @@ use crate::choice::Formulation;
 use crate::settings::Settings;
 use crate::simulation::rank;
 use crate::stop::StopError;
-use mbs_augmented::{Options, Penalty, Workspace, index1, index3};
+use crate::tree::{InSpace, Plane, Tree};
+use mbs_augmented::{Penalty, index1, index3};
+use mbs_classical as classical;
 use mbs_core::model::{Model, Owner, State, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Scene;
 use mbs_core::step::{StepError, StepReport};
 use mbs_core::{Cliques, Real};
-use mbs_sparse::Multifrontal;
+use mbs_sparse::{Indefinite, Multifrontal};
+use mbs_statespace as statespace;
 
 /// One of the formulations, chosen once per run.
 #[derive(Debug)]
-pub enum Engine<T: Real, const D: usize> {
+pub enum Engine<T: Real, const D: usize>
+where
+    Plane<D>: InSpace<T>,
+{
     /// Index-3 or index-1 augmented Lagrangian.
     Augmented {
         /// Index-1?
         is_index1: bool,
         /// Its options.
-        options: Options<T>,
+        options: mbs_augmented::Options<T>,
         /// Its scratch.
-        workspace: Box<Workspace<T, Multifrontal<T>>>,
+        workspace: Box<mbs_augmented::Workspace<T, Multifrontal<T>>>,
     },
+    /// Index-3 classical Lagrangian.
+    Classical {
+        /// Its options.
+        options: classical::Options<T>,
+        /// Its scratch.
+        workspace: Box<classical::Workspace<T, Indefinite<T>>>,
+    },
+    /// State space.
+    StateSpace {
+        /// Its options.
+        options: statespace::Options<T>,
+        /// Its scratch.
+        workspace: Box<statespace::Workspace<T>>,
+    },
+    /// Relative coordinates.
+    Recursive(Box<Tree<T, D>>),
 }
 
-impl<T: Real, const D: usize> Engine<T, D> {
+impl<T: Real, const D: usize> Engine<T, D>
+where
+    Plane<D>: InSpace<T>,
+{
     pub(crate) fn new(
         scene: &Scene<T>,
         settings: &Settings,
@@ -34,15 +59,35 @@ impl<T: Real, const D: usize> Engine<T, D> {
         solver: Multifrontal<T>,
         state: &mut State<T>,
     ) -> Result<Self, StopError> {
-        let _ = (scene, state);
         match settings.formulation {
             Formulation::Index1 | Formulation::Index3 => {
                 let is_index1 = settings.formulation == Formulation::Index1;
-                let options = augmented(is_index1, settings);
-                let workspace = Box::new(Workspace::new(model, solver));
+                let options = augmented_options(is_index1, settings);
+                let workspace = Box::new(mbs_augmented::Workspace::new(model, solver));
                 Ok(Self::Augmented { is_index1, options, workspace })
             }
-            _ => todo!(),
+            Formulation::Classical => {
+                let options = classical_options(settings);
+                let saddle = classical::Saddle::new(model);
+                let solver = Indefinite::analyse(&saddle, mbs_sparse::Options::default());
+                let workspace = Box::new(classical::Workspace::new(model, solver));
+                Ok(Self::Classical { options, workspace })
+            }
+            Formulation::StateSpace => {
+                let mut options = statespace::Options {
+                    integrator: settings.integrator.coefficients(),
+                    ..statespace::Options::default()
+                };
+                if let Some(tolerance) = settings.tolerance {
+                    options.tolerance = T::from_f64(tolerance);
+                }
+                let workspace = Box::new(statespace::Workspace::new(model, state));
+                Ok(Self::StateSpace { options, workspace })
+            }
+            Formulation::Recursive => {
+                let tree = Tree::new(scene, settings, model, state)?;
+                Ok(Self::Recursive(Box::new(tree)))
+            }
         }
     }
 
@@ -61,14 +106,28 @@ impl<T: Real, const D: usize> Engine<T, D> {
             Self::Augmented { is_index1: true, options, workspace } => {
                 index1::step(model, step, options, state, workspace)
             }
+            Self::Classical { options, workspace } => {
+                classical::index3::step(model, step, options, state, workspace)
+            }
+            Self::StateSpace { options, workspace } => {
+                statespace::step(model, step, options, state, workspace)
+            }
+            Self::Recursive(tree) => tree.step(model, dt, state),
         }
     }
 
-    /// Sets the clock of states that are not the natural one.
-    pub(crate) fn set_time(&mut self, _t: T) {}
+    /// Sets the clock of a state that is not the natural one.
+    pub(crate) fn set_time(&mut self, t: T) {
+        if let Self::Recursive(tree) = self {
+            tree.set_time(t);
+        }
+    }
 
     /// Kinetic and potential energy at the start [J].
     pub(crate) fn start_energies(&self, model: &NaturalModel<T, D>, s: &State<T>) -> [f64; 2] {
+        if let Self::Recursive(tree) = self {
+            return tree.energies();
+        }
         let mut terms = model.terms();
         model.set_inputs(s.t, &mut terms);
         model.evaluate(&s.q, &mut terms);
@@ -78,39 +137,75 @@ impl<T: Real, const D: usize> Engine<T, D> {
 
     /// Kinetic and potential energy and the work so far [J].
     pub(crate) fn energies(&self, model: &NaturalModel<T, D>, s: &State<T>) -> [f64; 3] {
+        let work = s.work.to_f64();
+        let Some(terms) = self.terms() else {
+            let [kinetic, potential] = self.start_energies(model, s);
+            return [kinetic, potential, work];
+        };
         let kinetic = model.kinetic_energy(&s.v).to_f64();
-        let potential = model.potential_energy(&s.q, self.terms()).to_f64();
-        [kinetic, potential, s.work.to_f64()]
+        [kinetic, model.potential_energy(&s.q, terms).to_f64(), work]
     }
 
-    fn terms(&self) -> &Terms<T> {
+    /// The terms of the natural-coordinate model as last evaluated.
+    fn terms(&self) -> Option<&Terms<T>> {
         match self {
-            Self::Augmented { workspace, .. } => workspace.terms(),
+            Self::Augmented { workspace, .. } => Some(workspace.terms()),
+            Self::Classical { workspace, .. } => Some(workspace.terms()),
+            Self::StateSpace { workspace, .. } => Some(workspace.terms()),
+            Self::Recursive(_) => None,
         }
     }
 
-    /// Coordinates, constraints and their rank at a state.
+    /// Coordinates, constraints and their rank at a state, of the formulation that runs.
     pub(crate) fn sizes(&self, model: &NaturalModel<T, D>, state: &State<T>) -> [usize; 3] {
-        [model.n_unknowns(), model.n_constraints(), rank(model, state)]
+        match self {
+            Self::Recursive(tree) => tree.sizes(),
+            _ => [model.n_unknowns(), model.n_constraints(), rank(model, state)],
+        }
     }
 
     /// What an unknown of the formulation belongs to.
-    pub(crate) fn owner_of_unknown(&self, model: &NaturalModel<T, D>, u: usize) -> Option<Owner> {
-        Some(model.owner_of_unknown(u))
+    pub(crate) fn owner_of_unknown(&self, model: &NaturalModel<T, D>, u: usize) -> Owner {
+        match self {
+            Self::Recursive(tree) => tree.owner_of_unknown(u),
+            // The classical Lagrangian's unknowns are coordinates, then multipliers.
+            Self::Classical { .. } if u >= model.n_unknowns() => {
+                model.owner_of_row(u - model.n_unknowns())
+            }
+            _ => model.owner_of_unknown(u),
+        }
     }
 
     /// What a constraint row of the formulation belongs to.
-    pub(crate) fn owner_of_row(&self, model: &NaturalModel<T, D>, row: usize) -> Option<Owner> {
-        Some(model.owner_of_row(row))
+    pub(crate) fn owner_of_row(&self, model: &NaturalModel<T, D>, row: usize) -> Owner {
+        match self {
+            Self::Recursive(tree) => tree.owner_of_row(row),
+            _ => model.owner_of_row(row),
+        }
     }
 }
 
-fn augmented<T: Real>(is_index1: bool, settings: &Settings) -> Options<T> {
+fn augmented_options<T: Real>(is_index1: bool, settings: &Settings) -> mbs_augmented::Options<T> {
+    use mbs_augmented::Options;
     let mut options = if is_index1 { Options::index1() } else { Options::index3() };
     options.integrator = settings.integrator.coefficients();
     if let Some(alpha) = settings.penalty {
         options.penalty = Penalty::Fixed(T::from_f64(alpha));
         options.adaptive_penalty = false;
+    }
+    if let Some(tolerance) = settings.tolerance {
+        options.tolerance = T::from_f64(tolerance);
+    }
+    options
+}
+
+fn classical_options<T: Real>(settings: &Settings) -> classical::Options<T> {
+    let mut options = classical::Options {
+        integrator: settings.integrator.coefficients(),
+        ..classical::Options::index3()
+    };
+    if let Some(alpha) = settings.penalty {
+        options.regularisation = Some(T::ONE / T::from_f64(alpha));
     }
     if let Some(tolerance) = settings.tolerance {
         options.tolerance = T::from_f64(tolerance);

@@ -1,23 +1,29 @@
 #![doc = include_str!("../README.md")]
 
 mod channels;
+mod choice;
+mod engine;
 mod figure;
 mod recorder;
 mod run;
 mod settings;
 mod simulation;
 mod stop;
+mod tree;
 pub mod words;
 
 pub use mbs_augmented as augmented;
+pub use mbs_classical as classical;
 pub use mbs_core as core;
+pub use mbs_recursive as recursive;
 pub use mbs_scene as scene_file;
 pub use mbs_sparse as sparse;
+pub use mbs_statespace as statespace;
 
+pub use choice::{FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, PRECISIONS, Precision};
+pub use engine::Engine;
 pub use run::{Outcome, Progress, run};
-pub use settings::{
-    FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, Overrides, PRECISIONS, Precision,
-    Settings, SettingsError,
-};
-pub use simulation::{Simulation, StartError};
+pub use settings::{Overrides, Settings, SettingsError};
+pub use simulation::Simulation;
 pub use stop::{Names, StopError};
+pub use tree::{InSpace, Plane, Tree};

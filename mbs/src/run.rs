@@ -6,13 +6,13 @@ use crate::recorder::{Recorder, StepMark};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::{Names, StopError};
+use crate::tree::{InSpace, Plane};
 use crate::words::{notes, stop_text, summary_rows};
 use core::time::Duration;
 use cpu_time::ProcessTime;
-use mbs_core::model::{Model, Owner};
+use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_core::step::StepReport;
-use mbs_core::{Cliques, Real};
 use mbs_scene::{Channel, Chosen, CsvWriter, Outputs, Provenance, RunRecord, RunSummary};
 use std::io;
 use std::time::Instant;
@@ -80,10 +80,13 @@ pub fn run<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
     progress: &mut impl Progress,
-) -> Outcome {
+) -> Outcome
+where
+    Plane<D>: InSpace<T>,
+{
     let names = Names::new(scene);
     let channels = Channel::of_scene(scene);
-    let started = Simulation::<T, D>::new(scene, settings).map_err(StopError::Start);
+    let started = Simulation::<T, D>::new(scene, settings);
     let started = started.and_then(|simulation| {
         let measures = Channels::new(scene, simulation.model())?;
         Ok((simulation, measures))
@@ -118,12 +121,16 @@ pub fn run<T: Real, const D: usize>(
 #[derive(Debug, Default)]
 struct Counts {
     steps: u64,
+    rejected: u64,
     iterations: u64,
     factorizations: u64,
     worst: Duration,
 }
 
-struct Run<'a, T: Real, const D: usize> {
+struct Run<'a, T: Real, const D: usize>
+where
+    Plane<D>: InSpace<T>,
+{
     scene: &'a Scene<T>,
     settings: &'a Settings,
     simulation: Simulation<T, D>,
@@ -138,7 +145,10 @@ struct Run<'a, T: Real, const D: usize> {
     reached: f64,
 }
 
-impl<T: Real, const D: usize> Run<'_, T, D> {
+impl<T: Real, const D: usize> Run<'_, T, D>
+where
+    Plane<D>: InSpace<T>,
+{
     /// The first row.
     fn start(&mut self) {
         let n = self.recorder.channels.iter().map(|c| c.components.len()).sum();
@@ -158,7 +168,7 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
     }
 
     fn steps(&mut self, n_steps: u64, progress: &mut impl Progress) -> Result<(), StopError> {
-        let (h, end) = (self.settings.step, self.settings.duration);
+        let (h, end) = (self.settings.step_max, self.settings.duration);
         let mut clock = Instant::now();
         for k in 1..=n_steps {
             #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
@@ -168,7 +178,7 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
             let report = match self.simulation.step(T::from_f64(dt)) {
                 Ok(report) => report,
                 Err(error) => {
-                    let stop = StopError::step(error, self.simulation.model());
+                    let stop = self.simulation.explain(error);
                     return self.stop(stop);
                 }
             };
@@ -201,7 +211,8 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
 
     /// Counts and maxima of a step.
     fn take(&mut self, t: f64, report: &StepReport<T>) -> StepMark {
-        self.counts.steps += 1;
+        self.counts.steps += u64::from(report.steps);
+        self.counts.rejected += u64::from(report.rejected);
         self.reached = t;
         self.counts.iterations += u64::from(report.iterations);
         self.counts.factorizations += u64::from(report.factorizations);
@@ -222,20 +233,11 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
         let stored = mark.energies[1].abs() + mark.energies[0];
         let rounding = stored.max(self.weight) * T::EPSILON.to_f64().sqrt();
         let is_off = !(error <= ENERGY_ALARM * turned_over) && !(error <= rounding);
-        is_off.then(|| StopError::Energy { error, turned_over, owner: self.most_loaded() })
-    }
-
-    /// Whose constraint carries the largest force; without constraints, whose coordinate accelerates most.
-    fn most_loaded(&self) -> Owner {
-        let largest = |x: &[T]| {
-            let size = |x: T| x.to_f64().abs();
-            (0..x.len()).max_by(|&i, &j| size(x[i]).total_cmp(&size(x[j])))
-        };
-        let (state, model) = (self.simulation.state(), self.simulation.model());
-        match largest(&state.reaction) {
-            Some(row) => model.owner_of_row(row),
-            None => model.owner_of_unknown(largest(&state.a[..model.n_unknowns()]).unwrap_or(0)),
-        }
+        is_off.then(|| StopError::Energy {
+            error,
+            turned_over,
+            owner: self.simulation.most_loaded(),
+        })
     }
 
     fn finish(self, cpu: Duration, error: Option<StopError>, names: &Names) -> Outcome {
@@ -291,7 +293,11 @@ fn weight<T: Real>(scene: &Scene<T>) -> f64 {
 fn plain_summary<T: Real>(scene: &Scene<T>, settings: &Settings) -> RunSummary {
     let chosen = (settings.asked == "auto").then(|| Chosen {
         formulation: settings.formulation.name().to_owned(),
-        reasons: vec!["auto means index-3: no choice by measurement is built yet".to_owned()],
+        reasons: vec![if settings.integrator.is_explicit() {
+            format!("integrator {} runs in relative coordinates", settings.integrator.name())
+        } else {
+            "auto means index-3: no choice by measurement is built yet".to_owned()
+        }],
     });
     RunSummary {
         scene: scene.name.clone(),

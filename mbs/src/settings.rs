@@ -1,110 +1,16 @@
 //! What is asked of a run: the scene's `[solver]` table, overridden by the command line, checked against what is built.
 
-use mbs_augmented::{Options, Penalty};
+use crate::choice::{
+    FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, NOT_BUILT, PRECISIONS, Precision,
+};
 use mbs_core::Real;
-use mbs_core::integrator::Integrator;
-use mbs_core::scene::Scene;
+use mbs_core::scene::{Scene, SolverChoice};
 use mbs_scene::readable;
 
-/// Formulations that are built, by their names in scenes and on the command line.
-pub const FORMULATIONS: [&str; 3] = ["auto", "index-1", "index-3"];
-/// Integrators that are built.
-pub const INTEGRATORS: [&str; 4] = ["trapezoidal", "newmark", "generalised-alpha", "hht"];
-/// Precisions that are built.
-pub const PRECISIONS: [&str; 2] = ["f32", "f64"];
-/// Names of the scene format that are not built yet.
-const NOT_BUILT: [&str; 9] = [
-    "multi-index",
-    "classical",
-    "state-space",
-    "recursive",
-    "rk4",
-    "rk54",
-    "rk853",
-    "radau5",
-    "dd",
-];
 /// Steps of a run at most: at a microsecond each they take eleven days.
 const MOST_STEPS: f64 = 1e12;
 /// Step when neither scene nor command line gives one [s].
 const DEFAULT_STEP: f64 = 1e-3;
-
-/// A formulation that can run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Formulation {
-    /// Index-3 augmented Lagrangian.
-    Index3,
-    /// Index-1 augmented Lagrangian.
-    Index1,
-}
-
-impl Formulation {
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Index3 => "index-3",
-            Self::Index1 => "index-1",
-        }
-    }
-}
-
-/// An integrator that can run, with the parameters it is given.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum IntegratorKind {
-    /// Trapezoidal rule.
-    Trapezoidal,
-    /// Newmark's method with gamma = 0.6, beta = (gamma + 1/2)^2 / 4 = 0.3025: numerical damping, first order.
-    Newmark,
-    /// Generalised-alpha with spectral radius 0.8 at infinity.
-    GeneralisedAlpha,
-    /// HHT with alpha = 0.05.
-    Hht,
-}
-
-impl IntegratorKind {
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Trapezoidal => "trapezoidal",
-            Self::Newmark => "newmark",
-            Self::GeneralisedAlpha => "generalised-alpha",
-            Self::Hht => "hht",
-        }
-    }
-
-    /// Its coefficients.
-    #[must_use]
-    pub fn coefficients<T: Real>(self) -> Integrator<T> {
-        match self {
-            Self::Trapezoidal => Integrator::trapezoidal(),
-            Self::Newmark => Integrator::newmark(T::from_f64(0.3025), T::from_f64(0.6)),
-            Self::GeneralisedAlpha => Integrator::generalised_alpha(T::from_f64(0.8)),
-            Self::Hht => Integrator::hht(T::from_f64(0.05)),
-        }
-    }
-}
-
-/// Number format of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Precision {
-    /// Single precision.
-    F32,
-    /// Double precision.
-    F64,
-}
-
-impl Precision {
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::F32 => "f32",
-            Self::F64 => "f64",
-        }
-    }
-}
 
 /// What the command line (or a caller) says; `None` leaves it to the scene.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -119,7 +25,8 @@ pub struct Overrides {
     pub step: Option<f64>,
     /// Duration [s].
     pub duration: Option<f64>,
-    /// Fixed penalty [N/m in index-3, kg in index-1].
+    /// Fixed penalty [N/m in index-3, kg in index-1]; in classical the regularisation 1/alpha, in recursive the report's
+    /// closure forces; state-space has none.
     pub penalty: Option<f64>,
     /// Tolerance, relative to the scene's length.
     pub tolerance: Option<f64>,
@@ -138,8 +45,10 @@ pub struct Settings {
     pub integrator: IntegratorKind,
     /// Precision.
     pub precision: Precision,
-    /// Step [s].
+    /// Step [s]; with a controlled step size the first one.
     pub step: f64,
+    /// Largest step of a controlled step size [s], and the distance of recorded rows: `step` when left out.
+    pub step_max: f64,
     /// Duration [s].
     pub duration: f64,
     /// Fixed penalty, if any.
@@ -170,6 +79,13 @@ pub enum SettingsError {
         /// The value.
         value: f64,
     },
+    /// Names that do not go together.
+    NotTogether {
+        /// Formulation.
+        formulation: Formulation,
+        /// The option that it does not know.
+        option: String,
+    },
     /// The step is so short that the run would not end.
     TooManySteps {
         /// Step [s].
@@ -190,6 +106,12 @@ impl SettingsError {
             }
             Self::NotBuilt { value, built, .. } => mbs_scene::suggestion(value, built, "built are"),
             Self::NotPositive { .. } => "write a number larger than zero".to_owned(),
+            Self::NotTogether { option, .. } if option == "penalty" => {
+                "leave the penalty out".to_owned()
+            }
+            Self::NotTogether { .. } => {
+                "explicit integrators need formulation `recursive`".to_owned()
+            }
             Self::TooManySteps { .. } => "write a longer step, or a shorter duration".to_owned(),
         }
     }
@@ -207,6 +129,9 @@ impl core::fmt::Display for SettingsError {
             Self::NotBuilt { key, value, .. } => write!(f, "unknown {key} `{value}`"),
             Self::NotPositive { key, value } => {
                 write!(f, "{key} must be positive and finite, but is {}", readable(*value))
+            }
+            Self::NotTogether { formulation, option } => {
+                write!(f, "formulation `{}` has no `{option}`", formulation.name())
             }
             Self::TooManySteps { step, duration } => write!(
                 f,
@@ -227,23 +152,7 @@ impl Settings {
     /// [`SettingsError`] for what is not built or out of range.
     pub fn new<T: Real>(scene: &Scene<T>, overrides: &Overrides) -> Result<Self, SettingsError> {
         let solver = &scene.solver;
-        let (asked, formulation) = named(
-            "formulation",
-            (&overrides.formulation, &solver.formulation, "auto"),
-            &FORMULATIONS,
-            [Formulation::Index3, Formulation::Index1, Formulation::Index3],
-        )?;
-        let (_, integrator) = named(
-            "integrator",
-            (&overrides.integrator, &solver.integrator, "trapezoidal"),
-            &INTEGRATORS,
-            [
-                IntegratorKind::Trapezoidal,
-                IntegratorKind::Newmark,
-                IntegratorKind::GeneralisedAlpha,
-                IntegratorKind::Hht,
-            ],
-        )?;
+        let (asked, formulation, integrator) = method(solver, overrides)?;
         let (_, precision) = named(
             "precision",
             (&overrides.precision, &None, "f64"),
@@ -262,42 +171,32 @@ impl Settings {
         let of_scene = |x: Option<T>| x.map(Real::to_f64);
         let step = overrides.step.or(of_scene(solver.step)).unwrap_or(DEFAULT_STEP);
         let step = positive("step", step)?;
+        let step_max = of_scene(solver.step_max).unwrap_or(step);
+        let step_max = positive("step_max", step_max)?;
         let duration = overrides.duration.unwrap_or(scene.duration.to_f64());
         let duration = positive("duration", duration)?;
         if duration / step > MOST_STEPS {
             return Err(SettingsError::TooManySteps { step, duration });
         }
+        // A scene's penalty is meant for the augmented Lagrangian.
+        let is_augmented = matches!(formulation, Formulation::Index1 | Formulation::Index3);
+        let of_file = of_scene(solver.penalty).filter(|_| is_augmented);
+        let penalty = overrides.penalty.or(of_file);
         Ok(Self {
             asked,
             formulation,
             integrator,
             precision,
             step,
+            step_max: if integrator == IntegratorKind::Rk54 { step_max } else { step },
             duration,
-            penalty: checked("penalty", overrides.penalty.or(of_scene(solver.penalty)))?,
+            penalty: checked("penalty", penalty)?,
             tolerance: checked("tolerance", overrides.tolerance.or(of_scene(solver.tolerance)))?,
         })
     }
 
-    /// The options of the augmented Lagrangian steps.
-    #[must_use]
-    pub fn options<T: Real>(&self) -> Options<T> {
-        let mut options = match self.formulation {
-            Formulation::Index3 => Options::index3(),
-            Formulation::Index1 => Options::index1(),
-        };
-        options.integrator = self.integrator.coefficients();
-        if let Some(alpha) = self.penalty {
-            options.penalty = Penalty::Fixed(T::from_f64(alpha));
-            options.adaptive_penalty = false;
-        }
-        if let Some(tolerance) = self.tolerance {
-            options.tolerance = T::from_f64(tolerance);
-        }
-        options
-    }
-
-    /// Number of steps: a duration within 1e-9 steps of a multiple is one; else the last step is shorter.
+    /// Number of recorded intervals, each of one step or of as many as the control of the step size takes. A duration within
+    /// 1e-9 of a multiple is one; else the last interval is shorter.
     #[must_use]
     #[allow(
         clippy::cast_possible_truncation,
@@ -305,7 +204,7 @@ impl Settings {
         reason = "a count, checked to be positive"
     )]
     pub fn n_steps(&self) -> u64 {
-        let steps = self.duration / self.step;
+        let steps = self.duration / self.step_max;
         let whole = steps.round();
         if (steps - whole).abs() <= 1e-9 * whole.max(1.0) {
             whole.max(1.0) as u64
@@ -313,6 +212,46 @@ impl Settings {
             steps.ceil() as u64
         }
     }
+}
+
+/// The formulation as asked and as it runs, and the integrator.
+fn method<T>(
+    solver: &SolverChoice<T>,
+    overrides: &Overrides,
+) -> Result<(String, Formulation, IntegratorKind), SettingsError> {
+    let (asked, formulation) = named(
+        "formulation",
+        (&overrides.formulation, &solver.formulation, "auto"),
+        &FORMULATIONS,
+        [
+            None,
+            Some(Formulation::Index1),
+            Some(Formulation::Index3),
+            Some(Formulation::Classical),
+            Some(Formulation::StateSpace),
+            Some(Formulation::Recursive),
+        ],
+    )?;
+    let (_, integrator) = named(
+        "integrator",
+        (&overrides.integrator, &solver.integrator, "trapezoidal"),
+        &INTEGRATORS,
+        IntegratorKind::ALL,
+    )?;
+    let formulation = match formulation {
+        Some(formulation) => formulation,
+        None if integrator.is_explicit() => Formulation::Recursive,
+        None => Formulation::Index3,
+    };
+    if !formulation.runs_with(integrator) {
+        let option = format!("integrator {}", integrator.name());
+        return Err(SettingsError::NotTogether { formulation, option });
+    }
+    if formulation == Formulation::StateSpace && overrides.penalty.is_some() {
+        let option = "penalty".to_owned();
+        return Err(SettingsError::NotTogether { formulation, option });
+    }
+    Ok((asked, formulation, integrator))
 }
 
 /// The value that belongs to the first name given: override, scene, default.

@@ -1,105 +1,87 @@
-//! A scene that can step: model, consistent state and scratch in one place.
+//! A scene that can step: model, consistent state and formulation in one place.
 
-use crate::settings::{Formulation, Settings};
-use mbs_augmented::{Options, StepError, StepReport, Workspace, index1, index3};
-use mbs_core::Cliques;
+use crate::engine::Engine;
+use crate::settings::Settings;
+use crate::stop::StopError;
+use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
-use mbs_core::model::{Model, State};
+use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Scene;
-use mbs_core::start::{Assembled, AssemblyError, assemble, constraint_rank};
+use mbs_core::start::{Assembled, assemble};
+use mbs_core::step::{StepError, StepReport, largest};
 use mbs_sparse::Multifrontal;
 
 /// A scene ready to step, in D dimensions and scalar T.
+///
+/// Whatever the formulation, its state is told in natural coordinates too: outputs are measured there.
 #[derive(Debug)]
-pub struct Simulation<T: Real, const D: usize> {
+pub struct Simulation<T: Real, const D: usize>
+where
+    Plane<D>: InSpace<T>,
+{
     model: NaturalModel<T, D>,
     state: State<T>,
-    workspace: Workspace<T, Multifrontal<T>>,
-    options: Options<T>,
-    formulation: Formulation,
+    engine: Engine<T, D>,
     /// What assembly did; the state in it is the start.
     pub start: Assembled<T>,
-    /// Rank of the constraints at the start.
-    pub rank: usize,
+    sizes: [usize; 3],
     initial_energy: [f64; 2],
 }
 
-/// Why a scene cannot start.
-pub type StartError = AssemblyError;
-
-impl<T: Real, const D: usize> Simulation<T, D> {
+impl<T: Real, const D: usize> Simulation<T, D>
+where
+    Plane<D>: InSpace<T>,
+{
     /// Builds the model of a scene, assembles it, and allocates everything a step needs.
     ///
     /// # Errors
-    /// [`AssemblyError`] when there is no model or no consistent start.
-    pub fn new(scene: &Scene<T>, settings: &Settings) -> Result<Self, StartError> {
-        let model = NaturalModel::<T, D>::new(scene)?;
+    /// [`StopError`] when there is no model, no consistent start, or the formulation cannot run the scene.
+    pub fn new(scene: &Scene<T>, settings: &Settings) -> Result<Self, StopError> {
+        let model = NaturalModel::<T, D>::new(scene).map_err(|e| StopError::Start(e.into()))?;
         let analyse = mbs_sparse::Options::default();
         let mut solver = Multifrontal::analyse(&model, analyse);
-        let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver)?;
-        let mut terms = model.terms();
-        model.set_inputs(T::ZERO, &mut terms);
-        model.evaluate(&start.state.q, &mut terms);
-        model.evaluate_forces(&start.state.q, &start.state.v, &start.state.memory, &mut terms);
-        let rank = constraint_rank(&model, &terms).unwrap_or_else(|| model.n_constraints());
-        let kinetic = model.kinetic_energy(&start.state.v).to_f64();
-        let potential = model.potential_energy(&start.state.q, &terms).to_f64();
-        let workspace = Workspace::new(&model, solver);
-        Ok(Self {
-            state: start.state.clone(),
-            model,
-            workspace,
-            options: settings.options(),
-            formulation: settings.formulation,
-            start,
-            rank,
-            initial_energy: [kinetic, potential],
-        })
+        let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver)
+            .map_err(StopError::Start)?;
+        let mut state = start.state.clone();
+        let engine = Engine::new(scene, settings, &model, solver, &mut state)?;
+        let sizes = engine.sizes(&model, &state);
+        let initial_energy = engine.start_energies(&model, &state);
+        Ok(Self { model, state, engine, start, sizes, initial_energy })
     }
 
-    /// Advances by one step of length `dt` [s].
+    /// Advances by `dt` [s]: one step, or as many as the control of the step size takes.
     ///
     /// # Errors
     /// [`StepError`]; the state is then unchanged.
     pub fn step(&mut self, dt: T) -> Result<StepReport<T>, StepError> {
-        let step = (dt, self.model.length());
-        match self.formulation {
-            Formulation::Index3 => {
-                index3::step(&self.model, step, &self.options, &mut self.state, &mut self.workspace)
-            }
-            Formulation::Index1 => {
-                index1::step(&self.model, step, &self.options, &mut self.state, &mut self.workspace)
-            }
-        }
+        self.engine.step(&self.model, dt, &mut self.state)
     }
 
     /// Sets the clock: sums of many steps drift, multiples do not.
     pub fn set_time(&mut self, t: T) {
         self.state.t = t;
+        self.engine.set_time(t);
     }
 
-    /// The model.
+    /// The natural-coordinate model: outputs are measured in it.
     pub fn model(&self) -> &NaturalModel<T, D> {
         &self.model
     }
 
-    /// The state.
+    /// The state in natural coordinates.
     pub fn state(&self) -> &State<T> {
         &self.state
     }
 
-    /// Options, to change before a run.
-    pub fn options_mut(&mut self) -> &mut Options<T> {
-        &mut self.options
+    /// The formulation, with its options.
+    pub fn engine_mut(&mut self) -> &mut Engine<T, D> {
+        &mut self.engine
     }
 
     /// Kinetic energy, potential energy, and work of dampers, guides and courses since the start [J].
     pub fn energies(&self) -> [f64; 3] {
-        let s = &self.state;
-        let kinetic = self.model.kinetic_energy(&s.v).to_f64();
-        let potential = self.model.potential_energy(&s.q, self.workspace.terms()).to_f64();
-        [kinetic, potential, s.work.to_f64()]
+        self.engine.energies(&self.model, &self.state)
     }
 
     /// The same at the start.
@@ -107,8 +89,32 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         [self.initial_energy[0], self.initial_energy[1], 0.0]
     }
 
-    /// Coordinates, constraints, rank.
+    /// Coordinates, constraints and their rank, of the formulation that runs.
     pub fn sizes(&self) -> [usize; 3] {
-        [self.model.n_unknowns(), self.model.n_constraints(), self.rank]
+        self.sizes
     }
+
+    /// A failed step with the joint or body it is about.
+    pub fn explain(&self, error: StepError) -> StopError {
+        let unknown = |u| self.engine.owner_of_unknown(&self.model, u);
+        StopError::step(error, unknown, |row| self.engine.owner_of_row(&self.model, row))
+    }
+
+    /// Whose constraint carries the largest force; where no multipliers are known, whose coordinate accelerates most.
+    pub fn most_loaded(&self) -> Owner {
+        let is_known = self.state.reaction.iter().any(|&x| x != T::ZERO);
+        if is_known {
+            return self.model.owner_of_row(largest(&self.state.reaction) as usize);
+        }
+        let n = mbs_core::Cliques::n_unknowns(&self.model);
+        self.model.owner_of_unknown(largest(&self.state.a[..n]) as usize)
+    }
+}
+
+/// Rank of the constraints at a state; the number of rows where it cannot be told.
+pub(crate) fn rank<T: Real, const D: usize>(model: &NaturalModel<T, D>, state: &State<T>) -> usize {
+    let mut terms = model.terms();
+    model.set_inputs(state.t, &mut terms);
+    model.evaluate(&state.q, &mut terms);
+    mbs_core::start::constraint_rank(model, &terms).unwrap_or_else(|| model.n_constraints())
 }

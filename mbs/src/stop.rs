@@ -2,11 +2,12 @@
 
 use crate::words::few;
 
-use mbs_core::model::{Model, Owner};
+use mbs_core::model::Owner;
 use mbs_core::outputs::ReactionError;
 use mbs_core::scene::{BodyRef, Entry, Scene};
 use mbs_core::start::AssemblyError;
 use mbs_core::step::StepError;
+use mbs_recursive::TreeError;
 use mbs_scene::RunError;
 
 /// Names of bodies and joints, and which joint holds which body: what errors need to speak.
@@ -61,6 +62,8 @@ pub enum StopError {
     Reaction(ReactionError),
     /// A step that could not be made, and whose it is.
     Step(StepError, Option<Owner>),
+    /// The scene has no model in relative coordinates.
+    Tree(TreeError, Option<Owner>),
     /// The energy invariant drifted by more than a tenth of the energy turned over.
     Energy {
         /// |Pi - Pi(0)| [J].
@@ -73,20 +76,36 @@ pub enum StopError {
 }
 
 impl StopError {
-    /// With the owner looked up in the model.
-    pub(crate) fn step<T: mbs_core::Real>(error: StepError, model: &impl Model<T>) -> Self {
-        let unknown = |u: u32| Some(model.owner_of_unknown(u as usize));
+    /// A failed step with its owner, given whose unknowns and rows are.
+    pub(crate) fn step(
+        error: StepError,
+        unknown: impl Fn(usize) -> Owner,
+        row: impl Fn(usize) -> Owner,
+    ) -> Self {
         let owner = match error {
             StepError::NotConverged { unknown: u, .. } | StepError::NotFinite { unknown: u } => {
-                unknown(u)
+                Some(unknown(u as usize))
             }
-            StepError::Singular(e) => unknown(e.unknown),
-            StepError::Violated { row, .. }
-            | StepError::OppositeBranch { row }
-            | StepError::RankLost { row, .. } => Some(model.owner_of_row(row as usize)),
+            StepError::Singular(e) => Some(unknown(e.unknown as usize)),
+            StepError::Violated { row: r, .. }
+            | StepError::OppositeBranch { row: r }
+            | StepError::RankLost { row: r, .. } => Some(row(r as usize)),
             _ => None,
         };
         Self::Step(error, owner)
+    }
+
+    /// A scene without a tree.
+    pub(crate) fn tree(error: TreeError) -> Self {
+        let owner = match error {
+            TreeError::GuideCut { joint } | TreeError::EffectCut { joint, .. } => {
+                Some(Owner::Joint(joint))
+            }
+            TreeError::MasslessEnd { body } => Some(Owner::Body(body)),
+            TreeError::NoInertia { owner } => Some(owner),
+            _ => None,
+        };
+        Self::Tree(error, owner)
     }
 
     /// The place in the scene file that the error is about.
@@ -98,7 +117,7 @@ impl StopError {
                 | AssemblyError::Velocity { initial: Some(i), .. },
             ) => return Some(Entry::Initial(*i)),
             Self::Start(error) => start_owner(error)?,
-            Self::Step(_, owner) => (*owner)?,
+            Self::Step(_, owner) | Self::Tree(_, owner) => (*owner)?,
             Self::Energy { owner, .. } => *owner,
             Self::Reaction(_) => return None,
         };
@@ -127,6 +146,7 @@ impl StopError {
             Self::Step(StepError::StepTooSmall { .. }, _) => "step-too-small",
             Self::Step(..) => "step-failed",
             Self::Reaction(_) => "no-reactions",
+            Self::Tree(..) => "no-tree",
             Self::Energy { .. } => "energy-drift",
         }
     }
@@ -162,6 +182,10 @@ impl StopError {
             }
             Self::Step(..) => "try a smaller step, or another formulation",
             Self::Reaction(_) => "leave the reaction outputs out",
+            Self::Tree(TreeError::GuideCut { .. } | TreeError::EffectCut { .. }, _) => {
+                "leave one of the guides or joint effects of the loop out, or try index-3"
+            }
+            Self::Tree(..) => "give the body mass and inertia, or try index-3",
             Self::Energy { .. } => {
                 "try a smaller step; if it always stops here, the mechanism locks, or cannot follow its guides"
             }
@@ -185,7 +209,7 @@ impl StopError {
     pub fn report(&self, time: f64, names: &Names) -> RunError {
         let owner = match self {
             Self::Start(error) => start_owner(error),
-            Self::Step(_, owner) => *owner,
+            Self::Step(_, owner) | Self::Tree(_, owner) => *owner,
             Self::Energy { owner, .. } => Some(*owner),
             Self::Reaction(_) => None,
         };
@@ -221,6 +245,7 @@ impl core::fmt::Display for StopError {
             Self::Start(error) => write_start(error, f),
             Self::Step(error, _) => write_step(error, f),
             Self::Reaction(error) => write!(f, "{error}"),
+            Self::Tree(error, _) => write_tree(error, f),
             Self::Energy { error, turned_over, .. } => write!(
                 f,
                 "the energy is off by {} J, more than a tenth of the {} J turned over: the motion is not resolved",
@@ -250,6 +275,24 @@ fn write_start(error: &AssemblyError, f: &mut core::fmt::Formatter<'_>) -> core:
             "no accelerations meet the constraints at the start ({} m/s^2 is left): the mechanism stands in a singular position or locks",
             few(*residual)
         ),
+        other => write!(f, "{other}"),
+    }
+}
+
+fn write_tree(error: &TreeError, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+    match error {
+        TreeError::GuideCut { .. } => write!(
+            f,
+            "relative coordinates need a joint to cut in every loop, and all of this loop are guided"
+        ),
+        TreeError::EffectCut { .. } => write!(
+            f,
+            "relative coordinates need a joint to cut in every loop, and all of this loop carry guides or joint effects"
+        ),
+        TreeError::MasslessEnd { .. } => {
+            write!(f, "a body without mass ends a branch of the tree: its joint meets no inertia")
+        }
+        TreeError::NoInertia { .. } => write!(f, "nothing beyond a joint resists its motion"),
         other => write!(f, "{other}"),
     }
 }

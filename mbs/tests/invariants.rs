@@ -4,10 +4,14 @@
 #[path = "common/allocations.rs"]
 mod allocations;
 mod common;
+#[path = "common/retell.rs"]
+mod retell;
 
 use common::{Bench, FORMULATIONS, SCENES, cross, distance, dot, scene, worst};
 use mbs::core::natural::Affine;
 use mbs::core::scene::{Dimension, Inertia, InitialTarget, Scene};
+use mbs::{InSpace, Plane};
+use retell::{turn_scene, turned};
 
 /// Falls by 4 when the step is halved, in a method of order 2, or faster; higher orders of the step make the rest.
 const SECOND_ORDER: core::ops::RangeFrom<f64> = 3.5..;
@@ -164,7 +168,10 @@ const VIOLATION: f64 = 1e-9;
 
 #[test]
 fn constraints_hold_after_projection_on_all_scenes_at_their_own_steps() {
-    fn largest<const D: usize>(name: &str, formulation: &str) -> [f64; 3] {
+    fn largest<const D: usize>(name: &str, formulation: &str) -> [f64; 3]
+    where
+        Plane<D>: InSpace<f64>,
+    {
         let scene = scene(name);
         let step = common::settings(&scene, formulation, None).step;
         let mut bench = Bench::<D>::of_scene(&scene, formulation, step);
@@ -198,7 +205,10 @@ fn constraints_hold_after_projection_on_all_scenes_at_their_own_steps() {
 
 #[test]
 fn a_step_allocates_nothing() {
-    fn in_steps<const D: usize>(name: &str, formulation: &str) -> u64 {
+    fn in_steps<const D: usize>(name: &str, formulation: &str) -> u64
+    where
+        Plane<D>: InSpace<f64>,
+    {
         let mut bench = Bench::<D>::new(name, formulation, 1e-3);
         let before = allocations::count();
         for _ in 0..200 {
@@ -242,51 +252,6 @@ fn apart(
     off
 }
 
-/// A rotation about a skew axis (a unit quaternion drawn once).
-fn turned(x: Vector) -> Vector {
-    let (w, u) = (0.3, [-0.5, 0.7, 0.412_310_562_561_766_1]);
-    let uv = cross(u, x);
-    add(x, add(scale(uv, 2.0 * w), scale(cross(u, uv), 2.0)))
-}
-
-/// The scene with everything in it turned.
-fn turn_scene(scene: &Scene<f64>) -> Scene<f64> {
-    let mut s = scene.clone();
-    s.gravity = s.gravity.map(turned);
-    for body in &mut s.bodies {
-        body.center = turned(body.center);
-        if let Inertia::Spatial([xx, yy, zz, xy, yz, zx]) = &mut body.inertia {
-            let rows = [[*xx, *xy, *zx], [*xy, *yy, *yz], [*zx, *yz, *zz]];
-            // R I R^T: turn the columns, then the rows.
-            let columns = rows.map(turned);
-            let [a, b, c] =
-                [0, 1, 2].map(|i| turned([columns[0][i], columns[1][i], columns[2][i]]));
-            (*xx, *yy, *zz, *xy, *yz, *zx) = (a[0], b[1], c[2], a[1], b[2], c[0]);
-        }
-    }
-    for joint in &mut s.joints {
-        joint.points = joint.points.map(turned);
-        joint.axes = joint.axes.map(|a| a.map(turned));
-    }
-    for initial in &mut s.initials {
-        match &mut initial.target {
-            InitialTarget::Joint { joint, value, rate } => {
-                if scene.joints[*joint].kind == mbs::core::scene::JointKind::Spherical {
-                    for x in [value, rate].into_iter().flatten() {
-                        *x = turned([x[0], x[1], x[2]]).to_vec();
-                    }
-                }
-            }
-            InitialTarget::Body { velocity, angular_velocity, .. } => {
-                *velocity = velocity.map(|(at, v)| (turned(at), turned(v)));
-                *angular_velocity = angular_velocity.map(turned);
-            }
-        }
-    }
-    s.outputs.clear();
-    s
-}
-
 const SPATIAL: [&str; 3] = ["spinning-top", "spatial-four-bar", "spatial-chain-20"];
 
 #[test]
@@ -303,19 +268,11 @@ fn turning_a_whole_scene_changes_the_motion_only_by_rounding() {
 
 #[test]
 fn reordering_bodies_changes_the_motion_only_by_rounding() {
-    use mbs::core::scene::BodyRef;
     for name in SPATIAL {
         for formulation in FORMULATIONS {
             let scene = scene(name);
             let n = scene.bodies.len();
-            let mut other = scene.clone();
-            other.bodies.reverse();
-            other.joints.iter_mut().flat_map(|j| &mut j.bodies).for_each(|b| {
-                if let BodyRef::Body(i) = b {
-                    *i = n - 1 - *i;
-                }
-            });
-            other.outputs.clear();
+            let other = retell::reorder(&scene);
             let off = apart((&scene, &other), [0, n - 1], |x| x, formulation);
             println!("{name} {formulation} reordered: {off:.1e} m");
             assert!(off <= RETOLD, "{name} {formulation}: {off:e}");

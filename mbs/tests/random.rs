@@ -9,6 +9,7 @@ mod random;
 mod retell;
 
 use mbs::core::scene::{Dimension, Scene};
+use mbs::{Overrides, Settings, Simulation};
 use oracle::{METHODS, differences, disagreement, everything, rows, tell};
 
 /// Step and span [s]: at some metres and radians per second a step is a hundredth of what moves.
@@ -44,6 +45,31 @@ fn formulations_agree_on_random_planar_trees() {
 #[test]
 fn formulations_agree_on_random_spatial_trees() {
     (1..=6).for_each(|seed| agree(&random::tree(seed, Dimension::Spatial, 6)));
+}
+
+#[test]
+fn a_tree_has_no_redundant_constraint() {
+    let redundant = |scene: &Scene<f64>| {
+        let settings = Settings::new(scene, &Overrides::default()).expect("the defaults are built");
+        let [_, rows, rank] = match scene.dimension {
+            Dimension::Planar => Simulation::<f64, 2>::new(scene, &settings).map(|s| s.sizes()),
+            Dimension::Spatial => Simulation::<f64, 3>::new(scene, &settings).map(|s| s.sizes()),
+        }
+        .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+        rows - rank
+    };
+    for seed in 1..=40 {
+        assert_eq!(redundant(&random::tree(seed, Dimension::Planar, 12)), 0, "planar, seed {seed}");
+        assert_eq!(
+            redundant(&random::tree(seed, Dimension::Spatial, 12)),
+            0,
+            "spatial, seed {seed}"
+        );
+    }
+    for kinds in 1..=40 {
+        let scene = random::aligned_tree(kinds, 12);
+        assert_eq!(redundant(&scene), 0, "aligned, seed {kinds}");
+    }
 }
 
 #[test]

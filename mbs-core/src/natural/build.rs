@@ -5,6 +5,7 @@ use super::draft::{GroupDraft, RowDraft, constant_entity};
 use super::error::ModelError;
 use super::finish::finish;
 use super::model::NaturalModel;
+use super::rigid::rigid_rows;
 use super::sharing::{Entity, EntityKind, Sharing};
 use crate::Real;
 use crate::algebra::{Vector, norm};
@@ -12,7 +13,6 @@ use crate::cluster::{Clusters, scene_length};
 use crate::inputs::{CourseInput, GuideInput};
 use crate::model::Owner;
 use crate::scene::{BodyRef, Dimension, EffectKind, InitialTarget, JointKind, Quantity, Scene};
-use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 /// Dependent entities that share an element with their body; each further one is an element of its own.
@@ -111,8 +111,8 @@ impl<'a, T: Real> Builder<'a, T> {
     /// One group for each cluster: mass, gravity, rigid-body rows, dependent points.
     fn add_bodies(&mut self) {
         let zero = constant_entity(Vector::zeros(), EntityKind::Direction, &mut self.entities);
-        let mut told = BTreeSet::new();
-        for c in 0..self.bases.len() {
+        let rigid = rigid_rows((&self.bases, &self.shared), &self.entities, zero);
+        for (c, rows) in rigid.into_iter().enumerate() {
             let cluster = &self.clusters.clusters[c];
             let basis = &self.bases[c];
             let mut group = GroupDraft::new(Owner::Body(cluster.bodies[0]));
@@ -123,7 +123,7 @@ impl<'a, T: Real> Builder<'a, T> {
                     group.forces.push((e, super::finish::lifted(coef, &weight)));
                 }
             }
-            rigid_rows(basis, &self.entities, zero, &mut told, &mut group.rows);
+            group.rows = rows;
             let owner = group.owner;
             self.groups.push(group);
             let dependent = self.shared[c].iter().filter(|e| !basis.entities.contains(e));
@@ -158,52 +158,6 @@ impl<'a, T: Real> Builder<'a, T> {
             }
         };
         &mut self.groups[index]
-    }
-}
-
-/// Constant lengths and angles of the basis: ½ nb (nb - 1) rows, less those that a body before has `told` of the same
-/// shared entities (the unit length of a common axis, say).
-fn rigid_rows<T: Real>(
-    basis: &Basis<T>,
-    entities: &[Entity<T>],
-    zero: usize,
-    told: &mut BTreeSet<[usize; 4]>,
-    rows: &mut Vec<RowDraft<T>>,
-) {
-    let origin = basis.entities[0];
-    let others = &basis.entities[1..];
-    let vector = |e: usize| match entities[e].kind {
-        EntityKind::Point => (origin, entities[e].at - entities[origin].at),
-        EntityKind::Direction => (zero, entities[e].at),
-    };
-    for (i, &e) in others.iter().enumerate() {
-        let (from, v) = vector(e);
-        if told.insert([from.min(e), from.max(e), zero, zero]) {
-            rows.push(RowDraft::Distance { ends: [from, e], length: norm(&v) });
-        }
-        for &other in &others[..i] {
-            let (from_other, w) = vector(other);
-            let (one, two) = ([e, from], [other, from_other]);
-            let (one, two) = if one <= two { (one, two) } else { (two, one) };
-            if !told.insert([one[0], one[1], two[0], two[1]]) {
-                continue;
-            }
-            let scale = T::ONE / (norm(&v) * norm(&w));
-            let as_combination = |e: usize, from: usize| {
-                let one = crate::algebra::Coef::one();
-                let mut x = alloc::vec![(e, one)];
-                if from != zero {
-                    x.push((from, one.scaled(-T::ONE)));
-                }
-                x
-            };
-            rows.push(RowDraft::Dot {
-                x: as_combination(e, from),
-                y: as_combination(other, from_other),
-                scale,
-                constant: v.dot(&w) * scale,
-            });
-        }
     }
 }
 

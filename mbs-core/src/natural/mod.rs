@@ -18,6 +18,7 @@ mod joints;
 mod memory;
 mod model;
 mod motion;
+mod rigid;
 mod sharing;
 
 pub use affine::Affine;

@@ -47,9 +47,8 @@ impl<S: Space<f64>> Run<S> {
         let (natural, state) = natural::<D>(scene);
         let model =
             TreeModel::<f64, S>::new(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
-        let state = model
-            .start(scene, &natural, &state)
-            .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+        let state =
+            model.start(scene, &natural, &state).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
         Self { workspace: Workspace::new(&model), options: Options::default(), model, state }
     }
 

@@ -5,7 +5,7 @@ use mbs::augmented::{StepError, StepReport};
 use mbs::core::natural::Affine;
 use mbs::core::scene::{BodyRef, Scene};
 use mbs::scene_file::Document;
-use mbs::{Overrides, Settings, Simulation};
+use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
 use std::path::PathBuf;
 
 /// All scenes of the repository.
@@ -50,13 +50,19 @@ pub(crate) fn settings(scene: &Scene<f64>, formulation: &str, step: Option<f64>)
 }
 
 /// A simulation that is stepped by hand.
-pub(crate) struct Bench<const D: usize> {
+pub(crate) struct Bench<const D: usize>
+where
+    Plane<D>: InSpace<f64>,
+{
     pub(crate) simulation: Simulation<f64, D>,
     pub(crate) step: f64,
     initial: f64,
 }
 
-impl<const D: usize> Bench<D> {
+impl<const D: usize> Bench<D>
+where
+    Plane<D>: InSpace<f64>,
+{
     pub(crate) fn new(name: &str, formulation: &str, step: f64) -> Self {
         Self::of_scene(&scene(name), formulation, step)
     }

@@ -108,6 +108,23 @@ pub(crate) fn tree(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
     }
 }
 
+/// A spatial tree whose axes are those of the frame, so that many bodies share directions.
+pub(crate) fn aligned_tree(seed: u64, n: usize) -> Scene<f64> {
+    let mut scene = tree(seed, Dimension::Spatial, n);
+    let mut random = Random::new(seed ^ 0xAAAA);
+    let unit = |i: usize| Some([0, 1, 2].map(|k| f64::from(u8::from(k == i))));
+    for joint in &mut scene.joints {
+        let i = random.below(3);
+        if joint.axes[0].is_some() {
+            joint.axes[0] = unit(i);
+        }
+        if joint.axes[1].is_some() {
+            joint.axes[1] = unit((i + 1) % 3);
+        }
+    }
+    scene
+}
+
 fn joint(
     random: &mut Random,
     dimension: Dimension,

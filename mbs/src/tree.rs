@@ -1,0 +1,170 @@
+//! A run in relative coordinates: the tree, its state, and the same state told in natural coordinates for the outputs.
+
+use crate::choice::IntegratorKind;
+use crate::settings::Settings;
+use crate::stop::StopError;
+use mbs_core::Real;
+use mbs_core::model::{Model, Owner, State, Terms};
+use mbs_core::natural::NaturalModel;
+use mbs_core::rigid::RigidMotion;
+use mbs_core::scene::Scene;
+use mbs_core::step::{StepError, StepReport};
+use mbs_recursive::space::Space;
+use mbs_recursive::{
+    Closure, Options, Planar, Spatial, StartError, TreeModel, TreeState, Workspace,
+};
+
+/// D dimensions as a type.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Plane<const D: usize>;
+
+/// The algebra of relative coordinates in D dimensions.
+pub trait InSpace<T: Real> {
+    /// Plane or space.
+    type Space: Space<T>;
+}
+
+impl<T: Real> InSpace<T> for Plane<2> {
+    type Space = Planar;
+}
+
+impl<T: Real> InSpace<T> for Plane<3> {
+    type Space = Spatial;
+}
+
+/// A scene in relative coordinates.
+#[derive(Debug)]
+pub struct Tree<T: Real, const D: usize>
+where
+    Plane<D>: InSpace<T>,
+{
+    model: TreeModel<T, <Plane<D> as InSpace<T>>::Space>,
+    state: TreeState<T>,
+    workspace: Workspace<T, <Plane<D> as InSpace<T>>::Space>,
+    options: Options<T>,
+    integrator: IntegratorKind,
+    motions: Vec<RigidMotion<T>>,
+    terms: Terms<T>,
+    rank: usize,
+    energies: [f64; 2],
+}
+
+impl<T: Real, const D: usize> Tree<T, D>
+where
+    Plane<D>: InSpace<T>,
+{
+    /// Builds the tree of a scene and starts it where `state` is; `state` is then told from the tree.
+    pub(crate) fn new(
+        scene: &Scene<T>,
+        settings: &Settings,
+        natural: &NaturalModel<T, D>,
+        state: &mut State<T>,
+    ) -> Result<Self, StopError> {
+        let model = TreeModel::new(scene).map_err(StopError::tree)?;
+        let start = model.start(scene, natural, state).map_err(|e| not_started(e, &model))?;
+        let mut workspace = Workspace::new(&model);
+        let rank = model.rank(&start, &mut workspace).unwrap_or_else(|_| model.n_rows());
+        let motions = (0..scene.bodies.len()).map(|b| natural.motion(scene, b, state)).collect();
+        let mut tree = Self {
+            state: start,
+            workspace,
+            options: options(settings),
+            integrator: settings.integrator,
+            motions,
+            terms: natural.terms(),
+            rank,
+            energies: [0.0; 2],
+            model,
+        };
+        tree.tell(natural, state);
+        Ok(tree)
+    }
+
+    /// Advances by `dt` [s] and tells `state` of it.
+    pub(crate) fn step(
+        &mut self,
+        natural: &NaturalModel<T, D>,
+        dt: T,
+        state: &mut State<T>,
+    ) -> Result<StepReport<T>, StepError> {
+        let (model, options) = (&self.model, &self.options);
+        let report = match self.integrator {
+            IntegratorKind::Rk4 => {
+                mbs_recursive::rk4_step(model, dt, options, &mut self.state, &mut self.workspace)
+            }
+            IntegratorKind::Rk54 => {
+                mbs_recursive::rk54_step(model, dt, options, &mut self.state, &mut self.workspace)
+            }
+            _ => mbs_recursive::step(model, dt, options, &mut self.state, &mut self.workspace),
+        }?;
+        self.tell(natural, state);
+        Ok(report)
+    }
+
+    /// Tells the natural state of the tree's.
+    fn tell(&mut self, natural: &NaturalModel<T, D>, state: &mut State<T>) {
+        self.model.write_motions(&self.state, &mut self.workspace, &mut self.motions);
+        natural.write_motions(&self.motions, state);
+        state.t = self.state.t;
+        state.work = self.state.work;
+        state.power = self.state.power;
+        if !state.memory.is_empty() {
+            natural.set_inputs(state.t, &mut self.terms);
+            natural.evaluate_forces(&state.q, &state.v, &state.memory, &mut self.terms);
+            natural.remember(&self.terms, &mut state.memory);
+        }
+        let energies = self.model.energies(&self.state, &mut self.workspace);
+        self.energies = energies.map(Real::to_f64);
+    }
+
+    pub(crate) fn set_time(&mut self, t: T) {
+        self.state.t = t;
+    }
+
+    /// Kinetic and potential energy [J].
+    pub(crate) fn energies(&self) -> [f64; 2] {
+        self.energies
+    }
+
+    /// Freedoms of the tree, equations of its cut joints, their rank.
+    pub(crate) fn sizes(&self) -> [usize; 3] {
+        [self.state.v.len(), self.model.n_rows(), self.rank]
+    }
+
+    pub(crate) fn owner_of_unknown(&self, unknown: usize) -> Owner {
+        self.model.owner_of_unknown(unknown)
+    }
+
+    pub(crate) fn owner_of_row(&self, row: usize) -> Owner {
+        self.model.owner_of_row(row)
+    }
+}
+
+/// Why the tree has no start, with the names' places.
+fn not_started<T: Real, S: Space<T>>(error: StartError, model: &TreeModel<T, S>) -> StopError {
+    match error {
+        StartError::Tree(error) => StopError::tree(error),
+        StartError::Step(error) => {
+            StopError::step(error, |u| model.owner_of_unknown(u), |row| model.owner_of_row(row))
+        }
+        _ => StopError::Start(mbs_core::start::AssemblyError::Model(
+            mbs_core::natural::ModelError::Dimension,
+        )),
+    }
+}
+
+fn options<T: Real>(settings: &Settings) -> Options<T> {
+    let mut options = Options::default();
+    if !settings.integrator.is_explicit() {
+        options.integrator = settings.integrator.coefficients();
+    }
+    if let Some(alpha) = settings.penalty {
+        let alpha = T::from_f64(alpha);
+        options.closure = Closure::Report { alpha, omega: T::from_f64(10.0), mu: T::ONE };
+    }
+    if let Some(tolerance) = settings.tolerance {
+        options.tolerance = T::from_f64(tolerance);
+        options.error = options.tolerance;
+    }
+    options
+}
