@@ -12,7 +12,7 @@
 //! geometric stiffness, the curvature of the surface on which R lives, which makes Newton quadratic but for velocity terms;
 //! without it (an option) it is the printed one. f is evaluated as (M a - Q)_i + J_i^T lambda, the same without R.
 
-use crate::options::{ChoiceOf, Coordinates, Options};
+use crate::options::{Coordinates, Options, Rechoice};
 use crate::workspace::Workspace;
 use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
@@ -44,7 +44,7 @@ pub fn step<T: Real, M: Model<T>>(
 ) -> Result<StepReport<T>, StepError> {
     let rule = options.integrator.rule(dt);
     (w.counts.factorizations, w.counts.solves) = (0, 0);
-    let is_new = w.is_stale || options.choice == ChoiceOf::EveryStep;
+    let is_new = w.is_stale || options.rechoice == Rechoice::EveryStep;
     let mut outcome = attempt(model, (&rule, length), options, s, (w, is_new));
     if outcome.is_err() && !is_new {
         outcome = attempt(model, (&rule, length), options, s, (w, true));
