@@ -12,7 +12,7 @@ use mbs_core::{FactorError, Real};
 
 impl<T: Real> Workspace<T> {
     /// The middle of the predicted motion.
-    pub(crate) fn to_middle<M: Model<T>>(&mut self, model: &M, dt: T, s: &State<T>) {
+    pub(crate) fn enter_middle<M: Model<T>>(&mut self, model: &M, dt: T, s: &State<T>) {
         model.set_inputs(s.t + dt * T::HALF, &mut self.terms);
         for dq in &mut self.dq[..model.n_unknowns()] {
             *dq *= T::HALF;

@@ -89,7 +89,7 @@ fn attempt<T: Real, M: Model<T>>(
         return Err(StepError::NotFinite { unknown: largest_or_nan(&w.dq[..n]) });
     }
     if options.coordinates == Coordinates::Tangent {
-        w.to_middle(model, rule.dt, s);
+        w.enter_middle(model, rule.dt, s);
         if is_new {
             choose(model, s, w)?;
         } else {
