@@ -8,6 +8,8 @@ pub mod algebra;
 pub mod blocks;
 #[cfg(feature = "alloc")]
 pub mod cluster;
+#[cfg(feature = "alloc")]
+pub mod dense;
 pub mod elements;
 #[cfg(feature = "alloc")]
 pub mod inputs;
@@ -28,5 +30,5 @@ pub mod scene;
 pub mod start;
 pub mod step;
 
-pub use blocks::{BlockSource, Cliques, FactorError, SpdSolver};
+pub use blocks::{BlockSource, Cliques, FactorError, SpdSolver, SymmetricSolver};
 pub use real::Real;

@@ -23,6 +23,8 @@ const MAX_SWEEPS: u32 = 30;
 /// How far sweeps go.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Level {
+    /// One sweep, whatever is left.
+    Once,
     /// To the tolerance of an iteration that goes on.
     Coarse,
     /// To rounding.
@@ -110,7 +112,8 @@ fn residual<T: Real, S: Space<T>>(
         for k in lap.first as usize..(lap.first + lap.n) as usize {
             let (first, second) = (s.gradient[k].dot(a), s.gradient[n + k].dot(b));
             let left = first + second + s.rows[k][2];
-            scale = scale.max(first.abs() + second.abs() + s.rows[k][2].abs());
+            let parts = s.gradient[k].parts(a) + s.gradient[n + k].parts(b);
+            scale = scale.max(parts + s.rows[k][2].abs());
             s.loops.l[k] = left;
             if !(left.abs() <= worst) {
                 (worst, row) = (left.abs(), index(k));
@@ -127,6 +130,7 @@ fn sweep<T: Real, S: Space<T>>(
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Fault<T>> {
     let share = match level {
+        Level::Once => return Ok(residual(m, s).0),
         Level::Coarse => T::EPSILON.sqrt() * T::from_f64(0.01),
         Level::Fine => T::EPSILON * T::from_f64(256.0),
     };

@@ -11,7 +11,10 @@ mod error;
 mod evaluate;
 #[cfg(feature = "alloc")]
 mod graph;
+pub mod explicit;
+pub mod inverse;
 pub mod joint;
+mod ledger;
 pub mod link;
 pub mod loads;
 pub mod loops;
@@ -23,7 +26,11 @@ pub mod passes;
 pub mod plan;
 mod project;
 pub mod rows;
+#[cfg(feature = "alloc")]
+mod run;
 pub mod space;
+#[cfg(feature = "alloc")]
+mod start;
 #[cfg(feature = "alloc")]
 mod state;
 pub mod trapezoidal;
@@ -34,6 +41,10 @@ mod tree;
 pub use error::{LoopError, TreeError};
 pub use options::{Closure, Options};
 pub use space::{Planar, Spatial};
+#[cfg(feature = "alloc")]
+pub use run::{rk4_step, rk54_step, step};
+#[cfg(feature = "alloc")]
+pub use start::StartError;
 #[cfg(feature = "alloc")]
 pub use state::{TreeState, Workspace};
 #[cfg(feature = "alloc")]

@@ -91,15 +91,18 @@ pub(crate) fn checked_cliques(cliques: &impl Cliques) -> Lists {
     lists
 }
 
-/// Node of each unknown, nodes numbered by their first unknown, and the number of nodes.
-pub(crate) fn nodes(cliques: &Lists, n: usize) -> (Vec<u32>, usize) {
+/// Node of each unknown, nodes numbered by their first unknown, and the number of nodes. Unknowns from `n_primal` on are
+/// not in one node with those before.
+pub(crate) fn nodes(cliques: &Lists, n: usize, n_primal: usize) -> (Vec<u32>, usize) {
     let mut class = vec![0_u32; n];
     let mut n_classes = 1;
     // The class into which `split_by[c]`, the last clique that met class c, moved its members.
     let mut split_into = vec![0_u32];
     let mut split_by = vec![usize::MAX];
-    for e in 0..cliques.len() {
-        for &u in cliques.get(e) {
+    let multipliers: Vec<u32> = (n_primal..n).map(index).collect();
+    for e in 0..=cliques.len() {
+        let clique = if e < cliques.len() { cliques.get(e) } else { &multipliers };
+        for &u in clique {
             let c = class[u as usize] as usize;
             if split_by[c] != e {
                 split_by[c] = e;
@@ -162,6 +165,45 @@ pub(crate) fn minimum_degree(elements: &Lists, n_nodes: usize) -> Vec<u32> {
         neighbours.close();
     }
     ordered_by_amd(&neighbours, n_nodes)
+}
+
+/// Place of each node when nodes of multipliers follow right after the last of the other nodes that they meet, which have
+/// an order of small fill. A pivot that multipliers before them leave is then never lost for want of a coordinate.
+pub(crate) fn minimum_degree_then_multipliers(
+    elements: &Lists,
+    is_multiplier: &[bool],
+) -> Vec<u32> {
+    let n_nodes = is_multiplier.len();
+    let mut number = vec![0; n_nodes];
+    let mut n_primal = 0;
+    for v in (0..n_nodes).filter(|&v| !is_multiplier[v]) {
+        number[v] = index(n_primal);
+        n_primal += 1;
+    }
+    let mut primal = Lists::with_capacity(elements.len());
+    for e in 0..elements.len() {
+        let nodes = elements.get(e).iter().filter(|&&v| !is_multiplier[v as usize]);
+        primal.items.extend(nodes.map(|&v| number[v as usize]));
+        primal.close();
+    }
+    let place = minimum_degree(&primal, n_primal);
+    let mut last = vec![0; n_nodes];
+    for e in 0..elements.len() {
+        let latest = primal.get(e).iter().map(|&v| place[v as usize] + 1).max().unwrap_or(0);
+        for &v in elements.get(e).iter().filter(|&&v| is_multiplier[v as usize]) {
+            last[v as usize] = latest.max(last[v as usize]);
+        }
+    }
+    for v in (0..n_nodes).filter(|&v| !is_multiplier[v]) {
+        last[v] = place[number[v] as usize] + 1;
+    }
+    let mut order: Vec<usize> = (0..n_nodes).collect();
+    order.sort_by_key(|&v| (last[v], is_multiplier[v]));
+    let mut place = vec![0; n_nodes];
+    for (k, &v) in order.iter().enumerate() {
+        place[v] = index(k);
+    }
+    place
 }
 
 /// Calls faer's approximate minimum degree; the given order stands in should it refuse for lack of memory.

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod graph;
+mod indefinite;
 mod kernel;
 mod multifrontal;
 mod options;
@@ -9,7 +10,8 @@ mod plan;
 mod sweep;
 mod tree;
 
+pub use indefinite::{Delays, Indefinite};
 pub use multifrontal::Multifrontal;
 pub use options::{Counters, Options, Pivoting};
 
-pub use mbs_core::{BlockSource, Cliques, FactorError, Real, SpdSolver};
+pub use mbs_core::{BlockSource, Cliques, FactorError, Real, SpdSolver, SymmetricSolver};

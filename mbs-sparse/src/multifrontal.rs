@@ -143,7 +143,7 @@ enum Direction {
 
 /// Adds the packed triangle `from` of a part into the packed front `a` of `f` unknowns.
 #[inline(always)]
-fn add_part<T: Real>(a: &mut [T], f: usize, part: &Part, targets: &[u32], from: &[T]) {
+pub(crate) fn add_part<T: Real>(a: &mut [T], f: usize, part: &Part, targets: &[u32], from: &[T]) {
     match part.place {
         Place::Tail(offset) => kernel::add(&mut a[offset as usize..], from),
         Place::Shifted(first) => {

@@ -85,18 +85,24 @@ pub(crate) fn column(f: usize, j: usize) -> usize {
 
 /// Analyses the cliques.
 pub(crate) fn plan(cliques: &impl Cliques, options: Options) -> Plan {
-    let n = cliques.n_unknowns();
+    let (n, n_primal) = (cliques.n_unknowns(), cliques.n_primal());
     let cliques = graph::checked_cliques(cliques);
     let (node, fronts) = if n <= options.dense_up_to {
         (vec![0; n], one_front(n))
     } else {
-        let (node, n_nodes) = graph::nodes(&cliques, n);
+        let (node, n_nodes) = graph::nodes(&cliques, n, n_primal);
         let mut weight = vec![0; n_nodes];
-        for &v in &node {
+        let mut is_multiplier = vec![false; n_nodes];
+        for (u, &v) in node.iter().enumerate() {
             weight[v as usize] += 1;
+            is_multiplier[v as usize] = u >= n_primal;
         }
         let elements = graph::elements_by_node(&cliques, &node, n_nodes);
-        let place = graph::minimum_degree(&elements, n_nodes);
+        let place = if n_primal == n {
+            graph::minimum_degree(&elements, n_nodes)
+        } else {
+            graph::minimum_degree_then_multipliers(&elements, &is_multiplier)
+        };
         (node, tree::fronts(&elements, &place, &weight))
     };
     Planner::new(cliques, &node, &fronts).finish(&fronts)

@@ -7,8 +7,8 @@
 
 mod common;
 
-use common::Sum;
-use mbs_sparse::{Multifrontal, Options, Pivoting, SpdSolver};
+use common::{Saddle, Sum};
+use mbs_sparse::{Indefinite, Multifrontal, Options, Pivoting, SpdSolver, SymmetricSolver};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -57,4 +57,38 @@ fn factor_solve_and_assemble_do_not_allocate() {
             assert_eq!(count, 0);
         }
     }
+}
+
+/// Allocations of a factorisation with everything that may follow it.
+fn allocations_of(solver: &mut Indefinite<f64>, saddle: &Saddle) -> usize {
+    let n = saddle.sum.n;
+    let (mut x, mut b, mut scratch) = (vec![0.0; n], vec![1.0; n], vec![0.0; solver.n_scratch()]);
+    allocations(|| {
+        solver.assemble(saddle, &mut x);
+        solver.factor(saddle).expect("regular");
+        solver.solve(&mut x, &mut scratch);
+        solver.refine(&mut x, &mut b, &mut scratch);
+        solver.null_vector(&mut b, &mut scratch);
+        assert!(solver.weakest().ratio > 0.0 && solver.inertia().zero == 0);
+    })
+}
+
+#[test]
+fn a_saddle_without_delays_never_allocates() {
+    for saddle in [Saddle::chain((1, 5, 2), 1, 3), Saddle::chain((30, 12, 6), 5, 3)] {
+        let mut solver = Indefinite::<f64>::analyse(&saddle, Options::default());
+        assert_eq!(allocations_of(&mut solver, &saddle), 0);
+        assert_eq!(solver.delays().delayed, 0);
+    }
+}
+
+#[test]
+fn a_saddle_with_delays_allocates_at_most_once() {
+    // Not told which unknowns are multipliers, the analysis places them too early.
+    let mut saddle = Saddle::chain((60, 12, 6), 5, 3);
+    saddle.n_primal = saddle.sum.n;
+    let mut solver = Indefinite::<f64>::analyse(&saddle, Options::default());
+    allocations_of(&mut solver, &saddle);
+    assert!(solver.delays().delayed > 20, "{:?}", solver.delays());
+    assert_eq!(allocations_of(&mut solver, &saddle), 0);
 }

@@ -136,6 +136,54 @@ fn two_four_bars_crank_end_converges_with_order_2_to_the_exact_row_down_to_1e_5(
     }
 }
 
+/// One and forty four-bars: elliptic functions, 20 digits (benchmarks, section 3).
+const ROWS_OF_FOUR_BARS: [(&str, (f64, [f64; 2])); 2] = [
+    ("four-bar", (10.0, [0.478_385_057_760_970_56, 0.878_150_178_791_209_3])),
+    ("n-four-bar-40", (10.0, [0.180_512_226_686_728_39, 0.983_572_740_582_311_6])),
+];
+
+#[test]
+fn rows_of_four_bars_end_at_their_exact_places_with_order_2() {
+    for (name, row) in ROWS_OF_FOUR_BARS {
+        for formulation in FORMULATIONS {
+            let of = |step| errors_at((name, formulation, step), (0, [0.0, 1.0, 0.0]), &[row])[0];
+            let errors = [2.5e-4, 1.25e-4].map(of);
+            assert_second_order(&format!("{name} {formulation}"), &errors);
+            let level = errors[1] / 1.25e-4_f64.powi(2);
+            println!("  error / dt^2 = {level:.3}");
+            assert!(level <= CRANK_END_LEVEL, "{name} {formulation}: {level}");
+        }
+    }
+}
+
+/// The rocker's angle of the scene rssr from its crank's, on the branch of the start.
+fn rocker(crank: f64) -> f64 {
+    let (s, c) = crank.sin_cos();
+    // (0.4 + 0.5 cos b)^2 + (0.5 sin b - 0.15 c)^2 = 1.0425 - (0.7 - 0.15 s)^2:
+    // 0.4 cos b - 0.15 c sin b = rest
+    let rest = 1.0425 - (0.7 - 0.15 * s).powi(2) - 0.16 - 0.25 - 0.0225 * c * c;
+    let (x, y) = (0.4, -0.15 * c);
+    y.atan2(x) + (rest / x.hypot(y)).acos() - 0.4_f64.atan2(0.3)
+}
+
+#[test]
+fn rssr_rocker_follows_the_crank_in_closed_form() {
+    let scene = common::scene("rssr");
+    for formulation in FORMULATIONS {
+        let settings = common::settings(&scene, formulation, None);
+        let outcome = mbs::run::<f64, 3>(&scene, &settings, &mut ());
+        assert!(outcome.error.is_none(), "{formulation}: {:?}", outcome.error);
+        let (mut off, mut reach) = (0.0, 0.0_f64);
+        for (_, row) in outcome.rows() {
+            off = worst(off, (row[1] - rocker(row[0])).abs());
+            reach = reach.max(row[0]);
+        }
+        println!("rssr {formulation}: rocker {off:.1e} rad over {reach:.1} rad of the crank");
+        assert!(off <= KINEMATICS, "{formulation}: {off:e}");
+        assert!(reach > 50.0, "the crank turns fully, several times");
+    }
+}
+
 /// Outcome of the double pendulum in the printed form to 10 s: largest energy error, or the error of the step that failed.
 fn printed(alpha: f64, step: f64, projection: Projection) -> Result<f64, (f64, StepError)> {
     let mut bench = Bench::<2>::new("double-pendulum", "index-3", step);

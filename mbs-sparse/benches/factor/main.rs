@@ -12,10 +12,12 @@
 mod common;
 mod faer_rival;
 
-use common::Sum;
+use common::{Saddle, Sum};
 use criterion::{Criterion, criterion_group, criterion_main};
 use faer_rival::Rival;
-use mbs_sparse::{BlockSource, Multifrontal, Options, Pivoting, SpdSolver};
+use mbs_sparse::{
+    BlockSource, Indefinite, Multifrontal, Options, Pivoting, SpdSolver, SymmetricSolver,
+};
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -86,7 +88,26 @@ fn faer(c: &mut Criterion, name: &str, sum: &Sum) {
     group.finish();
 }
 
+/// Saddle systems: chains of elements of 12 coordinates, 6 shared, with 5 rows each.
+fn saddles(c: &mut Criterion) {
+    for length in [1, 20, 270, 2700] {
+        let saddle = Saddle::chain((length, 12, 6), 5, 3);
+        let mut solver = Indefinite::<f64>::analyse(&saddle, Options::default());
+        let n = saddle.sum.n;
+        let (mut x, mut scratch) = (vec![0.0; n], vec![0.0; solver.n_scratch()]);
+        solver.factor(&saddle).expect("regular");
+        println!("saddle_{length}: {:?} {:?}", solver.counters(), solver.delays());
+        let mut group = c.benchmark_group(format!("saddle_{length}"));
+        group.bench_function("factor", |b| b.iter(|| solver.factor(black_box(&saddle))));
+        group.bench_function("solve", |b| {
+            b.iter(|| solver.solve(black_box(&mut x), &mut scratch));
+        });
+        group.finish();
+    }
+}
+
 fn all(c: &mut Criterion) {
+    saddles(c);
     let pivoted = Options { pivoting: Pivoting::Diagonal, ..Options::default() };
     for (name, sum) in cases() {
         ours(c, name, "ours", &sum, Options::default());

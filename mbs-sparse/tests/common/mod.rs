@@ -4,9 +4,12 @@
 //! T_e = sum_i g_i g_i^T + k I ,   g_i with k random entries in [-1, 1]: positive definite
 //! ```
 
-#![allow(dead_code, reason = "each test binary uses a part")]
+#![allow(dead_code, unused_imports, reason = "each test binary uses a part")]
+
+mod saddle;
 
 use mbs_sparse::{BlockSource, Cliques, Real};
+pub(crate) use saddle::Saddle;
 
 /// A sum of blocks with its own numbers.
 #[derive(Debug, Clone, Default)]

@@ -9,17 +9,22 @@ use mbs::{Overrides, Settings, Simulation};
 use std::path::PathBuf;
 
 /// All scenes of the repository.
-pub(crate) const SCENES: [&str; 10] = [
+pub(crate) const SCENES: [&str; 15] = [
     "simple-pendulum",
     "double-pendulum",
     "two-four-bars",
     "n-four-bar-10",
+    "four-bar",
+    "n-four-bar-40",
     "slider-crank",
     "guided-four-bar",
     "spinning-top",
     "free-body",
     "spatial-four-bar",
     "spatial-chain-20",
+    "rssr",
+    "tree-30",
+    "andrews",
 ];
 
 /// The formulations, by name.

@@ -1,0 +1,354 @@
+//! Partial L D L^T of one dense front with pivots chosen by the numbers.
+//!
+//! ```text
+//! 1x1:  d = a_kk,                    |d| >= u max_{i != k} |a_ik|
+//! 2x2:  B = [ a_kk  a_rk ]           |B^-1| ( max_{i != k, r} |a_ik| )  <=  1/u         (Duff and Reid, 1983)
+//!           [ a_rk  a_rr ],                  ( max_{i != k, r} |a_ir| )
+//! l = a B^-1,   a_ij <- a_ij - l_i B l_j^T
+//! ```
+//!
+//! Only the first `p` unknowns may become pivots. Those for which no test holds stay, for a front where more is known of
+//! them. A pivot that is rounding beside what it was the sum of is never taken: the sizes of those sums are carried along.
+//!
+//! A front of f unknowns is a lower triangle packed by columns; column j starts at [`column`]`(f, j)` with its diagonal.
+//! Afterwards the columns of L stand below D^-1; a pair has its B^-1 in the triangle of its two columns.
+
+use crate::Real;
+use crate::blocks::{FactorError, Inertia, Weakest};
+
+/// Start of column `j` in a packed front of `f` unknowns.
+#[inline(always)]
+#[must_use]
+pub fn column(f: usize, j: usize) -> usize {
+    j * (2 * f + 1 - j) / 2
+}
+
+/// When a pivot is good enough.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Thresholds<T> {
+    /// u: multipliers l stay below 1/u; in (0, 0.35], so that what is all candidates always has a pivot.
+    pub growth: T,
+    /// A pivot below this times the sum of the absolute values it is made of counts as zero.
+    pub zero: T,
+}
+
+impl<T: Real> Default for Thresholds<T> {
+    /// u = 0.05; zero is 256 units of rounding.
+    fn default() -> Self {
+        Self { growth: T::from_f64(0.05), zero: T::EPSILON * T::from_f64(256.0) }
+    }
+}
+
+/// What is counted over a factorisation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tally {
+    /// Signs of the pivots.
+    pub inertia: Inertia,
+    /// The weakest pivot.
+    pub weakest: Weakest,
+}
+
+impl Default for Tally {
+    fn default() -> Self {
+        Self {
+            inertia: Inertia::default(),
+            weakest: Weakest { unknown: u32::MAX, ratio: f64::INFINITY },
+        }
+    }
+}
+
+impl Tally {
+    fn note<T: Real>(&mut self, unknown: u32, ratio: T) {
+        let ratio = ratio.to_f64();
+        if !(ratio >= self.weakest.ratio) {
+            self.weakest = Weakest { unknown, ratio };
+        }
+    }
+
+    /// # Errors
+    /// The weakest unknown, when there were zero pivots.
+    pub fn verdict(&self) -> Result<(), FactorError> {
+        if self.inertia.zero == 0 {
+            return Ok(());
+        }
+        Err(FactorError { unknown: self.weakest.unknown, pivot: self.weakest.ratio })
+    }
+
+    /// Counts the unknowns that the packed front `a` of a root has left over from place `k` on: zero pivots.
+    pub fn note_left<T: Real>(&mut self, a: &[T], order: &[u32], k: usize, size: &[T]) {
+        let f = order.len();
+        for c in k..f {
+            let largest = (k..f).fold(T::ZERO, |m, i| {
+                let x = a[at(f, i.max(c), i.min(c))].abs();
+                if m >= x { m } else { x }
+            });
+            let size = size[order[c] as usize];
+            self.note(order[c], if size > T::ZERO { largest / size } else { largest });
+            self.inertia.zero += 1;
+        }
+    }
+}
+
+/// Place of (row, col), row >= col, in a packed front of `f` unknowns.
+#[inline(always)]
+fn at(f: usize, row: usize, col: usize) -> usize {
+    column(f, col) + row - col
+}
+
+/// The unknowns of a front while it is factored.
+#[derive(Debug)]
+pub struct Places<'a, T> {
+    /// The unknown at each place of the front; permuted with the pivots.
+    pub order: &'a mut [u32],
+    /// Whether the pivot at a place is the first of a pair, f places.
+    pub pairs: &'a mut [bool],
+    /// For each unknown of the whole matrix the sum of the absolute values that its diagonal is made of.
+    pub size: &'a mut [T],
+}
+
+/// Eliminates as many as possible of the first `p` unknowns of the packed front `a`; returns how many.
+///
+/// They are then the first ones, the other candidates follow, and the rest keeps its places.
+///
+/// Cost: about f^2 / 2 multiply-subtracts for each pivot and f comparisons for each candidate tried; no allocation.
+pub fn eliminate<T: Real>(
+    a: &mut [T],
+    p: usize,
+    places: &mut Places<'_, T>,
+    thresholds: &Thresholds<T>,
+    tally: &mut Tally,
+) -> usize {
+    let f = places.order.len();
+    let a = &mut a[..column(f, f)];
+    let mut k = 0;
+    while k < p {
+        let found = (k..p).find_map(|c| test(a, f, (k, p, c), places, thresholds));
+        let Some(Pivot { first, second, ratio }) = found else { break };
+        swap(a, f, k, first);
+        places.order.swap(k, first);
+        tally.note(places.order[k], ratio);
+        places.pairs[k] = second.is_some();
+        if let Some(second) = second {
+            // The first of the pair may just have displaced the second.
+            let second = if second == k { first } else { second };
+            swap(a, f, k + 1, second);
+            places.order.swap(k + 1, second);
+            places.pairs[k + 1] = false;
+            eliminate_pair(a, f, k, places, &mut tally.inertia);
+            k += 2;
+        } else {
+            eliminate_single(a, f, k, places, &mut tally.inertia);
+            k += 1;
+        }
+    }
+    k
+}
+
+/// One pivot or a pair of them, where they stand now.
+struct Pivot<T> {
+    first: usize,
+    second: Option<usize>,
+    ratio: T,
+}
+
+/// The largest absolute value of column `c` over the rows from `k` on, but for rows `c` and `not`, with its row.
+#[inline(always)]
+fn largest<T: Real>(a: &[T], f: usize, k: usize, (c, not): (usize, usize)) -> (T, usize) {
+    let (mut size, mut row) = (T::ZERO, c);
+    let mut see = |x: T, i: usize| {
+        if x.abs() > size && i != not {
+            (size, row) = (x.abs(), i);
+        }
+    };
+    for i in k..c {
+        see(a[at(f, c, i)], i);
+    }
+    let start = column(f, c);
+    for (i, &x) in a[start + 1..start + f - c].iter().enumerate() {
+        see(x, c + 1 + i);
+    }
+    (size, row)
+}
+
+/// Is there a pivot with candidate `c` of `k..p`?
+#[inline(always)]
+fn test<T: Real>(
+    a: &[T],
+    f: usize,
+    (k, p, c): (usize, usize, usize),
+    places: &Places<'_, T>,
+    thresholds: &Thresholds<T>,
+) -> Option<Pivot<T>> {
+    let size = |i: usize| places.size[places.order[i] as usize];
+    let d = a[at(f, c, c)];
+    let (all, row) = largest(a, f, k, (c, c));
+    if d.abs() >= thresholds.growth * all && d.abs() > thresholds.zero * size(c) && d.is_finite() {
+        return Some(Pivot { first: c, second: None, ratio: d.abs() / size(c) });
+    }
+    let r = if row < p { row } else { largest_candidate(a, f, (k, p), c) };
+    if r == c {
+        return None;
+    }
+    let (b, e) = (a[at(f, r.max(c), r.min(c))], a[at(f, r, r)]);
+    let det = d * e - b * b;
+    let most = d.abs().max(b.abs()).max(e.abs());
+    let ratio = det.abs() / (most * size(c).max(size(r)));
+    let (off_c, off_r) = (largest(a, f, k, (c, r)).0, largest(a, f, k, (r, c)).0);
+    let bound = det.abs() / thresholds.growth;
+    let is_stable = e.abs() * off_c + b.abs() * off_r <= bound
+        && b.abs() * off_c + d.abs() * off_r <= bound
+        && ratio > thresholds.zero
+        && det.is_finite();
+    is_stable.then_some(Pivot { first: c, second: Some(r), ratio })
+}
+
+/// The row of `k..p` with the largest absolute value in column `c`; `c` when all are zero.
+fn largest_candidate<T: Real>(a: &[T], f: usize, (k, p): (usize, usize), c: usize) -> usize {
+    let entry = |i: usize| a[at(f, i.max(c), i.min(c))].abs();
+    let (mut size, mut row) = (T::ZERO, c);
+    for i in (k..p).filter(|&i| i != c) {
+        if entry(i) > size {
+            (size, row) = (entry(i), i);
+        }
+    }
+    row
+}
+
+/// Eliminates the unknown at place `k`.
+#[inline(always)]
+fn eliminate_single<T: Real>(
+    a: &mut [T],
+    f: usize,
+    k: usize,
+    places: &mut Places<'_, T>,
+    inertia: &mut Inertia,
+) {
+    let (head, mut rest) = a.split_at_mut(column(f, k + 1));
+    let (diagonal, below) = head[column(f, k)..].split_at_mut(1);
+    let inverse = T::ONE / diagonal[0];
+    for j in 0..below.len() {
+        let (target, next) = rest.split_at_mut(below.len() - j);
+        rest = next;
+        let l = below[j] * inverse;
+        places.size[places.order[k + 1 + j] as usize] += (l * below[j]).abs();
+        for (target, &a) in target.iter_mut().zip(&below[j..]) {
+            *target -= l * a;
+        }
+    }
+    if inverse > T::ZERO {
+        inertia.positive += 1;
+    } else {
+        inertia.negative += 1;
+    }
+    diagonal[0] = inverse;
+    for l in below {
+        *l *= inverse;
+    }
+}
+
+/// Eliminates the unknowns at places `k` and `k + 1` together.
+#[inline(always)]
+fn eliminate_pair<T: Real>(
+    a: &mut [T],
+    f: usize,
+    k: usize,
+    places: &mut Places<'_, T>,
+    inertia: &mut Inertia,
+) {
+    let (head, mut rest) = a.split_at_mut(column(f, k + 2));
+    let (first, second) = head[column(f, k)..].split_at_mut(f - k);
+    let (d, b, e) = (first[0], first[1], second[0]);
+    let det = d * e - b * b;
+    let (x, y, z) = (e / det, -b / det, d / det);
+    let (first_below, second_below) = (&mut first[2..], &mut second[1..]);
+    for j in 0..first_below.len() {
+        let (target, next) = rest.split_at_mut(first_below.len() - j);
+        rest = next;
+        let (s, t) = (first_below[j], second_below[j]);
+        let (l, m) = (x * s + y * t, y * s + z * t);
+        places.size[places.order[k + 2 + j] as usize] += (l * s).abs() + (m * t).abs();
+        for (i, target) in target.iter_mut().enumerate() {
+            *target -= l * first_below[j + i] + m * second_below[j + i];
+        }
+    }
+    if det < T::ZERO {
+        inertia.positive += 1;
+        inertia.negative += 1;
+    } else if d + e > T::ZERO {
+        inertia.positive += 2;
+    } else {
+        inertia.negative += 2;
+    }
+    for (s, t) in first_below.iter_mut().zip(second_below) {
+        (*s, *t) = (x * *s + y * *t, y * *s + z * *t);
+    }
+    (first[0], first[1], second[0]) = (x, y, z);
+}
+
+/// Swaps the unknowns `k <= q` of a packed front, in the columns from `k` on and in those of L before.
+fn swap<T: Real>(a: &mut [T], f: usize, k: usize, q: usize) {
+    if k == q {
+        return;
+    }
+    for m in 0..k {
+        a.swap(at(f, k, m), at(f, q, m));
+    }
+    a.swap(at(f, k, k), at(f, q, q));
+    for i in k + 1..q {
+        a.swap(at(f, i, k), at(f, q, i));
+    }
+    for i in q + 1..f {
+        a.swap(at(f, i, k), at(f, i, q));
+    }
+}
+
+/// Forward sweep, z <- L^-1 z, through the `pairs.len()` pivots of the packed front `a`; `z` has all its unknowns.
+pub fn forward<T: Real>(a: &[T], pairs: &[bool], z: &mut [T]) {
+    let (mut a, mut z, mut k) = (a, z, 0);
+    while k < pairs.len() {
+        let f = z.len();
+        let width = 1 + usize::from(pairs[k]);
+        let (pivots, below) = z.split_at_mut(width);
+        if width == 1 {
+            let x = pivots[0];
+            for (z, &l) in below.iter_mut().zip(&a[1..f]) {
+                *z -= l * x;
+            }
+        } else {
+            let (x, y) = (pivots[0], pivots[1]);
+            for ((z, &l), &m) in below.iter_mut().zip(&a[2..f]).zip(&a[f + 1..]) {
+                *z -= l * x + m * y;
+            }
+        }
+        a = &a[column(f, width)..];
+        (z, k) = (below, k + width);
+    }
+}
+
+/// Backward sweep, z_1 <- L_11^-T (D^-1 z_1 - L_21^T z_2), through the `pairs.len()` pivots of a packed front.
+///
+/// Without `is_divided` D is left out: z_1 <- L_11^-T (z_1 - L_21^T z_2).
+pub fn backward<T: Real>(a: &[T], pairs: &[bool], z: &mut [T], is_divided: bool) {
+    let f = z.len();
+    let mut end = pairs.len();
+    while end > 0 {
+        let width = if end >= 2 && pairs[end - 2] { 2 } else { 1 };
+        let k = end - width;
+        let (head, below) = z.split_at_mut(end);
+        let pivots = &mut head[k..];
+        let dot = |l: &[T]| l.iter().zip(&*below).fold(T::ZERO, |sum, (&l, &z)| sum + l * z);
+        let first = &a[column(f, k)..][..f - k];
+        if width == 1 {
+            let x = if is_divided { first[0] * pivots[0] } else { pivots[0] };
+            pivots[0] = x - dot(&first[1..]);
+        } else {
+            let second = &a[column(f, k + 1)..][..f - k - 1];
+            let (mut x, mut y) = (pivots[0], pivots[1]);
+            if is_divided {
+                (x, y) = (first[0] * x + first[1] * y, first[1] * x + second[0] * y);
+            }
+            (pivots[0], pivots[1]) = (x - dot(&first[2..]), y - dot(&second[1..]));
+        }
+        end = k;
+    }
+}

@@ -1,0 +1,150 @@
+//! The other way round: efforts from accelerations, the tree's mass matrix, forces through joints.
+//!
+//! ```text
+//! outward   Ż = Żₚ + b z̈ + d
+//! inward    f = M Ż − Q + Σ children,   τ = bᵀ f
+//! mass      M_z: composite inertias, columns b along the path to the ground
+//! ```
+
+use crate::joint::{read, write};
+use crate::link::{Condensed, Kind, Link, Placed};
+use crate::mechanism::{Mechanism, Store};
+use crate::passes;
+use crate::space::{Numbers, Space};
+use mbs_core::Real;
+
+/// Accelerations of the links for given joint accelerations; `a[0]` is given.
+pub fn spread<T: Real, S: Space<T>>(
+    links: &[Link<T, S>],
+    placed: &[Placed<T, S>],
+    zdd: &[T],
+    a: &mut [S::Motion],
+) {
+    for (i, link) in links.iter().enumerate().skip(1) {
+        let (p, at) = (&placed[i], link.v as usize);
+        // Ż = Żₚ + b z̈ + d   [P3 (27)]
+        let carried = match link.kind {
+            Kind::Free => a[0],
+            _ => S::carried(&a[link.parent as usize], &p.arm),
+        } + p.bias;
+        a[i] = carried
+            + match link.kind {
+                Kind::Revolute | Kind::Prismatic => p.freedom * zdd[at],
+                Kind::Ball => S::motion(
+                    S::rotate_spin(&p.rotation, &read(&zdd[at..])),
+                    S::Point::zero(),
+                ),
+                Kind::Free => S::motion(
+                    S::rotate_spin(&p.rotation, &read(&zdd[at..])),
+                    read(&zdd[at + S::Spin::N..]),
+                ),
+                Kind::GuidedRevolute | Kind::GuidedPrismatic => S::Motion::zero(),
+            };
+    }
+}
+
+/// The force through every joint, on the link about its origin, for the accelerations and multipliers of the store: into the
+/// links' `force`. Effects along the joint are part of it.
+pub(crate) fn forces<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, s: &mut Store<'_, T, S>) {
+    passes::inertias(m.links, s.placed, s.condensed);
+    let mut condensed = core::mem::take(&mut s.condensed);
+    for load in m.loads {
+        load.apply(&s.instant(m), condensed);
+    }
+    core::mem::swap(&mut s.condensed, &mut condensed);
+    let n = m.loops.rows.len();
+    for lap in m.loops.loops {
+        for k in lap.first as usize..(lap.first + lap.n) as usize {
+            // p += Kᵀ λ
+            for side in 0..2 {
+                let push = s.gradient[side * n + k] * s.lambda[k];
+                s.condensed[lap.links[side] as usize].force += push;
+            }
+        }
+    }
+    for i in (1..m.links.len()).rev() {
+        let own = S::times(&s.condensed[i].inertia, &s.a[i]);
+        s.condensed[i].force += own;
+        let force = s.condensed[i].force;
+        let parent = m.links[i].parent as usize;
+        if parent > 0 {
+            s.condensed[parent].force += S::gathered(&force, &s.placed[i].arm);
+        }
+    }
+}
+
+/// bᵀ f of a link's joint, less what effects apply along it: the effort that the joint itself must give.
+pub(crate) fn effort<T: Real, S: Space<T>>(
+    link: &Link<T, S>,
+    p: &Placed<T, S>,
+    c: &Condensed<T, S>,
+    out: &mut [T],
+) {
+    match link.kind {
+        Kind::Revolute | Kind::Prismatic | Kind::GuidedRevolute | Kind::GuidedPrismatic => {
+            out[0] = p.freedom.dot(&c.force) - c.effort;
+        }
+        Kind::Ball => write(&S::unrotate_spin(&p.rotation, &S::spin(&c.force)), out),
+        Kind::Free => {
+            write(&S::unrotate_spin(&p.rotation, &S::spin(&c.force)), out);
+            write(&S::point(&c.force), &mut out[S::Spin::N..]);
+        }
+    }
+}
+
+/// The tree's mass matrix by composite inertias, row by row: `mass` has the square of the freedoms, `composite` a place for
+/// each link.
+///
+/// Cost: bodies times depth.
+pub fn mass_matrix<T: Real, S: Space<T>>(
+    links: &[Link<T, S>],
+    placed: &[Placed<T, S>],
+    composite: &mut [Condensed<T, S>],
+    n: usize,
+    mass: &mut [T],
+) {
+    passes::inertias(links, placed, composite);
+    mass.fill(T::ZERO);
+    for i in (1..links.len()).rev() {
+        let (before, from) = composite.split_at_mut(i);
+        let inertia = from[0].inertia;
+        let (link, p) = (&links[i], &placed[i]);
+        if link.parent > 0 {
+            S::add_shifted(&mut before[link.parent as usize].inertia, &inertia, &p.arm);
+        }
+        for f in 0..link.kind.n_freedoms::<T, S>() {
+            let mut force = S::times(&inertia, &direction(link, p, f));
+            let (mut j, column) = (i, link.v as usize + f);
+            loop {
+                let (other, q) = (&links[j], &placed[j]);
+                for g in 0..other.kind.n_freedoms::<T, S>() {
+                    let row = other.v as usize + g;
+                    let x = direction(other, q, g).dot(&force);
+                    (mass[row * n + column], mass[column * n + row]) = (x, x);
+                }
+                if other.kind == Kind::Free || other.parent == 0 {
+                    break;
+                }
+                force = S::gathered(&force, &q.arm);
+                j = other.parent as usize;
+            }
+        }
+    }
+}
+
+/// The motion of unit rate of one freedom, about the link's origin.
+fn direction<T: Real, S: Space<T>>(link: &Link<T, S>, p: &Placed<T, S>, f: usize) -> S::Motion {
+    match link.kind {
+        Kind::Ball | Kind::Free if f < S::Spin::N => {
+            let mut e = S::Spin::zero();
+            e[f] = T::ONE;
+            S::motion(S::rotate_spin(&p.rotation, &e), S::Point::zero())
+        }
+        Kind::Free => {
+            let mut e = S::Motion::zero();
+            e[f] = T::ONE;
+            e
+        }
+        _ => p.freedom,
+    }
+}

@@ -1,0 +1,58 @@
+//! Energies, and the power that enters through dampers, courses and guides.
+
+use crate::inverse;
+use crate::link::{Link, Placed};
+use crate::loads::Instant;
+use crate::mechanism::{Mechanism, Store};
+use crate::space::{Numbers, Space};
+use mbs_core::Real;
+
+/// Kinetic energy [J]: ½ Σ Zᵀ M Z.
+pub(crate) fn kinetic<T: Real, S: Space<T>>(
+    links: &[Link<T, S>],
+    placed: &[Placed<T, S>],
+) -> T {
+    let mut twice = T::ZERO;
+    for (link, p) in links.iter().zip(placed).skip(1) {
+        let inertia = S::body_inertia(link.mass, &p.center, &link.tensor, &p.rotation);
+        twice += p.velocity.dot(&S::times(&inertia, &p.velocity));
+    }
+    twice * T::HALF
+}
+
+/// Potential energy of gravity, springs and constant forces [J].
+pub(crate) fn potential<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    at: &Instant<'_, T, S>,
+) -> T {
+    let mut energy = T::ZERO;
+    for (link, p) in m.links.iter().zip(at.placed).skip(1) {
+        energy -= m.gravity.dot(&(p.position + p.center + m.base)) * link.mass;
+    }
+    for load in m.loads {
+        energy += load.potential(at, &m.base);
+    }
+    energy
+}
+
+/// Power that enters [W], at the place, accelerations and multipliers of the store.
+pub(crate) fn power<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    s: &mut Store<'_, T, S>,
+) -> T {
+    let mut power = T::ZERO;
+    for load in m.loads {
+        power += load.power(&s.instant(m));
+    }
+    if m.links.iter().skip(1).any(|link| link.kind.is_guided()) {
+        inverse::forces(m, s);
+        for (i, link) in m.links.iter().enumerate().skip(1) {
+            if link.kind.is_guided() {
+                let mut effort = [T::ZERO];
+                inverse::effort(link, &s.placed[i], &s.condensed[i], &mut effort);
+                power += effort[0] * s.guides[link.v as usize][1];
+            }
+        }
+    }
+    power
+}

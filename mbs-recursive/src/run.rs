@@ -1,0 +1,292 @@
+//! What a caller asks of a tree: steps, energies, efforts, mass matrix, reactions.
+
+use crate::error::LoopError;
+use crate::evaluate::{Level, accelerations};
+use crate::explicit;
+use crate::inverse;
+use crate::ledger;
+use crate::mechanism::{Inputs, Store};
+use crate::options::Options;
+use crate::passes::kinematics;
+use crate::space::{Numbers, Space};
+use crate::state::{TreeState, Workspace};
+use crate::trapezoidal::{self, Start, failure};
+use crate::tree::TreeModel;
+use alloc::vec;
+use alloc::vec::Vec;
+use mbs_core::Real;
+use mbs_core::algebra::{Vector, cross};
+use mbs_core::ode::{Adaptive, Tableau};
+use mbs_core::step::{StepError, StepReport};
+
+/// Advances `state` by one step of length `dt` [s] of the trapezoidal rule or another of the Newmark family.
+///
+/// Cost: see [`trapezoidal::step`]; no allocation.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn step<T: Real, S: Space<T>>(
+    model: &TreeModel<T, S>,
+    dt: T,
+    options: &Options<T>,
+    state: &mut TreeState<T>,
+    workspace: &mut Workspace<T, S>,
+) -> Result<StepReport<T>, StepError> {
+    let m = model.mechanism();
+    let mut s = workspace.store();
+    let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
+    let report = trapezoidal::step(&m, model, (dt, options), start, &mut s)?;
+    // Work by the trapezoidal rule in time.
+    let power = ledger::power(&m, &mut s);
+    state.work += (state.power + power) * dt * T::HALF;
+    take(dt, power, &s, state);
+    Ok(report)
+}
+
+/// Advances `state` by one step of length `dt` [s] of the Runge-Kutta method of order 4.
+///
+/// Cost: see [`explicit::rk4`]; no allocation.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn rk4_step<T: Real, S: Space<T>>(
+    model: &TreeModel<T, S>,
+    dt: T,
+    options: &Options<T>,
+    state: &mut TreeState<T>,
+    workspace: &mut Workspace<T, S>,
+) -> Result<StepReport<T>, StepError> {
+    let m = model.mechanism();
+    let (mut s, scratch) = workspace.parts();
+    let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
+    let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
+    let report = explicit::rk4(&m, model, (dt, options), memory, &mut s)?;
+    state.work += work(scratch);
+    let power = ledger::power(&m, &mut s);
+    take(dt, power, &s, state);
+    Ok(report)
+}
+
+/// Advances `state` by exactly `dt` [s] with the pair 5(4) of Dormand and Prince, in as many steps as `options.error` asks for;
+/// the workspace remembers the last good one.
+///
+/// Cost: see [`explicit::rk54`]; no allocation.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+///
+/// # Panics
+/// If `dt` is not positive and finite.
+pub fn rk54_step<T: Real, S: Space<T>>(
+    model: &TreeModel<T, S>,
+    dt: T,
+    options: &Options<T>,
+    state: &mut TreeState<T>,
+    workspace: &mut Workspace<T, S>,
+) -> Result<StepReport<T>, StepError> {
+    let m = model.mechanism();
+    let (mut s, scratch) = workspace.parts();
+    let driver =
+        scratch.driver.get_or_insert_with(|| Adaptive::new(Tableau::dormand_prince(), dt));
+    let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
+    let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
+    let report = explicit::rk54(&m, model, (dt, options, driver), memory, &mut s)?;
+    state.work += work(scratch);
+    let power = ledger::power(&m, &mut s);
+    take(dt, power, &s, state);
+    Ok(report)
+}
+
+/// The work of an explicit step.
+fn work<T: Real>(scratch: &crate::state::Explicit<T>) -> T {
+    scratch.y.last().copied().unwrap_or(T::ZERO)
+}
+
+/// The end of a step enters the state.
+fn take<T: Real, S: Space<T>>(dt: T, power: T, s: &Store<'_, T, S>, state: &mut TreeState<T>) {
+    state.t += dt;
+    state.power = power;
+    state.z.copy_from_slice(s.z);
+    state.v.copy_from_slice(s.v);
+    state.a.copy_from_slice(s.zdd);
+    state.lambda.copy_from_slice(s.lambda);
+}
+
+impl<T: Real, S: Space<T>> TreeModel<T, S> {
+    /// Evaluates accelerations and multipliers of a state at its coordinates and velocities, without projection.
+    ///
+    /// Cost: one evaluation; no allocation.
+    ///
+    /// # Errors
+    /// [`StepError`]; the state is then unchanged.
+    pub fn accelerate(
+        &self,
+        options: &Options<T>,
+        state: &mut TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+    ) -> Result<(), StepError> {
+        let m = self.mechanism();
+        let mut s = workspace.store();
+        s.z.copy_from_slice(&state.z);
+        s.v.copy_from_slice(&state.v);
+        self.evaluate(state.t, s.guides, s.courses);
+        accelerations(&m, options, Level::Fine, &mut s).map_err(|fault| failure(&m, fault))?;
+        state.a.copy_from_slice(s.zdd);
+        state.lambda.copy_from_slice(s.lambda);
+        Ok(())
+    }
+
+    /// Kinetic and potential energy of a state [J].
+    ///
+    /// Cost: one outward pass; no allocation.
+    pub fn energies(&self, state: &TreeState<T>, workspace: &mut Workspace<T, S>) -> [T; 2] {
+        let m = self.mechanism();
+        let mut s = workspace.store();
+        self.place(state, &mut s);
+        [ledger::kinetic(m.links, s.placed), ledger::potential(&m, &s.instant(&m))]
+    }
+
+    /// Puts a state into the scratch.
+    fn place(&self, state: &TreeState<T>, s: &mut Store<'_, T, S>) {
+        s.z.copy_from_slice(&state.z);
+        s.v.copy_from_slice(&state.v);
+        s.lambda.copy_from_slice(&state.lambda);
+        self.evaluate(state.t, s.guides, s.courses);
+        kinematics(&self.links, (s.z, s.v, s.guides), s.placed);
+    }
+
+    /// Puts a state with its accelerations into the scratch and finds the forces through all joints.
+    fn balance(&self, state: &TreeState<T>, s: &mut Store<'_, T, S>) {
+        let m = self.mechanism();
+        self.place(state, s);
+        s.a[0] = S::motion(S::Spin::zero(), -m.gravity);
+        inverse::spread(m.links, s.placed, &state.a, s.a);
+        let n = m.loops.rows.len();
+        for lap in m.loops.loops {
+            lap.evaluate(m.loops.rows, s.placed, |k, row| {
+                (s.gradient[k], s.gradient[n + k]) = (row.gradient[0], row.gradient[1]);
+            });
+        }
+        inverse::forces(&m, s);
+    }
+
+    /// The efforts along all freedoms that make a state's accelerations, beyond effects and gravity: zero at the accelerations of
+    /// free motion.
+    ///
+    /// # Errors
+    /// [`LoopError::Closed`]: with loops they are not unique.
+    ///
+    /// # Panics
+    /// If `efforts` is not as long as the freedoms.
+    pub fn inverse_dynamics(
+        &self,
+        state: &TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+        efforts: &mut [T],
+    ) -> Result<(), LoopError> {
+        self.refuse_loops()?;
+        assert_eq!(efforts.len(), self.n_freedoms, "one effort per freedom");
+        let mut s = workspace.store();
+        self.balance(state, &mut s);
+        for (i, link) in self.links.iter().enumerate().skip(1) {
+            if !link.kind.is_guided() {
+                let out = &mut efforts[link.v as usize..];
+                inverse::effort(link, &s.placed[i], &s.condensed[i], out);
+            }
+        }
+        Ok(())
+    }
+
+    /// The mass matrix in joint coordinates, row by row.
+    ///
+    /// # Errors
+    /// [`LoopError::Closed`]: with loops the coordinates depend on each other; ask for [`tree_mass_matrix`](Self::tree_mass_matrix).
+    pub fn mass_matrix(
+        &self,
+        state: &TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+    ) -> Result<Vec<T>, LoopError> {
+        self.refuse_loops()?;
+        Ok(self.tree_mass_matrix(state, workspace))
+    }
+
+    /// The mass matrix of the spanning tree, its loops being open, row by row.
+    pub fn tree_mass_matrix(
+        &self,
+        state: &TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+    ) -> Vec<T> {
+        let n = self.n_freedoms;
+        let mut mass = vec![T::ZERO; n * n];
+        let mut s = workspace.store();
+        self.place(state, &mut s);
+        inverse::mass_matrix(&self.links, s.placed, s.condensed, n, &mut mass);
+        mass
+    }
+
+    fn refuse_loops(&self) -> Result<(), LoopError> {
+        if self.rows.is_empty() { Ok(()) } else { Err(LoopError::Closed { rows: self.rows.len() }) }
+    }
+
+    /// What the first body of each joint does to the second at the joint's place on the second, global axes: force and moment
+    /// [N, N m]; guides included, effects along the joint not; zero for welds and free joints. Where rows of loops repeat each other
+    /// the multipliers are those of least norm.
+    ///
+    /// Cost: an outward and an inward pass; no allocation.
+    ///
+    /// # Panics
+    /// If there are fewer places than joints.
+    pub fn reactions(
+        &self,
+        scene_joints: &[mbs_core::scene::Joint<T>],
+        state: &TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+        out: &mut [[Vector<T, 3>; 2]],
+    ) {
+        let mut s = workspace.store();
+        self.balance(state, &mut s);
+        out.fill([Vector::zeros(); 2]);
+        for seat in &self.seats {
+            let Some(joint) = seat.branch.joint else { continue };
+            let link = seat.link as usize;
+            if self.links[link].kind == crate::link::Kind::Free {
+                continue;
+            }
+            let c = &s.condensed[link];
+            let through = c.force - s.placed[link].freedom * c.effort;
+            let force = S::point_into(&S::point(&through));
+            let moment = S::spin_into(&S::spin(&through));
+            // On the child about its origin, the joint's place on it; turned round, about the place on the parent side.
+            out[joint] = if seat.branch.is_reversed {
+                let apart = s.placed[link].position - self.parent_place(seat, &s);
+                let arm = S::point_into(&apart);
+                [-force, -(moment + cross(&arm, &force))]
+            } else {
+                [force, moment]
+            };
+        }
+        let n = self.rows.len();
+        for lap in &self.loops {
+            let (joint, second) = (lap.joint as usize, lap.links[1] as usize);
+            let mut total = S::Motion::zero();
+            for k in lap.first as usize..(lap.first + lap.n) as usize {
+                total -= s.gradient[n + k] * s.lambda[k];
+            }
+            let arm = S::rotate(&s.placed[second].rotation, &lap.points[1]);
+            let total = S::gathered(&total, &-arm);
+            out[joint] = [S::point_into(&S::point(&total)), S::spin_into(&S::spin(&total))];
+        }
+        debug_assert!(scene_joints.len() <= out.len());
+    }
+
+    /// The joint's place on the parent, from the base.
+    fn parent_place(
+        &self,
+        seat: &crate::tree::Seat,
+        s: &Store<'_, T, S>,
+    ) -> S::Point {
+        let first = &self.links[seat.first as usize];
+        let parent = &s.placed[first.parent as usize];
+        parent.position + S::rotate(&parent.rotation, &first.offset)
+    }
+}

@@ -1,0 +1,285 @@
+//! Joint coordinates read from the motions of the bodies, and the motions written from them.
+
+use crate::error::TreeError;
+use crate::evaluate::{Level, accelerations};
+use crate::inverse;
+use crate::link::{Kind, Placed};
+use crate::mechanism::Inputs;
+use crate::options::{Closure, Options};
+use crate::passes::kinematics;
+use crate::project::project;
+use crate::space::{Numbers, Space};
+use crate::state::{TreeState, Workspace};
+use crate::trapezoidal::failure;
+use crate::tree::{Part, Seat, TreeModel, parts};
+use alloc::vec;
+use alloc::vec::Vec;
+use mbs_core::Real;
+use mbs_core::algebra::{Matrix, Vector, across, cross};
+use mbs_core::model::State;
+use mbs_core::natural::{NaturalModel, unwrap};
+use mbs_core::outputs::start_values;
+use mbs_core::rigid::RigidMotion;
+use mbs_core::scene::Scene;
+use mbs_core::step::StepError;
+
+/// What keeps a tree from starting.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum StartError {
+    /// The scene has no tree.
+    Tree(TreeError),
+    /// The start cannot be made consistent.
+    Step(StepError),
+}
+
+impl core::fmt::Display for StartError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Tree(error) => write!(f, "{error}"),
+            Self::Step(error) => write!(f, "at the start: {error}"),
+        }
+    }
+}
+
+impl core::error::Error for StartError {}
+
+impl From<TreeError> for StartError {
+    fn from(error: TreeError) -> Self {
+        Self::Tree(error)
+    }
+}
+
+impl From<StepError> for StartError {
+    fn from(error: StepError) -> Self {
+        Self::Step(error)
+    }
+}
+
+impl<T: Real, S: Space<T>> TreeModel<T, S> {
+    /// The state of an assembled mechanism: coordinates read from natural ones, projected on the loops, with its accelerations.
+    /// Angles are those nearest to the scene's start values.
+    ///
+    /// # Errors
+    /// [`StartError`] if the loops do not close there, or stand in a singular position.
+    pub fn start<const D: usize>(
+        &self,
+        scene: &Scene<T>,
+        natural: &NaturalModel<T, D>,
+        state: &State<T>,
+    ) -> Result<TreeState<T>, StartError> {
+        let motions: Vec<_> =
+            (0..scene.bodies.len()).map(|body| natural.motion(scene, body, state)).collect();
+        self.start_from(scene, state.t, &motions)
+    }
+
+    /// The same from the motions of the scene's bodies at time `t`, one for each.
+    ///
+    /// # Errors
+    /// As for [`start`](Self::start).
+    ///
+    /// # Panics
+    /// If there are fewer motions than bodies.
+    pub fn start_from(
+        &self,
+        scene: &Scene<T>,
+        t: T,
+        motions: &[RigidMotion<T>],
+    ) -> Result<TreeState<T>, StartError> {
+        let mut state = TreeState::at_rest(self);
+        state.t = t;
+        for seat in &self.seats {
+            self.read_seat(scene, seat, motions, &mut state);
+        }
+        self.settle(&mut state, &mut Workspace::new(self))?;
+        Ok(state)
+    }
+
+    /// Projects positions and velocities on the loops and evaluates accelerations and multipliers.
+    ///
+    /// # Errors
+    /// [`StepError`]; the state is then unchanged.
+    pub fn settle(
+        &self,
+        state: &mut TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+    ) -> Result<(), StepError> {
+        let (m, options) = (self.mechanism(), Options::default());
+        let mut s = workspace.store();
+        s.z.copy_from_slice(&state.z);
+        s.v.copy_from_slice(&state.v);
+        self.evaluate(state.t, s.guides, s.courses);
+        let fault = |fault| failure(&m, fault);
+        if !self.rows.is_empty() {
+            accelerations(&m, &options, Level::Once, &mut s).map_err(fault)?;
+            project(&m, &options, &mut s).map_err(fault)?;
+        }
+        accelerations(&m, &options, Level::Fine, &mut s).map_err(fault)?;
+        state.power = crate::ledger::power(&m, &mut s);
+        state.z.copy_from_slice(s.z);
+        state.v.copy_from_slice(s.v);
+        state.a.copy_from_slice(s.zdd);
+        state.lambda.copy_from_slice(s.lambda);
+        Ok(())
+    }
+
+    /// Coordinates and velocities of a cluster's joint.
+    fn read_seat(
+        &self,
+        scene: &Scene<T>,
+        seat: &Seat,
+        motions: &[RigidMotion<T>],
+        state: &mut TreeState<T>,
+    ) {
+        let still = RigidMotion::at_rest(self.base);
+        let motion = |cluster: usize| motions[self.clusters.clusters[cluster].bodies[0]];
+        let child = motion(seat.branch.cluster);
+        let parent = seat.branch.parent.map_or(still, motion);
+        let origin = &self.origins[seat.link as usize];
+        let [position, velocity, _] = child.point(origin);
+        let link = &self.links[seat.link as usize];
+        let (z, v) = (&mut state.z[link.z as usize..], &mut state.v[link.v as usize..]);
+        let values = seat.branch.joint.map_or_else(Vec::new, |joint| start_values(scene, joint));
+        match link.kind {
+            Kind::Free => {
+                let rotation = S::rotation_from(&child.rotation);
+                S::write_rotation(&rotation, z);
+                if S::DIMENSION == 2 {
+                    z[0] = unwrap(z[0], values.last().copied().unwrap_or(T::ZERO));
+                }
+                let spin = S::spin_from(&child.omega);
+                crate::joint::write(&S::unrotate_spin(&rotation, &spin), v);
+                let place = S::FREE - S::Point::N;
+                crate::joint::write(&S::point_from(&(position - self.base)), &mut z[place..]);
+                crate::joint::write(&S::point_from(&velocity), &mut v[S::Spin::N..]);
+            }
+            Kind::Ball => {
+                let relative = parent.rotation.transpose() * child.rotation;
+                S::write_rotation(&S::rotation_from(&relative), z);
+                let spin = child.rotation.transpose() * (child.omega - parent.omega);
+                crate::joint::write(&S::spin_from(&spin), v);
+            }
+            _ => {
+                let [hold, hold_rate, _] = parent.point(origin);
+                let gap = [position - hold, velocity - hold_rate];
+                let is_guided = link.kind.is_guided();
+                let chain = parts(scene, &seat.branch, is_guided);
+                if !is_guided {
+                    self.read_chain(seat, &chain, (&parent, &child, gap), &values, state);
+                }
+            }
+        }
+    }
+
+    /// Angles and slides of a joint of several parts, from the parent to the child.
+    fn read_chain(
+        &self,
+        seat: &Seat,
+        chain: &[Part<T>],
+        (parent, child, [gap, gap_rate]): (&RigidMotion<T>, &RigidMotion<T>, [Vector<T, 3>; 2]),
+        values: &[T],
+        state: &mut TreeState<T>,
+    ) {
+        let mut rotation: Matrix<T, 3> = parent.rotation;
+        let turning = child.omega - parent.omega;
+        let turns: Vec<usize> =
+            (0..chain.len()).filter(|&k| chain[k].kind == Kind::Revolute).collect();
+        let mut axes = vec![Vector::<T, 3>::zeros(); chain.len()];
+        for (k, part) in chain.iter().enumerate() {
+            let at = seat.first as usize + k;
+            let z = &mut state.z[self.links[at].z as usize];
+            axes[k] = rotation * part.axis;
+            if part.kind == Kind::Revolute {
+                // What the next turn leaves fixed, or any direction across the axis, shows the angle.
+                let next = turns.iter().find(|&&j| j > k).map(|&j| chain[j].axis);
+                let shown = next.unwrap_or_else(|| across(&part.axis));
+                let v = shown - part.axis * part.axis.dot(&shown);
+                let w = cross(&part.axis, &v);
+                let seen = rotation.transpose() * (child.rotation * shown);
+                *z = unwrap(w.dot(&seen).atan2(v.dot(&seen)), values[part.number]);
+                rotation *= mbs_core::algebra::rotation(&(part.axis * *z));
+            } else {
+                *z = gap.dot(&axes[k]);
+            }
+        }
+        // Rates: the turns first, ω = Σ n z', then the slides in the frame that carries them.
+        let mut rates = vec![T::ZERO; chain.len()];
+        match turns[..] {
+            [j] => rates[j] = turning.dot(&axes[j]),
+            [i, j] => {
+                let c = axes[i].dot(&axes[j]);
+                let [x, y] = [i, j].map(|k| turning.dot(&axes[k]));
+                let scale = T::ONE / (T::ONE - c * c);
+                (rates[i], rates[j]) = ((x - c * y) * scale, (y - c * x) * scale);
+            }
+            _ => {}
+        }
+        let mut spin = parent.omega;
+        for (k, part) in chain.iter().enumerate() {
+            if part.kind == Kind::Revolute {
+                spin += axes[k] * rates[k];
+            } else {
+                rates[k] = (gap_rate - cross(&spin, &gap)).dot(&axes[k]);
+            }
+            state.v[self.links[seat.first as usize + k].v as usize] = rates[k];
+        }
+    }
+
+    /// Writes the motions of the scene's bodies, one for each.
+    ///
+    /// Cost: two outward passes; no allocation.
+    ///
+    /// # Panics
+    /// If there are fewer places than bodies.
+    pub fn write_motions(
+        &self,
+        state: &TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+        motions: &mut [RigidMotion<T>],
+    ) {
+        let s = workspace.store();
+        self.evaluate(state.t, s.guides, s.courses);
+        kinematics(&self.links, (&state.z, &state.v, s.guides), s.placed);
+        s.a[0] = S::Motion::zero();
+        inverse::spread(&self.links, s.placed, &state.a, s.a);
+        for (to, &link) in motions.iter_mut().zip(&self.link_of_body) {
+            let link = link as usize;
+            let (p, a): (&Placed<T, S>, _) = (&s.placed[link], &s.a[link]);
+            *to = RigidMotion {
+                origin: self.origins[link],
+                position: S::point_into(&p.position) + lifted::<T, S>(&self.base),
+                rotation: S::rotation_into(&p.rotation),
+                omega: S::spin_into(&S::spin(&p.velocity)),
+                velocity: S::point_into(&S::point(&p.velocity)),
+                angular_acceleration: S::spin_into(&S::spin(a)),
+                acceleration: S::point_into(&S::point(a)),
+            };
+        }
+    }
+
+    /// Number of independent equations among those of the cut joints at a state: freedoms of the mechanism are
+    /// [`n_coordinates`](Self::n_coordinates) less this.
+    ///
+    /// # Errors
+    /// [`StepError`] if the accelerations cannot be evaluated there.
+    pub fn rank(
+        &self,
+        state: &TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+    ) -> Result<usize, StepError> {
+        let m = self.mechanism();
+        let options = Options { closure: Closure::Constraints, ..Options::default() };
+        let mut s = workspace.store();
+        s.z.copy_from_slice(&state.z);
+        s.v.copy_from_slice(&state.v);
+        self.evaluate(state.t, s.guides, s.courses);
+        accelerations(&m, &options, Level::Once, &mut s).map_err(|fault| failure(&m, fault))?;
+        let least = T::EPSILON.sqrt();
+        Ok(s.loops.pivots.iter().filter(|&&pivot| pivot > least).count())
+    }
+}
+
+/// A vector of space without what the plane does not have.
+fn lifted<T: Real, S: Space<T>>(x: &Vector<T, 3>) -> Vector<T, 3> {
+    S::point_into(&S::point_from(x))
+}
