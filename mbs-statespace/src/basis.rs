@@ -24,6 +24,7 @@ pub(crate) struct Basis<T> {
     local: Vec<T>,
     product: Vec<T>,
     columns: Vec<u32>,
+    sums: Vec<T>,
     /// C = M R at the middle of the step, a row for each unknown.
     chart: Vec<T>,
 }
@@ -39,6 +40,7 @@ impl<T: Real> Basis<T> {
             local: vec![T::ZERO; widest * f],
             product: vec![T::ZERO; widest * f],
             columns: Vec::with_capacity(f),
+            sums: vec![T::ZERO; f],
             chart: vec![T::ZERO; model.n_unknowns() * f],
         }
     }
@@ -78,11 +80,12 @@ impl<T: Real> Basis<T> {
         for e in 0..system.model.n_elements() {
             let Some((k, c)) = self.multiply_element(elimination, system, e) else { continue };
             for (i, &row) in self.columns.iter().enumerate() {
-                for (j, &column) in self.columns[..=i].iter().enumerate() {
-                    let mut sum = T::ZERO;
-                    for a in 0..k {
-                        sum += self.local[a * c + i] * self.product[a * c + j];
-                    }
+                let sums = &mut self.sums[..=i];
+                sums.fill(T::ZERO);
+                for a in 0..k {
+                    add_multiple(self.local[a * c + i], &self.product[a * c..], sums);
+                }
+                for (&column, &sum) in self.columns.iter().zip(sums.iter()) {
                     *h.at(row as usize, column as usize) += sum;
                 }
             }
@@ -148,11 +151,7 @@ impl<T: Real> Basis<T> {
         for (k, &u) in elimination.dependent().iter().enumerate() {
             let (c, r) = (&self.chart[u as usize * f..][..f], &self.rows[k * f..][..f]);
             for (row, &c) in g.values.chunks_exact_mut(f.max(1)).zip(c) {
-                if c != T::ZERO {
-                    for (g, &r) in row.iter_mut().zip(r) {
-                        *g += c * r;
-                    }
-                }
+                add_multiple(c, r, row);
             }
         }
     }
@@ -194,14 +193,19 @@ fn multiply<T: Real>(a: &[T], x: &[T], y: &mut [T], c: usize) {
         for i in j..k {
             let value = a[at];
             at += 1;
-            for s in 0..c {
-                y[i * c + s] += value * x[j * c + s];
-            }
+            add_multiple(value, &x[j * c..], &mut y[i * c..(i + 1) * c]);
             if i > j {
-                for s in 0..c {
-                    y[j * c + s] += value * x[i * c + s];
-                }
+                add_multiple(value, &x[i * c..], &mut y[j * c..(j + 1) * c]);
             }
+        }
+    }
+}
+
+/// y += s x, over the length of y.
+fn add_multiple<T: Real>(s: T, x: &[T], y: &mut [T]) {
+    if s != T::ZERO {
+        for (y, &x) in y.iter_mut().zip(x) {
+            *y += s * x;
         }
     }
 }

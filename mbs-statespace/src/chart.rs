@@ -11,22 +11,25 @@ use mbs_core::step::StepError;
 use mbs_core::{FactorError, Real};
 
 impl<T: Real> Workspace<T> {
-    /// The middle of the predicted motion.
-    pub(crate) fn to_middle<M: Model<T>>(&mut self, model: &M, dt: T, s: &State<T>) {
+    /// C = M R at the middle of the predicted motion, which is left in `dq`.
+    pub(crate) fn set_chart<M: Model<T>>(
+        &mut self,
+        model: &M,
+        dt: T,
+        s: &State<T>,
+    ) -> Result<(), StepError> {
         model.set_inputs(s.t + dt * T::HALF, &mut self.terms);
         for dq in &mut self.dq[..model.n_unknowns()] {
             *dq *= T::HALF;
         }
-    }
-
-    /// C = M R at the factored J.
-    pub(crate) fn set_chart<M: Model<T>>(&mut self, model: &M) {
+        self.move_to(model, s)?;
         self.basis.evaluate(&self.elimination);
         let tangent =
             Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty: &[], geometric: None };
         let load = Load { mass: None, multipliers: None, force: T::ZERO };
         let system = System { model, terms: &self.terms, tangent, load };
         self.basis.set_chart(&self.elimination, &system);
+        Ok(())
     }
 
     /// C^T of the predicted increment, velocity and acceleration.

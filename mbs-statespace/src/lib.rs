@@ -1,4 +1,4 @@
-//! placeholder
+#![doc = include_str!("../README.md")]
 #![no_std]
 
 extern crate alloc;
@@ -14,6 +14,6 @@ mod step;
 mod workspace;
 
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
-pub use options::{ChoiceOf, Coordinates, Options};
+pub use options::{Coordinates, Options, Rechoice};
 pub use step::step;
 pub use workspace::Workspace;

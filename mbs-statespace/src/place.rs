@@ -11,6 +11,7 @@
 
 use crate::options::{Coordinates, Options};
 use crate::workspace::Workspace;
+use core::cmp::Ordering;
 use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
@@ -105,7 +106,24 @@ impl<T: Real> Workspace<T> {
         Ok(())
     }
 
-    pub(crate) fn rank_lost(&self) -> StepError {
+    /// Chooses pivots for J as it was gathered last.
+    ///
+    /// # Errors
+    /// [`StepError::RankLost`] when the rank is not that of the start.
+    pub(crate) fn choose_columns(&mut self) -> Result<(), StepError> {
+        let choice = self.elimination.choose(&self.jacobian.values);
+        self.counts.choices += 1;
+        self.counts.factorizations += 1;
+        self.first_basis = T::ZERO;
+        let (row, pivot) = match choice.rank.cmp(&self.rank) {
+            Ordering::Less => choice.rest,
+            Ordering::Equal => return Ok(()),
+            Ordering::Greater => choice.last,
+        };
+        Err(StepError::RankLost { row, pivot: pivot.to_f64() })
+    }
+
+    fn rank_lost(&self) -> StepError {
         StepError::RankLost { row: self.pivots.row, pivot: self.pivots.smallest.to_f64() }
     }
 

@@ -12,7 +12,7 @@
 //! geometric stiffness, the curvature of the surface on which R lives, which makes Newton quadratic but for velocity terms;
 //! without it (an option) it is the printed one. f is evaluated as (M a - Q)_i + J_i^T lambda, the same without R.
 
-use crate::options::{ChoiceOf, Coordinates, Options};
+use crate::options::{Coordinates, Options, Rechoice};
 use crate::workspace::Workspace;
 use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
@@ -44,7 +44,7 @@ pub fn step<T: Real, M: Model<T>>(
 ) -> Result<StepReport<T>, StepError> {
     let rule = options.integrator.rule(dt);
     (w.counts.factorizations, w.counts.solves) = (0, 0);
-    let is_new = w.is_stale || options.choice == ChoiceOf::EveryStep;
+    let is_new = w.is_stale || options.rechoice == Rechoice::EveryStep;
     let mut outcome = attempt(model, (&rule, length), options, s, (w, is_new));
     if outcome.is_err() && !is_new {
         outcome = attempt(model, (&rule, length), options, s, (w, true));
@@ -84,27 +84,19 @@ fn attempt<T: Real, M: Model<T>>(
     (w, is_new): (&mut Workspace<T>, bool),
 ) -> Result<Done<T>, StepError> {
     let n = model.n_unknowns();
+    if is_new {
+        choose(model, s, w)?;
+    }
     predict(model, rule, s, w);
     if !norm_inf(&w.dq[..n]).is_finite() {
         return Err(StepError::NotFinite { unknown: largest_or_nan(&w.dq[..n]) });
     }
     if options.coordinates == Coordinates::Tangent {
-        w.to_middle(model, rule.dt, s);
-        if is_new {
-            choose(model, s, w)?;
-        } else {
-            w.move_to(model, s)?;
-        }
-        w.set_chart(model);
+        w.set_chart(model, rule.dt, s)?;
         predict(model, rule, s, w);
         w.predict_chart();
-        model.set_inputs(s.t + rule.dt, &mut w.terms);
-    } else {
-        model.set_inputs(s.t + rule.dt, &mut w.terms);
-        if is_new {
-            choose(model, s, w)?;
-        }
     }
+    model.set_inputs(s.t + rule.dt, &mut w.terms);
     w.place(model, (rule, length), options, s)?;
     let (iterations, correction, stop) = iterate(model, (rule, length), options, s, w)?;
     check_guides(model, &w.q, &w.terms)?;
@@ -119,25 +111,23 @@ fn predict<T: Real, M: Model<T>>(model: &M, rule: &Rule<T>, s: &State<T>, w: &mu
     }
 }
 
-/// Chooses independent coordinates at the predicted position. The rank found at the start must stand.
+/// Chooses independent coordinates at the start of the step. The rank found at the start of the motion must stand.
+///
+/// Rank is a matter of positions that fulfil the constraints: elsewhere rows that repeat each other need not.
 fn choose<T: Real, M: Model<T>>(
     model: &M,
     s: &State<T>,
     w: &mut Workspace<T>,
 ) -> Result<(), StepError> {
+    model.set_inputs(s.t, &mut w.terms);
+    w.dq.fill(T::ZERO);
     w.evaluate(model, s);
-    let choice = w.elimination.choose(&w.jacobian.values);
-    w.counts.choices += 1;
-    w.counts.factorizations += 1;
-    w.first_basis = T::ZERO;
-    w.is_stale = false;
-    let (row, pivot) = match choice.rank.cmp(&w.rank) {
-        core::cmp::Ordering::Less => choice.rest,
-        core::cmp::Ordering::Equal => return w.check_pivots(),
-        core::cmp::Ordering::Greater => choice.last,
-    };
     w.is_stale = true;
-    Err(StepError::RankLost { row, pivot: pivot.to_f64() })
+    w.choose_columns()?;
+    w.is_stale = false;
+    w.check_pivots()?;
+    w.usual = w.usual.max(w.pivots.smallest);
+    Ok(())
 }
 
 /// The Newton loop in the independent coordinates. Leaves q, v, a consistent and lambda in balance with them.
@@ -156,6 +146,7 @@ fn iterate<T: Real, M: Model<T>>(
         if w.d.is_empty() {
             break;
         }
+        check_finite(w)?;
         factor(model, rule, options, w)?;
 
         // R^T (M + ...) R d = -f/a'   [P1 (42)]
@@ -172,10 +163,7 @@ fn iterate<T: Real, M: Model<T>>(
             w.a[i] += rule.acceleration * w.change[i];
         }
         let correction = norm_inf(&w.d);
-        if !correction.is_finite() {
-            let i = largest_or_nan(&w.d) as usize;
-            return Err(StepError::NotFinite { unknown: w.elimination.independent()[i] });
-        }
+        check_finite(w)?;
         w.place(model, (rule, length), options, s)?;
         residual(model, s, w);
 
@@ -209,7 +197,16 @@ fn residual<T: Real, M: Model<T>>(model: &M, s: &State<T>, w: &mut Workspace<T>)
     }
 }
 
-/// R and R^T (M + (v'/a') C + (1/a') (K + K_geo(lambda))) R, factored; K_geo is left out where it makes it indefinite.
+/// Residual or correction in `d` must be finite.
+fn check_finite<T: Real>(w: &Workspace<T>) -> Result<(), StepError> {
+    if norm_inf(&w.d).is_finite() {
+        return Ok(());
+    }
+    let unknown = w.elimination.independent()[largest_or_nan(&w.d) as usize];
+    Err(StepError::NotFinite { unknown })
+}
+
+/// R^T (M + (v'/a') C + (1/a') (K + K_geo(lambda))) R, factored; K_geo is left out where it makes it indefinite.
 fn factor<T: Real, M: Model<T>>(
     model: &M,
     rule: &Rule<T>,
@@ -286,11 +283,12 @@ fn check_violation<T: Real, M: Model<T>>(
         }
         let row = largest(rows);
         let violation = violation[level].to_f64();
-        return Err(if w.elimination.dropped_rows().contains(&row) {
-            StepError::RankLost { row, pivot: violation }
-        } else {
-            StepError::Violated { level: level as u8, violation, row }
-        });
+        if w.elimination.dropped_rows().contains(&row) {
+            w.is_stale = true;
+            w.choose_columns()?;
+        }
+        let level = [0_u8, 1, 2][level];
+        return Err(StepError::Violated { level, violation, row });
     }
     Ok(violation)
 }
