@@ -1,4 +1,4 @@
-//! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates.
+//! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates, regenerate tables.
 
 mod check;
 mod documentation;
@@ -6,6 +6,7 @@ mod nostd;
 mod process;
 mod simulate;
 mod summary;
+mod tables;
 #[cfg(test)]
 mod tidy;
 
@@ -39,6 +40,12 @@ enum Job {
         #[arg(long)]
         quick: bool,
     },
+    /// Run the report's tables on accuracy anew, beside its numbers: text, CSV and HTML under target/tables
+    Tables {
+        /// Leave out runs of more than a million steps
+        #[arg(long)]
+        quick: bool,
+    },
     /// Cross-compile the no_std crates for a microcontroller, without and with alloc
     CheckNostd,
 }
@@ -47,6 +54,7 @@ fn main() -> ExitCode {
     match Cli::parse().job {
         Job::Simulate { args } => simulate::simulate(&args),
         Job::Test { quick } => check::test(quick),
+        Job::Tables { quick } => tables::tables(quick),
         Job::CheckNostd => nostd::check_nostd(),
     }
 }
