@@ -112,7 +112,8 @@ fn residual<T: Real, S: Space<T>>(
         for k in lap.first as usize..(lap.first + lap.n) as usize {
             let (first, second) = (s.gradient[k].dot(a), s.gradient[n + k].dot(b));
             let left = first + second + s.rows[k][2];
-            scale = scale.max(first.abs() + second.abs() + s.rows[k][2].abs());
+            let parts = s.gradient[k].parts(a) + s.gradient[n + k].parts(b);
+            scale = scale.max(parts + s.rows[k][2].abs());
             s.loops.l[k] = left;
             if !(left.abs() <= worst) {
                 (worst, row) = (left.abs(), index(k));

@@ -11,6 +11,7 @@ mod error;
 mod evaluate;
 #[cfg(feature = "alloc")]
 mod graph;
+pub mod explicit;
 pub mod inverse;
 pub mod joint;
 mod ledger;
@@ -41,7 +42,7 @@ pub use error::{LoopError, TreeError};
 pub use options::{Closure, Options};
 pub use space::{Planar, Spatial};
 #[cfg(feature = "alloc")]
-pub use run::step;
+pub use run::{rk4_step, rk54_step, step};
 #[cfg(feature = "alloc")]
 pub use start::StartError;
 #[cfg(feature = "alloc")]

@@ -17,6 +17,8 @@ pub struct Options<T> {
     pub max_sweeps: u32,
     /// How loops are closed.
     pub closure: Closure<T>,
+    /// Error of one step with error control, relative and absolute [-].
+    pub error: T,
     /// ε in Λ + ε, relative to the rows' own scale [-].
     pub regularisation: T,
 }
@@ -46,7 +48,7 @@ impl<T: Real> Closure<T> {
 }
 
 impl<T: Real> Default for Options<T> {
-    /// Trapezoidal rule; tolerance 1e-10 (64 roundings in single precision); 50 iterations, 30 sweeps; ε = √rounding / 256.
+    /// Trapezoidal rule; tolerance 1e-10 (64 roundings in single precision); 50 iterations, 30 sweeps; error 1e-8; ε of 256 roundings.
     fn default() -> Self {
         Self {
             integrator: Integrator::trapezoidal(),
@@ -54,7 +56,8 @@ impl<T: Real> Default for Options<T> {
             max_iterations: 50,
             max_sweeps: 30,
             closure: Closure::Constraints,
-            regularisation: T::EPSILON.sqrt() * T::from_f64(1.0 / 256.0),
+            error: T::from_f64(1e-8).max(T::EPSILON * T::from_f64(64.0)),
+            regularisation: T::EPSILON * T::from_f64(256.0),
         }
     }
 }
@@ -71,7 +74,7 @@ impl<T: Real> Options<T> {
                 [("alpha", alpha), ("omega", omega), ("mu", mu)]
             }
         };
-        for (name, value) in closure.into_iter().chain([("tolerance", self.tolerance)]) {
+        for (name, value) in closure.into_iter().chain([("tolerance", self.tolerance), ("error", self.error)]) {
             if !(value > T::ZERO && value.is_finite()) {
                 return Err(OptionError::NotPositive(name));
             }

@@ -102,8 +102,8 @@ fn violation<T: Real, S: Space<T>>(
         lap.evaluate(m.loops.rows, s.trial, |k, values| {
             let x = if level == 0 { values.value } else { values.rate };
             if level > 0 {
-                let [first, second] = [0, 1].map(|i| values.gradient[i].dot(speeds[i]).abs());
-                scale = scale.max(first + second);
+                let parts = [0, 1].map(|i| values.gradient[i].parts(speeds[i]));
+                scale = scale.max(parts[0] + parts[1]);
             }
             s.loops.l[k] = x;
             if !(x.abs() <= worst) {

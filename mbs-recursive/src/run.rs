@@ -2,9 +2,10 @@
 
 use crate::error::LoopError;
 use crate::evaluate::{Level, accelerations};
+use crate::explicit;
 use crate::inverse;
 use crate::ledger;
-use crate::mechanism::Inputs;
+use crate::mechanism::{Inputs, Store};
 use crate::options::Options;
 use crate::passes::kinematics;
 use crate::space::{Numbers, Space};
@@ -15,6 +16,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross};
+use mbs_core::ode::{Adaptive, Tableau};
 use mbs_core::step::{StepError, StepReport};
 
 /// Advances `state` by one step of length `dt` [s] of the trapezoidal rule or another of the Newmark family.
@@ -34,16 +36,80 @@ pub fn step<T: Real, S: Space<T>>(
     let mut s = workspace.store();
     let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
     let report = trapezoidal::step(&m, model, (dt, options), start, &mut s)?;
+    // Work by the trapezoidal rule in time.
+    let power = ledger::power(&m, &mut s);
+    state.work += (state.power + power) * dt * T::HALF;
+    take(dt, power, &s, state);
+    Ok(report)
+}
+
+/// Advances `state` by one step of length `dt` [s] of the Runge-Kutta method of order 4.
+///
+/// Cost: see [`explicit::rk4`]; no allocation.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn rk4_step<T: Real, S: Space<T>>(
+    model: &TreeModel<T, S>,
+    dt: T,
+    options: &Options<T>,
+    state: &mut TreeState<T>,
+    workspace: &mut Workspace<T, S>,
+) -> Result<StepReport<T>, StepError> {
+    let m = model.mechanism();
+    let (mut s, scratch) = workspace.parts();
+    let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
+    let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
+    let report = explicit::rk4(&m, model, (dt, options), memory, &mut s)?;
+    state.work += work(scratch);
+    let power = ledger::power(&m, &mut s);
+    take(dt, power, &s, state);
+    Ok(report)
+}
+
+/// Advances `state` by exactly `dt` [s] with the pair 5(4) of Dormand and Prince, in as many steps as `options.error` asks for;
+/// the workspace remembers the last good one.
+///
+/// Cost: see [`explicit::rk54`]; no allocation.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+///
+/// # Panics
+/// If `dt` is not positive and finite.
+pub fn rk54_step<T: Real, S: Space<T>>(
+    model: &TreeModel<T, S>,
+    dt: T,
+    options: &Options<T>,
+    state: &mut TreeState<T>,
+    workspace: &mut Workspace<T, S>,
+) -> Result<StepReport<T>, StepError> {
+    let m = model.mechanism();
+    let (mut s, scratch) = workspace.parts();
+    let driver =
+        scratch.driver.get_or_insert_with(|| Adaptive::new(Tableau::dormand_prince(), dt));
+    let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
+    let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
+    let report = explicit::rk54(&m, model, (dt, options, driver), memory, &mut s)?;
+    state.work += work(scratch);
+    let power = ledger::power(&m, &mut s);
+    take(dt, power, &s, state);
+    Ok(report)
+}
+
+/// The work of an explicit step.
+fn work<T: Real>(scratch: &crate::state::Explicit<T>) -> T {
+    scratch.y.last().copied().unwrap_or(T::ZERO)
+}
+
+/// The end of a step enters the state.
+fn take<T: Real, S: Space<T>>(dt: T, power: T, s: &Store<'_, T, S>, state: &mut TreeState<T>) {
     state.t += dt;
+    state.power = power;
     state.z.copy_from_slice(s.z);
     state.v.copy_from_slice(s.v);
     state.a.copy_from_slice(s.zdd);
     state.lambda.copy_from_slice(s.lambda);
-    // Work by the trapezoidal rule in time.
-    let power = ledger::power(&m, &mut s);
-    state.work += (state.power + power) * dt * T::HALF;
-    state.power = power;
-    Ok(report)
 }
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
@@ -81,7 +147,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 
     /// Puts a state into the scratch.
-    fn place(&self, state: &TreeState<T>, s: &mut crate::mechanism::Store<'_, T, S>) {
+    fn place(&self, state: &TreeState<T>, s: &mut Store<'_, T, S>) {
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
         s.lambda.copy_from_slice(&state.lambda);
@@ -90,7 +156,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 
     /// Puts a state with its accelerations into the scratch and finds the forces through all joints.
-    fn balance(&self, state: &TreeState<T>, s: &mut crate::mechanism::Store<'_, T, S>) {
+    fn balance(&self, state: &TreeState<T>, s: &mut Store<'_, T, S>) {
         let m = self.mechanism();
         self.place(state, s);
         s.a[0] = S::motion(S::Spin::zero(), -m.gravity);
@@ -217,7 +283,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     fn parent_place(
         &self,
         seat: &crate::tree::Seat,
-        s: &crate::mechanism::Store<'_, T, S>,
+        s: &Store<'_, T, S>,
     ) -> S::Point {
         let first = &self.links[seat.first as usize];
         let parent = &s.placed[first.parent as usize];

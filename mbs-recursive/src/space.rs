@@ -43,6 +43,8 @@ pub trait Numbers<T>:
     fn zero() -> Self;
     /// Inner product.
     fn dot(&self, other: &Self) -> T;
+    /// The inner product of absolute values: what rounding of the inner product is small against.
+    fn parts(&self, other: &Self) -> T;
 }
 
 impl<T: Real, const N: usize> Numbers<T> for Vector<T, N> {
@@ -56,6 +58,13 @@ impl<T: Real, const N: usize> Numbers<T> for Vector<T, N> {
         let mut sum = self[0] * other[0];
         for i in 1..N {
             sum += self[i] * other[i];
+        }
+        sum
+    }
+    fn parts(&self, other: &Self) -> T {
+        let mut sum = T::ZERO;
+        for i in 0..N {
+            sum += (self[i] * other[i]).abs();
         }
         sum
     }

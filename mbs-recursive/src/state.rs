@@ -1,5 +1,6 @@
 //! The state of a mechanism in relative coordinates, and the scratch of a step.
 
+use crate::explicit::n_components;
 use crate::link::{Condensed, Placed};
 use crate::loops::LoopStore;
 use crate::mechanism::{Counts, Store};
@@ -8,6 +9,7 @@ use crate::tree::TreeModel;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
+use mbs_core::ode::{Adaptive, Tableau, rk4_scratch};
 
 /// Position, velocity and acceleration of a tree at a time.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,6 +78,18 @@ pub struct Workspace<T: Real, S: Space<T>> {
     /// v, z̈, response, scratch.
     freedoms: Vec<T>,
     n_guides: usize,
+    explicit: Explicit<T>,
+}
+
+/// Scratch of explicit steps.
+#[derive(Debug, Clone)]
+pub(crate) struct Explicit<T> {
+    /// (z, v, work).
+    pub(crate) y: Vec<T>,
+    /// Stages.
+    pub(crate) scratch: Vec<T>,
+    /// Error control, from the first step that asks for it.
+    pub(crate) driver: Option<Adaptive<T, 7>>,
 }
 
 impl<T: Real, S: Space<T>> Workspace<T, S> {
@@ -84,6 +98,8 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
     pub fn new(model: &TreeModel<T, S>) -> Self {
         let (links, rows) = (model.links.len(), model.rows.len());
         let n_guides = model.guides.len();
+        let n = n_components(&model.mechanism());
+        let n_scratch = rk4_scratch(n).max(Tableau::<T, 7>::scratch(n));
         Self {
             placed: vec![Placed::ground(); links],
             trial: vec![Placed::ground(); links],
@@ -98,11 +114,21 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             z: vec![T::ZERO; model.n_coordinates],
             freedoms: vec![T::ZERO; 4 * model.n_freedoms],
             n_guides,
+            explicit: Explicit {
+                y: vec![T::ZERO; n],
+                scratch: vec![T::ZERO; n_scratch],
+                driver: None,
+            },
         }
     }
 
     /// The scratch as slices.
     pub fn store(&mut self) -> Store<'_, T, S> {
+        self.parts().0
+    }
+
+    /// The scratch as slices, and that of explicit steps.
+    pub(crate) fn parts(&mut self) -> (Store<'_, T, S>, &mut Explicit<T>) {
         let (links, rows) = (self.placed.len(), self.rows.len());
         let (a, a_response) = self.motions.split_at_mut(links);
         let (k, gradient) = self.gradients.split_at_mut(2 * rows);
@@ -116,7 +142,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         let (v, rest) = self.freedoms.split_at_mut(n);
         let (zdd, rest) = rest.split_at_mut(n);
         let (v_response, scratch) = rest.split_at_mut(n);
-        Store {
+        let store = Store {
             placed: &mut self.placed,
             trial: &mut self.trial,
             condensed: &mut self.condensed,
@@ -142,6 +168,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             zdd,
             scratch,
             counts: Counts::default(),
-        }
+        };
+        (store, &mut self.explicit)
     }
 }

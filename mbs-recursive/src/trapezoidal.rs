@@ -78,7 +78,8 @@ fn iterate<T: Real, S: Space<T>>(
     let (beta, gamma) = (options.integrator.beta, options.integrator.gamma);
     let share = dt * dt * beta;
     let rounding = T::EPSILON * T::from_f64(64.0);
-    let mut last = T::ZERO;
+    let passage = T::from_f64(1e-2);
+    let (mut last, mut is_slow) = (T::ZERO, false);
     for iterations in 1..=options.max_iterations {
         // zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁   [P3 (43)-(44)]
         for i in 0..start.v.len() {
@@ -89,6 +90,9 @@ fn iterate<T: Real, S: Space<T>>(
         s.z.copy_from_slice(start.z);
         advance(m.links, s.scratch, s.z);
         s.scratch.copy_from_slice(s.zdd);
+        if is_slow {
+            project(m, options, s).map_err(|f| failure(m, f))?;
+        }
 
         // z̈ₙ₊₁ by the three passes
         accelerations(m, options, Level::Coarse, s).map_err(|f| failure(m, f))?;
@@ -106,9 +110,17 @@ fn iterate<T: Real, S: Space<T>>(
         if correction <= goal || (iterations > 2 && rate < T::HALF && correction * rate <= goal) {
             return Ok((iterations, correction, Stop::Converged));
         }
-        if iterations > 2 && rate >= T::HALF && correction <= scale * rounding {
-            return Ok((iterations, correction, Stop::Rounding));
+        if iterations > 2 && rate >= T::HALF {
+            if correction <= scale * rounding {
+                return Ok((iterations, correction, Stop::Rounding));
+            }
+            // Near a singular position rounding is amplified: what is left is small against scene and step.
+            if correction <= m.length * options.tolerance && correction <= scale * passage {
+                return Ok((iterations, correction, Stop::Tolerance));
+            }
         }
+        // Near a singular position accelerations feel what z and v violate: then each iteration projects them.
+        is_slow |= iterations > 2 && rate >= T::HALF && options.closure == Closure::Constraints;
         last = correction;
     }
     Err(StepError::NotConverged {
@@ -119,7 +131,7 @@ fn iterate<T: Real, S: Space<T>>(
 }
 
 /// |Φ|, |Φ̇| and |Φ̈| as last evaluated.
-fn violations<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, s: &Store<'_, T, S>) -> [T; 3] {
+pub(crate) fn violations<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, s: &Store<'_, T, S>) -> [T; 3] {
     let n = m.loops.rows.len();
     let mut largest = [T::ZERO; 3];
     for lap in m.loops.loops {

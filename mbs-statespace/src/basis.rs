@@ -2,10 +2,11 @@
 //!
 //! ```text
 //! R = [R_d; 1],   R_d = -J_d^-1 J_i                            [P1 (21)]
-//! R^T T R = sum_e (P_e R)^T T_e (P_e R)                         P_e picks the unknowns of element e
+//! R^T T R = sum_e (P_e R)^T T_e (P_e R)                        P_e picks the unknowns of element e
+//! C = M R = sum_e P_e^T M_e (P_e R)
 //! ```
 
-use crate::dense::Symmetric;
+use crate::dense::{General, Symmetric};
 use crate::elimination::Elimination;
 use crate::jacobian::largest_block;
 use alloc::vec;
@@ -23,6 +24,8 @@ pub(crate) struct Basis<T> {
     local: Vec<T>,
     product: Vec<T>,
     columns: Vec<u32>,
+    /// C = M R at the middle of the step, a row for each unknown.
+    chart: Vec<T>,
 }
 
 impl<T: Real> Basis<T> {
@@ -36,6 +39,7 @@ impl<T: Real> Basis<T> {
             local: vec![T::ZERO; widest * f],
             product: vec![T::ZERO; widest * f],
             columns: Vec::with_capacity(f),
+            chart: vec![T::ZERO; model.n_unknowns() * f],
         }
     }
 
@@ -72,16 +76,7 @@ impl<T: Real> Basis<T> {
     ) {
         h.clear();
         for e in 0..system.model.n_elements() {
-            let clique = system.model.clique(e);
-            let k = clique.len();
-            let block = &mut self.block[..k * (k + 1) / 2];
-            system.write_block(e, block);
-            if block.iter().all(|&x| x == T::ZERO) {
-                continue;
-            }
-            self.pick(elimination, clique);
-            let c = self.columns.len();
-            multiply(&self.block, &self.local[..k * c], &mut self.product[..k * c], c);
+            let Some((k, c)) = self.multiply_element(elimination, system, e) else { continue };
             for (i, &row) in self.columns.iter().enumerate() {
                 for (j, &column) in self.columns[..=i].iter().enumerate() {
                     let mut sum = T::ZERO;
@@ -89,6 +84,74 @@ impl<T: Real> Basis<T> {
                         sum += self.local[a * c + i] * self.product[a * c + j];
                     }
                     *h.at(row as usize, column as usize) += sum;
+                }
+            }
+        }
+    }
+
+    /// P_e R and T_e P_e R over the columns that are not zero; their numbers of rows and columns. `None`: T_e is zero.
+    fn multiply_element<M: Model<T>>(
+        &mut self,
+        elimination: &Elimination<T>,
+        system: &System<'_, T, M>,
+        e: usize,
+    ) -> Option<(usize, usize)> {
+        let clique = system.model.clique(e);
+        let k = clique.len();
+        let block = &mut self.block[..k * (k + 1) / 2];
+        system.write_block(e, block);
+        if block.iter().all(|&x| x == T::ZERO) {
+            return None;
+        }
+        self.pick(elimination, clique);
+        let c = self.columns.len();
+        multiply(&self.block, &self.local[..k * c], &mut self.product[..k * c], c);
+        Some((k, c))
+    }
+
+    /// C = M R with the mass blocks of `system`.
+    pub(crate) fn set_chart<M: Model<T>>(
+        &mut self,
+        elimination: &Elimination<T>,
+        system: &System<'_, T, M>,
+    ) {
+        self.chart.fill(T::ZERO);
+        for e in 0..system.model.n_elements() {
+            let Some((_, c)) = self.multiply_element(elimination, system, e) else { continue };
+            for (a, &unknown) in system.model.clique(e).iter().enumerate() {
+                let row = &mut self.chart[unknown as usize * self.f..];
+                for (&column, &x) in self.columns.iter().zip(&self.product[a * c..]) {
+                    row[column as usize] += x;
+                }
+            }
+        }
+    }
+
+    /// y = C^T x.
+    pub(crate) fn chart(&self, x: &[T], y: &mut [T]) {
+        y.fill(T::ZERO);
+        for (row, &x) in self.chart.chunks_exact(self.f.max(1)).zip(x) {
+            for (y, &c) in y.iter_mut().zip(row) {
+                *y += c * x;
+            }
+        }
+    }
+
+    /// g = C^T R.
+    pub(crate) fn chart_basis(&self, elimination: &Elimination<T>, g: &mut General<T>) {
+        let f = self.f;
+        for (i, &u) in elimination.independent().iter().enumerate() {
+            for j in 0..f {
+                g.values[j * f + i] = self.chart[u as usize * f + j];
+            }
+        }
+        for (k, &u) in elimination.dependent().iter().enumerate() {
+            let (c, r) = (&self.chart[u as usize * f..][..f], &self.rows[k * f..][..f]);
+            for (row, &c) in g.values.chunks_exact_mut(f.max(1)).zip(c) {
+                if c != T::ZERO {
+                    for (g, &r) in row.iter_mut().zip(r) {
+                        *g += c * r;
+                    }
                 }
             }
         }

@@ -1,4 +1,4 @@
-//! Cholesky's elimination of a small dense symmetric matrix, A = L D L^T, without pivoting.
+//! Small dense matrices: A = L D L^T without pivoting for symmetric ones, L U with row pivoting for others.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -75,9 +75,87 @@ impl<T: Real> Symmetric<T> {
     }
 }
 
+/// A matrix of size f, then its factors, row by row.
+#[derive(Debug, Clone)]
+pub(crate) struct General<T> {
+    size: usize,
+    pub(crate) values: Vec<T>,
+    /// The row that was swapped with each row.
+    swaps: Vec<usize>,
+}
+
+impl<T: Real> General<T> {
+    pub(crate) fn new(size: usize) -> Self {
+        Self { size, values: vec![T::ZERO; size * size], swaps: vec![0; size] }
+    }
+
+    /// P A = L U in place. Cost: f^3 / 3 products.
+    ///
+    /// # Errors
+    /// The first column without a pivot.
+    pub(crate) fn factor(&mut self) -> Result<(), usize> {
+        let n = self.size;
+        for k in 0..n {
+            let mut best = k;
+            for i in k + 1..n {
+                if self.values[i * n + k].abs() > self.values[best * n + k].abs() {
+                    best = i;
+                }
+            }
+            self.swaps[k] = best;
+            if best != k {
+                let (above, below) = self.values.split_at_mut(best * n);
+                above[k * n..(k + 1) * n].swap_with_slice(&mut below[..n]);
+            }
+            let pivot = self.values[k * n + k];
+            if !(pivot.abs() > T::ZERO && pivot.is_finite()) {
+                return Err(k);
+            }
+            let (above, below) = self.values.split_at_mut((k + 1) * n);
+            let pivot_row = &above[k * n..];
+            for row in below.chunks_exact_mut(n) {
+                let l = row[k] / pivot;
+                row[k] = l;
+                for j in k + 1..n {
+                    row[j] -= l * pivot_row[j];
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// x = A^-1 x.
+    pub(crate) fn solve(&self, x: &mut [T]) {
+        let n = self.size;
+        for (k, &swap) in self.swaps.iter().enumerate() {
+            x.swap(k, swap);
+        }
+        for i in 0..n {
+            let row = &self.values[i * n..i * n + i];
+            x[i] = row.iter().zip(&x[..i]).fold(x[i], |s, (&l, &x)| s - l * x);
+        }
+        for i in (0..n).rev() {
+            let row = &self.values[i * n..(i + 1) * n];
+            let sum = row[i + 1..].iter().zip(&x[i + 1..]).fold(x[i], |s, (&u, &x)| s - u * x);
+            x[i] = sum / row[i];
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::Symmetric;
+    use super::{General, Symmetric};
+
+    #[test]
+    fn a_matrix_that_needs_swaps_is_solved() {
+        // [0 2 1; 1 1 0; 3 0 1] x = [7; 3; 6]: x = [1; 2; 3]
+        let mut a = General::<f64>::new(3);
+        a.values.copy_from_slice(&[0.0, 2.0, 1.0, 1.0, 1.0, 0.0, 3.0, 0.0, 1.0]);
+        a.factor().unwrap();
+        let mut x = [7.0, 3.0, 6.0];
+        a.solve(&mut x);
+        assert!(x.iter().zip([1.0, 2.0, 3.0]).all(|(x, y)| (x - y).abs() < 1e-14));
+    }
 
     #[test]
     fn a_matrix_done_by_hand_is_solved() {

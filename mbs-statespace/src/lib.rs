@@ -4,6 +4,7 @@
 extern crate alloc;
 
 mod basis;
+mod chart;
 mod dense;
 pub mod elimination;
 mod jacobian;
@@ -13,6 +14,6 @@ mod step;
 mod workspace;
 
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
-pub use options::{ChoiceOf, Options};
+pub use options::{ChoiceOf, Coordinates, Options};
 pub use step::step;
 pub use workspace::Workspace;

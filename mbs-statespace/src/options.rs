@@ -7,8 +7,10 @@ use mbs_core::step::OptionError;
 /// Choices for a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<T> {
-    /// Time integrator, applied to the independent coordinates.
+    /// Time integrator, applied to z.
     pub integrator: Integrator<T>,
+    /// What z is.
+    pub coordinates: Coordinates,
     /// A correction below this times the displacement that accelerations cause in the step is small [-].
     pub tolerance: T,
     /// Newton iterations allowed in one step.
@@ -17,6 +19,16 @@ pub struct Options<T> {
     pub choice: ChoiceOf,
     /// Put the geometric stiffness of the constraints, the curvature of their surface, into the tangent; P1 (44) has none.
     pub geometric_stiffness: bool,
+}
+
+/// The independent coordinates z that the integrator advances.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Coordinates {
+    /// Coordinates in the tangent plane of the constraints at the middle of the step, orthogonal in the metric of the mass:
+    /// z = C^T q, C = M R there. The motion does not depend on which columns are independent.
+    Tangent,
+    /// The independent columns themselves [P1 (40)]. The motion depends on them within the error of the integrator.
+    Chosen,
 }
 
 /// When independent coordinates are chosen anew, always between steps.
@@ -33,6 +45,7 @@ impl<T: Real> Default for Options<T> {
     fn default() -> Self {
         Self {
             integrator: Integrator::trapezoidal(),
+            coordinates: Coordinates::Tangent,
             tolerance: T::from_f64(1e-10).max(T::EPSILON * T::from_f64(64.0)),
             max_iterations: 20,
             choice: ChoiceOf::Need,

@@ -9,9 +9,11 @@
 //! The last is a = R z'' + R' z' [P1 (22)] without R': one back-substitution. All are in correction form, with phi by increments, so
 //! that all three levels hold to rounding.
 
+use crate::options::{Coordinates, Options};
 use crate::workspace::Workspace;
 use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
+use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{StepError, largest, largest_or_nan};
 
@@ -24,29 +26,57 @@ const MANY_POSITIONS: u32 = 4;
 const CONTRACTION: f64 = 0.25;
 /// Pivots below a hundredth of themselves ask for other independent coordinates.
 const DECAY: f64 = 1e-2;
+/// R above this, and above twice what it was at the choice, asks for other independent coordinates.
+const LARGE_BASIS: f64 = 10.0;
 
 impl<T: Real> Workspace<T> {
-    /// Dependent positions, velocities and accelerations from the independent ones; J is left factored at the position.
+    /// Positions, velocities and accelerations on their constraints that have the wanted z, z', z''; J is left factored and
+    /// R evaluated at the position.
     pub(crate) fn place<M: Model<T>>(
         &mut self,
         model: &M,
-        length: T,
+        (rule, length): (&Rule<T>, T),
+        options: &Options<T>,
         s: &State<T>,
     ) -> Result<(), StepError> {
         self.positions(model, length, s)?;
+        self.evaluate_basis();
+        let is_tangent = options.coordinates == Coordinates::Tangent;
+        if is_tangent {
+            self.turn_to_chart()?;
+        }
         model.evaluate_phi_t(&self.q, &mut self.terms);
         self.velocity_rates(model);
         self.solve();
         add_dependent(self.elimination.dependent(), &self.change, &mut self.v);
+        if is_tangent {
+            self.meet(1, rule.velocity);
+        }
         model.evaluate_bias(&self.q, &self.v, &mut self.terms);
         self.acceleration_rates(model);
         self.solve();
         add_dependent(self.elimination.dependent(), &self.change, &mut self.a);
+        if is_tangent {
+            self.meet(2, rule.acceleration);
+        }
         Ok(())
     }
 
+    /// R, and whether it has grown.
+    fn evaluate_basis(&mut self) {
+        let largest = self.basis.evaluate(&self.elimination);
+        if self.first_basis == T::ZERO {
+            self.first_basis = largest;
+        }
+        self.is_stale |= largest > T::from_f64(LARGE_BASIS).max(T::TWO * self.first_basis);
+    }
+
     /// phi, J and its factors at q_n + dq.
-    fn move_to<M: Model<T>>(&mut self, model: &M, s: &State<T>) -> Result<(), StepError> {
+    pub(crate) fn move_to<M: Model<T>>(
+        &mut self,
+        model: &M,
+        s: &State<T>,
+    ) -> Result<(), StepError> {
         self.evaluate(model, s);
         self.elimination.refactor(&self.jacobian.values);
         self.counts.factorizations += 1;

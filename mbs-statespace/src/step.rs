@@ -12,7 +12,7 @@
 //! geometric stiffness, the curvature of the surface on which R lives, which makes Newton quadratic but for velocity terms;
 //! without it (an option) it is the printed one. f is evaluated as (M a - Q)_i + J_i^T lambda, the same without R.
 
-use crate::options::{ChoiceOf, Options};
+use crate::options::{ChoiceOf, Coordinates, Options};
 use crate::workspace::Workspace;
 use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
@@ -23,8 +23,6 @@ use mbs_core::step::{
 };
 use mbs_core::{FactorError, Real};
 
-/// R above this, and above twice what it was at the choice, asks for other independent coordinates.
-const LARGE_BASIS: f64 = 10.0;
 /// Velocities and accelerations off their constraints by more than this, relative to their size, are violations.
 const VIOLATION: f64 = 5e-10;
 
@@ -86,21 +84,39 @@ fn attempt<T: Real, M: Model<T>>(
     (w, is_new): (&mut Workspace<T>, bool),
 ) -> Result<Done<T>, StepError> {
     let n = model.n_unknowns();
-    for i in 0..n {
-        (w.dq[i], w.v[i], w.a[i]) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
-    }
+    predict(model, rule, s, w);
     if !norm_inf(&w.dq[..n]).is_finite() {
         return Err(StepError::NotFinite { unknown: largest_or_nan(&w.dq[..n]) });
     }
-    model.set_inputs(s.t + rule.dt, &mut w.terms);
-    if is_new {
-        choose(model, s, w)?;
+    if options.coordinates == Coordinates::Tangent {
+        w.to_middle(model, rule.dt, s);
+        if is_new {
+            choose(model, s, w)?;
+        } else {
+            w.move_to(model, s)?;
+        }
+        w.set_chart(model);
+        predict(model, rule, s, w);
+        w.predict_chart();
+        model.set_inputs(s.t + rule.dt, &mut w.terms);
+    } else {
+        model.set_inputs(s.t + rule.dt, &mut w.terms);
+        if is_new {
+            choose(model, s, w)?;
+        }
     }
-    w.place(model, length, s)?;
+    w.place(model, (rule, length), options, s)?;
     let (iterations, correction, stop) = iterate(model, (rule, length), options, s, w)?;
     check_guides(model, &w.q, &w.terms)?;
     let violation = check_violation(model, length, w)?;
     Ok((iterations, correction, stop, violation))
+}
+
+/// The predicted increment, velocity and acceleration of all unknowns.
+fn predict<T: Real, M: Model<T>>(model: &M, rule: &Rule<T>, s: &State<T>, w: &mut Workspace<T>) {
+    for i in 0..model.n_unknowns() {
+        (w.dq[i], w.v[i], w.a[i]) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
+    }
 }
 
 /// Chooses independent coordinates at the predicted position. The rank found at the start must stand.
@@ -160,7 +176,7 @@ fn iterate<T: Real, M: Model<T>>(
             let i = largest_or_nan(&w.d) as usize;
             return Err(StepError::NotFinite { unknown: w.elimination.independent()[i] });
         }
-        w.place(model, length, s)?;
+        w.place(model, (rule, length), options, s)?;
         residual(model, s, w);
 
         let digits = T::from_f64(64.0) * norm_inf(&w.dq[..n]) + T::from_f64(4.0) * length;
@@ -200,11 +216,6 @@ fn factor<T: Real, M: Model<T>>(
     options: &Options<T>,
     w: &mut Workspace<T>,
 ) -> Result<(), StepError> {
-    let largest = w.basis.evaluate(&w.elimination);
-    if w.first_basis == T::ZERO {
-        w.first_basis = largest;
-    }
-    w.is_stale |= largest > T::from_f64(LARGE_BASIS).max(T::TWO * w.first_basis);
     for (mu, &lambda) in w.mu.iter_mut().zip(&w.lambda) {
         *mu = lambda / rule.acceleration;
     }

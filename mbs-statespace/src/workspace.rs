@@ -1,7 +1,7 @@
 //! Scratch of a step, made once at a start state, which also fixes the rank.
 
 use crate::basis::Basis;
-use crate::dense::Symmetric;
+use crate::dense::{General, Symmetric};
 use crate::elimination::{Elimination, Pivots};
 use crate::jacobian::{Jacobian, column_scales};
 use alloc::vec;
@@ -20,6 +20,12 @@ pub struct Workspace<T> {
     pub(crate) elimination: Elimination<T>,
     pub(crate) basis: Basis<T>,
     pub(crate) tangent: Symmetric<T>,
+    /// C^T R, factored.
+    pub(crate) turn: General<T>,
+    /// C^T x of the predicted dq, v, a, and what is wanted of x now, f each.
+    pub(crate) predicted: [Vec<T>; 3],
+    pub(crate) wanted: Vec<T>,
+    pub(crate) measured: Vec<T>,
     /// q_(n+1) - q_n and q_(n+1), v, a, extended.
     pub(crate) dq: Vec<T>,
     pub(crate) q: Vec<T>,
@@ -74,6 +80,10 @@ impl<T: Real> Workspace<T> {
         Self {
             basis: Basis::new(model, rank),
             tangent: Symmetric::new(n - rank),
+            turn: General::new(n - rank),
+            predicted: [zeros(n - rank), zeros(n - rank), zeros(n - rank)],
+            wanted: zeros(n - rank),
+            measured: zeros(n - rank),
             terms,
             jacobian,
             elimination,

@@ -3,11 +3,13 @@
 #[cfg(feature = "alloc")]
 mod commit;
 mod error;
+mod newton;
 mod report;
 mod scan;
 
 #[cfg(feature = "alloc")]
 pub use commit::{add_work, check_guides, take_coordinates};
 pub use error::{OptionError, StepError};
+pub use newton::{Yardstick, stopping};
 pub use report::{StepReport, Stop};
 pub use scan::{largest, largest_or_nan, step_scale};

@@ -1,0 +1,218 @@
+//! Index-1 classical Lagrangian [P1 (4)] with the trapezoidal rule: plain, with Baumgarte's stabilisation, or projected.
+//!
+//! ```text
+//! [ M  J^T ] ( q''    )   ( Q                                   )
+//! [ J   0  ] ( lambda ) = ( -bias - 2 alpha phi' - beta^2 phi   )          [P1 (4)]; alpha = beta = 0 unless stabilised
+//! ```
+//!
+//! solved together with the integrator by corrections with W = M + (v'/a') C + (1/a') K in place of M:
+//!
+//! ```text
+//! [ W  J^T    ] ( d        )     ( M a + J^T lambda - Q               )
+//! [ J  -delta ] ( d_lambda ) = - ( J a + bias + 2 alpha phi' + beta^2 phi ),    a += d,  q += d/a',  v += v' d/a'
+//! ```
+//!
+//! Differs from the source: the printed system is solved once per evaluation, here the corrections of an implicit rule. The
+//! position projection is mass-orthogonal in correction form, as those of velocities and accelerations.
+
+use crate::options::{Options, Stabilisation};
+use crate::projection::Level;
+use crate::workspace::{Mass, Workspace};
+use mbs_core::algebra::norm_inf;
+use mbs_core::integrator::Rule;
+use mbs_core::model::{Model, State};
+use mbs_core::step::{
+    StepError, StepReport, Stop, Yardstick, check_guides, largest, largest_or_nan, step_scale,
+    stopping,
+};
+use mbs_core::{Real, SymmetricSolver};
+
+/// Position violation that is accepted when no sweep lowers it further, relative to the scene's length.
+const LIMIT: f64 = 1e-11;
+
+/// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
+///
+/// Cost: an evaluation, a factorisation and a solution for each iteration, three to five are usual; with projection one or two
+/// factorisations and about six solutions more. No allocation.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged. [`StepError::RankLost`] names a row that depends on others: redundant joints,
+/// or a singular position.
+pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    (dt, length): (T, T),
+    options: &Options<T>,
+    s: &mut State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<StepReport<T>, StepError> {
+    let rule = options.integrator.rule(dt);
+    w.begin(options.regularisation);
+    predict(model, &rule, options, s, w);
+    let (iterations, correction, stop) = iterate(model, &rule, length, options, s, w)?;
+    let violation = if options.stabilisation == Stabilisation::Projection {
+        positions(model, &rule, length, options, s, w)?;
+        w.evaluate_forces(model, s);
+        w.clean(model, (length, T::ONE), options.max_sweeps, s)?
+    } else {
+        check_guides(model, &w.q, &w.terms)?;
+        w.mu.copy_from_slice(&w.lambda);
+        let velocity = w.violation(model, Level::Velocity);
+        model.evaluate_bias(&w.q, &w.v, &mut w.terms);
+        let acceleration = w.violation(model, Level::Acceleration);
+        [norm_inf(&w.terms.phi), velocity, acceleration]
+    };
+    w.commit(model, &rule, options.compensated, T::ONE, s);
+    Ok(StepReport {
+        iterations,
+        factorizations: w.counts.factorizations,
+        solves: w.counts.solves,
+        correction,
+        stop,
+        violation,
+        ..StepReport::default()
+    })
+}
+
+/// q, v, a at the end of the step by extrapolation, lambda of the last step, and everything evaluated there.
+fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    rule: &Rule<T>,
+    options: &Options<T>,
+    s: &State<T>,
+    w: &mut Workspace<T, S>,
+) {
+    for i in 0..w.n {
+        (w.dq[i], w.v[i], w.a[i]) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
+    }
+    w.lambda.copy_from_slice(&s.lambda);
+    model.set_inputs(s.t + rule.dt, &mut w.terms);
+    evaluate(model, options, s, w);
+}
+
+/// phi, J, phi_t, bias and forces at the current q, v.
+fn evaluate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    options: &Options<T>,
+    s: &State<T>,
+    w: &mut Workspace<T, S>,
+) {
+    w.evaluate(model, options.compensated, s);
+    model.evaluate_phi_t(&w.q, &mut w.terms);
+    model.evaluate_bias(&w.q, &w.v, &mut w.terms);
+}
+
+/// rates = J a + bias + 2 alpha (J v + phi_t) + beta^2 phi
+fn demand<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    stabilisation: Stabilisation<T>,
+    w: &mut Workspace<T, S>,
+) {
+    let Stabilisation::Baumgarte { alpha, beta } = stabilisation else {
+        w.violation(model, Level::Acceleration);
+        return;
+    };
+    w.violation(model, Level::Velocity);
+    for k in 0..w.mu.len() {
+        w.mu[k] = T::TWO * alpha * w.rates[k] + beta * beta * w.terms.phi[k];
+    }
+    w.violation(model, Level::Acceleration);
+    for k in 0..w.mu.len() {
+        w.rates[k] += w.mu[k];
+    }
+}
+
+/// Corrections of accelerations and multipliers. Returns iterations, the last correction of the coordinates, and what ended it.
+fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    rule: &Rule<T>,
+    length: T,
+    options: &Options<T>,
+    s: &State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<(u32, T, Stop), StepError> {
+    let inverse = T::ONE / rule.acceleration;
+    let scale = step_scale(rule.dt, &s.a).max(norm_inf(&s.v) * rule.dt * T::EPSILON);
+    let mut last = T::ZERO;
+    for iterations in 1..=options.max_iterations {
+        factor(model, rule, options, w)?;
+        demand(model, options.stabilisation, w);
+        w.mu.copy_from_slice(&w.lambda);
+        w.assemble(model, Mass::Acceleration, T::ONE, true);
+        w.solve();
+        for i in 0..w.n {
+            let d = w.f[i];
+            w.a[i] -= d;
+            w.dq[i] -= d * inverse;
+            w.v[i] -= rule.velocity * inverse * d;
+        }
+        for k in 0..w.lambda.len() {
+            w.lambda[k] -= w.f[w.n + k];
+        }
+        let correction = norm_inf(&w.f[..w.n]) * inverse;
+        if !correction.is_finite() {
+            return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f[..w.n]) });
+        }
+        evaluate(model, options, s, w);
+        let noise = norm_inf(&w.dq).max(length * rule.dt) * T::EPSILON * T::from_f64(64.0);
+        let yardstick = Yardstick { scale, goal: scale * options.tolerance, noise };
+        if let Some(stop) = stopping(iterations, correction, last, &yardstick) {
+            return Ok((iterations, correction, stop));
+        }
+        last = correction;
+    }
+    if last <= scale * T::from_f64(1e-6) {
+        return Ok((options.max_iterations, last, Stop::Tolerance));
+    }
+    let (iterations, unknown) = (options.max_iterations, largest(&w.f[..w.n]));
+    Err(StepError::NotConverged { iterations, correction: (last / length).to_f64(), unknown })
+}
+
+/// Moves q onto phi = 0, and v by the integrator's relation, so that both tell of the same motion. The matrix at the new q is
+/// left factored.
+fn positions<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    rule: &Rule<T>,
+    length: T,
+    options: &Options<T>,
+    s: &State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<(), StepError> {
+    let goal = length * T::EPSILON * T::from_f64(if options.compensated { 0.01 } else { 4.0 });
+    let limit = length * T::from_f64(LIMIT).max(T::EPSILON * T::from_f64(256.0));
+    w.sigma.fill(T::ZERO);
+    w.change.fill(T::ZERO);
+    let mut violation = norm_inf(&w.terms.phi);
+    for sweeps in 0..options.max_sweeps {
+        factor(model, rule, options, w)?;
+        if violation <= goal {
+            break;
+        }
+        w.rates.copy_from_slice(&w.terms.phi);
+        w.sweep(model, sweeps > 0);
+        for i in 0..w.n {
+            w.dq[i] -= w.f[i];
+            w.v[i] -= rule.velocity * w.f[i];
+        }
+        w.evaluate(model, options.compensated, s);
+        let contraction = norm_inf(&w.terms.phi) / violation;
+        violation = norm_inf(&w.terms.phi);
+        if contraction > T::from_f64(0.9) {
+            break;
+        }
+    }
+    if violation <= limit {
+        return Ok(());
+    }
+    Err(StepError::Violated { level: 0, violation: violation.to_f64(), row: largest(&w.terms.phi) })
+}
+
+/// The saddle matrix at the current terms.
+fn factor<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    rule: &Rule<T>,
+    options: &Options<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<(), StepError> {
+    let weights = (T::ONE / rule.acceleration, rule.velocity / rule.acceleration);
+    w.factor(model, weights, false, options.rank)
+}

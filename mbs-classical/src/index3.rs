@@ -1,0 +1,168 @@
+//! Index-3 classical Lagrangian with projections [P3 2.2].
+//!
+//! ```text
+//! M q'' + J^T lambda = Q,   phi = 0                                                   [P3 (13), (14)]
+//! f = (M a/a' + J^T lambda/a' - Q/a', phi)                                            [P3 (19)]
+//! [ W  J^T    ] ( d           )
+//! [ J  -delta ] ( d_lambda/a' ) = -f,   q += d,   v += v' d,   a += a' d              [P3 (20), (4), (5)]
+//! W = M + (v'/a') C + (1/a') (K + K_geo(lambda))
+//! then J v + phi_t = 0 and J a + bias = 0 with the same matrix                        [P3 (21), (22)]
+//! ```
+//!
+//! Differs from the source: unknowns are increments; the unknown multipliers are lambda/a' and phi is not scaled, so that the
+//! matrix does not depend on the step but for forces; the start value of lambda is extrapolated; projections are in correction
+//! form; the geometric stiffness, which the print neglects, is in W; delta is zero unless regularised.
+
+use crate::options::Options;
+use crate::workspace::{Mass, Workspace};
+use mbs_core::algebra::norm_inf;
+use mbs_core::integrator::Rule;
+use mbs_core::model::{Model, State};
+use mbs_core::step::{
+    StepError, StepReport, Stop, Yardstick, largest, largest_or_nan, step_scale, stopping,
+};
+use mbs_core::{Real, SymmetricSolver};
+
+/// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
+///
+/// Cost: two or three evaluations, factorisations and solutions for the motion, three to five solutions for the projections;
+/// no allocation.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged. [`StepError::RankLost`] names a row that depends on others: redundant joints,
+/// or a singular position.
+pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    (dt, length): (T, T),
+    options: &Options<T>,
+    s: &mut State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<StepReport<T>, StepError> {
+    let rule = options.integrator.rule(dt);
+    w.begin(options.regularisation);
+    predict(model, &rule, options, s, w);
+    let (iterations, correction, stop) = iterate(model, &rule, length, options, s, w)?;
+
+    // The accelerations leave the scaling of the iteration.
+    for a in &mut w.a {
+        *a *= rule.acceleration;
+    }
+    // The factor belongs to the configuration before the last correction: near enough when that was small.
+    if correction > length * T::from_f64(1e-7) {
+        factor(model, &rule, options, w)?;
+    }
+    let violation = w.clean(model, (length, rule.acceleration), options.max_sweeps, s)?;
+    w.commit(model, &rule, options.compensated, rule.acceleration, s);
+    Ok(StepReport {
+        iterations,
+        factorizations: w.counts.factorizations,
+        solves: w.counts.solves,
+        correction,
+        stop,
+        violation,
+        ..StepReport::default()
+    })
+}
+
+/// q, v, a and lambda at the end of the step by extrapolation, and everything evaluated there.
+fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    rule: &Rule<T>,
+    options: &Options<T>,
+    s: &State<T>,
+    w: &mut Workspace<T, S>,
+) {
+    let inverse = T::ONE / rule.acceleration;
+    for i in 0..w.n {
+        let (dq, v, a) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
+        (w.dq[i], w.v[i], w.a[i]) = (dq, v, a * inverse);
+    }
+    // lambda = 2 lambda_n - lambda_(n-1)   [P3 (3)]
+    for k in 0..w.lambda.len() {
+        w.lambda[k] = (s.lambda[k] + s.lambda[k] - s.lambda_previous[k]) * inverse;
+    }
+    model.set_inputs(s.t + rule.dt, &mut w.terms);
+    w.evaluate(model, options.compensated, s);
+}
+
+/// The Newton loop. Returns iterations, the last correction, and what ended it.
+fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    rule: &Rule<T>,
+    length: T,
+    options: &Options<T>,
+    s: &State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<(u32, T, Stop), StepError> {
+    let inverse = T::ONE / rule.acceleration;
+    let scale = step_scale(rule.dt, &s.a);
+    let mut last = T::ZERO;
+    for iterations in 1..=options.max_iterations {
+        factor(model, rule, options, w)?;
+
+        // f = (M a/a' + J^T lambda/a' - Q/a', phi)   [P3 (19)]
+        w.mu.copy_from_slice(&w.lambda);
+        w.rates.copy_from_slice(&w.terms.phi);
+        w.assemble(model, Mass::Acceleration, inverse, true);
+
+        // q += d,   v += v' d,   a += a' d,   lambda += d_lambda   [P3 (20), (4), (5)]
+        w.solve();
+        for i in 0..w.n {
+            let d = w.f[i];
+            w.dq[i] -= d;
+            w.v[i] -= rule.velocity * d;
+            w.a[i] -= d;
+        }
+        for k in 0..w.lambda.len() {
+            w.lambda[k] -= w.f[w.n + k];
+        }
+        w.evaluate(model, options.compensated, s);
+
+        let correction = norm_inf(&w.f[..w.n]);
+        if !correction.is_finite() {
+            return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f[..w.n]) });
+        }
+        let yardstick = yardstick(iterations, scale, length, options, w);
+        if let Some(stop) = stopping(iterations, correction, last, &yardstick) {
+            return Ok((iterations, correction, stop));
+        }
+        last = correction;
+    }
+    if last <= scale * T::from_f64(1e-6) {
+        return Ok((options.max_iterations, last, Stop::Tolerance));
+    }
+    let (iterations, unknown) = (options.max_iterations, largest(&w.f[..w.n]));
+    Err(StepError::NotConverged { iterations, correction: (last / length).to_f64(), unknown })
+}
+
+/// What corrections are measured against: rounding is that of the increment where increments are carried, else of the
+/// coordinates; what no longer shrinks below the last digit of the coordinates is the rounding of forces in balance.
+fn yardstick<T: Real, S>(
+    iterations: u32,
+    scale: T,
+    length: T,
+    options: &Options<T>,
+    w: &Workspace<T, S>,
+) -> Yardstick<T> {
+    let size = if options.compensated { norm_inf(&w.dq) } else { length };
+    let digit = if iterations > 5 { length * T::EPSILON } else { T::ZERO };
+    let noise = (size * T::EPSILON * T::from_f64(64.0)).max(digit);
+    Yardstick { scale, goal: scale * options.tolerance, noise }
+}
+
+/// The saddle matrix, with the geometric stiffness where it leaves W positive on the motions that the constraints allow.
+fn factor<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    rule: &Rule<T>,
+    options: &Options<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<(), StepError> {
+    let weights = (T::ONE / rule.acceleration, rule.velocity / rule.acceleration);
+    if options.geometric_stiffness {
+        let result = w.factor(model, weights, true, options.rank);
+        if result.is_ok() && w.is_positive() {
+            return Ok(());
+        }
+    }
+    w.factor(model, weights, false, options.rank)
+}

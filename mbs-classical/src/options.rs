@@ -1,0 +1,102 @@
+//! What the caller chooses. Public fields; start from [`Options::index3`] or [`Options::index1`].
+
+use mbs_core::Real;
+use mbs_core::integrator::Integrator;
+use mbs_core::step::OptionError;
+
+/// Choices for a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options<T> {
+    /// Time integrator.
+    pub integrator: Integrator<T>,
+    /// A correction of the coordinates below this times the displacement of a step is small [-].
+    pub tolerance: T,
+    /// Iterations allowed in one step.
+    pub max_iterations: u32,
+    /// Sweeps of a projection after which its level must be reached.
+    pub max_sweeps: u32,
+    /// The constraints count as having lost rank when the weakest pivot of the equilibrated saddle matrix is below this times
+    /// what it is the sum of [-]. It goes with the square of the sine of the angle between a row and the others: the default
+    /// of 1e-6 refuses rows within 1e-3 rad of being dependent.
+    pub rank: T,
+    /// delta on the diagonal of the rows, in units of 1 / (effective mass of the row) [-]; the multipliers are iterated
+    /// (proximal shift), so that the solution is the exact one. Tolerates redundant rows and most singular positions, at the
+    /// price of a few sweeps more. `None`: zero, and lost rank is an error.
+    pub regularisation: Option<T>,
+    /// What keeps index-1 on its constraints.
+    pub stabilisation: Stabilisation<T>,
+    /// Put the geometric stiffness of the constraints into the tangent of index-3.
+    pub geometric_stiffness: bool,
+    /// Evaluate phi by increments and carry q as a compensated pair.
+    pub compensated: bool,
+}
+
+/// What keeps index-1 on its constraints.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stabilisation<T> {
+    /// Nothing: phi grows with time.
+    None,
+    /// phi'' + 2 alpha phi' + beta^2 phi = 0 instead of phi'' = 0 (Baumgarte, 1972).
+    Baumgarte {
+        /// Damping of the violation [1/s].
+        alpha: T,
+        /// Its frequency [1/s]; equal to alpha for critical damping.
+        beta: T,
+    },
+    /// Positions, velocities and accelerations are projected after every step.
+    Projection,
+}
+
+impl<T: Real> Options<T> {
+    /// Defaults of index-3: trapezoidal rule, tolerance 1e-10, at most 20 iterations, 2 or 3 are usual.
+    #[must_use]
+    pub fn index3() -> Self {
+        Self {
+            integrator: Integrator::trapezoidal(),
+            tolerance: T::from_f64(1e-10).max(T::EPSILON * T::from_f64(64.0)),
+            max_iterations: 20,
+            max_sweeps: 12,
+            rank: T::from_f64(1e-6).max(T::EPSILON * T::from_f64(1024.0)),
+            regularisation: None,
+            stabilisation: Stabilisation::Projection,
+            geometric_stiffness: true,
+            compensated: true,
+        }
+    }
+
+    /// Defaults of index-1: as index-3, projected after every step.
+    #[must_use]
+    pub fn index1() -> Self {
+        Self::index3()
+    }
+
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// [`OptionError`] names the option.
+    pub fn validate(&self) -> Result<(), OptionError> {
+        let mut positive = [
+            ("tolerance", self.tolerance),
+            ("rank", self.rank),
+            ("regularisation", self.regularisation.unwrap_or(T::ONE)),
+            ("stabilisation.alpha", T::ONE),
+            ("stabilisation.beta", T::ONE),
+        ];
+        if let Stabilisation::Baumgarte { alpha, beta } = self.stabilisation {
+            (positive[3].1, positive[4].1) = (alpha, beta);
+        }
+        for (name, value) in positive {
+            if !(value > T::ZERO && value.is_finite()) {
+                return Err(OptionError::NotPositive(name));
+            }
+        }
+        for (name, value) in
+            [("max_iterations", self.max_iterations), ("max_sweeps", self.max_sweeps)]
+        {
+            if value == 0 {
+                return Err(OptionError::NotPositive(name));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,257 @@
+//! Scratch of a step, made once: the saddle system, its factor, and what its failure means.
+
+use crate::saddle::{Saddle, System};
+use alloc::vec;
+use alloc::vec::Vec;
+use mbs_core::integrator::Rule;
+use mbs_core::model::{Load, Model, Owner, State, Tangent, Terms};
+use mbs_core::step::{StepError, add_work, take_coordinates};
+use mbs_core::{FactorError, Real, SymmetricSolver};
+
+/// Scratch of the classical steps over a solver `S`. Nothing is allocated after [`Workspace::new`], but for what the solver
+/// needs when it delays more pivots than ever before.
+#[derive(Debug, Clone)]
+pub struct Workspace<T, S> {
+    solver: S,
+    saddle: Saddle,
+    pub(crate) terms: Terms<T>,
+    /// Jacobian rows of all elements.
+    jacobian: Vec<T>,
+    /// q_(n+1) - q_n and q_(n+1), v, a/a' (index-3) or a (index-1), extended.
+    pub(crate) dq: Vec<T>,
+    pub(crate) q: Vec<T>,
+    pub(crate) v: Vec<T>,
+    pub(crate) a: Vec<T>,
+    /// x - x* of a projection, extended.
+    pub(crate) change: Vec<T>,
+    /// Right-hand side, then correction, of coordinates and multipliers, n + m.
+    pub(crate) f: Vec<T>,
+    scratch: Vec<T>,
+    /// lambda / a' (index-3) or lambda (index-1), m.
+    pub(crate) lambda: Vec<T>,
+    pub(crate) sigma: Vec<T>,
+    pub(crate) mu: Vec<T>,
+    pub(crate) rates: Vec<T>,
+    /// delta of each row, m, or nothing.
+    delta: Vec<T>,
+    masses: Vec<T>,
+    pub(crate) n: usize,
+    pub(crate) counts: Counts,
+}
+
+/// Counters within a step.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Counts {
+    pub(crate) factorizations: u32,
+    pub(crate) solves: u32,
+}
+
+/// Which vector stands at M in a residual.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Mass {
+    None,
+    Acceleration,
+    Change,
+}
+
+impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
+    /// Scratch for `model`, with a solver analysed for its [`Saddle`].
+    pub fn new(model: &impl Model<T>, solver: S) -> Self {
+        let (n, e, m) = (model.n_unknowns(), model.n_extended(), model.n_constraints());
+        let zeros = |k| vec![T::ZERO; k];
+        let saddle = Saddle::new(model);
+        let mut terms = model.terms();
+        let mut q = zeros(e);
+        model.write_reference(&mut q);
+        model.set_inputs(T::ZERO, &mut terms);
+        model.evaluate(&q, &mut terms);
+        let mut masses = zeros(m);
+        model.effective_masses(&terms, &mut masses);
+        Self {
+            jacobian: zeros(saddle.n_jacobian()),
+            scratch: zeros(solver.n_scratch()),
+            solver,
+            saddle,
+            terms,
+            dq: zeros(e),
+            q,
+            v: zeros(e),
+            a: zeros(e),
+            change: zeros(e),
+            f: zeros(n + m),
+            lambda: zeros(m),
+            sigma: zeros(m),
+            mu: zeros(m),
+            rates: zeros(m),
+            delta: Vec::with_capacity(m),
+            masses,
+            n,
+            counts: Counts::default(),
+        }
+    }
+
+    /// The terms as last evaluated.
+    pub fn terms(&self) -> &Terms<T> {
+        &self.terms
+    }
+
+    /// The solver.
+    pub fn solver(&self) -> &S {
+        &self.solver
+    }
+
+    /// Starts a step: no counts, delta from its option.
+    pub(crate) fn begin(&mut self, regularisation: Option<T>) {
+        self.counts = Counts::default();
+        self.delta.clear();
+        if let Some(delta) = regularisation {
+            self.delta.extend(self.masses.iter().map(|&mass| delta / mass));
+        }
+    }
+
+    /// phi and J at the current q, and forces at the current q, v.
+    pub(crate) fn evaluate<M: Model<T>>(&mut self, model: &M, compensated: bool, s: &State<T>) {
+        for i in 0..self.n {
+            self.q[i] = s.q[i] + self.dq[i];
+        }
+        if compensated {
+            model.advance(&s.q, &self.dq, &s.phi, &mut self.terms);
+        } else {
+            model.evaluate(&self.q, &mut self.terms);
+        }
+        self.evaluate_forces(model, s);
+    }
+
+    /// Forces at the current q, v.
+    pub(crate) fn evaluate_forces<M: Model<T>>(&mut self, model: &M, s: &State<T>) {
+        if model.has_forces() {
+            model.evaluate_forces(&self.q, &self.v, &s.memory, &mut self.terms);
+        }
+    }
+
+    /// Factors the saddle matrix with the given weights of stiffness and damping. Rank must not fall below `rank`.
+    pub(crate) fn factor<M: Model<T>>(
+        &mut self,
+        model: &M,
+        (stiffness, damping): (T, T),
+        geometric: bool,
+        rank: T,
+    ) -> Result<(), StepError> {
+        self.counts.factorizations += 1;
+        for e in 0..model.n_elements() {
+            model.write_jacobian(&self.terms, e, &mut self.jacobian[self.saddle.jacobian(e)]);
+        }
+        let geometric = geometric.then_some(&self.lambda[..]);
+        let system = System {
+            model,
+            saddle: &self.saddle,
+            terms: &self.terms,
+            tangent: Tangent { stiffness, damping, penalty: &[], geometric },
+            jacobian: &self.jacobian,
+            delta: &self.delta,
+            load: Load { mass: None, multipliers: None, force: T::ZERO },
+            rates: &[],
+        };
+        let result = self.solver.factor(&system);
+        let weakest = self.solver.weakest();
+        match result {
+            Err(error) => Err(self.diagnose(model, error)),
+            Ok(()) if self.delta.is_empty() && weakest.ratio < rank.to_f64() => {
+                let error = FactorError { unknown: weakest.unknown, pivot: weakest.ratio };
+                match self.diagnose(model, error) {
+                    lost @ StepError::RankLost { .. } => Err(lost),
+                    // A coordinate that is almost without inertia is no matter of rank.
+                    _ => Ok(()),
+                }
+            }
+            Ok(()) => Ok(()),
+        }
+    }
+
+    /// Is W positive where J x = 0?
+    pub(crate) fn is_positive(&self) -> bool {
+        self.solver.inertia().negative == self.lambda.len()
+    }
+
+    /// What a weak pivot means: x with T x = 0 lies in the multipliers when rows depend on each other, else in coordinates
+    /// that nothing determines. Of dependent rows one of a joint is named, if there is one.
+    fn diagnose<M: Model<T>>(&mut self, model: &M, error: FactorError) -> StepError {
+        if !error.pivot.is_finite() {
+            return StepError::NotFinite { unknown: error.unknown.min(self.last_coordinate()) };
+        }
+        self.solver.null_vector(&mut self.f, &mut self.scratch);
+        let rows = &self.f[self.n..];
+        let largest = rows.iter().fold(T::ZERO, |a, &b| a.max(b.abs()));
+        if (error.unknown as usize) < self.n && !(largest > T::EPSILON.sqrt()) {
+            return StepError::Singular(error);
+        }
+        let part = |row: &usize| rows[*row].abs() > largest * T::from_f64(1e-3);
+        let is_of_joint = |row: &usize| matches!(model.owner_of_row(*row), Owner::Joint(_));
+        let row = (0..rows.len())
+            .find(|row| part(row) && is_of_joint(row))
+            .or_else(|| (error.unknown as usize).checked_sub(self.n))
+            .unwrap_or_else(|| mbs_core::step::largest(rows) as usize);
+        StepError::RankLost { row: u32::try_from(row).unwrap_or(u32::MAX), pivot: error.pivot }
+    }
+
+    fn last_coordinate(&self) -> u32 {
+        u32::try_from(self.n.saturating_sub(1)).unwrap_or(u32::MAX)
+    }
+
+    /// (f, rates) = T^-1 (f, rates), both in `f`.
+    pub(crate) fn solve(&mut self) {
+        self.counts.solves += 1;
+        self.solver.solve(&mut self.f, &mut self.scratch);
+    }
+
+    /// f = (M x + J^T mu - force Q, rates), rates as they are or zero.
+    pub(crate) fn assemble<M: Model<T>>(
+        &mut self,
+        model: &M,
+        mass: Mass,
+        force: T,
+        has_rates: bool,
+    ) {
+        let mass = match mass {
+            Mass::None => None,
+            Mass::Acceleration => Some(&self.a[..]),
+            Mass::Change => Some(&self.change[..]),
+        };
+        let system = System {
+            model,
+            saddle: &self.saddle,
+            terms: &self.terms,
+            tangent: Tangent {
+                stiffness: T::ZERO,
+                damping: T::ZERO,
+                penalty: &[],
+                geometric: None,
+            },
+            jacobian: &self.jacobian,
+            delta: &self.delta,
+            load: Load { mass, multipliers: Some(&self.mu), force },
+            rates: if has_rates { &self.rates } else { &[] },
+        };
+        self.solver.assemble(&system, &mut self.f);
+    }
+
+    /// Takes the finished step over; `unit` turns `lambda` into multipliers of the equations of motion.
+    pub(crate) fn commit<M: Model<T>>(
+        &mut self,
+        model: &M,
+        rule: &Rule<T>,
+        compensated: bool,
+        unit: T,
+        s: &mut State<T>,
+    ) {
+        take_coordinates(rule, compensated, self.n, s, (&self.dq, &self.v, &self.a));
+        for k in 0..self.lambda.len() {
+            s.lambda_previous[k] = s.lambda[k];
+            s.lambda[k] = self.lambda[k] * unit;
+            s.reaction[k] = self.mu[k];
+            s.phi[k] = self.terms.phi[k];
+        }
+        s.t += rule.dt;
+        add_work(model, rule.dt, s, &mut self.terms);
+    }
+}

@@ -1,0 +1,41 @@
+//! When a Newton iteration of a step is over.
+
+use super::report::Stop;
+use crate::Real;
+
+/// What corrections of the coordinates are measured against in one step [m or -].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Yardstick<T> {
+    /// The displacement that accelerations cause in the step.
+    pub scale: T,
+    /// A correction below this is small.
+    pub goal: T,
+    /// A correction of this size is rounding.
+    pub noise: T,
+}
+
+/// Is the correction of iteration `iterations` (from 1) the last one? `last` is the correction before it.
+pub fn stopping<T: Real>(
+    iterations: u32,
+    correction: T,
+    last: T,
+    yardstick: &Yardstick<T>,
+) -> Option<Stop> {
+    let Yardstick { scale, goal, noise } = *yardstick;
+    if correction <= goal {
+        return Some(Stop::Converged);
+    }
+    if iterations < 2 {
+        return None;
+    }
+    let contraction = correction / last;
+    if contraction < T::HALF && correction * contraction <= goal {
+        Some(Stop::Converged)
+    } else if contraction > T::HALF && correction <= noise {
+        Some(Stop::Rounding)
+    } else if iterations > 5 && contraction > T::HALF && correction <= scale * T::from_f64(1e-5) {
+        Some(Stop::Passage)
+    } else {
+        None
+    }
+}

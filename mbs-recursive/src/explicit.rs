@@ -1,0 +1,214 @@
+//! Explicit Runge-Kutta steps: order 4 with a fixed step, and the pair 5(4) with error control.
+//!
+//! ```text
+//! y = (z, ż, W),   y' = (ż or ½ q ω for rotations, z̈, power)
+//! ```
+//!
+//! Positions and velocities are projected on the loops after each accepted step, quaternions made unit at the end. The stages
+//! are those of [`mbs_core::ode`].
+
+use crate::evaluate::{Level, accelerations};
+use crate::ledger;
+use crate::link::{Kind, Link};
+use crate::mechanism::{Counts, Inputs, Mechanism, Store};
+use crate::options::{Closure, Options};
+use crate::project::project;
+use crate::space::{Numbers, Space};
+use crate::trapezoidal::{Start, failure, violations};
+use mbs_core::Real;
+use mbs_core::ode::{self, Adaptive, EndState, OdeError, Rates};
+use mbs_core::step::{StepError, StepReport, Stop};
+
+/// Steps that one call with error control may try.
+const MAX_STEPS: u32 = 1_000_000;
+
+/// A mechanism as a system of first order.
+struct System<'r, 'a, 'b, T: Real, S: Space<T>, I> {
+    m: &'r Mechanism<'a, T, S>,
+    inputs: &'r I,
+    options: &'r Options<T>,
+    s: &'r mut Store<'b, T, S>,
+    evaluations: u32,
+    /// Error control tries a shorter step where an evaluation fails.
+    is_patient: bool,
+    last_failure: Option<StepError>,
+}
+
+impl<T: Real, S: Space<T>, I: Inputs<T>> System<'_, '_, '_, T, S, I> {
+    /// Takes over time and state.
+    fn set(&mut self, t: T, y: &[T]) {
+        let (nz, nv) = (self.m.n_coordinates, self.m.n_freedoms);
+        self.inputs.evaluate(t, self.s.guides, self.s.courses);
+        self.s.z.copy_from_slice(&y[..nz]);
+        self.s.v.copy_from_slice(&y[nz..nz + nv]);
+    }
+
+    /// Projects the end of a step, with the inertias of its last stage.
+    fn clean(&mut self, t: T, y: &mut [T]) -> Result<EndState, StepError> {
+        if self.m.loops.loops.is_empty() || self.options.closure != Closure::Constraints {
+            return Ok(EndState::Kept);
+        }
+        let (nz, nv) = (self.m.n_coordinates, self.m.n_freedoms);
+        self.set(t, y);
+        project(self.m, self.options, self.s).map_err(|fault| failure(self.m, fault))?;
+        y[..nz].copy_from_slice(self.s.z);
+        y[nz..nz + nv].copy_from_slice(self.s.v);
+        Ok(EndState::Changed)
+    }
+
+    /// Accelerations at the end, and what was done.
+    fn finish(&mut self, t: T, y: &[T]) -> Result<StepReport<T>, StepError> {
+        self.set(t, y);
+        normalise(self.m.links, self.s.z);
+        let left = accelerations(self.m, self.options, Level::Fine, self.s)
+            .map_err(|fault| failure(self.m, fault))?;
+        let [position, velocity, _] = violations(self.m, self.s);
+        Ok(StepReport {
+            iterations: self.evaluations + 1,
+            factorizations: self.s.counts.condensations,
+            solves: self.s.counts.responses,
+            stop: Stop::Explicit,
+            violation: [position, velocity, left],
+            ..StepReport::default()
+        })
+    }
+}
+
+impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I> {
+    type Error = StepError;
+
+    fn n(&self) -> usize {
+        n_components(self.m)
+    }
+
+    fn rates(&mut self, t: T, y: &[T], dy: &mut [T]) -> Result<(), StepError> {
+        let (nz, nv) = (self.m.n_coordinates, self.m.n_freedoms);
+        self.evaluations += 1;
+        self.set(t, y);
+        if let Err(fault) = accelerations(self.m, self.options, Level::Fine, self.s) {
+            let failure = failure(self.m, fault);
+            // Numbers that follow from a failed stage say nothing.
+            if y.iter().all(|y| y.is_finite()) {
+                self.last_failure = Some(failure);
+            }
+            if self.is_patient {
+                // No number: the step is tried shorter.
+                dy.fill(T::ZERO / T::ZERO);
+                return Ok(());
+            }
+            return Err(failure);
+        }
+        coordinate_rates(self.m.links, self.s.z, self.s.v, &mut dy[..nz]);
+        dy[nz..nz + nv].copy_from_slice(self.s.zdd);
+        dy[nz + nv] = ledger::power(self.m, self.s);
+        Ok(())
+    }
+}
+
+/// Components of y.
+#[must_use]
+pub fn n_components<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> usize {
+    m.n_coordinates + m.n_freedoms + 1
+}
+
+/// z' from z and v.
+fn coordinate_rates<T: Real, S: Space<T>>(links: &[Link<T, S>], z: &[T], v: &[T], rates: &mut [T]) {
+    for link in links.iter().skip(1) {
+        let (at, from) = (link.z as usize, link.v as usize);
+        match link.kind {
+            Kind::Revolute | Kind::Prismatic => rates[at] = v[from],
+            Kind::Ball => S::rotation_rate(&z[at..], &v[from..], &mut rates[at..]),
+            Kind::Free => {
+                S::rotation_rate(&z[at..], &v[from..], &mut rates[at..]);
+                let place = at + S::FREE - S::Point::N;
+                for i in 0..S::Point::N {
+                    rates[place + i] = v[from + S::Spin::N + i];
+                }
+            }
+            Kind::GuidedRevolute | Kind::GuidedPrismatic => {}
+        }
+    }
+}
+
+/// Makes quaternions unit.
+fn normalise<T: Real, S: Space<T>>(links: &[Link<T, S>], z: &mut [T]) {
+    for link in links.iter().skip(1) {
+        if matches!(link.kind, Kind::Ball | Kind::Free) {
+            S::normalise_rotation(&mut z[link.z as usize..]);
+        }
+    }
+}
+
+/// y at the start of a step.
+fn begin<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, start: &Start<'_, T>, y: &mut [T]) {
+    let (nz, nv) = (m.n_coordinates, m.n_freedoms);
+    y[..nz].copy_from_slice(start.z);
+    y[nz..nz + nv].copy_from_slice(start.v);
+    y[nz + nv] = T::ZERO;
+}
+
+/// Makes one step of order 4: the end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`, the work done in the last place of `y`.
+///
+/// `y` has [`n_components`] numbers, `scratch` at least [`mbs_core::ode::rk4_scratch`] of them.
+///
+/// Cost: five evaluations; no allocation.
+///
+/// # Errors
+/// [`StepError`].
+pub fn rk4<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    inputs: &impl Inputs<T>,
+    (dt, options): (T, &Options<T>),
+    (start, y, scratch): (Start<'_, T>, &mut [T], &mut [T]),
+    s: &mut Store<'_, T, S>,
+) -> Result<StepReport<T>, StepError> {
+    s.counts = Counts::default();
+    begin(m, &start, y);
+    let mut system =
+        System { m, inputs, options, s, evaluations: 0, is_patient: false, last_failure: None };
+    ode::rk4_step(&mut system, start.t, dt, y, scratch)?;
+    system.clean(start.t + dt, y)?;
+    system.finish(start.t + dt, y)
+}
+
+/// Advances by exactly `dt` [s] with the pair 5(4) of Dormand and Prince, in as many steps as the tolerance asks for.
+///
+/// `scratch` has at least `Tableau::scratch` numbers.
+///
+/// Cost: six evaluations for each step tried, seven with loops; no allocation.
+///
+/// # Errors
+/// [`StepError`]; where no step is short enough, what made the last one fail.
+pub fn rk54<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    inputs: &impl Inputs<T>,
+    (dt, options, driver): (T, &Options<T>, &mut Adaptive<T, 7>),
+    (start, y, scratch): (Start<'_, T>, &mut [T], &mut [T]),
+    s: &mut Store<'_, T, S>,
+) -> Result<StepReport<T>, StepError> {
+    s.counts = Counts::default();
+    begin(m, &start, y);
+    let before = driver.counts();
+    let mut control = ode::Options::new(options.error);
+    control.max_steps = MAX_STEPS;
+    let mut system =
+        System { m, inputs, options, s, evaluations: 0, is_patient: true, last_failure: None };
+    let done = driver.advance(&mut system, (start.t, dt), (y, scratch), &control, |system, t, y| {
+        system.last_failure = None;
+        system.clean(t, y)
+    });
+    match done {
+        Ok(()) => {}
+        Err(OdeError::Rates { error, .. }) => return Err(error),
+        Err(OdeError::StepTooSmall { step, .. }) => {
+            return Err(system.last_failure.unwrap_or(StepError::StepTooSmall { step }));
+        }
+        Err(_) => return Err(StepError::StepTooSmall { step: driver.step().to_f64() }),
+    }
+    let after = driver.counts();
+    let mut report = system.finish(start.t + dt, y)?;
+    let count = |n: u64| u32::try_from(n).unwrap_or(u32::MAX);
+    report.steps = count(after.accepted - before.accepted);
+    report.rejected = count(after.rejected - before.rejected);
+    Ok(report)
+}

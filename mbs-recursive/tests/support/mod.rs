@@ -1,0 +1,84 @@
+//! Scenes, their starts, and runs.
+
+#![allow(dead_code, unreachable_pub, reason = "each test binary uses its part")]
+
+use mbs_core::model::State;
+use mbs_core::natural::NaturalModel;
+use mbs_core::rigid::RigidMotion;
+use mbs_core::scene::Scene;
+use mbs_core::start::assemble;
+use mbs_core::step::{StepError, StepReport};
+use mbs_recursive::space::Space;
+use mbs_recursive::{Options, TreeModel, TreeState, Workspace};
+use mbs_sparse::Multifrontal;
+use nalgebra::Vector3;
+
+#[path = "../../../mbs-core/tests/common/mod.rs"]
+pub mod common;
+
+/// The natural model of a scene, and its assembled state.
+pub fn natural<const D: usize>(scene: &Scene<f64>) -> (NaturalModel<f64, D>, State<f64>) {
+    let model =
+        NaturalModel::<f64, D>::new(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+    let analyse = mbs_sparse::Options::default();
+    let mut solver = Multifrontal::analyse(&model, analyse);
+    let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver)
+        .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+    (model, start.state)
+}
+
+/// A scene file of the repository.
+pub fn file(name: &str) -> Scene<f64> {
+    let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    common::scene(&std::fs::read_to_string(path).expect("the scene is there"))
+}
+
+/// A tree with a state and scratch.
+pub struct Run<S: Space<f64>> {
+    pub model: TreeModel<f64, S>,
+    pub state: TreeState<f64>,
+    pub workspace: Workspace<f64, S>,
+    pub options: Options<f64>,
+}
+
+impl<S: Space<f64>> Run<S> {
+    /// At the assembled start of a scene.
+    pub fn new<const D: usize>(scene: &Scene<f64>) -> Self {
+        let (natural, state) = natural::<D>(scene);
+        let model =
+            TreeModel::<f64, S>::new(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+        let state = model
+            .start(scene, &natural, &state)
+            .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+        Self { workspace: Workspace::new(&model), options: Options::default(), model, state }
+    }
+
+    /// One step of the trapezoidal rule.
+    pub fn step(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
+        mbs_recursive::step(&self.model, dt, &self.options, &mut self.state, &mut self.workspace)
+    }
+
+    /// The invariant T + V - work [J].
+    pub fn invariant(&mut self) -> f64 {
+        let [kinetic, potential] = self.model.energies(&self.state, &mut self.workspace);
+        kinetic + potential - self.state.work
+    }
+
+    /// The largest change of the invariant over `n` steps, and the iterations of all.
+    pub fn drift(&mut self, dt: f64, n: u32) -> (f64, u32) {
+        let (start, mut worst, mut iterations) = (self.invariant(), 0.0_f64, 0);
+        for i in 0..n {
+            let report = self.step(dt).unwrap_or_else(|e| panic!("step {i}: {e} {e:?}"));
+            iterations += report.iterations;
+            worst = worst.max((self.invariant() - start).abs());
+        }
+        (worst, iterations)
+    }
+
+    /// The motions of the bodies.
+    pub fn motions(&mut self, n: usize) -> Vec<RigidMotion<f64>> {
+        let mut motions = vec![RigidMotion::at_rest(Vector3::zeros()); n];
+        self.model.write_motions(&self.state, &mut self.workspace, &mut motions);
+        motions
+    }
+}
