@@ -22,7 +22,7 @@ fn section(table: &Table, rows: &[Row]) -> String {
         "<section class=\"card\">\n<h2><span class=\"tag\">{}</span> {}</h2>\n<p class=\"soft\">{}; scene \
          <code>{}</code>, {} s</p>\n<table>\n<thead>\n<tr><th rowspan=\"2\">method</th><th rowspan=\"2\">step [s]</th>\
          <th colspan=\"4\" class=\"group\">measured</th><th colspan=\"2\" class=\"group\">report</th></tr>\n<tr>\
-         <th>energy error [J]</th><th>share</th><th>{}</th><th>CPU [s]</th><th>error</th><th>CPU [s]</th></tr>\n\
+         <th>energy error [J]</th><th>of what is<br>turned over</th><th>{}</th><th>CPU [s]</th><th class=\"report\">error</th><th>CPU [s]</th></tr>\n\
          </thead>\n",
         escape(table.name),
         escape(table.title),
@@ -47,12 +47,14 @@ fn section(table: &Table, rows: &[Row]) -> String {
 fn line(row: &Row, distance: &str, span: Option<usize>) -> String {
     let mut html = String::from("<tr>");
     if let Some(span) = span {
-        let name = escape(row.method.name);
-        let _ = write!(html, "<th scope=\"rowgroup\" rowspan=\"{span}\">{name}</th>");
+        let (name, printed) = (escape(row.method.name), escape(row.method.printed_name));
+        let printed =
+            if printed.is_empty() { printed } else { format!("<small>report: {printed}</small>") };
+        let _ = write!(html, "<th scope=\"rowgroup\" rowspan=\"{span}\">{name} {printed}</th>");
     }
     html.push_str(&cell("step [s]", &step(row.step), "step"));
     if matches!(row.outcome, Outcome::Completed(_)) {
-        let labels = ["energy error [J]", "share", distance, "CPU [s]"];
+        let labels = ["energy error [J]", "of what is turned over", distance, "CPU [s]"];
         for (label, value) in labels.iter().zip(row.ours()) {
             html.push_str(&cell(label, &value, ""));
         }
@@ -65,7 +67,7 @@ fn line(row: &Row, distance: &str, span: Option<usize>) -> String {
         );
     }
     let [error, seconds] = row.report();
-    html.push_str(&cell("report's error", &error, "report"));
+    html.push_str(&cell("report's error", &error, "report divide"));
     html.push_str(&cell("report's CPU [s]", &seconds, "report"));
     html.push_str("</tr>\n");
     html
@@ -73,7 +75,7 @@ fn line(row: &Row, distance: &str, span: Option<usize>) -> String {
 
 /// One cell; its label is shown where the columns do not fit.
 fn cell(label: &str, value: &str, class: &str) -> String {
-    let class = if value.is_empty() { "none" } else { class };
+    let class = if value.is_empty() { format!("{class} none") } else { class.to_owned() };
     let (label, value) = (escape(label), escape(value));
     format!("<td data-label=\"{label}\" class=\"{class}\">{value}</td>")
 }

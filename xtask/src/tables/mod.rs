@@ -28,6 +28,7 @@ pub(crate) fn tables(quick: bool) -> ExitCode {
 }
 
 /// Builds `mbs`, runs all entries one after the other, and writes the files under `target/tables`.
+#[allow(clippy::print_stdout, reason = "the tables are what is asked for")]
 fn run(quick: bool) -> Result<(), String> {
     let mut build = process::cargo();
     build.args(["build", "--quiet", "--release", "--package", "mbs", "--bin", "mbs"]);

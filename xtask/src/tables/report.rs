@@ -139,6 +139,7 @@ const TIP: Reference = Reference {
 };
 
 /// The tables.
+#[allow(clippy::approx_constant, reason = "a time of 3.14 s is printed")]
 pub(crate) const TABLES: [Table; 4] = [
     Table {
         name: "T1",

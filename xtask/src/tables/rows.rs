@@ -44,7 +44,7 @@ impl Row {
         match &self.outcome {
             Outcome::Completed(_) => String::new(),
             Outcome::Stopped { code, message, time } => {
-                format!("{code} at {time:.4} s: {message}")
+                format!("{code} at {} s: {message}", (time * 1e6).round() / 1e6)
             }
             Outcome::Refused(why) => format!("refused: {why}"),
             Outcome::NotBuilt => "not built".to_owned(),
@@ -55,7 +55,7 @@ impl Row {
     pub(crate) fn report(&self) -> [String; 2] {
         let words = |text: &str| [text.to_owned(), String::new()];
         match self.printed {
-            Printed::Numbers(e, s) => [error(e), s.map(seconds).unwrap_or_default()],
+            Printed::Numbers(e, s) => [digits(e), s.map(|s| s.to_string()).unwrap_or_default()],
             Printed::NoConvergence => words("no convergence"),
             Printed::Wrong => words("wrong results"),
             Printed::DoesNotWork => words("does not work"),
@@ -72,6 +72,12 @@ pub(crate) fn by_table(rows: &[Row]) -> impl Iterator<Item = (&'static Table, &[
 /// An error with two digits.
 pub(crate) fn error(x: f64) -> String {
     format!("{x:.1e}")
+}
+
+/// A printed error with two digits, or all it has.
+fn digits(x: f64) -> String {
+    let (two, all) = (error(x), format!("{x:e}"));
+    if all.len() > two.len() { all } else { two }
 }
 
 /// A step, as short as it can be written.

@@ -23,13 +23,17 @@ pub(crate) fn text(rows: &[Row]) -> String {
                 text.push('\n');
             }
             last = row.method.name;
-            let [error, share, distance, seconds] = row.ours();
+            let [mut error, share, distance, seconds] = row.ours();
+            let mut reason = row.reason();
+            // Few words stand in the row, more below it.
+            if !reason.is_empty() && reason.len() <= WIDTHS[2] {
+                error = std::mem::take(&mut reason);
+            }
             let [report_error, report_seconds] = row.report();
             let (name, dt) = (row.method.name, step(row.step));
             let cells =
                 [name, &dt, &error, &share, &distance, &seconds, &report_error, &report_seconds];
             line(&mut text, cells);
-            let reason = row.reason();
             if !reason.is_empty() {
                 let _ = writeln!(text, "{:30}{reason}", "");
             }
@@ -41,8 +45,8 @@ pub(crate) fn text(rows: &[Row]) -> String {
 }
 
 /// What holds for all tables.
-pub(crate) const REMARK: &str = "error: largest error of the energy invariant over every step; share: of the largest \
-    kinetic energy plus the work done; CPU: of the stepping. The report's times are those of its authors' machines.\n";
+pub(crate) const REMARK: &str = "error: largest error of the energy invariant over every step; share: of the energy turned \
+    over, the largest kinetic energy plus the work done; CPU: of the stepping. The report's times are those of its authors' machines.\n";
 
 /// One line; names stand on the left of their columns, numbers on the right.
 fn line(text: &mut String, cells: [&str; 8]) {
