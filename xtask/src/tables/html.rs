@@ -12,7 +12,7 @@ const PAGE: &str = include_str!("page.html");
 /// The page with all tables.
 pub(crate) fn page(rows: &[Row]) -> String {
     let tables: String = by_table(rows).map(|(table, rows)| section(table, rows)).collect();
-    PAGE.replace("{{remark}}", &escape(REMARK.trim_end())).replace("{{tables}}", &tables)
+    PAGE.replace("{{remark}}", &escape(REMARK)).replace("{{tables}}", &tables)
 }
 
 /// One table with its heading and note.

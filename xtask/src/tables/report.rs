@@ -134,7 +134,7 @@ const T2_FAILS: &[Printed] = &[DoesNotWork, DoesNotWork, DoesNotWork, DoesNotWor
 /// Where the double pendulum's tip is after 10 s.
 const TIP: Reference = Reference {
     channel: "tip",
-    label: "tip at the end [m]",
+    label: "tip off by [m]",
     value: &[-1.655_867_424_180_030_7, -0.528_445_481_024_952_3],
 };
 
@@ -169,8 +169,8 @@ pub(crate) const TABLES: [Table; 4] = [
             ),
         ],
         reference: TIP,
-        note: "The report raises the penalty of index-3 to 1e9 at 1e-4 s and to 1e11 at 1e-5 s; with 1e7 it does not \
-               converge there. The motion is sensitive: at 1e-2 s its end is not resolved by any method.",
+        note: "The report raises the penalty of index-3 to 1e9 at 1e-4 s and to 1e11 at 1e-5 s, since with 1e7 it does \
+               not converge there. The motion is sensitive: at 1e-2 s its end is not resolved by any method.",
     },
     Table {
         name: "T1p",
@@ -232,7 +232,7 @@ pub(crate) const TABLES: [Table; 4] = [
         ],
         reference: Reference {
             channel: "crank-end",
-            label: "crank end at the end [m]",
+            label: "crank end off by [m]",
             value: &[0.328_458_111_540_815_4, 0.944_518_538_178_600_9],
         },
         note: "The report does not state the norm of these errors. The total energy is 35.835 J over the base, and about \
@@ -259,7 +259,7 @@ pub(crate) const TABLES: [Table; 4] = [
         ],
         reference: Reference {
             channel: "beta",
-            label: "beta at the end [rad]",
+            label: "beta off by [rad]",
             value: &[15.872_485_085_167_984],
         },
         note: "The report does not state the norm of these errors. Beta is compared with an extrapolation of 30 digits.",

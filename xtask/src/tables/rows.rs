@@ -55,7 +55,7 @@ impl Row {
     pub(crate) fn report(&self) -> [String; 2] {
         let words = |text: &str| [text.to_owned(), String::new()];
         match self.printed {
-            Printed::Numbers(e, s) => [digits(e), s.map(|s| s.to_string()).unwrap_or_default()],
+            Printed::Numbers(e, s) => [digits(e), s.map(time).unwrap_or_default()],
             Printed::NoConvergence => words("no convergence"),
             Printed::Wrong => words("wrong results"),
             Printed::DoesNotWork => words("does not work"),
@@ -78,6 +78,11 @@ pub(crate) fn error(x: f64) -> String {
 fn digits(x: f64) -> String {
     let (two, all) = (error(x), format!("{x:e}"));
     if all.len() > two.len() { all } else { two }
+}
+
+/// A printed time [s].
+fn time(x: f64) -> String {
+    if x < 10.0 && x.fract() == 0.0 { format!("{x:.1}") } else { x.to_string() }
 }
 
 /// A step, as short as it can be written.

@@ -35,18 +35,37 @@ pub(crate) fn text(rows: &[Row]) -> String {
                 [name, &dt, &error, &share, &distance, &seconds, &report_error, &report_seconds];
             line(&mut text, cells);
             if !reason.is_empty() {
-                let _ = writeln!(text, "{:30}{reason}", "");
+                paragraph(&mut text, 30, &reason);
             }
         }
-        let _ = writeln!(text, "\n{}\n", table.note);
+        text.push('\n');
+        paragraph(&mut text, 0, table.note);
+        text.push('\n');
     }
-    text.push_str(REMARK);
+    paragraph(&mut text, 0, REMARK);
     text
 }
 
 /// What holds for all tables.
 pub(crate) const REMARK: &str = "error: largest error of the energy invariant over every step; share: of the energy turned \
-    over, the largest kinetic energy plus the work done; CPU: of the stepping. The report's times are those of its authors' machines.\n";
+    over, the largest kinetic energy plus the work done; CPU: of the stepping. The report's times are those of its authors' machines.";
+
+/// Width of a page of text.
+const PAGE: usize = 100;
+
+/// Words in lines that fit the page, with a margin on their left.
+fn paragraph(text: &mut String, margin: usize, words: &str) {
+    let mut line = String::new();
+    for word in words.split_whitespace() {
+        if !line.is_empty() && margin + line.len() + 1 + word.len() > PAGE {
+            let _ = writeln!(text, "{:margin$}{line}", "");
+            line.clear();
+        }
+        let gap = if line.is_empty() { "" } else { " " };
+        let _ = write!(line, "{gap}{word}");
+    }
+    let _ = writeln!(text, "{:margin$}{line}", "");
+}
 
 /// One line; names stand on the left of their columns, numbers on the right.
 fn line(text: &mut String, cells: [&str; 8]) {
@@ -70,6 +89,7 @@ mod tests {
         ));
         assert!(text.contains("2.0e-5     17.2\n"));
         assert!(text.contains("not-converged at 0.0082 s"));
+        assert!(text.lines().all(|line| line.len() <= super::PAGE), "{text}");
         assert!(text.contains("not built") && text.contains("refused: singular & stuck"));
     }
 }
