@@ -22,7 +22,7 @@ fn section(table: &Table, rows: &[Row]) -> String {
         "<section class=\"card\">\n<h2><span class=\"tag\">{}</span> {}</h2>\n<p class=\"soft\">{}; scene \
          <code>{}</code>, {} s</p>\n<table>\n<thead>\n<tr><th rowspan=\"2\">method</th><th rowspan=\"2\">step [s]</th>\
          <th colspan=\"4\" class=\"group\">measured</th><th colspan=\"2\" class=\"group\">report</th></tr>\n<tr>\
-         <th>energy error [J]</th><th>of what is<br>turned over</th><th>{}</th><th>CPU [s]</th><th class=\"report\">error</th><th>CPU [s]</th></tr>\n\
+         <th>energy error [J]</th><th>share of<br>turnover</th><th>{}</th><th>CPU [s]</th><th class=\"report\">error</th><th>CPU [s]</th></tr>\n\
          </thead>\n",
         escape(table.name),
         escape(table.title),
@@ -54,7 +54,7 @@ fn line(row: &Row, distance: &str, span: Option<usize>) -> String {
     }
     html.push_str(&cell("step [s]", &step(row.step), "step"));
     if matches!(row.outcome, Outcome::Completed(_)) {
-        let labels = ["energy error [J]", "of what is turned over", distance, "CPU [s]"];
+        let labels = ["energy error [J]", "share of turnover", distance, "CPU [s]"];
         for (label, value) in labels.iter().zip(row.ours()) {
             html.push_str(&cell(label, &value, ""));
         }
