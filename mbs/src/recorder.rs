@@ -126,6 +126,7 @@ impl Recorder {
             initial: self.initial,
             max_error: self.max_error,
             final_error: self.last_error,
+            turned_over: self.turnover().0,
         }
     }
 

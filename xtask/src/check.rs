@@ -2,6 +2,7 @@
 
 use crate::documentation;
 use crate::nostd;
+use crate::pick;
 use crate::process::{self, cargo, run};
 use crate::summary::{LeftOut, Outcome, Summary};
 use std::process::{Command, ExitCode};
@@ -48,6 +49,7 @@ fn checks(quick: bool, summary: &mut Summary) -> Result<(), String> {
         summary.check("documentation", documentation::check)?;
     }
     summary.check("features", || core_features(quick))?;
+    summary.check("pick", pick::check)?;
     summary.check("check-nostd", nostd::check)
 }
 

@@ -1,11 +1,13 @@
-//! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates.
+//! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates, regenerate tables.
 
 mod check;
 mod documentation;
 mod nostd;
+mod pick;
 mod process;
 mod simulate;
 mod summary;
+mod tables;
 #[cfg(test)]
 mod tidy;
 
@@ -32,10 +34,18 @@ enum Job {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "ARGS")]
         args: Vec<OsString>,
     },
-    /// Format, lints, tests, documentation, features, no_std; stops at the first failure
+    /// Format, lints, tests, documentation, features, examples, no_std; stops at the first failure
     #[command(alias = "ci")]
     Test {
         /// Skip lints and documentation
+        #[arg(long)]
+        quick: bool,
+    },
+    /// Build and run each package of examples/pick: mbs-core and one formulation alone
+    Pick,
+    /// Run the report's tables on accuracy anew, beside its numbers: text, CSV and HTML under target/tables
+    Tables {
+        /// Leave out runs of more than a million steps
         #[arg(long)]
         quick: bool,
     },
@@ -47,6 +57,8 @@ fn main() -> ExitCode {
     match Cli::parse().job {
         Job::Simulate { args } => simulate::simulate(&args),
         Job::Test { quick } => check::test(quick),
+        Job::Pick => pick::pick(),
+        Job::Tables { quick } => tables::tables(quick),
         Job::CheckNostd => nostd::check_nostd(),
     }
 }

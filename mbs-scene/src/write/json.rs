@@ -83,6 +83,8 @@ pub struct EnergySummary {
     pub max_error: f64,
     /// |Pi - Pi(0)| at the end.
     pub final_error: f64,
+    /// Largest kinetic energy, plus the work done without regard to its sign: what errors compare with.
+    pub turned_over: f64,
 }
 
 /// Largest residuals over every step.

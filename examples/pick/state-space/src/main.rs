@@ -1,0 +1,28 @@
+//! A double pendulum with mbs-core and mbs-statespace alone: Newton's method in two independent coordinates.
+
+#[path = "../../double_pendulum.rs"]
+mod double_pendulum;
+
+use double_pendulum::{TIP, TRAPEZOIDAL, check, double_pendulum};
+use mbs_core::dense::Dense;
+use mbs_core::natural::NaturalModel;
+use mbs_core::scene::BodyRef;
+use mbs_core::start::assemble;
+use mbs_statespace::{Options, Workspace, step};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let scene = double_pendulum();
+    let model = NaturalModel::<f64, 2>::new(&scene)?;
+    let mut solver = Dense::new(&model);
+    let mut state = assemble(&scene, &model, |p| Dense::new(p), &mut solver)?.state;
+    let mut workspace = Workspace::new(&model, &state);
+
+    let (options, length) = (Options::default(), model.length());
+    for _ in 0..1000 {
+        step(&model, (1e-3, length), &options, &mut state, &mut workspace)?;
+    }
+
+    let tip = model.point(BodyRef::Body(1), TIP).value(&state.q);
+    check("state-space", tip.into(), TRAPEZOIDAL);
+    Ok(())
+}

@@ -1,0 +1,222 @@
+//! One row for each method and step: ours beside the report's, as words and as CSV.
+
+use super::outcome::Outcome;
+use super::report::{Method, Printed, Table};
+
+/// One entry of a table: what was run, and what came of it.
+#[derive(Debug, Clone)]
+pub(crate) struct Row {
+    /// The table.
+    pub(crate) table: &'static Table,
+    /// The method.
+    pub(crate) method: &'static Method,
+    /// Step [s].
+    pub(crate) step: f64,
+    /// Ours.
+    pub(crate) outcome: Outcome,
+    /// The report's.
+    pub(crate) printed: Printed,
+}
+
+impl Row {
+    /// A row of a table with what came of it.
+    pub(crate) fn new(
+        table: &'static Table,
+        method: &'static Method,
+        step: f64,
+        outcome: Outcome,
+    ) -> Self {
+        Self { table, method, step, outcome, printed: table.printed(method, step) }
+    }
+
+    /// Our error [J], its share of the energy turned over, the distance from the reference, the time [s].
+    pub(crate) fn ours(&self) -> [String; 4] {
+        match &self.outcome {
+            Outcome::Completed(f) => {
+                [error(f.energy_error), error(f.share()), error(f.distance), seconds(f.seconds)]
+            }
+            _ => Default::default(),
+        }
+    }
+
+    /// Why there are no numbers of ours; empty where there are.
+    pub(crate) fn reason(&self) -> String {
+        match &self.outcome {
+            Outcome::Completed(_) => String::new(),
+            Outcome::Stopped { code, message, time } => {
+                format!("{code} at {} s: {message}", (time * 1e6).round() / 1e6)
+            }
+            Outcome::Refused(why) => format!("refused: {why}"),
+            Outcome::NotBuilt => "not built".to_owned(),
+        }
+    }
+
+    /// The report's error, or its words, and its time [s].
+    pub(crate) fn report(&self) -> [String; 2] {
+        let words = |text: &str| [text.to_owned(), String::new()];
+        match self.printed {
+            Printed::Numbers(e, s) => [digits(e), s.map(time).unwrap_or_default()],
+            Printed::NoConvergence => words("no convergence"),
+            Printed::Wrong => words("wrong results"),
+            Printed::DoesNotWork => words("does not work"),
+            Printed::Nothing => words(""),
+        }
+    }
+}
+
+/// The rows of each table, in order.
+pub(crate) fn by_table(rows: &[Row]) -> impl Iterator<Item = (&'static Table, &[Row])> {
+    rows.chunk_by(|a, b| a.table.name == b.table.name).map(|rows| (rows[0].table, rows))
+}
+
+/// An error with two digits.
+pub(crate) fn error(x: f64) -> String {
+    format!("{x:.1e}")
+}
+
+/// A printed error with two digits, or all it has.
+fn digits(x: f64) -> String {
+    let (two, all) = (error(x), format!("{x:e}"));
+    if all.len() > two.len() { all } else { two }
+}
+
+/// A printed time [s].
+fn time(x: f64) -> String {
+    if x < 10.0 && x.fract() == 0.0 { format!("{x:.1}") } else { x.to_string() }
+}
+
+/// A step, as short as it can be written.
+pub(crate) fn step(x: f64) -> String {
+    format!("{x:e}")
+}
+
+/// A time with two or three digits [s].
+pub(crate) fn seconds(x: f64) -> String {
+    let digits = if x < 0.01 {
+        4
+    } else if x < 1.0 {
+        3
+    } else if x < 100.0 {
+        1
+    } else {
+        0
+    };
+    format!("{x:.digits$}")
+}
+
+/// Every row as CSV.
+///
+/// # Errors
+///
+/// What the writer says.
+pub(crate) fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
+    let mut out = csv::Writer::from_writer(Vec::new());
+    let header = [
+        "table",
+        "scene",
+        "method",
+        "step_s",
+        "energy_error_j",
+        "energy_error_share",
+        "reference_channel",
+        "reference_distance",
+        "cpu_s",
+        "reason",
+        "report_row",
+        "report_error",
+        "report_cpu_s",
+    ];
+    out.write_record(header).map_err(|e| e.to_string())?;
+    for row in rows {
+        let exact = match &row.outcome {
+            Outcome::Completed(f) => {
+                [f.energy_error, f.share(), f.distance, f.seconds].map(|x| format!("{x:e}"))
+            }
+            _ => Default::default(),
+        };
+        let [energy, share, distance, cpu] = exact;
+        let [report_error, report_cpu] = row.report();
+        let record = [
+            row.table.name,
+            row.table.scene,
+            row.method.name,
+            &step(row.step),
+            &energy,
+            &share,
+            row.table.reference.channel,
+            &distance,
+            &cpu,
+            &row.reason(),
+            row.method.printed_name,
+            &report_error,
+            &report_cpu,
+        ];
+        out.write_record(record).map_err(|e| e.to_string())?;
+    }
+    out.into_inner().map_err(|e| e.to_string())
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::super::outcome::Figures;
+    use super::super::report::TABLES;
+    use super::*;
+
+    /// One row of each kind.
+    pub(crate) fn samples() -> Vec<Row> {
+        let figures = Figures {
+            energy_error: 4.636e-3,
+            turned_over: 19.0,
+            distance: 2.5e-2,
+            seconds: 0.0123,
+        };
+        let stopped = Outcome::Stopped {
+            code: "not-converged".into(),
+            message: "no convergence, \"try\" <less>".into(),
+            time: 0.0082,
+        };
+        let [t1, .., t2, _] = &TABLES;
+        vec![
+            Row::new(t1, &t1.methods[0], 1e-2, Outcome::Completed(figures)),
+            Row::new(t1, &t1.methods[1], 1e-4, stopped),
+            Row::new(t2, &t2.methods[3], 5e-2, Outcome::NotBuilt),
+            Row::new(t2, &t2.methods[4], 5e-2, Outcome::Refused("singular & stuck".into())),
+        ]
+    }
+
+    #[test]
+    fn rows_stand_beside_the_report() {
+        let rows = samples();
+        assert_eq!(rows[0].ours(), ["4.6e-3", "2.4e-4", "2.5e-2", "0.012"]);
+        assert_eq!(rows[0].report(), ["no convergence", ""]);
+        assert_eq!(rows[1].report(), ["2.0e-5", "17.2"]);
+        assert!(rows[1].reason().starts_with("not-converged at 0.0082 s: no convergence"));
+        assert_eq!(rows[2].reason(), "not built");
+        assert_eq!(rows[2].report(), ["", ""]);
+        assert_eq!(rows[3].report(), ["does not work", ""]);
+        let tables: Vec<_> =
+            by_table(&rows).map(|(table, rows)| (table.name, rows.len())).collect();
+        assert_eq!(tables, [("T1", 2), ("T2", 2)]);
+    }
+
+    #[test]
+    fn numbers_keep_two_or_three_digits() {
+        assert_eq!(
+            [0.00312, 0.0423, 17.2, 1003.0].map(seconds),
+            ["0.0031", "0.042", "17.2", "1003"]
+        );
+        assert_eq!([5e-2, 1e-6].map(step), ["5e-2", "1e-6"]);
+    }
+
+    #[test]
+    fn csv_reads_back_with_its_quotes() {
+        let bytes = csv(&samples()).unwrap();
+        let mut reader = csv::Reader::from_reader(bytes.as_slice());
+        let width = reader.headers().unwrap().len();
+        let records: Vec<_> = reader.records().map(Result::unwrap).collect();
+        assert_eq!(records.len(), 4);
+        assert!(records.iter().all(|record| record.len() == width));
+        assert_eq!(&records[0][4], "4.636e-3");
+        assert!(records[1][9].ends_with("no convergence, \"try\" <less>"));
+    }
+}

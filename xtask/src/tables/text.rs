@@ -1,0 +1,95 @@
+//! The tables as text for a terminal.
+
+use super::rows::{Row, by_table, step};
+use std::fmt::Write;
+
+/// Widths of the columns: method, step, error, share, distance, time, the report's error and time.
+const WIDTHS: [usize; 8] = [22, 6, 9, 9, 9, 8, 15, 8];
+
+/// All tables.
+pub(crate) fn text(rows: &[Row]) -> String {
+    let mut text = String::new();
+    for (table, rows) in by_table(rows) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}  {} ({})\n", table.name, table.title, table.source);
+        line(
+            &mut text,
+            ["", "dt", "error", "share", table.reference.channel, "CPU", "report", "CPU"],
+        );
+        line(&mut text, ["", "[s]", "[J]", "[-]", "off by", "[s]", "error", "[s]"]);
+        let mut last = "";
+        for row in rows {
+            if last != row.method.name && !last.is_empty() {
+                text.push('\n');
+            }
+            last = row.method.name;
+            let [mut error, share, distance, seconds] = row.ours();
+            let mut reason = row.reason();
+            // Few words stand in the row, more below it.
+            if !reason.is_empty() && reason.len() <= WIDTHS[2] {
+                error = std::mem::take(&mut reason);
+            }
+            let [report_error, report_seconds] = row.report();
+            let (name, dt) = (row.method.name, step(row.step));
+            let cells =
+                [name, &dt, &error, &share, &distance, &seconds, &report_error, &report_seconds];
+            line(&mut text, cells);
+            if !reason.is_empty() {
+                paragraph(&mut text, 30, &reason);
+            }
+        }
+        text.push('\n');
+        paragraph(&mut text, 0, table.note);
+        text.push('\n');
+    }
+    paragraph(&mut text, 0, REMARK);
+    text
+}
+
+/// What holds for all tables.
+pub(crate) const REMARK: &str = "error: largest error of the energy invariant over every step; share: of the energy turned \
+    over, the largest kinetic energy plus the work done; CPU: of the stepping. The report's times are those of its authors' machines.";
+
+/// Width of a page of text.
+const PAGE: usize = 100;
+
+/// Words in lines that fit the page, with a margin on their left.
+fn paragraph(text: &mut String, margin: usize, words: &str) {
+    let mut line = String::new();
+    for word in words.split_whitespace() {
+        if !line.is_empty() && margin + line.len() + 1 + word.len() > PAGE {
+            let _ = writeln!(text, "{:margin$}{line}", "");
+            line.clear();
+        }
+        let gap = if line.is_empty() { "" } else { " " };
+        let _ = write!(line, "{gap}{word}");
+    }
+    let _ = writeln!(text, "{:margin$}{line}", "");
+}
+
+/// One line; names stand on the left of their columns, numbers on the right.
+fn line(text: &mut String, cells: [&str; 8]) {
+    let mut line = format!("{:<width$}", cells[0], width = WIDTHS[0]);
+    for (cell, width) in cells.iter().zip(WIDTHS).skip(1) {
+        let _ = write!(line, " {cell:>width$}");
+    }
+    let _ = writeln!(text, "{}", line.trim_end());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::rows::tests::samples;
+
+    #[test]
+    fn text_has_every_row_and_its_reason() {
+        let text = super::text(&samples());
+        assert!(text.contains("T1  Double pendulum (publication 1, Table I)"));
+        assert!(text.contains(
+            "index-1                  1e-2    4.6e-3    2.4e-4    2.5e-2    0.012  no convergence\n"
+        ));
+        assert!(text.contains("2.0e-5     17.2\n"));
+        assert!(text.contains("not-converged at 0.0082 s"));
+        assert!(text.lines().all(|line| line.len() <= super::PAGE), "{text}");
+        assert!(text.contains("not built") && text.contains("refused: singular & stuck"));
+    }
+}
