@@ -19,7 +19,7 @@ use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    StepError, StepReport, Stop, Yardstick, largest, largest_or_nan, step_scale, stopping,
+    StepError, StepReport, Stop, Yardstick, largest_or_nan, step_scale, stopping,
 };
 use mbs_core::{Real, SymmetricSolver};
 
@@ -122,6 +122,9 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f[..w.n]) });
         }
+        if iterations == 1 {
+            w.check_branch(model, length)?;
+        }
         let yardstick = yardstick(iterations, scale, length, options, w);
         if let Some(stop) = stopping(iterations, correction, last, &yardstick) {
             return Ok((iterations, correction, stop));
@@ -131,8 +134,7 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     if last <= scale * T::from_f64(1e-6) {
         return Ok((options.max_iterations, last, Stop::Tolerance));
     }
-    let (iterations, unknown) = (options.max_iterations, largest(&w.f[..w.n]));
-    Err(StepError::NotConverged { iterations, correction: (last / length).to_f64(), unknown })
+    Err(w.not_converged(model, options.max_iterations, last / length))
 }
 
 /// What corrections are measured against: rounding is that of the increment where increments are carried, else of the

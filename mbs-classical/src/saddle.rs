@@ -44,9 +44,8 @@ impl Saddle {
             let (clique, rows) = (model.clique(e), model.rows(e));
             this.cliques.extend_from_slice(clique);
             this.jacobian.push(this.jacobian[e] + clique.len() * rows.len());
-            this.cliques.extend(
-                rows.map(|row| u32::try_from(n + row).expect("at most 2^32 - 1 unknowns")),
-            );
+            this.cliques
+                .extend(rows.map(|row| u32::try_from(n + row).expect("at most 2^32 - 1 unknowns")));
             this.starts.push(this.cliques.len());
         }
         this
