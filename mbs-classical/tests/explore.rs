@@ -1,163 +1,131 @@
 //! Scratch.
 mod common;
 use common::*;
-use mbs_core::SymmetricSolver;
+use mbs_classical::{Options, Stabilisation};
+use mbs_core::model::Model;
+use mbs_core::start::assemble;
+use mbs_sparse::Multifrontal;
 
-fn go<const D: usize>(text: &str, index: Index, dt: f64, end: f64) {
-    let sc = scene::<f64>(text);
-    let mut run = Run::<f64, D>::new(&sc, index);
-    let e0 = run.invariant();
-    let n = (end / dt).round() as usize;
-    let (mut its, mut fac, mut sol, mut worst, mut v) = (0, 0, 0, 1.0_f64, [0.0_f64; 3]);
-    let (mut emax, mut delays) = (0.0_f64, 0);
-    for i in 0..n {
-        match run.step(dt) {
-            Ok(r) => {
-                its += r.iterations;
-                fac += r.factorizations;
-                sol += r.solves;
-                for k in 0..3 {
-                    v[k] = v[k].max(r.violation[k]);
-                }
-            }
-            Err(e) => {
-                println!(
-                    "{:20} {index:?} {dt:.0e}: step {i} t={:.4}: {e:?}, worst {worst:.1e}",
-                    sc.name, run.state.t
-                );
-                return;
-            }
-        }
-        worst = worst.min(run.w.solver().weakest().ratio);
-        delays = delays.max(run.w.solver().delays().delayed);
-        if i % 10 == 9 {
-            emax = emax.max((run.invariant() - e0).abs());
-        }
-    }
-    let n = n as f64;
-    println!(
-        "{:20} {index:?} {dt:.0e}: its {:.2} fac {:.2} sol {:.2} worst {worst:.1e} dE max {emax:.3e} end {:.3e} viol {:.0e} {:.0e} {:.0e} delays {delays}",
-        sc.name,
-        its as f64 / n,
-        fac as f64 / n,
-        sol as f64 / n,
-        run.invariant() - e0,
-        v[0],
-        v[1],
-        v[2]
-    );
-}
-
-#[test]
-fn explore() {
-    for index in [Index::Three, Index::One] {
-        for dt in [1e-2, 1e-3] {
-            go::<2>(SIMPLE, index, dt, 2.0);
-            go::<2>(DOUBLE, index, dt, 10.0);
-            go::<2>(TWO_FOUR_BARS, index, dt, 10.0);
-            go::<3>(CHAIN, index, dt, 1.0);
-            go::<3>(REDUNDANT, index, dt, 1.0);
-            go::<3>(TOP, index, dt, 1.0);
-            go::<3>(FREE, index, dt, 1.0);
-            go::<2>(GUIDED, index, dt, 2.0);
-            go::<2>(SLIDER, index, dt, 2.0);
-            go::<2>(N_FOUR_BAR, index, dt, 2.0);
-        }
-    }
-}
-
-#[test]
-fn bars() {
-    let exact = [0.32845811154081537865 / 2.0, 0.94451853817860096216 / 2.0];
-    for index in [Index::Three, Index::One] {
-        for reg in [None, Some(1e-8)] {
-            for dt in [1e-2_f64, 7e-3, 5e-3, 3e-3, 2e-3, 1.3e-3, 1e-3, 7.7e-4, 5e-4, 2e-4, 1e-4] {
-                let sc = scene::<f64>(TWO_FOUR_BARS);
-                let mut run = Run::<f64, 2>::new(&sc, index);
-                run.options.regularisation = reg;
-                let e0 = run.invariant();
-                let n = (10.0 / dt).round() as usize;
-                let dt = 10.0 / n as f64;
-                let (mut worst, mut emax, mut its) = (1.0_f64, 0.0_f64, 0);
-                let mut err = None;
-                for _ in 0..n {
-                    match run.step(dt) {
-                        Ok(r) => its += r.iterations,
-                        Err(e) => {
-                            err = Some(e);
-                            break;
-                        }
-                    }
-                    worst = worst.min(run.w.solver().weakest().ratio);
-                    emax = emax.max((run.invariant() - e0).abs());
-                }
-                let p = run.points()[0];
-                println!(
-                    "{index:?} reg {reg:?} dt {dt:.0e}: t={:.4} its {:.2} worst {worst:.1e} emax {emax:.3e} off {:.2e} {err:?}",
-                    run.state.t,
-                    f64::from(its) / n as f64,
-                    (p[0] - exact[0]).hypot(p[1] - exact[1])
-                );
-            }
-        }
-    }
-}
-
-#[test]
-fn delays() {
-    use mbs_classical::{Saddle, Workspace};
-    use mbs_core::dense::front::Thresholds;
-    use mbs_sparse::Indefinite;
-    for growth in [0.05, 0.01, 1e-3, 1e-4, 1e-6] {
-        for text in [CHAIN, TOP] {
-            let sc = scene::<f64>(text);
-            let mut run = Run::<f64, 3>::new(&sc, Index::Three);
-            let solver =
-                Indefinite::analyse(&Saddle::new(&run.model), mbs_sparse::Options::default())
-                    .with_thresholds(Thresholds { growth, ..Thresholds::default() });
-            run.w = Workspace::new(&run.model, solver);
-            let t = std::time::Instant::now();
-            let mut r = None;
-            let mut v = 0.0_f64;
-            for _ in 0..300 {
-                let x = run.step(1e-3).unwrap();
-                v = v.max(x.violation[2]);
-                r = Some(x);
-            }
-            println!(
-                "{growth}: {} {:?} {:?} {:.1} us/step {v:.1e} worst {:.1e} {:?}",
-                sc.name,
-                run.w.solver().delays(),
-                run.w.solver().counters(),
-                t.elapsed().as_secs_f64() / 300.0 * 1e6,
-                run.w.solver().weakest().ratio,
-                r.unwrap().solves
-            );
-        }
-    }
-    let sc = scene::<f64>(CHAIN);
-    let run = Run::<f64, 3>::new(&sc, Index::Three);
-    let mut solver = mbs_sparse::Multifrontal::analyse(&run.model, mbs_sparse::Options::default());
-    println!("{:?}", solver.counters());
-    let start = mbs_core::start::assemble(
-        &sc,
-        &run.model,
-        |p| mbs_sparse::Multifrontal::analyse(p, mbs_sparse::Options::default()),
-        &mut solver,
-    )
-    .unwrap();
-    let mut s = start.state;
+fn augmented<const D: usize>(
+    scene: &mbs_core::scene::Scene<f64>,
+    dt: f64,
+    n: usize,
+) -> Vec<[f64; 3]> {
+    let run = Run::<f64, D>::new(scene, Index::Three);
+    let analyse = mbs_sparse::Options::default();
+    let mut solver = Multifrontal::analyse(&run.model, analyse);
+    let start =
+        assemble(scene, &run.model, |p| Multifrontal::analyse(p, analyse), &mut solver).unwrap();
+    let mut state = start.state;
     let mut w = mbs_augmented::Workspace::new(&run.model, solver);
-    let t = std::time::Instant::now();
-    for _ in 0..300 {
+    for _ in 0..n {
         mbs_augmented::index3::step(
             &run.model,
-            (1e-3, run.model.length()),
+            (dt, run.model.length()),
             &mbs_augmented::Options::index3(),
-            &mut s,
+            &mut state,
             &mut w,
         )
         .unwrap();
     }
-    println!("augmented {:.1} us/step", t.elapsed().as_secs_f64() / 300.0 * 1e6);
+    centres(scene, &run.model, &state)
+}
+
+#[test]
+fn explore() {
+    let sc = scene::<f64>(TWO_FOUR_BARS);
+    for dt in [0.02, 0.01] {
+        let n = (10.0_f64 / dt).round() as usize;
+        let a = augmented::<2>(&sc, dt, n);
+        let run = Run::<f64, 2>::new(&sc, Index::Three).steps(dt, n);
+        println!("{dt}: {:e} {:?}", distance(&a, &run.points()), a[0]);
+    }
+    for (alpha, t) in
+        [(0.0, 10.0), (0.0, 20.0), (0.0, 50.0), (5.0, 50.0), (20.0, 50.0), (50.0, 50.0)]
+    {
+        let mut run = Run::<f64, 2>::new(&scene(SIMPLE), Index::One);
+        run.options.stabilisation = if alpha > 0.0 {
+            Stabilisation::Baumgarte { alpha, beta: alpha }
+        } else {
+            Stabilisation::None
+        };
+        let start = run.invariant();
+        let mut r = [0.0_f64; 3];
+        let mut e = 0.0_f64;
+        for _ in 0..(t / 1e-2) as usize {
+            let x = run.step(1e-2).unwrap();
+            for k in 0..3 {
+                r[k] = r[k].max(x.violation[k]);
+            }
+            e = e.max((run.invariant() - start).abs());
+        }
+        println!("simple {alpha} {t}: {r:?} {e:.2e}");
+    }
+    for dt in [1e-3, 5e-3] {
+        for st in [
+            Stabilisation::None,
+            Stabilisation::Baumgarte { alpha: 5.0, beta: 5.0 },
+            Stabilisation::Baumgarte { alpha: 20.0, beta: 20.0 },
+            Stabilisation::Baumgarte { alpha: 100.0, beta: 100.0 },
+            Stabilisation::Projection,
+        ] {
+            let mut run = Run::<f64, 2>::new(&scene(DOUBLE), Index::One);
+            run.options = Options { stabilisation: st, ..Options::index1() };
+            let start = run.invariant();
+            let (mut phi, mut phid, mut energy): (f64, f64, f64) = (0.0, 0.0, 0.0);
+            let mut err = None;
+            for _ in 0..(10.0 / dt) as usize {
+                match run.step(dt) {
+                    Ok(r) => {
+                        phi = phi.max(r.violation[0]);
+                        phid = phid.max(r.violation[1]);
+                    }
+                    Err(e) => {
+                        err = Some((run.state.t, e));
+                        break;
+                    }
+                }
+                energy = energy.max((run.invariant() - start).abs());
+            }
+            println!("{dt} {st:?}: phi {phi:.2e} phid {phid:.2e} dE {energy:.2e} {err:?}");
+        }
+    }
+    for (name, text) in [("slider", SLIDER), ("double", DOUBLE), ("guided", GUIDED)] {
+        let sc = scene::<f64>(text);
+        let a = augmented::<2>(&sc, 1e-3, 300);
+        for (reg, tol) in [
+            (None, 1e-10),
+            (None, 1e-13),
+            (Some(1e-6), 1e-10),
+            (Some(1e-6), 1e-13),
+            (Some(1e-8), 1e-10),
+        ] {
+            let mut run = Run::<f64, 2>::new(&sc, Index::Three);
+            run.options.regularisation = reg;
+            run.options.tolerance = tol;
+            let run = run.steps(1e-3, 300);
+            println!("{name} {reg:?} {tol}: {:e}", distance(&a, &run.points()));
+        }
+    }
+    for reg in [1e-6, 1e-7, 1e-8, 1e-9] {
+        let sc = scene::<f64>(REDUNDANT);
+        let a = augmented::<3>(&sc, 1e-3, 300);
+        let mut run = Run::<f64, 3>::new(&sc, Index::Three);
+        run.options.regularisation = Some(reg);
+        let run = run.steps(1e-3, 300);
+        println!(
+            "redundant {reg}: {:e} lambda {:.1e}",
+            distance(&a, &run.points()),
+            run.state.lambda.iter().fold(0.0_f64, |m, x| m.max(x.abs()))
+        );
+    }
+    let run = Run::<f64, 3>::new(&scene(REDUNDANT), Index::Three);
+    println!(
+        "{:?}",
+        (0..run.model.n_constraints())
+            .map(|r| Model::<f64>::owner_of_row(&run.model, r))
+            .collect::<Vec<_>>()
+    );
+    let run = Run::<f64, 2>::new(&scene(SIMPLE), Index::Three);
+    println!("{:?} {:?} {:?}", run.state.q, run.state.v, 0);
 }
