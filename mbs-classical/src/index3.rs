@@ -99,6 +99,9 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     let mut last = T::ZERO;
     for iterations in 1..=options.max_iterations {
         factor(model, rule, options, w)?;
+        if iterations == 1 && options.regularisation.is_some() {
+            filter(model, w);
+        }
 
         // f = (M a/a' + J^T lambda/a' - Q/a', phi)   [P3 (19)]
         w.mu.copy_from_slice(&w.lambda);
@@ -135,6 +138,16 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         return Ok((options.max_iterations, last, Stop::Tolerance));
     }
     Err(w.not_converged(model, options.max_iterations, last / length))
+}
+
+/// lambda <- 1/delta J T^-1 J^T lambda, T = W + J^T J / delta: removes what redundant constraints cannot feed, and what would
+/// grow with the rounding of phi.
+fn filter<T: Real, M: Model<T>, S: SymmetricSolver<T>>(model: &M, w: &mut Workspace<T, S>) {
+    w.mu.copy_from_slice(&w.lambda);
+    w.assemble(model, Mass::None, T::ZERO, false);
+    w.solve();
+    let n = w.n;
+    w.lambda.copy_from_slice(&w.f[n..]);
 }
 
 /// What corrections are measured against: rounding is that of the increment where increments are carried, else of the

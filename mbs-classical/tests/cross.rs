@@ -65,19 +65,24 @@ fn index3_moves_as_the_augmented_lagrangian_does() {
 
 #[test]
 fn index3_moves_alike_with_every_effect_and_guide() {
-    // Both zoos have redundant joints.
-    fn check<const D: usize>(text: &str) {
+    fn check<const D: usize>(text: &str, regularisation: Option<f64>) {
         let scene = scene::<f64>(text);
         let mut run = Run::<f64, D>::new(&scene, Index::Three);
-        run.options.regularisation = Some(1e-8);
+        run.options.regularisation = regularisation;
         let run = run.steps(1e-3, 100);
         let (points, work) = augmented::<D>(&scene, 1e-3, 100);
         let off = distance(&run.points(), &points);
         assert!(off < NEAR, "{}: {off:e} m", scene.name);
-        assert!((run.state.work - work).abs() < NEAR * 10.0 * work.abs().max(1.0), "{work} J");
+        // Reactions here balance the forces at the projected velocities, which changes work by 8 to 20 dt^2.
+        assert!(
+            (run.state.work - work).abs() < 4e-5,
+            "{}: {} J, {work} J",
+            scene.name,
+            run.state.work
+        );
     }
-    check::<2>(zoo::PLANAR);
-    check::<3>(zoo::SPATIAL);
+    check::<2>(zoo::PLANAR, Some(1e-8));
+    check::<3>(zoo::SPATIAL, None);
 }
 
 #[test]
@@ -128,6 +133,8 @@ fn regularised_redundant_constraints_move_as_the_augmented_lagrangian_does() {
         let run = run.steps(1e-3, 500);
         let off = distance(&run.points(), &expected);
         assert!(off < SAME, "{regularisation:e}: {off:e} m");
+        let most = run.state.lambda.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        assert!(most < 100.0, "{regularisation:e}: multipliers grow to {most:e} N");
     }
 }
 
