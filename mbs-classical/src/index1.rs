@@ -163,8 +163,7 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     if last <= scale * T::from_f64(1e-6) {
         return Ok((options.max_iterations, last, Stop::Tolerance));
     }
-    let (iterations, unknown) = (options.max_iterations, largest(&w.f[..w.n]));
-    Err(StepError::NotConverged { iterations, correction: (last / length).to_f64(), unknown })
+    Err(w.not_converged(model, options.max_iterations, last / length))
 }
 
 /// Moves q onto phi = 0, and v by the integrator's relation, so that both tell of the same motion. The matrix at the new q is
@@ -189,6 +188,7 @@ fn positions<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         }
         w.rates.copy_from_slice(&w.terms.phi);
         w.sweep(model, sweeps > 0);
+        w.check_branch(model, length)?;
         for i in 0..w.n {
             w.dq[i] -= w.f[i];
             w.v[i] -= rule.velocity * w.f[i];

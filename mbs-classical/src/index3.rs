@@ -19,7 +19,7 @@ use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    StepError, StepReport, Stop, Yardstick, largest, largest_or_nan, step_scale, stopping,
+    StepError, StepReport, Stop, Yardstick, largest_or_nan, step_scale, stopping,
 };
 use mbs_core::{Real, SymmetricSolver};
 
@@ -99,6 +99,9 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     let mut last = T::ZERO;
     for iterations in 1..=options.max_iterations {
         factor(model, rule, options, w)?;
+        if iterations == 1 && options.regularisation.is_some() {
+            filter(model, w);
+        }
 
         // f = (M a/a' + J^T lambda/a' - Q/a', phi)   [P3 (19)]
         w.mu.copy_from_slice(&w.lambda);
@@ -122,6 +125,9 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f[..w.n]) });
         }
+        if iterations == 1 {
+            w.check_branch(model, length)?;
+        }
         let yardstick = yardstick(iterations, scale, length, options, w);
         if let Some(stop) = stopping(iterations, correction, last, &yardstick) {
             return Ok((iterations, correction, stop));
@@ -131,8 +137,17 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     if last <= scale * T::from_f64(1e-6) {
         return Ok((options.max_iterations, last, Stop::Tolerance));
     }
-    let (iterations, unknown) = (options.max_iterations, largest(&w.f[..w.n]));
-    Err(StepError::NotConverged { iterations, correction: (last / length).to_f64(), unknown })
+    Err(w.not_converged(model, options.max_iterations, last / length))
+}
+
+/// lambda <- 1/delta J T^-1 J^T lambda, T = W + J^T J / delta: removes what redundant constraints cannot feed, and what would
+/// grow with the rounding of phi.
+fn filter<T: Real, M: Model<T>, S: SymmetricSolver<T>>(model: &M, w: &mut Workspace<T, S>) {
+    w.mu.copy_from_slice(&w.lambda);
+    w.assemble(model, Mass::None, T::ZERO, false);
+    w.solve();
+    let n = w.n;
+    w.lambda.copy_from_slice(&w.f[n..]);
 }
 
 /// What corrections are measured against: rounding is that of the increment where increments are carried, else of the

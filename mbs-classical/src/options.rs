@@ -17,11 +17,12 @@ pub struct Options<T> {
     pub max_sweeps: u32,
     /// The constraints count as having lost rank when the weakest pivot of the equilibrated saddle matrix is below this times
     /// what it is the sum of [-]. It goes with the square of the sine of the angle between a row and the others: the default
-    /// of 1e-6 refuses rows within 1e-3 rad of being dependent.
+    /// of 1e-12 refuses rows within 1e-6 rad of being dependent. Farther off, a step that may leave its branch is refused too.
     pub rank: T,
     /// delta on the diagonal of the rows, in units of 1 / (effective mass of the row) [-]; the multipliers are iterated
-    /// (proximal shift), so that the solution is the exact one. Tolerates redundant rows and most singular positions, at the
-    /// price of a few sweeps more. `None`: zero, and lost rank is an error.
+    /// (proximal shift), so that the solution is the exact one. Tolerates redundant rows at the price of a few sweeps more;
+    /// 1e-8 does. It does not help through singular positions, which are passed best without. `None`: zero, and lost rank is
+    /// an error.
     pub regularisation: Option<T>,
     /// What keeps index-1 on its constraints.
     pub stabilisation: Stabilisation<T>,
@@ -56,7 +57,7 @@ impl<T: Real> Options<T> {
             tolerance: T::from_f64(1e-10).max(T::EPSILON * T::from_f64(64.0)),
             max_iterations: 20,
             max_sweeps: 12,
-            rank: T::from_f64(1e-6).max(T::EPSILON * T::from_f64(1024.0)),
+            rank: T::from_f64(1e-12).max(T::EPSILON * T::from_f64(300.0)),
             regularisation: None,
             stabilisation: Stabilisation::Projection,
             geometric_stiffness: true,

@@ -5,8 +5,9 @@
 //! [ J  -delta ] ( d_sigma ) = - ( J x + b                ),     x += d,   sigma += d_sigma
 //! ```
 //!
-//! [P3 (21), (22)] solve for x itself; the correction loses no digits to the condition of the matrix. One sweep reaches the
-//! level when the factor belongs to the configuration and delta = 0; the weight is that of the factor, W, as printed.
+//! [P3 (21), (22)] solve for x itself with the weight W; the correction loses no digits to the condition of the matrix. The
+//! first sweep is the printed projection; the next ones make it orthogonal in the mass, whatever forces are in W, and remove
+//! what a factor of a near configuration or delta left.
 
 use crate::workspace::{Mass, Workspace};
 use mbs_core::algebra::norm_inf;
@@ -16,6 +17,9 @@ use mbs_core::{Real, SymmetricSolver};
 
 /// Violation of a level that is accepted when no sweep lowers it further, relative to the size of the level.
 const LIMIT: f64 = 5e-10;
+
+/// A correction below this times the first one changes the orthogonality of a projection no more.
+const ORTHOGONAL: f64 = 1e-3;
 
 /// Which vector is projected, with its right-hand side b.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -71,7 +75,8 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
 
     /// Projects v or a; the multipliers are left in `sigma`. Returns the violation left.
     ///
-    /// Sweeps until the violation is at most `goal`, or stops shrinking below `limit`.
+    /// Sweeps until the violation is at most `goal`, or stops shrinking below `limit`, and corrections have become small
+    /// beside the first one, or stop shrinking.
     fn project<M: Model<T>>(
         &mut self,
         model: &M,
@@ -82,10 +87,11 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         self.sigma.fill(T::ZERO);
         self.change.fill(T::ZERO);
         let mut violation = self.violation(model, level);
+        if violation <= goal {
+            return Ok(violation);
+        }
+        let (mut first, mut last) = (T::ZERO, T::ZERO);
         for sweeps in 0..max_sweeps {
-            if violation <= goal {
-                return Ok(violation);
-            }
             self.sweep(model, sweeps > 0);
             let x = match level {
                 Level::Velocity => &mut self.v,
@@ -95,11 +101,17 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
                 *x -= d;
             }
             let left = self.violation(model, level);
-            let contraction = left / violation;
+            let is_level = left <= goal || (left > violation * T::HALF && left <= limit);
             violation = left;
-            if contraction > T::HALF && violation <= limit {
+            let correction = norm_inf(&self.f[..self.n]);
+            let is_orthogonal = correction <= first * T::from_f64(ORTHOGONAL);
+            if is_level && sweeps > 0 && (is_orthogonal || correction > last * T::HALF) {
                 return Ok(violation);
             }
+            if sweeps == 0 {
+                first = correction;
+            }
+            last = correction;
         }
         if violation <= limit {
             return Ok(violation);

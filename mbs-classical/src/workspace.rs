@@ -3,9 +3,10 @@
 use crate::saddle::{Saddle, System};
 use alloc::vec;
 use alloc::vec::Vec;
+use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Load, Model, Owner, State, Tangent, Terms};
-use mbs_core::step::{StepError, add_work, take_coordinates};
+use mbs_core::step::{StepError, add_work, largest, take_coordinates};
 use mbs_core::{FactorError, Real, SymmetricSolver};
 
 /// Scratch of the classical steps over a solver `S`. Nothing is allocated after [`Workspace::new`], but for what the solver
@@ -27,6 +28,8 @@ pub struct Workspace<T, S> {
     /// Right-hand side, then correction, of coordinates and multipliers, n + m.
     pub(crate) f: Vec<T>,
     scratch: Vec<T>,
+    /// What the weakest pivot leaves undetermined, n + m.
+    null: Vec<T>,
     /// lambda / a' (index-3) or lambda (index-1), m.
     pub(crate) lambda: Vec<T>,
     pub(crate) sigma: Vec<T>,
@@ -38,6 +41,12 @@ pub struct Workspace<T, S> {
     pub(crate) n: usize,
     pub(crate) counts: Counts,
 }
+
+/// A weakest pivot below this may belong to a singular position nearby: within some hundredths of a radian of it.
+const CLOSE: f64 = 1e-3;
+
+/// A weakest pivot below this explains why an iteration does not converge.
+const NEAR: f64 = 1e-4;
 
 /// Counters within a step.
 #[derive(Debug, Clone, Copy, Default)]
@@ -67,7 +76,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         model.evaluate(&q, &mut terms);
         let mut masses = zeros(m);
         model.effective_masses(&terms, &mut masses);
-        Self {
+        let mut this = Self {
             jacobian: zeros(saddle.n_jacobian()),
             scratch: zeros(solver.n_scratch()),
             solver,
@@ -79,6 +88,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             a: zeros(e),
             change: zeros(e),
             f: zeros(n + m),
+            null: zeros(n + m),
             lambda: zeros(m),
             sigma: zeros(m),
             mu: zeros(m),
@@ -87,7 +97,10 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             masses,
             n,
             counts: Counts::default(),
-        }
+        };
+        // The first factorisation shows the solver how many pivots it delays; whether it succeeds does not matter here.
+        let _ = this.factor(model, (T::ZERO, T::ZERO), false, T::ZERO);
+        this
     }
 
     /// The terms as last evaluated.
@@ -179,19 +192,69 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         if !error.pivot.is_finite() {
             return StepError::NotFinite { unknown: error.unknown.min(self.last_coordinate()) };
         }
-        self.solver.null_vector(&mut self.f, &mut self.scratch);
-        let rows = &self.f[self.n..];
-        let largest = rows.iter().fold(T::ZERO, |a, &b| a.max(b.abs()));
-        if (error.unknown as usize) < self.n && !(largest > T::EPSILON.sqrt()) {
+        self.solver.null_vector(&mut self.null, &mut self.scratch);
+        let rows = &self.null[self.n..];
+        let most = norm_inf(rows);
+        if (error.unknown as usize) < self.n && !(most > T::EPSILON.sqrt()) {
             return StepError::Singular(error);
         }
-        let part = |row: &usize| rows[*row].abs() > largest * T::from_f64(1e-3);
+        let part = |row: &usize| rows[*row].abs() > most * T::from_f64(1e-3);
         let is_of_joint = |row: &usize| matches!(model.owner_of_row(*row), Owner::Joint(_));
         let row = (0..rows.len())
             .find(|row| part(row) && is_of_joint(row))
             .or_else(|| (error.unknown as usize).checked_sub(self.n))
-            .unwrap_or_else(|| mbs_core::step::largest(rows) as usize);
+            .unwrap_or_else(|| largest(rows) as usize);
         StepError::RankLost { row: u32::try_from(row).unwrap_or(u32::MAX), pivot: error.pivot }
+    }
+
+    /// Near a singular position two branches cross, as far from each other as the mechanism is from it. The correction of the
+    /// coordinates in `f` must be small beside that distance in the direction in which they part, else the branch is a
+    /// matter of luck.
+    ///
+    /// ```text
+    /// x with T x = 0 nearly,   part = (x.d / x.x) |x|_max,   (4 part / length)^2 <= weakest pivot
+    /// ```
+    pub(crate) fn check_branch<M: Model<T>>(
+        &mut self,
+        model: &M,
+        length: T,
+    ) -> Result<(), StepError> {
+        let weakest = self.solver.weakest();
+        let ratio = T::from_f64(weakest.ratio);
+        if !self.delta.is_empty() || ratio > T::from_f64(CLOSE) {
+            return Ok(());
+        }
+        self.solver.null_vector(&mut self.null, &mut self.scratch);
+        let (x, d) = (&self.null[..self.n], &self.f[..self.n]);
+        let (mut along, mut square) = (T::ZERO, T::ZERO);
+        for (&x, &d) in x.iter().zip(d) {
+            along += x * d;
+            square += x * x;
+        }
+        let part = along.abs() * norm_inf(x) / square * T::from_f64(4.0) / length;
+        if square > T::ZERO && part * part > ratio {
+            let error = FactorError { unknown: weakest.unknown, pivot: weakest.ratio };
+            return Err(self.diagnose(model, error));
+        }
+        Ok(())
+    }
+
+    /// The iteration did not converge: near a singular position for want of rank.
+    pub(crate) fn not_converged<M: Model<T>>(
+        &mut self,
+        model: &M,
+        iterations: u32,
+        correction: T,
+    ) -> StepError {
+        let weakest = self.solver.weakest();
+        if weakest.ratio < NEAR {
+            let error = FactorError { unknown: weakest.unknown, pivot: weakest.ratio };
+            if let lost @ StepError::RankLost { .. } = self.diagnose(model, error) {
+                return lost;
+            }
+        }
+        let unknown = largest(&self.f[..self.n]);
+        StepError::NotConverged { iterations, correction: correction.to_f64(), unknown }
     }
 
     fn last_coordinate(&self) -> u32 {

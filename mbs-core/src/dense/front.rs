@@ -33,9 +33,9 @@ pub struct Thresholds<T> {
 }
 
 impl<T: Real> Default for Thresholds<T> {
-    /// u = 0.05; zero is 256 units of rounding.
+    /// u = 0.01; zero is 256 units of rounding.
     fn default() -> Self {
-        Self { growth: T::from_f64(0.05), zero: T::EPSILON * T::from_f64(256.0) }
+        Self { growth: T::from_f64(0.01), zero: T::EPSILON * T::from_f64(256.0) }
     }
 }
 
