@@ -123,6 +123,14 @@ fn residual<T: Real, S: Space<T>>(
     (worst, row, scale)
 }
 
+/// Does the last factorisation stand near a singular position: have fewer rows an effect than at other times?
+pub(crate) fn note_rank<T: Real, S: Space<T>>(s: &mut Store<'_, T, S>) -> bool {
+    let least = T::EPSILON.sqrt() * T::from_f64(64.0);
+    let rank = s.loops.pivots.iter().filter(|&&pivot| pivot > least).count();
+    *s.rank = rank.max(*s.rank);
+    rank < *s.rank
+}
+
 /// Repeats the affine parts until J a + bias is at its level; returns what is left.
 fn sweep<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
@@ -134,7 +142,8 @@ fn sweep<T: Real, S: Space<T>>(
         Level::Coarse => T::EPSILON.sqrt() * T::from_f64(0.01),
         Level::Fine => T::EPSILON * T::from_f64(256.0),
     };
-    let enough = T::EPSILON.sqrt();
+    // Near a singular position a combination of rows hardly feels its force: a part of its residual may stay.
+    let enough = if note_rank(s) { T::from_f64(1e-3) } else { T::EPSILON.sqrt() };
     let mut last: Option<T> = None;
     for _ in 0..MAX_SWEEPS {
         let (worst, row, scale) = residual(m, s);

@@ -78,6 +78,7 @@ pub struct Workspace<T: Real, S: Space<T>> {
     /// v, z̈, response, scratch.
     freedoms: Vec<T>,
     n_guides: usize,
+    rank: usize,
     explicit: Explicit<T>,
 }
 
@@ -114,6 +115,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             z: vec![T::ZERO; model.n_coordinates],
             freedoms: vec![T::ZERO; 4 * model.n_freedoms],
             n_guides,
+            rank: 0,
             explicit: Explicit {
                 y: vec![T::ZERO; n],
                 scratch: vec![T::ZERO; n_scratch],
@@ -167,6 +169,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             v,
             zdd,
             scratch,
+            rank: &mut self.rank,
             counts: Counts::default(),
         };
         (store, &mut self.explicit)

@@ -9,7 +9,7 @@
 //! Differs from the source: increments in place of hats, which round less; rotations are quaternions, q exp(δ); positions and
 //! velocities are projected on the loops afterwards, and the accelerations are those of the projected state.
 
-use crate::evaluate::{Level, accelerations};
+use crate::evaluate::{Level, accelerations, note_rank};
 use crate::mechanism::{Inputs, Mechanism, Store};
 use crate::options::{Closure, Options};
 use crate::passes::Fault;
@@ -78,7 +78,7 @@ fn iterate<T: Real, S: Space<T>>(
     let (beta, gamma) = (options.integrator.beta, options.integrator.gamma);
     let share = dt * dt * beta;
     let rounding = T::EPSILON * T::from_f64(64.0);
-    let passage = T::from_f64(1e-2);
+    let (passage, enough) = (T::from_f64(0.1), T::from_f64(1e-2));
     let (mut last, mut is_slow) = (T::ZERO, false);
     for iterations in 1..=options.max_iterations {
         // zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁   [P3 (43)-(44)]
@@ -114,8 +114,12 @@ fn iterate<T: Real, S: Space<T>>(
             if correction <= scale * rounding {
                 return Ok((iterations, correction, Stop::Rounding));
             }
-            // Near a singular position rounding is amplified: what is left is small against scene and step.
-            if correction <= m.length * options.tolerance && correction <= scale * passage {
+            // Near a singular position rounding is amplified: what is left is small against the step.
+            if correction <= scale * passage && note_rank(s) {
+                return Ok((iterations, correction, Stop::Passage));
+            }
+            // What is left is small against scene and step.
+            if correction <= m.length * options.tolerance && correction <= scale * enough {
                 return Ok((iterations, correction, Stop::Tolerance));
             }
         }
