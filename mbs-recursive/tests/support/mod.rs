@@ -2,7 +2,7 @@
 
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its part")]
 
-use mbs_core::model::State;
+use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
@@ -15,6 +15,7 @@ use nalgebra::Vector3;
 
 #[path = "../../../mbs-core/tests/common/mod.rs"]
 pub mod common;
+pub mod random;
 
 /// The natural model of a scene, and its assembled state.
 pub fn natural<const D: usize>(scene: &Scene<f64>) -> (NaturalModel<f64, D>, State<f64>) {
@@ -25,6 +26,14 @@ pub fn natural<const D: usize>(scene: &Scene<f64>) -> (NaturalModel<f64, D>, Sta
     let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver)
         .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     (model, start.state)
+}
+
+/// The accelerations of a natural model at the positions and velocities of a state.
+pub fn accelerations<const D: usize>(model: &NaturalModel<f64, D>, state: &mut State<f64>) {
+    let mut solver = Multifrontal::analyse(model, mbs_sparse::Options::default());
+    let mut terms = model.terms();
+    model.set_inputs(state.t, &mut terms);
+    mbs_core::start::accelerations(model, &mut solver, state, &mut terms).expect("regular");
 }
 
 /// A scene file of the repository.
@@ -51,6 +60,23 @@ impl<S: Space<f64>> Run<S> {
             .start(scene, &natural, &state)
             .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
         Self { workspace: Workspace::new(&model), options: Options::default(), model, state }
+    }
+
+    /// From the reference configuration with random velocities, brought onto the loops, some time later.
+    pub fn wandering(scene: &Scene<f64>, seed: u64) -> Self {
+        let model =
+            TreeModel::<f64, S>::new(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+        let mut state = TreeState::at_rest(&model);
+        let n = state.v.len();
+        state.v = common::Random(seed).vector(n, n, 1.0);
+        let mut workspace = Workspace::new(&model);
+        model.settle(&mut state, &mut workspace).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+        let mut run = Self { workspace, options: Options::default(), model, state };
+        for _ in 0..20 {
+            mbs_recursive::rk4_step(&run.model, 0.02, &run.options, &mut run.state, &mut run.workspace)
+                .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+        }
+        run
     }
 
     /// One step of the trapezoidal rule.
