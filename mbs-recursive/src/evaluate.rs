@@ -84,6 +84,7 @@ fn begin_loops<T: Real, S: Space<T>>(
     }
     s.loops.k.copy_from_slice(s.gradient);
     s.loops.blocks.fill(T::ZERO);
+    s.loops.scales.fill(T::ZERO);
     for k in 0..n {
         let [phi, phi_d, bias] = s.rows[k];
         s.loops.l[k] = match options.closure {
@@ -129,6 +130,13 @@ pub(crate) fn note_rank<T: Real, S: Space<T>>(s: &mut Store<'_, T, S>) -> bool {
     let rank = s.loops.pivots.iter().filter(|&&pivot| pivot > least).count();
     *s.rank = rank.max(*s.rank);
     rank < *s.rank
+}
+
+/// Do rows repeat each other, or stand near a singular position? Away from Φ = 0 such rows contradict each other, so that
+/// positions and velocities are projected before accelerations are evaluated.
+pub(crate) fn is_redundant<T: Real, S: Space<T>>(s: &Store<'_, T, S>) -> bool {
+    let least = T::EPSILON.sqrt();
+    s.loops.pivots.iter().any(|&pivot| !(pivot > least))
 }
 
 /// Repeats the affine parts until J a + bias is at its level; returns what is left.

@@ -69,7 +69,7 @@ pub struct Workspace<T: Real, S: Space<T>> {
     motions: Vec<S::Motion>,
     gradients: Vec<S::Motion>,
     rows: Vec<[T; 3]>,
-    /// l, λ, pivots, summed λ.
+    /// l, λ, scales, pivots, summed λ.
     multipliers: Vec<T>,
     blocks: Vec<T>,
     gains: Vec<T>,
@@ -108,7 +108,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             motions: vec![S::Motion::zero(); 2 * links],
             gradients: vec![S::Motion::zero(); 4 * rows],
             rows: vec![[T::ZERO; 3]; rows],
-            multipliers: vec![T::ZERO; 4 * rows],
+            multipliers: vec![T::ZERO; 5 * rows],
             blocks: vec![T::ZERO; model.order.n_blocks],
             gains: vec![T::ZERO; 2 * model.order.n_gains],
             inputs: vec![[T::ZERO; 3]; n_guides + model.courses.len()],
@@ -136,6 +136,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         let (k, gradient) = self.gradients.split_at_mut(2 * rows);
         let (l, rest) = self.multipliers.split_at_mut(rows);
         let (lambda_response, rest) = rest.split_at_mut(rows);
+        let (scales, rest) = rest.split_at_mut(rows);
         let (pivots, lambda) = rest.split_at_mut(rows);
         let half = self.gains.len() / 2;
         let (gains, heads) = self.gains.split_at_mut(half);
@@ -158,6 +159,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
                 blocks: &mut self.blocks,
                 gains,
                 heads,
+                scales,
                 pivots,
             },
             gradient,

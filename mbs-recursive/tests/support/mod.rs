@@ -2,7 +2,7 @@
 
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its part")]
 
-use mbs_core::model::{Model, State};
+use mbs_core::model::{Load, Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
@@ -28,12 +28,22 @@ pub fn natural<const D: usize>(scene: &Scene<f64>) -> (NaturalModel<f64, D>, Sta
     (model, start.state)
 }
 
-/// The accelerations of a natural model at the positions and velocities of a state.
-pub fn accelerations<const D: usize>(model: &NaturalModel<f64, D>, state: &mut State<f64>) {
-    let mut solver = Multifrontal::analyse(model, mbs_sparse::Options::default());
+/// How far a state's accelerations are from the equations of natural coordinates, relative to their parts: what is left of M a - Q
+/// along all directions that the constraints leave free, and J a + bias.
+pub fn imbalance<const D: usize>(model: &NaturalModel<f64, D>, state: &State<f64>) -> [f64; 2] {
     let mut terms = model.terms();
     model.set_inputs(state.t, &mut terms);
-    mbs_core::start::accelerations(model, &mut solver, state, &mut terms).expect("regular");
+    model.evaluate(&state.q, &mut terms);
+    model.evaluate_forces(&state.q, &state.v, &state.memory, &mut terms);
+    model.evaluate_phi_t(&state.q, &mut terms);
+    model.evaluate_bias(&state.q, &state.v, &mut terms);
+    let largest = |x: &[f64]| x.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+    let load = Load { mass: Some(&state.a), multipliers: None, force: 1.0 };
+    let forces = common::residual(model, &terms, &load);
+    let free = common::in_null_space(&common::jacobian(model, &terms), &forces);
+    let rates = common::rates(model, &terms, &state.a);
+    let left: Vec<f64> = rates.iter().zip(&terms.phi_bias).map(|(x, y)| x + y).collect();
+    [largest(&free) / (1.0 + largest(&forces)), largest(&left) / (1.0 + largest(&terms.phi_bias))]
 }
 
 /// A scene file of the repository.
