@@ -1,2 +1,130 @@
-//! Time of one evaluation of accelerations.
-fn main() {}
+//! Time of one evaluation of accelerations: chains of 10 to 1000 bodies, in the plane and in space, and rows of four-bars.
+//!
+//! `cargo bench -p mbs-recursive`; the throughput line gives bodies (or loops) per second.
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use mbs_core::scene::{
+    Body, BodyRef, Dimension, Inertia, Joint, JointKind, Scene, SolverChoice,
+};
+use mbs_recursive::space::Space;
+use mbs_recursive::{Options, Planar, Spatial, TreeModel, TreeState, Workspace};
+
+fn scene(dimension: Dimension) -> Scene<f64> {
+    Scene {
+        name: String::new(),
+        dimension,
+        gravity: Some([0.0, -9.81, 0.0]),
+        duration: 1.0,
+        bodies: Vec::new(),
+        joints: Vec::new(),
+        initials: Vec::new(),
+        guides: Vec::new(),
+        effects: Vec::new(),
+        outputs: Vec::new(),
+        solver: SolverChoice::default(),
+    }
+}
+
+fn revolute(bodies: [BodyRef; 2], at: [f64; 3], axis: Option<[f64; 3]>) -> Joint<f64> {
+    Joint {
+        name: String::new(),
+        kind: JointKind::Revolute,
+        bodies,
+        points: [at; 2],
+        axes: [axis, None],
+    }
+}
+
+/// `n` bodies one behind the other, axes turning from joint to joint.
+fn chain(n: usize, dimension: Dimension) -> Scene<f64> {
+    let mut scene = scene(dimension);
+    let mut last = BodyRef::Ground;
+    for i in 0..n {
+        let x = 0.1 * i as f64;
+        let inertia = match dimension {
+            Dimension::Planar => Inertia::Planar(1e-3),
+            Dimension::Spatial => Inertia::Spatial([2e-4, 1e-3, 1.1e-3, 1e-5, 2e-5, -1e-5]),
+        };
+        let center = [x + 0.05, 0.01, 0.0];
+        scene.bodies.push(Body { name: String::new(), mass: 1.0, center, inertia });
+        let body = BodyRef::Body(i);
+        let axis = [[0.0, 0.0, 1.0], [0.0, 0.6, 0.8], [0.1, 0.9, -0.2]][i % 3];
+        let axis = (dimension == Dimension::Spatial).then_some(axis);
+        scene.joints.push(revolute([last, body], [x, 0.0, 0.0], axis));
+        last = body;
+    }
+    scene
+}
+
+/// `n` four-bars side by side: cranks from the ground, couplers between their ends.
+fn four_bars(n: usize) -> Scene<f64> {
+    let mut scene = scene(Dimension::Planar);
+    let rod = |from: [f64; 3], to: [f64; 3]| Body {
+        name: String::new(),
+        mass: 1.0,
+        center: [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1]), 0.0],
+        inertia: Inertia::Rod { from, to },
+    };
+    for i in 0..=n {
+        let x = i as f64;
+        let crank = scene.bodies.len();
+        scene.bodies.push(rod([x, 0.0, 0.0], [x, 1.0, 0.0]));
+        scene.joints.push(revolute([BodyRef::Ground, BodyRef::Body(crank)], [x, 0.0, 0.0], None));
+        if i > 0 {
+            let joint = revolute([BodyRef::Body(crank - 1), BodyRef::Body(crank)], [x, 1.0, 0.0], None);
+            scene.joints.push(joint);
+        }
+        if i < n {
+            scene.bodies.push(rod([x, 1.0, 0.0], [x + 1.0, 1.0, 0.0]));
+            let bodies = [BodyRef::Body(crank), BodyRef::Body(crank + 1)];
+            scene.joints.push(revolute(bodies, [x, 1.0, 0.0], None));
+        }
+    }
+    scene
+}
+
+fn evaluations<S: Space<f64>>(
+    criterion: &mut Criterion,
+    group: &str,
+    make: impl Fn(usize) -> Scene<f64>,
+    sizes: &[usize],
+) {
+    let mut group = criterion.benchmark_group(group);
+    for &n in sizes {
+        let model = TreeModel::<f64, S>::new(&make(n)).expect("the scene has a tree");
+        let mut state = TreeState::at_rest(&model);
+        let loops = model.n_rows() > 0;
+        for (i, (z, v)) in state.z.iter_mut().zip(&mut state.v).enumerate() {
+            if !loops {
+                *z = 0.3 * (i as f64).sin();
+                *v = (2.0 * i as f64).cos();
+            }
+        }
+        let mut workspace = Workspace::new(&model);
+        let options = Options::default();
+        group.throughput(Throughput::Elements(n as u64));
+        group.bench_with_input(BenchmarkId::from_parameter(n), &n, |bencher, _| {
+            bencher.iter(|| {
+                model.accelerate(&options, &mut state, &mut workspace).expect("regular")
+            });
+        });
+    }
+    group.finish();
+}
+
+fn benches(criterion: &mut Criterion) {
+    let sizes = [10, 30, 100, 300, 1000];
+    evaluations::<Planar>(criterion, "planar chain", |n| chain(n, Dimension::Planar), &sizes);
+    evaluations::<Spatial>(criterion, "spatial chain", |n| chain(n, Dimension::Spatial), &sizes);
+    evaluations::<Planar>(criterion, "four-bars", four_bars, &[1, 2, 10, 40, 100]);
+}
+
+criterion_group! {
+    name = chains;
+    config = Criterion::default()
+        .warm_up_time(std::time::Duration::from_millis(300))
+        .measurement_time(std::time::Duration::from_millis(1000))
+        .sample_size(20);
+    targets = benches
+}
+criterion_main!(chains);

@@ -7,7 +7,7 @@
 //! Positions and velocities are projected on the loops after each accepted step, quaternions made unit at the end. The stages
 //! are those of [`mbs_core::ode`].
 
-use crate::evaluate::{Level, accelerations};
+use crate::evaluate::{Level, accelerations, is_redundant};
 use crate::ledger;
 use crate::link::{Kind, Link};
 use crate::mechanism::{Counts, Inputs, Mechanism, Store};
@@ -85,7 +85,17 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         let (nz, nv) = (self.m.n_coordinates, self.m.n_freedoms);
         self.evaluations += 1;
         self.set(t, y);
-        if let Err(fault) = accelerations(self.m, self.options, Level::Fine, self.s) {
+        let projects = self.evaluations > 1
+            && self.options.closure == Closure::Constraints
+            && is_redundant(self.s);
+        let ready = if projects {
+            project(self.m, self.options, self.s).map(|_| ())
+        } else {
+            Ok(())
+        };
+        let done =
+            ready.and_then(|()| accelerations(self.m, self.options, Level::Fine, self.s));
+        if let Err(fault) = done {
             let failure = failure(self.m, fault);
             // Numbers that follow from a failed stage say nothing.
             if y.iter().all(|y| y.is_finite()) {

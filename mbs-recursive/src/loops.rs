@@ -44,6 +44,8 @@ pub struct LoopStore<'a, T: Real, S: Space<T>> {
     pub gains: &'a mut [T],
     /// K b of each pass.
     pub heads: &'a mut [T],
+    /// The rows' own mobility, Σ (K b) D⁻¹ (K b)ᵀ before any elimination.
+    pub scales: &'a mut [T],
     /// Pivots of Λ relative to their rows' scale.
     pub pivots: &'a mut [T],
 }
@@ -87,6 +89,7 @@ pub(crate) fn pass<T: Real, S: Space<T>>(
             let k = joint::pass(kind, p, c, &st.k[place], (h, g));
             st.l[row] += k.dot(&p.bias) + driven(&c.drive, g);
             st.k[place] = S::gathered(&k, &p.arm);
+            st.scales[row] += inner(h, g);
             at += freedoms;
         }
     }
@@ -184,7 +187,7 @@ fn regularise<T: Real, S: Space<T>>(
     let mut scale = m.floor;
     for r in 0..n {
         let of = usize::from(m.rows[first + r].is_angle());
-        scale[of] = scale[of].max(block[r * n + r]);
+        scale[of] = scale[of].max(st.scales[first + r]);
     }
     for r in 0..n {
         let scale = scale[usize::from(m.rows[first + r].is_angle())];

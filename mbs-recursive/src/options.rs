@@ -48,7 +48,7 @@ impl<T: Real> Closure<T> {
 }
 
 impl<T: Real> Default for Options<T> {
-    /// Trapezoidal rule; tolerance 1e-10 (64 roundings in single precision); 50 iterations, 30 sweeps; error 1e-8; ε of 256 roundings.
+    /// Trapezoidal rule; tolerance 1e-10 (64 roundings in single precision); 50 iterations, 30 sweeps; error 1e-8; ε = √rounding / 256.
     fn default() -> Self {
         Self {
             integrator: Integrator::trapezoidal(),
@@ -57,7 +57,7 @@ impl<T: Real> Default for Options<T> {
             max_sweeps: 30,
             closure: Closure::Constraints,
             error: T::from_f64(1e-8).max(T::EPSILON * T::from_f64(64.0)),
-            regularisation: T::EPSILON * T::from_f64(256.0),
+            regularisation: T::EPSILON.sqrt() * T::from_f64(1.0 / 256.0),
         }
     }
 }

@@ -69,7 +69,7 @@ pub struct Workspace<T: Real, S: Space<T>> {
     motions: Vec<S::Motion>,
     gradients: Vec<S::Motion>,
     rows: Vec<[T; 3]>,
-    /// l, λ, pivots, summed λ.
+    /// l, λ, scales, pivots, summed λ.
     multipliers: Vec<T>,
     blocks: Vec<T>,
     gains: Vec<T>,
@@ -78,6 +78,7 @@ pub struct Workspace<T: Real, S: Space<T>> {
     /// v, z̈, response, scratch.
     freedoms: Vec<T>,
     n_guides: usize,
+    rank: usize,
     explicit: Explicit<T>,
 }
 
@@ -107,13 +108,14 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             motions: vec![S::Motion::zero(); 2 * links],
             gradients: vec![S::Motion::zero(); 4 * rows],
             rows: vec![[T::ZERO; 3]; rows],
-            multipliers: vec![T::ZERO; 4 * rows],
+            multipliers: vec![T::ZERO; 5 * rows],
             blocks: vec![T::ZERO; model.order.n_blocks],
             gains: vec![T::ZERO; 2 * model.order.n_gains],
             inputs: vec![[T::ZERO; 3]; n_guides + model.courses.len()],
             z: vec![T::ZERO; model.n_coordinates],
             freedoms: vec![T::ZERO; 4 * model.n_freedoms],
             n_guides,
+            rank: 0,
             explicit: Explicit {
                 y: vec![T::ZERO; n],
                 scratch: vec![T::ZERO; n_scratch],
@@ -134,6 +136,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         let (k, gradient) = self.gradients.split_at_mut(2 * rows);
         let (l, rest) = self.multipliers.split_at_mut(rows);
         let (lambda_response, rest) = rest.split_at_mut(rows);
+        let (scales, rest) = rest.split_at_mut(rows);
         let (pivots, lambda) = rest.split_at_mut(rows);
         let half = self.gains.len() / 2;
         let (gains, heads) = self.gains.split_at_mut(half);
@@ -156,6 +159,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
                 blocks: &mut self.blocks,
                 gains,
                 heads,
+                scales,
                 pivots,
             },
             gradient,
@@ -167,6 +171,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             v,
             zdd,
             scratch,
+            rank: &mut self.rank,
             counts: Counts::default(),
         };
         (store, &mut self.explicit)

@@ -9,7 +9,7 @@
 //! Differs from the source: increments in place of hats, which round less; rotations are quaternions, q exp(δ); positions and
 //! velocities are projected on the loops afterwards, and the accelerations are those of the projected state.
 
-use crate::evaluate::{Level, accelerations};
+use crate::evaluate::{Level, accelerations, is_redundant, note_rank};
 use crate::mechanism::{Inputs, Mechanism, Store};
 use crate::options::{Closure, Options};
 use crate::passes::Fault;
@@ -46,9 +46,18 @@ pub fn step<T: Real, S: Space<T>>(
     s: &mut Store<'_, T, S>,
 ) -> Result<StepReport<T>, StepError> {
     s.counts = crate::mechanism::Counts::default();
+    let mut projects = false;
+    if options.closure == Closure::Constraints && is_redundant(s) {
+        // A factor at the start, to project with.
+        inputs.evaluate(start.t, s.guides, s.courses);
+        s.z.copy_from_slice(start.z);
+        s.v.copy_from_slice(start.v);
+        accelerations(m, options, Level::Once, s).map_err(|f| failure(m, f))?;
+        projects = is_redundant(s);
+    }
     inputs.evaluate(start.t + dt, s.guides, s.courses);
     s.zdd.copy_from_slice(start.a);
-    let (iterations, correction, stop) = iterate(m, (dt, options), start, s)?;
+    let (iterations, correction, stop) = iterate(m, (dt, options), (start, projects), s)?;
     let mut violation = [T::ZERO; 3];
     if options.closure == Closure::Constraints && !m.loops.loops.is_empty() {
         let [position, velocity] = project(m, options, s).map_err(|f| failure(m, f))?;
@@ -72,14 +81,14 @@ pub fn step<T: Real, S: Space<T>>(
 fn iterate<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     (dt, options): (T, &Options<T>),
-    start: Start<'_, T>,
+    (start, projects): (Start<'_, T>, bool),
     s: &mut Store<'_, T, S>,
 ) -> Result<(u32, T, Stop), StepError> {
     let (beta, gamma) = (options.integrator.beta, options.integrator.gamma);
     let share = dt * dt * beta;
     let rounding = T::EPSILON * T::from_f64(64.0);
-    let passage = T::from_f64(1e-2);
-    let (mut last, mut is_slow) = (T::ZERO, false);
+    let (passage, enough) = (T::from_f64(0.1), T::from_f64(1e-2));
+    let (mut last, mut is_slow) = (T::ZERO, projects);
     for iterations in 1..=options.max_iterations {
         // zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁   [P3 (43)-(44)]
         for i in 0..start.v.len() {
@@ -114,8 +123,12 @@ fn iterate<T: Real, S: Space<T>>(
             if correction <= scale * rounding {
                 return Ok((iterations, correction, Stop::Rounding));
             }
-            // Near a singular position rounding is amplified: what is left is small against scene and step.
-            if correction <= m.length * options.tolerance && correction <= scale * passage {
+            // Near a singular position rounding is amplified: what is left is small against the step.
+            if correction <= scale * passage && note_rank(s) {
+                return Ok((iterations, correction, Stop::Passage));
+            }
+            // What is left is small against scene and step.
+            if correction <= m.length * options.tolerance && correction <= scale * enough {
                 return Ok((iterations, correction, Stop::Tolerance));
             }
         }

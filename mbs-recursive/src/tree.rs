@@ -258,6 +258,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             blocks: &mut [],
             gains: &mut [],
             heads: &mut [],
+            scales: &mut [],
             pivots: &mut [],
         };
         let setting = (&none, Regularisation::Fixed(T::ZERO), &S::Motion::zero());

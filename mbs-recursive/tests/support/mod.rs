@@ -2,7 +2,7 @@
 
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its part")]
 
-use mbs_core::model::State;
+use mbs_core::model::{Load, Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
@@ -15,6 +15,7 @@ use nalgebra::Vector3;
 
 #[path = "../../../mbs-core/tests/common/mod.rs"]
 pub mod common;
+pub mod random;
 
 /// The natural model of a scene, and its assembled state.
 pub fn natural<const D: usize>(scene: &Scene<f64>) -> (NaturalModel<f64, D>, State<f64>) {
@@ -25,6 +26,24 @@ pub fn natural<const D: usize>(scene: &Scene<f64>) -> (NaturalModel<f64, D>, Sta
     let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver)
         .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     (model, start.state)
+}
+
+/// How far a state's accelerations are from the equations of natural coordinates, relative to their parts: what is left of M a - Q
+/// along all directions that the constraints leave free, and J a + bias.
+pub fn imbalance<const D: usize>(model: &NaturalModel<f64, D>, state: &State<f64>) -> [f64; 2] {
+    let mut terms = model.terms();
+    model.set_inputs(state.t, &mut terms);
+    model.evaluate(&state.q, &mut terms);
+    model.evaluate_forces(&state.q, &state.v, &state.memory, &mut terms);
+    model.evaluate_phi_t(&state.q, &mut terms);
+    model.evaluate_bias(&state.q, &state.v, &mut terms);
+    let largest = |x: &[f64]| x.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+    let load = Load { mass: Some(&state.a), multipliers: None, force: 1.0 };
+    let forces = common::residual(model, &terms, &load);
+    let free = common::in_null_space(&common::jacobian(model, &terms), &forces);
+    let rates = common::rates(model, &terms, &state.a);
+    let left: Vec<f64> = rates.iter().zip(&terms.phi_bias).map(|(x, y)| x + y).collect();
+    [largest(&free) / (1.0 + largest(&forces)), largest(&left) / (1.0 + largest(&terms.phi_bias))]
 }
 
 /// A scene file of the repository.
@@ -50,6 +69,23 @@ impl<S: Space<f64>> Run<S> {
         let state =
             model.start(scene, &natural, &state).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
         Self { workspace: Workspace::new(&model), options: Options::default(), model, state }
+    }
+
+    /// From the reference configuration with random velocities, brought onto the loops, some time later.
+    pub fn wandering(scene: &Scene<f64>, seed: u64) -> Self {
+        let model =
+            TreeModel::<f64, S>::new(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+        let mut state = TreeState::at_rest(&model);
+        let n = state.v.len();
+        state.v = common::Random(seed).vector(n, n, 1.0);
+        let mut workspace = Workspace::new(&model);
+        model.settle(&mut state, &mut workspace).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+        let mut run = Self { workspace, options: Options::default(), model, state };
+        for _ in 0..20 {
+            mbs_recursive::rk4_step(&run.model, 0.02, &run.options, &mut run.state, &mut run.workspace)
+                .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+        }
+        run
     }
 
     /// One step of the trapezoidal rule.
