@@ -88,13 +88,9 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         let projects = self.evaluations > 1
             && self.options.closure == Closure::Constraints
             && is_redundant(self.s);
-        let ready = if projects {
-            project(self.m, self.options, self.s).map(|_| ())
-        } else {
-            Ok(())
-        };
-        let done =
-            ready.and_then(|()| accelerations(self.m, self.options, Level::Fine, self.s));
+        let ready =
+            if projects { project(self.m, self.options, self.s).map(|_| ()) } else { Ok(()) };
+        let done = ready.and_then(|()| accelerations(self.m, self.options, Level::Fine, self.s));
         if let Err(fault) = done {
             let failure = failure(self.m, fault);
             // Numbers that follow from a failed stage say nothing.

@@ -88,9 +88,8 @@ fn a_loop_given_twice_changes_nothing() {
         let mut twice = once.clone();
         let last = twice.joints[twice.joints.len() - 2].clone();
         twice.joints.push(last);
-        let motions = |scene: &Scene<f64>| {
-            Run::<Spatial>::wandering(scene, seed).motions(scene.bodies.len())
-        };
+        let motions =
+            |scene: &Scene<f64>| Run::<Spatial>::wandering(scene, seed).motions(scene.bodies.len());
         for (x, y) in motions(&once).iter().zip(&motions(&twice)) {
             assert!((x.acceleration - y.acceleration).amax() < ROUNDING * 100.0, "seed {seed}");
             assert!(

@@ -82,8 +82,14 @@ impl<S: Space<f64>> Run<S> {
         model.settle(&mut state, &mut workspace).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
         let mut run = Self { workspace, options: Options::default(), model, state };
         for _ in 0..20 {
-            mbs_recursive::rk4_step(&run.model, 0.02, &run.options, &mut run.state, &mut run.workspace)
-                .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+            mbs_recursive::rk4_step(
+                &run.model,
+                0.02,
+                &run.options,
+                &mut run.state,
+                &mut run.workspace,
+            )
+            .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
         }
         run
     }
