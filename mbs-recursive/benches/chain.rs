@@ -3,9 +3,7 @@
 //! `cargo bench -p mbs-recursive`; the throughput line gives bodies (or loops) per second.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use mbs_core::scene::{
-    Body, BodyRef, Dimension, Inertia, Joint, JointKind, Scene, SolverChoice,
-};
+use mbs_core::scene::{Body, BodyRef, Dimension, Inertia, Joint, JointKind, Scene, SolverChoice};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Options, Planar, Spatial, TreeModel, TreeState, Workspace};
 
@@ -71,7 +69,8 @@ fn four_bars(n: usize) -> Scene<f64> {
         scene.bodies.push(rod([x, 0.0, 0.0], [x, 1.0, 0.0]));
         scene.joints.push(revolute([BodyRef::Ground, BodyRef::Body(crank)], [x, 0.0, 0.0], None));
         if i > 0 {
-            let joint = revolute([BodyRef::Body(crank - 1), BodyRef::Body(crank)], [x, 1.0, 0.0], None);
+            let joint =
+                revolute([BodyRef::Body(crank - 1), BodyRef::Body(crank)], [x, 1.0, 0.0], None);
             scene.joints.push(joint);
         }
         if i < n {
@@ -104,9 +103,8 @@ fn evaluations<S: Space<f64>>(
         let options = Options::default();
         group.throughput(Throughput::Elements(n as u64));
         group.bench_with_input(BenchmarkId::from_parameter(n), &n, |bencher, _| {
-            bencher.iter(|| {
-                model.accelerate(&options, &mut state, &mut workspace).expect("regular")
-            });
+            bencher
+                .iter(|| model.accelerate(&options, &mut state, &mut workspace).expect("regular"));
         });
     }
     group.finish();

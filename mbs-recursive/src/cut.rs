@@ -26,8 +26,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Adds a cut joint's rows.
     pub(crate) fn add_loop(&mut self, scene: &Scene<T>, index_of_joint: usize) {
         let joint = &scene.joints[index_of_joint];
-        let [first, second] =
-            [0, 1].map(|i| self.seat_point(joint.bodies[i], joint.points[i]));
+        let [first, second] = [0, 1].map(|i| self.seat_point(joint.bodies[i], joint.points[i]));
         let start = self.rows.len();
         self.add_rows(scene, joint);
         self.loops.push(Loop {

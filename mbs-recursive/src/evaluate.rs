@@ -102,10 +102,7 @@ fn begin_loops<T: Real, S: Space<T>>(
 }
 
 /// J a + bias into l; the largest, the row that has it, and the scale of its parts.
-fn residual<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
-    s: &mut Store<'_, T, S>,
-) -> (T, u32, T) {
+fn residual<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, s: &mut Store<'_, T, S>) -> (T, u32, T) {
     let n = m.loops.rows.len();
     let (mut worst, mut row, mut scale) = (T::ZERO, 0, T::ZERO);
     for lap in m.loops.loops {
@@ -175,7 +172,11 @@ fn sweep<T: Real, S: Space<T>>(
         }
     }
     let (worst, row, scale) = residual(m, s);
-    if worst <= enough * scale { Ok(worst) } else { Err(Fault::Unreached { level: 2, row, violation: worst }) }
+    if worst <= enough * scale {
+        Ok(worst)
+    } else {
+        Err(Fault::Unreached { level: 2, row, violation: worst })
+    }
 }
 
 /// The smallest mass-weighted change of motion x with J x = −l, as far as one sweep gives it: `s.v_response`, `s.a_response`.

@@ -89,12 +89,14 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
             && self.options.closure == Closure::Constraints
             && is_redundant(self.s);
         let ready = if projects {
-            project(self.m, self.options, self.s).map(|_| ())
+            // With the inertias of this very stage, so that the projected rates are a smooth function of y.
+            accelerations(self.m, self.options, Level::Once, self.s)
+                .and_then(|_| project(self.m, self.options, self.s))
+                .map(|_| ())
         } else {
             Ok(())
         };
-        let done =
-            ready.and_then(|()| accelerations(self.m, self.options, Level::Fine, self.s));
+        let done = ready.and_then(|()| accelerations(self.m, self.options, Level::Fine, self.s));
         if let Err(fault) = done {
             let failure = failure(self.m, fault);
             // Numbers that follow from a failed stage say nothing.
@@ -203,10 +205,11 @@ pub fn rk54<T: Real, S: Space<T>>(
     control.max_steps = MAX_STEPS;
     let mut system =
         System { m, inputs, options, s, evaluations: 0, is_patient: true, last_failure: None };
-    let done = driver.advance(&mut system, (start.t, dt), (y, scratch), &control, |system, t, y| {
-        system.last_failure = None;
-        system.clean(t, y)
-    });
+    let done =
+        driver.advance(&mut system, (start.t, dt), (y, scratch), &control, |system, t, y| {
+            system.last_failure = None;
+            system.clean(t, y)
+        });
     match done {
         Ok(()) => {}
         Err(OdeError::Rates { error, .. }) => return Err(error),

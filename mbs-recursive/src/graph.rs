@@ -100,9 +100,9 @@ fn edges<T: Real>(
             continue;
         }
         let is_free_of_guides = scene.guides.iter().all(|guide| guide.joint != j);
-        let is_massive = ends.iter().all(|&c| {
-            clusters.clusters.get(c).is_none_or(|cluster| cluster.mass > T::ZERO)
-        });
+        let is_massive = ends
+            .iter()
+            .all(|&c| clusters.clusters.get(c).is_none_or(|cluster| cluster.mass > T::ZERO));
         let rank = (
             is_free_of_guides,
             effect_of(scene, j).is_none(),
@@ -148,8 +148,7 @@ fn grow(
         let Some((_, parent_depth, e)) = best else { return };
         let edge = &edges[e];
         let is_reversed = depth[edge.ends[0]] == usize::MAX;
-        let [parent, child] =
-            if is_reversed { [edge.ends[1], edge.ends[0]] } else { edge.ends };
+        let [parent, child] = if is_reversed { [edge.ends[1], edge.ends[0]] } else { edge.ends };
         depth[child] = parent_depth + 1;
         is_used[edge.joint] = true;
         branches.push(Branch {
@@ -172,7 +171,9 @@ fn root<T: Real>(
     for (j, joint) in scene.joints.iter().enumerate() {
         let [a, b] = joint.bodies.map(&node);
         let other = if a == ground { b } else { a };
-        if joint.kind == JointKind::Free && (a == ground) != (b == ground) && depth[other] == usize::MAX
+        if joint.kind == JointKind::Free
+            && (a == ground) != (b == ground)
+            && depth[other] == usize::MAX
         {
             return Some((other, Some(j)));
         }

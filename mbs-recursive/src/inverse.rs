@@ -30,10 +30,9 @@ pub fn spread<T: Real, S: Space<T>>(
         a[i] = carried
             + match link.kind {
                 Kind::Revolute | Kind::Prismatic => p.freedom * zdd[at],
-                Kind::Ball => S::motion(
-                    S::rotate_spin(&p.rotation, &read(&zdd[at..])),
-                    S::Point::zero(),
-                ),
+                Kind::Ball => {
+                    S::motion(S::rotate_spin(&p.rotation, &read(&zdd[at..])), S::Point::zero())
+                }
                 Kind::Free => S::motion(
                     S::rotate_spin(&p.rotation, &read(&zdd[at..])),
                     read(&zdd[at + S::Spin::N..]),

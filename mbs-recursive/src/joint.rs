@@ -71,8 +71,7 @@ pub(crate) fn place<T: Real, S: Space<T>>(
             let w = S::rotate_spin(&rotation, &read(&v[vi..]));
             let mut p = still(S::Motion::zero(), rotation, arm);
             p.velocity += S::motion(w, S::Point::zero());
-            p.bias +=
-                S::motion(S::cross_spin(&S::spin(&parent.velocity), &w), S::Point::zero());
+            p.bias += S::motion(S::cross_spin(&S::spin(&parent.velocity), &w), S::Point::zero());
             p
         }
         Kind::Free => {

@@ -8,10 +8,7 @@ use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
 /// Kinetic energy [J]: ½ Σ Zᵀ M Z.
-pub(crate) fn kinetic<T: Real, S: Space<T>>(
-    links: &[Link<T, S>],
-    placed: &[Placed<T, S>],
-) -> T {
+pub(crate) fn kinetic<T: Real, S: Space<T>>(links: &[Link<T, S>], placed: &[Placed<T, S>]) -> T {
     let mut twice = T::ZERO;
     for (link, p) in links.iter().zip(placed).skip(1) {
         let inertia = S::body_inertia(link.mass, &p.center, &link.tensor, &p.rotation);
@@ -36,10 +33,7 @@ pub(crate) fn potential<T: Real, S: Space<T>>(
 }
 
 /// Power that enters [W], at the place, accelerations and multipliers of the store.
-pub(crate) fn power<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
-    s: &mut Store<'_, T, S>,
-) -> T {
+pub(crate) fn power<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, s: &mut Store<'_, T, S>) -> T {
     let mut power = T::ZERO;
     for load in m.loads {
         power += load.power(&s.instant(m));

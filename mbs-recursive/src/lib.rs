@@ -9,9 +9,9 @@ mod cut;
 #[cfg(feature = "alloc")]
 mod error;
 mod evaluate;
+pub mod explicit;
 #[cfg(feature = "alloc")]
 mod graph;
-pub mod explicit;
 pub mod inverse;
 pub mod joint;
 mod ledger;
@@ -40,9 +40,9 @@ mod tree;
 #[cfg(feature = "alloc")]
 pub use error::{LoopError, TreeError};
 pub use options::{Closure, Options};
-pub use space::{Planar, Spatial};
 #[cfg(feature = "alloc")]
 pub use run::{rk4_step, rk54_step, step};
+pub use space::{Planar, Spatial};
 #[cfg(feature = "alloc")]
 pub use start::StartError;
 #[cfg(feature = "alloc")]

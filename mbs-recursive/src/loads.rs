@@ -149,8 +149,7 @@ impl<T: Real, S: Space<T>> Load<T, S> {
                 condensed[*link as usize].force -= S::wrench(&arm, &force);
             }
             Self::Torque { link, course } => {
-                condensed[*link as usize].force -=
-                    S::motion(at.torque(*course), S::Point::zero());
+                condensed[*link as usize].force -= S::motion(at.torque(*course), S::Point::zero());
             }
         }
     }

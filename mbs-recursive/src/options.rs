@@ -74,7 +74,9 @@ impl<T: Real> Options<T> {
                 [("alpha", alpha), ("omega", omega), ("mu", mu)]
             }
         };
-        for (name, value) in closure.into_iter().chain([("tolerance", self.tolerance), ("error", self.error)]) {
+        for (name, value) in
+            closure.into_iter().chain([("tolerance", self.tolerance), ("error", self.error)])
+        {
             if !(value > T::ZERO && value.is_finite()) {
                 return Err(OptionError::NotPositive(name));
             }

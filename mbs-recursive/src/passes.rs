@@ -146,8 +146,7 @@ pub fn accelerate<T: Real, S: Space<T>>(
     }
     for (i, link) in links.iter().enumerate().skip(1) {
         let (p, c) = (&placed[i], &condensed[i]);
-        let held =
-            if has_loops { loops::held(m, i, link.kind, st) } else { S::Motion::zero() };
+        let held = if has_loops { loops::held(m, i, link.kind, st) } else { S::Motion::zero() };
         // Ż = Żₚ + b z̈ + d   [P3 (27)],   z̈ as in [P3 (35)]
         let mut carried = match link.kind {
             crate::link::Kind::Free => a[0],

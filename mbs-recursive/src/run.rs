@@ -86,8 +86,7 @@ pub fn rk54_step<T: Real, S: Space<T>>(
 ) -> Result<StepReport<T>, StepError> {
     let m = model.mechanism();
     let (mut s, scratch) = workspace.parts();
-    let driver =
-        scratch.driver.get_or_insert_with(|| Adaptive::new(Tableau::dormand_prince(), dt));
+    let driver = scratch.driver.get_or_insert_with(|| Adaptive::new(Tableau::dormand_prince(), dt));
     let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
     let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
     let report = explicit::rk54(&m, model, (dt, options, driver), memory, &mut s)?;
@@ -238,7 +237,6 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// If there are fewer places than joints.
     pub fn reactions(
         &self,
-        scene_joints: &[mbs_core::scene::Joint<T>],
         state: &TreeState<T>,
         workspace: &mut Workspace<T, S>,
         out: &mut [[Vector<T, 3>; 2]],
@@ -276,15 +274,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             let total = S::gathered(&total, &-arm);
             out[joint] = [S::point_into(&S::point(&total)), S::spin_into(&S::spin(&total))];
         }
-        debug_assert!(scene_joints.len() <= out.len());
     }
 
     /// The joint's place on the parent, from the base.
-    fn parent_place(
-        &self,
-        seat: &crate::tree::Seat,
-        s: &Store<'_, T, S>,
-    ) -> S::Point {
+    fn parent_place(&self, seat: &crate::tree::Seat, s: &Store<'_, T, S>) -> S::Point {
         let first = &self.links[seat.first as usize];
         let parent = &s.placed[first.parent as usize];
         parent.position + S::rotate(&parent.rotation, &first.offset)

@@ -144,7 +144,10 @@ fn iterate<T: Real, S: Space<T>>(
 }
 
 /// |Φ|, |Φ̇| and |Φ̈| as last evaluated.
-pub(crate) fn violations<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, s: &Store<'_, T, S>) -> [T; 3] {
+pub(crate) fn violations<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    s: &Store<'_, T, S>,
+) -> [T; 3] {
     let n = m.loops.rows.len();
     let mut largest = [T::ZERO; 3];
     for lap in m.loops.loops {
@@ -170,9 +173,7 @@ pub(crate) fn failure<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, fault: Faul
                 pivot: fault.pivot.to_f64(),
             })
         }
-        Fault::NoInertia(fault) => {
-            StepError::NotFinite { unknown: m.links[fault.link as usize].v }
-        }
+        Fault::NoInertia(fault) => StepError::NotFinite { unknown: m.links[fault.link as usize].v },
         Fault::RankLost(fault) => {
             StepError::RankLost { row: fault.row, pivot: fault.pivot.to_f64() }
         }

@@ -132,9 +132,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             loads: Vec::new(),
             guides: scene.guides.iter().map(|guide| GuideInput::new(&guide.law)).collect(),
             courses: Vec::new(),
-            gravity: scene
-                .gravity
-                .map_or_else(S::Point::zero, |g| S::point_from(&Vector::from(g))),
+            gravity: scene.gravity.map_or_else(S::Point::zero, |g| S::point_from(&Vector::from(g))),
             base,
             length,
             floor: [least, least / (length * length)],
@@ -244,7 +242,14 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let mut condensed = vec![Condensed::<T, S>::empty(); n];
         passes::kinematics(&self.links, (&z, &v, &guides), &mut placed);
         passes::inertias(&self.links, &placed, &mut condensed);
-        let plan = Plan { stations: &[], passes: &[], pairs: &[], ends: &[], couplings: &[], updates: &[] };
+        let plan = Plan {
+            stations: &[],
+            passes: &[],
+            pairs: &[],
+            ends: &[],
+            couplings: &[],
+            updates: &[],
+        };
         let none = Loops { loops: &[], rows: &[], plan, floor: self.floor };
         let mut store = LoopStore {
             k: &mut [],

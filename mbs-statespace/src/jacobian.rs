@@ -119,8 +119,7 @@ impl<T: Real> Jacobian<T> {
 pub(crate) fn column_scales<T: Real>(model: &impl Model<T>) -> Vec<T> {
     let mut diagonal = vec![T::ZERO; model.n_unknowns()];
     let (terms, mut block) = (model.terms(), vec![T::ZERO; largest_block(model)]);
-    let mass =
-        Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty: &[], geometric: None };
+    let mass = Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty: &[], geometric: None };
     for e in 0..model.n_elements() {
         let clique = model.clique(e);
         model.write_block(&terms, &mass, e, &mut block);

@@ -156,10 +156,7 @@ impl<T: Real> Space<T> for Planar {
     fn add_shifted(i: &mut Self::Inertia, j: &Self::Inertia, arm: &Self::Point) {
         let (x, y) = (arm[0], arm[1]);
         // h' = h + (x m_y − y m_x),  a' = a + (x h_y − y h_x) + (x h'_y − y h'_x)
-        let h = [
-            j.h[0] + (x * j.m[1] - y * j.m[0]),
-            j.h[1] + (x * j.m[2] - y * j.m[1]),
-        ];
+        let h = [j.h[0] + (x * j.m[1] - y * j.m[0]), j.h[1] + (x * j.m[2] - y * j.m[1])];
         i.a += j.a + (x * (j.h[1] + h[1]) - y * (j.h[0] + h[0]));
         for k in 0..2 {
             i.h[k] += h[k];

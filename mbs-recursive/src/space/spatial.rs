@@ -196,10 +196,8 @@ impl<T: Real> Space<T> for Spatial {
                 k = i;
             }
         }
-        let (a, b, c) =
-            (r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]);
-        let (d, e, f) =
-            (r[(0, 1)] + r[(1, 0)], r[(0, 2)] + r[(2, 0)], r[(1, 2)] + r[(2, 1)]);
+        let (a, b, c) = (r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]);
+        let (d, e, f) = (r[(0, 1)] + r[(1, 0)], r[(0, 2)] + r[(2, 0)], r[(1, 2)] + r[(2, 1)]);
         let g = T::ONE + squares[k];
         let q = match k {
             0 => [g, a, b, c],
@@ -224,10 +222,7 @@ impl<T: Real> Space<T> for Spatial {
         // exp(δ) = (cos |δ|/2, sin(|δ|/2) δ/|δ|); the quotient tends to 1/2
         let (s, c) = (angle * T::HALF).sin_cos();
         let share = if angle > T::EPSILON { s / angle } else { T::HALF };
-        let q = product(
-            [z[0], z[1], z[2], z[3]],
-            [c, d[0] * share, d[1] * share, d[2] * share],
-        );
+        let q = product([z[0], z[1], z[2], z[3]], [c, d[0] * share, d[1] * share, d[2] * share]);
         z[..4].copy_from_slice(&q);
         <Self as Space<T>>::normalise_rotation(z);
     }
@@ -421,9 +416,7 @@ fn inverse<T: Real>(s: &[T; 6]) -> Option<[T; 6]> {
     let rounding = T::EPSILON * T::from_f64(64.0);
     let size = xx.max(yy).max(zz);
     // A block that is singular to rounding has no inverse.
-    if !(xx > rounding * size
-        && two > rounding * size * xx
-        && determinant > rounding * size * two)
+    if !(xx > rounding * size && two > rounding * size * xx && determinant > rounding * size * two)
     {
         return None;
     }

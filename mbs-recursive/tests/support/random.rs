@@ -1,9 +1,7 @@
 //! Seeded random mechanisms with every kind of joint.
 
 use super::common::Random;
-use mbs_core::scene::{
-    Body, BodyRef, Dimension, Inertia, Joint, JointKind, Scene, SolverChoice,
-};
+use mbs_core::scene::{Body, BodyRef, Dimension, Inertia, Joint, JointKind, Scene, SolverChoice};
 
 /// Kinds that carry coordinates in a tree.
 const SPATIAL: [JointKind; 6] = [
