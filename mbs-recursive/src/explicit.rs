@@ -88,8 +88,14 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         let projects = self.evaluations > 1
             && self.options.closure == Closure::Constraints
             && is_redundant(self.s);
-        let ready =
-            if projects { project(self.m, self.options, self.s).map(|_| ()) } else { Ok(()) };
+        let ready = if projects {
+            // With the inertias of this very stage, so that the projected rates are a smooth function of y.
+            accelerations(self.m, self.options, Level::Once, self.s)
+                .and_then(|_| project(self.m, self.options, self.s))
+                .map(|_| ())
+        } else {
+            Ok(())
+        };
         let done = ready.and_then(|()| accelerations(self.m, self.options, Level::Fine, self.s));
         if let Err(fault) = done {
             let failure = failure(self.m, fault);

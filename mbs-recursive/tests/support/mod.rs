@@ -82,16 +82,16 @@ impl<S: Space<f64>> Run<S> {
         model.settle(&mut state, &mut workspace).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
         let mut run = Self { workspace, options: Options::default(), model, state };
         for _ in 0..20 {
-            mbs_recursive::rk4_step(
-                &run.model,
-                0.02,
-                &run.options,
-                &mut run.state,
-                &mut run.workspace,
-            )
-            .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+            run.rk4(0.02).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
         }
         run
+    }
+
+    /// Evaluates the accelerations of the state.
+    pub fn accelerate(&mut self) {
+        self.model
+            .accelerate(&self.options, &mut self.state, &mut self.workspace)
+            .expect("a regular position");
     }
 
     /// One step of the trapezoidal rule.
@@ -105,15 +105,45 @@ impl<S: Space<f64>> Run<S> {
         kinetic + potential - self.state.work
     }
 
-    /// The largest change of the invariant over `n` steps, and the iterations of all.
-    pub fn drift(&mut self, dt: f64, n: u32) -> (f64, u32) {
-        let (start, mut worst, mut iterations) = (self.invariant(), 0.0_f64, 0);
+    /// The largest change of the invariant over `n` steps.
+    pub fn drift(&mut self, dt: f64, n: u32) -> f64 {
+        self.drift_of(n, |run| run.step(dt))
+    }
+
+    /// The same for other steps.
+    pub fn drift_of(
+        &mut self,
+        n: u32,
+        step: impl Fn(&mut Self) -> Result<StepReport<f64>, StepError>,
+    ) -> f64 {
+        let (start, mut worst) = (self.invariant(), 0.0_f64);
         for i in 0..n {
-            let report = self.step(dt).unwrap_or_else(|e| panic!("step {i}: {e} {e:?}"));
-            iterations += report.iterations;
+            step(self).unwrap_or_else(|e| panic!("step {i}: {e} {e:?}"));
             worst = worst.max((self.invariant() - start).abs());
         }
-        (worst, iterations)
+        worst
+    }
+
+    /// One step of the Runge-Kutta method of order 4.
+    pub fn rk4(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
+        mbs_recursive::rk4_step(
+            &self.model,
+            dt,
+            &self.options,
+            &mut self.state,
+            &mut self.workspace,
+        )
+    }
+
+    /// Error control over `dt`.
+    pub fn rk54(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
+        mbs_recursive::rk54_step(
+            &self.model,
+            dt,
+            &self.options,
+            &mut self.state,
+            &mut self.workspace,
+        )
     }
 
     /// The motions of the bodies.
