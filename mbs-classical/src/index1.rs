@@ -51,7 +51,6 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     let (iterations, correction, stop) = iterate(model, &rule, length, options, s, w)?;
     let violation = if options.stabilisation == Stabilisation::Projection {
         positions(model, &rule, length, options, s, w)?;
-        w.evaluate_forces(model, s);
         w.clean(model, (length, T::ONE), options.max_sweeps, s)?
     } else {
         check_guides(model, &w.q, &w.terms)?;

@@ -35,6 +35,8 @@ pub struct Workspace<T, S> {
     pub(crate) sigma: Vec<T>,
     pub(crate) mu: Vec<T>,
     pub(crate) rates: Vec<T>,
+    /// J^T mu and |J|^T |mu|, 2 n.
+    sums: Vec<T>,
     /// delta of each row, m, or nothing.
     delta: Vec<T>,
     masses: Vec<T>,
@@ -44,6 +46,10 @@ pub struct Workspace<T, S> {
 
 /// A weakest pivot below this may belong to a singular position nearby: within some hundredths of a radian of it.
 const CLOSE: f64 = 1e-3;
+
+/// Rows are nearly dependent when |J^T mu| is below this share of its parts. Where the tangent is only badly scaled, as by a
+/// fast spin, it is of order one; in the singular position it is zero.
+const DEPENDENT: f64 = 0.1;
 
 /// A weakest pivot below this explains why an iteration does not converge.
 const NEAR: f64 = 1e-4;
@@ -88,6 +94,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             a: zeros(e),
             change: zeros(e),
             f: zeros(n + m),
+            sums: zeros(2 * n),
             null: zeros(n + m),
             lambda: zeros(m),
             sigma: zeros(m),
@@ -225,6 +232,9 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             return Ok(());
         }
         self.solver.null_vector(&mut self.null, &mut self.scratch);
+        if self.cancellation(model) > T::from_f64(DEPENDENT) {
+            return Ok(());
+        }
         let (x, d) = (&self.null[..self.n], &self.f[..self.n]);
         let (mut along, mut square) = (T::ZERO, T::ZERO);
         for (&x, &d) in x.iter().zip(d) {
@@ -237,6 +247,27 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             return Err(self.diagnose(model, error));
         }
         Ok(())
+    }
+
+    /// |J^T mu| / (|J|^T |mu|), each summed over the coordinates, of the multipliers in the null vector: small where rows are
+    /// dependent or nearly so.
+    fn cancellation<M: Model<T>>(&mut self, model: &M) -> T {
+        let (sums, sizes) = self.sums.split_at_mut(self.n);
+        sums.fill(T::ZERO);
+        sizes.fill(T::ZERO);
+        for e in 0..model.n_elements() {
+            let clique = model.clique(e);
+            let jacobian = self.jacobian[self.saddle.jacobian(e)].chunks_exact(clique.len());
+            for (k, row) in model.rows(e).zip(jacobian) {
+                let mu = self.null[self.n + k];
+                for (&i, &j) in clique.iter().zip(row) {
+                    sums[i as usize] += j * mu;
+                    sizes[i as usize] += (j * mu).abs();
+                }
+            }
+        }
+        let sum = |x: &[T]| x.iter().fold(T::ZERO, |s, &x| s + x.abs());
+        sum(sums) / sum(sizes).max(T::EPSILON)
     }
 
     /// The iteration did not converge: near a singular position for want of rank.

@@ -3,7 +3,8 @@
 mod common;
 
 use common::{DOUBLE, Index, Run, SIMPLE, TWO_FOUR_BARS, scene};
-use mbs_classical::{Options, Stabilisation, StepError};
+use mbs_classical::{OptionError, Options, Stabilisation, StepError};
+use mbs_core::integrator::Integrator;
 use mbs_core::model::Owner;
 use mbs_core::scene::BodyRef;
 
@@ -38,6 +39,55 @@ fn both_forms_are_of_second_order_on_the_pendulum() {
         let (coarse, fine) = (error(2e-3, 500), error(1e-3, 1000));
         assert!((3.9..4.1).contains(&(coarse / fine)), "{index:?}: {coarse:e}, {fine:e}");
         assert!(fine < 2e-5, "{fine:e}");
+    }
+}
+
+#[test]
+fn every_integrator_is_of_second_order() {
+    for integrator in [
+        Integrator::hht(0.1),
+        Integrator::generalised_alpha(0.8),
+        Integrator::newmark(1.0 / 6.0, 0.5),
+    ] {
+        for index in [Index::One, Index::Three] {
+            let error = |dt: f64, n: usize| {
+                let mut run = Run::<f64, 2>::new(&scene(SIMPLE), index);
+                run.options.integrator = integrator;
+                let [x, y, _] = run.steps(dt, n).points()[0];
+                (x.abs() - 0.986_291_751_131_875_3).hypot(y + 0.165_010_853_125_541_2)
+            };
+            let (coarse, fine) = (error(4e-3, 250), error(2e-3, 500));
+            assert!((3.7..4.3).contains(&(coarse / fine)), "{integrator:?} {index:?}: {coarse:e}");
+        }
+    }
+}
+
+#[test]
+fn what_hangs_at_rest_stays_at_rest() {
+    let text = "[scene]\nname = \"hanging chain\"\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n[[body]]\nname = \"x\"\nrod = { from = [0.1, 0.0], to = [0.1, -0.7] }\nmass = 1.3\n[[body]]\nname = \"y\"\nrod = { from = [0.1, -0.7], to = [0.1, -1.3] }\nmass = 0.7\n[[joint]]\nname = \"j\"\nkind = \"revolute\"\nbodies = [\"ground\", \"x\"]\nat = [0.1, 0.0]\n[[joint]]\nname = \"k\"\nkind = \"revolute\"\nbodies = [\"x\", \"y\"]\nat = [0.1, -0.7]\n";
+    for index in [Index::One, Index::Three] {
+        for dt in [1e-2, 1e-3, 1e-4] {
+            let run = Run::<f64, 2>::new(&scene(text), index).steps(dt, 100);
+            assert!(run.state.v.iter().all(|v| v.abs() < 1e-12), "{index:?}, {dt}");
+        }
+    }
+}
+
+#[test]
+fn options_outside_their_range_are_named() {
+    let plain = Options::<f64>::index3();
+    assert_eq!(plain.validate(), Ok(()));
+    for (options, name) in [
+        (Options { tolerance: 0.0, ..plain }, "tolerance"),
+        (Options { rank: f64::NAN, ..plain }, "rank"),
+        (Options { regularisation: Some(-1.0), ..plain }, "regularisation"),
+        (Options { max_iterations: 0, ..plain }, "max_iterations"),
+        (
+            Options { stabilisation: Stabilisation::Baumgarte { alpha: 0.0, beta: 1.0 }, ..plain },
+            "stabilisation.alpha",
+        ),
+    ] {
+        assert_eq!(options.validate(), Err(OptionError::NotPositive(name)));
     }
 }
 
@@ -92,7 +142,7 @@ fn drift(stabilisation: Stabilisation<f64>) -> (f64, f64) {
     let start = run.invariant();
     let (mut phi, mut energy): (f64, f64) = (0.0, 0.0);
     for _ in 0..10_000 {
-        phi = phi.max(run.step(1e-3).unwrap().violation[0]);
+        phi = phi.max(run.step(1e-3).expect("a regular step").violation[0]);
         energy = energy.max((run.invariant() - start).abs());
     }
     (phi, energy)

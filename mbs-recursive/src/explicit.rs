@@ -105,7 +105,7 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
             }
             if self.is_patient {
                 // No number: the step is tried shorter.
-                dy.fill(T::ZERO / T::ZERO);
+                dy.fill(T::from_f64(f64::NAN));
                 return Ok(());
             }
             return Err(failure);

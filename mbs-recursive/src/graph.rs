@@ -134,18 +134,12 @@ fn grow(
     branches: &mut Vec<Branch>,
 ) {
     loop {
-        let mut best: Option<((bool, bool, bool, usize), usize, usize)> = None;
-        for (e, edge) in edges.iter().enumerate() {
+        let next = edges.iter().enumerate().filter_map(|(e, edge)| {
             let [a, b] = edge.ends.map(|c| depth[c]);
-            if (a == usize::MAX) == (b == usize::MAX) {
-                continue;
-            }
-            let key = (edge.rank, a.min(b), e);
-            if best.is_none_or(|best| key < best) {
-                best = Some(key);
-            }
-        }
-        let Some((_, parent_depth, e)) = best else { return };
+            let leads_out = (a == usize::MAX) != (b == usize::MAX);
+            leads_out.then(|| (edge.rank, a.min(b), e))
+        });
+        let Some((_, parent_depth, e)) = next.min() else { return };
         let edge = &edges[e];
         let is_reversed = depth[edge.ends[0]] == usize::MAX;
         let [parent, child] = if is_reversed { [edge.ends[1], edge.ends[0]] } else { edge.ends };

@@ -130,12 +130,15 @@ pub fn condense_again<T: Real, S: Space<T>>(
     loops::close_again(m, 0, &mut condensed[0], st);
 }
 
+/// What the first two passes leave of each link.
+pub type Factors<'a, T, S> = (&'a [Placed<T, S>], &'a [Condensed<T, S>]);
+
 /// Third pass, outward: joint accelerations, links' accelerations, λ. `a[0]` is given: minus gravity, or zero for a response
 /// (`has_bias` false), which has no velocity products.
 #[inline]
 pub fn accelerate<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
-    (placed, condensed): (&[Placed<T, S>], &[Condensed<T, S>]),
+    (placed, condensed): Factors<'_, T, S>,
     (m, has_bias): (&Loops<'_, T, S>, bool),
     st: &mut LoopStore<'_, T, S>,
     (zdd, a): (&mut [T], &mut [S::Motion]),

@@ -98,7 +98,8 @@ fn violation<T: Real, S: Space<T>>(
     s: &mut Store<'_, T, S>,
 ) -> (T, u32, T) {
     let (mut worst, mut row) = (T::ZERO, 0);
-    let mut scale = if level == 0 { m.length } else { T::ZERO };
+    // Speeds of a rounding of the length each second are rest.
+    let mut scale = if level == 0 { m.length } else { m.length * T::EPSILON };
     for lap in m.loops.loops {
         let speeds = lap.links.map(|i| &s.trial[i as usize].velocity);
         lap.evaluate(m.loops.rows, s.trial, |k, values| {

@@ -313,9 +313,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Number of joint coordinates counted as freedoms: a ball has three, a free body six (in the plane three). Guided ones do not count.
+    /// Number of freedoms of the tree: a ball has three, a free body six (in the plane three), a guided joint none.
     #[must_use]
-    pub fn n_coordinates(&self) -> usize {
+    pub fn n_freedoms(&self) -> usize {
         self.n_freedoms
     }
 

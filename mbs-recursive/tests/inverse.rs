@@ -14,7 +14,7 @@ const ROUNDING: f64 = 1e-10;
 
 fn check_tree<S: Space<f64>>(scene: &Scene<f64>, seed: u64) {
     let mut run = Run::<S>::wandering(scene, seed);
-    let n = run.model.n_coordinates();
+    let n = run.model.n_freedoms();
     let mut efforts = vec![f64::NAN; n];
     let mut inverse = |run: &mut Run<S>| {
         run.model.inverse_dynamics(&run.state, &mut run.workspace, &mut efforts).expect("no loops");

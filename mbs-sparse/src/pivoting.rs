@@ -8,6 +8,7 @@
 use crate::kernel::{BadPivot, checked_inverse};
 use crate::plan::column;
 use mbs_core::Real;
+use mbs_core::dense::front::swap;
 
 /// Eliminates the first `d.len()` unknowns of the packed front `a` of `f` unknowns; `taken[k]` receives the row
 /// that became pivot `k`. On failure the row at fault is in `taken` too.
@@ -56,19 +57,4 @@ fn largest_diagonal<T: Real>(a: &[T], f: usize, k: usize, p: usize) -> usize {
         }
     }
     q
-}
-
-/// Swaps the unknowns `k < q` of a packed triangle.
-fn swap<T: Real>(a: &mut [T], f: usize, k: usize, q: usize) {
-    let at = |row: usize, col: usize| column(f, col) + row - col;
-    for m in 0..k {
-        a.swap(at(k, m), at(q, m));
-    }
-    a.swap(at(k, k), at(q, q));
-    for i in k + 1..q {
-        a.swap(at(i, k), at(q, i));
-    }
-    for i in q + 1..f {
-        a.swap(at(i, k), at(i, q));
-    }
 }

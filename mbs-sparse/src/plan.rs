@@ -11,6 +11,7 @@ use crate::graph::{self, Lists, index};
 use crate::options::{Counters, Options};
 use crate::tree::{self, Fronts};
 use mbs_core::Cliques;
+pub(crate) use mbs_core::dense::front::column;
 use std::ops::Range;
 
 /// Where a packed triangle of k unknowns lands in a packed front of f unknowns.
@@ -75,12 +76,6 @@ pub(crate) struct Plan {
     pub(crate) cliques: Lists,
     pub(crate) largest_clique: usize,
     pub(crate) counters: Counters,
-}
-
-/// Start of column `j` in a packed front of `f` unknowns.
-#[inline(always)]
-pub(crate) fn column(f: usize, j: usize) -> usize {
-    j * (2 * f + 1 - j) / 2
 }
 
 /// Analyses the cliques.

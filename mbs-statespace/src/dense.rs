@@ -1,77 +1,53 @@
-//! Small dense matrices: A = L D L^T without pivoting for symmetric ones, L U with row pivoting for others.
+//! The small dense matrices of the independent coordinates: a symmetric one for mbs-core's solver, and A = L U with row pivoting.
 
 use alloc::vec;
 use alloc::vec::Vec;
-use mbs_core::Real;
+use mbs_core::dense::front::column;
+use mbs_core::{BlockSource, Cliques, Real};
 
-/// A symmetric matrix of size f, then its factors. The lower triangle is used, row by row.
+/// A symmetric positive definite matrix of size f, for the solver of mbs-core: one element that couples all.
 #[derive(Debug, Clone)]
 pub(crate) struct Symmetric<T> {
-    size: usize,
+    clique: Vec<u32>,
+    /// The lower triangle, packed by columns.
     values: Vec<T>,
 }
 
 impl<T: Real> Symmetric<T> {
     pub(crate) fn new(size: usize) -> Self {
-        Self { size, values: vec![T::ZERO; size * size] }
+        let clique = (0..size).map(|i| u32::try_from(i).unwrap_or(u32::MAX)).collect();
+        Self { clique, values: vec![T::ZERO; column(size, size)] }
     }
 
     pub(crate) fn clear(&mut self) {
         self.values.fill(T::ZERO);
     }
 
-    /// The entry at (row, column), row >= column.
+    /// The entry at (row, col), row >= col.
     #[inline]
-    pub(crate) fn at(&mut self, row: usize, column: usize) -> &mut T {
-        &mut self.values[row * self.size + column]
+    pub(crate) fn at(&mut self, row: usize, col: usize) -> &mut T {
+        &mut self.values[column(self.clique.len(), col) + row - col]
     }
+}
 
-    /// A = L D L^T in place. Cost: f^3 / 6 products.
-    ///
-    /// # Errors
-    /// The first pivot that is not above the rounding of its diagonal entry, and its place.
-    pub(crate) fn factor(&mut self) -> Result<(), (usize, T)> {
-        let n = self.size;
-        for i in 0..n {
-            let (above, row) = self.values.split_at_mut(i * n);
-            let diagonal = row[i];
-            let mut pivot = diagonal;
-            // Row i holds L D first; l_ij = (a_ij - sum_k l_jk d_k l_ik) / d_j.
-            for j in 0..i {
-                let other = &above[j * n..j * n + j];
-                let sum = other.iter().zip(&row[..j]).fold(row[j], |s, (&l, &ld)| s - l * ld);
-                row[j] = sum;
-            }
-            for j in 0..i {
-                let l = row[j] / above[j * n + j];
-                pivot -= l * row[j];
-                row[j] = l;
-            }
-            if !(pivot > diagonal.abs() * T::EPSILON && pivot.is_finite()) {
-                return Err((i, pivot));
-            }
-            row[i] = pivot;
-        }
-        Ok(())
+impl<T: Real> Cliques for Symmetric<T> {
+    fn n_unknowns(&self) -> usize {
+        self.clique.len()
     }
+    fn n_elements(&self) -> usize {
+        1
+    }
+    fn clique(&self, _element: usize) -> &[u32] {
+        &self.clique
+    }
+}
 
-    /// x = A^-1 x.
-    pub(crate) fn solve(&self, x: &mut [T]) {
-        let n = self.size;
-        for i in 0..n {
-            let row = &self.values[i * n..i * n + i];
-            x[i] = row.iter().zip(&x[..i]).fold(x[i], |s, (&l, &x)| s - l * x);
-        }
-        for i in 0..n {
-            x[i] /= self.values[i * n + i];
-        }
-        for i in (0..n).rev() {
-            let value = x[i];
-            let row = &self.values[i * n..i * n + i];
-            for (x, &l) in x[..i].iter_mut().zip(row) {
-                *x -= l * value;
-            }
-        }
+impl<T: Real> BlockSource<T> for Symmetric<T> {
+    fn write_block(&self, _element: usize, block: &mut [T]) {
+        block.copy_from_slice(&self.values);
+    }
+    fn write_residual(&self, _element: usize, residual: &mut [T]) {
+        residual.fill(T::ZERO);
     }
 }
 
@@ -144,7 +120,7 @@ impl<T: Real> General<T> {
 
 #[cfg(test)]
 mod tests {
-    use super::{General, Symmetric};
+    use super::General;
 
     #[test]
     fn a_matrix_that_needs_swaps_is_solved() {
@@ -155,23 +131,5 @@ mod tests {
         let mut x = [7.0, 3.0, 6.0];
         a.solve(&mut x);
         assert!(x.iter().zip([1.0, 2.0, 3.0]).all(|(x, y)| (x - y).abs() < 1e-14));
-    }
-
-    #[test]
-    fn a_matrix_done_by_hand_is_solved() {
-        // [4 2; 2 3] x = [10; 9]: x = [1.5; 2]
-        let mut a = Symmetric::<f64>::new(2);
-        (*a.at(0, 0), *a.at(1, 0), *a.at(1, 1)) = (4.0, 2.0, 3.0);
-        a.factor().unwrap();
-        let mut x = [10.0, 9.0];
-        a.solve(&mut x);
-        assert!((x[0] - 1.5).abs() < 1e-15 && (x[1] - 2.0).abs() < 1e-15);
-    }
-
-    #[test]
-    fn an_indefinite_matrix_is_refused_at_its_row() {
-        let mut a = Symmetric::<f64>::new(2);
-        (*a.at(0, 0), *a.at(1, 0), *a.at(1, 1)) = (1.0, 2.0, 3.0);
-        assert_eq!(a.factor().map_err(|(i, _)| i), Err(1));
     }
 }

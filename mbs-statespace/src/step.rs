@@ -21,7 +21,7 @@ use mbs_core::step::{
     StepError, StepReport, Stop, add_work, check_guides, largest, largest_or_nan, step_scale,
     take_coordinates,
 };
-use mbs_core::{FactorError, Real};
+use mbs_core::{FactorError, Real, SpdSolver};
 
 /// Velocities and accelerations off their constraints by more than this, relative to their size, are violations.
 const VIOLATION: f64 = 5e-10;
@@ -153,7 +153,7 @@ fn iterate<T: Real, M: Model<T>>(
         for d in &mut w.d {
             *d = -*d / rule.acceleration;
         }
-        w.tangent.solve(&mut w.d);
+        SpdSolver::solve(&w.solver, &mut w.d, &mut w.wanted);
 
         // z += d,  z' += v' d,  z'' += a' d   [P1 (40)]; the dependent ones follow along R
         w.basis.expand(&w.elimination, &w.d, &mut w.change);
@@ -216,7 +216,7 @@ fn factor<T: Real, M: Model<T>>(
     for (mu, &lambda) in w.mu.iter_mut().zip(&w.lambda) {
         *mu = lambda / rule.acceleration;
     }
-    let mut failure = None;
+    let mut failure = FactorError { unknown: 0, pivot: 0.0 };
     for is_geometric in [true, false] {
         if is_geometric && !options.geometric_stiffness {
             continue;
@@ -230,14 +230,13 @@ fn factor<T: Real, M: Model<T>>(
         let load = Load { mass: None, multipliers: None, force: T::ZERO };
         let system = System { model, terms: &w.terms, tangent, load };
         w.basis.project(&w.elimination, &system, &mut w.tangent);
-        match w.tangent.factor() {
+        match SpdSolver::factor(&mut w.solver, &w.tangent) {
             Ok(()) => return Ok(()),
-            Err(found) => failure = Some(found),
+            Err(error) => failure = error,
         }
     }
-    let (i, pivot) = failure.unwrap_or((0, T::ZERO));
-    let unknown = w.elimination.independent()[i];
-    Err(StepError::Singular(FactorError { unknown, pivot: pivot.to_f64() }))
+    failure.unknown = w.elimination.independent()[failure.unknown as usize];
+    Err(StepError::Singular(failure))
 }
 
 /// Is this correction the last one? Estimated from the last two.

@@ -7,6 +7,7 @@ use crate::jacobian::{Jacobian, column_scales};
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
+use mbs_core::dense::Dense;
 use mbs_core::model::{Load, Model, State, Terms};
 
 /// Scratch of the state-space step, with the independent coordinates that are chosen at present.
@@ -20,6 +21,7 @@ pub struct Workspace<T> {
     pub(crate) elimination: Elimination<T>,
     pub(crate) basis: Basis<T>,
     pub(crate) tangent: Symmetric<T>,
+    pub(crate) solver: Dense<T>,
     /// C^T R, factored.
     pub(crate) turn: General<T>,
     /// C^T x of the predicted dq, v, a, and what is wanted of x now, f each.
@@ -77,9 +79,11 @@ impl<T: Real> Workspace<T> {
         elimination.reserve(2 * elimination.n_entries());
         let pivots = elimination.pivots();
         let widest = (0..model.n_elements()).map(|e| model.clique(e).len()).max().unwrap_or(0);
+        let tangent = Symmetric::new(n - rank);
         Self {
             basis: Basis::new(model, rank),
-            tangent: Symmetric::new(n - rank),
+            solver: Dense::new(&tangent),
+            tangent,
             turn: General::new(n - rank),
             predicted: [zeros(n - rank), zeros(n - rank), zeros(n - rank)],
             wanted: zeros(n - rank),

@@ -238,7 +238,7 @@ fn scenes_that_cannot_be_meant_are_refused_with_place_and_hint() {
 fn what_is_not_built_is_refused_with_the_list_of_what_is() {
     let file = scene("double-pendulum");
     for (arguments, built) in [
-        (["--formulation", "recursive"], "index-1, index-3"),
+        (["--formulation", "penalty"], "index-1, index-3, classical, state-space, recursive"),
         (["--integrator", "rk853"], "trapezoidal, newmark"),
         (["--precision", "dd"], "f32, f64"),
         (["--threads", "4"], "1"),
@@ -250,11 +250,11 @@ fn what_is_not_built_is_refused_with_the_list_of_what_is() {
         assert!(errors.contains(built), "{arguments:?}: {errors}");
     }
     let asks =
-        pendulum(&[("duration = 1.0", "duration = 1.0\n\n[solver]\nformulation = \"recursive\"")]);
+        pendulum(&[("duration = 1.0", "duration = 1.0\n\n[solver]\nintegrator = \"rk853\"")]);
     let (output, file) = run_text("asks", &asks, &[]);
     let errors = text(&output.stderr);
     assert_eq!(status(&output), 1);
-    assert!(errors.contains(&format!("{file}:8:")) && errors.contains("index-3"), "{errors}");
+    assert!(errors.contains(&format!("{file}:8:")) && errors.contains("trapezoidal"), "{errors}");
 }
 
 #[test]

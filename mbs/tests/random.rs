@@ -29,8 +29,15 @@ fn agree(scene: &Scene<f64>) {
     let moved = differences(&ends[0], &ends[1]).into_iter().fold(0.0, f64::max);
     assert!(moved > 0.1, "{}: what rests shows nothing, moved by {moved:.1e}", scene.name);
     for method in &METHODS[1..] {
-        let told = tell(&scene, *method, SPAN)
-            .unwrap_or_else(|e| panic!("{} {method:?}: {e}", scene.name));
+        let told = match tell(&scene, *method, SPAN) {
+            Ok(told) => told,
+            // Redundant rows have no unique multipliers, and random loops have some by chance.
+            Err(e) if method.0 == "classical" && e.code() == "rank-lost" => {
+                assert!(redundant(&scene) > 0, "{}: {e}, and no row is redundant", scene.name);
+                continue;
+            }
+            Err(e) => panic!("{} {method:?}: {e}", scene.name),
+        };
         let (ratio, component) = disagreement(&reference, &told);
         println!("{} {method:?}: {ratio:.2}", scene.name);
         assert!(ratio <= 1.0, "{} {method:?}: {ratio:.2}, component {component}", scene.name);
@@ -47,17 +54,19 @@ fn formulations_agree_on_random_spatial_trees() {
     (1..=6).for_each(|seed| agree(&random::tree(seed, Dimension::Spatial, 6)));
 }
 
+/// Constraints that follow from others.
+fn redundant(scene: &Scene<f64>) -> usize {
+    let settings = Settings::new(scene, &Overrides::default()).expect("the defaults are built");
+    let [_, rows, rank] = match scene.dimension {
+        Dimension::Planar => Simulation::<f64, 2>::new(scene, &settings).map(|s| s.sizes()),
+        Dimension::Spatial => Simulation::<f64, 3>::new(scene, &settings).map(|s| s.sizes()),
+    }
+    .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+    rows - rank
+}
+
 #[test]
 fn a_tree_has_no_redundant_constraint() {
-    let redundant = |scene: &Scene<f64>| {
-        let settings = Settings::new(scene, &Overrides::default()).expect("the defaults are built");
-        let [_, rows, rank] = match scene.dimension {
-            Dimension::Planar => Simulation::<f64, 2>::new(scene, &settings).map(|s| s.sizes()),
-            Dimension::Spatial => Simulation::<f64, 3>::new(scene, &settings).map(|s| s.sizes()),
-        }
-        .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
-        rows - rank
-    };
     for seed in 1..=40 {
         assert_eq!(redundant(&random::tree(seed, Dimension::Planar, 12)), 0, "planar, seed {seed}");
         assert_eq!(
@@ -104,6 +113,9 @@ fn retold_apart(
     };
     let (first, second) = (centres(scene, &|i| i), centres(other, &body));
     for method in METHODS {
+        if method.0 == "classical" && redundant(scene) > 0 {
+            continue;
+        }
         let run = |scene: &Scene<f64>| {
             rows(scene, method, SPAN, 1)
                 .unwrap_or_else(|e| panic!("{} {method:?}: {e}", scene.name))

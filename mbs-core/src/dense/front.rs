@@ -285,8 +285,8 @@ fn eliminate_pair<T: Real>(
     (first[0], first[1], second[0]) = (x, y, z);
 }
 
-/// Swaps the unknowns `k <= q` of a packed front, in the columns from `k` on and in those of L before.
-fn swap<T: Real>(a: &mut [T], f: usize, k: usize, q: usize) {
+/// Swaps the unknowns `k <= q` of a packed front of `f`, in the columns from `k` on and in those of L before.
+pub fn swap<T: Real>(a: &mut [T], f: usize, k: usize, q: usize) {
     if k == q {
         return;
     }

@@ -1,7 +1,9 @@
 //! The same mechanism told in another way: turned as a whole, its bodies in another order.
 #![allow(dead_code, reason = "each binary uses its part")]
 
-use mbs::core::scene::{BodyRef, EffectKind, Inertia, InitialTarget, Joint, JointKind, Scene};
+use mbs::core::scene::{
+    BodyRef, Dimension, EffectKind, Inertia, InitialTarget, Joint, JointKind, Scene,
+};
 
 type Vector = [f64; 3];
 
@@ -119,4 +121,29 @@ pub(crate) fn reorder(scene: &Scene<f64>) -> Scene<f64> {
     }
     s.outputs.clear();
     s
+}
+
+/// A place in the axes of scenes/spatial-four-bar.toml: two in its plane, then its normal.
+pub(crate) fn in_plane(x: Vector) -> Vector {
+    let axes = [[0.424, 0.768, 0.48], [-0.768, 0.024, 0.64], [0.48, -0.64, 0.6]];
+    axes.map(|axis: Vector| axis[0] * x[0] + axis[1] * x[1] + axis[2] * x[2])
+}
+
+/// That scene as a planar one.
+pub(crate) fn flattened(scene: &Scene<f64>) -> Scene<f64> {
+    let mut flat = turn_by(scene, in_plane);
+    flat.dimension = Dimension::Planar;
+    for body in &mut flat.bodies {
+        if let Inertia::Spatial([_, _, zz, ..]) = body.inertia {
+            body.inertia = Inertia::Planar(zz);
+        }
+    }
+    for joint in &mut flat.joints {
+        joint.axes = [None; 2];
+        joint.points.iter_mut().for_each(|point| point[2] = 0.0);
+    }
+    for body in &mut flat.bodies {
+        body.center[2] = 0.0;
+    }
+    flat
 }
