@@ -38,21 +38,32 @@ impl<T: Real> GuideInput<T> {
     }
 }
 
-/// A constant or a table, linear between its rows.
+/// A constant or a table, linear between its rows; or the way and speed of a road that moves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CourseInput<T> {
     course: Course<T>,
+    /// Speed of (speed t, speed, 0).
+    travel: Option<T>,
 }
 
 impl<T: Real> CourseInput<T> {
     /// Prepares a course.
     #[must_use]
     pub fn new(course: &Course<T>) -> Self {
-        Self { course: course.clone() }
+        Self { course: course.clone(), travel: None }
+    }
+
+    /// The course (speed t, speed, 0) of a road.
+    #[must_use]
+    pub fn travel(speed: T) -> Self {
+        Self { course: Course::Constant([T::ZERO; 3]), travel: Some(speed) }
     }
 
     /// Value at time `t`.
     pub fn at(&self, t: T) -> [T; 3] {
+        if let Some(speed) = self.travel {
+            return [speed * t, speed, T::ZERO];
+        }
         let rows = match &self.course {
             Course::Constant(value) => return *value,
             Course::Table(rows) => rows,

@@ -4,6 +4,8 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+#[cfg(feature = "alloc")]
+pub mod actions;
 pub mod algebra;
 pub mod blocks;
 #[cfg(feature = "alloc")]

@@ -18,6 +18,8 @@ fn scene(dimension: Dimension) -> Scene<f64> {
         initials: Vec::new(),
         guides: Vec::new(),
         effects: Vec::new(),
+        road: Default::default(),
+        start: Default::default(),
         outputs: Vec::new(),
         solver: SolverChoice::default(),
     }

@@ -16,6 +16,7 @@ mod dot;
 mod guided;
 mod linear;
 
+pub(crate) use combination::add_gradient;
 pub use combination::{Span, Term, combine};
 pub use distance::Distance;
 pub use dot::Dot;

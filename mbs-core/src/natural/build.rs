@@ -8,11 +8,12 @@ use super::model::NaturalModel;
 use super::rigid::rigid_rows;
 use super::sharing::{Entity, EntityKind, Sharing};
 use crate::Real;
+use crate::actions::{Action, Actions, Tables};
 use crate::algebra::{Vector, norm};
 use crate::cluster::{Clusters, scene_length};
 use crate::inputs::{CourseInput, GuideInput};
 use crate::model::Owner;
-use crate::scene::{BodyRef, Dimension, EffectKind, InitialTarget, JointKind, Quantity, Scene};
+use crate::scene::{BodyRef, Dimension, InitialTarget, JointKind, Quantity, Scene};
 use alloc::vec::Vec;
 
 /// Dependent entities that share an element with their body; each further one is an element of its own.
@@ -49,6 +50,7 @@ pub(super) struct Builder<'a, T: Real> {
     pub(super) groups: Vec<GroupDraft<T>>,
     pub(super) guides: Vec<GuideInput<T>>,
     pub(super) courses: Vec<CourseInput<T>>,
+    pub(super) tables: Tables<T>,
     /// Group of each joint that has rows.
     joint_group: Vec<Option<usize>>,
 }
@@ -82,6 +84,7 @@ impl<'a, T: Real> Builder<'a, T> {
             groups: Vec::new(),
             guides: Vec::new(),
             courses: Vec::new(),
+            tables: Tables::empty(),
             joint_group: alloc::vec![None; scene.joints.len()],
         })
     }
@@ -186,17 +189,16 @@ fn stays_rod<T: Real>(scene: &Scene<T>, body: usize, ends: &[Vector<T, 3>; 2], l
         }
         InitialTarget::Joint { joint, .. } => !scene.joints[*joint].bodies.contains(&me),
     });
-    let effects_allow = scene.effects.iter().filter(|e| e.enabled).all(|e| match &e.kind {
-        EffectKind::SpringDamper { bodies, points, .. } => {
-            (0..2).all(|k| bodies[k] != me || on_line(&points[k]))
-        }
-        EffectKind::Force { body: b, at, frame, .. } => {
-            *b != body || (on_line(at) && *frame == crate::scene::AxisFrame::Global)
-        }
-        EffectKind::BodyTorque { body: b, .. } => *b != body,
-        EffectKind::TorsionSpring { joint, .. } | EffectKind::JointTorque { joint, .. } => {
-            !scene.joints[*joint].bodies.contains(&me)
-        }
+    let actions = Actions::new(scene);
+    let effects_allow = actions.list.iter().all(|(_, action)| match action {
+        Action::Length { ends, .. } => ends.iter().all(|(b, p)| *b != me || on_line(p)),
+        Action::Along { ends, .. } => ends[0].0 != me && (ends[1].0 != me || on_line(&ends[1].1)),
+        Action::Twist { bodies, .. } => !bodies.contains(&me),
+        Action::Constant { at, .. } => at.0 != body || on_line(&at.1),
+        Action::Force { at, turns, .. } => at.0 != body || (on_line(&at.1) && !turns),
+        Action::Torque { body: b, .. } => *b != body,
+        Action::OnBody { at, law, .. } => at.0 != body || (on_line(&at.1) && !law.needs_rotation()),
+        Action::Angle { joint, .. } => !scene.joints[*joint].bodies.contains(&me),
     });
     let outputs_allow = scene.outputs.iter().all(|o| match &o.quantity {
         Quantity::Position { body: b, at }

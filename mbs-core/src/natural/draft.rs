@@ -4,6 +4,7 @@ use super::basis::Combination;
 use super::sharing::{Entity, EntityKind};
 use crate::Real;
 use crate::algebra::{Coef, Vector};
+use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
 use crate::model::Owner;
 use alloc::vec::Vec;
@@ -41,18 +42,51 @@ impl<T: Real> RowDraft<T> {
 /// What an effect group measures or applies.
 #[derive(Debug, Clone)]
 pub(crate) enum EffectDraft<T: Real> {
-    Length { x: Combination<T>, law: Law<T> },
-    Angle { x1: Combination<T>, x2: Combination<T>, y: Combination<T>, law: Law<T> },
-    Force { point: Combination<T>, frame: Option<[Combination<T>; 3]>, course: usize },
-    Torque { frame: [Combination<T>; 3], course: usize },
+    Length {
+        x: Combination<T>,
+        law: Law<T>,
+    },
+    Along {
+        x: Combination<T>,
+        d: Combination<T>,
+        offset: T,
+        law: Law<T>,
+    },
+    Twist {
+        x: [Combination<T>; 4],
+        law: Law<T>,
+    },
+    Angle {
+        x1: Combination<T>,
+        x2: Combination<T>,
+        y: Combination<T>,
+        law: Law<T>,
+    },
+    Force {
+        point: Combination<T>,
+        frame: Option<Vec<Combination<T>>>,
+        course: u32,
+    },
+    Torque {
+        frame: Vec<Combination<T>>,
+        course: u32,
+    },
+    OnBody {
+        point: Combination<T>,
+        frame: Option<Vec<Combination<T>>>,
+        axis: [T; 3],
+        law: BodyLaw<T>,
+    },
 }
 
 impl<T: Real> EffectDraft<T> {
     pub(crate) fn combinations(&self) -> Vec<&Combination<T>> {
         match self {
             Self::Length { x, .. } => alloc::vec![x],
+            Self::Along { x, d, .. } => alloc::vec![x, d],
+            Self::Twist { x, .. } => x.iter().collect(),
             Self::Angle { x1, x2, y, .. } => alloc::vec![x1, x2, y],
-            Self::Force { point, frame, .. } => {
+            Self::Force { point, frame, .. } | Self::OnBody { point, frame, .. } => {
                 let mut all = alloc::vec![point];
                 all.extend(frame.iter().flatten());
                 all
@@ -71,12 +105,12 @@ pub(crate) struct GroupDraft<T: Real> {
     /// Constant generalised forces of gravity and constant point forces: entity, force.
     pub(crate) forces: Vec<(usize, Vector<T, 3>)>,
     pub(crate) rows: Vec<RowDraft<T>>,
-    pub(crate) effect: Option<EffectDraft<T>>,
+    pub(crate) effects: Vec<EffectDraft<T>>,
 }
 
 impl<T: Real> GroupDraft<T> {
     pub(crate) fn new(owner: Owner) -> Self {
-        Self { owner, mass: None, forces: Vec::new(), rows: Vec::new(), effect: None }
+        Self { owner, mass: None, forces: Vec::new(), rows: Vec::new(), effects: Vec::new() }
     }
 
     /// The distinct entities of the group, unknown ones first, each part in order of first use.
@@ -92,7 +126,7 @@ impl<T: Real> GroupDraft<T> {
         }
         self.forces.iter().for_each(|(e, _)| visit(*e));
         self.rows.iter().flat_map(RowDraft::entities).for_each(&mut visit);
-        if let Some(effect) = &self.effect {
+        for effect in &self.effects {
             effect.combinations().into_iter().flatten().for_each(|(e, _)| visit(*e));
         }
         let (unknown, constant): (Vec<usize>, Vec<usize>) =

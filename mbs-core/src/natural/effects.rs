@@ -1,124 +1,147 @@
-//! From effects as data to effect elements. Effects that are switched off are not built.
+//! From actions to effect elements, one group for each effect. Effects that are switched off are not built.
 
+use super::basis::Combination;
 use super::build::Builder;
 use super::draft::{EffectDraft, GroupDraft, difference};
 use super::error::ModelError;
+use super::finish::lifted;
 use crate::Real;
+use crate::actions::{Action, Actions, Seat};
 use crate::algebra::Vector;
-use crate::inputs::CourseInput;
 use crate::laws::scalar::Law;
 use crate::model::Owner;
-use crate::scene::{AxisFrame, BodyRef, Course, Dimension, EffectKind};
+use crate::scene::{BodyRef, Dimension};
 use alloc::vec::Vec;
 
 impl<T: Real> Builder<'_, T> {
     /// Adds one group for each enabled effect.
     pub(super) fn add_effects(&mut self) -> Result<(), ModelError> {
-        let scene = self.scene;
-        for (index, effect) in scene.effects.iter().enumerate().filter(|(_, e)| e.enabled) {
-            let mut group = GroupDraft::new(Owner::Effect(index));
-            match &effect.kind {
-                EffectKind::SpringDamper { bodies, points, stiffness, damping, free_length } => {
-                    let second = self.point(bodies[1], points[1]);
-                    let x = difference(&second, &self.point(bodies[0], points[0]));
-                    let law = Law::SpringDamper {
-                        stiffness: *stiffness,
-                        damping: *damping,
-                        free: *free_length,
-                    };
-                    group.effect = Some(EffectDraft::Length { x, law });
-                }
-                EffectKind::TorsionSpring { joint, stiffness, damping, free_value } => {
-                    let law = Law::SpringDamper {
-                        stiffness: *stiffness,
-                        damping: *damping,
-                        free: *free_value,
-                    };
-                    group.effect = Some(self.angle_effect(*joint, law));
-                }
-                EffectKind::JointTorque { joint, course } => {
-                    let law = Law::Torque { course: self.course(course) };
-                    group.effect = Some(self.angle_effect(*joint, law));
-                }
-                EffectKind::Force { body, at, course, frame } => {
-                    self.point_force(&mut group, (*body, *at), course, *frame);
-                }
-                EffectKind::BodyTorque { body, course } => {
-                    group.effect = self.body_torque(*body, course)?;
-                }
+        let actions = Actions::new(self.scene);
+        for of_effect in actions.list.chunk_by(|a, b| a.0 == b.0) {
+            let mut group = GroupDraft::new(Owner::Effect(of_effect[0].0));
+            for (_, action) in of_effect {
+                self.add_action(action, &mut group)?;
             }
             self.groups.push(group);
         }
+        (self.courses, self.tables) = (actions.courses, actions.tables);
         Ok(())
     }
 
-    fn course(&mut self, course: &Course<T>) -> u32 {
-        self.courses.push(CourseInput::new(course));
-        super::finish::index(self.courses.len() - 1)
-    }
-
-    fn angle_effect(&mut self, joint: usize, law: Law<T>) -> EffectDraft<T> {
-        let [x1, x2, y] = self.angle(&self.scene.joints[joint]);
-        EffectDraft::Angle { x1, x2, y, law }
-    }
-
-    fn point_force(
+    fn add_action(
         &mut self,
+        action: &Action<T>,
         group: &mut GroupDraft<T>,
-        (body, at): (usize, [T; 3]),
-        course: &Course<T>,
-        frame: AxisFrame,
-    ) {
-        if self.clusters.of_body[body].is_none() {
-            return;
-        }
-        let point = self.point(BodyRef::Body(body), at);
-        match (course, frame) {
-            // A constant force has a potential, -F.r: it joins gravity.
-            (Course::Constant(f), AxisFrame::Global) => {
-                let f = Vector::<T, 3>::from(*f);
-                group
-                    .forces
-                    .extend(point.into_iter().map(|(e, c)| (e, super::finish::lifted(c, &f))));
+    ) -> Result<(), ModelError> {
+        let draft = match action {
+            Action::Length { ends, law } => {
+                EffectDraft::Length { x: self.between(ends), law: *law }
             }
-            _ => {
-                let frame = (frame == AxisFrame::Body).then(|| self.frame(body));
-                let course = self.course(course) as usize;
-                group.effect = Some(EffectDraft::Force { point, frame, course });
+            Action::Along { ends, direction, offset, law } => EffectDraft::Along {
+                x: self.between(ends),
+                d: self.direction(ends[0].0, Vector::from(*direction)),
+                offset: *offset,
+                law: *law,
+            },
+            Action::Angle { joint, law } => {
+                let [x1, x2, y] = self.angle(&self.scene.joints[*joint]);
+                EffectDraft::Angle { x1, x2, y, law: *law }
             }
-        }
+            Action::Twist { bodies, sides, law } => {
+                bodies.iter().try_for_each(|body| self.needs_rotation(*body))?;
+                let [a, b] = sides.map(Vector::<T, 3>::from);
+                let [first, second] = *bodies;
+                let sides = [(first, a), (second, b), (first, b), (second, a)];
+                let x = sides.map(|(body, d)| self.direction(body, d));
+                EffectDraft::Twist { x, law: *law }
+            }
+            Action::Constant { at: (body, at), force } => {
+                // A constant force has a potential, -F.r: it joins gravity.
+                if self.clusters.of_body[*body].is_some() {
+                    let f = Vector::<T, 3>::from(*force);
+                    let point = self.point(BodyRef::Body(*body), *at);
+                    group.forces.extend(point.into_iter().map(|(e, c)| (e, lifted(c, &f))));
+                }
+                return Ok(());
+            }
+            _ => return self.add_action_on_body(action, group),
+        };
+        group.effects.push(draft);
+        Ok(())
     }
 
-    fn body_torque(
+    /// What acts on one body from the ground; nothing on a body that is welded to it.
+    fn add_action_on_body(
         &mut self,
-        body: usize,
-        course: &Course<T>,
-    ) -> Result<Option<EffectDraft<T>>, ModelError> {
-        let Some(cluster) = self.clusters.of_body[body] else { return Ok(None) };
-        if !self.bases[cluster].is_full() {
-            return Err(ModelError::NoRotation { body });
+        action: &Action<T>,
+        group: &mut GroupDraft<T>,
+    ) -> Result<(), ModelError> {
+        let (Action::Force { at: (body, _), .. }
+        | Action::Torque { body, .. }
+        | Action::OnBody { at: (body, _), .. }) = action
+        else {
+            return Ok(());
+        };
+        if self.clusters.of_body[*body].is_none() {
+            return Ok(());
         }
-        Ok(Some(match self.scene.dimension {
-            Dimension::Planar => {
-                let [x, y, _] = axes::<T>();
-                let law = Law::Torque { course: self.course(course) };
-                EffectDraft::Angle {
-                    x1: self.direction(BodyRef::Ground, x),
-                    x2: self.direction(BodyRef::Ground, y),
-                    y: self.direction(BodyRef::Body(body), x),
-                    law,
+        let me = BodyRef::Body(*body);
+        let draft = match action {
+            Action::Force { at: (_, at), course, turns } => EffectDraft::Force {
+                point: self.point(me, *at),
+                frame: turns.then(|| self.frame(*body)),
+                course: *course,
+            },
+            Action::Torque { course, .. } => {
+                self.needs_rotation(me)?;
+                match self.scene.dimension {
+                    Dimension::Planar => {
+                        let [x, y, _] = axes::<T>();
+                        EffectDraft::Angle {
+                            x1: self.direction(BodyRef::Ground, x),
+                            x2: self.direction(BodyRef::Ground, y),
+                            y: self.direction(me, x),
+                            law: Law::Torque { course: *course },
+                        }
+                    }
+                    Dimension::Spatial => {
+                        EffectDraft::Torque { frame: self.frame(*body), course: *course }
+                    }
                 }
             }
-            Dimension::Spatial => {
-                let frame = self.frame(body);
-                EffectDraft::Torque { frame, course: self.course(course) as usize }
+            Action::OnBody { at: (_, at), axis, law } => {
+                if law.needs_rotation() {
+                    self.needs_rotation(me)?;
+                }
+                let frame = law.needs_rotation().then(|| self.frame(*body));
+                EffectDraft::OnBody { point: self.point(me, *at), frame, axis: *axis, law: *law }
             }
-        }))
+            _ => return Ok(()),
+        };
+        group.effects.push(draft);
+        Ok(())
     }
 
-    /// The body's directions that were x, y, z in the reference configuration.
-    fn frame(&mut self, body: usize) -> [Vec<(usize, crate::algebra::Coef<T>)>; 3] {
-        axes::<T>().map(|d| self.direction(BodyRef::Body(body), d))
+    /// From the first place to the second.
+    fn between(&mut self, ends: &[Seat<T>; 2]) -> Combination<T> {
+        let second = self.point(ends[1].0, ends[1].1);
+        difference(&second, &self.point(ends[0].0, ends[0].1))
+    }
+
+    /// A rod held by balls has no rotation about itself.
+    fn needs_rotation(&self, body: BodyRef) -> Result<(), ModelError> {
+        match (body, self.clusters.of(body)) {
+            (BodyRef::Body(body), Some(c)) if !self.bases[c].is_full() => {
+                Err(ModelError::NoRotation { body })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The body's directions that were x, y, z in the reference configuration; in the plane x and y.
+    fn frame(&mut self, body: usize) -> Vec<Combination<T>> {
+        let n = self.scene.dimension.count();
+        axes::<T>()[..n].iter().map(|d| self.direction(BodyRef::Body(body), *d)).collect()
     }
 }
 

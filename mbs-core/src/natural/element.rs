@@ -160,6 +160,9 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         group: &Group,
         block: &mut [T],
     ) {
+        if group.has_body_law {
+            return;
+        }
         for m in group.measures.range() {
             let (Gauge::Length { x }, t) = (self.measures[m].gauge, terms.measures[m].transverse)
             else {

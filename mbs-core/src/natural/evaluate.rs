@@ -20,7 +20,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         self.n_memory
     }
     fn has_forces(&self) -> bool {
-        !(self.measures.is_empty() && self.point_forces.is_empty() && self.torques.is_empty())
+        self.n_measures > 0 || !(self.point_forces.is_empty() && self.torques.is_empty())
     }
     fn has_guides(&self) -> bool {
         !self.guided.is_empty()
@@ -38,7 +38,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
             phi_bias: zeros(self.n_rows),
             jacobian,
             force: self.constant_force.clone(),
-            measures: vec![Measure::default(); self.measures.len()],
+            measures: vec![Measure::default(); self.n_measures],
             guides: vec![[T::ZERO; 3]; self.guides.len()],
             courses: vec![[T::ZERO; 3]; self.courses.len()],
         }
@@ -92,9 +92,14 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     }
 
     fn evaluate_forces(&self, q: &[T], v: &[T], memory: &[T], terms: &mut Terms<T>) {
+        let supplies = self.tables.supplies(&terms.courses);
+        let jacobian = &mut terms.jacobian;
         for (element, measure) in self.measures.iter().zip(&mut terms.measures) {
-            let jacobian = &mut terms.jacobian;
-            *measure = element.evaluate::<D>(&self.pool, (q, v, memory), &terms.courses, jacobian);
+            *measure = element.evaluate::<D>(&self.pool, (q, v, memory), &supplies, jacobian);
+        }
+        for element in &self.body_elements {
+            let out = (&mut jacobian[..], &mut terms.measures[..]);
+            element.evaluate::<D>(&self.pool, (q, v), &supplies, out);
         }
         for force in &self.point_forces {
             let value = self.point_force(force, q, terms.courses[force.course as usize]);
@@ -239,8 +244,12 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         for (&w, &x) in self.weight.iter().zip(q) {
             energy -= w * x;
         }
+        let supplies = self.tables.supplies(&terms.courses);
         for (element, measure) in self.measures.iter().zip(&terms.measures) {
-            energy += element.energy(measure);
+            energy += element.energy(measure, &supplies);
+        }
+        for element in &self.body_elements {
+            energy += element.energy(&terms.measures);
         }
         energy
     }
@@ -249,6 +258,9 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         let mut power = T::ZERO;
         for (element, measure) in self.measures.iter().zip(&terms.measures) {
             power += element.power(measure);
+        }
+        for element in &self.body_elements {
+            power += element.power(&terms.measures);
         }
         for force in &self.point_forces {
             let value = self.point_force(force, q, terms.courses[force.course as usize]);

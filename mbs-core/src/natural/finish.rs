@@ -7,8 +7,10 @@ use super::forces::{BodyTorque, Gauge, MeasureElement, PointForce};
 use super::group::{Group, packed};
 use super::model::NaturalModel;
 use super::motion::carriers;
+use super::on_body::BodyElement;
 use super::sharing::Entity;
 use crate::Real;
+use crate::actions::Tables;
 use crate::algebra::{Coef, Vector};
 use crate::cluster::Clusters;
 use crate::elements::{Distance, Dot, Guided, GuidedMotion, Linear, Span, Term};
@@ -31,13 +33,16 @@ pub(crate) fn lifted<T: Real>(c: Coef<T>, f: &Vector<T, 3>) -> Vector<T, 3> {
 
 /// Numbers and lays out everything.
 pub(super) fn finish<T: Real, const D: usize>(builder: Builder<'_, T>) -> NaturalModel<T, D> {
-    let Builder { entities, groups, clusters, bases, shared, guides, courses, length, .. } =
-        builder;
+    let Builder {
+        entities, groups, clusters, bases, shared, guides, courses, tables, length, ..
+    } = builder;
     let mut layout = Layout::<T, D>::new(entities, groups.as_slice(), clusters, length);
     for group in &groups {
         layout.add(group);
     }
     let mut model = layout.model;
+    number_measures(&mut model);
+    model.tables = tables;
     let owners = (&model.clusters, bases.as_slice(), shared.as_slice());
     model.carried = carriers(&layout.entities, owners, &model.entity_at);
     model.bases = bases;
@@ -112,6 +117,9 @@ impl<T: Real, const D: usize> Layout<T, D> {
             blocks: Vec::new(),
             constant_force: Vec::new(),
             measures: Vec::new(),
+            body_elements: Vec::new(),
+            n_measures: 0,
+            tables: Tables::empty(),
             n_memory: 0,
             point_forces: Vec::new(),
             torques: Vec::new(),
@@ -159,6 +167,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             distances: empty(m.distances.len()),
             dots: empty(m.dots.len()),
             measures: empty(m.measures.len()),
+            has_body_law: false,
             owner: draft.owner,
         };
         for row in &draft.rows {
@@ -282,7 +291,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
         n_unknown: usize,
         group: &mut Group,
     ) {
-        if draft.forces.is_empty() && draft.effect.is_none() {
+        if draft.forces.is_empty() && draft.effects.is_empty() {
             return;
         }
         let mut force = vec![T::ZERO; n_unknown * D];
@@ -295,10 +304,12 @@ impl<T: Real, const D: usize> Layout<T, D> {
             }
         }
         group.force = extend(&mut self.model.constant_force, force.into_iter());
-        if let Some(effect) = &draft.effect {
+        for effect in &draft.effects {
             self.add_effect(effect, columns, group);
         }
-        group.measures.end = index(self.model.measures.len());
+        if group.measures.is_empty() {
+            group.measures.end = index(self.model.measures.len());
+        }
     }
 
     fn add_effect(&mut self, effect: &EffectDraft<T>, columns: &Columns<'_>, group: &mut Group) {
@@ -316,26 +327,69 @@ impl<T: Real, const D: usize> Layout<T, D> {
             }
             EffectDraft::Force { point, frame, course } => {
                 let point = self.span(point, columns);
-                let frame = frame.as_ref().map(|f| [0, 1, 2].map(|i| self.span(&f[i], columns)));
-                let (course, force) = (index(*course), group.force);
+                let frame = frame.as_ref().map(|f| self.frame(f, columns));
+                let (course, force) = (*course, group.force);
                 self.model.point_forces.push(PointForce { point, course, frame, force });
             }
             EffectDraft::Torque { frame, course } => {
-                let frame = [0, 1, 2].map(|i| self.span(&frame[i], columns));
-                let (course, force) = (index(*course), group.force);
+                let frame = self.frame(frame, columns);
+                let (course, force) = (*course, group.force);
                 self.model.torques.push(BodyTorque { frame, course, force });
+            }
+            EffectDraft::Along { x, d, offset, law } => {
+                let (x, d) = (self.span(x, columns), self.span(d, columns));
+                self.add_measure(Gauge::Along { x, d, offset: *offset }, *law, group);
+            }
+            EffectDraft::Twist { x, law } => {
+                let x = [0, 1, 2, 3].map(|i| self.span(&x[i], columns));
+                self.add_measure(Gauge::Twist { x }, *law, group);
+            }
+            EffectDraft::OnBody { point, frame, axis, law } => {
+                let point = self.span(point, columns);
+                let frame = frame.as_ref().map_or([Span::default(); 3], |f| self.frame(f, columns));
+                let m = &mut self.model;
+                let (first, start) = (m.n_measures, m.n_jacobian);
+                m.n_measures += law.n_actions();
+                m.n_jacobian += law.n_actions() * group.width as usize;
+                let measures = Span { start: index(first), end: index(m.n_measures) };
+                let place = Span { start: index(start), end: index(m.n_jacobian) };
+                let (axis, law) = (*axis, *law);
+                m.body_elements.push(BodyElement { point, frame, axis, law, measures, place });
+                group.measures = measures;
+                group.has_body_law = true;
             }
         }
     }
 
+    fn frame(&mut self, directions: &[Combination<T>], columns: &Columns<'_>) -> [Span; 3] {
+        let mut frame = [Span::default(); 3];
+        for (span, direction) in frame.iter_mut().zip(directions) {
+            *span = self.span(direction, columns);
+        }
+        frame
+    }
+
     /// A measure's gradient stands after the constraint rows of its group.
-    fn add_measure(&mut self, gauge: Gauge, law: Law<T>, group: &Group) {
+    fn add_measure(&mut self, gauge: Gauge<T>, law: Law<T>, group: &Group) {
         let m = &mut self.model;
         let start = m.n_jacobian;
         m.n_jacobian += group.width as usize;
         let place = Span { start: index(start), end: index(m.n_jacobian) };
         m.measures.push(MeasureElement { gauge, law, place });
     }
+}
+
+/// Measures of laws on one body stand behind those of scalar laws.
+fn number_measures<T: Real, const D: usize>(model: &mut NaturalModel<T, D>) {
+    let n = index(model.measures.len());
+    let shift = |span: &mut Span| (span.start, span.end) = (span.start + n, span.end + n);
+    for element in &mut model.body_elements {
+        shift(&mut element.measures);
+    }
+    for group in model.groups.iter_mut().filter(|group| group.has_body_law) {
+        shift(&mut group.measures);
+    }
+    model.n_measures += n as usize;
 }
 
 /// Entry (a, b) of alpha 1 + beta J.

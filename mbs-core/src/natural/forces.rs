@@ -9,13 +9,18 @@
 use crate::Real;
 use crate::algebra::{Vector, cross, norm};
 use crate::elements::{Span, Term, combine};
+use crate::laws::Supplies;
 use crate::laws::scalar::{Law, Measure};
 
 /// What a scalar law measures.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Gauge {
+pub(crate) enum Gauge<T> {
     /// Length of a combination.
     Length { x: Span },
+    /// Distance of a combination along a direction.
+    Along { x: Span, d: Span, offset: T },
+    /// (x0.x1 - x2.x3) / 2 of four directions.
+    Twist { x: [Span; 4] },
     /// Angle of y in the frame x1, x2, unwrapped against `memory`.
     Angle { x1: Span, x2: Span, y: Span, memory: u32 },
 }
@@ -23,7 +28,7 @@ pub(crate) enum Gauge {
 /// A scalar law along a gauge, with its gradient's place in the Jacobian store.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MeasureElement<T> {
-    pub(crate) gauge: Gauge,
+    pub(crate) gauge: Gauge<T>,
     pub(crate) law: Law<T>,
     pub(crate) place: Span,
 }
@@ -52,19 +57,30 @@ impl<T: Real> MeasureElement<T> {
         &self,
         pool: &[Term<T>],
         (q, v, memory): (&[T], &[T], &[T]),
-        courses: &[[T; 3]],
+        supplies: &Supplies<'_, T>,
         jacobian: &mut [T],
     ) -> Measure<T> {
         let row = self.place.of_mut(jacobian);
         row.fill(T::ZERO);
         let (value, rate) = match self.gauge {
             Gauge::Length { x } => length::<T, D>(x.of(pool), q, v, row),
+            Gauge::Along { x, d, offset } => {
+                let (value, rate) =
+                    product::<T, D>([x, d].map(|x| x.of(pool)), (q, v), T::ONE, row);
+                (value - offset, rate)
+            }
+            Gauge::Twist { x } => {
+                let x = x.map(|x| x.of(pool));
+                let first = product::<T, D>([x[0], x[1]], (q, v), T::HALF, row);
+                let second = product::<T, D>([x[2], x[3]], (q, v), -T::HALF, row);
+                (first.0 + second.0, first.1 + second.1)
+            }
             Gauge::Angle { x1, x2, y, memory: turn } => {
                 let spans = [x1.of(pool), x2.of(pool), y.of(pool)];
                 angle::<T, D>(spans, q, v, memory[turn as usize], row)
             }
         };
-        let measure = self.law.evaluate(value, rate, courses);
+        let measure = self.law.evaluate(value, rate, supplies);
         match self.gauge {
             Gauge::Length { .. } if value > T::ZERO && measure.tension > T::ZERO => {
                 Measure { transverse: measure.tension / value, ..measure }
@@ -74,8 +90,8 @@ impl<T: Real> MeasureElement<T> {
     }
 
     /// Stored energy [J] of the elastic part at the measure's value.
-    pub(crate) fn energy(&self, measure: &Measure<T>) -> T {
-        self.law.energy(measure.value)
+    pub(crate) fn energy(&self, measure: &Measure<T>, supplies: &Supplies<'_, T>) -> T {
+        self.law.energy(measure.value, supplies)
     }
 
     /// Power that is not stored: dampers take, courses give [W].
@@ -96,6 +112,23 @@ fn length<T: Real, const D: usize>(x: &[Term<T>], q: &[T], v: &[T], row: &mut [T
         crate::algebra::add_to(row, term.column as usize, &term.coef.apply_transposed(&n));
     }
     (value, n.dot(&w))
+}
+
+/// s x.y of two combinations and its rate; its gradient is added to the row.
+fn product<T: Real, const D: usize>(
+    [x, y]: [&[Term<T>]; 2],
+    (q, v): (&[T], &[T]),
+    s: T,
+    row: &mut [T],
+) -> (T, T) {
+    let (px, py): (Vector<T, D>, Vector<T, D>) = (combine(x, q) * s, combine(y, q));
+    let (wx, wy): (Vector<T, D>, Vector<T, D>) = (combine(x, v) * s, combine(y, v));
+    for (terms, g) in [(x, py * s), (y, px)] {
+        for term in terms {
+            crate::algebra::add_to(row, term.column as usize, &term.coef.apply_transposed(&g));
+        }
+    }
+    (px.dot(&py), wx.dot(&py) + px.dot(&wy))
 }
 
 /// Angle atan2(x2.y, x1.y) nearest to `last`, its rate and gradient.

@@ -33,6 +33,8 @@ pub(crate) struct Group {
     pub(crate) dots: Span,
     /// Its scalar laws in the measure table; their gradients follow the constraint rows.
     pub(crate) measures: Span,
+    /// Are its measures those of a law on one body?
+    pub(crate) has_body_law: bool,
     /// Whose it is.
     pub(crate) owner: Owner,
 }

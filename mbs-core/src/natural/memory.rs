@@ -11,9 +11,10 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     #[must_use]
     pub fn memory_of_effect(&self, effect: usize) -> Option<usize> {
         let group = self.groups.iter().find(|group| group.owner == Owner::Effect(effect))?;
-        self.measures[group.measures.range()].iter().find_map(|measure| match measure.gauge {
+        let measures = self.measures.get(group.measures.range())?;
+        measures.iter().find_map(|measure| match measure.gauge {
             Gauge::Angle { memory, .. } => Some(memory as usize),
-            Gauge::Length { .. } => None,
+            _ => None,
         })
     }
 }

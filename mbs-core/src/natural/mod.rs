@@ -18,6 +18,7 @@ mod joints;
 mod memory;
 mod model;
 mod motion;
+mod on_body;
 mod rigid;
 mod sharing;
 

@@ -4,7 +4,9 @@ use super::basis::Basis;
 use super::forces::{BodyTorque, MeasureElement, PointForce};
 use super::group::Group;
 use super::motion::Carried;
+use super::on_body::BodyElement;
 use crate::Real;
+use crate::actions::Tables;
 use crate::algebra::Coef;
 use crate::blocks::Cliques;
 use crate::cluster::Clusters;
@@ -38,6 +40,10 @@ pub struct NaturalModel<T: Real, const D: usize> {
     /// Constant parts of the force store.
     pub(super) constant_force: Vec<T>,
     pub(super) measures: Vec<MeasureElement<T>>,
+    pub(super) body_elements: Vec<BodyElement<T>>,
+    /// Measures of all laws, those of laws on one body last.
+    pub(super) n_measures: usize,
+    pub(super) tables: Tables<T>,
     pub(super) n_memory: usize,
     pub(super) point_forces: Vec<PointForce>,
     pub(super) torques: Vec<BodyTorque>,

@@ -102,6 +102,7 @@ impl<T: Real, const D: usize> Load<T, D> {
             EffectKind::BodyTorque { body, course } => {
                 Self::BodyTorque { body: *body, course: CourseInput::new(course) }
             }
+            _ => todo!(),
         }
     }
 

@@ -36,6 +36,8 @@ impl<T: Real> Scene<T> {
     ///     initials: Vec::new(),
     ///     guides: Vec::new(),
     ///     effects: Vec::new(),
+    ///     road: Default::default(),
+    ///     start: Default::default(),
     ///     outputs: Vec::new(),
     ///     solver: SolverChoice::default(),
     /// };

@@ -1,6 +1,6 @@
 //! Bodies, joints, initial conditions and guides.
 
-use crate::scene::{Effect, Output, SolverChoice};
+use crate::scene::{Effect, Output, Road, SolverChoice};
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -43,12 +43,26 @@ pub struct Scene<T> {
     pub initials: Vec<Initial<T>>,
     /// Kinematic guidance of joint coordinates.
     pub guides: Vec<Guide<T>>,
+    /// The road of tires; empty: level ground at height zero.
+    pub road: Road<T>,
+    /// What the run starts from.
+    pub start: Start,
     /// Opt-in effects. Those with `enabled: false` are not built.
     pub effects: Vec<Effect<T>>,
     /// Channels; empty: every joint coordinate.
     pub outputs: Vec<Output>,
     /// What the scene asks of the solver.
     pub solver: SolverChoice<T>,
+}
+
+/// What a run starts from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Start {
+    /// The reference configuration with the initial conditions.
+    #[default]
+    Initial,
+    /// The static equilibrium, with the velocities of the initial conditions.
+    Equilibrium,
 }
 
 /// A body by its index, or the ground.

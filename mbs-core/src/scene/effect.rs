@@ -85,4 +85,182 @@ pub enum EffectKind<T> {
         /// Torque [N m].
         course: Course<T>,
     },
+    /// A force along the line of two body points that follows a course, positive when it pushes them apart [N].
+    Actuator {
+        /// First and second body.
+        bodies: [BodyRef; 2],
+        /// One point per body, reference configuration [m].
+        points: [[T; 3]; 2],
+        /// Force, first component [N].
+        course: Course<T>,
+    },
+    /// A piecewise polynomial between two body points: tension of the length (a spring) or of its rate (a damper).
+    Polynomial {
+        /// First and second body.
+        bodies: [BodyRef; 2],
+        /// One point per body, reference configuration [m].
+        points: [[T; 3]; 2],
+        /// The length is measured along this direction, fixed in the first body, instead of between the points.
+        direction: Option<[T; 3]>,
+        /// Of the length's rate instead of the length.
+        of_rate: bool,
+        /// Pieces, in increasing order and without gaps.
+        pieces: Vec<PolynomialPiece<T>>,
+    },
+    /// Pushes two points apart once they have come closer than their reference distance less the clearance.
+    Bumper {
+        /// First and second body.
+        bodies: [BodyRef; 2],
+        /// One point per body, reference configuration [m].
+        points: [[T; 3]; 2],
+        /// Stiffness [N/m].
+        stiffness: T,
+        /// Damping while in contact [N s/m].
+        damping: T,
+        /// Approach from the reference configuration before contact [m].
+        clearance: T,
+    },
+    /// Six springs and dampers between two bodies at a place, in body axes of the first.
+    Bushing {
+        /// First and second body.
+        bodies: [BodyRef; 2],
+        /// Place, reference configuration [m].
+        at: [T; 3],
+        /// Stiffness along x, y, z [N/m] and about x, y, z [N m/rad]; in the plane x, y and the third rotation.
+        stiffness: [T; 6],
+        /// Damping, likewise.
+        damping: [T; 6],
+    },
+    /// Elastic stops of a joint with one coordinate.
+    Limit {
+        /// Index of the joint.
+        joint: usize,
+        /// Coordinate below which the lower stop pushes [rad or m].
+        lower: T,
+        /// Coordinate above which the upper stop pushes [rad or m].
+        upper: T,
+        /// Stiffness [N m/rad or N/m].
+        stiffness: T,
+        /// Damping while in contact [N m s/rad or N s/m].
+        damping: T,
+    },
+    /// Stribeck friction of a joint with one coordinate, regularised.
+    Friction {
+        /// Index of the joint.
+        joint: usize,
+        /// Friction of fast motion [N m or N].
+        coulomb: T,
+        /// Friction of slow motion [N m or N].
+        r#static: T,
+        /// Rate at which the one becomes the other [rad/s or m/s].
+        stribeck: T,
+        /// Viscous part [N m s/rad or N s/m].
+        viscous: T,
+        /// Rate below which friction falls to zero with the rate [rad/s or m/s].
+        regularisation: T,
+    },
+    /// Drag of still air, against the velocity of a point.
+    AeroDrag {
+        /// Index of the body.
+        body: usize,
+        /// Point, reference configuration [m].
+        at: [T; 3],
+        /// Drag coefficient times area [m^2].
+        area_coefficient: T,
+        /// Density of air [kg/m^3].
+        density: T,
+    },
+    /// A force at the centre of mass along a direction of the body that holds its speed.
+    SpeedHold {
+        /// Index of the body.
+        body: usize,
+        /// Direction, fixed in the body.
+        direction: [T; 3],
+        /// Speed to hold [m/s].
+        speed: T,
+        /// Force per speed [N s/m].
+        gain: T,
+        /// Largest force [N].
+        limit: T,
+    },
+    /// A wheel on the scene's road.
+    Tire {
+        /// Index of the body that carries the wheel.
+        body: usize,
+        /// Centre of the wheel, reference configuration [m].
+        center: [T; 3],
+        /// Axis of the wheel, fixed in the body, pointing to the left of the direction of travel. Planar scenes: `None`.
+        axis: Option<[T; 3]>,
+        /// Radius without load [m].
+        radius: T,
+        /// Radial stiffness [N/m].
+        stiffness: T,
+        /// Radial damping while in contact [N s/m].
+        damping: T,
+        /// Force against rolling, as a share of the normal force [-].
+        rolling_resistance: T,
+        /// Side force and aligning torque; `None`: only the radial force.
+        side: Option<CalspanCoefficients<T>>,
+    },
+}
+
+/// One polynomial and the range in which it holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PolynomialPiece<T> {
+    /// Where it begins [m or m/s].
+    pub lower: T,
+    /// Where it ends [m or m/s].
+    pub upper: T,
+    /// Coefficients of increasing power, at most [`PolynomialPiece::MOST`].
+    pub coefficients: Vec<T>,
+}
+
+impl<T> PolynomialPiece<T> {
+    /// Coefficients that a piece may have.
+    pub const MOST: usize = 8;
+}
+
+pub use crate::laws::calspan::Coefficients as CalspanCoefficients;
+
+/// The road under the tires: heights over the x axis, the same across it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Road<T> {
+    /// Under wheels whose centre has y >= 0 in the reference configuration: features whose heights add up.
+    pub left: Vec<RoadFeature<T>>,
+    /// Under the others.
+    pub right: Vec<RoadFeature<T>>,
+    /// Speed at which the road comes towards a standing vehicle, along -x [m/s].
+    pub speed: T,
+}
+
+/// A part of a road; heights of all parts add up.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RoadFeature<T> {
+    /// The same height everywhere [m].
+    Flat {
+        /// Height [m].
+        height: T,
+    },
+    /// A rise (or fall) of constant slope with rounded corners, level before and after: a ramp; short: a step of stairs.
+    Rise {
+        /// Where it begins [m].
+        start: T,
+        /// Its length along x [m].
+        length: T,
+        /// Its height; negative: down [m].
+        height: T,
+        /// Length of each rounded corner, at most half the length [m].
+        rounding: T,
+    },
+    /// amplitude (1 - cos(2 pi (x - start) / length)), once.
+    Bump {
+        /// Where it begins [m].
+        start: T,
+        /// Its length along x [m].
+        length: T,
+        /// Half its height; negative: a hole [m].
+        amplitude: T,
+    },
+    /// Natural cubic spline through (x, z), level outside.
+    Table(Vec<[T; 2]>),
 }

@@ -11,8 +11,10 @@ mod output;
 
 pub use data::{
     Body, BodyRef, Dimension, Guide, GuideLaw, Inertia, Initial, InitialTarget, Joint, JointKind,
-    Scene,
+    Scene, Start,
 };
-pub use effect::{AxisFrame, Course, Effect, EffectKind};
+pub use effect::{
+    AxisFrame, CalspanCoefficients, Course, Effect, EffectKind, PolynomialPiece, Road, RoadFeature,
+};
 pub use error::{Entry, SceneError, SceneFault};
 pub use output::{Output, Quantity, SolverChoice};

@@ -26,6 +26,8 @@ pub(crate) fn scene(dimension: Dimension, gravity: [f64; 3]) -> Scene<f64> {
         initials: Vec::new(),
         guides: Vec::new(),
         effects: Vec::new(),
+        road: Default::default(),
+        start: Default::default(),
         outputs: Vec::new(),
         solver: SolverChoice::default(),
     }

@@ -70,6 +70,8 @@ pub fn tree(seed: u64, n: usize, dimension: Dimension) -> Scene<f64> {
         initials: Vec::new(),
         guides: Vec::new(),
         effects: Vec::new(),
+        road: Default::default(),
+        start: Default::default(),
         outputs: Vec::new(),
         solver: SolverChoice::default(),
     };

@@ -82,6 +82,8 @@ impl Document {
             initials: self
                 .entries(&context, "initial", |_, fields| motion::read_initial(fields))?,
             guides: self.entries(&context, "guide", |_, fields| motion::read_guide(fields))?,
+            road: Default::default(),
+            start: Default::default(),
             effects: self.entries(&context, "effect", effect::read)?,
             outputs: self.entries(&context, "output", |_, fields| output::read(fields))?,
             solver: match self.top("solver") {

@@ -103,6 +103,8 @@ pub(crate) fn tree(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
         initials,
         guides: Vec::new(),
         effects: Vec::new(),
+        road: Default::default(),
+        start: Default::default(),
         outputs: Vec::new(),
         solver: SolverChoice::default(),
     }

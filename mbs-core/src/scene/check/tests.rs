@@ -30,6 +30,8 @@ fn planar() -> Scene<f64> {
         initials: Vec::new(),
         guides: Vec::new(),
         effects: Vec::new(),
+        road: Default::default(),
+        start: Default::default(),
         outputs: Vec::new(),
         solver: SolverChoice::default(),
     }

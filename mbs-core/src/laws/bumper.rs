@@ -1,0 +1,98 @@
+//! One-sided contact: pushes when something is pressed in, never pulls.
+//!
+//! ```text
+//! F = max(0, k x + c x' s(x)),   s = 3 r^2 - 2 r^3,   r = min(1, x / x_s)        x > 0 pressed in
+//! V = k x^2 / 2 for x > 0
+//! ```
+//!
+//! The damper fades in over the depth x_s, so that the force is continuous where contact begins. Source: the one-sided
+//! Kelvin-Voigt model of Hunt and Crossley's discussion (1975), with a fade in place of their product. Range: rates for which
+//! c |x'| is not much above k x_s need steps that resolve the time x_s / |x'|.
+
+use crate::Real;
+
+/// Depth over which the damper fades in [m or rad].
+pub const FADE: f64 = 1e-3;
+
+/// Force, and its derivatives by depth and by rate; all zero without contact.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Contact<T> {
+    /// F, not negative [N or N m].
+    pub force: T,
+    /// dF/dx, not negative [N/m or N m/rad].
+    pub stiffness: T,
+    /// dF/dx' [N s/m or N m s/rad].
+    pub damping: T,
+}
+
+/// The contact at depth `x` [m or rad] and rate `rate` (positive while pressing in) [per s].
+#[inline]
+pub fn contact<T: Real>([stiffness, damping]: [T; 2], x: T, rate: T) -> Contact<T> {
+    if !(x > T::ZERO) {
+        return Contact::default();
+    }
+    let (share, slope) = if damping > T::ZERO { fade(x) } else { (T::ZERO, T::ZERO) };
+    let force = stiffness * x + damping * share * rate;
+    if !(force > T::ZERO) {
+        return Contact::default();
+    }
+    // A tangent that may not lose stability: the fade's part only where it stiffens.
+    let growth = (damping * slope * rate).max(T::ZERO);
+    Contact { force, stiffness: stiffness + growth, damping: damping * share }
+}
+
+/// s(x) and its slope.
+fn fade<T: Real>(x: T) -> (T, T) {
+    let inverse = T::from_f64(1.0 / FADE);
+    let r = x * inverse;
+    if r >= T::ONE {
+        return (T::ONE, T::ZERO);
+    }
+    let three = T::TWO + T::ONE;
+    (r * r * (three - T::TWO * r), three * T::TWO * r * (T::ONE - r) * inverse)
+}
+
+/// Stored energy at depth `x` [J].
+#[inline]
+pub fn energy<T: Real>(stiffness: T, x: T) -> T {
+    if x > T::ZERO { stiffness * x * x * T::HALF } else { T::ZERO }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LAW: [f64; 2] = [1e5, 2e3];
+
+    #[test]
+    fn contact_never_pulls_and_begins_and_ends_without_a_jump() {
+        for rate in [-5.0, -0.3, 0.0, 0.3, 5.0] {
+            let mut last = 0.0;
+            for i in -50..3000 {
+                let x = f64::from(i) * 1e-6;
+                let force = contact(LAW, x, rate).force;
+                assert!(force >= 0.0);
+                assert!(i > 0 || force == 0.0);
+                // At most (k + 1.5 c |x'| / x_s) times the step of 1e-6 m.
+                assert!((force - last).abs() < 20.0, "{x} {rate}");
+                last = force;
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_force_while_pressing_in() {
+        let h = 1e-8;
+        for x in [2e-4, 7e-4, 2e-3, 0.1] {
+            for rate in [0.01, 0.4, 3.0] {
+                let f = |x, rate| contact(LAW, x, rate).force;
+                let at = contact(LAW, x, rate);
+                // Central differences: rounding 1e-16 of 1e4 N over 1e-8, relative to 1e5 N/m.
+                let by_x = (f(x + h, rate) - f(x - h, rate)) / (2.0 * h);
+                let by_rate = (f(x, rate + h) - f(x, rate - h)) / (2.0 * h);
+                assert!((by_x - at.stiffness).abs() < 1e-4 * at.stiffness, "{x} {rate}");
+                assert!((by_rate - at.damping).abs() < 1e-4 * (1.0 + at.damping), "{x} {rate}");
+            }
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! Side force and aligning torque of a tire: the Calspan model.
+//!
+//! ```text
+//! mu = (B1 F + B3 + B4 F^2) k
+//! F <= W A2:  D = A1 F (F - A2) - A0 A2,  a_g = -A2 A3 (A4 - F) F / (A4 D) g,  b = D / (A2 mu F) (a + a_g)
+//! F >  W A2:  a_g = A2 A3 W (A4 - W A2) / (A0 A4) g,                           b = -A0 / (mu F) (a + a_g)
+//! s = b - b|b|/3 + b^3/27 for |b| < 3, else sign(b)
+//! Fy = mu F s,   Mz = (AF1 F + AF2 |Fy|) Fy
+//! ```
+//!
+//! F normal load, a slip angle, g camber. Source: Frik, Leister and Schwartz, *Simulation of the IAVSD Road Vehicle Benchmark
+//! Bombardier Iltis* (1993), in the form of the open Iltis model of UCLouvain. Above W A2 the cornering stiffness falls to A0,
+//! sixteen times below its peak for the Iltis: a feature of the formula. Mz changes its sign where |Fy| > F.
+
+use crate::Real;
+
+/// Coefficients of the model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coefficients<T> {
+    /// A0 [N/rad], A1 [1/rad], A2 [N], A3 [1/rad], A4 [N].
+    pub a: [T; 5],
+    /// W, the share of A2 up to which the stiffness follows the parabola [-].
+    pub omega: T,
+    /// B1 [1/N], B3 [-], B4 [1/N^2].
+    pub b: [T; 3],
+    /// k, the skid ratio [-].
+    pub skid: T,
+    /// AF1, AF2 [m/N].
+    pub trail: [T; 2],
+}
+
+impl<T: Real> Coefficients<T> {
+    /// The tire of the Bombardier Iltis.
+    #[must_use]
+    pub fn iltis() -> Self {
+        let n = T::from_f64;
+        Self {
+            a: [n(2625.0), n(14.47), n(12930.0), n(2.29), n(18175.0)],
+            omega: T::ONE,
+            b: [n(-0.464e-4), n(1.216), n(2.18e-11)],
+            skid: n(1.0274),
+            trail: [n(-0.171e-4), n(0.171e-4)],
+        }
+    }
+}
+
+/// What the tire does across.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Side<T> {
+    /// Side force Fy [N].
+    pub force: T,
+    /// Aligning torque Mz [N m].
+    pub torque: T,
+    /// -dFy/da, not negative [N/rad].
+    pub stiffness: T,
+}
+
+/// Side force and aligning torque at load `f` [N], slip angle and camber [rad]. No load, no force.
+pub fn side<T: Real>(c: &Coefficients<T>, f: T, slip: T, camber: T) -> Side<T> {
+    if !(f > T::ZERO) {
+        return Side::default();
+    }
+    let [a0, a1, a2, a3, a4] = c.a;
+    let mu = (c.b[0] * f + c.b[1] + c.b[2] * f * f) * c.skid;
+    let (shift, slope) = if f <= c.omega * a2 {
+        let d = a1 * f * (f - a2) - a0 * a2;
+        (-a2 * a3 * (a4 - f) * f / (a4 * d) * camber, d / (a2 * mu * f))
+    } else {
+        let edge = c.omega * a2;
+        (a2 * a3 * c.omega * (a4 - edge) / (a0 * a4) * camber, -a0 / (mu * f))
+    };
+    let b = slope * (slip + shift);
+    let three = T::TWO + T::ONE;
+    let (size, third) = (b.abs(), T::ONE / three);
+    let (share, rise) = if size < three {
+        let cube = T::ONE / (three * three * three);
+        (b - b * size * third + b * b * b * cube, {
+            let r = T::ONE - size * third;
+            r * r
+        })
+    } else {
+        (b / size, T::ZERO)
+    };
+    let force = mu * f * share;
+    Side {
+        force,
+        torque: (c.trail[0] * f + c.trail[1] * force.abs()) * force,
+        stiffness: -mu * f * rise * slope,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Load, slip, camber, side force, torque: computed independently from the formulas above with 34 digits.
+    const CASES: [[f64; 5]; 10] = [
+        [2000.0, 0.05, 0.0, -1106.773098, 16.905052],
+        [2000.0, 0.05, 0.03, -1184.170908, 16.519986],
+        [3829.6, 0.02, 0.0, -777.277661, 40.569784],
+        [3829.6, 0.05, 0.0, -1747.978450, 62.220566],
+        [3829.6, 0.10, 0.0, -2909.227384, 45.786502],
+        [3829.6, 0.30, 0.0, -4086.507319, -17.952497],
+        [3829.6, 0.05, 0.03, -1888.211804, 62.684361],
+        [3829.6, 0.0, 0.03, -204.160317, 12.656923],
+        [6000.0, 0.05, 0.0, -2126.184551, 140.843236],
+        [14000.0, 0.05, 0.0, -130.551687, 30.962626],
+    ];
+
+    #[test]
+    fn evaluations_are_those_of_the_formulas() {
+        let c = Coefficients::<f64>::iltis();
+        for [f, slip, camber, force, torque] in CASES {
+            let side = side(&c, f, slip, camber);
+            // The references have six digits after the point.
+            assert!((side.force - force).abs() < 6e-7, "{f} {slip} {camber}: {side:?}");
+            assert!((side.torque - torque).abs() < 6e-7, "{f} {slip} {camber}: {side:?}");
+        }
+    }
+
+    #[test]
+    fn cornering_stiffness_camber_stiffness_and_trail_are_the_published_ones() {
+        // Load, stiffness of slip [N/rad], of camber [N/rad], trail [m]; published with four digits.
+        let c = Coefficients::<f64>::iltis();
+        for [f, slip, camber, trail] in
+            [[3831.31, 41641.0, 6925.0, 0.06553], [3591.91, 40162.0, 6600.0, 0.06142]]
+        {
+            let h = 1e-7;
+            let by_slip = side(&c, f, h, 0.0);
+            let by_camber = side(&c, f, 0.0, h);
+            assert!((-by_slip.force / h / slip - 1.0).abs() < 2e-4);
+            assert!((by_slip.stiffness / slip - 1.0).abs() < 2e-4);
+            assert!((-by_camber.force / h / camber - 1.0).abs() < 2e-4);
+            assert!((-by_slip.torque / by_slip.force / trail - 1.0).abs() < 4e-4);
+        }
+    }
+
+    #[test]
+    fn force_is_odd_in_slip_and_camber_and_continuous_in_all() {
+        let c = Coefficients::<f64>::iltis();
+        for f in [100.0, 3000.0, 12929.999, 12930.001, 20000.0] {
+            for slip in [-0.4, -0.05, 0.0, 1e-4, 0.07, 0.5] {
+                let (a, b) = (side(&c, f, slip, 0.02), side(&c, f, -slip, -0.02));
+                assert!((a.force + b.force).abs() < 1e-9 && (a.torque + b.torque).abs() < 1e-9);
+                let h = 1e-6;
+                for near in [side(&c, f + h, slip, 0.02), side(&c, f, slip + h, 0.02)] {
+                    // Slopes are below 5e4 N/rad.
+                    assert!((near.force - a.force).abs() < 0.1, "{f} {slip}");
+                }
+            }
+        }
+        assert_eq!(side(&c, 0.0, 0.1, 0.0), Side::default());
+    }
+
+    #[test]
+    fn stiffness_is_the_slope_of_the_force() {
+        let c = Coefficients::<f64>::iltis();
+        let h = 1e-6;
+        for [f, slip, camber, ..] in CASES {
+            let by = (side(&c, f, slip + h, camber).force - side(&c, f, slip - h, camber).force)
+                / (2.0 * h);
+            let told = side(&c, f, slip, camber).stiffness;
+            assert!((by + told).abs() < 1e-5 * 4e4, "{f} {slip}: {by} {told}");
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! Laws on one body in natural coordinates: each action is a row, the gradient of its rate.
+//!
+//! ```text
+//! p = sum a_k e_k,  u_i the body's orthonormal directions,  w = 1/2 sum_i u_i x u_i'
+//! action (d, m):  rate d.p' + m.w,   row A_k^T d + 1/2 sum_i (m x u_i) on u_i
+//! ```
+
+use crate::Real;
+use crate::algebra::{Vector, cross};
+use crate::elements::{Span, Term, add_gradient, combine};
+use crate::laws::Supplies;
+use crate::laws::body::{Action, BodyLaw, BodyMotion, MOST};
+use crate::laws::scalar::Measure;
+
+/// A law on a body, with its rows' place in the Jacobian store and its measures' place among the measures.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct BodyElement<T> {
+    pub(crate) point: Span,
+    /// The body's directions; empty ones where the law asks for no rotation.
+    pub(crate) frame: [Span; 3],
+    /// The law's direction in those axes.
+    pub(crate) axis: [T; 3],
+    pub(crate) law: BodyLaw<T>,
+    pub(crate) measures: Span,
+    pub(crate) place: Span,
+}
+
+fn raised<T: Real, const D: usize>(x: &Vector<T, D>) -> Vector<T, 3> {
+    Vector::<T, 3>::from_fn(|i, _| if i < D { x[i] } else { T::ZERO })
+}
+
+fn lowered<T: Real, const D: usize>(x: &Vector<T, 3>) -> Vector<T, D> {
+    Vector::from_fn(|i, _| x[i])
+}
+
+impl<T: Real> BodyElement<T> {
+    /// Evaluates the law at (q, v): its rows and its measures.
+    pub(crate) fn evaluate<const D: usize>(
+        &self,
+        pool: &[Term<T>],
+        (q, v): (&[T], &[T]),
+        supplies: &Supplies<'_, T>,
+        (jacobian, measures): (&mut [T], &mut [Measure<T>]),
+    ) {
+        let n = self.measures.len();
+        let rows = self.place.of_mut(jacobian);
+        rows.fill(T::ZERO);
+        let point = self.point.of(pool);
+        let mut motion = BodyMotion {
+            position: raised::<T, D>(&combine(point, q)).into(),
+            velocity: raised::<T, D>(&combine(point, v)).into(),
+            axis: self.axis,
+            spin: [T::ZERO; 3],
+        };
+        let turns = self.law.needs_rotation();
+        let mut directions = [Vector::<T, 3>::zeros(); 3];
+        if turns {
+            let (mut spin, mut axis) = (Vector::<T, 3>::zeros(), Vector::<T, 3>::zeros());
+            for (i, u) in directions.iter_mut().enumerate().take(D) {
+                *u = raised::<T, D>(&combine(self.frame[i].of(pool), q));
+                let rate = raised::<T, D>(&combine(self.frame[i].of(pool), v));
+                spin += cross(u, &rate) * T::HALF;
+                axis += *u * self.axis[i];
+            }
+            // In the plane the third direction stays.
+            if D == 2 {
+                axis[2] += self.axis[2];
+            }
+            (motion.axis, motion.spin) = (axis.into(), spin.into());
+        }
+        let mut actions = [Action::default(); MOST];
+        self.law.evaluate(&motion, supplies, &mut actions[..n]);
+        let width = rows.len() / n.max(1);
+        let measures = &mut measures[self.measures.range()];
+        for ((row, action), measure) in
+            rows.chunks_exact_mut(width.max(1)).zip(&actions).zip(measures)
+        {
+            *measure = action.measure;
+            add_gradient::<T, D>(row, point, &lowered(&Vector::from(action.force)));
+            let moment = Vector::<T, 3>::from(action.moment);
+            if turns {
+                for (span, u) in self.frame.iter().zip(&directions).take(D) {
+                    let half = cross(&moment, u) * T::HALF;
+                    add_gradient::<T, D>(row, span.of(pool), &lowered(&half));
+                }
+            }
+        }
+    }
+
+    /// Stored energy [J].
+    pub(crate) fn energy(&self, measures: &[Measure<T>]) -> T {
+        let own = self.measures.of(measures).iter().enumerate();
+        own.fold(T::ZERO, |sum, (k, measure)| sum + self.law.energy(k, measure))
+    }
+
+    /// Power that is not stored [W].
+    pub(crate) fn power(&self, measures: &[Measure<T>]) -> T {
+        let own = self.measures.of(measures).iter().enumerate();
+        own.fold(T::ZERO, |sum, (k, measure)| sum + self.law.power(k, measure))
+    }
+}
