@@ -16,8 +16,8 @@ use crate::laws::tire::Tire;
 use crate::laws::{Part, Supplies, guide};
 use crate::natural::joint_axes;
 use crate::scene::{
-    AxisFrame, BodyRef, Course, Dimension, EffectKind, JointKind, PolynomialPiece, RoadFeature,
-    Scene,
+    AxisFrame, BodyRef, Course, Dimension, EffectKind, JointKind, OwnLaw, PolynomialPiece,
+    RoadFeature, Scene,
 };
 use alloc::vec;
 use alloc::vec::Vec;
@@ -108,6 +108,25 @@ pub struct Actions<T> {
     pub tables: Tables<T>,
 }
 
+impl<T> Action<T> {
+    /// The course that the action follows, if it follows one.
+    #[must_use]
+    pub fn course(&self) -> Option<u32> {
+        match self {
+            Self::Length { law, .. }
+            | Self::Along { law, .. }
+            | Self::Angle { law, .. }
+            | Self::Twist { law, .. } => match law {
+                Law::Torque { course } | Law::Own { course, .. } => Some(*course),
+                _ => None,
+            },
+            Self::Force { course, .. } | Self::Torque { course, .. } => Some(*course),
+            Self::OnBody { law: BodyLaw::Own { course, .. }, .. } => Some(*course),
+            Self::OnBody { .. } | Self::Constant { .. } => None,
+        }
+    }
+}
+
 /// Tables that laws refer to by number; constant from then on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tables<T> {
@@ -137,6 +156,11 @@ impl<T: Real> Tables<T> {
 }
 
 impl<T: Real> Actions<T> {
+    /// The course that each effect follows: index of the effect, number of the course.
+    pub fn effect_courses(&self) -> impl Iterator<Item = (usize, u32)> + '_ {
+        self.list.iter().filter_map(|(effect, action)| Some((*effect, action.course()?)))
+    }
+
     /// The actions of the enabled effects of a checked scene.
     #[must_use]
     pub fn new(scene: &Scene<T>) -> Self {
@@ -250,6 +274,20 @@ impl<T: Real> Compiler<'_, T> {
             EffectKind::BodyTorque { body, course } => {
                 let course = self.course(CourseInput::new(course));
                 self.push(Action::Torque { body: *body, course });
+            }
+            EffectKind::Own { law, course } => {
+                let course = self.course(CourseInput::new(course));
+                match *law {
+                    OwnLaw::Length { bodies, points, law } => {
+                        let law = Law::Own { law, course };
+                        self.push(Action::Length { ends: ends(&bodies, &points), law });
+                    }
+                    OwnLaw::Joint { joint, law } => self.on_joint(joint, Law::Own { law, course }),
+                    OwnLaw::Body { body, at, axis, law } => {
+                        let law = BodyLaw::Own { law, course };
+                        self.push(Action::OnBody { at: (body, at), axis: unit(axis), law });
+                    }
+                }
             }
             EffectKind::AeroDrag { body, at, area_coefficient, density } => {
                 let (area_coefficient, density) = (*area_coefficient, *density);

@@ -33,8 +33,18 @@ impl<T: Real> GuideInput<T> {
                 guide::sine(*amplitude, *frequency, *phase, t)
             }
             GuideLaw::Ramp { rate } => guide::ramp(*rate, t),
+            GuideLaw::Input(motion) => return *motion,
         };
         [m.value, m.rate, m.acceleration]
+    }
+
+    /// Sets value, rate and acceleration at the end of the next step; says whether the guide is an input.
+    pub fn set(&mut self, motion: [T; 3]) -> bool {
+        let is_input = matches!(self.law, GuideLaw::Input(_));
+        if is_input {
+            self.law = GuideLaw::Input(motion);
+        }
+        is_input
     }
 }
 
@@ -59,13 +69,22 @@ impl<T: Real> CourseInput<T> {
         Self { course: Course::Constant([T::ZERO; 3]), travel: Some(speed) }
     }
 
+    /// Sets the value from now on; says whether the course is an input.
+    pub fn set(&mut self, value: [T; 3]) -> bool {
+        let is_input = matches!(self.course, Course::Input(_));
+        if is_input {
+            self.course = Course::Input(value);
+        }
+        is_input
+    }
+
     /// Value at time `t`.
     pub fn at(&self, t: T) -> [T; 3] {
         if let Some(speed) = self.travel {
             return [speed * t, speed, T::ZERO];
         }
         let rows = match &self.course {
-            Course::Constant(value) => return *value,
+            Course::Constant(value) | Course::Input(value) => return *value,
             Course::Table(rows) => rows,
         };
         let next = rows.partition_point(|row| row.0 <= t);

@@ -5,6 +5,7 @@
 //! action   force -f d at the point, moment -f m;   rate d.v + m.w
 //! ```
 
+use super::own::OwnWrench;
 use super::scalar::Measure;
 use super::speed_hold::SpeedHold;
 use super::tire::Tire;
@@ -50,6 +51,13 @@ pub enum BodyLaw<T> {
     SpeedHold(SpeedHold<T>),
     /// A wheel about the law's direction.
     Tire(Tire<T>),
+    /// A user's own law.
+    Own {
+        /// The law.
+        law: OwnWrench<T>,
+        /// Number of the course that is its input.
+        course: u32,
+    },
 }
 
 /// Actions that one law has at most.
@@ -59,7 +67,7 @@ impl<T: Real> BodyLaw<T> {
     /// Number of actions.
     pub fn n_actions(&self) -> usize {
         match self {
-            Self::Drag { .. } | Self::SpeedHold(_) => 1,
+            Self::Drag { .. } | Self::SpeedHold(_) | Self::Own { .. } => 1,
             Self::Tire(tire) => tire.n_actions(),
         }
     }
@@ -68,7 +76,7 @@ impl<T: Real> BodyLaw<T> {
     pub fn needs_rotation(&self) -> bool {
         match self {
             Self::Drag { .. } => false,
-            Self::SpeedHold(_) => true,
+            Self::SpeedHold(_) | Self::Own { .. } => true,
             Self::Tire(tire) => tire.n_actions() > 1,
         }
     }
@@ -99,6 +107,13 @@ impl<T: Real> BodyLaw<T> {
                 out[0] = Action { force: motion.axis, moment: [T::ZERO; 3], measure };
             }
             Self::Tire(tire) => tire.evaluate(motion, supplies, out),
+            Self::Own { law, course } => {
+                let mut action = (law.evaluate)(motion, supplies.courses[*course as usize]);
+                let [force, moment] = [action.force, action.moment].map(Vector::<T, 3>::from);
+                action.measure.rate = force.dot(&Vector::from(motion.velocity))
+                    + moment.dot(&Vector::from(motion.spin));
+                out[0] = action;
+            }
         }
     }
 

@@ -10,6 +10,7 @@ pub mod drag;
 pub mod friction;
 pub mod guide;
 pub mod limit;
+pub mod own;
 pub mod polynomial;
 pub mod road;
 pub mod scalar;

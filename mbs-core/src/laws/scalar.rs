@@ -12,6 +12,7 @@
 
 use super::friction::Friction;
 use super::limit::Limit;
+use super::own::OwnScalar;
 use super::{Part, Supplies, bumper, polynomial};
 use crate::Real;
 
@@ -69,6 +70,13 @@ pub enum Law<T> {
     Limit(Limit<T>),
     /// Friction.
     Friction(Friction<T>),
+    /// A user's own law.
+    Own {
+        /// The law.
+        law: OwnScalar<T>,
+        /// Number of the course that is its input.
+        course: u32,
+    },
 }
 
 impl<T: Real> Law<T> {
@@ -121,6 +129,10 @@ impl<T: Real> Law<T> {
                 let (tension, damping) = friction.force(rate);
                 Measure { tension, damping, ..plain }
             }
+            Self::Own { law, course } => {
+                let told = (law.evaluate)(value, rate, supplies.courses[*course as usize]);
+                Measure { value, rate, transverse: T::ZERO, drift: T::ZERO, ..told }
+            }
         }
     }
 
@@ -137,13 +149,14 @@ impl<T: Real> Law<T> {
             }
             Self::Bumper { law, touch } => bumper::energy(law[0], *touch - value),
             Self::Limit(limit) => limit.energy(value),
+            Self::Own { law, course } => (law.energy)(value, supplies.courses[*course as usize]),
             Self::Torque { .. } | Self::Polynomial { .. } | Self::Friction(_) => T::ZERO,
         }
     }
 
     /// Power that is not stored: dampers take, courses give [W].
     #[inline]
-    pub fn power(&self, measure: &Measure<T>) -> T {
+    pub fn power(&self, measure: &Measure<T>, supplies: &Supplies<'_, T>) -> T {
         let Measure { value, rate, tension, .. } = *measure;
         // What of the tension is elastic.
         let elastic = match self {
@@ -154,6 +167,7 @@ impl<T: Real> Law<T> {
                 let above = (value - limit.upper).max(T::ZERO);
                 limit.stiffness * (above - (limit.lower - value).max(T::ZERO))
             }
+            Self::Own { law, course } => (law.elastic)(value, supplies.courses[*course as usize]),
             Self::Torque { .. } | Self::Polynomial { .. } | Self::Friction(_) => T::ZERO,
         };
         (elastic - tension) * rate

@@ -51,6 +51,7 @@ pub(super) struct Builder<'a, T: Real> {
     pub(super) guides: Vec<GuideInput<T>>,
     pub(super) courses: Vec<CourseInput<T>>,
     pub(super) tables: Tables<T>,
+    pub(super) effect_courses: Vec<(usize, u32)>,
     /// Group of each joint that has rows.
     joint_group: Vec<Option<usize>>,
 }
@@ -85,6 +86,7 @@ impl<'a, T: Real> Builder<'a, T> {
             guides: Vec::new(),
             courses: Vec::new(),
             tables: Tables::empty(),
+            effect_courses: Vec::new(),
             joint_group: alloc::vec![None; scene.joints.len()],
         })
     }

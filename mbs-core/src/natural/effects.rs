@@ -24,6 +24,7 @@ impl<T: Real> Builder<'_, T> {
             }
             self.groups.push(group);
         }
+        self.effect_courses = actions.effect_courses().collect();
         (self.courses, self.tables) = (actions.courses, actions.tables);
         Ok(())
     }

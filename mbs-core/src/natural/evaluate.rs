@@ -256,8 +256,9 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
 
     fn power(&self, q: &[T], v: &[T], lambda: &[T], terms: &Terms<T>) -> T {
         let mut power = T::ZERO;
+        let supplies = self.tables.supplies(&terms.courses);
         for (element, measure) in self.measures.iter().zip(&terms.measures) {
-            power += element.power(measure);
+            power += element.power(measure, &supplies);
         }
         for element in &self.body_elements {
             power += element.power(&terms.measures);

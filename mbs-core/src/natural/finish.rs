@@ -34,7 +34,17 @@ pub(crate) fn lifted<T: Real>(c: Coef<T>, f: &Vector<T, 3>) -> Vector<T, 3> {
 /// Numbers and lays out everything.
 pub(super) fn finish<T: Real, const D: usize>(builder: Builder<'_, T>) -> NaturalModel<T, D> {
     let Builder {
-        entities, groups, clusters, bases, shared, guides, courses, tables, length, ..
+        entities,
+        groups,
+        clusters,
+        bases,
+        shared,
+        guides,
+        courses,
+        tables,
+        effect_courses,
+        length,
+        ..
     } = builder;
     let mut layout = Layout::<T, D>::new(entities, groups.as_slice(), clusters, length);
     for group in &groups {
@@ -42,7 +52,7 @@ pub(super) fn finish<T: Real, const D: usize>(builder: Builder<'_, T>) -> Natura
     }
     let mut model = layout.model;
     number_measures(&mut model);
-    model.tables = tables;
+    (model.tables, model.effect_courses) = (tables, effect_courses);
     let owners = (&model.clusters, bases.as_slice(), shared.as_slice());
     model.carried = carriers(&layout.entities, owners, &model.entity_at);
     model.bases = bases;
@@ -120,6 +130,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             body_elements: Vec::new(),
             n_measures: 0,
             tables: Tables::empty(),
+            effect_courses: Vec::new(),
             n_memory: 0,
             point_forces: Vec::new(),
             torques: Vec::new(),

@@ -95,8 +95,8 @@ impl<T: Real> MeasureElement<T> {
     }
 
     /// Power that is not stored: dampers take, courses give [W].
-    pub(crate) fn power(&self, measure: &Measure<T>) -> T {
-        self.law.power(measure)
+    pub(crate) fn power(&self, measure: &Measure<T>, supplies: &Supplies<'_, T>) -> T {
+        self.law.power(measure, supplies)
     }
 }
 

@@ -44,6 +44,8 @@ pub struct NaturalModel<T: Real, const D: usize> {
     /// Measures of all laws, those of laws on one body last.
     pub(super) n_measures: usize,
     pub(super) tables: Tables<T>,
+    /// The course of each effect that follows one.
+    pub(super) effect_courses: Vec<(usize, u32)>,
     pub(super) n_memory: usize,
     pub(super) point_forces: Vec<PointForce>,
     pub(super) torques: Vec<BodyTorque>,
@@ -78,6 +80,25 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// The scene's length [m]: what tolerances are relative to.
     pub fn length(&self) -> T {
         self.length
+    }
+
+    /// Sets the input of `scene.effects[effect]` between two steps: force, torque, or what its own law asks for. It holds until
+    /// it is set again. Returns whether the effect has one: an enabled effect whose course is
+    /// [`Course::Input`](crate::scene::Course::Input).
+    pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> bool {
+        let own = self.effect_courses.iter().filter(|(e, _)| *e == effect);
+        let mut is_set = false;
+        for &(_, course) in own {
+            is_set |= self.courses[course as usize].set(value);
+        }
+        is_set
+    }
+
+    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. Returns whether the guide is
+    /// an input: [`GuideLaw::Input`](crate::scene::GuideLaw::Input). Values that jump make accelerations jump with the square of
+    /// the step: pass what a smooth reference gives.
+    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> bool {
+        self.guides.get_mut(guide).is_some_and(|guide| guide.set(motion))
     }
 
     /// How many elements stand behind each kind of row: (distance, dot product, linear, guided).

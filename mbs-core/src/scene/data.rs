@@ -251,6 +251,8 @@ pub enum GuideLaw<T> {
         /// Phase [rad].
         phase: T,
     },
+    /// Value, rate and acceleration, held until they are set again between steps; these at the start.
+    Input([T; 3]),
     /// rate * t   [rad/s or m/s].
     Ramp {
         /// Rate [rad/s or m/s].

@@ -1,5 +1,6 @@
 //! Opt-in effects, as data.
 
+use crate::laws::own::{OwnScalar, OwnWrench};
 use crate::scene::BodyRef;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -22,6 +23,8 @@ pub enum Course<T> {
     Constant([T; 3]),
     /// Rows of (time, value).
     Table(Vec<(T, [T; 3])>),
+    /// Held until it is set again between steps; this at the start.
+    Input([T; 3]),
 }
 
 /// Axes in which a force is given.
@@ -201,6 +204,45 @@ pub enum EffectKind<T> {
         rolling_resistance: T,
         /// Side force and aligning torque; `None`: only the radial force.
         side: Option<CalspanCoefficients<T>>,
+    },
+    /// A law of a user's own, in code only.
+    Own {
+        /// The law and where it acts.
+        law: OwnLaw<T>,
+        /// Its input.
+        course: Course<T>,
+    },
+}
+
+/// Where a law of a user's own acts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum OwnLaw<T> {
+    /// Along the line of two body points.
+    Length {
+        /// First and second body.
+        bodies: [BodyRef; 2],
+        /// One point per body, reference configuration [m].
+        points: [[T; 3]; 2],
+        /// The law.
+        law: OwnScalar<T>,
+    },
+    /// On the coordinate of a joint that has one.
+    Joint {
+        /// Index of the joint.
+        joint: usize,
+        /// The law.
+        law: OwnScalar<T>,
+    },
+    /// On a body.
+    Body {
+        /// Index of the body.
+        body: usize,
+        /// Point, reference configuration [m].
+        at: [T; 3],
+        /// Direction, fixed in the body.
+        axis: [T; 3],
+        /// The law.
+        law: OwnWrench<T>,
     },
 }
 

@@ -14,7 +14,8 @@ pub use data::{
     Scene, Start,
 };
 pub use effect::{
-    AxisFrame, CalspanCoefficients, Course, Effect, EffectKind, PolynomialPiece, Road, RoadFeature,
+    AxisFrame, CalspanCoefficients, Course, Effect, EffectKind, OwnLaw, PolynomialPiece, Road,
+    RoadFeature,
 };
 pub use error::{Entry, SceneError, SceneFault};
 pub use output::{Output, Quantity, SolverChoice};

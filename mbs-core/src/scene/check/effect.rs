@@ -101,7 +101,7 @@ fn check_course<T: Real>(
         value.into_iter().try_for_each(|x| place.finite(field, x))
     };
     match course {
-        Course::Constant(value) => row("value", *value),
+        Course::Constant(value) | Course::Input(value) => row("value", *value),
         Course::Table(rows) => {
             for (time, value) in rows {
                 place.finite("table", *time)?;

@@ -43,6 +43,7 @@ fn check_law<T: Real>(law: &GuideLaw<T>, place: Place) -> Result<(), SceneError>
             Ok(())
         }
         GuideLaw::Ramp { rate } => place.finite("ramp", *rate),
+        GuideLaw::Input(motion) => motion.iter().try_for_each(|x| place.finite("input", *x)),
     }
 }
 
@@ -77,6 +78,9 @@ fn start<T: Real>(law: &GuideLaw<T>) -> Motion<T> {
             sine(*amplitude, *frequency, *phase, T::ZERO)
         }
         GuideLaw::Ramp { rate } => ramp(*rate, T::ZERO),
+        GuideLaw::Input([value, rate, acceleration]) => {
+            Motion { value: *value, rate: *rate, acceleration: *acceleration }
+        }
     }
 }
 
