@@ -15,8 +15,7 @@ use alloc::vec::Vec;
 
 impl<T: Real> Builder<'_, T> {
     /// Adds one group for each enabled effect.
-    pub(super) fn add_effects(&mut self) -> Result<(), ModelError> {
-        let actions = Actions::new(self.scene);
+    pub(super) fn add_effects(&mut self, actions: Actions<T>) -> Result<(), ModelError> {
         for of_effect in actions.list.chunk_by(|a, b| a.0 == b.0) {
             let mut group = GroupDraft::new(Owner::Effect(of_effect[0].0));
             for (_, action) in of_effect {
