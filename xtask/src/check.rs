@@ -1,5 +1,6 @@
 //! `cargo xtask test`: every check of this repository, in order, up to the first failure.
 
+use crate::counts;
 use crate::documentation;
 use crate::nostd;
 use crate::pick;
@@ -8,10 +9,17 @@ use crate::summary::{LeftOut, Outcome, Summary};
 use std::process::{Command, ExitCode};
 
 /// Feature sets of mbs-core that must build on the host, as arguments of cargo.
-const CORE_FEATURES: [(&str, &[&str]); 3] = [
+const CORE_FEATURES: [(&str, &[&str]); 9] = [
     ("none", &["--no-default-features"]),
     ("alloc", &["--no-default-features", "--features", "alloc"]),
     ("std", &["--no-default-features", "--features", "std"]),
+    // Laws with tables, laws that share a file, the two kinds of law, and all without scenes.
+    ("polynomial", &["--no-default-features", "--features", "alloc,polynomial"]),
+    ("limit", &["--no-default-features", "--features", "alloc,limit,friction"]),
+    ("bushing", &["--no-default-features", "--features", "alloc,bushing,bumper"]),
+    ("tire", &["--no-default-features", "--features", "alloc,tire,speed-hold"]),
+    ("own-laws", &["--no-default-features", "--features", "alloc,own-laws,drag"]),
+    ("effects", &["--no-default-features", "--features", "effects"]),
 ];
 
 /// Runs every check and prints the summary; exit status 1 at the first failure.
@@ -50,7 +58,13 @@ fn checks(quick: bool, summary: &mut Summary) -> Result<(), String> {
     }
     summary.check("features", || core_features(quick))?;
     summary.check("pick", pick::check)?;
-    summary.check("check-nostd", nostd::check)
+    summary.check("check-nostd", nostd::check)?;
+    if quick {
+        summary.skip("counts", "--quick");
+        Ok(())
+    } else {
+        summary.check("counts", counts::check)
+    }
 }
 
 /// Runs a command whose success is all that counts.
