@@ -4,6 +4,7 @@ mod common;
 
 use common::effects::{bushing, every, tire, with};
 use common::{Random, close, dot, matrix, model, plus, residual};
+use mbs_core::Cliques;
 use mbs_core::algebra::{Vector, cross, rotation};
 use mbs_core::model::{Load, Measure, Model, State, Tangent, Terms};
 use mbs_core::natural::NaturalModel;
