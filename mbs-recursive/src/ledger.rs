@@ -27,7 +27,7 @@ pub(crate) fn potential<T: Real, S: Space<T>>(
         energy -= m.gravity.dot(&(p.position + p.center + m.base)) * link.mass;
     }
     for load in m.loads {
-        energy += load.potential(at, &m.base);
+        energy += load.potential(at);
     }
     energy
 }
