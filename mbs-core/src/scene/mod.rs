@@ -7,6 +7,7 @@ mod check;
 mod data;
 mod effect;
 mod error;
+mod fault;
 mod output;
 
 pub use data::{
@@ -16,5 +17,6 @@ pub use data::{
 pub use effect::{
     AxisFrame, CalspanCoefficients, Course, Effect, EffectKind, PolynomialPiece, Road, RoadFeature,
 };
-pub use error::{Entry, SceneError, SceneFault};
+pub use error::{Entry, SceneError};
+pub use fault::SceneFault;
 pub use output::{Output, Quantity, SolverChoice};
