@@ -260,15 +260,15 @@ fn wrong_keys_of_effects_are_refused_with_the_right_ones() {
     let e = spoil(CAR, "clearance = 0.07\n", "");
     refused(&e, "9:1", "`clearance` is missing", "add `clearance`");
     let e = spoil(CAR, "omega = 0.9, ", "");
-    refused(&e, "65:16", "`omega` is missing", "add `omega`");
+    refused(&e, "64:16", "`omega` is missing", "add `omega`");
     let e = spoil(CAR, "skid = 1.5", "skit = 1.5");
-    refused(&e, "65:66", "unknown key `skit`", "did you mean `skid`?");
+    refused(&e, "64:67", "unknown key `skit`", "did you mean `skid`?");
     let e = spoil(CAR, "100\nside = \"calspan\"", "100\nside = \"magic\"");
-    refused(&e, "56:8", "unknown side `magic`", "choices: none, calspan");
+    refused(&e, "55:8", "unknown side `magic`", "choices: none, calspan");
     let e = spoil(CAR, "side = \"calspan\"\ncoefficients", "coefficients");
-    refused(&e, "57:1", "`side = \"calspan\"` is missing", "add");
+    refused(&e, "56:1", "`side = \"calspan\"` is missing", "add");
     let e = spoil(CART, "table = [[0, 0], [1, 50]]", "table = [[0, 0], [1, 50]]\nvalue = 1");
-    refused(&e, "39:9", "both `value` and `table` are given", "keep one");
+    refused(&e, "38:9", "both `value` and `table` are given", "keep one");
 }
 
 #[test]
@@ -290,21 +290,21 @@ fn wrong_numbers_of_effects_are_refused_at_the_number() {
     let e = spoil(CART, "radius = 0.4", "radius = 0.4\nside = \"calspan\"");
     refused(&e, "50:8", "`side` needs a spatial scene", "dimension = 3");
     let e = spoil(CAR, "direction = [0, 0, 2]", "direction = [0, 0, 0.0]");
-    refused(&e, "18:13", "`direction` has no direction: all components are zero", "not zero");
+    refused(&e, "19:13", "`direction` has no direction: all components are zero", "not zero");
     let e = spoil(CAR, "[0.21, 2.0, 1919.1638", "[0.22, 2.0, 1919.1638");
-    let message = "`coefficients` has piece 3 not begin where piece 2 ends";
-    refused(&e, "24:16", message, "begin each where the one before ends");
+    let message = "`coefficients` has a gap or an overlap before piece 3";
+    refused(&e, "28:3", message, "begin each where the one before ends");
     let e = spoil(CAR, "[0, 0.1, -5457.712, 35906]", "[0.1, 0, -5457.712, 35906]");
-    refused(&e, "19:16", "`coefficients` has no range in piece 1", "lower first");
+    refused(&e, "20:17", "`coefficients` has no range in piece 1", "lower first");
     let e = spoil(CAR, "[0, 0.1, -5457.712, 35906]", "[0, 0.1]");
-    refused(&e, "19:16", "`coefficients` has 0 coefficients in piece 1", "one to eight");
+    refused(&e, "20:17", "`coefficients` has 0 coefficients in piece 1", "one to eight");
     let e = spoil(CAR, "[0, 0.1, -5457.712, 35906]", "[0]");
-    refused(&e, "19:17", "expected 3 entries, found 1", "write 3");
+    refused(&e, "20:17", "expected 3 entries, found 1", "write 3");
     let e = spoil(CAR, "limit = 8e3", "limit = -8e3");
-    refused(&e, "43:9", "`limit` must be larger than zero, but is -8000", "larger than zero");
+    refused(&e, "46:9", "`limit` must be larger than zero, but is -8000", "larger than zero");
     let e = spoil(CAR, "a = [1, 2, 3, 4, 5]", "a = [1, 2, 0, 4, 5]");
     let message = "`coefficients` needs A0, A2, omega, B3 and skid above zero, and A4 not zero";
-    refused(&e, "65:16", message, "check the order");
+    refused(&e, "64:16", message, "check the order");
     let e = spoil(CAR, "axis = [0, 1, 0]\nradius = 0.3638\n", "radius = 0.3638\n");
-    refused(&e, "57:1", "`axis` is missing", "add it");
+    refused(&e, "56:1", "`axis` is missing", "add it");
 }
