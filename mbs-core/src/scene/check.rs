@@ -3,6 +3,7 @@
 //! Order: names, numbers and references of each entry, then what entries say about one another. Comparisons
 //! are written so that a NaN fails them.
 
+mod between;
 mod body;
 mod course;
 mod effect;

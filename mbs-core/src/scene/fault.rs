@@ -160,6 +160,7 @@ impl SceneFault {
         }
     }
 
+    #[allow(clippy::too_many_lines, reason = "one sentence for each fault")]
     fn problem(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotFinite => write!(f, "is infinite or not a number"),

@@ -1,7 +1,7 @@
 //! Effects: references and numbers.
 
 use super::vector::Place;
-use super::{check_pair, course, is_planar, polynomial, tire};
+use super::{between, course, tire};
 use crate::Real;
 use crate::scene::{EffectKind, Scene, SceneError, SceneFault};
 
@@ -11,13 +11,6 @@ pub(super) fn check<T: Real>(
     place: Place,
 ) -> Result<(), SceneError> {
     match effect {
-        EffectKind::SpringDamper { bodies, points, stiffness, damping, free_length } => {
-            check_pair(scene, *bodies, place)?;
-            place.apart("points", *points)?;
-            place.finite("stiffness", *stiffness)?;
-            place.finite("damping", *damping)?;
-            place.finite("free_length", *free_length)
-        }
         EffectKind::TorsionSpring { joint, stiffness, damping, free_value } => {
             single_rotation(scene, *joint, place)?;
             place.finite("stiffness", *stiffness)?;
@@ -37,36 +30,11 @@ pub(super) fn check<T: Real>(
             single_rotation(scene, *joint, place)?;
             course::check(course, false, place)
         }
-        EffectKind::Actuator { bodies, points, course } => {
-            check_pair(scene, *bodies, place)?;
-            place.apart("points", *points)?;
-            course::check(course, false, place)
-        }
-        EffectKind::Polynomial { bodies, points, direction, pieces, .. } => {
-            check_pair(scene, *bodies, place)?;
-            match direction {
-                // a distance along a line may be zero
-                Some(direction) => {
-                    points.iter().try_for_each(|point| place.vector("points", *point))?;
-                    place.axis("direction", *direction)?;
-                }
-                None => place.apart("points", *points)?,
-            }
-            polynomial::check(pieces, place)
-        }
-        EffectKind::Bumper { bodies, points, stiffness, damping, clearance } => {
-            check_pair(scene, *bodies, place)?;
-            place.apart("points", *points)?;
-            place.not_negative("stiffness", *stiffness)?;
-            place.not_negative("damping", *damping)?;
-            place.finite("clearance", *clearance)
-        }
-        EffectKind::Bushing { bodies, at, stiffness, damping } => {
-            check_pair(scene, *bodies, place)?;
-            place.vector("at", *at)?;
-            bushing("stiffness", stiffness, place)?;
-            bushing("damping", damping, place)
-        }
+        EffectKind::SpringDamper { .. }
+        | EffectKind::Actuator { .. }
+        | EffectKind::Polynomial { .. }
+        | EffectKind::Bumper { .. }
+        | EffectKind::Bushing { .. } => between::check(scene, effect, place),
         EffectKind::Limit { .. } | EffectKind::Friction { .. } => on_joint(scene, effect, place),
         EffectKind::AeroDrag { body, at, area_coefficient, density } => {
             known_body(scene, *body, place)?;
@@ -118,15 +86,6 @@ fn on_joint<T: Real>(
             place.fault("static", SceneFault::StaticBelowCoulomb(levels))
         }
         _ => Ok(()),
-    }
-}
-
-/// Six numbers that are not negative; in the plane only along x, y and about z.
-fn bushing<T: Real>(field: &'static str, six: &[T; 6], place: Place) -> Result<(), SceneError> {
-    six.iter().try_for_each(|x| place.not_negative(field, *x))?;
-    match six[2..5].iter().find(|x| is_planar(place.dimension) && !x.is_zero()) {
-        Some(x) => place.fault(field, SceneFault::OutOfPlane(x.to_f64())),
-        None => Ok(()),
     }
 }
 
