@@ -18,7 +18,8 @@ pub(crate) fn all(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> 
     let depth = if dimension == Dimension::Planar { 0.0 } else { 1.0 };
     let flat = |[x, y, z]: [f64; 3]| [x, y, z * depth];
     let mut all = springs_and_forces(POINTS.map(flat), flat(CENTER));
-    all.extend(between(POINTS.map(flat)));
+    let six = [1.0, 1.0, depth, depth, depth, 1.0];
+    all.extend(between(POINTS.map(flat), six));
     all.extend(on_a_body(flat(CENTER), dimension));
     all
 }
@@ -45,7 +46,7 @@ fn springs_and_forces(points: [[f64; 3]; 2], at: [f64; 3]) -> Vec<(&'static str,
 }
 
 /// Laws of a length, an angle or a place between bodies.
-fn between(points: [[f64; 3]; 2]) -> Vec<(&'static str, EffectKind<f64>)> {
+fn between(points: [[f64; 3]; 2], six: [f64; 6]) -> Vec<(&'static str, EffectKind<f64>)> {
     let (bodies, joint) = (BODIES, 0);
     let (stiffness, damping) = (100.0, 1.0);
     let pieces =
@@ -70,7 +71,12 @@ fn between(points: [[f64; 3]; 2]) -> Vec<(&'static str, EffectKind<f64>)> {
         ),
         (
             "bushing",
-            EffectKind::Bushing { bodies, at: points[1], stiffness: [100.0; 6], damping: [1.0; 6] },
+            EffectKind::Bushing {
+                bodies,
+                at: points[1],
+                stiffness: six.map(|share| share * stiffness),
+                damping: six.map(|share| share * damping),
+            },
         ),
         (
             "own-length",

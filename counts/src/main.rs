@@ -11,6 +11,7 @@ use mbs_core::dense::Dense;
 use mbs_core::natural::{ModelError, NaturalModel};
 use mbs_core::scene::{Dimension, Scene};
 use mbs_core::start::assemble;
+use mbs_recursive::{Planar, Spatial, TreeModel, space::Space};
 use std::error::Error;
 use std::process::ExitCode;
 
@@ -47,7 +48,11 @@ fn run<const D: usize>(scene: &Scene<f64>, name: &str, steps: usize) -> Result<(
         Err(ModelError::LeftOut { .. }) => return Ok(()),
         model => model?,
     };
-    index_3(scene, &model, name, steps)
+    index_3(scene, &model, name, steps)?;
+    match D {
+        2 => recursive::<D, Planar>(scene, &model, name, steps),
+        _ => recursive::<D, Spatial>(scene, &model, name, steps),
+    }
 }
 
 /// Steps of index-3 augmented Lagrangian.
@@ -63,6 +68,23 @@ fn index_3<const D: usize>(
     let (options, dt) = (Options::index3(), (STEP, model.length()));
     count(&format!("index-3 {name}"), steps, || {
         index3::step(model, dt, &options, &mut state, &mut workspace)
+    })
+}
+
+/// Steps of the recursive formulation.
+fn recursive<const D: usize, S: Space<f64>>(
+    scene: &Scene<f64>,
+    model: &NaturalModel<f64, D>,
+    name: &str,
+    steps: usize,
+) -> Result<(), Box<dyn Error>> {
+    let natural = assemble(scene, model, |p| Dense::new(p), &mut Dense::new(model))?.state;
+    let tree = TreeModel::<f64, S>::new(scene)?;
+    let mut workspace = mbs_recursive::Workspace::new(&tree);
+    let mut state = tree.start(scene, model, &natural)?;
+    let options = mbs_recursive::Options::default();
+    count(&format!("recursive {name}"), steps, || {
+        mbs_recursive::step(&tree, STEP, &options, &mut state, &mut workspace)
     })
 }
 

@@ -84,7 +84,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             return Err(TreeError::Dimension);
         }
         let clusters = Clusters::new(scene);
-        let actions = Actions::new(scene);
+        let actions = Actions::new(scene)?;
         let graph = span(scene, &actions, &clusters)?;
         let mut tree = Self::ground(scene, clusters);
         for branch in &graph.branches {

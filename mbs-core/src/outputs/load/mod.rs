@@ -8,7 +8,7 @@ use super::coordinate::Coordinate;
 use super::frame::Frame;
 use super::wrench::Wrench;
 use crate::Real;
-use crate::actions::{Action, Actions, Seat, Tables};
+use crate::actions::{Action, ActionError, Actions, Seat, Tables};
 use crate::algebra::Vector;
 use crate::inputs::CourseInput;
 use crate::laws::Supplies;
@@ -76,11 +76,14 @@ pub(super) enum Gauge<T: Real, const D: usize> {
 
 impl<T: Real, const D: usize> Loads<T, D> {
     /// All enabled effects of a scene.
-    pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Self {
-        let Actions { list, courses, tables } = Actions::new(scene);
+    ///
+    /// # Errors
+    /// [`ActionError`] as for the model.
+    pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ActionError> {
+        let Actions { list, courses, tables } = Actions::new(scene)?;
         let list = list.iter().map(|(effect, action)| Load::new((scene, model), *effect, action));
         let list = list.collect();
-        Self { list, values: vec![[T::ZERO; 3]; courses.len()], courses, tables }
+        Ok(Self { list, values: vec![[T::ZERO; 3]; courses.len()], courses, tables })
     }
 
     /// The effects, and the inputs of the instant `t`.
