@@ -39,6 +39,7 @@ mod tree;
 
 #[cfg(feature = "alloc")]
 pub use error::{LoopError, TreeError};
+pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use options::{Closure, Options};
 #[cfg(feature = "alloc")]
 pub use run::{rk4_step, rk54_step, step};
