@@ -14,7 +14,7 @@ pub mod explicit;
 mod graph;
 pub mod inverse;
 pub mod joint;
-mod ledger;
+pub mod ledger;
 pub mod link;
 pub mod loads;
 pub mod loops;
