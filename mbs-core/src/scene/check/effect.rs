@@ -3,7 +3,7 @@
 use super::vector::Place;
 use super::{check_pair, course, is_planar, polynomial, tire};
 use crate::Real;
-use crate::scene::{EffectKind, Scene, SceneError, SceneFault};
+use crate::scene::{EffectKind, OwnLaw, Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(
     scene: &Scene<T>,
@@ -68,6 +68,10 @@ pub(super) fn check<T: Real>(
             bushing("damping", damping, place)
         }
         EffectKind::Limit { .. } | EffectKind::Friction { .. } => on_joint(scene, effect, place),
+        EffectKind::Own { law, course } => {
+            own(scene, law, place)?;
+            course::check(course, false, place)
+        }
         EffectKind::AeroDrag { body, at, area_coefficient, density } => {
             known_body(scene, *body, place)?;
             place.vector("at", *at)?;
@@ -118,6 +122,22 @@ fn on_joint<T: Real>(
             place.fault("static", SceneFault::StaticBelowCoulomb(levels))
         }
         _ => Ok(()),
+    }
+}
+
+/// Where a law of a user's own acts; what it does is its own affair.
+fn own<T: Real>(scene: &Scene<T>, law: &OwnLaw<T>, place: Place) -> Result<(), SceneError> {
+    match law {
+        OwnLaw::Length { bodies, points, .. } => {
+            check_pair(scene, *bodies, place)?;
+            place.apart("points", *points)
+        }
+        OwnLaw::Joint { joint, .. } => single_coordinate(scene, *joint, place),
+        OwnLaw::Body { body, at, axis, .. } => {
+            known_body(scene, *body, place)?;
+            place.vector("at", *at)?;
+            place.axis("axis", *axis)
+        }
     }
 }
 
