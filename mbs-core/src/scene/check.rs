@@ -4,11 +4,16 @@
 //! are written so that a NaN fails them.
 
 mod body;
+mod course;
 mod effect;
 mod joint;
 mod motion;
+mod output;
+mod polynomial;
+mod road;
 #[cfg(test)]
 mod tests;
+mod tire;
 mod vector;
 
 use crate::Real;
@@ -66,8 +71,9 @@ impl<T: Real> Scene<T> {
         for (i, effect) in self.effects.iter().enumerate() {
             effect::check(self, &effect.kind, self.place(Entry::Effect(i)))?;
         }
+        road::check(self)?;
         for (i, output) in self.outputs.iter().enumerate() {
-            effect::check_output(self, &output.quantity, self.place(Entry::Output(i)))?;
+            output::check(self, &output.quantity, self.place(Entry::Output(i)))?;
         }
         Ok(())
     }

@@ -7,6 +7,7 @@ mod check;
 mod data;
 mod effect;
 mod error;
+mod fault;
 mod output;
 
 pub use data::{
@@ -17,5 +18,6 @@ pub use effect::{
     AxisFrame, CalspanCoefficients, Course, Effect, EffectKind, OwnLaw, PolynomialPiece, Road,
     RoadFeature,
 };
-pub use error::{Entry, SceneError, SceneFault};
+pub use error::{Entry, SceneError};
+pub use fault::SceneFault;
 pub use output::{Output, Quantity, SolverChoice};

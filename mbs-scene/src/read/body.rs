@@ -30,12 +30,7 @@ pub(crate) fn read<T: Real>(fields: &Fields<'_>) -> Read<Body<T>> {
         (_, true) => Inertia::Planar(fields.number("inertia")?),
         (_, false) => {
             let form = "a list of six numbers: [Ixx, Iyy, Izz, Ixy, Iyz, Izx]";
-            let items = context.exactly::<6>(fields.need("inertia")?, form)?;
-            let mut six = [T::ZERO; 6];
-            for (entry, item) in six.iter_mut().zip(items) {
-                *entry = context.number(item)?;
-            }
-            Inertia::Spatial(six)
+            Inertia::Spatial(context.numbers_of(fields.need("inertia")?, form)?)
         }
     };
     Ok(Body { name, mass, center, inertia })

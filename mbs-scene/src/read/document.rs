@@ -2,9 +2,9 @@
 
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::tree::{self, Item, Member, Node, Span};
-use crate::read::{Place, ReadError, ReadFault, body, effect, joint, motion, output};
+use crate::read::{Place, ReadError, ReadFault, body, effect, joint, motion, output, road};
 use mbs_core::Real;
-use mbs_core::scene::{Dimension, Entry, Scene, SceneError, SceneFault};
+use mbs_core::scene::{Dimension, Entry, Scene, SceneError, SceneFault, Start};
 use std::collections::BTreeMap;
 
 /// A scene file: syntax tree, text and name. Numbers are still decimal text.
@@ -15,8 +15,8 @@ pub struct Document {
     root: Vec<Member>,
 }
 
-const TABLES: [&str; 8] =
-    ["scene", "body", "joint", "initial", "guide", "effect", "solver", "output"];
+const TABLES: [&str; 9] =
+    ["scene", "body", "joint", "initial", "guide", "effect", "road", "solver", "output"];
 const SCENE_KEYS: [&str; 5] = ["name", "dimension", "gravity", "duration", "start"];
 
 impl Document {
@@ -69,7 +69,6 @@ impl Document {
         let context = Context { dimension, ..context };
         let header = context.table(item, "a table: [scene]")?;
         header.allow(&SCENE_KEYS, &[])?;
-        refuse_start(&header)?;
         let body_data = self.entries(&context, "body", |_, fields| body::read(fields))?;
         let centers: Vec<[T; 3]> = body_data.iter().map(|body| body.center).collect();
         let scene = Scene {
@@ -82,8 +81,11 @@ impl Document {
             initials: self
                 .entries(&context, "initial", |_, fields| motion::read_initial(fields))?,
             guides: self.entries(&context, "guide", |_, fields| motion::read_guide(fields))?,
-            road: Default::default(),
-            start: Default::default(),
+            road: match self.top("road") {
+                Some(item) => road::read(&context.table(item, "a table: [road]")?)?,
+                None => Default::default(),
+            },
+            start: read_start(&header)?,
             effects: self.entries(&context, "effect", effect::read)?,
             outputs: self.entries(&context, "output", |_, fields| output::read(fields))?,
             solver: match self.top("solver") {
@@ -100,21 +102,24 @@ impl Document {
     /// The place of a key's value, of the entry's header when the key is not written, or of the file's start.
     #[must_use]
     pub fn place(&self, entry: Entry, field: &str) -> Place {
-        let (table, index) = match entry {
-            Entry::Scene => ("scene", None),
-            Entry::Solver => ("solver", None),
-            Entry::Body(i) => ("body", Some(i)),
-            Entry::Joint(i) => ("joint", Some(i)),
-            Entry::Initial(i) => ("initial", Some(i)),
-            Entry::Guide(i) => ("guide", Some(i)),
-            Entry::Effect(i) => ("effect", Some(i)),
-            Entry::Output(i) => ("output", Some(i)),
-        };
-        let item = self.top(table).and_then(|item| match (&item.node, index) {
-            (Node::List(items), Some(i)) => items.get(i),
-            (_, None) => Some(item),
+        let entries = |table: &str, i: usize| match &self.top(table)?.node {
+            Node::List(items) => items.get(i),
             _ => None,
-        });
+        };
+        let road = |track: &str, i| road::item_of(self.top("road")?, track, i);
+        let item = match entry {
+            Entry::Scene => self.top("scene"),
+            Entry::Solver => self.top("solver"),
+            Entry::Road => self.top("road"),
+            Entry::RoadLeft(i) => road("left", i),
+            Entry::RoadRight(i) => road("right", i),
+            Entry::Body(i) => entries("body", i),
+            Entry::Joint(i) => entries("joint", i),
+            Entry::Initial(i) => entries("initial", i),
+            Entry::Guide(i) => entries("guide", i),
+            Entry::Effect(i) => entries("effect", i),
+            Entry::Output(i) => entries("output", i),
+        };
         let span = match item {
             Some(Item { node: Node::Table(members), span }) => {
                 members.iter().find(|m| m.key == field).map_or(span, |m| &m.item.span)
@@ -194,10 +199,6 @@ impl Document {
     }
 
     fn check_tables(&self, context: &Context<'_>) -> Read<()> {
-        if let Some(road) = self.root.iter().find(|member| member.key == "road") {
-            let fault = ReadFault::NotBuilt { found: "`[road]`".to_owned(), built: Vec::new() };
-            return context.fault(&road.key_span, fault);
-        }
         Fields { context: *context, header: &(0..0), members: &self.root }.allow(&TABLES, &[])
     }
 
@@ -221,13 +222,13 @@ fn read_dimension(header: &Fields<'_>) -> Read<Dimension> {
     }
 }
 
-fn refuse_start(header: &Fields<'_>) -> Read<()> {
-    let Some(item) = header.get("start") else { return Ok(()) };
-    match header.context.text(item)? {
-        "equilibrium" => {
-            let found = "`start = \"equilibrium\"`".to_owned();
-            header.context.fault(&item.span, ReadFault::NotBuilt { found, built: Vec::new() })
-        }
-        other => header.unknown_word("start", (other, &item.span), &["equilibrium"]),
+fn read_start(header: &Fields<'_>) -> Read<Start> {
+    if header.get("start").is_none() {
+        return Ok(Start::Initial);
+    }
+    match header.word("start")? {
+        ("initial", _) => Ok(Start::Initial),
+        ("equilibrium", _) => Ok(Start::Equilibrium),
+        word => header.unknown_word("start", word, &["initial", "equilibrium"]),
     }
 }

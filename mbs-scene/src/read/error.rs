@@ -47,13 +47,6 @@ pub enum ReadFault {
         /// The words that may stand there.
         known: Vec<&'static str>,
     },
-    /// A part of the format that this version does not build.
-    NotBuilt {
-        /// The part as written.
-        found: String,
-        /// What is built in its place.
-        built: Vec<&'static str>,
-    },
     /// A body of that name is not in the file.
     UnknownBody {
         /// The name as written.
@@ -88,6 +81,13 @@ pub enum ReadFault {
     NotFinite {
         /// The number as written.
         text: String,
+    },
+    /// A number that does not count anything.
+    NotACount {
+        /// The number as written.
+        text: String,
+        /// The largest that may stand there.
+        most: u32,
     },
     /// A key or table that must be there.
     Missing {
@@ -156,7 +156,6 @@ impl Display for ReadFault {
             Self::UnknownKey { key, .. } => write!(f, "unknown key `{key}`"),
             Self::UnusedKey { key, .. } => write!(f, "`{key}` has no meaning here"),
             Self::UnknownWord { key, found, .. } => write!(f, "unknown {key} `{found}`"),
-            Self::NotBuilt { found, .. } => write!(f, "{found} is not built yet"),
             Self::UnknownBody { name, .. } => write!(f, "unknown body `{name}`"),
             Self::UnknownJoint { name, .. } => write!(f, "unknown joint `{name}`"),
             Self::GroundDoesNotMove => write!(f, "the ground does not move"),
@@ -165,6 +164,7 @@ impl Display for ReadFault {
                 write!(f, "expected {needed} entries, found {found}")
             }
             Self::NotFinite { text } => write!(f, "`{text}` is not a finite number"),
+            Self::NotACount { text, .. } => write!(f, "`{text}` does not count anything"),
             Self::Missing { key } => write!(f, "`{key}` is missing"),
             Self::Both { keys: [one, other] } => write!(f, "both `{one}` and `{other}` are given"),
             Self::Scene(SceneError { entry, fault: SceneFault::DuplicateName(first), .. }) => {
@@ -186,8 +186,6 @@ impl ReadFault {
             Self::UnknownKey { key, known } => suggestion(key, known, "keys"),
             Self::UnusedKey { known, .. } => format!("remove it; {}", listing(known, "keys")),
             Self::UnknownWord { found, known, .. } => suggestion(found, known, "choices"),
-            Self::NotBuilt { built, .. } if built.is_empty() => "remove it".to_owned(),
-            Self::NotBuilt { built, .. } => format!("built are: {}", built.join(", ")),
             Self::UnknownBody { name, known } => suggestion(name, known, "bodies"),
             Self::UnknownJoint { name, known } => suggestion(name, known, "joints"),
             Self::GroundDoesNotMove => "name a body".to_owned(),
@@ -196,6 +194,7 @@ impl ReadFault {
                 format!("write {needed}, in the order of the format")
             }
             Self::NotFinite { .. } => "write a finite decimal number".to_owned(),
+            Self::NotACount { most, .. } => format!("write a whole number from 1 to {most}"),
             Self::Missing { key: "[scene]" } => {
                 "add a table [scene] with `dimension` and `duration`".to_owned()
             }
@@ -203,6 +202,9 @@ impl ReadFault {
                 "add `dimension = 2` (planar) or `dimension = 3` (spatial)".to_owned()
             }
             Self::Missing { key: "duration" } => "add `duration`, in seconds".to_owned(),
+            Self::Missing { key: key @ ("left" | "right") } => {
+                format!("add `{key}`; `{key} = []` is level ground")
+            }
             Self::Missing { key } => format!("add `{key}`"),
             Self::Both { .. } => "keep one of the two".to_owned(),
             Self::Scene(error) => error.fault.advice().to_owned(),
@@ -219,7 +221,9 @@ fn numbered(entry: Entry, index: usize) -> Entry {
         Entry::Guide(_) => Entry::Guide(index),
         Entry::Effect(_) => Entry::Effect(index),
         Entry::Output(_) => Entry::Output(index),
-        Entry::Scene | Entry::Solver => entry,
+        Entry::Scene | Entry::Solver | Entry::Road | Entry::RoadLeft(_) | Entry::RoadRight(_) => {
+            entry
+        }
     }
 }
 

@@ -92,6 +92,19 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// Exactly `N` numbers.
+    pub(crate) fn numbers_of<T: Real, const N: usize>(
+        &self,
+        item: &'a Item,
+        expected: &'static str,
+    ) -> Read<[T; N]> {
+        let mut numbers = [T::ZERO; N];
+        for (number, item) in numbers.iter_mut().zip(self.exactly::<N>(item, expected)?) {
+            *number = self.number(item)?;
+        }
+        Ok(numbers)
+    }
+
     /// A vector of the scene's dimension; a third component in a planar scene is left to the check.
     pub(crate) fn vector<T: Real>(&self, item: &'a Item) -> Read<[T; 3]> {
         let items = self.list(item, "a list of numbers")?;
@@ -195,6 +208,26 @@ impl<'a> Fields<'a> {
 
     pub(crate) fn number_or_zero<T: Real>(&self, key: &str) -> Read<T> {
         Ok(self.optional(key)?.unwrap_or(T::ZERO))
+    }
+
+    /// The number of a key, or the nearest one to a decimal text.
+    pub(crate) fn number_or<T: Real>(&self, key: &str, default: &str) -> Read<T> {
+        Ok(self.optional(key)?.or_else(|| T::from_decimal(default)).unwrap_or(T::ZERO))
+    }
+
+    /// A whole number from 1 to `most`.
+    pub(crate) fn count(&self, key: &'static str, most: u32) -> Read<u32> {
+        let item = self.need(key)?;
+        let Node::Number(text) = &item.node else {
+            return self.context.wrong_type(item, "a whole number");
+        };
+        match text.parse() {
+            Ok(count) if (1..=most).contains(&count) => Ok(count),
+            _ => {
+                let fault = ReadFault::NotACount { text: text.clone(), most };
+                self.context.fault(&item.span, fault)
+            }
+        }
     }
 
     pub(crate) fn vector<T: Real>(&self, key: &'static str) -> Read<[T; 3]> {

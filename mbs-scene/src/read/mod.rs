@@ -10,6 +10,7 @@ mod motion;
 mod nearest;
 mod output;
 mod place;
+mod road;
 #[cfg(test)]
 mod tests;
 mod tree;

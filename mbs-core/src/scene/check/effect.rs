@@ -1,10 +1,9 @@
-//! Effects and output channels: references and numbers.
+//! Effects: references and numbers.
 
-use super::motion::check_times;
 use super::vector::Place;
-use super::{check_pair, is_planar};
+use super::{check_pair, course, is_planar, polynomial, tire};
 use crate::Real;
-use crate::scene::{Course, EffectKind, Quantity, Scene, SceneError, SceneFault};
+use crate::scene::{EffectKind, OwnLaw, Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(
     scene: &Scene<T>,
@@ -28,49 +27,130 @@ pub(super) fn check<T: Real>(
         EffectKind::Force { body, at, course, .. } => {
             known_body(scene, *body, place)?;
             place.vector("at", *at)?;
-            check_course(course, true, place)
+            course::check(course, true, place)
         }
         EffectKind::BodyTorque { body, course } => {
             known_body(scene, *body, place)?;
-            check_course(course, false, place)
+            course::check(course, false, place)
         }
         EffectKind::JointTorque { joint, course } => {
             single_rotation(scene, *joint, place)?;
-            check_course(course, false, place)
+            course::check(course, false, place)
+        }
+        EffectKind::Actuator { bodies, points, course } => {
+            check_pair(scene, *bodies, place)?;
+            place.apart("points", *points)?;
+            course::check(course, false, place)
+        }
+        EffectKind::Polynomial { bodies, points, direction, pieces, .. } => {
+            check_pair(scene, *bodies, place)?;
+            match direction {
+                // a distance along a line may be zero
+                Some(direction) => {
+                    points.iter().try_for_each(|point| place.vector("points", *point))?;
+                    place.axis("direction", *direction)?;
+                }
+                None => place.apart("points", *points)?,
+            }
+            polynomial::check(pieces, place)
+        }
+        EffectKind::Bumper { bodies, points, stiffness, damping, clearance } => {
+            check_pair(scene, *bodies, place)?;
+            place.apart("points", *points)?;
+            place.not_negative("stiffness", *stiffness)?;
+            place.not_negative("damping", *damping)?;
+            place.finite("clearance", *clearance)
+        }
+        EffectKind::Bushing { bodies, at, stiffness, damping } => {
+            check_pair(scene, *bodies, place)?;
+            place.vector("at", *at)?;
+            bushing("stiffness", stiffness, place)?;
+            bushing("damping", damping, place)
+        }
+        EffectKind::Limit { .. } | EffectKind::Friction { .. } => on_joint(scene, effect, place),
+        EffectKind::Own { law, course } => {
+            own(scene, law, place)?;
+            course::check(course, false, place)
+        }
+        EffectKind::AeroDrag { body, at, area_coefficient, density } => {
+            known_body(scene, *body, place)?;
+            place.vector("at", *at)?;
+            place.not_negative("area_coefficient", *area_coefficient)?;
+            place.not_negative("density", *density)
+        }
+        EffectKind::SpeedHold { body, direction, speed, gain, limit } => {
+            known_body(scene, *body, place)?;
+            place.axis("direction", *direction)?;
+            place.finite("speed", *speed)?;
+            place.not_negative("gain", *gain)?;
+            place.positive("limit", *limit)
+        }
+        EffectKind::Tire { .. } => tire::check(scene, effect, place),
+    }
+}
+
+/// Effects on the one coordinate of a joint.
+fn on_joint<T: Real>(
+    scene: &Scene<T>,
+    effect: &EffectKind<T>,
+    place: Place,
+) -> Result<(), SceneError> {
+    match effect {
+        EffectKind::Limit { joint, lower, upper, stiffness, damping } => {
+            single_coordinate(scene, *joint, place)?;
+            place.finite("lower", *lower)?;
+            place.finite("upper", *upper)?;
+            place.not_negative("stiffness", *stiffness)?;
+            place.not_negative("damping", *damping)?;
+            if lower < upper {
+                return Ok(());
+            }
+            let range = [lower.to_f64(), upper.to_f64()];
+            place.fault("lower", SceneFault::RangeOrder(range))
+        }
+        EffectKind::Friction { joint, coulomb, r#static, stribeck, viscous, regularisation } => {
+            single_coordinate(scene, *joint, place)?;
+            place.not_negative("coulomb", *coulomb)?;
+            place.not_negative("static", *r#static)?;
+            place.positive("stribeck", *stribeck)?;
+            place.not_negative("viscous", *viscous)?;
+            place.positive("regularisation", *regularisation)?;
+            if r#static >= coulomb {
+                return Ok(());
+            }
+            let levels = [r#static.to_f64(), coulomb.to_f64()];
+            place.fault("static", SceneFault::StaticBelowCoulomb(levels))
         }
         _ => Ok(()),
     }
 }
 
-pub(super) fn check_output<T: Real>(
-    scene: &Scene<T>,
-    quantity: &Quantity,
-    place: Place,
-) -> Result<(), SceneError> {
-    match *quantity {
-        Quantity::Position { body, at }
-        | Quantity::Velocity { body, at }
-        | Quantity::Acceleration { body, at } => {
-            known_body(scene, body, place)?;
-            place.vector("at", at)
+/// Where a law of a user's own acts; what it does is its own affair.
+fn own<T: Real>(scene: &Scene<T>, law: &OwnLaw<T>, place: Place) -> Result<(), SceneError> {
+    match law {
+        OwnLaw::Length { bodies, points, .. } => {
+            check_pair(scene, *bodies, place)?;
+            place.apart("points", *points)
         }
-        Quantity::JointValue { joint } | Quantity::JointRate { joint } => {
-            match scene.joints.get(joint) {
-                None => place.fault("joint", SceneFault::UnknownReference),
-                Some(joint) if joint.kind.n_coordinates(scene.dimension) == 0 => {
-                    place.fault("joint", SceneFault::NoCoordinate)
-                }
-                Some(_) => Ok(()),
-            }
+        OwnLaw::Joint { joint, .. } => single_coordinate(scene, *joint, place),
+        OwnLaw::Body { body, at, axis, .. } => {
+            known_body(scene, *body, place)?;
+            place.vector("at", *at)?;
+            place.axis("axis", *axis)
         }
-        Quantity::Reaction { joint } if joint >= scene.joints.len() => {
-            place.fault("joint", SceneFault::UnknownReference)
-        }
-        Quantity::Reaction { .. } => Ok(()),
     }
 }
 
-fn known_body<T>(scene: &Scene<T>, body: usize, place: Place) -> Result<(), SceneError> {
+/// Six numbers that are not negative; in the plane only along x, y and about z.
+fn bushing<T: Real>(field: &'static str, six: &[T; 6], place: Place) -> Result<(), SceneError> {
+    six.iter().try_for_each(|x| place.not_negative(field, *x))?;
+    match six[2..5].iter().find(|x| is_planar(place.dimension) && !x.is_zero()) {
+        Some(x) => place.fault(field, SceneFault::OutOfPlane(x.to_f64())),
+        None => Ok(()),
+    }
+}
+
+pub(super) fn known_body<T>(scene: &Scene<T>, body: usize, place: Place) -> Result<(), SceneError> {
     if body < scene.bodies.len() {
         Ok(())
     } else {
@@ -88,26 +168,12 @@ fn single_rotation<T>(scene: &Scene<T>, joint: usize, place: Place) -> Result<()
     }
 }
 
-/// Finite numbers, in the plane where a vector is meant, and increasing times.
-fn check_course<T: Real>(
-    course: &Course<T>,
-    is_vector: bool,
-    place: Place,
-) -> Result<(), SceneError> {
-    let row = |field, value: [T; 3]| {
-        if is_vector && is_planar(place.dimension) {
-            return place.vector(field, value);
-        }
-        value.into_iter().try_for_each(|x| place.finite(field, x))
+fn single_coordinate<T>(scene: &Scene<T>, joint: usize, place: Place) -> Result<(), SceneError> {
+    let Some(joint) = scene.joints.get(joint) else {
+        return place.fault("joint", SceneFault::UnknownReference);
     };
-    match course {
-        Course::Constant(value) | Course::Input(value) => row("value", *value),
-        Course::Table(rows) => {
-            for (time, value) in rows {
-                place.finite("table", *time)?;
-                row("table", *value)?;
-            }
-            check_times(rows.iter().map(|row| row.0), place)
-        }
+    match joint.kind.n_coordinates(scene.dimension) {
+        1 => Ok(()),
+        n => place.fault("joint", SceneFault::NoSingleCoordinate(n)),
     }
 }

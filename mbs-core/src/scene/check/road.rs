@@ -1,0 +1,100 @@
+//! The road: its features, and whether every wheel can roll through its hollows.
+
+use super::is_planar;
+use super::vector::Place;
+use crate::Real;
+use crate::laws::guide::spline_curvatures;
+use crate::scene::{EffectKind, Entry, Road, RoadFeature, Scene, SceneError, SceneFault};
+use alloc::vec;
+
+pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
+    let Road { left, right, speed } = &scene.road;
+    let place = scene.place(Entry::Road);
+    place.finite("speed", *speed)?;
+    let wheel = largest_wheel(scene);
+    let tracks: [(_, fn(usize) -> Entry); 2] = [(left, Entry::RoadLeft), (right, Entry::RoadRight)];
+    for (features, entry) in tracks {
+        for (i, feature) in features.iter().enumerate() {
+            let place = scene.place(entry(i));
+            numbers(feature, place)?;
+            hollow(feature, wheel, place)?;
+        }
+    }
+    if is_planar(scene.dimension) && left != right {
+        return place.fault("right", SceneFault::NeedsSpatial);
+    }
+    Ok(())
+}
+
+fn numbers<T: Real>(feature: &RoadFeature<T>, place: Place) -> Result<(), SceneError> {
+    match feature {
+        RoadFeature::Flat { height } => place.finite("height", *height),
+        RoadFeature::Rise { start, length, height, rounding } => {
+            place.finite("start", *start)?;
+            place.positive("length", *length)?;
+            place.finite("height", *height)?;
+            place.positive("rounding", *rounding)?;
+            let most = *length * T::HALF;
+            if *rounding > most {
+                let (rounding, most) = (rounding.to_f64(), most.to_f64());
+                return place.fault("rounding", SceneFault::LongRounding { rounding, most });
+            }
+            Ok(())
+        }
+        RoadFeature::Bump { start, length, amplitude } => {
+            place.finite("start", *start)?;
+            place.positive("length", *length)?;
+            place.finite("amplitude", *amplitude)
+        }
+        RoadFeature::Table(points) => {
+            if points.is_empty() {
+                return place.fault("points", SceneFault::WrongCount { needed: 1, found: 0 });
+            }
+            for x in points.as_flattened() {
+                place.finite("points", *x)?;
+            }
+            match points.windows(2).position(|pair| !(pair[0][0] < pair[1][0])) {
+                Some(i) => place.fault("points", SceneFault::PointOrder(i + 1)),
+                None => Ok(()),
+            }
+        }
+    }
+}
+
+/// The radius of the largest wheel: what it can roll through, all can.
+fn largest_wheel<T: Real>(scene: &Scene<T>) -> T {
+    let radius = |kind: &EffectKind<T>| match kind {
+        EffectKind::Tire { radius, .. } => *radius,
+        _ => T::ZERO,
+    };
+    scene.effects.iter().map(|effect| radius(&effect.kind)).fold(T::ZERO, T::max)
+}
+
+/// A wheel touches a hollow in one point only where the hollow is wider than the wheel: h'' R < 1.
+fn hollow<T: Real>(feature: &RoadFeature<T>, wheel: T, place: Place) -> Result<(), SceneError> {
+    let (field, curvature) = match feature {
+        RoadFeature::Flat { .. } => return Ok(()),
+        RoadFeature::Rise { length, height, rounding, .. } => {
+            // one of the two corners is hollow, whether the rise goes up or down
+            ("height", height.abs() / ((*length - *rounding) * *rounding))
+        }
+        RoadFeature::Bump { length, amplitude, .. } => {
+            // both ends of a bump, the middle of a hole
+            let k = T::TWO * T::PI / *length;
+            ("length", amplitude.abs() * k * k)
+        }
+        RoadFeature::Table(points) => ("points", largest_curvature(points)),
+    };
+    if curvature * wheel < T::ONE {
+        return Ok(());
+    }
+    let hollow = (T::ONE / curvature).to_f64();
+    place.fault(field, SceneFault::TightHollow { hollow, wheel: wheel.to_f64() })
+}
+
+/// Of a spline; its curvature is linear between the points.
+fn largest_curvature<T: Real>(points: &[[T; 2]]) -> T {
+    let (mut curvatures, mut scratch) = (vec![T::ZERO; points.len()], vec![T::ZERO; points.len()]);
+    spline_curvatures(points, &mut curvatures, &mut scratch);
+    curvatures.into_iter().fold(T::ZERO, T::max)
+}

@@ -1,0 +1,243 @@
+//! What can be wrong with a scene, and what to do about it.
+
+use core::fmt::{self, Display, Formatter};
+
+/// The faults.
+///
+/// Each reads as the rest of a sentence about a key: `{}` says what is wrong and what to do, `{:#}` only
+/// what is wrong; [`SceneFault::advice`] is the other half.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum SceneFault {
+    /// A number is infinite or NaN.
+    NotFinite,
+    /// A number must be positive; the number.
+    NotPositive(f64),
+    /// A number must not be negative; the number.
+    Negative(f64),
+    /// An axis has no direction.
+    ZeroAxis,
+    /// The two axes of a joint are parallel.
+    ParallelAxes,
+    /// A rod's ends, or the points of a distance joint or spring, coincide.
+    CoincidentPoints,
+    /// The two points of a joint that has one place differ (scenes built in code).
+    PointsDiffer,
+    /// A name is used twice; the index of the first use.
+    DuplicateName(usize),
+    /// A name is empty, or is `ground` (a body) or `t` (an output).
+    ReservedName,
+    /// An index points to nothing (scenes built in code).
+    UnknownReference,
+    /// Both bodies are the same.
+    SameBody,
+    /// A principal moment of inertia is larger than the sum of the other two; the two sides [kg m^2].
+    TriangleInequality([f64; 2]),
+    /// The inertia has a negative principal moment [kg m^2].
+    NegativeInertia(f64),
+    /// An inertia without mass.
+    InertiaWithoutMass,
+    /// The joint kind or key needs a spatial scene.
+    NeedsSpatial,
+    /// A vector of a planar scene leaves the plane; the offending component.
+    OutOfPlane(f64),
+    /// The inertia's form does not fit the dimension.
+    WrongDimension,
+    /// The count of numbers is wrong.
+    WrongCount {
+        /// Numbers needed.
+        needed: usize,
+        /// Numbers there.
+        found: usize,
+    },
+    /// The joint has no coordinates to speak about.
+    NoCoordinate,
+    /// The joint has no single coordinate to guide; the number it has.
+    NoSingleCoordinate(usize),
+    /// The joint has no single rotation to spring or drive; the number it has.
+    NoSingleRotation(usize),
+    /// The same thing is prescribed twice; the index of the first entry.
+    GivenTwice(usize),
+    /// An initial entry contradicts the guide of its joint.
+    Contradiction {
+        /// What the entry says.
+        given: f64,
+        /// What the guide says at t = 0.
+        guide: f64,
+    },
+    /// Times in a table do not increase; the row (from 0) that is not later than the one before.
+    TableOrder(usize),
+    /// The upper limit is below the lower one; both.
+    LimitOrder([f64; 2]),
+    /// The lower end of a range is not below its upper end; both.
+    RangeOrder([f64; 2]),
+    /// Static friction is less than Coulomb friction; both.
+    StaticBelowCoulomb([f64; 2]),
+    /// A polynomial has a piece without coefficients, or with too many.
+    PieceCoefficients {
+        /// The piece (from 0).
+        piece: usize,
+        /// Coefficients there.
+        found: usize,
+    },
+    /// A piece of a polynomial (from 0) does not end above its beginning.
+    PieceRange(usize),
+    /// A piece of a polynomial (from 0) does not begin where the one before ends.
+    PieceGap(usize),
+    /// Coefficients of a tire that its formulas divide by.
+    CalspanRange,
+    /// Points of a road do not go forward; the point (from 0) that is not beyond the one before.
+    PointOrder(usize),
+    /// The rounded corners of a rise overlap [m].
+    LongRounding {
+        /// Length of a corner.
+        rounding: f64,
+        /// Half the length of the rise.
+        most: f64,
+    },
+    /// A hollow of the road in which a wheel would touch twice; radii [m].
+    TightHollow {
+        /// Of the hollow at its tightest.
+        hollow: f64,
+        /// Of the largest wheel.
+        wheel: f64,
+    },
+    /// A key that this kind needs is missing.
+    Missing,
+    /// A key that this kind does not use is there.
+    NotUsed,
+}
+
+impl SceneFault {
+    /// What to do about it, in the imperative.
+    #[must_use]
+    pub fn advice(&self) -> &'static str {
+        match self {
+            Self::NotFinite => "write a finite number",
+            Self::NotPositive(_) => "write a number larger than zero",
+            Self::Negative(_) => "write zero or more",
+            Self::ZeroAxis => "write a vector that is not zero; its length does not matter",
+            Self::ParallelAxes => "turn one of the two axes; a right angle is usual",
+            Self::CoincidentPoints => "move one of the two points",
+            Self::PointsDiffer => "give the same place twice; only distance joints have two",
+            Self::DuplicateName(_) => "give each its own name",
+            Self::ReservedName => {
+                "choose another name: `ground` is the fixed frame, `t` the time column"
+            }
+            Self::UnknownReference => "use the index of something that is in the scene",
+            Self::SameBody => "name two different bodies",
+            Self::TriangleInequality(_) => {
+                "check the moments and products; flat bodies need all the digits they are given in"
+            }
+            Self::NegativeInertia(_) => "check the signs and the size of the products",
+            Self::InertiaWithoutMass => "give the body mass, or set its inertia to zero",
+            Self::NeedsSpatial => "set `dimension = 3` in [scene], or keep to what is planar",
+            Self::OutOfPlane(_) => "keep planar scenes in the x-y plane",
+            Self::WrongDimension => "planar bodies have one number, spatial bodies six",
+            Self::WrongCount { .. } => "write as many numbers as the joint or table needs",
+            Self::NoCoordinate => "remove this entry, or name another joint",
+            Self::NoSingleCoordinate(_) => "use a revolute or prismatic joint",
+            Self::NoSingleRotation(_) => "use a revolute or cylindrical joint",
+            Self::GivenTwice(_) => "remove one of the two",
+            Self::Contradiction { .. } => {
+                "remove the initial entry: the guide gives the initial value and rate"
+            }
+            Self::TableOrder(_) => "sort the rows by time and keep one row per time",
+            Self::LimitOrder(_) => "write the upper limit first: [U, L] with U > L",
+            Self::RangeOrder(_) => "write the lower end below the upper end",
+            Self::StaticBelowCoulomb(_) => "leave `static` out, or make it at least `coulomb`",
+            Self::PieceCoefficients { .. } => {
+                "write one to eight coefficients after the two ends: [lower, upper, c0, c1, ...]"
+            }
+            Self::PieceRange(_) => "write each piece as [lower, upper, c0, ...], lower first",
+            Self::PieceGap(_) => "sort the pieces; begin each where the one before ends",
+            Self::CalspanRange => "check the order: a = [A0, A1, A2, A3, A4], b = [B1, B3, B4]",
+            Self::PointOrder(_) => "sort the points by x and keep one point per x",
+            Self::LongRounding { .. } => "make it at most half the length",
+            Self::TightHollow { .. } => "round the hollow: more length or rounding, or less height",
+            Self::Missing => "add it",
+            Self::NotUsed => "remove it",
+        }
+    }
+
+    fn problem(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite => write!(f, "is infinite or not a number"),
+            Self::NotPositive(x) => write!(f, "must be larger than zero, but is {x}"),
+            Self::Negative(x) => write!(f, "must not be negative, but is {x}"),
+            Self::ZeroAxis => write!(f, "has no direction: all components are zero"),
+            Self::ParallelAxes => write!(f, "is parallel to the joint's other axis"),
+            Self::CoincidentPoints => write!(f, "has both points in the same place"),
+            Self::PointsDiffer => write!(f, "has two different places"),
+            Self::DuplicateName(i) => write!(f, "repeats the name of number {}", i + 1),
+            Self::ReservedName => write!(f, "is empty or reserved"),
+            Self::UnknownReference => write!(f, "points to something that is not in the scene"),
+            Self::SameBody => write!(f, "has the same body twice"),
+            Self::TriangleInequality([largest, sum]) => write!(
+                f,
+                "breaks the triangle inequality: the largest principal moment {largest} is more \
+                 than the sum {sum} of the other two"
+            ),
+            Self::NegativeInertia(x) => write!(f, "has the negative principal moment {x}"),
+            Self::InertiaWithoutMass => write!(f, "is not zero, but the body has no mass"),
+            Self::NeedsSpatial => write!(f, "needs a spatial scene"),
+            Self::OutOfPlane(x) => write!(f, "leaves the plane of a planar scene by {x}"),
+            Self::WrongDimension => write!(f, "does not fit the dimension of the scene"),
+            Self::WrongCount { needed, found } => {
+                let plural = if *needed == 1 { "" } else { "s" };
+                write!(f, "needs {needed} number{plural}, but has {found}")
+            }
+            Self::NoCoordinate => write!(f, "is a joint without coordinates"),
+            Self::NoSingleCoordinate(n) => {
+                write!(f, "is a joint with {n} coordinates; exactly one is needed")
+            }
+            Self::NoSingleRotation(n) => {
+                write!(f, "is a joint with {n} rotations; exactly one is needed")
+            }
+            Self::GivenTwice(i) => write!(f, "is already prescribed by number {}", i + 1),
+            Self::Contradiction { given, guide } => {
+                write!(f, "is {given}, but the guide of the joint starts with {guide}")
+            }
+            Self::TableOrder(row) => {
+                write!(f, "has times that do not increase at row {}", row + 1)
+            }
+            Self::LimitOrder([upper, lower]) => {
+                write!(f, "has its upper limit {upper} not above its lower limit {lower}")
+            }
+            Self::RangeOrder([lower, upper]) => {
+                write!(f, "is {lower}, which is not below the upper end {upper}")
+            }
+            Self::StaticBelowCoulomb([static_, coulomb]) => {
+                write!(f, "is {static_}, which is less than the Coulomb friction {coulomb}")
+            }
+            Self::PieceCoefficients { piece, found } => {
+                let plural = if *found == 1 { "" } else { "s" };
+                write!(f, "has {found} coefficient{plural} in piece {}", piece + 1)
+            }
+            Self::PieceRange(i) => write!(f, "has no range in piece {}", i + 1),
+            Self::PieceGap(i) => {
+                write!(f, "has piece {} not begin where piece {i} ends", i + 1)
+            }
+            Self::CalspanRange => {
+                write!(f, "needs A0, A2, omega, B3 and skid above zero, and A4 not zero")
+            }
+            Self::PointOrder(i) => write!(f, "has x not increase at point {}", i + 1),
+            Self::LongRounding { rounding, most } => {
+                write!(f, "is {rounding}, which is more than half the length, {most}")
+            }
+            Self::TightHollow { hollow, wheel } => write!(
+                f,
+                "makes a hollow of radius {hollow:.4} m, too tight for a wheel of radius {wheel} m"
+            ),
+            Self::Missing => write!(f, "is missing"),
+            Self::NotUsed => write!(f, "has no meaning here"),
+        }
+    }
+}
+
+impl Display for SceneFault {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.problem(f)?;
+        if f.alternate() { Ok(()) } else { write!(f, "; {}", self.advice()) }
+    }
+}
