@@ -53,7 +53,7 @@ pub enum Action<T> {
         /// The law.
         law: Law<T>,
     },
-    /// A law of the small rotation of the second body in the first about a x b: (a1.b2 - b1.a2) / 2, where 1 and 2 are the
+    /// A law of the small rotation of the second body in the first about a x b: (b1.a2 - a1.b2) / 2, where 1 and 2 are the
     /// bodies in which the unit vectors a and b turn.
     Twist {
         /// The bodies.

@@ -24,7 +24,7 @@ pub fn potential<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, at: &Instant<'_,
         energy -= m.gravity.dot(&(p.position + p.center + m.base)) * link.mass;
     }
     for load in m.loads {
-        energy += load.potential(at, &m.base);
+        energy += load.potential(at);
     }
     energy
 }

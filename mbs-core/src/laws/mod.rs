@@ -37,7 +37,7 @@ impl Part {
 }
 
 /// What laws refer to by number: inputs at this instant, and tables that never change.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Supplies<'a, T> {
     /// The vectors of the courses at this instant.
     pub courses: &'a [[T; 3]],

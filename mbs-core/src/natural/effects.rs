@@ -52,7 +52,7 @@ impl<T: Real> Builder<'_, T> {
                 bodies.iter().try_for_each(|body| self.needs_rotation(*body))?;
                 let [a, b] = sides.map(Vector::<T, 3>::from);
                 let [first, second] = *bodies;
-                let sides = [(first, a), (second, b), (first, b), (second, a)];
+                let sides = [(first, b), (second, a), (first, a), (second, b)];
                 let x = sides.map(|(body, d)| self.direction(body, d));
                 EffectDraft::Twist { x, law: *law }
             }
