@@ -129,10 +129,12 @@ impl<T: Real, S: Space<T>> Load<T, S> {
     /// Power that is not stored [W].
     pub fn power(&self, at: &Instant<'_, T, S>) -> T {
         match self {
-            Self::Between { links, gauge, law } => law.power(&gauge.evaluate(at, *links, law).0),
+            Self::Between { links, gauge, law } => {
+                law.power(&gauge.evaluate(at, *links, law).0, &at.supplies)
+            }
             Self::Angle { link, law } => {
                 let [value, rate] = at.coordinate(*link);
-                law.power(&law.evaluate(value, rate, &at.supplies))
+                law.power(&law.evaluate(value, rate, &at.supplies), &at.supplies)
             }
             Self::Constant { .. } => T::ZERO,
             Self::Force { link, point, course, turns } => {
