@@ -3,6 +3,7 @@
 mod page;
 mod read;
 mod record;
+mod report;
 mod write;
 
 pub use page::page;
@@ -11,6 +12,9 @@ pub use record::{
     Animation, Channel, ChannelSeries, Component, EnergySeries, IterationSeries, Polyline,
     Provenance, RunRecord, Trace, ViolationSeries,
 };
+pub use report::{Report, Section};
 pub use write::{
-    Chosen, CsvWriter, EnergySummary, Outputs, RunError, RunSummary, ViolationSummary, readable,
+    Absence, Change, Chosen, CsvWriter, EffectEntry, EnergySummary, Explanation, GuideEntry,
+    JointGroup, LargestStep, Outputs, Price, Prices, Relative, Rod, RunError, RunSummary,
+    SearchEnd, Simulated, Sizes, ViolationSummary, readable,
 };

@@ -144,6 +144,22 @@ pub struct Provenance {
     pub cpu: String,
 }
 
+impl Provenance {
+    /// Label and text of each that is not empty.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = [&str; 2]> {
+        let rows = [
+            ["command", self.command.as_str()],
+            ["precision", &self.precision],
+            ["formulation", &self.formulation],
+            ["integrator", &self.integrator],
+            ["step", &self.step],
+            ["version", &self.version],
+            ["processor", &self.cpu],
+        ];
+        rows.into_iter().filter(|[_, value]| !value.is_empty())
+    }
+}
+
 /// A channel over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChannelSeries {

@@ -3,6 +3,7 @@
 mod channels;
 mod choice;
 mod engine;
+pub mod explain;
 mod figure;
 mod recorder;
 mod run;

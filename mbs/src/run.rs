@@ -13,7 +13,7 @@ use cpu_time::ProcessTime;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_core::step::StepReport;
-use mbs_scene::{Channel, Chosen, CsvWriter, Outputs, Provenance, RunRecord, RunSummary};
+use mbs_scene::{Channel, CsvWriter, Outputs, Provenance, RunRecord, RunSummary};
 use std::io;
 use std::time::Instant;
 
@@ -291,21 +291,13 @@ fn weight<T: Real>(scene: &Scene<T>) -> f64 {
 }
 
 fn plain_summary<T: Real>(scene: &Scene<T>, settings: &Settings) -> RunSummary {
-    let chosen = (settings.asked == "auto").then(|| Chosen {
-        formulation: settings.formulation.name().to_owned(),
-        reasons: vec![if settings.integrator.is_explicit() {
-            format!("integrator {} runs in relative coordinates", settings.integrator.name())
-        } else {
-            "auto means index-3: no choice by measurement is built yet".to_owned()
-        }],
-    });
     RunSummary {
         scene: scene.name.clone(),
         formulation: settings.asked.clone(),
         precision: settings.precision.name().to_owned(),
         dimension: scene.dimension.count(),
         step: settings.step,
-        chosen,
+        chosen: settings.chosen(),
         ..RunSummary::default()
     }
 }

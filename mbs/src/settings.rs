@@ -5,7 +5,7 @@ use crate::choice::{
 };
 use mbs_core::Real;
 use mbs_core::scene::{Scene, SolverChoice};
-use mbs_scene::readable;
+use mbs_scene::{Chosen, readable};
 
 /// Steps of a run at most: at a microsecond each they take eleven days.
 const MOST_STEPS: f64 = 1e12;
@@ -192,6 +192,19 @@ impl Settings {
             duration,
             penalty: checked("penalty", penalty)?,
             tolerance: checked("tolerance", overrides.tolerance.or(of_scene(solver.tolerance)))?,
+        })
+    }
+
+    /// What `auto` chose and why; nothing where a formulation was asked for.
+    #[must_use]
+    pub fn chosen(&self) -> Option<Chosen> {
+        (self.asked == "auto").then(|| Chosen {
+            formulation: self.formulation.name().to_owned(),
+            reasons: vec![if self.integrator.is_explicit() {
+                format!("integrator {} runs in relative coordinates", self.integrator.name())
+            } else {
+                "auto means index-3: no choice by measurement is built yet".to_owned()
+            }],
         })
     }
 

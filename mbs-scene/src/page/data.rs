@@ -55,21 +55,11 @@ struct Line {
 
 /// Serialises what the script draws.
 pub(super) fn json(record: &RunRecord) -> String {
-    let p = &record.provenance;
-    let rows = [
-        ["command", p.command.as_str()],
-        ["precision", &p.precision],
-        ["formulation", &p.formulation],
-        ["integrator", &p.integrator],
-        ["step", &p.step],
-        ["version", &p.version],
-        ["processor", &p.cpu],
-    ];
     let mut panels = channel_panels(&record.channels);
     panels.extend(health_panels(record));
     let page = Page {
         scene: &record.scene,
-        provenance: rows.into_iter().filter(|[_, value]| !value.is_empty()).collect(),
+        provenance: record.provenance.rows().collect(),
         summary: &record.summary,
         notes: &record.notes,
         error: record.error.as_deref(),

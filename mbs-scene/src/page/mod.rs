@@ -11,7 +11,7 @@ mod tests;
 use crate::record::RunRecord;
 
 const TEMPLATE: &str = include_str!("page.html");
-const STYLE: &str = include_str!("style.css");
+pub(crate) const STYLE: &str = include_str!("style.css");
 const PLOT: &str = include_str!("plot.js");
 const MOTION: &str = include_str!("motion.js");
 const MAIN: &str = include_str!("main.js");
@@ -51,6 +51,6 @@ pub fn page(record: &RunRecord) -> String {
     out + rest
 }
 
-fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

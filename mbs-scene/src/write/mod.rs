@@ -1,12 +1,17 @@
 //! Files out: CSV rows as the run goes, JSON at its end.
 
 mod csv;
+mod explanation;
 mod json;
 mod readable;
 #[cfg(test)]
 mod tests;
 
 pub use csv::CsvWriter;
+pub use explanation::{
+    Absence, Change, EffectEntry, Explanation, GuideEntry, JointGroup, LargestStep, Price, Prices,
+    Relative, Rod, SearchEnd, Simulated, Sizes,
+};
 pub use json::{Chosen, EnergySummary, Outputs, RunError, RunSummary, ViolationSummary};
 pub use readable::readable;
 pub(crate) use readable::rounded;

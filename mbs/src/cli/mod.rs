@@ -1,5 +1,7 @@
 //! Command line: arguments, refusals, and the commands.
 
+mod explain;
+mod files;
 mod run;
 mod table;
 
@@ -21,12 +23,14 @@ const STATUS: &str = "\
 Example: mbs run scenes/double-pendulum.toml --out out
 Exit status: 0 completed, 1 scene or usage refused, 2 the run stopped early (its data are kept).";
 /// Commands of the format's contract that are not built yet.
-const NOT_BUILT: [&str; 5] = ["explain", "compare", "doctor", "sweep", "export"];
+const NOT_BUILT: [&str; 4] = ["compare", "doctor", "sweep", "export"];
 
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Simulate a scene: summary, and with --out run.csv, run.json and run.html.
     Run(run::Arguments),
+    /// What a scene simulates, what it does not, and the measured price of each effect.
+    Explain(explain::Arguments),
 }
 
 /// Exit status of a refusal.
@@ -49,6 +53,7 @@ pub(crate) fn main() -> ExitCode {
     };
     match cli.command {
         Command::Run(arguments) => run::main(&arguments),
+        Command::Explain(arguments) => explain::main(&arguments),
     }
 }
 
@@ -59,7 +64,7 @@ fn hint(error: &clap::Error) -> Option<String> {
         _ => return None,
     };
     if NOT_BUILT.contains(&word.as_str()) {
-        return Some(format!("`mbs {word}` is not built yet; `mbs run` is"));
+        return Some(format!("`mbs {word}` is not built yet; `mbs run` and `mbs explain` are"));
     }
     std::path::Path::new(word).exists().then(|| format!("to run a scene, write `mbs run {word}`"))
 }

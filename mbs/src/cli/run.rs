@@ -1,11 +1,11 @@
 //! `mbs run SCENE`.
 
-use super::{STOPPED, refuse, table};
+use super::{STOPPED, files, refuse, table};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use mbs::{Outcome, Overrides, Precision, Progress, Settings, SettingsError, words};
+use mbs::{Outcome, Overrides, Precision, Progress, Settings, words};
 use mbs_core::Real;
-use mbs_core::scene::{Dimension, Entry, Scene};
+use mbs_core::scene::{Dimension, Scene};
 use mbs_scene::{Document, Provenance, readable};
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -71,6 +71,19 @@ impl Arguments {
         }
     }
 
+    fn provenance(&self, settings: &Settings) -> Provenance {
+        let options = [
+            ("formulation", self.formulation.clone()),
+            ("step", self.step.map(|x| x.to_string())),
+            ("duration", self.duration.map(|x| x.to_string())),
+            ("penalty", self.penalty.map(|x| x.to_string())),
+            ("tolerance", self.tolerance.map(|x| x.to_string())),
+            ("precision", self.precision.clone()),
+            ("integrator", self.integrator.clone()),
+        ];
+        files::provenance(("run", &self.scene), &options, settings)
+    }
+
     /// The first option that is part of the contract and not built.
     fn not_built(&self) -> Option<&'static str> {
         let options = [
@@ -89,14 +102,9 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
             "error: {option} is not built yet\nhint: leave it out; give --step instead"
         ));
     }
-    let file = arguments.scene.display().to_string();
-    let bytes = match std::fs::read(&arguments.scene) {
-        Ok(bytes) => bytes,
-        Err(error) => return refuse(&unreadable(&arguments.scene, &error)),
-    };
-    let document = match Document::from_bytes(&bytes, &file) {
+    let document = match files::document(&arguments.scene) {
         Ok(document) => document,
-        Err(error) => return refuse(&error.render()),
+        Err(message) => return refuse(&message),
     };
     let scene = match document.scene::<f64>() {
         Ok(scene) => scene,
@@ -104,13 +112,13 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     };
     let settings = match Settings::new(&scene, &arguments.overrides()) {
         Ok(settings) => settings,
-        Err(error) => return refuse(&explain(&error, &document)),
+        Err(error) => return refuse(&files::refusal(&error, &document)),
     };
     // Before the run: what cannot be written should not be computed.
     if let Some(out) = &arguments.out
-        && let Err(error) = prepare(out)
+        && let Err(error) = files::prepare(out, "run.csv")
     {
-        return refuse(&unwritable(out, &error));
+        return refuse(&files::unwritable(out, &error));
     }
     let outcome = match settings.precision {
         Precision::F64 => dispatch(&scene, &settings, arguments),
@@ -132,17 +140,6 @@ fn dispatch<T: Real>(scene: &Scene<T>, settings: &Settings, arguments: &Argument
     outcome
 }
 
-/// A refusal of settings, with its place when the scene asks for them.
-fn explain(error: &SettingsError, document: &Document) -> String {
-    match error {
-        SettingsError::NotBuilt { key, from_scene: true, .. } => {
-            let place = document.place(Entry::Solver, key);
-            place.render(document.file(), &error.to_string(), &error.hint())
-        }
-        _ => format!("error: {error}\nhint: {}", error.hint()),
-    }
-}
-
 /// Files, then JSON or table; the exit status says whether the run was completed.
 fn report(
     outcome: &Outcome,
@@ -153,7 +150,7 @@ fn report(
     if let Some(out) = &arguments.out
         && let Err(error) = write_files(outcome, out, arguments, settings)
     {
-        return refuse(&unwritable(out, &error));
+        return refuse(&files::unwritable(out, &error));
     }
     let text = if arguments.json {
         outcome.summary.to_json()
@@ -185,38 +182,6 @@ fn stopped(outcome: &Outcome, error: &mbs::StopError, document: &Document) -> St
     place.render(document.file(), &message, &report.hint)
 }
 
-/// The message for a scene file that cannot be read.
-fn unreadable(scene: &Path, error: &std::io::Error) -> String {
-    let with_ending = scene.with_extension("toml");
-    let hint = if scene.is_dir() {
-        "that is a directory; give a scene file in it".to_owned()
-    } else if with_ending.is_file() {
-        format!("did you mean `{}`?", with_ending.display())
-    } else {
-        "give the path of a scene file; it ends with .toml".to_owned()
-    };
-    format!("error: cannot read `{}`: {}\nhint: {hint}", scene.display(), plain(error))
-}
-
-fn unwritable(out: &Path, error: &std::io::Error) -> String {
-    let (out, error) = (out.display(), plain(error));
-    format!(
-        "error: cannot write to `{out}`: {error}\nhint: give a directory that can be made or written with --out"
-    )
-}
-
-/// The system's words without the number of the error.
-fn plain(error: &std::io::Error) -> String {
-    let text = error.to_string();
-    text.split(" (os error").next().unwrap_or_default().to_lowercase()
-}
-
-/// Makes the directory and tries to write there.
-fn prepare(out: &Path) -> std::io::Result<()> {
-    std::fs::create_dir_all(out)?;
-    std::fs::File::create(out.join("run.csv")).map(drop)
-}
-
 fn write_files(
     outcome: &Outcome,
     out: &Path,
@@ -225,40 +190,7 @@ fn write_files(
 ) -> std::io::Result<()> {
     outcome.write_csv(std::io::BufWriter::new(std::fs::File::create(out.join("run.csv"))?))?;
     std::fs::write(out.join("run.json"), outcome.summary.to_json() + "\n")?;
-    std::fs::write(out.join("run.html"), outcome.page(provenance(arguments, settings)))
-}
-
-fn provenance(arguments: &Arguments, settings: &Settings) -> Provenance {
-    let mut command = format!("mbs run {}", arguments.scene.display());
-    for (key, value) in [
-        ("formulation", arguments.formulation.clone()),
-        ("step", arguments.step.map(|x| x.to_string())),
-        ("duration", arguments.duration.map(|x| x.to_string())),
-        ("penalty", arguments.penalty.map(|x| x.to_string())),
-        ("tolerance", arguments.tolerance.map(|x| x.to_string())),
-        ("precision", arguments.precision.clone()),
-        ("integrator", arguments.integrator.clone()),
-    ] {
-        if let Some(value) = value {
-            command.push_str(&format!(" --{key} {value}"));
-        }
-    }
-    Provenance {
-        command,
-        precision: settings.precision.name().to_owned(),
-        formulation: settings.formulation.name().to_owned(),
-        integrator: settings.integrator.name().to_owned(),
-        step: format!("{} s", readable(settings.step)),
-        version: format!("mbs {}", env!("CARGO_PKG_VERSION")),
-        cpu: processor(),
-    }
-}
-
-/// The processor's name, where the system tells it.
-fn processor() -> String {
-    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let line = info.lines().find(|l| l.starts_with("model name"));
-    line.and_then(|l| l.split_once(':')).map(|(_, name)| name.trim().to_owned()).unwrap_or_default()
+    std::fs::write(out.join("run.html"), outcome.page(arguments.provenance(settings)))
 }
 
 /// A progress bar on a terminal, nothing elsewhere.

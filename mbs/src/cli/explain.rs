@@ -1,0 +1,121 @@
+//! `mbs explain SCENE`.
+
+use super::{STOPPED, files, refuse};
+use clap::Args;
+use mbs::explain::{Effort, explain, report};
+use mbs::{Overrides, Precision, Settings, words};
+use mbs_core::Real;
+use mbs_core::scene::{Dimension, Scene};
+use mbs_scene::{Explanation, Report};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Arguments of `mbs explain`.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Scene file (TOML).
+    scene: PathBuf,
+    /// Formulation; like the options below: left out, the scene's, else auto.
+    #[arg(long, value_name = "F")]
+    formulation: Option<String>,
+    /// Step [s]; else 0.001.
+    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    step: Option<f64>,
+    /// Duration [s].
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    duration: Option<f64>,
+    /// Directory for explain.json and explain.html; made if missing.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// One JSON object on standard output and nothing else.
+    #[arg(long)]
+    json: bool,
+    /// f32, f64; left out: f64.
+    #[arg(long, value_name = "P")]
+    precision: Option<String>,
+    /// Integrator; left out, the scene's, else trapezoidal.
+    #[arg(long, value_name = "I")]
+    integrator: Option<String>,
+}
+
+/// Runs the command.
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    let document = match files::document(&arguments.scene) {
+        Ok(document) => document,
+        Err(message) => return refuse(&message),
+    };
+    let scene = match document.scene::<f64>() {
+        Ok(scene) => scene,
+        Err(error) => return refuse(&error.render()),
+    };
+    let overrides = Overrides {
+        formulation: arguments.formulation.clone(),
+        integrator: arguments.integrator.clone(),
+        precision: arguments.precision.clone(),
+        step: arguments.step,
+        duration: arguments.duration,
+        ..Overrides::default()
+    };
+    let settings = match Settings::new(&scene, &overrides) {
+        Ok(settings) => settings,
+        Err(error) => return refuse(&files::refusal(&error, &document)),
+    };
+    if let Some(out) = &arguments.out
+        && let Err(error) = files::prepare(out, "explain.json")
+    {
+        return refuse(&files::unwritable(out, &error));
+    }
+    let explanation = match settings.precision {
+        Precision::F64 => dispatch(&scene, &settings),
+        Precision::F32 => match document.scene::<f32>() {
+            Ok(scene) => dispatch(&scene, &settings),
+            Err(error) => return refuse(&error.render()),
+        },
+    };
+    tell(&explanation, arguments, &settings)
+}
+
+fn dispatch<T: Real>(scene: &Scene<T>, settings: &Settings) -> Explanation {
+    let effort = Effort::default();
+    match scene.dimension {
+        Dimension::Planar => explain::<T, 2>(scene, settings, &effort),
+        Dimension::Spatial => explain::<T, 3>(scene, settings, &effort),
+    }
+}
+
+/// Files, then JSON or tables; the exit status says whether the run with all effects was completed.
+fn tell(explanation: &Explanation, arguments: &Arguments, settings: &Settings) -> ExitCode {
+    let options = [
+        ("formulation", arguments.formulation.clone()),
+        ("step", arguments.step.map(|x| x.to_string())),
+        ("duration", arguments.duration.map(|x| x.to_string())),
+        ("precision", arguments.precision.clone()),
+        ("integrator", arguments.integrator.clone()),
+    ];
+    let provenance = files::provenance(("explain", &arguments.scene), &options, settings);
+    let report = report(explanation, provenance);
+    if let Some(out) = &arguments.out
+        && let Err(error) = write_files(explanation, &report, out)
+    {
+        return refuse(&files::unwritable(out, &error));
+    }
+    let mut text = if arguments.json { explanation.to_json() } else { report.text() };
+    if let (Some(out), false) = (&arguments.out, arguments.json) {
+        text.push_str(&format!("\nwrote explain.json and explain.html to {}\n", out.display()));
+    }
+    // A reader that has gone away is no error of the command.
+    let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
+    let Some(error) = &explanation.error else { return ExitCode::SUCCESS };
+    if !arguments.json {
+        let place = words::stopped_at(error);
+        let scene = arguments.scene.display();
+        eprintln!("{scene}: stopped {place}: {}\nhint: {}", error.message, error.hint);
+    }
+    ExitCode::from(STOPPED)
+}
+
+fn write_files(explanation: &Explanation, report: &Report, out: &Path) -> std::io::Result<()> {
+    std::fs::write(out.join("explain.json"), explanation.to_json() + "\n")?;
+    std::fs::write(out.join("explain.html"), report.page())
+}

@@ -1,0 +1,86 @@
+//! Scene files in, result files out, and what to say when that fails.
+
+use mbs::{Settings, SettingsError};
+use mbs_core::scene::Entry;
+use mbs_scene::{Document, Provenance, readable};
+use std::path::Path;
+
+/// Reads a scene file; else the refusal.
+pub(crate) fn document(scene: &Path) -> Result<Document, String> {
+    let bytes = std::fs::read(scene).map_err(|error| unreadable(scene, &error))?;
+    Document::from_bytes(&bytes, &scene.display().to_string()).map_err(|error| error.render())
+}
+
+/// A refusal of settings, with its place when the scene asks for them.
+pub(crate) fn refusal(error: &SettingsError, document: &Document) -> String {
+    match error {
+        SettingsError::NotBuilt { key, from_scene: true, .. } => {
+            let place = document.place(Entry::Solver, key);
+            place.render(document.file(), &error.to_string(), &error.hint())
+        }
+        _ => format!("error: {error}\nhint: {}", error.hint()),
+    }
+}
+
+/// Makes the directory and tries to write a file of it.
+pub(crate) fn prepare(out: &Path, file: &str) -> std::io::Result<()> {
+    std::fs::create_dir_all(out)?;
+    std::fs::File::create(out.join(file)).map(drop)
+}
+
+/// How a result was made: the command with the options that were given.
+pub(crate) fn provenance(
+    (command, scene): (&str, &Path),
+    options: &[(&str, Option<String>)],
+    settings: &Settings,
+) -> Provenance {
+    let mut command = format!("mbs {command} {}", scene.display());
+    for (key, value) in options {
+        if let Some(value) = value {
+            command.push_str(&format!(" --{key} {value}"));
+        }
+    }
+    Provenance {
+        command,
+        precision: settings.precision.name().to_owned(),
+        formulation: settings.formulation.name().to_owned(),
+        integrator: settings.integrator.name().to_owned(),
+        step: format!("{} s", readable(settings.step)),
+        version: format!("mbs {}", env!("CARGO_PKG_VERSION")),
+        cpu: processor(),
+    }
+}
+
+/// The processor's name, where the system tells it.
+fn processor() -> String {
+    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let line = info.lines().find(|l| l.starts_with("model name"));
+    line.and_then(|l| l.split_once(':')).map(|(_, name)| name.trim().to_owned()).unwrap_or_default()
+}
+
+/// The message for a scene file that cannot be read.
+fn unreadable(scene: &Path, error: &std::io::Error) -> String {
+    let with_ending = scene.with_extension("toml");
+    let hint = if scene.is_dir() {
+        "that is a directory; give a scene file in it".to_owned()
+    } else if with_ending.is_file() {
+        format!("did you mean `{}`?", with_ending.display())
+    } else {
+        "give the path of a scene file; it ends with .toml".to_owned()
+    };
+    format!("error: cannot read `{}`: {}\nhint: {hint}", scene.display(), plain(error))
+}
+
+/// The message for a directory that cannot be written.
+pub(crate) fn unwritable(out: &Path, error: &std::io::Error) -> String {
+    let (out, error) = (out.display(), plain(error));
+    format!(
+        "error: cannot write to `{out}`: {error}\nhint: give a directory that can be made or written with --out"
+    )
+}
+
+/// The system's words without the number of the error.
+fn plain(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or_default().to_lowercase()
+}

@@ -1,0 +1,194 @@
+//! Leave-one-out: the same run with and without an effect.
+
+use super::reach::largest_step;
+use super::timing::{Times, count, interleaved, trial};
+use super::{Effort, kinds, outcome, without};
+use crate::run::Outcome;
+use crate::settings::Settings;
+use crate::tree::{InSpace, Plane};
+use mbs_core::Real;
+use mbs_core::scene::Scene;
+use mbs_scene::{Change, Channel, Price, Prices, RunError};
+use std::time::Instant;
+
+/// A recorded step takes so many times one that is only made.
+const RECORDED: f64 = 3.0;
+/// A run is never shortened to fewer steps.
+const FEWEST_STEPS: u64 = 50;
+/// Ranges below this share of the largest value are rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// What is left out together.
+struct Leave {
+    effects: Vec<usize>,
+    kind: &'static str,
+    is_kind: bool,
+}
+
+/// All prices, and why the run with all effects stopped, if it did.
+pub(super) fn prices<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    effort: &Effort,
+) -> (Prices, Option<RunError>)
+where
+    Plane<D>: InSpace<T>,
+{
+    let clock = Instant::now();
+    let has_time = || clock.elapsed().as_secs_f64() < effort.seconds;
+    let leaves = leaves(scene);
+    let mut scenes = vec![scene.clone()];
+    scenes.extend(leaves.iter().map(|leave| without(scene, &leave.effects)));
+    let plan = Plan::new::<T, D>(&scenes[0], settings, (effort, scenes.len()));
+
+    let rounds = (plan.timed_steps, effort.repeats);
+    let times = interleaved::<T, D>(&scenes, settings, rounds);
+    let run = |scene| outcome::<T, D>(scene, settings, (1.0, plan.duration));
+    let with_all = run(scene);
+    let reach = |scene: &Scene<T>, run: &Outcome| {
+        let run = (plan.duration, run.summary.completed);
+        largest_step::<T, D>(scene, settings, run, &has_time)
+    };
+    let mut prices = Prices {
+        timed_steps: plan.timed_steps,
+        repeats: effort.repeats,
+        seconds_per_step: times[0].best(),
+        compared_duration: plan.duration,
+        completed: with_all.summary.completed,
+        largest_step: reach(scene, &with_all),
+        ..Prices::default()
+    };
+    let channels = Channel::of_scene(scene);
+    for ((leave, scene), own) in leaves.iter().zip(&scenes[1..]).zip(&times[1..]) {
+        let outcome = run(scene);
+        let price = Price {
+            names: leave.effects.iter().map(|&i| scene.effects[i].name.clone()).collect(),
+            kind: leave.kind.to_owned(),
+            completed: outcome.summary.completed,
+            largest_step: reach(scene, &outcome),
+            changes: changes(&channels, &with_all, &outcome),
+            error: outcome.summary.error,
+            ..share(&times[0], own)
+        };
+        if leave.is_kind { &mut prices.kinds } else { &mut prices.effects }.push(price);
+    }
+    (prices, with_all.summary.error)
+}
+
+/// Each enabled effect alone, then each kind that has several.
+fn leaves<T>(scene: &Scene<T>) -> Vec<Leave> {
+    let enabled = || scene.effects.iter().enumerate().filter(|(_, effect)| effect.enabled);
+    let alone = |(i, effect): (usize, &mbs_core::scene::Effect<T>)| Leave {
+        effects: vec![i],
+        kind: kinds::name(&effect.kind),
+        is_kind: false,
+    };
+    let mut leaves: Vec<Leave> = enabled().map(alone).collect();
+    let mut seen: Vec<&str> = Vec::new();
+    for (_, effect) in enabled() {
+        let kind = kinds::name(&effect.kind);
+        let of_kind = enabled().filter(|(_, other)| kinds::name(&other.kind) == kind);
+        let effects: Vec<usize> = of_kind.map(|(i, _)| i).collect();
+        if effects.len() > 1 && !seen.contains(&kind) {
+            seen.push(kind);
+            leaves.push(Leave { effects, kind, is_kind: true });
+        }
+    }
+    leaves
+}
+
+/// How long the runs may be.
+struct Plan {
+    timed_steps: u64,
+    duration: f64,
+}
+
+impl Plan {
+    /// A third of the time for the clock, a third for the comparison, a third for longer steps.
+    fn new<T: Real, const D: usize>(
+        scene: &Scene<T>,
+        settings: &Settings,
+        (effort, n_scenes): (&Effort, usize),
+    ) -> Self
+    where
+        Plane<D>: InSpace<T>,
+    {
+        let n_steps = settings.n_steps();
+        let [start, step] = trial::<T, D>(scene, settings).unwrap_or([0.0; 2]);
+        let each = effort.seconds / 3.0 / count(n_scenes as u64);
+        // The wanted number of steps is halved until it fits; halves keep the lengths the same from run to run.
+        let fit = |mut n: u64, takes: &dyn Fn(u64) -> f64| {
+            while n > FEWEST_STEPS && takes(n) > each {
+                n = n.div_ceil(2);
+            }
+            n
+        };
+        let repeats = f64::from(effort.repeats);
+        let timed = fit(n_steps.min(effort.timed_steps), &|n| repeats * (start + count(n) * step));
+        let compared = fit(n_steps, &|n| start + RECORDED * count(n) * step);
+        let duration = if compared == n_steps {
+            settings.duration
+        } else {
+            settings.duration.min(count(compared) * settings.step_max)
+        };
+        Self { timed_steps: timed, duration }
+    }
+}
+
+/// share = 1 − without / with; the noise is the worse of the two.
+fn share(with_all: &Times, without: &Times) -> Price {
+    let share = with_all.best().zip(without.best()).map(|(with, without)| 1.0 - without / with);
+    let noise = with_all.noise().zip(without.noise()).map(|(a, b)| a.max(b));
+    Price {
+        seconds_per_step: without.best(),
+        share,
+        noise,
+        below_noise: share.zip(noise).map(|(share, noise)| share.abs() <= noise),
+        ..Price::default()
+    }
+}
+
+/// The largest differences of the rows both runs have.
+fn changes(channels: &[Channel], with_all: &Outcome, without: &Outcome) -> Vec<Change> {
+    let (ours, theirs) = (with_all.rows(), without.rows());
+    let common = ours.iter().zip(theirs).take_while(|(a, b)| a.0.total_cmp(&b.0).is_eq()).count();
+    let mut changes: Vec<Change> = Vec::new();
+    let mut column = 0;
+    for channel in channels {
+        let first = changes.len();
+        let mut sizes: Vec<f64> = Vec::new();
+        for component in &channel.components {
+            let values = || ours.iter().map(|(_, row)| row[column]);
+            let pairs = ours[..common].iter().zip(theirs).map(|(a, b)| (a.1[column], b.1[column]));
+            let largest = pairs.fold(0.0, |most, (a, b)| larger(most, (a - b).abs()));
+            let range =
+                values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
+            let size = values().fold(0.0, |most, x| larger(most, x.abs()));
+            column += 1;
+            // components of one unit share an entry
+            match changes[first..].iter().position(|c| c.unit == component.unit) {
+                Some(i) => {
+                    let change = &mut changes[first + i];
+                    change.largest = larger(change.largest, largest);
+                    change.range = change.range.max(range);
+                    sizes[i] = larger(sizes[i], size);
+                }
+                None => {
+                    let (output, unit) = (channel.name.clone(), component.unit.clone());
+                    changes.push(Change { output, unit, largest, range, relative: None });
+                    sizes.push(size);
+                }
+            }
+        }
+        for (change, size) in changes[first..].iter_mut().zip(sizes) {
+            let is_range = change.range > ROUNDING * size;
+            change.relative = is_range.then(|| change.largest / change.range);
+        }
+    }
+    changes
+}
+
+/// The larger of two; a NaN stays one.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}
