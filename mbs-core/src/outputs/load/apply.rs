@@ -76,6 +76,9 @@ impl<T: Real, const D: usize> Load<T, D> {
     }
 }
 
+/// Where a wrench acts on both bodies (`None`: a moment alone), and the wrench on the first.
+type Pull<T> = ([Option<Vector<T, 3>>; 2], Wrench<T>);
+
 impl<T: Real, const D: usize> Gauge<T, D> {
     /// The wrench on the first body, its opposite acting on the second, and where each acts; `axes`: the first body's rotation.
     fn pull(
@@ -84,7 +87,7 @@ impl<T: Real, const D: usize> Gauge<T, D> {
         state: &State<T>,
         axes: &Matrix<T, 3>,
         supplies: &Supplies<'_, T>,
-    ) -> Option<([Option<Vector<T, 3>>; 2], Wrench<T>)> {
+    ) -> Option<Pull<T>> {
         let tension = |value, rate| law.evaluate(value, rate, supplies).tension;
         Some(match self {
             Self::Length { points } => {
