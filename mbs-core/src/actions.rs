@@ -173,6 +173,44 @@ impl<T: Real> Compiler<'_, T> {
     }
 
     fn add(&mut self, kind: &EffectKind<T>) {
+        match kind {
+            EffectKind::SpringDamper { .. }
+            | EffectKind::Actuator { .. }
+            | EffectKind::Polynomial { .. }
+            | EffectKind::Bumper { .. } => self.add_between_points(kind),
+            EffectKind::TorsionSpring { .. }
+            | EffectKind::JointTorque { .. }
+            | EffectKind::Limit { .. }
+            | EffectKind::Friction { .. } => self.add_on_joint(kind),
+            EffectKind::Bushing { bodies, at, stiffness, damping } => {
+                self.bushing(*bodies, *at, (stiffness, damping));
+            }
+            EffectKind::Force { body, at, course, frame } => {
+                let at = (*body, *at);
+                let action = match (course, frame) {
+                    (Course::Constant(force), AxisFrame::Global) => {
+                        Action::Constant { at, force: *force }
+                    }
+                    _ => {
+                        let course = self.course(CourseInput::new(course));
+                        Action::Force { at, course, turns: *frame == AxisFrame::Body }
+                    }
+                };
+                self.push(action);
+            }
+            EffectKind::BodyTorque { body, course } => {
+                let course = self.course(CourseInput::new(course));
+                self.push(Action::Torque { body: *body, course });
+            }
+            EffectKind::AeroDrag { .. }
+            | EffectKind::SpeedHold { .. }
+            | EffectKind::Tire { .. } => {
+                self.add_on_body(kind);
+            }
+        }
+    }
+
+    fn add_between_points(&mut self, kind: &EffectKind<T>) {
         let ends = |bodies: &[BodyRef; 2], points: &[[T; 3]; 2]| {
             [(bodies[0], points[0]), (bodies[1], points[1])]
         };
@@ -200,6 +238,12 @@ impl<T: Real> Compiler<'_, T> {
                 let law = Law::Bumper { law, touch };
                 self.push(Action::Length { ends: ends(bodies, points), law });
             }
+            _ => {}
+        }
+    }
+
+    fn add_on_joint(&mut self, kind: &EffectKind<T>) {
+        match kind {
             EffectKind::TorsionSpring { joint, stiffness, damping, free_value } => {
                 let (stiffness, damping, free) = (*stiffness, *damping, *free_value);
                 let law = Law::SpringDamper { stiffness, damping, free };
@@ -231,26 +275,12 @@ impl<T: Real> Compiler<'_, T> {
                 };
                 self.on_joint(*joint, Law::Friction(law));
             }
-            EffectKind::Bushing { bodies, at, stiffness, damping } => {
-                self.bushing(*bodies, *at, (stiffness, damping));
-            }
-            EffectKind::Force { body, at, course, frame } => {
-                let at = (*body, *at);
-                let action = match (course, frame) {
-                    (Course::Constant(force), AxisFrame::Global) => {
-                        Action::Constant { at, force: *force }
-                    }
-                    _ => {
-                        let course = self.course(CourseInput::new(course));
-                        Action::Force { at, course, turns: *frame == AxisFrame::Body }
-                    }
-                };
-                self.push(action);
-            }
-            EffectKind::BodyTorque { body, course } => {
-                let course = self.course(CourseInput::new(course));
-                self.push(Action::Torque { body: *body, course });
-            }
+            _ => {}
+        }
+    }
+
+    fn add_on_body(&mut self, kind: &EffectKind<T>) {
+        match kind {
             EffectKind::AeroDrag { body, at, area_coefficient, density } => {
                 let (area_coefficient, density) = (*area_coefficient, *density);
                 let law = BodyLaw::Drag { area_coefficient, density };
@@ -285,6 +315,7 @@ impl<T: Real> Compiler<'_, T> {
                 let axis = given.map_or_else(|| axis(2), unit);
                 self.push(Action::OnBody { at: (*body, *center), axis, law });
             }
+            _ => {}
         }
     }
 
