@@ -1,5 +1,6 @@
 //! What is claimed of the counts, each with what would contradict it.
 
+use super::WITH_FEATURE;
 use super::callgrind::Case;
 
 /// Most that a build with all effects may take beyond one without any, in a scene without effects [-].
@@ -39,6 +40,8 @@ impl Claim {
 pub(crate) struct Runs {
     pub(crate) full: Vec<Case>,
     pub(crate) lean: Vec<Case>,
+    /// What the build without effects says: effect, message.
+    pub(crate) refusals: Vec<(&'static str, String)>,
     pub(crate) plain: Vec<Case>,
 }
 
@@ -56,7 +59,14 @@ pub(crate) fn other<'a>(cases: &'a [Case], case: &Case, switch: &str) -> Option<
 
 /// All claims.
 pub(crate) fn all(runs: &Runs) -> Vec<Claim> {
-    vec![switched_off(runs), left_out(runs), planar(runs), absent(runs), present(runs)]
+    vec![
+        switched_off(runs),
+        left_out(runs),
+        refused(runs),
+        planar(runs),
+        absent(runs),
+        present(runs),
+    ]
 }
 
 fn switched_off(runs: &Runs) -> Claim {
@@ -85,8 +95,20 @@ fn left_out(runs: &Runs) -> Claim {
     claim
 }
 
+fn refused(runs: &Runs) -> Claim {
+    let mut claim =
+        Claim::new("an effect that is not compiled is refused, with the feature's name");
+    for (effect, message) in &runs.refusals {
+        let feature = WITH_FEATURE.iter().find(|(name, _)| name == effect).map_or("?", |(_, f)| f);
+        claim.check(message.contains(&format!("`{feature}`")), || format!("{effect}: {message:?}"));
+    }
+    claim
+}
+
 fn planar(runs: &Runs) -> Claim {
-    let mut claim = Claim::new("a planar scene executes no three-dimensional function");
+    let mut claim = Claim::new(
+        "a planar scene without laws on one body executes no three-dimensional function",
+    );
     for case in runs.plain.iter().filter(|case| words(case)[1] == "planar") {
         let found = case.functions.iter().find(|name| is_spatial(words(case)[0], name));
         claim.check(found.is_none(), || format!("{}: {}", case.name, found.map_or("", |f| f)));
@@ -194,7 +216,7 @@ mod tests {
             case("index-3 planar tire off", 101, &[]),
         ];
         let lean = vec![case("index-3 planar bumper out", 98, &[])];
-        let runs = Runs { full, lean, plain: vec![] };
+        let runs = Runs { full, lean, refusals: vec![], plain: vec![] };
         assert_eq!(switched_off(&runs).n_checked, 2);
         assert_eq!(switched_off(&runs).against.len(), 1);
         assert_eq!(left_out(&runs).against.len(), 1);

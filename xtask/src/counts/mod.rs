@@ -13,8 +13,8 @@ use callgrind::Case;
 use claims::{Claim, Runs};
 use serde_json::{Value, json};
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::ExitCode;
+use std::path::PathBuf;
+use std::process::{Command, ExitCode};
 
 /// Steps counted in each case.
 const STEPS: u64 = 10;
@@ -37,6 +37,20 @@ const EFFECTS: [&str; 17] = [
     "tire",
     "own-body",
     "guide",
+];
+
+/// Effects, and the features of mbs-core that bring them.
+const WITH_FEATURE: [(&str, &str); 10] = [
+    ("polynomial", "polynomial"),
+    ("bumper", "bumper"),
+    ("limit", "limit"),
+    ("friction", "friction"),
+    ("bushing", "bushing"),
+    ("own-length", "own-laws"),
+    ("drag", "drag"),
+    ("speed-hold", "speed-hold"),
+    ("tire", "tire"),
+    ("own-body", "own-laws"),
 ];
 
 /// Runs the job by itself: prints the table, writes it as JSON.
@@ -93,10 +107,22 @@ fn count() -> Result<(Runs, Vec<Claim>), String> {
     let runs = Runs {
         full: counted("release", &[], STEPS, &EFFECTS)?,
         lean: counted("release", &["--no-default-features"], STEPS, &["spring-damper"])?,
-        plain: counted("plain", &[], 1, &["tire", "guide"])?,
+        refusals: refusals()?,
+        plain: counted("plain", &[], 1, &["bumper", "guide"])?,
     };
     let claims = claims::all(&runs);
     Ok((runs, claims))
+}
+
+/// What the build without effects says to each: effect, message.
+fn refusals() -> Result<Vec<(&'static str, String)>, String> {
+    let program = build("release", &["--no-default-features"])?;
+    let refusal = |effect| {
+        let out = Command::new(&program).args(["1", effect]).output();
+        let out = out.map_err(|e| format!("cannot start {}: {e}", program.display()))?;
+        Ok((effect, String::from_utf8_lossy(&out.stderr).into_owned()))
+    };
+    WITH_FEATURE.iter().map(|(effect, _)| refusal(*effect)).collect()
 }
 
 /// Builds the program; each build takes the place of the one before it.
