@@ -1,14 +1,13 @@
 //! Steps of small scenes, for a counter of instructions: `cargo xtask counts` runs this under callgrind.
 //!
-//! Every case prints its name and makes one call of [`measured`]; nothing else of it is counted. Arguments: the number of steps,
-//! then names of cases (`none`, `bumper off`); none: all cases.
+//! Arguments: the number of steps, then effects. Each is left out, switched off and switched on; a guide is only there.
 
 mod effects;
 mod scenes;
 
 use mbs_augmented::{Options, Workspace, index3};
 use mbs_core::dense::Dense;
-use mbs_core::natural::{ModelError, NaturalModel};
+use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_core::start::assemble;
 use mbs_recursive::{Planar, Spatial, TreeModel, space::Space};
@@ -22,18 +21,11 @@ const STEP: f64 = 1e-3;
 fn main() -> ExitCode {
     let mut args = std::env::args().skip(1);
     let steps = args.next().and_then(|n| n.parse().ok()).unwrap_or(1);
-    let wanted: Vec<_> = args.collect();
-    for dimension in [Dimension::Planar, Dimension::Spatial] {
-        for (name, scene) in scenes::cases(dimension) {
-            if !(wanted.is_empty() || wanted.contains(&name)) {
-                continue;
-            }
-            let result = match dimension {
-                Dimension::Planar => run::<2>(&scene, &format!("planar {name}"), steps),
-                Dimension::Spatial => run::<3>(&scene, &format!("spatial {name}"), steps),
-            };
-            if let Err(error) = result {
-                eprintln!("{name}: {error}");
+    for effect in args {
+        let switches: &[&str] = if effect == "guide" { &["on"] } else { &["out", "off", "on"] };
+        for switch in switches {
+            if let Err(error) = run(&effect, switch, steps) {
+                eprintln!("{effect} {switch}: {error}");
                 return ExitCode::FAILURE;
             }
         }
@@ -41,18 +33,32 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// Runs a scene in every formulation; a scene that asks for an effect that is not compiled is passed over.
-fn run<const D: usize>(scene: &Scene<f64>, name: &str, steps: usize) -> Result<(), Box<dyn Error>> {
-    scene.check()?;
-    let model = match NaturalModel::<f64, D>::new(scene) {
-        Err(ModelError::LeftOut { .. }) => return Ok(()),
-        model => model?,
-    };
-    index_3(scene, &model, name, steps)?;
-    match D {
-        2 => recursive::<D, Planar>(scene, &model, name, steps),
-        _ => recursive::<D, Spatial>(scene, &model, name, steps),
+/// Counts an effect in the plane and in space.
+fn run(effect: &str, switch: &str, steps: usize) -> Result<(), Box<dyn Error>> {
+    for dimension in [Dimension::Planar, Dimension::Spatial] {
+        let scene = scenes::with(dimension, effect, switch);
+        scene.check()?;
+        match dimension {
+            Dimension::Planar => {
+                formulations::<2, Planar>(&scene, &format!("planar {effect} {switch}"), steps)?;
+            }
+            Dimension::Spatial => {
+                formulations::<3, Spatial>(&scene, &format!("spatial {effect} {switch}"), steps)?;
+            }
+        }
     }
+    Ok(())
+}
+
+/// Counts a scene in every formulation.
+fn formulations<const D: usize, S: Space<f64>>(
+    scene: &Scene<f64>,
+    name: &str,
+    steps: usize,
+) -> Result<(), Box<dyn Error>> {
+    let model = NaturalModel::<f64, D>::new(scene)?;
+    index_3(scene, &model, name, steps)?;
+    recursive::<D, S>(scene, &model, name, steps)
 }
 
 /// Steps of index-3 augmented Lagrangian.

@@ -1,4 +1,4 @@
-//! A four-bar mechanism in the plane and one in space, with each effect left out, switched off and switched on.
+//! A four-bar mechanism in the plane and one in space, and what can be added to them.
 
 use crate::effects;
 use mbs_core::scene::{
@@ -6,22 +6,19 @@ use mbs_core::scene::{
     JointKind, Scene,
 };
 
-/// Name and scene of every case.
-pub(crate) fn cases(dimension: Dimension) -> Vec<(String, Scene<f64>)> {
-    let mut cases = vec![("none".to_owned(), four_bar(dimension))];
-    for (name, kind) in effects::all(dimension) {
-        for (switch, enabled) in [("off", false), ("on", true)] {
-            let mut scene = four_bar(dimension);
-            scene.effects.push(Effect { name: name.into(), enabled, kind: kind.clone() });
-            cases.push((format!("{name} {switch}"), scene));
-        }
+/// The four-bar with an effect of that name, `out`, `off` or `on`; or with a guide of its crank.
+pub(crate) fn with(dimension: Dimension, effect: &str, switch: &str) -> Scene<f64> {
+    let mut scene = four_bar(dimension);
+    let enabled = switch == "on";
+    let effects = effects::all(dimension).into_iter();
+    let effects = effects.filter(|(name, _)| *name == effect && switch != "out");
+    scene.effects.extend(effects.map(|(name, kind)| Effect { name: name.into(), enabled, kind }));
+    if effect == "guide" {
+        let law = GuideLaw::Sine { amplitude: 0.5, frequency: 1.0, phase: 0.0 };
+        scene.initials.clear();
+        scene.guides.push(Guide { joint: 0, law });
     }
-    let mut guided = four_bar(dimension);
-    let law = GuideLaw::Sine { amplitude: 0.5, frequency: 1.0, phase: 0.0 };
-    guided.initials.clear();
-    guided.guides.push(Guide { joint: 0, law });
-    cases.push(("guide on".to_owned(), guided));
-    cases
+    scene
 }
 
 /// Crank, coupler and rocker; in space with a ball at one end of the coupler and a universal joint at the other.

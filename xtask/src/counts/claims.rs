@@ -1,5 +1,6 @@
 //! What is claimed of the counts, each with what would contradict it.
 
+use super::WITH_FEATURE;
 use super::callgrind::Case;
 
 /// Most that a build with all effects may take beyond one without any, in a scene without effects [-].
@@ -39,6 +40,8 @@ impl Claim {
 pub(crate) struct Runs {
     pub(crate) full: Vec<Case>,
     pub(crate) lean: Vec<Case>,
+    /// What the build without effects says: effect, message.
+    pub(crate) refusals: Vec<(&'static str, String)>,
     pub(crate) plain: Vec<Case>,
 }
 
@@ -48,24 +51,31 @@ pub(crate) fn words(case: &Case) -> [&str; 4] {
     [0; 4].map(|_| words.next().unwrap_or(""))
 }
 
-/// The case without an effect that a case is compared with.
-pub(crate) fn base<'a>(cases: &'a [Case], case: &Case) -> Option<&'a Case> {
-    let [formulation, dimension, ..] = words(case);
-    cases.iter().find(|other| words(other) == [formulation, dimension, "none", ""])
+/// The same case with another switch.
+pub(crate) fn other<'a>(cases: &'a [Case], case: &Case, switch: &str) -> Option<&'a Case> {
+    let [formulation, dimension, effect, _] = words(case);
+    cases.iter().find(|other| words(other) == [formulation, dimension, effect, switch])
 }
 
 /// All claims.
 pub(crate) fn all(runs: &Runs) -> Vec<Claim> {
-    vec![switched_off(runs), left_out(runs), planar(runs), absent(runs), present(runs)]
+    vec![
+        switched_off(runs),
+        left_out(runs),
+        refused(runs),
+        planar(runs),
+        absent(runs),
+        present(runs),
+    ]
 }
 
 fn switched_off(runs: &Runs) -> Claim {
     let mut claim =
         Claim::new("a step costs the same without an effect and with the effect switched off");
     for case in runs.full.iter().filter(|case| words(case)[3] == "off") {
-        let base = base(&runs.full, case).map(|base| (base.instructions, base.copies));
-        claim.check(base == Some((case.instructions, case.copies)), || {
-            format!("{}: {} instead of {base:?}", case.name, case.instructions)
+        let without = other(&runs.full, case, "out").map(|case| case.instructions);
+        claim.check(without == Some(case.instructions), || {
+            format!("{}: {} instead of {without:?}", case.name, case.instructions)
         });
     }
     claim
@@ -76,19 +86,31 @@ fn left_out(runs: &Runs) -> Claim {
     let mut claim = Claim::new(
         "a scene without effects costs at most 1 % more where all effects are compiled than where none is",
     );
-    for lean in runs.lean.iter().filter(|case| words(case)[2] == "none") {
-        let full = runs.full.iter().find(|case| case.name == lean.name);
-        let full = full.map_or(f64::INFINITY, |case| case.instructions as f64);
+    for lean in runs.lean.iter().filter(|case| words(case)[3] == "out") {
+        let full =
+            other(&runs.full, lean, "out").map_or(f64::INFINITY, |case| case.instructions as f64);
         let share = full / lean.instructions as f64 - 1.0;
         claim.check(share.abs() <= SHARE, || format!("{}: {share:+.4}", lean.name));
     }
     claim
 }
 
+fn refused(runs: &Runs) -> Claim {
+    let mut claim =
+        Claim::new("an effect that is not compiled is refused, with the feature's name");
+    for (effect, message) in &runs.refusals {
+        let feature = WITH_FEATURE.iter().find(|(name, _)| name == effect).map_or("?", |(_, f)| f);
+        claim.check(message.contains(&format!("`{feature}`")), || format!("{effect}: {message:?}"));
+    }
+    claim
+}
+
 fn planar(runs: &Runs) -> Claim {
-    let mut claim = Claim::new("a planar scene executes no three-dimensional function");
+    let mut claim = Claim::new(
+        "a planar scene without laws on one body executes no three-dimensional function",
+    );
     for case in runs.plain.iter().filter(|case| words(case)[1] == "planar") {
-        let found = case.functions.iter().find(|name| is_spatial(name));
+        let found = case.functions.iter().find(|name| is_spatial(words(case)[0], name));
         claim.check(found.is_none(), || format!("{}: {}", case.name, found.map_or("", |f| f)));
     }
     claim
@@ -99,11 +121,11 @@ fn absent(runs: &Runs) -> Claim {
         "without effects no law, force or tangent of one is evaluated, without guides no phi_t",
     );
     for case in &runs.plain {
-        let [_, _, effect, _] = words(case);
-        let kinds: &[Kind] = match effect {
-            "none" => &[Kind::Effect, Kind::Guide],
-            "guide" => &[Kind::Effect],
-            _ => &[Kind::Guide],
+        let [_, _, effect, switch] = words(case);
+        let kinds: &[Kind] = match (effect, switch) {
+            ("guide", "on") => &[Kind::Effect],
+            (_, "on") => &[Kind::Guide],
+            _ => &[Kind::Effect, Kind::Guide],
         };
         for kind in kinds {
             let found = case.functions.iter().find(|name| kind.has(name));
@@ -117,18 +139,18 @@ fn absent(runs: &Runs) -> Claim {
 fn present(runs: &Runs) -> Claim {
     let mut claim = Claim::new("where they are asked for, those functions are seen");
     for case in &runs.plain {
-        let [_, dimension, effect, _] = words(case);
+        let [formulation, dimension, effect, switch] = words(case);
         let mut see = |seen: &dyn Fn(&str) -> bool, what: &str| {
             let is_seen = case.functions.iter().any(|name| seen(name));
             claim.check(is_seen, || format!("{}: no {what}", case.name));
         };
         if dimension == "spatial" {
-            see(&is_spatial, "three-dimensional function");
+            see(&|name| is_spatial(formulation, name), "three-dimensional function");
         }
-        match effect {
-            "none" => {}
-            "guide" => see(&|name| Kind::Guide.has(name), "function of a guide"),
-            _ => see(&|name| Kind::Effect.has(name), "function of an effect"),
+        match (effect, switch) {
+            ("guide", "on") => see(&|name| Kind::Guide.has(name), "function of a guide"),
+            (_, "on") => see(&|name| Kind::Effect.has(name), "function of an effect"),
+            _ => {}
         }
     }
     claim
@@ -151,6 +173,7 @@ impl Kind {
                     "mbs_core::laws::body",
                     "mbs_core::natural::forces",
                     "mbs_core::natural::on_body",
+                    "mbs_recursive::loads",
                 ],
                 &["::evaluate_forces", "::add_transverse", "::remember"],
             ),
@@ -165,11 +188,14 @@ impl Kind {
     }
 }
 
-/// Is the function an instance for three dimensions?
-fn is_spatial(function: &str) -> bool {
-    ["NaturalModel<f64, 3>", "Const<3>", "::<f64, 3>", "::Spatial"]
-        .iter()
-        .any(|mark| function.contains(mark))
+/// Is the function of a formulation an instance for three dimensions? Planar motions of the recursive formulation have three
+/// numbers, spatial ones six.
+fn is_spatial(formulation: &str, function: &str) -> bool {
+    let marks: &[&str] = match formulation {
+        "recursive" => &["spatial::Spatial", "Const<6>"],
+        _ => &["NaturalModel<f64, 3>", "Const<3>", "::<f64, 3>"],
+    };
+    marks.iter().any(|mark| function.contains(mark))
 }
 
 #[cfg(test)]
@@ -178,18 +204,19 @@ mod tests {
 
     fn case(name: &str, instructions: u64, functions: &[&str]) -> Case {
         let functions = functions.iter().map(|&f| f.to_owned()).collect();
-        Case { name: name.to_owned(), instructions, copies: 0, functions }
+        Case { name: name.to_owned(), instructions, functions }
     }
 
     #[test]
     fn one_instruction_more_contradicts() {
         let full = vec![
-            case("index-3 planar none", 100, &[]),
+            case("index-3 planar bumper out", 100, &[]),
             case("index-3 planar bumper off", 100, &[]),
+            case("index-3 planar tire out", 100, &[]),
             case("index-3 planar tire off", 101, &[]),
         ];
-        let lean = vec![case("index-3 planar none", 98, &[])];
-        let runs = Runs { full, lean, plain: vec![] };
+        let lean = vec![case("index-3 planar bumper out", 98, &[])];
+        let runs = Runs { full, lean, refusals: vec![], plain: vec![] };
         assert_eq!(switched_off(&runs).n_checked, 2);
         assert_eq!(switched_off(&runs).against.len(), 1);
         assert_eq!(left_out(&runs).against.len(), 1);
@@ -201,7 +228,7 @@ mod tests {
         assert!(Kind::Effect.has("<mbs_core::laws::scalar::Law<f64>>::evaluate"));
         assert!(!Kind::Effect.has("<alloc::vec::Vec<mbs_core::laws::scalar::Law<f64>>>::len"));
         assert!(Kind::Guide.has("<NaturalModel<f64, 2> as Model<f64>>::evaluate_phi_t"));
-        assert!(is_spatial("mbs_core::natural::forces::product::<f64, 3>"));
-        assert!(!is_spatial("<alloc::vec::Vec<[f64; 3]>>::len"));
+        assert!(is_spatial("index-3", "mbs_core::natural::forces::product::<f64, 3>"));
+        assert!(!is_spatial("index-3", "<alloc::vec::Vec<[f64; 3]>>::len"));
     }
 }

@@ -7,18 +7,51 @@
 mod callgrind;
 mod claims;
 
-use crate::process::{self, cargo, run};
+use crate::process::{self, cargo};
 use crate::summary::Outcome;
+use callgrind::Case;
 use claims::{Claim, Runs};
 use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
-use std::process::ExitCode;
+use std::process::{Command, ExitCode};
 
 /// Steps counted in each case.
 const STEPS: u64 = 10;
-/// Cases of the run that looks at names.
-const BY_NAME: [&str; 3] = ["none", "spring-damper on", "guide on"];
+/// The effects, and a guide.
+const EFFECTS: [&str; 17] = [
+    "spring-damper",
+    "torsion-spring",
+    "force",
+    "body-torque",
+    "joint-torque",
+    "actuator",
+    "polynomial",
+    "bumper",
+    "limit",
+    "friction",
+    "bushing",
+    "own-length",
+    "drag",
+    "speed-hold",
+    "tire",
+    "own-body",
+    "guide",
+];
+
+/// Effects, and the features of mbs-core that bring them.
+const WITH_FEATURE: [(&str, &str); 10] = [
+    ("polynomial", "polynomial"),
+    ("bumper", "bumper"),
+    ("limit", "limit"),
+    ("friction", "friction"),
+    ("bushing", "bushing"),
+    ("own-length", "own-laws"),
+    ("drag", "drag"),
+    ("speed-hold", "speed-hold"),
+    ("tire", "tire"),
+    ("own-body", "own-laws"),
+];
 
 /// Runs the job by itself: prints the table, writes it as JSON.
 #[allow(clippy::print_stdout, reason = "the table is what this job is for")]
@@ -63,19 +96,33 @@ pub(crate) fn check() -> Result<Outcome, String> {
 
 /// Builds and runs.
 fn count() -> Result<(Runs, Vec<Claim>), String> {
-    let steps = STEPS.to_string();
-    let all = [&steps[..]];
-    let by_name: Vec<&str> = ["1"].into_iter().chain(BY_NAME).collect();
-    let counted = |profile: &str, features: &[&str], args: &[&str], name: &str| {
-        callgrind::run(&build(profile, features)?, args, &folder().join(name))
+    let counted = |profile, features: &[&str], steps, effects: &[&str]| {
+        let steps: u64 = steps;
+        let args: Vec<_> = [steps.to_string()]
+            .into_iter()
+            .chain(effects.iter().map(|e| (*e).to_owned()))
+            .collect();
+        callgrind::run(&build(profile, features)?, &args, &folder().join("callgrind"))
     };
     let runs = Runs {
-        full: counted("release", &[], &all, "full")?,
-        lean: counted("release", &["--no-default-features"], &all, "lean")?,
-        plain: counted("plain", &[], &by_name, "plain")?,
+        full: counted("release", &[], STEPS, &EFFECTS)?,
+        lean: counted("release", &["--no-default-features"], STEPS, &["spring-damper"])?,
+        refusals: refusals()?,
+        plain: counted("plain", &[], 1, &["bumper", "guide"])?,
     };
     let claims = claims::all(&runs);
     Ok((runs, claims))
+}
+
+/// What the build without effects says to each: effect, message.
+fn refusals() -> Result<Vec<(&'static str, String)>, String> {
+    let program = build("release", &["--no-default-features"])?;
+    let refusal = |effect| {
+        let out = Command::new(&program).args(["1", effect]).output();
+        let out = out.map_err(|e| format!("cannot start {}: {e}", program.display()))?;
+        Ok((effect, String::from_utf8_lossy(&out.stderr).into_owned()))
+    };
+    WITH_FEATURE.iter().map(|(effect, _)| refusal(*effect)).collect()
 }
 
 /// Builds the program; each build takes the place of the one before it.
@@ -83,9 +130,10 @@ fn build(profile: &str, features: &[&str]) -> Result<PathBuf, String> {
     let mut command = cargo();
     command.args(["build", "--quiet", "--package", "counts", "--profile", profile]).args(features);
     command.arg("--target-dir").arg(folder());
-    // Names with their generic arguments.
-    command.env("RUSTFLAGS", "-C symbol-mangling-version=v0");
-    run(command.current_dir(process::root()))?;
+    // Names with their generic arguments; and loops that do not ask at run time which of two buffers comes first in memory,
+    // as vectorised ones do: that is the allocator's affair.
+    command.env("RUSTFLAGS", "-C symbol-mangling-version=v0 -C no-vectorize-loops");
+    process::run(command.current_dir(process::root()))?;
     Ok(folder().join(profile).join("counts"))
 }
 
@@ -93,40 +141,34 @@ fn folder() -> PathBuf {
     process::target_dir().join("counts")
 }
 
-/// Instructions of a step: one row for each effect, one column for each formulation and dimension.
+/// Instructions of a step: one row for each effect, one column for each formulation and dimension; left out / switched off / on.
 fn table(runs: &Runs) -> String {
     let mut columns: Vec<[&str; 2]> = Vec::new();
-    let mut rows: Vec<[&str; 2]> = Vec::new();
     for case in &runs.full {
-        let [formulation, dimension, effect, switch] = claims::words(case);
+        let [formulation, dimension, ..] = claims::words(case);
         if !columns.contains(&[formulation, dimension]) {
             columns.push([formulation, dimension]);
         }
-        if !rows.contains(&[effect, switch]) {
-            rows.push([effect, switch]);
-        }
     }
-    let mut text = String::from("| effect |");
-    for column in &columns {
-        text.push_str(&format!(" {} |", column.join(", ")));
-    }
-    text.push_str(&format!("\n|---|{}\n", "---|".repeat(columns.len())));
-    let cell = |cases: &[callgrind::Case], [formulation, dimension]: [&str; 2], row: [&str; 2]| {
-        let case = cases
-            .iter()
-            .find(|case| claims::words(case) == [formulation, dimension, row[0], row[1]]);
-        case.map_or("-".to_owned(), |case| (case.instructions / STEPS).to_string())
+    let headings: Vec<_> = columns.iter().map(|column| column.join(", ")).collect();
+    let mut text = format!("| effect | {} |\n", headings.join(" | "));
+    text.push_str(&format!("|---|{}\n", "---|".repeat(columns.len())));
+    let mut push = |cases: &[Case], name: &str, effect: &str, switches: &[&str]| {
+        let cell = |column: &[&str; 2]| {
+            let count = |switch: &&str| {
+                let words = [column[0], column[1], effect, switch];
+                let case = cases.iter().find(|case| claims::words(case) == words);
+                case.map_or("-".to_owned(), |case| (case.instructions / STEPS).to_string())
+            };
+            switches.iter().map(count).collect::<Vec<_>>().join(" / ")
+        };
+        let cells: Vec<_> = columns.iter().map(cell).collect();
+        text.push_str(&format!("| {name} | {} |\n", cells.join(" | ")));
     };
-    let mut push = |cases: &[callgrind::Case], name: String, row: [&str; 2]| {
-        text.push_str(&format!("| {name} |"));
-        for &column in &columns {
-            text.push_str(&format!(" {} |", cell(cases, column, row)));
-        }
-        text.push('\n');
-    };
-    push(&runs.lean, "none, and none compiled".to_owned(), ["none", ""]);
-    for &row in &rows {
-        push(&runs.full, row.join(" ").trim().to_owned(), row);
+    push(&runs.lean, "none compiled", "spring-damper", &["out"]);
+    for effect in EFFECTS {
+        let switches: &[&str] = if effect == "guide" { &["on"] } else { &["out", "off", "on"] };
+        push(&runs.full, effect, effect, switches);
     }
     text
 }
@@ -146,8 +188,8 @@ fn verdict(claims: &[Claim]) -> String {
 
 /// Everything counted.
 fn as_json(runs: &Runs, claims: &[Claim]) -> Value {
-    let cases = |cases: &[callgrind::Case]| -> Vec<Value> {
-        let value = |case: &callgrind::Case| json!({ "case": case.name, "instructions": case.instructions, "copies": case.copies });
+    let cases = |cases: &[Case]| -> Vec<Value> {
+        let value = |case: &Case| json!({ "case": case.name, "instructions": case.instructions });
         cases.iter().map(value).collect()
     };
     let claims: Vec<_> = claims
