@@ -129,8 +129,10 @@ fn constrain<T: Real, M: Model<T>, S: SpdSolver<T>>(
     }
     let speed = norm_inf(&w.v);
     let rounding = T::EPSILON * T::from_f64(16.0);
-    model.evaluate_phi_t(&w.q, &mut w.terms);
-    check_guides(model, &w.q, &w.terms)?;
+    if model.has_guides() {
+        model.evaluate_phi_t(&w.q, &mut w.terms);
+        check_guides(model, &w.q, &w.terms)?;
+    }
     let limit = (length + speed) * T::from_f64(5e-10).max(rounding * T::from_f64(64.0));
     let left = w.project(model, Level::Velocity, (speed * rounding, limit), options.max_sweeps)?;
     if w.restore_penalties() {

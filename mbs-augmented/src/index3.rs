@@ -247,8 +247,10 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
     if options.projection == Projection::Correction && is_stale {
         factor(model, rule, options, w)?;
     }
-    model.evaluate_phi_t(&w.q, &mut w.terms);
-    check_guides(model, &w.q, &w.terms)?;
+    if model.has_guides() {
+        model.evaluate_phi_t(&w.q, &mut w.terms);
+        check_guides(model, &w.q, &w.terms)?;
+    }
     let sweeps = options.max_sweeps;
     let speed = norm_inf(&w.v);
     let rounding = T::EPSILON * T::from_f64(16.0);

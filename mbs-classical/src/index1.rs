@@ -96,7 +96,9 @@ fn evaluate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     w: &mut Workspace<T, S>,
 ) {
     w.evaluate(model, options.compensated, s);
-    model.evaluate_phi_t(&w.q, &mut w.terms);
+    if model.has_guides() {
+        model.evaluate_phi_t(&w.q, &mut w.terms);
+    }
     model.evaluate_bias(&w.q, &w.v, &mut w.terms);
 }
 

@@ -55,8 +55,10 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         max_sweeps: u32,
         s: &State<T>,
     ) -> Result<[T; 3], StepError> {
-        model.evaluate_phi_t(&self.q, &mut self.terms);
-        check_guides(model, &self.q, &self.terms)?;
+        if model.has_guides() {
+            model.evaluate_phi_t(&self.q, &mut self.terms);
+            check_guides(model, &self.q, &self.terms)?;
+        }
         let rounding = T::EPSILON * T::from_f64(1024.0);
         let limit = T::from_f64(LIMIT).max(rounding);
         let speed = norm_inf(&self.v);

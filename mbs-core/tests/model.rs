@@ -210,6 +210,7 @@ fn power<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>) -> f64 {
                 let (tau, w) = (at_start(course), field.spin(BodyRef::Body(*body)));
                 if D == 2 { tau[0] * w[2] } else { dot(&tau, &w) }
             }
+            other => unreachable!("the scenes of these tests have no {other:?}"),
         };
     }
     power

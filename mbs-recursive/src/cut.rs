@@ -10,17 +10,16 @@
 //! | planar | p·n, v·n, w·n |
 //! | distance | (p·p − L²)/(2L); hinged: p·a |
 
-use crate::loads::Load;
+use crate::loads::{Gauge, Load, OnBody};
 use crate::loops::index;
 use crate::rows::{Loop, Row};
 use crate::space::{Numbers, Space};
-use crate::tree::TreeModel;
+use crate::tree::{Seat, TreeModel};
 use mbs_core::Real;
+use mbs_core::actions::{self, Action, Actions};
 use mbs_core::algebra::{Vector, norm};
-use mbs_core::inputs::CourseInput;
-use mbs_core::laws::scalar::Law;
 use mbs_core::natural::{joint_axes, transverse};
-use mbs_core::scene::{AxisFrame, BodyRef, Course, EffectKind, Joint, JointKind, Scene};
+use mbs_core::scene::{BodyRef, Joint, JointKind, Scene};
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Adds a cut joint's rows.
@@ -85,68 +84,60 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// Adds the enabled effects; what acts between bodies that never move against each other is nothing.
-    pub(crate) fn add_loads(&mut self, scene: &Scene<T>) {
-        for effect in scene.effects.iter().filter(|effect| effect.enabled) {
-            match &effect.kind {
-                EffectKind::SpringDamper { bodies, points, stiffness, damping, free_length } => {
-                    let ends = [0, 1].map(|i| self.seat_point(bodies[i], points[i]));
-                    let law = Law::SpringDamper {
-                        stiffness: *stiffness,
-                        damping: *damping,
-                        free: *free_length,
-                    };
-                    let (links, points) = (ends.map(|e| e.0), ends.map(|e| e.1));
-                    self.loads.push(Load::Length { links, points, law });
-                }
-                EffectKind::TorsionSpring { joint, stiffness, damping, free_value } => {
-                    let law = Law::SpringDamper {
-                        stiffness: *stiffness,
-                        damping: *damping,
-                        free: *free_value,
-                    };
-                    self.add_angle(*joint, law);
-                }
-                EffectKind::JointTorque { joint, course } => {
-                    let law = Law::Torque { course: self.course(course) };
-                    self.add_angle(*joint, law);
-                }
-                EffectKind::Force { body, at, course, frame } => {
-                    let (link, point) = self.seat_point(BodyRef::Body(*body), *at);
-                    if link == 0 {
-                        continue;
-                    }
-                    let load = match (course, frame) {
-                        (Course::Constant(f), AxisFrame::Global) => {
-                            let force = S::point_from(&Vector::from(*f));
-                            Load::Constant { link, point, force }
-                        }
-                        _ => {
-                            let turns = *frame == AxisFrame::Body;
-                            Load::Force { link, point, course: self.course(course), turns }
-                        }
-                    };
-                    self.loads.push(load);
-                }
-                EffectKind::BodyTorque { body, course } => {
-                    let link = self.link_of_body[*body];
-                    if link > 0 {
-                        let course = self.course(course);
-                        self.loads.push(Load::Torque { link, course });
-                    }
-                }
+    /// Adds effects; what acts on the ground alone is nothing.
+    pub(crate) fn add_loads(&mut self, actions: Actions<T>) {
+        for (_, action) in &actions.list {
+            self.add_load(action);
+        }
+        (self.courses, self.tables) = (actions.courses, actions.tables);
+    }
+
+    fn add_load(&mut self, action: &Action<T>) {
+        let load = match action {
+            Action::Length { ends, law } => {
+                let (links, points) = self.ends(ends);
+                Load::Between { links, gauge: Gauge::Length { points }, law: *law }
             }
+            Action::Along { ends, direction, offset, law } => {
+                let (links, points) = self.ends(ends);
+                let direction = S::point_from(&Vector::from(*direction));
+                let gauge = Gauge::Along { points, direction, offset: *offset };
+                Load::Between { links, gauge, law: *law }
+            }
+            Action::Twist { bodies, sides, law } => {
+                let links = bodies.map(|body| self.link(body));
+                let sides = sides.map(|side| S::point_from(&Vector::from(side)));
+                Load::Between { links, gauge: Gauge::Twist { sides }, law: *law }
+            }
+            Action::Angle { joint, law } => {
+                let of_joint = |seat: &&Seat| seat.branch.joint == Some(*joint);
+                let Some(seat) = self.seats.iter().find(of_joint) else { return };
+                Load::Angle { link: seat.link, law: *law }
+            }
+            Action::Constant { at, force } => {
+                let (link, point) = self.seat_point(BodyRef::Body(at.0), at.1);
+                Load::Constant { link, point, force: S::point_from(&Vector::from(*force)) }
+            }
+            Action::Force { at, course, turns } => {
+                let (link, point) = self.seat_point(BodyRef::Body(at.0), at.1);
+                Load::Force { link, point, course: *course, turns: *turns }
+            }
+            Action::Torque { body, course } => {
+                Load::Torque { link: self.link_of_body[*body], course: *course }
+            }
+            Action::OnBody { at, axis, law } => {
+                let (link, point) = self.seat_point(BodyRef::Body(at.0), at.1);
+                Load::OnBody(OnBody { link, point, axis: *axis, law: *law })
+            }
+        };
+        if !load.is_idle() {
+            self.loads.push(load);
         }
     }
 
-    fn course(&mut self, course: &Course<T>) -> u32 {
-        self.courses.push(CourseInput::new(course));
-        index(self.courses.len() - 1)
-    }
-
-    fn add_angle(&mut self, joint: usize, law: Law<T>) {
-        if let Some(seat) = self.seats.iter().find(|seat| seat.branch.joint == Some(joint)) {
-            self.loads.push(Load::Angle { link: seat.link, law });
-        }
+    /// Links and points of two places.
+    fn ends(&self, ends: &[actions::Seat<T>; 2]) -> ([u32; 2], [S::Point; 2]) {
+        let [first, second] = ends.map(|(body, at)| self.seat_point(body, at));
+        ([first.0, second.0], [first.1, second.1])
     }
 }

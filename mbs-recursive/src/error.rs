@@ -1,5 +1,7 @@
 //! Scenes that cannot be made into a tree, and what cannot be asked of one.
 
+use mbs_core::actions::ActionError;
+
 /// Why a scene has no tree.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -18,6 +20,8 @@ pub enum TreeError {
         /// `scene.joints[joint]`.
         joint: usize,
     },
+    /// An effect gives no actions.
+    Effect(ActionError),
     /// A body without mass at the end of a branch: its joint meets no inertia.
     MasslessEnd {
         /// `scene.bodies[body]`.
@@ -42,6 +46,7 @@ impl core::fmt::Display for TreeError {
                 f,
                 "joint {joint} of effect {effect} would have to be cut, all joints of its loop having effects or guides: try index-3"
             ),
+            Self::Effect(error) => write!(f, "{error}"),
             Self::MasslessEnd { body } => write!(
                 f,
                 "body {body} has no mass and ends a branch, so that its joint meets no inertia: give it mass, or replace a massless link with two balls by a distance joint"
@@ -54,6 +59,12 @@ impl core::fmt::Display for TreeError {
 }
 
 impl core::error::Error for TreeError {}
+
+impl From<ActionError> for TreeError {
+    fn from(error: ActionError) -> Self {
+        Self::Effect(error)
+    }
+}
 
 /// What a closed mechanism has no unique answer for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,7 +4,7 @@
 //! joint that comes first in this order (Prim), so that it depends on the scene alone:
 //!
 //! 1. guided joints, since their motion is prescribed;
-//! 2. joints with a torsion spring or a torque, since these act along a coordinate;
+//! 2. revolute joints with an effect about their axis, since it acts along a coordinate;
 //! 3. joints of bodies without mass, so that these end no branch where that can be avoided;
 //! 4. joints with few freedoms, so that few equations are left where the others are cut;
 //! 5. joints near the ground; joints named first.
@@ -16,8 +16,9 @@ use crate::error::TreeError;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
+use mbs_core::actions::{Action, Actions};
 use mbs_core::cluster::Clusters;
-use mbs_core::scene::{BodyRef, EffectKind, JointKind, Scene};
+use mbs_core::scene::{BodyRef, JointKind, Scene};
 
 /// A step of the tree: a cluster and the joint it hangs by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,10 +51,14 @@ struct Edge {
 }
 
 /// Finds the spanning tree.
-pub(crate) fn span<T: Real>(scene: &Scene<T>, clusters: &Clusters<T>) -> Result<Graph, TreeError> {
+pub(crate) fn span<T: Real>(
+    scene: &Scene<T>,
+    actions: &Actions<T>,
+    clusters: &Clusters<T>,
+) -> Result<Graph, TreeError> {
     let ground = clusters.clusters.len();
     let node = |body: BodyRef| clusters.of(body).unwrap_or(ground);
-    let edges = edges(scene, clusters, node);
+    let edges = edges((scene, actions), clusters, node);
     let mut depth = vec![usize::MAX; ground + 1];
     depth[ground] = 0;
     let mut branches = Vec::new();
@@ -78,7 +83,7 @@ pub(crate) fn span<T: Real>(scene: &Scene<T>, clusters: &Clusters<T>) -> Result<
         if is_inner || matches!(joint.kind, JointKind::Free | JointKind::Weld) {
             continue;
         }
-        if let Some(effect) = effect_of(scene, j) {
+        if let Some(effect) = effect_of(actions, j) {
             return Err(TreeError::EffectCut { effect, joint: j });
         }
         cuts.push(j);
@@ -87,7 +92,7 @@ pub(crate) fn span<T: Real>(scene: &Scene<T>, clusters: &Clusters<T>) -> Result<
 }
 
 fn edges<T: Real>(
-    scene: &Scene<T>,
+    (scene, actions): (&Scene<T>, &Actions<T>),
     clusters: &Clusters<T>,
     node: impl Fn(BodyRef) -> usize,
 ) -> Vec<Edge> {
@@ -105,7 +110,7 @@ fn edges<T: Real>(
             .all(|&c| clusters.clusters.get(c).is_none_or(|cluster| cluster.mass > T::ZERO));
         let rank = (
             is_free_of_guides,
-            effect_of(scene, j).is_none(),
+            effect_of(actions, j).is_none(),
             is_massive,
             joint.kind.n_coordinates(scene.dimension),
         );
@@ -114,16 +119,10 @@ fn edges<T: Real>(
     edges
 }
 
-/// The first enabled effect that acts along a joint's coordinate.
-fn effect_of<T: Real>(scene: &Scene<T>, joint: usize) -> Option<usize> {
-    scene.effects.iter().position(|effect| {
-        effect.enabled
-            && match &effect.kind {
-                EffectKind::TorsionSpring { joint: j, .. }
-                | EffectKind::JointTorque { joint: j, .. } => *j == joint,
-                _ => false,
-            }
-    })
+/// The first effect that acts along a joint's coordinate.
+fn effect_of<T: Real>(actions: &Actions<T>, joint: usize) -> Option<usize> {
+    let acts = |action: &Action<T>| matches!(action, Action::Angle { joint: j, .. } if *j == joint);
+    actions.list.iter().find(|(_, action)| acts(action)).map(|(effect, _)| *effect)
 }
 
 /// Adds branches until no edge leads out of the tree.

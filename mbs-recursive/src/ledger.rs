@@ -8,7 +8,7 @@ use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
 /// Kinetic energy [J]: ½ Σ Zᵀ M Z.
-pub(crate) fn kinetic<T: Real, S: Space<T>>(links: &[Link<T, S>], placed: &[Placed<T, S>]) -> T {
+pub fn kinetic<T: Real, S: Space<T>>(links: &[Link<T, S>], placed: &[Placed<T, S>]) -> T {
     let mut twice = T::ZERO;
     for (link, p) in links.iter().zip(placed).skip(1) {
         let inertia = S::body_inertia(link.mass, &p.center, &link.tensor, &p.rotation);
@@ -18,22 +18,19 @@ pub(crate) fn kinetic<T: Real, S: Space<T>>(links: &[Link<T, S>], placed: &[Plac
 }
 
 /// Potential energy of gravity, springs and constant forces [J].
-pub(crate) fn potential<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
-    at: &Instant<'_, T, S>,
-) -> T {
+pub fn potential<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, at: &Instant<'_, T, S>) -> T {
     let mut energy = T::ZERO;
     for (link, p) in m.links.iter().zip(at.placed).skip(1) {
         energy -= m.gravity.dot(&(p.position + p.center + m.base)) * link.mass;
     }
     for load in m.loads {
-        energy += load.potential(at, &m.base);
+        energy += load.potential(at);
     }
     energy
 }
 
 /// Power that enters [W], at the place, accelerations and multipliers of the store.
-pub(crate) fn power<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, s: &mut Store<'_, T, S>) -> T {
+pub fn power<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, s: &mut Store<'_, T, S>) -> T {
     let mut power = T::ZERO;
     for load in m.loads {
         power += load.power(&s.instant(m));

@@ -14,7 +14,7 @@ pub mod explicit;
 mod graph;
 pub mod inverse;
 pub mod joint;
-mod ledger;
+pub mod ledger;
 pub mod link;
 pub mod loads;
 pub mod loops;
@@ -39,6 +39,7 @@ mod tree;
 
 #[cfg(feature = "alloc")]
 pub use error::{LoopError, TreeError};
+pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use options::{Closure, Options};
 #[cfg(feature = "alloc")]
 pub use run::{rk4_step, rk54_step, step};

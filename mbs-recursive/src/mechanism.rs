@@ -5,6 +5,7 @@ use crate::loads::{Instant, Load};
 use crate::loops::{LoopStore, Loops};
 use crate::space::Space;
 use mbs_core::Real;
+use mbs_core::laws::Supplies;
 
 /// A mechanism in relative coordinates: constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +16,8 @@ pub struct Mechanism<'a, T: Real, S: Space<T>> {
     pub loops: Loops<'a, T, S>,
     /// The effects.
     pub loads: &'a [Load<T, S>],
+    /// Tables of their laws, without courses: these are of an instant.
+    pub tables: Supplies<'a, T>,
     /// Acceleration of gravity [m/s^2].
     pub gravity: S::Point,
     /// The point that positions are counted from, global axes [m].
@@ -90,7 +93,8 @@ impl<'a, T: Real, S: Space<T>> Store<'a, T, S> {
             links: m.links,
             placed: self.placed,
             coordinates: (self.z, self.v, self.guides),
-            courses: self.courses,
+            supplies: Supplies { courses: self.courses, ..m.tables },
+            base: m.base,
         }
     }
 }

@@ -19,6 +19,8 @@ pub struct Options<T> {
     pub closure: Closure<T>,
     /// Error of one step with error control, relative and absolute [-].
     pub error: T,
+    /// First step tried with error control [s]; the whole length asked for where left out.
+    pub first_step: Option<T>,
     /// ε in Λ + ε, relative to the rows' own scale [-].
     pub regularisation: T,
 }
@@ -57,6 +59,7 @@ impl<T: Real> Default for Options<T> {
             max_sweeps: 30,
             closure: Closure::Constraints,
             error: T::from_f64(1e-8).max(T::EPSILON * T::from_f64(64.0)),
+            first_step: None,
             regularisation: T::EPSILON.sqrt() * T::from_f64(1.0 / 256.0),
         }
     }
@@ -74,9 +77,9 @@ impl<T: Real> Options<T> {
                 [("alpha", alpha), ("omega", omega), ("mu", mu)]
             }
         };
-        for (name, value) in
-            closure.into_iter().chain([("tolerance", self.tolerance), ("error", self.error)])
-        {
+        let first_step = self.first_step.map(|step| ("first_step", step));
+        let others = [("tolerance", self.tolerance), ("error", self.error)];
+        for (name, value) in closure.into_iter().chain(others).chain(first_step) {
             if !(value > T::ZERO && value.is_finite()) {
                 return Err(OptionError::NotPositive(name));
             }

@@ -67,8 +67,10 @@ pub fn rk4_step<T: Real, S: Space<T>>(
     Ok(report)
 }
 
-/// Advances `state` by exactly `dt` [s] with the pair 5(4) of Dormand and Prince, in as many steps as `options.error` asks for;
-/// the workspace remembers the last good one.
+/// Advances `state` by exactly `dt` [s] with the pair 5(4) of Dormand and Prince, in as many steps as `options.error` asks for.
+///
+/// The first step tried is `options.first_step`; the workspace remembers the last good one for the next call. No step is longer
+/// than `dt`.
 ///
 /// Cost: see [`explicit::rk54`]; no allocation.
 ///
@@ -76,7 +78,7 @@ pub fn rk4_step<T: Real, S: Space<T>>(
 /// [`StepError`]; the state is then unchanged.
 ///
 /// # Panics
-/// If `dt` is not positive and finite.
+/// If `dt` or the first step is not positive and finite.
 pub fn rk54_step<T: Real, S: Space<T>>(
     model: &TreeModel<T, S>,
     dt: T,
@@ -86,7 +88,9 @@ pub fn rk54_step<T: Real, S: Space<T>>(
 ) -> Result<StepReport<T>, StepError> {
     let m = model.mechanism();
     let (mut s, scratch) = workspace.parts();
-    let driver = scratch.driver.get_or_insert_with(|| Adaptive::new(Tableau::dormand_prince(), dt));
+    let first_step = options.first_step.unwrap_or(dt);
+    let driver =
+        scratch.driver.get_or_insert_with(|| Adaptive::new(Tableau::dormand_prince(), first_step));
     let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
     let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
     let report = explicit::rk54(&m, model, (dt, options, driver), memory, &mut s)?;

@@ -258,7 +258,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 
     /// Number of independent equations among those of the cut joints at a state: freedoms of the mechanism are
-    /// [`n_coordinates`](Self::n_coordinates) less this.
+    /// [`n_freedoms`](Self::n_freedoms) less this.
     ///
     /// # Errors
     /// [`StepError`] if the accelerations cannot be evaluated there.

@@ -14,6 +14,7 @@ use crate::space::{Numbers, Space};
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
+use mbs_core::actions::{Actions, Tables};
 use mbs_core::algebra::{Matrix, Vector, cross, norm};
 use mbs_core::cluster::{Cluster, Clusters, scene_length};
 use mbs_core::inputs::{CourseInput, GuideInput};
@@ -51,6 +52,7 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) loads: Vec<Load<T, S>>,
     pub(crate) guides: Vec<GuideInput<T>>,
     pub(crate) courses: Vec<CourseInput<T>>,
+    pub(crate) tables: Tables<T>,
     pub(crate) gravity: S::Point,
     /// What positions are counted from [m].
     pub(crate) base: Vector<T, 3>,
@@ -82,7 +84,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             return Err(TreeError::Dimension);
         }
         let clusters = Clusters::new(scene);
-        let graph = span(scene, &clusters)?;
+        let actions = Actions::new(scene)?;
+        let graph = span(scene, &actions, &clusters)?;
         let mut tree = Self::ground(scene, clusters);
         for branch in &graph.branches {
             tree.add_branch(scene, *branch);
@@ -94,7 +97,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         let Self { links, loops, .. } = &mut tree;
         tree.order = Order::new(links, loops);
-        tree.add_loads(scene);
+        tree.add_loads(actions);
         Ok(tree)
     }
 
@@ -132,6 +135,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             loads: Vec::new(),
             guides: scene.guides.iter().map(|guide| GuideInput::new(&guide.law)).collect(),
             courses: Vec::new(),
+            tables: Tables::empty(),
             gravity: scene.gravity.map_or_else(S::Point::zero, |g| S::point_from(&Vector::from(g))),
             base,
             length,
@@ -284,12 +288,17 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
     }
 
-    /// A point of a body: its link, and the place from the link's origin.
-    pub(crate) fn seat_point(&self, body: BodyRef, at: [T; 3]) -> (u32, S::Point) {
-        let link = match body {
+    /// The link that carries a body.
+    pub(crate) fn link(&self, body: BodyRef) -> u32 {
+        match body {
             BodyRef::Ground => 0,
             BodyRef::Body(i) => self.link_of_body[i],
-        };
+        }
+    }
+
+    /// A point of a body: its link, and the place from the link's origin.
+    pub(crate) fn seat_point(&self, body: BodyRef, at: [T; 3]) -> (u32, S::Point) {
+        let link = self.link(body);
         (link, S::point_from(&(Vector::from(at) - self.origins[link as usize])))
     }
 
@@ -305,6 +314,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 floor: self.floor,
             },
             loads: &self.loads,
+            tables: self.tables.supplies(&[]),
             gravity: self.gravity,
             base: S::point_from(&self.base),
             length: self.length,

@@ -50,6 +50,20 @@ fn a_tighter_error_makes_a_smaller_energy_error() {
 }
 
 #[test]
+fn error_control_begins_with_the_first_step_and_stays_within_the_length_asked_for() {
+    let steps = |first_step| {
+        let mut run = Run::<Planar>::new::<2>(&file("double-pendulum"));
+        // Every step passes, and the next one is five times as long.
+        (run.options.error, run.options.first_step) = (1e6, first_step);
+        let report = run.rk54(0.1).expect("a step");
+        assert_eq!((report.rejected, run.state.t.to_bits()), (0, 0.1_f64.to_bits()));
+        report.steps
+    };
+    // 0.1; 0.01, 0.05, 0.04; 0.001, 0.005, 0.025, 0.069; 0.1
+    assert_eq!([None, Some(0.01), Some(0.001), Some(0.7)].map(steps), [1, 3, 4, 1]);
+}
+
+#[test]
 fn the_redundant_loop_of_the_spatial_four_bar_has_its_rank() {
     let mut run = Run::<Spatial>::new::<3>(&file("spatial-four-bar"));
     let rank = run.model.rank(&run.state, &mut run.workspace).expect("regular");

@@ -46,7 +46,9 @@ impl<T: Real> Workspace<T> {
         if is_tangent {
             self.turn_to_chart()?;
         }
-        model.evaluate_phi_t(&self.q, &mut self.terms);
+        if model.has_guides() {
+            model.evaluate_phi_t(&self.q, &mut self.terms);
+        }
         self.velocity_rates(model);
         self.solve();
         add_dependent(self.elimination.dependent(), &self.change, &mut self.v);

@@ -2,7 +2,9 @@
 
 use crate::words::few;
 
+use mbs_core::actions::ActionError;
 use mbs_core::model::Owner;
+use mbs_core::natural::ModelError;
 use mbs_core::outputs::ReactionError;
 use mbs_core::scene::{BodyRef, Entry, Scene};
 use mbs_core::start::AssemblyError;
@@ -101,6 +103,7 @@ impl StopError {
             TreeError::GuideCut { joint } | TreeError::EffectCut { joint, .. } => {
                 Some(Owner::Joint(joint))
             }
+            TreeError::Effect(ActionError::LeftOut { effect, .. }) => Some(Owner::Effect(effect)),
             TreeError::MasslessEnd { body } => Some(Owner::Body(body)),
             TreeError::NoInertia { owner } => Some(owner),
             _ => None,
@@ -155,6 +158,7 @@ impl StopError {
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self {
+            Self::Start(AssemblyError::Model(ModelError::LeftOut { .. })) => "set enabled = false",
             Self::Start(AssemblyError::Model(_)) => "check the data of the body",
             Self::Start(AssemblyError::Position { .. }) => {
                 "check the places of the joints, and that held values and guides fit together"
@@ -185,6 +189,7 @@ impl StopError {
             Self::Tree(TreeError::GuideCut { .. } | TreeError::EffectCut { .. }, _) => {
                 "leave one of the guides or joint effects of the loop out, or try index-3"
             }
+            Self::Tree(TreeError::Effect(_), _) => "set enabled = false",
             Self::Tree(..) => "give the body mass and inertia, or try index-3",
             Self::Energy { .. } => {
                 "try a smaller step; if it always stops here, the mechanism locks, or cannot follow its guides"
@@ -226,7 +231,6 @@ impl StopError {
 }
 
 fn start_owner(error: &AssemblyError) -> Option<Owner> {
-    use mbs_core::natural::ModelError;
     match error {
         AssemblyError::Position { owner, .. }
         | AssemblyError::Velocity { owner, .. }
@@ -235,6 +239,7 @@ fn start_owner(error: &AssemblyError) -> Option<Owner> {
         AssemblyError::Model(ModelError::Basis { body } | ModelError::NoRotation { body }) => {
             Some(Owner::Body(*body))
         }
+        AssemblyError::Model(ModelError::LeftOut { effect, .. }) => Some(Owner::Effect(*effect)),
         _ => None,
     }
 }

@@ -154,7 +154,8 @@ fn not_started<T: Real, S: Space<T>>(error: StartError, model: &TreeModel<T, S>)
 }
 
 fn options<T: Real>(settings: &Settings) -> Options<T> {
-    let mut options = Options::default();
+    let first_step = Some(T::from_f64(settings.step));
+    let mut options = Options { first_step, ..Options::default() };
     if !settings.integrator.is_explicit() {
         options.integrator = settings.integrator.coefficients();
     }

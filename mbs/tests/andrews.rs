@@ -103,3 +103,26 @@ fn andrews_keeps_its_energy_with_order_2_and_its_symmetry() {
         }
     }
 }
+
+/// Beta at a step of 1e-6 [rad]: twice the trapezoidal rule's own error.
+const BETA_AT_1E_6: f64 = 5e-6;
+
+#[test]
+fn every_formulation_ends_at_the_reference_and_loses_energy_with_order_2() {
+    let scene = scene("andrews");
+    for formulation in ["index-1", "index-3", "classical", "state-space", "recursive"] {
+        let energy = [1e-4, 1e-5, 1e-6].map(|step| {
+            let settings = settings(&scene, formulation, Some(step));
+            let outcome = mbs::run::<f64, 2>(&scene, &settings, &mut ());
+            assert!(outcome.error.is_none(), "{formulation} {step}: {:?}", outcome.error);
+            outcome.summary.energy.max_error
+        });
+        let beta = errors(formulation, 1e-6)[0];
+        println!("andrews {formulation}: {energy:?} J, beta off by {beta:.3e} rad");
+        assert!(beta <= BETA_AT_1E_6, "{formulation}: beta off by {beta:e} rad");
+        for pair in energy.windows(2) {
+            let order = (pair[0] / pair[1]).log10();
+            assert!((order - 2.0).abs() < 0.05, "{formulation}: order {order}");
+        }
+    }
+}

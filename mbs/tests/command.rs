@@ -258,6 +258,18 @@ fn what_is_not_built_is_refused_with_the_list_of_what_is() {
 }
 
 #[test]
+fn error_control_begins_with_the_step_and_never_exceeds_the_largest() {
+    let solver = "duration = 0.1\n\n[solver]\nintegrator = \"rk54\"\nstep_max = 0.1";
+    let scene = pendulum(&[("duration = 1.0", solver)]);
+    // Every step passes, and the next one is five times as long: 0.001, 0.005, 0.025, 0.069; 0.01, 0.05, 0.04; 0.1; 0.1.
+    for (step, steps) in [("0.001", 4), ("0.01", 3), ("0.1", 1), ("0.7", 1)] {
+        let arguments = ["--json", "--tolerance", "1e6", "--step", step];
+        let (output, _) = run_text("first-step", &scene, &arguments);
+        assert_eq!(json(&output)["steps"], steps, "{step}: {}", text(&output.stderr));
+    }
+}
+
+#[test]
 fn wrong_usage_and_missing_files_are_refused() {
     let file = scene("double-pendulum");
     for arguments in [

@@ -1,5 +1,6 @@
 //! `cargo xtask test`: every check of this repository, in order, up to the first failure.
 
+use crate::counts;
 use crate::documentation;
 use crate::nostd;
 use crate::pick;
@@ -7,11 +8,24 @@ use crate::process::{self, cargo, run};
 use crate::summary::{LeftOut, Outcome, Summary};
 use std::process::{Command, ExitCode};
 
-/// Feature sets of mbs-core that must build on the host, as arguments of cargo.
-const CORE_FEATURES: [(&str, &[&str]); 3] = [
-    ("none", &["--no-default-features"]),
-    ("alloc", &["--no-default-features", "--features", "alloc"]),
-    ("std", &["--no-default-features", "--features", "std"]),
+/// Crates with features, and the sets of them that must build on the host.
+const FEATURES: [(&str, &[&str]); 2] = [
+    // Of the effects: laws with tables, laws that share a file, laws of both kinds, and all without scenes.
+    (
+        "mbs-core",
+        &[
+            "",
+            "alloc",
+            "std",
+            "alloc,polynomial",
+            "alloc,limit,friction",
+            "alloc,bushing,bumper",
+            "alloc,tire,speed-hold",
+            "alloc,own-laws,drag",
+            "effects",
+        ],
+    ),
+    ("mbs-recursive", &["", "alloc", "alloc,tire", "alloc,effects"]),
 ];
 
 /// Runs every check and prints the summary; exit status 1 at the first failure.
@@ -48,9 +62,15 @@ fn checks(quick: bool, summary: &mut Summary) -> Result<(), String> {
     } else {
         summary.check("documentation", documentation::check)?;
     }
-    summary.check("features", || core_features(quick))?;
+    summary.check("features", || features(quick))?;
     summary.check("pick", pick::check)?;
-    summary.check("check-nostd", nostd::check)
+    summary.check("check-nostd", nostd::check)?;
+    if quick {
+        summary.skip("counts", "--quick");
+        Ok(())
+    } else {
+        summary.check("counts", counts::check)
+    }
 }
 
 /// Runs a command whose success is all that counts.
@@ -69,18 +89,24 @@ fn component(subcommand: &str, name: &str, args: &[&str]) -> Result<Outcome, Str
     passed(cargo().args(args))
 }
 
-/// Checks mbs-core with each of its feature sets alone: with lints, or the compiler only when quick.
-fn core_features(quick: bool) -> Result<Outcome, String> {
+/// Checks crates with each of their feature sets alone: with lints, or the compiler only when quick.
+fn features(quick: bool) -> Result<Outcome, String> {
     let lints = !quick && process::output(cargo().args(["clippy", "--version"])).is_some();
-    for (_, features) in CORE_FEATURES {
-        let mut command = cargo();
-        command.args([if lints { "clippy" } else { "check" }, "--quiet", "--package", "mbs-core"]);
-        command.args(features);
-        if lints {
-            command.args(["--", "--deny", "warnings"]);
+    for (package, sets) in FEATURES {
+        for set in sets {
+            let mut command = cargo();
+            command.args([if lints { "clippy" } else { "check" }, "--quiet", "--package", package]);
+            command.args(["--no-default-features", "--features", set]);
+            if lints {
+                command.args(["--", "--deny", "warnings"]);
+            }
+            run(command.current_dir(process::root()))?;
         }
-        run(command.current_dir(process::root()))?;
     }
-    let names = CORE_FEATURES.map(|(name, _)| name);
-    Ok(Outcome::Passed(format!("mbs-core with {}", names.join(", "))))
+    let names = |sets: &[&str]| {
+        let names = sets.iter().map(|set| if set.is_empty() { "none" } else { set });
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let remarks = FEATURES.map(|(package, sets)| format!("{package} with {}", names(sets)));
+    Ok(Outcome::Passed(remarks.join("; ")))
 }

@@ -1,6 +1,7 @@
 //! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates, regenerate tables.
 
 mod check;
+mod counts;
 mod documentation;
 mod nostd;
 mod pick;
@@ -49,6 +50,8 @@ enum Job {
         #[arg(long)]
         quick: bool,
     },
+    /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
+    Counts,
     /// Cross-compile the no_std crates for a microcontroller, without and with alloc
     CheckNostd,
 }
@@ -59,6 +62,7 @@ fn main() -> ExitCode {
         Job::Test { quick } => check::test(quick),
         Job::Pick => pick::pick(),
         Job::Tables { quick } => tables::tables(quick),
+        Job::Counts => counts::counts(),
         Job::CheckNostd => nostd::check_nostd(),
     }
 }

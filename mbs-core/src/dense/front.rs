@@ -10,7 +10,7 @@
 //! Only the first `p` unknowns may become pivots. Those for which no test holds stay, for a front where more is known of
 //! them. A pivot that is rounding beside what it was the sum of is never taken: the sizes of those sums are carried along.
 //!
-//! A front of f unknowns is a lower triangle packed by columns; column j starts at [`column`]`(f, j)` with its diagonal.
+//! A front of f unknowns is a lower triangle packed by columns; column j starts at [`column()`] of (f, j) with its diagonal.
 //! Afterwards the columns of L stand below D^-1; a pair has its B^-1 in the triangle of its two columns.
 
 use crate::Real;

@@ -16,6 +16,7 @@ mod dot;
 mod guided;
 mod linear;
 
+#[cfg(feature = "alloc")]
 pub(crate) use combination::add_gradient;
 pub use combination::{Span, Term, combine};
 pub use distance::Distance;

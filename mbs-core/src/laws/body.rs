@@ -5,13 +5,11 @@
 //! action   force -f d at the point, moment -f m;   rate d.v + m.w
 //! ```
 
-use super::own::OwnWrench;
+use super::Supplies;
 use super::scalar::Measure;
-use super::speed_hold::SpeedHold;
-use super::tire::Tire;
-use super::{Supplies, drag};
 use crate::Real;
-use crate::algebra::{Vector, norm};
+use core::convert::Infallible;
+use core::marker::PhantomData;
 
 /// What a law sees of its body, global axes. In the plane z components of places are zero, and spin is about z.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,10 +35,14 @@ pub struct Action<T> {
     pub measure: Measure<T>,
 }
 
-/// A law on one body.
+/// A law on one body. Where no feature brings one there is no value of this type, and the compiler drops what would act on one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum BodyLaw<T> {
+    /// Nothing: cannot be made.
+    #[doc(hidden)]
+    Never(Infallible, PhantomData<T>),
     /// Drag of still air: C_d A [m^2] and density [kg/m^3].
+    #[cfg(feature = "drag")]
     Drag {
         /// C_d A [m^2].
         area_coefficient: T,
@@ -48,13 +50,16 @@ pub enum BodyLaw<T> {
         density: T,
     },
     /// A drive along the law's direction.
-    SpeedHold(SpeedHold<T>),
+    #[cfg(feature = "speed-hold")]
+    SpeedHold(super::speed_hold::SpeedHold<T>),
     /// A wheel about the law's direction.
-    Tire(Tire<T>),
+    #[cfg(feature = "tire")]
+    Tire(super::tire::Tire<T>),
     /// A user's own law.
+    #[cfg(feature = "own-laws")]
     Own {
         /// The law.
-        law: OwnWrench<T>,
+        law: super::own::OwnWrench<T>,
         /// Number of the course that is its input.
         course: u32,
     },
@@ -63,21 +68,43 @@ pub enum BodyLaw<T> {
 /// Actions that one law has at most.
 pub const MOST: usize = 4;
 
+impl<T> BodyLaw<T> {
+    /// The course that is the law's input, if it has one.
+    pub fn course(&self) -> Option<u32> {
+        match self {
+            #[cfg(feature = "own-laws")]
+            Self::Own { course, .. } => Some(*course),
+            _ => None,
+        }
+    }
+}
+
+#[cfg_attr(
+    not(feature = "effects"),
+    allow(unused_variables, reason = "not every law asks for everything")
+)]
 impl<T: Real> BodyLaw<T> {
     /// Number of actions.
     pub fn n_actions(&self) -> usize {
         match self {
-            Self::Drag { .. } | Self::SpeedHold(_) | Self::Own { .. } => 1,
+            Self::Never(never, _) => match *never {},
+            #[cfg(feature = "tire")]
             Self::Tire(tire) => tire.n_actions(),
+            #[cfg(any(feature = "drag", feature = "speed-hold", feature = "own-laws"))]
+            _ => 1,
         }
     }
 
     /// Does the law ask for the body's direction and spin, or give moments?
     pub fn needs_rotation(&self) -> bool {
         match self {
+            Self::Never(never, _) => match *never {},
+            #[cfg(feature = "drag")]
             Self::Drag { .. } => false,
-            Self::SpeedHold(_) | Self::Own { .. } => true,
+            #[cfg(feature = "tire")]
             Self::Tire(tire) => tire.n_actions() > 1,
+            #[cfg(any(feature = "speed-hold", feature = "own-laws"))]
+            _ => true,
         }
     }
 
@@ -89,30 +116,18 @@ impl<T: Real> BodyLaw<T> {
         out: &mut [Action<T>],
     ) {
         match self {
+            Self::Never(never, _) => match *never {},
+            #[cfg(feature = "drag")]
             Self::Drag { area_coefficient, density } => {
-                let velocity = Vector::<T, 3>::from(motion.velocity);
-                let speed = norm(&velocity);
-                // Without speed there is no drag and no direction.
-                let direction =
-                    if speed > T::ZERO { velocity * (T::ONE / speed) } else { Vector::zeros() };
-                let (tension, damping) = drag::drag(*area_coefficient, *density, speed);
-                let measure = Measure { rate: speed, tension, damping, ..Measure::default() };
-                out[0] = Action { force: direction.into(), moment: [T::ZERO; 3], measure };
+                out[0] = super::drag::action(*area_coefficient, *density, motion);
             }
-            Self::SpeedHold(hold) => {
-                let axis = Vector::<T, 3>::from(motion.axis);
-                let rate = axis.dot(&Vector::from(motion.velocity));
-                let (force, damping) = hold.force(rate);
-                let measure = Measure { rate, tension: -force, damping, ..Measure::default() };
-                out[0] = Action { force: motion.axis, moment: [T::ZERO; 3], measure };
-            }
+            #[cfg(feature = "speed-hold")]
+            Self::SpeedHold(hold) => out[0] = hold.action(motion),
+            #[cfg(feature = "tire")]
             Self::Tire(tire) => tire.evaluate(motion, supplies, out),
+            #[cfg(feature = "own-laws")]
             Self::Own { law, course } => {
-                let mut action = (law.evaluate)(motion, supplies.courses[*course as usize]);
-                let [force, moment] = [action.force, action.moment].map(Vector::<T, 3>::from);
-                action.measure.rate = force.dot(&Vector::from(motion.velocity))
-                    + moment.dot(&Vector::from(motion.spin));
-                out[0] = action;
+                out[0] = law.action(motion, supplies.courses[*course as usize]);
             }
         }
     }
@@ -120,6 +135,7 @@ impl<T: Real> BodyLaw<T> {
     /// Stored energy of an action [J].
     pub fn energy(&self, action: usize, measure: &Measure<T>) -> T {
         match self {
+            #[cfg(feature = "tire")]
             Self::Tire(tire) => tire.energy(action, measure),
             _ => T::ZERO,
         }
@@ -128,6 +144,7 @@ impl<T: Real> BodyLaw<T> {
     /// Power of an action that is not stored [W].
     pub fn power(&self, action: usize, measure: &Measure<T>) -> T {
         match self {
+            #[cfg(feature = "tire")]
             Self::Tire(tire) => tire.power(action, measure),
             _ => -measure.tension * measure.rate,
         }

@@ -1,20 +1,29 @@
 //! Laws as pure functions of numbers and slices: no allocation, no knowledge of scenes.
 //!
 //! One effect, one file. [`scalar`] gathers the laws along a length or about an angle, [`body`] those that act on one body and
-//! ask for its place, velocity and spin.
+//! ask for its place, velocity and spin. A law whose Cargo feature is off is not compiled; springs, dampers and given forces
+//! always are.
 
 pub mod body;
+#[cfg(any(feature = "bumper", feature = "limit", feature = "tire"))]
 pub mod bumper;
 pub mod calspan;
+#[cfg(feature = "drag")]
 pub mod drag;
+#[cfg(feature = "friction")]
 pub mod friction;
 pub mod guide;
+#[cfg(feature = "limit")]
 pub mod limit;
 pub mod own;
+#[cfg(feature = "polynomial")]
 pub mod polynomial;
+#[cfg(feature = "tire")]
 pub mod road;
 pub mod scalar;
+#[cfg(feature = "speed-hold")]
 pub mod speed_hold;
+#[cfg(feature = "tire")]
 pub mod tire;
 
 use crate::Real;
@@ -37,15 +46,18 @@ impl Part {
 }
 
 /// What laws refer to by number: inputs at this instant, and tables that never change.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Supplies<'a, T> {
     /// The vectors of the courses at this instant.
     pub courses: &'a [[T; 3]],
     /// Pieces of polynomials.
+    #[cfg(feature = "polynomial")]
     pub pieces: &'a [polynomial::Piece<T>],
     /// Parts of roads.
+    #[cfg(feature = "tire")]
     pub features: &'a [road::Feature<T>],
     /// Points (x, z) of roads given by tables, and their curvatures.
+    #[cfg(feature = "tire")]
     pub knots: (&'a [[T; 2]], &'a [T]),
 }
 
@@ -53,6 +65,14 @@ impl<'a, T: Real> Supplies<'a, T> {
     /// Courses alone.
     #[must_use]
     pub fn courses(courses: &'a [[T; 3]]) -> Self {
-        Self { courses, pieces: &[], features: &[], knots: (&[], &[]) }
+        Self {
+            courses,
+            #[cfg(feature = "polynomial")]
+            pieces: &[],
+            #[cfg(feature = "tire")]
+            features: &[],
+            #[cfg(feature = "tire")]
+            knots: (&[], &[]),
+        }
     }
 }

@@ -10,6 +10,8 @@
 
 use super::body::{Action, BodyMotion};
 use super::scalar::Measure;
+#[cfg(feature = "own-laws")]
+use crate::algebra::Vector;
 
 /// A law along a length or about an angle.
 pub trait ScalarLaw<T> {
@@ -49,6 +51,8 @@ impl<T> OwnScalar<T> {
 impl<T> PartialEq for OwnScalar<T> {
     fn eq(&self, other: &Self) -> bool {
         core::ptr::fn_addr_eq(self.evaluate, other.evaluate)
+            && core::ptr::fn_addr_eq(self.energy, other.energy)
+            && core::ptr::fn_addr_eq(self.elastic, other.elastic)
     }
 }
 
@@ -69,6 +73,18 @@ impl<T> OwnWrench<T> {
     #[must_use]
     pub fn of<L: WrenchLaw<T>>() -> Self {
         Self { evaluate: L::evaluate }
+    }
+}
+
+#[cfg(feature = "own-laws")]
+impl<T: crate::Real> OwnWrench<T> {
+    /// The law at a motion, with the rate of its wrench.
+    pub(crate) fn action(&self, motion: &BodyMotion<T>, input: [T; 3]) -> Action<T> {
+        let mut action = (self.evaluate)(motion, input);
+        let [force, moment] = [action.force, action.moment].map(Vector::<T, 3>::from);
+        action.measure.rate =
+            force.dot(&Vector::from(motion.velocity)) + moment.dot(&Vector::from(motion.spin));
+        action
     }
 }
 

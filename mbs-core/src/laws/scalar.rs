@@ -10,10 +10,7 @@
 //!
 //! A positive tension pulls the ends together: the generalised force is -f dm/dq.
 
-use super::friction::Friction;
-use super::limit::Limit;
-use super::own::OwnScalar;
-use super::{Part, Supplies, bumper, polynomial};
+use super::Supplies;
 use crate::Real;
 
 /// The state of one scalar force law: a tension along a measured length or angle.
@@ -53,13 +50,15 @@ pub enum Law<T> {
         course: u32,
     },
     /// A piecewise polynomial of the value or of the rate.
+    #[cfg(feature = "polynomial")]
     Polynomial {
         /// Its pieces.
-        pieces: Part,
+        pieces: super::Part,
         /// Of the rate: a damper.
         of_rate: bool,
     },
     /// Pushes where the value has fallen below `touch`.
+    #[cfg(feature = "bumper")]
     Bumper {
         /// [N/m] and [N s/m].
         law: [T; 2],
@@ -67,18 +66,37 @@ pub enum Law<T> {
         touch: T,
     },
     /// Elastic stops.
-    Limit(Limit<T>),
+    #[cfg(feature = "limit")]
+    Limit(super::limit::Limit<T>),
     /// Friction.
-    Friction(Friction<T>),
+    #[cfg(feature = "friction")]
+    Friction(super::friction::Friction<T>),
     /// A user's own law.
+    #[cfg(feature = "own-laws")]
     Own {
         /// The law.
-        law: OwnScalar<T>,
+        law: super::own::OwnScalar<T>,
         /// Number of the course that is its input.
         course: u32,
     },
 }
 
+impl<T> Law<T> {
+    /// The course that the law follows, if it follows one.
+    pub fn course(&self) -> Option<u32> {
+        match self {
+            #[cfg(feature = "own-laws")]
+            Self::Own { course, .. } => Some(*course),
+            Self::Torque { course } => Some(*course),
+            _ => None,
+        }
+    }
+}
+
+#[cfg_attr(
+    not(feature = "effects"),
+    allow(unused_variables, reason = "not every law asks for everything")
+)]
 impl<T: Real> Law<T> {
     /// Tension and its tangents at a value and its rate.
     ///
@@ -97,18 +115,20 @@ impl<T: Real> Law<T> {
                 damping: *damping,
                 ..plain
             },
+            #[cfg(feature = "polynomial")]
             Self::Polynomial { pieces, of_rate } => {
                 let pieces = pieces.of(supplies.pieces);
                 if *of_rate {
-                    let (tension, slope) = polynomial::value(pieces, rate);
+                    let (tension, slope) = super::polynomial::value(pieces, rate);
                     Measure { tension, damping: slope.max(T::ZERO), ..plain }
                 } else {
-                    let (tension, slope) = polynomial::value(pieces, value);
+                    let (tension, slope) = super::polynomial::value(pieces, value);
                     Measure { tension, stiffness: slope.max(T::ZERO), ..plain }
                 }
             }
+            #[cfg(feature = "bumper")]
             Self::Bumper { law, touch } => {
-                let contact = bumper::contact(*law, *touch - value, -rate);
+                let contact = super::bumper::contact(*law, *touch - value, -rate);
                 Measure {
                     tension: -contact.force,
                     stiffness: contact.stiffness,
@@ -116,6 +136,7 @@ impl<T: Real> Law<T> {
                     ..plain
                 }
             }
+            #[cfg(feature = "limit")]
             Self::Limit(limit) => {
                 let contact = limit.tension(value, rate);
                 Measure {
@@ -125,10 +146,12 @@ impl<T: Real> Law<T> {
                     ..plain
                 }
             }
+            #[cfg(feature = "friction")]
             Self::Friction(friction) => {
                 let (tension, damping) = friction.force(rate);
                 Measure { tension, damping, ..plain }
             }
+            #[cfg(feature = "own-laws")]
             Self::Own { law, course } => {
                 let told = (law.evaluate)(value, rate, supplies.courses[*course as usize]);
                 Measure { value, rate, transverse: T::ZERO, drift: T::ZERO, ..told }
@@ -144,13 +167,21 @@ impl<T: Real> Law<T> {
                 let stretch = value - *free;
                 *stiffness * stretch * stretch * T::HALF
             }
+            #[cfg(feature = "polynomial")]
             Self::Polynomial { pieces, of_rate: false } => {
-                polynomial::energy(pieces.of(supplies.pieces), value)
+                super::polynomial::energy(pieces.of(supplies.pieces), value)
             }
-            Self::Bumper { law, touch } => bumper::energy(law[0], *touch - value),
+            #[cfg(feature = "bumper")]
+            Self::Bumper { law, touch } => super::bumper::energy(law[0], *touch - value),
+            #[cfg(feature = "limit")]
             Self::Limit(limit) => limit.energy(value),
+            #[cfg(feature = "own-laws")]
             Self::Own { law, course } => (law.energy)(value, supplies.courses[*course as usize]),
-            Self::Torque { .. } | Self::Polynomial { .. } | Self::Friction(_) => T::ZERO,
+            #[cfg(feature = "polynomial")]
+            Self::Polynomial { .. } => T::ZERO,
+            #[cfg(feature = "friction")]
+            Self::Friction(_) => T::ZERO,
+            Self::Torque { .. } => T::ZERO,
         }
     }
 
@@ -161,14 +192,22 @@ impl<T: Real> Law<T> {
         // What of the tension is elastic.
         let elastic = match self {
             Self::SpringDamper { damping, .. } => return -*damping * rate * rate,
+            #[cfg(feature = "polynomial")]
             Self::Polynomial { of_rate: false, .. } => return T::ZERO,
+            #[cfg(feature = "bumper")]
             Self::Bumper { law, touch } => -law[0] * (*touch - value).max(T::ZERO),
+            #[cfg(feature = "limit")]
             Self::Limit(limit) => {
                 let above = (value - limit.upper).max(T::ZERO);
                 limit.stiffness * (above - (limit.lower - value).max(T::ZERO))
             }
+            #[cfg(feature = "own-laws")]
             Self::Own { law, course } => (law.elastic)(value, supplies.courses[*course as usize]),
-            Self::Torque { .. } | Self::Polynomial { .. } | Self::Friction(_) => T::ZERO,
+            #[cfg(feature = "polynomial")]
+            Self::Polynomial { .. } => T::ZERO,
+            #[cfg(feature = "friction")]
+            Self::Friction(_) => T::ZERO,
+            Self::Torque { .. } => T::ZERO,
         };
         (elastic - tension) * rate
     }

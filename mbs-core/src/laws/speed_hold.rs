@@ -7,7 +7,10 @@
 //! The saturation is smooth, so that the force has a derivative everywhere; below a third of the limit it is the gain to
 //! within 5 %.
 
+use super::body::{Action, BodyMotion};
+use super::scalar::Measure;
 use crate::Real;
+use crate::algebra::Vector;
 
 /// A speed hold.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,6 +30,15 @@ impl<T: Real> SpeedHold<T> {
         let x = self.gain * (self.speed - speed) / self.limit;
         let root = (T::ONE + x * x).sqrt();
         (self.limit * x / root, self.gain / (root * root * root))
+    }
+
+    /// The force on a body along the law's direction.
+    pub(crate) fn action(&self, motion: &BodyMotion<T>) -> Action<T> {
+        let axis = Vector::<T, 3>::from(motion.axis);
+        let rate = axis.dot(&Vector::from(motion.velocity));
+        let (force, damping) = self.force(rate);
+        let measure = Measure { rate, tension: -force, damping, ..Measure::default() };
+        Action { force: motion.axis, moment: [T::ZERO; 3], measure }
     }
 }
 

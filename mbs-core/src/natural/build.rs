@@ -28,13 +28,14 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         if scene.dimension.count() != D {
             return Err(ModelError::Dimension);
         }
-        let mut builder = Builder::new(scene)?;
+        let actions = Actions::new(scene)?;
+        let mut builder = Builder::new(scene, &actions)?;
         builder.add_bodies();
         for joint in 0..scene.joints.len() {
             builder.add_joint(joint);
         }
         builder.add_guides();
-        builder.add_effects()?;
+        builder.add_effects(actions)?;
         Ok(finish(builder))
     }
 }
@@ -57,7 +58,7 @@ pub(super) struct Builder<'a, T: Real> {
 }
 
 impl<'a, T: Real> Builder<'a, T> {
-    fn new(scene: &'a Scene<T>) -> Result<Self, ModelError> {
+    fn new(scene: &'a Scene<T>, actions: &Actions<T>) -> Result<Self, ModelError> {
         let length = scene_length(scene);
         let clusters = Clusters::new(scene);
         let Sharing { mut entities, of_cluster: shared } = Sharing::new(scene, &clusters, length);
@@ -66,7 +67,7 @@ impl<'a, T: Real> Builder<'a, T> {
             let basis = match (scene.dimension, &cluster.rod) {
                 (Dimension::Planar, _) => Basis::planar(cluster, &shared[c], &mut entities),
                 (Dimension::Spatial, Some(ends))
-                    if stays_rod(scene, cluster.bodies[0], ends, length) =>
+                    if stays_rod((scene, actions), cluster.bodies[0], ends, length) =>
                 {
                     Basis::rod(ends, &shared[c], &mut entities)
                 }
@@ -167,7 +168,12 @@ impl<'a, T: Real> Builder<'a, T> {
 }
 
 /// May a spatial rod stay two points? Only balls hold it, every point used lies on it, nothing needs its spin.
-fn stays_rod<T: Real>(scene: &Scene<T>, body: usize, ends: &[Vector<T, 3>; 2], length: T) -> bool {
+fn stays_rod<T: Real>(
+    (scene, actions): (&Scene<T>, &Actions<T>),
+    body: usize,
+    ends: &[Vector<T, 3>; 2],
+    length: T,
+) -> bool {
     let me = BodyRef::Body(body);
     let along = ends[1] - ends[0];
     let on_line = |p: &[T; 3]| {
@@ -191,7 +197,6 @@ fn stays_rod<T: Real>(scene: &Scene<T>, body: usize, ends: &[Vector<T, 3>; 2], l
         }
         InitialTarget::Joint { joint, .. } => !scene.joints[*joint].bodies.contains(&me),
     });
-    let actions = Actions::new(scene);
     let effects_allow = actions.list.iter().all(|(_, action)| match action {
         Action::Length { ends, .. } => ends.iter().all(|(b, p)| *b != me || on_line(p)),
         Action::Along { ends, .. } => ends[0].0 != me && (ends[1].0 != me || on_line(&ends[1].1)),

@@ -15,8 +15,7 @@ use alloc::vec::Vec;
 
 impl<T: Real> Builder<'_, T> {
     /// Adds one group for each enabled effect.
-    pub(super) fn add_effects(&mut self) -> Result<(), ModelError> {
-        let actions = Actions::new(self.scene);
+    pub(super) fn add_effects(&mut self, actions: Actions<T>) -> Result<(), ModelError> {
         for of_effect in actions.list.chunk_by(|a, b| a.0 == b.0) {
             let mut group = GroupDraft::new(Owner::Effect(of_effect[0].0));
             for (_, action) in of_effect {
@@ -52,7 +51,7 @@ impl<T: Real> Builder<'_, T> {
                 bodies.iter().try_for_each(|body| self.needs_rotation(*body))?;
                 let [a, b] = sides.map(Vector::<T, 3>::from);
                 let [first, second] = *bodies;
-                let sides = [(first, a), (second, b), (first, b), (second, a)];
+                let sides = [(first, b), (second, a), (first, a), (second, b)];
                 let x = sides.map(|(body, d)| self.direction(body, d));
                 EffectDraft::Twist { x, law: *law }
             }

@@ -1,5 +1,7 @@
 //! What can keep a checked scene from becoming a model.
 
+use crate::actions::ActionError;
+
 /// A scene that passed its checks but gives no model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -16,6 +18,21 @@ pub enum ModelError {
         /// The body.
         body: usize,
     },
+    /// The law of an enabled effect is not compiled.
+    LeftOut {
+        /// The effect.
+        effect: usize,
+        /// The Cargo feature of mbs-core that brings it.
+        feature: &'static str,
+    },
+}
+
+impl From<ActionError> for ModelError {
+    fn from(error: ActionError) -> Self {
+        match error {
+            ActionError::LeftOut { effect, feature } => Self::LeftOut { effect, feature },
+        }
+    }
 }
 
 impl core::fmt::Display for ModelError {
@@ -30,6 +47,9 @@ impl core::fmt::Display for ModelError {
                     f,
                     "a rod held by balls carries no rotation about itself: give the body a full inertia"
                 )
+            }
+            Self::LeftOut { effect, feature } => {
+                ActionError::LeftOut { effect: *effect, feature }.fmt(f)
             }
         }
     }

@@ -42,7 +42,7 @@ impl<T: Real> BodyElement<T> {
         supplies: &Supplies<'_, T>,
         (jacobian, measures): (&mut [T], &mut [Measure<T>]),
     ) {
-        let n = self.measures.len();
+        let n = self.law.n_actions();
         let rows = self.place.of_mut(jacobian);
         rows.fill(T::ZERO);
         let point = self.point.of(pool);

@@ -10,7 +10,7 @@
 
 use super::error::ReactionError;
 use super::frame::Frame;
-use super::load::Load;
+use super::load::Loads;
 use super::minimum_norm::MinimumNorm;
 use super::peel::{Block, peel};
 use super::wrench::{Carrier, Wrench};
@@ -34,7 +34,7 @@ pub struct Reactions<T: Real, const D: usize> {
     bodies: Vec<Balance<T, D>>,
     gravity: Vector<T, 3>,
     joints: Vec<Carrier<T, D>>,
-    loads: Vec<Load<T, D>>,
+    loads: Loads<T, D>,
     blocks: Vec<Block>,
     length: T,
     system: MinimumNorm<T>,
@@ -91,7 +91,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         Ok(Self {
             bodies: (0..scene.bodies.len()).map(|b| Balance::new(scene, model, b)).collect(),
             gravity: scene.gravity.map_or_else(Vector::zeros, Vector::from),
-            loads: Load::all(scene, model),
+            loads: Loads::new(scene, model).map_err(ModelError::from)?,
             length: model.length(),
             system: MinimumNorm::new(rows, columns),
             directions: Vec::with_capacity(columns),
@@ -158,10 +158,11 @@ impl<T: Real, const D: usize> Reactions<T, D> {
 
     fn apply_loads(&mut self, state: &State<T>) {
         let Self { bodies, loads, .. } = self;
-        for load in loads.iter() {
+        let (loads, supplies) = loads.at(state.t);
+        for load in loads {
             let mut given: [Option<super::load::Applied<T>>; 2] = [None, None];
             let turned = |body| rotation_of(bodies, body);
-            load.apply(state, turned, |applied| {
+            load.apply((state, &supplies), turned, |applied| {
                 let free = usize::from(given[0].is_some());
                 given[free] = Some(applied);
             });

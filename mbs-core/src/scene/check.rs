@@ -3,12 +3,14 @@
 //! Order: names, numbers and references of each entry, then what entries say about one another. Comparisons
 //! are written so that a NaN fails them.
 
+mod between;
 mod body;
 mod course;
 mod effect;
 mod joint;
 mod motion;
 mod output;
+mod own;
 mod polynomial;
 mod road;
 #[cfg(test)]

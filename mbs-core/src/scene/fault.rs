@@ -160,6 +160,7 @@ impl SceneFault {
         }
     }
 
+    #[allow(clippy::too_many_lines, reason = "one sentence for each fault")]
     fn problem(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotFinite => write!(f, "is infinite or not a number"),
@@ -216,12 +217,12 @@ impl SceneFault {
             }
             Self::PieceRange(i) => write!(f, "has no range in piece {}", i + 1),
             Self::PieceGap(i) => {
-                write!(f, "has piece {} not begin where piece {i} ends", i + 1)
+                write!(f, "has a gap or an overlap before piece {}", i + 1)
             }
             Self::CalspanRange => {
                 write!(f, "needs A0, A2, omega, B3 and skid above zero, and A4 not zero")
             }
-            Self::PointOrder(i) => write!(f, "has x not increase at point {}", i + 1),
+            Self::PointOrder(i) => write!(f, "has x that does not increase at point {}", i + 1),
             Self::LongRounding { rounding, most } => {
                 write!(f, "is {rounding}, which is more than half the length, {most}")
             }

@@ -2,6 +2,8 @@
 
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its part")]
 
+pub mod effects;
+
 use mbs_core::model::{Load, Model, Tangent, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Scene;

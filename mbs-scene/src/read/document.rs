@@ -102,6 +102,11 @@ impl Document {
     /// The place of a key's value, of the entry's header when the key is not written, or of the file's start.
     #[must_use]
     pub fn place(&self, entry: Entry, field: &str) -> Place {
+        Place::of(&self.text, self.item(entry, field).map_or(&(0..0), |item| &item.span))
+    }
+
+    /// A key's value, or the entry when the key is not written.
+    fn item<'a>(&'a self, entry: Entry, field: &str) -> Option<&'a Item> {
         let entries = |table: &str, i: usize| match &self.top(table)?.node {
             Node::List(items) => items.get(i),
             _ => None,
@@ -120,14 +125,11 @@ impl Document {
             Entry::Effect(i) => entries("effect", i),
             Entry::Output(i) => entries("output", i),
         };
-        let span = match item {
-            Some(Item { node: Node::Table(members), span }) => {
-                members.iter().find(|m| m.key == field).map_or(span, |m| &m.item.span)
-            }
-            Some(item) => &item.span,
-            None => &(0..0),
-        };
-        Place::of(&self.text, span)
+        let value = |members: &'a [Member]| members.iter().find(|m| m.key == field);
+        match &item?.node {
+            Node::Table(members) => value(members).map(|m| &m.item).or(item),
+            _ => item,
+        }
     }
 
     /// The file as it was named to [`Self::parse`].
@@ -179,7 +181,12 @@ impl Document {
     /// Also for scenes that were changed after reading (by a command line) and checked again.
     #[must_use]
     pub fn meaning(&self, error: SceneError) -> ReadError {
-        let place = self.place(error.entry, error.field);
+        let item = self.item(error.entry, error.field);
+        let row = match (item, row(error.fault)) {
+            (Some(Item { node: Node::List(rows), .. }), Some(i)) => rows.get(i),
+            _ => None,
+        };
+        let place = Place::of(&self.text, row.or(item).map_or(&(0..0), |item| &item.span));
         ReadError::new(&self.file, place, ReadFault::Scene(error))
     }
 
@@ -230,5 +237,17 @@ fn read_start(header: &Fields<'_>) -> Read<Start> {
         ("initial", _) => Ok(Start::Initial),
         ("equilibrium", _) => Ok(Start::Equilibrium),
         word => header.unknown_word("start", word, &["initial", "equilibrium"]),
+    }
+}
+
+/// The row of a list that a fault speaks about.
+fn row(fault: SceneFault) -> Option<usize> {
+    match fault {
+        SceneFault::TableOrder(row)
+        | SceneFault::PointOrder(row)
+        | SceneFault::PieceRange(row)
+        | SceneFault::PieceGap(row)
+        | SceneFault::PieceCoefficients { piece: row, .. } => Some(row),
+        _ => None,
     }
 }

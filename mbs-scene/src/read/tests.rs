@@ -4,7 +4,9 @@
 use crate::{Document, ReadError, ReadFault};
 use mbs_core::scene::*;
 
+mod effects;
 mod random;
+mod road;
 
 const PLANAR: &str = r#"[scene]
 name = "double pendulum"
@@ -209,16 +211,6 @@ fn unknown_words_are_refused_with_the_nearest_name() {
     refused(&e, "3:13", "unknown dimension `4`", "choices: 2, 3");
     let e = spoiled("phase = 0.0", "fase = 0.0");
     refused(&e, "42:45", "unknown key `fase`", "did you mean `phase`?");
-}
-
-#[test]
-fn what_is_not_built_says_what_is() {
-    let e = spoiled("kind = \"spring-damper\"", "kind = \"tire\"");
-    refused(&e, "46:8", "effect kind `tire` is not built yet", "built are: spring-damper, torque");
-    let e = spoiled("[solver]", "[road]\nkind = \"flat\"\n[solver]");
-    refused(&e, "59:2", "`[road]` is not built yet", "remove it");
-    let e = spoiled("duration = 10.0", "duration = 10.0\nstart = \"equilibrium\"");
-    refused(&e, "6:9", "`start = \"equilibrium\"` is not built yet", "remove it");
 }
 
 #[test]

@@ -62,10 +62,24 @@ pub(crate) fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy
     }
     for effect in &mut s.effects {
         match &mut effect.kind {
-            EffectKind::SpringDamper { points, .. } => *points = points.map(turn),
-            EffectKind::TorsionSpring { .. } | EffectKind::JointTorque { .. } => {}
+            EffectKind::SpringDamper { points, .. }
+            | EffectKind::Actuator { points, .. }
+            | EffectKind::Bumper { points, .. } => *points = points.map(turn),
+            EffectKind::Polynomial { points, direction, .. } => {
+                *points = points.map(turn);
+                *direction = direction.map(turn);
+            }
+            EffectKind::TorsionSpring { .. }
+            | EffectKind::JointTorque { .. }
+            | EffectKind::Limit { .. }
+            | EffectKind::Friction { .. } => {}
+            EffectKind::AeroDrag { at, .. } => *at = turn(*at),
+            EffectKind::SpeedHold { direction, .. } => *direction = turn(*direction),
             EffectKind::Force { .. } | EffectKind::BodyTorque { .. } => {
                 panic!("the turning of courses is not told here")
+            }
+            EffectKind::Bushing { .. } | EffectKind::Tire { .. } => {
+                panic!("the axes of a bushing and of a road are global: they do not turn")
             }
         }
     }
@@ -112,11 +126,20 @@ pub(crate) fn reorder(scene: &Scene<f64>) -> Scene<f64> {
     }
     for effect in &mut s.effects {
         match &mut effect.kind {
-            EffectKind::SpringDamper { bodies, .. } => bodies.iter_mut().for_each(renumber),
-            EffectKind::Force { body, .. } | EffectKind::BodyTorque { body, .. } => {
-                *body = n - 1 - *body;
-            }
-            EffectKind::TorsionSpring { .. } | EffectKind::JointTorque { .. } => {}
+            EffectKind::SpringDamper { bodies, .. }
+            | EffectKind::Actuator { bodies, .. }
+            | EffectKind::Polynomial { bodies, .. }
+            | EffectKind::Bumper { bodies, .. }
+            | EffectKind::Bushing { bodies, .. } => bodies.iter_mut().for_each(renumber),
+            EffectKind::Force { body, .. }
+            | EffectKind::BodyTorque { body, .. }
+            | EffectKind::AeroDrag { body, .. }
+            | EffectKind::SpeedHold { body, .. }
+            | EffectKind::Tire { body, .. } => *body = n - 1 - *body,
+            EffectKind::TorsionSpring { .. }
+            | EffectKind::JointTorque { .. }
+            | EffectKind::Limit { .. }
+            | EffectKind::Friction { .. } => {}
         }
     }
     s.outputs.clear();

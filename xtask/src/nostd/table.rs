@@ -14,9 +14,14 @@ pub(crate) struct Build {
 /// The builds, each made for every target.
 pub(crate) const BUILDS: &[Build] = &[
     Build { package: "mbs-core", features: &[], is_alloc: false },
+    Build { package: "mbs-core", features: &["effects"], is_alloc: false },
     Build { package: "mbs-core", features: &["alloc"], is_alloc: true },
+    Build { package: "mbs-core", features: &["alloc", "limit", "tire"], is_alloc: true },
+    Build { package: "mbs-core", features: &["alloc", "effects"], is_alloc: true },
     Build { package: "mbs-statespace", features: &[], is_alloc: true },
     Build { package: "mbs-classical", features: &[], is_alloc: true },
+    Build { package: "mbs-recursive", features: &[], is_alloc: false },
+    Build { package: "mbs-recursive", features: &["alloc"], is_alloc: true },
 ];
 
 /// The targets: Cortex-M4F and Cortex-M7 with hardware floating point.

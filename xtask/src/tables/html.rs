@@ -60,7 +60,7 @@ fn line(row: &Row, distance: &str, span: Option<usize>) -> String {
         }
     } else {
         let kind = if row.outcome == Outcome::NotBuilt { "absent" } else { "stopped" };
-        let reason = escape(&row.reason());
+        let reason = words(&row.reason());
         let _ = write!(
             html,
             "<td colspan=\"4\" data-label=\"measured\" class=\"{kind}\">{reason}</td>"
@@ -78,6 +78,17 @@ fn cell(label: &str, value: &str, class: &str) -> String {
     let class = if value.is_empty() { format!("{class} none") } else { class.to_owned() };
     let (label, value) = (escape(label), escape(value));
     format!("<td data-label=\"{label}\" class=\"{class}\">{value}</td>")
+}
+
+/// A sentence whose numbers are not broken at the sign of their exponent.
+fn words(sentence: &str) -> String {
+    let is_number =
+        |word: &str| word.contains("e-") && word.starts_with(|c: char| c.is_ascii_digit());
+    let word = |word: &str| {
+        let text = escape(word);
+        if is_number(word) { format!("<span class=\"number\">{text}</span>") } else { text }
+    };
+    sentence.split(' ').map(word).collect::<Vec<_>>().join(" ")
 }
 
 /// Text as HTML.
@@ -98,6 +109,7 @@ mod tests {
         assert_eq!(page.matches("data-label=\"step [s]\"").count(), 4);
         assert!(page.contains("no convergence, &quot;try&quot; &lt;less&gt;"));
         assert!(page.contains("singular &amp; stuck"));
+        assert_eq!(super::words("2.5e-11 m < 3"), "<span class=\"number\">2.5e-11</span> m &lt; 3");
         assert!(page.contains("class=\"absent\">not built<"));
         assert!(page.contains(">4.6e-3</td>"));
     }

@@ -12,15 +12,14 @@ pub(super) fn check<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
     let place = scene.place(Entry::Road);
     place.finite("speed", *speed)?;
     let wheel = largest_wheel(scene);
-    let tracks: [(_, fn(usize) -> Entry); 2] = [(left, Entry::RoadLeft), (right, Entry::RoadRight)];
-    for (features, entry) in tracks {
-        for (i, feature) in features.iter().enumerate() {
-            let place = scene.place(entry(i));
-            numbers(feature, place)?;
-            hollow(feature, wheel, place)?;
-        }
+    let left = left.iter().enumerate().map(|(i, feature)| (Entry::RoadLeft(i), feature));
+    let right = right.iter().enumerate().map(|(i, feature)| (Entry::RoadRight(i), feature));
+    for (entry, feature) in left.chain(right) {
+        let place = scene.place(entry);
+        numbers(feature, place)?;
+        hollow(feature, wheel, place)?;
     }
-    if is_planar(scene.dimension) && left != right {
+    if is_planar(scene.dimension) && scene.road.left != scene.road.right {
         return place.fault("right", SceneFault::NeedsSpatial);
     }
     Ok(())

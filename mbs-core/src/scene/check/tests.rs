@@ -6,6 +6,8 @@ use alloc::vec;
 use alloc::vec::Vec;
 use proptest::prelude::*;
 
+mod effects;
+
 fn body(name: &str, mass: f64, inertia: Inertia<f64>) -> Body<f64> {
     Body { name: name.into(), mass, center: [0.5, 0.0, 0.0], inertia }
 }
@@ -287,6 +289,28 @@ proptest! {
         scene.guides = vec![Guide { joint: references[0], law: GuideLaw::Table(rows) }];
         scene.initials = vec![value(references[1], Some(numbers[..references[2]].to_vec()), None)];
         scene.effects = vec![spring([vector(3), vector(6)], [BodyRef::Body(references[3]), BodyRef::Ground])];
+        let rows = (0..4).map(|i| [numbers[2 * i], numbers[2 * i + 1]]).collect();
+        let (start, length, height) = (numbers[8], numbers[9], numbers[10]);
+        let rounding = numbers[11];
+        scene.road.left = vec![
+            RoadFeature::Rise { start, length, height, rounding },
+            RoadFeature::Bump { start, length, amplitude: height },
+            RoadFeature::Table(rows),
+        ];
+        let _ = scene.check();
+        let piece = |i: usize| PolynomialPiece {
+            lower: numbers[i],
+            upper: numbers[i + 1],
+            coefficients: numbers[..references[1] * 3].to_vec(),
+        };
+        let kind = EffectKind::Polynomial {
+            bodies: [BodyRef::Body(references[0]), BodyRef::Ground],
+            points: [vector(3), vector(6)],
+            direction: is_planar.then(|| vector(9)),
+            of_rate: false,
+            pieces: vec![piece(0), piece(1)],
+        };
+        scene.effects = effects::effect(kind);
         let _ = scene.check();
         scene.bodies.pop();
         scene.joints.clear();

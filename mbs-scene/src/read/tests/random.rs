@@ -1,12 +1,15 @@
 //! Random and mutated files: the reader answers, it never panics.
 
+use super::effects::{CAR, CART};
 use super::{PLANAR, SPATIAL, read};
 use crate::Document;
 use proptest::prelude::*;
 
+const SCENES: [&str; 4] = [PLANAR, SPATIAL, CART, CAR];
+
 /// Pieces of scenes, so that random texts reach deep into the reader.
 fn piece() -> impl Strategy<Value = String> {
-    let lines: Vec<String> = PLANAR.lines().chain(SPATIAL.lines()).map(str::to_owned).collect();
+    let lines: Vec<String> = SCENES.iter().flat_map(|s| s.lines()).map(str::to_owned).collect();
     prop_oneof![
         6 => proptest::sample::select(lines),
         1 => "[a-z\\[\\]{}=\",.0-9 #\\n-]{0,20}",
@@ -31,10 +34,10 @@ proptest! {
 
     #[test]
     fn mutated_scenes_never_panic(
-        spatial in any::<bool>(),
+        scene in proptest::sample::select(SCENES.to_vec()),
         edits in proptest::collection::vec((any::<prop::sample::Index>(), piece(), 0..12_usize), 1..6),
     ) {
-        let mut text: Vec<char> = if spatial { SPATIAL } else { PLANAR }.chars().collect();
+        let mut text: Vec<char> = scene.chars().collect();
         for (at, insert, removed) in edits {
             let at = at.index(text.len() + 1);
             let end = (at + removed).min(text.len());

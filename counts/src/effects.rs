@@ -1,0 +1,155 @@
+//! One effect of each kind.
+
+use mbs_core::laws::body::{Action, BodyMotion};
+use mbs_core::laws::own::{OwnScalar, OwnWrench, ScalarLaw, WrenchLaw};
+use mbs_core::laws::scalar::Measure;
+use mbs_core::scene::{
+    AxisFrame, BodyRef, CalspanCoefficients, Course, Dimension, EffectKind, OwnLaw, PolynomialPiece,
+};
+
+/// The coupler, its centre, and a pair of points on the ground and on the rocker.
+const COUPLER: usize = 1;
+const CENTER: [f64; 3] = [1.0, 1.5, 0.25];
+const BODIES: [BodyRef; 2] = [BodyRef::Ground, BodyRef::Body(2)];
+const POINTS: [[f64; 3]; 2] = [[0.5, 0.0, 0.0], [2.0, 1.0, 0.5]];
+
+/// Name and data of one effect of each kind.
+pub(crate) fn all(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
+    let depth = if dimension == Dimension::Planar { 0.0 } else { 1.0 };
+    let flat = |[x, y, z]: [f64; 3]| [x, y, z * depth];
+    let mut all = springs_and_forces(POINTS.map(flat), flat(CENTER));
+    let six = [1.0, 1.0, depth, depth, depth, 1.0];
+    all.extend(between(POINTS.map(flat), six));
+    all.extend(on_a_body(flat(CENTER), dimension));
+    all
+}
+
+/// What every build has.
+fn springs_and_forces(points: [[f64; 3]; 2], at: [f64; 3]) -> Vec<(&'static str, EffectKind<f64>)> {
+    let (bodies, body) = (BODIES, COUPLER);
+    let course = Course::Input([3.0, 0.0, 0.0]);
+    let (stiffness, damping) = (100.0, 1.0);
+    vec![
+        (
+            "spring-damper",
+            EffectKind::SpringDamper { bodies, points, stiffness, damping, free_length: 1.0 },
+        ),
+        (
+            "torsion-spring",
+            EffectKind::TorsionSpring { joint: 0, stiffness, damping, free_value: 0.0 },
+        ),
+        ("force", EffectKind::Force { body, at, course: course.clone(), frame: AxisFrame::Body }),
+        ("body-torque", EffectKind::BodyTorque { body, course: course.clone() }),
+        ("joint-torque", EffectKind::JointTorque { joint: 0, course: course.clone() }),
+        ("actuator", EffectKind::Actuator { bodies, points, course }),
+    ]
+}
+
+/// Laws of a length, an angle or a place between bodies.
+fn between(points: [[f64; 3]; 2], six: [f64; 6]) -> Vec<(&'static str, EffectKind<f64>)> {
+    let (bodies, joint) = (BODIES, 0);
+    let (stiffness, damping) = (100.0, 1.0);
+    let pieces =
+        vec![PolynomialPiece { lower: 0.0, upper: 4.0, coefficients: vec![-100.0, 50.0, 5.0] }];
+    vec![
+        (
+            "polynomial",
+            EffectKind::Polynomial { bodies, points, direction: None, of_rate: false, pieces },
+        ),
+        ("bumper", EffectKind::Bumper { bodies, points, stiffness, damping, clearance: 0.1 }),
+        ("limit", EffectKind::Limit { joint, lower: -1.0, upper: 1.0, stiffness, damping }),
+        (
+            "friction",
+            EffectKind::Friction {
+                joint,
+                coulomb: 1.0,
+                r#static: 1.2,
+                stribeck: 0.1,
+                viscous: 0.1,
+                regularisation: 0.01,
+            },
+        ),
+        (
+            "bushing",
+            EffectKind::Bushing {
+                bodies,
+                at: points[1],
+                stiffness: six.map(|share| share * stiffness),
+                damping: six.map(|share| share * damping),
+            },
+        ),
+        (
+            "own-length",
+            EffectKind::Own {
+                law: OwnLaw::Length { bodies, points, law: OwnScalar::of::<Steady>() },
+                course: Course::Constant([1.0; 3]),
+            },
+        ),
+    ]
+}
+
+/// Laws on one body.
+fn on_a_body(at: [f64; 3], dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
+    let body = COUPLER;
+    let axis = (dimension == Dimension::Spatial).then_some([0.0, 1.0, 0.0]);
+    vec![
+        ("drag", EffectKind::AeroDrag { body, at, area_coefficient: 1.0, density: 1.2 }),
+        (
+            "speed-hold",
+            EffectKind::SpeedHold {
+                body,
+                direction: [1.0, 0.0, 0.0],
+                speed: 1.0,
+                gain: 10.0,
+                limit: 10.0,
+            },
+        ),
+        (
+            "tire",
+            EffectKind::Tire {
+                body,
+                center: at,
+                axis,
+                radius: if axis.is_some() { 0.3 } else { 1.6 },
+                stiffness: 100.0,
+                damping: 1.0,
+                rolling_resistance: 0.01,
+                side: axis.map(|_| CalspanCoefficients::iltis()),
+            },
+        ),
+        (
+            "own-body",
+            EffectKind::Own {
+                law: OwnLaw::Body {
+                    body,
+                    at,
+                    axis: [1.0, 0.0, 0.0],
+                    law: OwnWrench::of::<Steady>(),
+                },
+                course: Course::Constant([1.0; 3]),
+            },
+        ),
+    ]
+}
+
+/// A law of a user's own: as much as its input says.
+struct Steady;
+
+impl ScalarLaw<f64> for Steady {
+    fn evaluate(_: f64, _: f64, input: [f64; 3]) -> Measure<f64> {
+        Measure { tension: input[0], ..Measure::default() }
+    }
+    fn energy(value: f64, input: [f64; 3]) -> f64 {
+        input[0] * value
+    }
+    fn elastic(_: f64, input: [f64; 3]) -> f64 {
+        input[0]
+    }
+}
+
+impl WrenchLaw<f64> for Steady {
+    fn evaluate(motion: &BodyMotion<f64>, input: [f64; 3]) -> Action<f64> {
+        let measure = Measure { tension: input[0], ..Measure::default() };
+        Action { force: motion.axis, moment: [0.0; 3], measure }
+    }
+}

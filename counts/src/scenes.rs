@@ -1,0 +1,74 @@
+//! A four-bar mechanism in the plane and one in space, with each effect left out, switched off and switched on.
+
+use crate::effects;
+use mbs_core::scene::{
+    Body, BodyRef, Dimension, Effect, Guide, GuideLaw, Inertia, Initial, InitialTarget, Joint,
+    JointKind, Scene,
+};
+
+/// Name and scene of every case.
+pub(crate) fn cases(dimension: Dimension) -> Vec<(String, Scene<f64>)> {
+    let mut cases = vec![("none".to_owned(), four_bar(dimension))];
+    for (name, kind) in effects::all(dimension) {
+        for (switch, enabled) in [("off", false), ("on", true)] {
+            let mut scene = four_bar(dimension);
+            scene.effects.push(Effect { name: name.into(), enabled, kind: kind.clone() });
+            cases.push((format!("{name} {switch}"), scene));
+        }
+    }
+    let mut guided = four_bar(dimension);
+    let law = GuideLaw::Sine { amplitude: 0.5, frequency: 1.0, phase: 0.0 };
+    guided.initials.clear();
+    guided.guides.push(Guide { joint: 0, law });
+    cases.push(("guide on".to_owned(), guided));
+    cases
+}
+
+/// Crank, coupler and rocker; in space with a ball at one end of the coupler and a universal joint at the other.
+fn four_bar(dimension: Dimension) -> Scene<f64> {
+    let is_planar = dimension == Dimension::Planar;
+    let depth = if is_planar { 0.0 } else { 0.5 };
+    let [a, b, c, d] = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, 2.0, depth], [2.0, 0.0, depth]];
+    let body = |name: &str, [p, q]: [[f64; 3]; 2]| Body {
+        name: name.into(),
+        mass: 2.0,
+        center: [0, 1, 2].map(|i| (p[i] + q[i]) / 2.0),
+        inertia: if is_planar {
+            Inertia::Planar(0.4)
+        } else {
+            Inertia::Spatial([0.4, 0.3, 0.5, 0.0, 0.0, 0.0])
+        },
+    };
+    let joint = |name: &str, kind: JointKind, bodies: [BodyRef; 2], at: [f64; 3], axes| Joint {
+        name: name.into(),
+        kind: if is_planar { JointKind::Revolute } else { kind },
+        bodies,
+        points: [at; 2],
+        axes: if is_planar { [None; 2] } else { axes },
+    };
+    let [crank, coupler, rocker] = [0, 1, 2].map(BodyRef::Body);
+    let (x, y, z) = (Some([1.0, 0.0, 0.0]), Some([0.0, 1.0, 0.0]), Some([0.0, 0.0, 1.0]));
+    let joints = vec![
+        joint("a", JointKind::Revolute, [BodyRef::Ground, crank], a, [z, None]),
+        joint("b", JointKind::Spherical, [crank, coupler], b, [None; 2]),
+        joint("c", JointKind::Universal, [coupler, rocker], c, [x, y]),
+        joint("d", JointKind::Revolute, [BodyRef::Ground, rocker], d, [z, None]),
+    ];
+    Scene {
+        name: "four-bar".into(),
+        dimension,
+        gravity: Some([0.0, -9.81, 0.0]),
+        duration: 1.0,
+        bodies: vec![body("crank", [a, b]), body("coupler", [b, c]), body("rocker", [c, d])],
+        joints,
+        initials: vec![Initial {
+            target: InitialTarget::Joint { joint: 0, value: None, rate: Some(vec![2.0]) },
+        }],
+        guides: vec![],
+        road: Default::default(),
+        start: Default::default(),
+        effects: vec![],
+        outputs: vec![],
+        solver: Default::default(),
+    }
+}

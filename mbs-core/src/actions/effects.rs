@@ -1,0 +1,204 @@
+//! The effects that Cargo features bring, each in the build only with its own.
+#![cfg_attr(
+    not(feature = "effects"),
+    allow(dead_code, unused_imports, unused_variables, clippy::match_single_binding),
+    allow(clippy::unused_self, reason = "what one effect asks for is idle without it")
+)]
+
+use super::Action;
+use super::compile::{Compiler, ends};
+use crate::Real;
+use crate::inputs::CourseInput;
+use crate::laws;
+use crate::laws::body::BodyLaw;
+use crate::laws::scalar::Law;
+use crate::natural::joint_axes;
+use crate::scene::{
+    BodyRef, Dimension, EffectKind, Inertia, JointKind, OwnLaw, PolynomialPiece, Scene,
+};
+
+impl<T: Real> Compiler<'_, T> {
+    /// A law along a length or about an angle.
+    pub(super) fn add_law(&mut self, kind: &EffectKind<T>) {
+        match kind {
+            #[cfg(feature = "polynomial")]
+            EffectKind::Polynomial { bodies, points, direction, of_rate, pieces } => {
+                let law = Law::Polynomial { pieces: self.pieces(pieces), of_rate: *of_rate };
+                let ends = ends(bodies, points);
+                self.push(match direction {
+                    None => Action::Length { ends, law },
+                    Some(d) => Action::Along { ends, direction: unit(*d), offset: T::ZERO, law },
+                });
+            }
+            #[cfg(feature = "bumper")]
+            EffectKind::Bumper { bodies, points, stiffness, damping, clearance } => {
+                let law = [*stiffness, *damping];
+                let touch = distance(points) - *clearance;
+                let law = Law::Bumper { law, touch };
+                self.push(Action::Length { ends: ends(bodies, points), law });
+            }
+            #[cfg(feature = "limit")]
+            EffectKind::Limit { joint, lower, upper, stiffness, damping } => {
+                let (lower, upper) = (*lower, *upper);
+                let limit =
+                    laws::limit::Limit { lower, upper, stiffness: *stiffness, damping: *damping };
+                self.on_joint(*joint, Law::Limit(limit));
+            }
+            #[cfg(feature = "friction")]
+            EffectKind::Friction {
+                joint,
+                coulomb,
+                r#static,
+                stribeck,
+                viscous,
+                regularisation,
+            } => {
+                let law = laws::friction::Friction {
+                    coulomb: *coulomb,
+                    r#static: *r#static,
+                    stribeck: *stribeck,
+                    viscous: *viscous,
+                    regularisation: *regularisation,
+                };
+                self.on_joint(*joint, Law::Friction(law));
+            }
+            #[cfg(feature = "bushing")]
+            EffectKind::Bushing { bodies, at, stiffness, damping } => {
+                self.bushing(*bodies, *at, (stiffness, damping));
+            }
+            _ => {}
+        }
+    }
+
+    /// A law on one body, or a user's own.
+    pub(super) fn add_law_on_body(&mut self, kind: &EffectKind<T>) {
+        match kind {
+            #[cfg(feature = "drag")]
+            EffectKind::AeroDrag { body, at, area_coefficient, density } => {
+                let (area_coefficient, density) = (*area_coefficient, *density);
+                let law = BodyLaw::Drag { area_coefficient, density };
+                self.push(Action::OnBody { at: (*body, *at), axis: axis(0), law });
+            }
+            #[cfg(feature = "speed-hold")]
+            EffectKind::SpeedHold { body, direction, speed, gain, limit } => {
+                let (speed, gain, limit) = (*speed, *gain, *limit);
+                let law = BodyLaw::SpeedHold(laws::speed_hold::SpeedHold { speed, gain, limit });
+                let at = (*body, center(self.scene, *body));
+                self.push(Action::OnBody { at, axis: unit(*direction), law });
+            }
+            #[cfg(feature = "tire")]
+            EffectKind::Tire {
+                body,
+                center,
+                axis: given,
+                radius,
+                stiffness,
+                damping,
+                rolling_resistance,
+                side,
+            } => {
+                let (roads, travel) = self.roads();
+                let law = BodyLaw::Tire(laws::tire::Tire {
+                    radius: *radius,
+                    radial: [*stiffness, *damping],
+                    rolling: *rolling_resistance,
+                    side: *side,
+                    road: roads[usize::from(center[1] < T::ZERO && !self.is_planar())],
+                    travel,
+                    up: self.scene.dimension.count() - 1,
+                });
+                let axis = given.map_or_else(|| axis(2), unit);
+                self.push(Action::OnBody { at: (*body, *center), axis, law });
+            }
+            #[cfg(feature = "own-laws")]
+            EffectKind::Own { law, course } => {
+                let course = self.course(CourseInput::new(course));
+                match *law {
+                    OwnLaw::Length { bodies, points, law } => {
+                        let law = Law::Own { law, course };
+                        self.push(Action::Length { ends: ends(&bodies, &points), law });
+                    }
+                    OwnLaw::Joint { joint, law } => self.on_joint(joint, Law::Own { law, course }),
+                    OwnLaw::Body { body, at, axis, law } => {
+                        let law = BodyLaw::Own { law, course };
+                        self.push(Action::OnBody { at: (body, at), axis: unit(axis), law });
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn is_planar(&self) -> bool {
+        self.scene.dimension == Dimension::Planar
+    }
+
+    /// A law of a joint's one coordinate.
+    fn on_joint(&mut self, index: usize, law: Law<T>) {
+        let joint = &self.scene.joints[index];
+        self.push(match joint.kind {
+            JointKind::Prismatic => {
+                let direction = unit(joint_axes(joint, self.scene.dimension)[0]);
+                let ends = [0, 1].map(|i| (joint.bodies[i], joint.points[i]));
+                Action::Along { ends, direction, offset: T::ZERO, law }
+            }
+            _ => Action::Angle { joint: index, law },
+        });
+    }
+
+    fn bushing(&mut self, bodies: [BodyRef; 2], at: [T; 3], (k, c): (&[T; 6], &[T; 6])) {
+        let law = |i: usize| {
+            let acts = !(k[i].is_zero() && c[i].is_zero());
+            acts.then(|| Law::SpringDamper { stiffness: k[i], damping: c[i], free: T::ZERO })
+        };
+        let ends = bodies.map(|body| (body, at));
+        for i in 0..self.scene.dimension.count() {
+            if let Some(law) = law(i) {
+                self.push(Action::Along { ends, direction: axis(i), offset: T::ZERO, law });
+            }
+        }
+        let is_planar = self.is_planar();
+        for i in (0..3).filter(|&i| i == 2 || !is_planar) {
+            if let Some(law) = law(3 + i) {
+                let sides = [axis((i + 1) % 3), axis((i + 2) % 3)];
+                self.push(Action::Twist { bodies, sides, law });
+            }
+        }
+    }
+
+    #[cfg(feature = "polynomial")]
+    fn pieces(&mut self, pieces: &[PolynomialPiece<T>]) -> laws::Part {
+        let all = &mut self.actions.tables.pieces;
+        let first = all.len();
+        all.extend(
+            pieces
+                .iter()
+                .filter_map(|p| laws::polynomial::Piece::new([p.lower, p.upper], &p.coefficients)),
+        );
+        laws::polynomial::link(&mut all[first..]);
+        super::compile::part(first, all.len())
+    }
+}
+
+fn axis<T: Real>(i: usize) -> [T; 3] {
+    let mut e = [T::ZERO; 3];
+    e[i] = T::ONE;
+    e
+}
+
+fn unit<T: Real>(d: [T; 3]) -> [T; 3] {
+    let size = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
+    d.map(|x| x / size)
+}
+
+fn distance<T: Real>([p, q]: &[[T; 3]; 2]) -> T {
+    let d = [0, 1, 2].map(|i| q[i] - p[i]);
+    (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
+}
+
+fn center<T: Real>(scene: &Scene<T>, body: usize) -> [T; 3] {
+    match scene.bodies[body].inertia {
+        Inertia::Rod { from, to } => [0, 1, 2].map(|i| (from[i] + to[i]) * T::HALF),
+        _ => scene.bodies[body].center,
+    }
+}

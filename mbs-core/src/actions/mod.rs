@@ -1,0 +1,129 @@
+//! Effects told in laws, once for all models: what acts, between which places of which bodies, by which law.
+//!
+//! A scene has many kinds of effect; models, outputs and other formulations know only the few kinds of [`Action`]. Effects that
+//! are switched off are not among them, and effects whose Cargo feature is off are an error.
+
+mod compile;
+mod effects;
+mod error;
+#[cfg(feature = "tire")]
+mod road;
+mod tables;
+
+pub use error::ActionError;
+pub use tables::Tables;
+
+use crate::inputs::CourseInput;
+use crate::laws::body::BodyLaw;
+use crate::laws::scalar::Law;
+use crate::scene::BodyRef;
+use alloc::vec::Vec;
+
+/// A place on a body, reference configuration [m].
+pub type Seat<T> = (BodyRef, [T; 3]);
+
+/// What one effect, or a part of one, does.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Action<T> {
+    /// A law along the line of two places.
+    Length {
+        /// The places.
+        ends: [Seat<T>; 2],
+        /// The law.
+        law: Law<T>,
+    },
+    /// A law of the distance of two places along a direction fixed in the first body (a unit vector): a slide.
+    Along {
+        /// The places.
+        ends: [Seat<T>; 2],
+        /// The direction, reference configuration.
+        direction: [T; 3],
+        /// What the distance is counted from [m].
+        offset: T,
+        /// The law.
+        law: Law<T>,
+    },
+    /// A law of the angle of a joint with one rotation.
+    Angle {
+        /// Index of the joint.
+        joint: usize,
+        /// The law.
+        law: Law<T>,
+    },
+    /// A law of the small rotation of the second body in the first about a x b: (b1.a2 - a1.b2) / 2, where 1 and 2 are the
+    /// bodies in which the unit vectors a and b turn.
+    Twist {
+        /// The bodies.
+        bodies: [BodyRef; 2],
+        /// a and b, reference configuration.
+        sides: [[T; 3]; 2],
+        /// The law.
+        law: Law<T>,
+    },
+    /// A force that keeps its value and its direction: it has a potential.
+    Constant {
+        /// Where it acts.
+        at: (usize, [T; 3]),
+        /// The force [N].
+        force: [T; 3],
+    },
+    /// A force that follows a course.
+    Force {
+        /// Where it acts.
+        at: (usize, [T; 3]),
+        /// Number of the course.
+        course: u32,
+        /// Does it turn with the body?
+        turns: bool,
+    },
+    /// A torque on a body that follows a course: global axes; in the plane the first component.
+    Torque {
+        /// The body.
+        body: usize,
+        /// Number of the course.
+        course: u32,
+    },
+    /// A law on one body.
+    OnBody {
+        /// Where it acts.
+        at: (usize, [T; 3]),
+        /// Its direction, a unit vector fixed in the body.
+        axis: [T; 3],
+        /// The law.
+        law: BodyLaw<T>,
+    },
+}
+
+/// The actions of a scene with everything they refer to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Actions<T> {
+    /// Index of the effect, and the action. An effect may have several, one after the other.
+    pub list: Vec<(usize, Action<T>)>,
+    /// Prescribed functions of time.
+    pub courses: Vec<CourseInput<T>>,
+    /// Tables of the laws.
+    pub tables: Tables<T>,
+}
+
+impl<T> Action<T> {
+    /// The course that the action follows, if it follows one.
+    #[must_use]
+    pub fn course(&self) -> Option<u32> {
+        match self {
+            Self::Length { law, .. }
+            | Self::Along { law, .. }
+            | Self::Angle { law, .. }
+            | Self::Twist { law, .. } => law.course(),
+            Self::Force { course, .. } | Self::Torque { course, .. } => Some(*course),
+            Self::OnBody { law, .. } => law.course(),
+            Self::Constant { .. } => None,
+        }
+    }
+}
+
+impl<T> Actions<T> {
+    /// The course that each effect follows: index of the effect, number of the course.
+    pub fn effect_courses(&self) -> impl Iterator<Item = (usize, u32)> + '_ {
+        self.list.iter().filter_map(|(effect, action)| Some((*effect, action.course()?)))
+    }
+}

@@ -1,0 +1,143 @@
+//! The wrenches that effects apply to bodies.
+//!
+//! ```text
+//! length      tension f along the line of two points
+//! along       -f d on the second body's point, f d on the first body there
+//! angle       -f about the joint's axis on the second body, opposite on the first
+//! twist       -f (a2 x b1 - b2 x a1) / 2 on the second body, opposite on the first
+//! on a body   -f d at the law's point and -f m, over the law's actions
+//! ```
+
+use super::super::frame::{lifted, unit};
+use super::{Gauge, Load, Wrench};
+use crate::Real;
+use crate::algebra::{Matrix, Vector, cross, norm};
+use crate::laws::Supplies;
+use crate::laws::body::{Action, BodyMotion, MOST};
+use crate::laws::scalar::Law;
+use crate::model::State;
+use crate::natural::Affine;
+use crate::scene::BodyRef;
+
+/// Where a wrench acts: a body and, for a force, a point.
+pub(in crate::outputs) type Applied<T> = (BodyRef, Option<Vector<T, 3>>, Wrench<T>);
+
+impl<T: Real, const D: usize> Load<T, D> {
+    /// Hands out the wrenches it applies at a state; `turned` gives the rotation of a body.
+    pub(in crate::outputs) fn apply(
+        &self,
+        (state, supplies): (&State<T>, &Supplies<'_, T>),
+        turned: impl Fn(BodyRef) -> Matrix<T, 3>,
+        mut take: impl FnMut(Applied<T>),
+    ) {
+        match self {
+            Self::Between { bodies, gauge, law } => {
+                let axes = turned(bodies[0]);
+                if let Some((at, wrench)) = gauge.pull(law, state, &axes, supplies) {
+                    take((bodies[0], at[0], wrench));
+                    take((bodies[1], at[1], wrench.scaled(-T::ONE)));
+                }
+            }
+            Self::Constant { body, point, force } => {
+                let at = lifted(&point.value(&state.q));
+                take((BodyRef::Body(*body), Some(at), push(*force)));
+            }
+            Self::Force { body, point, course, turns } => {
+                let body = BodyRef::Body(*body);
+                let given = Vector::<T, 3>::from(supplies.courses[*course]);
+                let force = if *turns { turned(body) * given } else { given };
+                take((body, Some(lifted(&point.value(&state.q))), push(force)));
+            }
+            Self::Torque { body, course } => {
+                let given = supplies.courses[*course];
+                let moment = if D == 2 { unit(2) * given[0] } else { given.into() };
+                take((BodyRef::Body(*body), None, twist(moment)));
+            }
+            Self::OnBody { body, point, frame, axis, law } => {
+                let body = BodyRef::Body(*body);
+                let at = lifted(&point.value(&state.q));
+                let motion = BodyMotion {
+                    position: at.into(),
+                    velocity: lifted(&point.rate(&state.v)).into(),
+                    axis: (turned(body) * axis).into(),
+                    spin: frame.turning(&state.q, &state.v).into(),
+                };
+                let mut actions = [Action::default(); MOST];
+                let actions = &mut actions[..law.n_actions()];
+                law.evaluate(&motion, supplies, actions);
+                let mut sum = Wrench::zero();
+                for Action { force, moment, measure } in actions {
+                    let (force, moment) = ((*force).into(), (*moment).into());
+                    sum.add(&Wrench { force, moment }.scaled(-measure.tension));
+                }
+                take((body, Some(at), sum));
+            }
+        }
+    }
+}
+
+impl<T: Real, const D: usize> Gauge<T, D> {
+    /// The wrench on the first body, its opposite acting on the second, and where each acts; `axes`: the first body's rotation.
+    fn pull(
+        &self,
+        law: &Law<T>,
+        state: &State<T>,
+        axes: &Matrix<T, 3>,
+        supplies: &Supplies<'_, T>,
+    ) -> Option<([Option<Vector<T, 3>>; 2], Wrench<T>)> {
+        let tension = |value, rate| law.evaluate(value, rate, supplies).tension;
+        Some(match self {
+            Self::Length { points } => {
+                let ([p, r], rate) = ends(points, state);
+                let (line, length) = (r - p, norm(&(r - p)));
+                if !(length > T::ZERO) {
+                    return None;
+                }
+                let n = line * (T::ONE / length);
+                ([Some(p), Some(r)], push(n * tension(length, n.dot(&rate))))
+            }
+            Self::Along { points, direction, offset } => {
+                let ([p, r], rate) = ends(points, state);
+                let d = lifted(&direction.value(&state.q));
+                let turning = lifted(&direction.rate(&state.v));
+                let value = (r - p).dot(&d) - *offset;
+                let f = tension(value, rate.dot(&d) + (r - p).dot(&turning));
+                ([Some(r); 2], push(d * f))
+            }
+            Self::Angle { axis, angle, memory } => {
+                let (mut value, mut rate) = ([T::ZERO], [T::ZERO]);
+                value[0] = memory.map_or(T::ZERO, |place| state.memory[place]);
+                angle.track(&state.q, &mut value);
+                angle.rates(&state.q, &state.v, &mut rate);
+                ([None; 2], twist(axes * axis * tension(value[0], rate[0])))
+            }
+            Self::Twist { sides } => {
+                let now =
+                    |x: &Affine<T, D>| (lifted(&x.value(&state.q)), lifted(&x.rate(&state.v)));
+                let [[(a1, a1_t), (b1, b1_t)], [(a2, a2_t), (b2, b2_t)]] =
+                    [0, 1].map(|body| [0, 1].map(|side| now(&sides[body][side])));
+                let value = (b1.dot(&a2) - a1.dot(&b2)) * T::HALF;
+                let rate = b1_t.dot(&a2) + b1.dot(&a2_t) - a1_t.dot(&b2) - a1.dot(&b2_t);
+                let g = (cross(&a2, &b1) - cross(&b2, &a1)) * T::HALF;
+                ([None; 2], twist(g * tension(value, rate * T::HALF)))
+            }
+        })
+    }
+}
+
+/// Places of two points, and the rate of the way from the first to the second.
+fn ends<T: Real, const D: usize>(
+    points: &[Affine<T, D>; 2],
+    state: &State<T>,
+) -> ([Vector<T, 3>; 2], Vector<T, 3>) {
+    let rate = lifted(&points[1].rate(&state.v)) - lifted(&points[0].rate(&state.v));
+    ([0, 1].map(|i| lifted(&points[i].value(&state.q))), rate)
+}
+
+fn push<T: Real>(force: Vector<T, 3>) -> Wrench<T> {
+    Wrench { force, moment: Vector::zeros() }
+}
+
+fn twist<T: Real>(moment: Vector<T, 3>) -> Wrench<T> {
+    Wrench { force: Vector::zeros(), moment }
+}

@@ -1,0 +1,144 @@
+//! Effects as seen by the bodies: what acts, at which places, by which law.
+
+mod apply;
+
+pub(super) use apply::Applied;
+
+use super::coordinate::Coordinate;
+use super::frame::Frame;
+use super::wrench::Wrench;
+use crate::Real;
+use crate::actions::{Action, ActionError, Actions, Seat, Tables};
+use crate::algebra::Vector;
+use crate::inputs::CourseInput;
+use crate::laws::Supplies;
+use crate::laws::body::BodyLaw;
+use crate::laws::scalar::Law;
+use crate::natural::{Affine, NaturalModel, joint_axes};
+use crate::scene::{BodyRef, Scene};
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// The enabled effects of a scene, with the inputs of an instant.
+#[derive(Debug, Clone)]
+pub(super) struct Loads<T: Real, const D: usize> {
+    list: Vec<Load<T, D>>,
+    courses: Vec<CourseInput<T>>,
+    /// The courses' vectors at the instant.
+    values: Vec<[T; 3]>,
+    tables: Tables<T>,
+}
+
+/// What one effect, or a part of one, does to the bodies.
+#[derive(Debug, Clone)]
+pub(super) enum Load<T: Real, const D: usize> {
+    /// A law of what is measured between two bodies.
+    Between { bodies: [BodyRef; 2], gauge: Gauge<T, D>, law: Law<T> },
+    /// A force in fixed directions.
+    Constant { body: usize, point: Affine<T, D>, force: Vector<T, 3> },
+    /// A force that follows a course.
+    Force { body: usize, point: Affine<T, D>, course: usize, turns: bool },
+    /// A torque that follows a course.
+    Torque { body: usize, course: usize },
+    /// A law on one body.
+    OnBody {
+        body: usize,
+        point: Affine<T, D>,
+        frame: Frame<T, D>,
+        axis: Vector<T, 3>,
+        law: BodyLaw<T>,
+    },
+}
+
+/// What a scalar law measures.
+#[derive(Debug, Clone)]
+pub(super) enum Gauge<T: Real, const D: usize> {
+    Length {
+        points: [Affine<T, D>; 2],
+    },
+    Along {
+        points: [Affine<T, D>; 2],
+        direction: Affine<T, D>,
+        offset: T,
+    },
+    Angle {
+        /// The joint's axis, fixed in the first body, as in the reference configuration.
+        axis: Vector<T, 3>,
+        angle: Coordinate<T, D>,
+        /// Where the state remembers the angle; `None`: neither body moves.
+        memory: Option<usize>,
+    },
+    Twist {
+        /// a and b in the first body, then in the second.
+        sides: [[Affine<T, D>; 2]; 2],
+    },
+}
+
+impl<T: Real, const D: usize> Loads<T, D> {
+    /// All enabled effects of a scene.
+    ///
+    /// # Errors
+    /// [`ActionError`] as for the model.
+    pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ActionError> {
+        let Actions { list, courses, tables } = Actions::new(scene)?;
+        let list = list.iter().map(|(effect, action)| Load::new((scene, model), *effect, action));
+        let list = list.collect();
+        Ok(Self { list, values: vec![[T::ZERO; 3]; courses.len()], courses, tables })
+    }
+
+    /// The effects, and the inputs of the instant `t`.
+    pub(super) fn at(&mut self, t: T) -> (&[Load<T, D>], Supplies<'_, T>) {
+        for (value, course) in self.values.iter_mut().zip(&self.courses) {
+            *value = course.at(t);
+        }
+        (&self.list, self.tables.supplies(&self.values))
+    }
+}
+
+impl<T: Real, const D: usize> Load<T, D> {
+    fn new(
+        (scene, model): (&Scene<T>, &NaturalModel<T, D>),
+        effect: usize,
+        action: &Action<T>,
+    ) -> Self {
+        let points = |ends: &[Seat<T>; 2]| [0, 1].map(|i| model.point(ends[i].0, ends[i].1));
+        let point = |at: &(usize, [T; 3])| model.point(BodyRef::Body(at.0), at.1);
+        let (bodies, gauge, law) = match action {
+            Action::Length { ends, law } => {
+                (ends.map(|e| e.0), Gauge::Length { points: points(ends) }, law)
+            }
+            Action::Along { ends, direction, offset, law } => {
+                let direction = model.direction(ends[0].0, *direction);
+                let gauge = Gauge::Along { points: points(ends), direction, offset: *offset };
+                (ends.map(|e| e.0), gauge, law)
+            }
+            Action::Angle { joint, law } => {
+                let joint = &scene.joints[*joint];
+                let axis = joint_axes(joint, scene.dimension)[0].into();
+                let angle = Coordinate::angle(scene, model, joint, 0);
+                let gauge = Gauge::Angle { axis, angle, memory: model.memory_of_effect(effect) };
+                (joint.bodies, gauge, law)
+            }
+            Action::Twist { bodies, sides, law } => {
+                let sides = bodies.map(|body| sides.map(|side| model.direction(body, side)));
+                (*bodies, Gauge::Twist { sides }, law)
+            }
+            Action::Constant { at, force } => {
+                return Self::Constant { body: at.0, point: point(at), force: (*force).into() };
+            }
+            Action::Force { at, course, turns } => {
+                let (course, turns) = (*course as usize, *turns);
+                return Self::Force { body: at.0, point: point(at), course, turns };
+            }
+            Action::Torque { body, course } => {
+                return Self::Torque { body: *body, course: *course as usize };
+            }
+            Action::OnBody { at, axis, law } => {
+                let frame = Frame::new(scene, model, BodyRef::Body(at.0));
+                let (axis, law) = ((*axis).into(), *law);
+                return Self::OnBody { body: at.0, point: point(at), frame, axis, law };
+            }
+        };
+        Self::Between { bodies, gauge, law: *law }
+    }
+}

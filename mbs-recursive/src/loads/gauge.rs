@@ -1,0 +1,83 @@
+//! What a scalar law measures between two links, with its gradient by their motions.
+//!
+//! ```text
+//! length   L = |p₂ − p₁|                       n on p₂, −n on p₁
+//! along    m = (p₂ − p₁)·d₁ − m₀               d₁ on p₂, −d₁ on the first link at the same place
+//! twist    m = (b₁·a₂ − a₁·b₂)/2               the moment (a₂ × b₁ − b₂ × a₁)/2 on the second, minus it on the first
+//! ```
+
+use super::Instant;
+use crate::space::{Numbers, Space};
+use mbs_core::Real;
+use mbs_core::laws::scalar::{Law, Measure};
+
+/// What a law measures; points from their links' origins, reference axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Gauge<T: Real, S: Space<T>> {
+    /// The distance of two points.
+    Length {
+        /// The points.
+        points: [S::Point; 2],
+    },
+    /// The distance of two points along a direction of the first link.
+    Along {
+        /// The points.
+        points: [S::Point; 2],
+        /// The direction, reference axes.
+        direction: S::Point,
+        /// What the distance is counted from [m].
+        offset: T,
+    },
+    /// The small rotation of the second link in the first about a × b.
+    Twist {
+        /// a and b, reference axes.
+        sides: [S::Point; 2],
+    },
+}
+
+impl<T: Real, S: Space<T>> Gauge<T, S> {
+    /// The law at what is measured, and the wrenches on both links for unit rate.
+    pub(super) fn evaluate(
+        &self,
+        at: &Instant<'_, T, S>,
+        links: [u32; 2],
+        law: &Law<T>,
+    ) -> (Measure<T>, [S::Motion; 2]) {
+        let (value, gradient) = match self {
+            Self::Length { points } => {
+                let (arms, gap) = between(at, links, points);
+                let value = gap.dot(&gap).sqrt();
+                // At length zero the line has no direction.
+                let n = if value > T::ZERO { gap * (T::ONE / value) } else { S::Point::zero() };
+                (value, [-S::wrench(&arms[0], &n), S::wrench(&arms[1], &n)])
+            }
+            Self::Along { points, direction, offset } => {
+                let (arms, gap) = between(at, links, points);
+                let d = at.arm(links[0], direction);
+                let gradient = [-S::wrench(&(arms[0] + gap), &d), S::wrench(&arms[1], &d)];
+                (gap.dot(&d) - *offset, gradient)
+            }
+            Self::Twist { sides } => {
+                let [a1, b1] = [0, 1].map(|i| at.arm(links[0], &sides[i]));
+                let [a2, b2] = [0, 1].map(|i| at.arm(links[1], &sides[i]));
+                let moment = (S::moment(&a2, &b1) - S::moment(&b2, &a1)) * T::HALF;
+                let g = S::motion(moment, S::Point::zero());
+                ((b1.dot(&a2) - a1.dot(&b2)) * T::HALF, [-g, g])
+            }
+        };
+        let velocity = links.map(|link| &at.placed[link as usize].velocity);
+        let rate = gradient[0].dot(velocity[0]) + gradient[1].dot(velocity[1]);
+        (law.evaluate(value, rate, &at.supplies), gradient)
+    }
+}
+
+/// The arms of two points, and the way from the first to the second.
+fn between<T: Real, S: Space<T>>(
+    at: &Instant<'_, T, S>,
+    links: [u32; 2],
+    points: &[S::Point; 2],
+) -> ([S::Point; 2], S::Point) {
+    let arms = [0, 1].map(|i| at.arm(links[i], &points[i]));
+    let [p, q] = [0, 1].map(|i| at.placed[links[i] as usize].position + arms[i]);
+    (arms, q - p)
+}

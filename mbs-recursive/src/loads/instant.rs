@@ -1,0 +1,64 @@
+//! What loads are evaluated from: places, velocities and inputs of one instant.
+
+use crate::link::{Kind, Link, Placed};
+use crate::space::Space;
+use mbs_core::Real;
+use mbs_core::algebra::Vector;
+use mbs_core::laws::Supplies;
+
+/// What loads are evaluated from.
+#[derive(Debug, Clone, Copy)]
+pub struct Instant<'a, T: Real, S: Space<T>> {
+    /// The links.
+    pub links: &'a [Link<T, S>],
+    /// Where they are.
+    pub placed: &'a [Placed<T, S>],
+    /// Coordinates, velocities, guides.
+    pub coordinates: (&'a [T], &'a [T], &'a [[T; 3]]),
+    /// Vectors of the courses, and tables.
+    pub supplies: Supplies<'a, T>,
+    /// The point that positions are counted from, global axes [m].
+    pub base: S::Point,
+}
+
+impl<T: Real, S: Space<T>> Instant<'_, T, S> {
+    /// Angle or slide of a joint with one coordinate, and its rate.
+    pub(crate) fn coordinate(&self, link: u32) -> [T; 2] {
+        let (link, (z, v, guides)) = (&self.links[link as usize], self.coordinates);
+        match link.kind {
+            Kind::GuidedRevolute | Kind::GuidedPrismatic => {
+                let [value, rate, _] = guides[link.v as usize];
+                [value, rate]
+            }
+            _ => [z[link.z as usize], v[link.v as usize]],
+        }
+    }
+
+    /// From a link's origin to one of its points, world axes [m].
+    pub(super) fn arm(&self, link: u32, point: &S::Point) -> S::Point {
+        S::rotate(&self.placed[link as usize].rotation, point)
+    }
+
+    /// Where a link's point is [m].
+    pub(super) fn place(&self, link: u32, point: &S::Point) -> S::Point {
+        self.placed[link as usize].position + self.arm(link, point) + self.base
+    }
+
+    /// Velocity of the point at an arm [m/s].
+    pub(super) fn speed(&self, link: u32, arm: &S::Point) -> S::Point {
+        S::point(&S::carried(&self.placed[link as usize].velocity, arm))
+    }
+
+    /// A force of a course, world axes [N].
+    pub(super) fn force(&self, link: u32, course: u32, turns: bool) -> S::Point {
+        let f = S::point_from(&Vector::from(self.supplies.courses[course as usize]));
+        if turns { S::rotate(&self.placed[link as usize].rotation, &f) } else { f }
+    }
+
+    /// A torque of a course, world axes [N m].
+    pub(super) fn torque(&self, course: u32) -> S::Spin {
+        let c = self.supplies.courses[course as usize];
+        let c = if S::DIMENSION == 2 { [T::ZERO, T::ZERO, c[0]] } else { c };
+        S::spin_from(&Vector::from(c))
+    }
+}

@@ -1,0 +1,150 @@
+//! Effects as forces on links.
+//!
+//! ```text
+//! law of a measure m    Q = -f dm/dq, on two links or along a joint's coordinate
+//! force, torque         on one link; a constant force in fixed directions has the potential -F.r
+//! law on one body       its unit wrenches times their tensions
+//! ```
+
+mod gauge;
+mod instant;
+mod on_body;
+
+pub use gauge::Gauge;
+pub use instant::Instant;
+pub use on_body::OnBody;
+
+use crate::link::Condensed;
+use crate::space::{Numbers, Space};
+use mbs_core::Real;
+use mbs_core::laws::scalar::Law;
+
+/// An effect on one or two links.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Load<T: Real, S: Space<T>> {
+    /// A law of what is measured between two links.
+    Between {
+        /// The links.
+        links: [u32; 2],
+        /// What is measured.
+        gauge: Gauge<T, S>,
+        /// The law.
+        law: Law<T>,
+    },
+    /// A law about the axis of a revolute joint.
+    Angle {
+        /// The link behind the joint.
+        link: u32,
+        /// The law.
+        law: Law<T>,
+    },
+    /// A constant force in fixed directions.
+    Constant {
+        /// The link.
+        link: u32,
+        /// The point, from the link's origin, reference axes.
+        point: S::Point,
+        /// The force, global axes [N].
+        force: S::Point,
+    },
+    /// A force that follows a course.
+    Force {
+        /// The link.
+        link: u32,
+        /// The point, from the link's origin, reference axes.
+        point: S::Point,
+        /// The course's number.
+        course: u32,
+        /// Does it turn with the body?
+        turns: bool,
+    },
+    /// A torque that follows a course: global axes, in the plane its first component.
+    Torque {
+        /// The link.
+        link: u32,
+        /// The course's number.
+        course: u32,
+    },
+    /// A law on one body.
+    OnBody(OnBody<T, S>),
+}
+
+impl<T: Real, S: Space<T>> Load<T, S> {
+    /// Is it on one link, and that the ground?
+    pub(crate) fn is_idle(&self) -> bool {
+        match self {
+            Self::Between { .. } => false,
+            Self::Angle { link, .. }
+            | Self::Constant { link, .. }
+            | Self::Force { link, .. }
+            | Self::Torque { link, .. }
+            | Self::OnBody(OnBody { link, .. }) => *link == 0,
+        }
+    }
+
+    /// Adds the load's forces: p −= (τ, f).
+    #[inline]
+    pub fn apply(&self, at: &Instant<'_, T, S>, condensed: &mut [Condensed<T, S>]) {
+        match self {
+            Self::Between { links, gauge, law } => {
+                let (measure, gradient) = gauge.evaluate(at, *links, law);
+                for (&link, g) in links.iter().zip(gradient) {
+                    condensed[link as usize].force += g * measure.tension;
+                }
+            }
+            Self::Angle { link, law } => {
+                let [value, rate] = at.coordinate(*link);
+                let measure = law.evaluate(value, rate, &at.supplies);
+                condensed[*link as usize].effort -= measure.tension;
+            }
+            Self::Constant { link, point, force } => {
+                let arm = at.arm(*link, point);
+                condensed[*link as usize].force -= S::wrench(&arm, force);
+            }
+            Self::Force { link, point, course, turns } => {
+                let arm = at.arm(*link, point);
+                let force = at.force(*link, *course, *turns);
+                condensed[*link as usize].force -= S::wrench(&arm, &force);
+            }
+            Self::Torque { link, course } => {
+                condensed[*link as usize].force -= S::motion(at.torque(*course), S::Point::zero());
+            }
+            Self::OnBody(load) => condensed[load.link as usize].force -= load.wrench(at),
+        }
+    }
+
+    /// Stored energy [J].
+    pub fn potential(&self, at: &Instant<'_, T, S>) -> T {
+        match self {
+            Self::Between { links, gauge, law } => {
+                law.energy(gauge.evaluate(at, *links, law).0.value, &at.supplies)
+            }
+            Self::Angle { link, law } => law.energy(at.coordinate(*link)[0], &at.supplies),
+            Self::Constant { link, point, force } => -force.dot(&at.place(*link, point)),
+            Self::Force { .. } | Self::Torque { .. } => T::ZERO,
+            Self::OnBody(load) => load.potential(at),
+        }
+    }
+
+    /// Power that is not stored [W].
+    pub fn power(&self, at: &Instant<'_, T, S>) -> T {
+        match self {
+            Self::Between { links, gauge, law } => {
+                law.power(&gauge.evaluate(at, *links, law).0, &at.supplies)
+            }
+            Self::Angle { link, law } => {
+                let [value, rate] = at.coordinate(*link);
+                law.power(&law.evaluate(value, rate, &at.supplies), &at.supplies)
+            }
+            Self::Constant { .. } => T::ZERO,
+            Self::Force { link, point, course, turns } => {
+                let speed = at.speed(*link, &at.arm(*link, point));
+                at.force(*link, *course, *turns).dot(&speed)
+            }
+            Self::Torque { link, course } => {
+                at.torque(*course).dot(&S::spin(&at.placed[*link as usize].velocity))
+            }
+            Self::OnBody(load) => load.power(at),
+        }
+    }
+}

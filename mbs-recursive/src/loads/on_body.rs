@@ -1,0 +1,75 @@
+//! Laws on one body as wrenches on its link.
+//!
+//! ```text
+//! action (d, m, f)   force -f d at the law's point, moment -f m
+//! ```
+
+use super::Instant;
+use crate::space::{Numbers, Space};
+use mbs_core::Real;
+use mbs_core::algebra::Vector;
+use mbs_core::laws::body::{Action, BodyLaw, BodyMotion, MOST};
+
+/// A law on one body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OnBody<T: Real, S: Space<T>> {
+    /// The link.
+    pub link: u32,
+    /// The law's point, from the link's origin, reference axes.
+    pub point: S::Point,
+    /// The law's direction, reference axes.
+    pub axis: [T; 3],
+    /// The law.
+    pub law: BodyLaw<T>,
+}
+
+impl<T: Real, S: Space<T>> OnBody<T, S> {
+    fn evaluate(&self, at: &Instant<'_, T, S>, out: &mut [Action<T>]) {
+        let placed = &at.placed[self.link as usize];
+        let speed = at.speed(self.link, &at.arm(self.link, &self.point));
+        let along = S::rotate(&placed.rotation, &S::point_from(&Vector::from(self.axis)));
+        let mut axis = S::point_into(&along);
+        // In the plane the third direction stays.
+        if S::DIMENSION == 2 {
+            axis[2] = self.axis[2];
+        }
+        let motion = BodyMotion {
+            position: S::point_into(&at.place(self.link, &self.point)).into(),
+            velocity: S::point_into(&speed).into(),
+            axis: axis.into(),
+            spin: S::spin_into(&S::spin(&placed.velocity)).into(),
+        };
+        self.law.evaluate(&motion, &at.supplies, out);
+    }
+
+    /// Sums something over the law's actions.
+    fn sum(&self, at: &Instant<'_, T, S>, of: impl Fn(usize, &Action<T>) -> T) -> T {
+        let mut actions = [Action::default(); MOST];
+        let actions = &mut actions[..self.law.n_actions()];
+        self.evaluate(at, actions);
+        actions.iter().enumerate().fold(T::ZERO, |sum, (k, action)| sum + of(k, action))
+    }
+
+    /// What the law does to its link, about the link's origin.
+    pub(super) fn wrench(&self, at: &Instant<'_, T, S>) -> S::Motion {
+        let mut actions = [Action::default(); MOST];
+        let actions = &mut actions[..self.law.n_actions()];
+        self.evaluate(at, actions);
+        let (mut force, mut moment) = (S::Point::zero(), S::Spin::zero());
+        for Action { force: d, moment: m, measure } in actions.iter() {
+            force -= S::point_from(&Vector::from(*d)) * measure.tension;
+            moment -= S::spin_from(&Vector::from(*m)) * measure.tension;
+        }
+        S::wrench(&at.arm(self.link, &self.point), &force) + S::motion(moment, S::Point::zero())
+    }
+
+    /// Stored energy [J].
+    pub(super) fn potential(&self, at: &Instant<'_, T, S>) -> T {
+        self.sum(at, |k, action| self.law.energy(k, &action.measure))
+    }
+
+    /// Power that is not stored [W].
+    pub(super) fn power(&self, at: &Instant<'_, T, S>) -> T {
+        self.sum(at, |k, action| self.law.power(k, &action.measure))
+    }
+}

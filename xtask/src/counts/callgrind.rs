@@ -1,0 +1,115 @@
+//! Running `counts` under callgrind: one dump for each call of its `measured`, read function by function.
+
+use crate::process::{line, output};
+use crate::summary::LeftOut;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// What one case executed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Case {
+    /// Formulation, dimension, effect, switch.
+    pub(crate) name: String,
+    /// Instructions of all functions but those of libc that copy and fill memory.
+    pub(crate) instructions: u64,
+    /// Calls of those: how many instructions they take depends on where the allocator put a buffer.
+    pub(crate) copies: u64,
+    /// The functions.
+    pub(crate) functions: BTreeSet<String>,
+}
+
+/// What to do where there is no valgrind; `None`: there is one.
+pub(crate) fn missing() -> Option<LeftOut> {
+    output(Command::new("valgrind").arg("--version")).is_none().then(|| LeftOut {
+        why: "`valgrind` is not installed".to_owned(),
+        remedy:
+            "Get it on Debian, as root, with `apt-get install --no-install-recommends valgrind`;\n\
+                 then run `cargo xtask counts`."
+                .to_owned(),
+    })
+}
+
+/// Runs the program; its dumps go to `folder`, which is emptied before.
+///
+/// # Errors
+///
+/// What could not run, or a dump that does not fit to the printed names.
+pub(crate) fn run(program: &Path, args: &[&str], folder: &Path) -> Result<Vec<Case>, String> {
+    let io = |e: std::io::Error| format!("{}: {e}", folder.display());
+    if folder.exists() {
+        fs::remove_dir_all(folder).map_err(io)?;
+    }
+    fs::create_dir_all(folder).map_err(io)?;
+    let mut command = Command::new("valgrind");
+    command.args(["--quiet", "--tool=callgrind", "--compress-strings=no"]);
+    // In this order: the other way round callgrind forgets one of the two.
+    command.args(["--dump-after=*counts::measured*", "--toggle-collect=counts::measured*"]);
+    command.arg(format!("--callgrind-out-file={}", folder.join("dump").display()));
+    command.arg(program).args(args).stdin(Stdio::null());
+    let out = command.output().map_err(|e| format!("cannot start `{}`: {e}", line(&command)))?;
+    if !out.status.success() {
+        let errors = String::from_utf8_lossy(&out.stderr);
+        return Err(format!("`{}`: {}\n{errors}", line(&command), out.status));
+    }
+    let names = String::from_utf8_lossy(&out.stdout).into_owned();
+    let read = |(i, name): (usize, &str)| {
+        let path = folder.join(format!("dump.{}", i + 1));
+        let bytes = fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+        Ok(case(name, &String::from_utf8_lossy(&bytes)))
+    };
+    names.lines().enumerate().map(read).collect()
+}
+
+/// Reads one dump.
+fn case(name: &str, dump: &str) -> Case {
+    let mut case =
+        Case { name: name.to_owned(), instructions: 0, copies: 0, functions: BTreeSet::new() };
+    let (mut function, mut callee) = ("", "");
+    let mut is_call = false;
+    for line in dump.lines() {
+        if let Some(name) = line.strip_prefix("fn=") {
+            function = name;
+        } else if let Some(name) = line.strip_prefix("cfn=") {
+            callee = name;
+        } else if let Some(call) = line.strip_prefix("calls=") {
+            is_call = true;
+            if is_copy(callee) {
+                case.copies += number(call.split(' ').next());
+            }
+        } else if line.starts_with(|c: char| c.is_ascii_digit() || "+-*".contains(c)) {
+            // The line after `calls=` is what the callee took, which is counted there.
+            if !std::mem::take(&mut is_call) && !is_copy(function) {
+                case.instructions += number(line.split(' ').nth(1));
+                case.functions.insert(function.to_owned());
+            }
+        }
+    }
+    case
+}
+
+/// Is this one of libc's functions that copy, fill or compare memory?
+fn is_copy(function: &str) -> bool {
+    let name = function.trim_start_matches('_');
+    ["memcpy", "memmove", "memset", "memcmp", "bcmp"].iter().any(|f| name.starts_with(f))
+}
+
+fn number(word: Option<&str>) -> u64 {
+    word.and_then(|word| word.parse().ok()).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_callees_take_is_counted_once_and_copies_by_their_calls() {
+        let dump = "events: Ir\n\nfl=a.rs\nfn=step\n10 5\n+2 7\ncfn=add\ncalls=3 0\n* 30\n\
+                    cfn=__memcpy_avx_unaligned_erms\ncalls=2 0\n+1 44\n\nfn=add\n4 30\n\
+                    fn=__memcpy_avx_unaligned_erms\n0 44\n";
+        let case = case("x", dump);
+        assert_eq!((case.instructions, case.copies), (42, 2));
+        assert_eq!(case.functions.into_iter().collect::<Vec<_>>(), ["add", "step"]);
+    }
+}
