@@ -114,10 +114,10 @@ fn json_is_one_object_with_its_keys() {
         "step",
     ];
     assert_eq!(keys, wanted);
-    assert_eq!((&value["formulation"], &value["chosen"]["formulation"]), (
-        &"auto".into(),
-        &"index-3".into()
-    ));
+    assert_eq!(
+        (&value["formulation"], &value["chosen"]["formulation"]),
+        (&"auto".into(), &"index-3".into())
+    );
     assert!(!value["chosen"]["reasons"].as_array().expect("a list").is_empty());
     let simulated = &value["simulated"];
     assert_eq!(simulated["dof"], 2);
@@ -150,7 +150,8 @@ fn loops_are_cut_at_named_joints_and_redundant_equations_are_counted() {
     let relative = &value["simulated"]["relative"];
     assert_eq!((&value["simulated"]["dof"], &relative["loops"]), (&1.into(), &2.into()));
     let cut = relative["cut_joints"].as_array().expect("a list");
-    let names: Vec<_> = value["simulated"]["joints"][0]["names"].as_array().expect("a list").clone();
+    let names: Vec<_> =
+        value["simulated"]["joints"][0]["names"].as_array().expect("a list").clone();
     assert!(cut.len() == 2 && cut.iter().all(|joint| names.contains(joint)));
     assert_eq!((&relative["constraints"], &relative["redundant"]), (&4.into(), &0.into()));
 
@@ -208,9 +209,10 @@ fn leaving_a_damper_out_changes_what_two_runs_differ_by_and_an_idle_effect_chang
     let by_hand = rows.map(|(a, b)| (a.1[0] - b.1[0]).abs()).fold(0.0, f64::max);
     assert!(by_hand > 0.1, "{by_hand} rad");
     let changes = &price(&explanation, "damper").changes;
-    assert_eq!((changes.len(), changes[0].output.as_str(), changes[0].unit.as_str()), (
-        1, "pivot", "rad"
-    ));
+    assert_eq!(
+        (changes.len(), changes[0].output.as_str(), changes[0].unit.as_str()),
+        (1, "pivot", "rad")
+    );
     assert_eq!(changes[0].largest.to_bits(), by_hand.to_bits());
     assert!((changes[0].relative.expect("it moves") * changes[0].range - by_hand).abs() < 1e-12);
 
