@@ -1,5 +1,6 @@
 //! Command line: arguments, refusals, and the commands.
 
+mod analysis;
 mod run;
 mod table;
 
@@ -19,7 +20,8 @@ const ABOUT: &str =
     "Dynamics of multibody systems: a scene file in; motion, energies and plots out.";
 const STATUS: &str = "\
 Example: mbs run scenes/double-pendulum.toml --out out
-Exit status: 0 completed, 1 scene or usage refused, 2 the run stopped early (its data are kept).";
+Exit status: 0 completed, 1 scene or usage refused, 2 the run stopped early (its data are kept), or there is no
+equilibrium.";
 /// Commands of the format's contract that are not built yet.
 const NOT_BUILT: [&str; 5] = ["explain", "compare", "doctor", "sweep", "export"];
 
@@ -27,6 +29,10 @@ const NOT_BUILT: [&str; 5] = ["explain", "compare", "doctor", "sweep", "export"]
 enum Command {
     /// Simulate a scene: summary, and with --out run.csv, run.json and run.html.
     Run(run::Arguments),
+    /// Static equilibrium: joint coordinates, reactions and outputs, and whether it is stable.
+    Equilibrium(analysis::Equilibrium),
+    /// Linearise: eigenvalues, frequencies and damping ratios.
+    Modes(analysis::Modes),
 }
 
 /// Exit status of a refusal.
@@ -49,6 +55,8 @@ pub(crate) fn main() -> ExitCode {
     };
     match cli.command {
         Command::Run(arguments) => run::main(&arguments),
+        Command::Equilibrium(arguments) => analysis::equilibrium(&arguments),
+        Command::Modes(arguments) => analysis::modes(&arguments),
     }
 }
 

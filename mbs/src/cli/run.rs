@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mbs::{Outcome, Overrides, Precision, Progress, Settings, SettingsError, words};
 use mbs_core::Real;
 use mbs_core::scene::{Dimension, Entry, Scene};
-use mbs_scene::{Document, Provenance, readable};
+use mbs_scene::{Document, Provenance, RunError, readable};
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -89,18 +89,9 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
             "error: {option} is not built yet\nhint: leave it out; give --step instead"
         ));
     }
-    let file = arguments.scene.display().to_string();
-    let bytes = match std::fs::read(&arguments.scene) {
-        Ok(bytes) => bytes,
-        Err(error) => return refuse(&unreadable(&arguments.scene, &error)),
-    };
-    let document = match Document::from_bytes(&bytes, &file) {
-        Ok(document) => document,
-        Err(error) => return refuse(&error.render()),
-    };
-    let scene = match document.scene::<f64>() {
-        Ok(scene) => scene,
-        Err(error) => return refuse(&error.render()),
+    let (document, scene) = match load(&arguments.scene) {
+        Ok(both) => both,
+        Err(message) => return refuse(&message),
     };
     let settings = match Settings::new(&scene, &arguments.overrides()) {
         Ok(settings) => settings,
@@ -108,7 +99,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     };
     // Before the run: what cannot be written should not be computed.
     if let Some(out) = &arguments.out
-        && let Err(error) = prepare(out)
+        && let Err(error) = prepare(out, "run.csv")
     {
         return refuse(&unwritable(out, &error));
     }
@@ -120,6 +111,15 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         },
     };
     report(&outcome, arguments, &settings, &document)
+}
+
+/// Reads a scene file; a refusal is rendered.
+pub(crate) fn load(path: &Path) -> Result<(Document, Scene<f64>), String> {
+    let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
+    let document = Document::from_bytes(&bytes, &path.display().to_string());
+    let document = document.map_err(|error| error.render())?;
+    let scene = document.scene::<f64>().map_err(|error| error.render())?;
+    Ok((document, scene))
 }
 
 fn dispatch<T: Real>(scene: &Scene<T>, settings: &Settings, arguments: &Arguments) -> Outcome {
@@ -166,15 +166,21 @@ fn report(
     }
     let Some(error) = &outcome.error else { return ExitCode::SUCCESS };
     if !arguments.json {
-        eprint!("{}", stopped(outcome, error, document));
+        let report = outcome.summary.error.as_ref();
+        let text = report.map(|report| stopped("stopped", report, error, document));
+        eprint!("{}", text.unwrap_or_default());
     }
     ExitCode::from(STOPPED)
 }
 
 /// The error of a run that stopped, with the place in the scene that it is about.
-fn stopped(outcome: &Outcome, error: &mbs::StopError, document: &Document) -> String {
-    let Some(report) = &outcome.summary.error else { return String::new() };
-    let message = format!("stopped {}: {}", words::stopped_at(report), report.message);
+pub(crate) fn stopped(
+    what: &str,
+    report: &RunError,
+    error: &mbs::StopError,
+    document: &Document,
+) -> String {
+    let message = format!("{what} {}: {}", words::stopped_at(report), report.message);
     let Some(entry) = error.entry() else {
         return format!("{}: {message}\nhint: {}\n", document.file(), report.hint);
     };
@@ -198,7 +204,7 @@ fn unreadable(scene: &Path, error: &std::io::Error) -> String {
     format!("error: cannot read `{}`: {}\nhint: {hint}", scene.display(), plain(error))
 }
 
-fn unwritable(out: &Path, error: &std::io::Error) -> String {
+pub(crate) fn unwritable(out: &Path, error: &std::io::Error) -> String {
     let (out, error) = (out.display(), plain(error));
     format!(
         "error: cannot write to `{out}`: {error}\nhint: give a directory that can be made or written with --out"
@@ -211,10 +217,10 @@ fn plain(error: &std::io::Error) -> String {
     text.split(" (os error").next().unwrap_or_default().to_lowercase()
 }
 
-/// Makes the directory and tries to write there.
-fn prepare(out: &Path) -> std::io::Result<()> {
+/// Makes the directory and tries to write `file` there.
+pub(crate) fn prepare(out: &Path, file: &str) -> std::io::Result<()> {
     std::fs::create_dir_all(out)?;
-    std::fs::File::create(out.join("run.csv")).map(drop)
+    std::fs::File::create(out.join(file)).map(drop)
 }
 
 fn write_files(
