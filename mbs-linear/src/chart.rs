@@ -95,9 +95,7 @@ impl<T: Real> Chart<T> {
     pub(crate) fn reduce(&self, x: &[T]) -> Vec<T> {
         let (rank, f) = (self.rows.len(), self.n_freedoms());
         let e: Vec<T> = (0..f).map(|j| dot(column(&self.q, self.n, rank + j), x)).collect();
-        (0..f)
-            .map(|j| (j..f).fold(T::ZERO, |sum, i| sum + self.l[j * f + i] * e[i]))
-            .collect()
+        (0..f).map(|j| (j..f).fold(T::ZERO, |sum, i| sum + self.l[j * f + i] * e[i])).collect()
     }
 
     /// Direction of one freedom: a column of B.

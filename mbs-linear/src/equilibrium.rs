@@ -45,10 +45,10 @@ pub struct Equilibrium<T> {
     pub violation: T,
     /// Largest change of a coordinate [m or -].
     pub change: T,
-    /// Directions in which forces lead away from it: |omega| above [`rate`](Self::rate), omega^2 negative. By the symmetric
-    /// part of the tangent that the effects give; the eigenvalues of a linearisation are the last word.
+    /// Directions in which forces lead away from it: |omega| above [`rate`](Self::rate), omega^2 negative. An estimate by the
+    /// tangent that the effects give, which may leave parts out; the eigenvalues of a linearisation are the last word.
     pub unstable: usize,
-    /// Directions with |omega| below [`rate`](Self::rate), in which it may stand anywhere; `None` where the constraints are
+    /// Directions with |omega| below [`rate`](Self::rate), in which it may stand anywhere, by the same estimate; `None` where the constraints are
     /// too many for their rank to be found.
     pub neutral: Option<usize>,
     /// What counts as neutral [rad/s].
@@ -56,7 +56,7 @@ pub struct Equilibrium<T> {
 }
 
 impl<T> Equilibrium<T> {
-    /// Does no force lead away from it?
+    /// Does no force lead away from it, by the estimate?
     pub fn is_stable(&self) -> bool {
         self.unstable == 0
     }
@@ -67,7 +67,7 @@ const SHRINK: f64 = 0.125;
 /// An accepted step lets s grow by this.
 const GROW: f64 = 10.0;
 /// Steps balanced within the tolerance without progress after which the search ends.
-const PATIENCE: u32 = 8;
+const PATIENCE: u32 = 40;
 /// Sweeps that close the constraints after a step.
 const SWEEPS: u32 = 20;
 /// Constraint violation of a step relative to its size that is still closed.
@@ -214,15 +214,16 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
             let left = norm_inf(&self.residual);
             let is_progress = left < before * T::HALF;
             if left <= options.tolerance * self.scale {
-                let floor = self.scale * T::EPSILON * T::from_f64(4.0);
-                let is_still = size <= self.length * T::EPSILON.sqrt();
-                if is_still && (!is_progress || left <= floor) {
-                    return Ok(());
-                }
+                // A small s tells of an unstable place: what looks still there only begins to move.
+                let is_newton = self.s >= self.bound * T::from_f64(SHRINK);
+                let is_still = size <= self.length * T::EPSILON.sqrt() && is_newton;
+                let is_rounding = left <= self.scale * T::EPSILON * T::from_f64(4.0);
                 idle = if is_progress { 0 } else { idle + 1 };
-                if idle > PATIENCE {
+                if is_rounding || (is_still && !is_progress) || idle > PATIENCE {
                     return Ok(());
                 }
+            } else {
+                idle = 0;
             }
             if !was_refused {
                 self.s = (self.s * T::from_f64(GROW)).min(self.bound);

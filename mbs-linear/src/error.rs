@@ -80,10 +80,15 @@ impl From<OptionError> for EquilibriumError {
 pub enum LinearError {
     /// An option is out of range.
     Option(OptionError),
-    /// The state, or one within a difference of it, does not meet the constraints: a singular position is near.
+    /// The state, or one within a difference of it, does not meet the constraints.
     NotClosed {
         /// Largest violation [m or rad].
         violation: f64,
+    },
+    /// Closing the constraints next to the state moves as far as the difference itself: a singular position is near.
+    Singular {
+        /// The independent coordinate that was changed.
+        freedom: usize,
     },
     /// Accelerations do not follow from the forces: a force meets no inertia.
     NoInertia {
@@ -100,7 +105,11 @@ impl core::fmt::Display for LinearError {
             Self::Option(error) => write!(f, "{error}"),
             Self::NotClosed { violation } => write!(
                 f,
-                "the joints are open by {violation:.3e} m (or rad) next to the state: it is no smooth function of independent coordinates there; move away from the singular position"
+                "the joints stay open by {violation:.3e} m (or rad) at the state or next to it; start from an assembled state, away from singular positions"
+            ),
+            Self::Singular { .. } => write!(
+                f,
+                "the state is a singular position, or nearly: its branches have no common linearisation; move away from it"
             ),
             Self::NoInertia { .. } => write!(
                 f,

@@ -8,7 +8,11 @@
 //!
 //! Derivatives are central differences of fourth order of the equations of motion themselves, not of the tangent that the
 //! effects offer to implicit steps: those may be symmetrised or clipped, and a stiffness through multipliers alone, as a
-//! pendulum's, comes by itself. In a steady motion the terms of q' (gyroscopic and centrifugal) come along.
+//! pendulum's, comes by itself.
+//!
+//! About a state at rest in equilibrium, and about a uniform translation (a vehicle that drives straight), A is constant and
+//! its eigenvalues belong to the mechanism. Where bodies turn, A changes along the motion and depends on the choice of z:
+//! [`Linear::turning`] tells.
 
 use crate::chart::Chart;
 use crate::error::LinearError;
@@ -42,6 +46,10 @@ pub struct Linear<T> {
     pub basis: Vec<T>,
     /// z'' at the state: zero in an equilibrium.
     pub acceleration: Vec<T>,
+    /// Largest acceleration that the constraints ask for because bodies turn [m/s^2]: zero at rest and in translation.
+    ///
+    /// Where it is not, the coefficients change along the motion, and eigenvalues hold for an instant and for these z alone.
+    pub turning: T,
     /// Rounding to be expected in `stiffness` [1/s^2]: eigenvalues whose square is of this size are zero.
     pub noise: T,
 }
@@ -65,6 +73,8 @@ impl<T: Real> Linear<T> {
 
 /// Sweeps that close constraints next to the state.
 const SWEEPS: u32 = 60;
+/// Closing the constraints moves by this share of a difference at most: the curvature of the constraints takes some 1e-4.
+const CURVED: f64 = 0.1;
 
 /// Linearises about the consistent state `s` of a scene of the given `length` [m]. Time and measured angles stand still.
 ///
@@ -91,6 +101,7 @@ pub fn linearise<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     let mut field = Field::new(model, length, s, w)?;
     let f = field.chart.n_freedoms();
     let acceleration = field.at_rest_of(&s.v)?;
+    let turning = norm_inf(&field.w.terms.phi_bias);
     let reach = options.step * length;
     let (mut stiffness, mut damping) = (Vec::new(), Vec::new());
     for j in 0..f {
@@ -107,7 +118,7 @@ pub fn linearise<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     }
     let noise = T::EPSILON * T::from_f64(16.0) * (norm_inf(&stiffness) + field.lively / reach);
     let basis = field.chart.basis;
-    Ok(Linear { n_freedoms: f, stiffness, damping, basis, acceleration, noise })
+    Ok(Linear { n_freedoms: f, stiffness, damping, basis, acceleration, turning, noise })
 }
 
 /// (8 (f(h) - f(-h)) - (f(2h) - f(-2h))) / 12 h
@@ -199,7 +210,13 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         for (q, &b) in self.q.iter_mut().zip(self.chart.direction(freedom)) {
             *q += b * z;
         }
+        let open = self.q.clone();
         self.close()?;
+        // Of second order in z, unless a row is next to being dependent.
+        let moved = self.q.iter().zip(&open).fold(T::ZERO, |m, (&a, &b)| m.max((a - b).abs()));
+        if moved > norm_inf(self.chart.direction(freedom)) * z.abs() * T::from_f64(CURVED) {
+            return Err(LinearError::Singular { freedom });
+        }
         self.factor()?;
         self.acceleration()
     }

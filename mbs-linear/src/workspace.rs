@@ -142,9 +142,10 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty: &[], geometric: None };
         sum_diagonal(model, &self.terms, &tangent, &mut self.local, &mut self.diagonal);
         let floor = norm_inf(&self.diagonal) * T::from_f64(1e-6);
-        forces.iter().zip(&self.diagonal).fold(T::ZERO, |most, (&f, &m)| {
-            if m > floor { most.max(f / m) } else { most }
-        })
+        forces
+            .iter()
+            .zip(&self.diagonal)
+            .fold(T::ZERO, |most, (&f, &m)| if m > floor { most.max(f / m) } else { most })
     }
 }
 

@@ -133,3 +133,35 @@ fn a_chain_in_space_hangs_down() {
     assert_eq!(found.unstable, 0, "{found:?}");
     assert!(found.relative < 1e-12, "{found:?}");
 }
+
+#[test]
+fn a_tree_of_springs_settles_where_nothing_grows() {
+    // The tangent of its torsion springs leaves the turning of their axes out, so that signs of the tangent say too much:
+    // eigenvalues of the equations of motion are asked instead.
+    let mut case = Case::<3>::new(include_str!("../../scenes/tree-30.toml"));
+    let found = case.settle().unwrap_or_else(|e| panic!("{e}"));
+    assert!(found.relative < 1e-12, "{found:?}");
+    let noise = case.linear(mbs_linear::Instant::Rest).expect("it is regular").noise;
+    let values = case.eigenvalues(mbs_linear::Instant::Rest);
+    let growth = values.iter().fold(0.0, |most: f64, x| most.max(x.0));
+    assert!(growth < (1e3 * noise).sqrt(), "{growth} {noise}");
+}
+
+#[test]
+fn single_precision_balances_to_its_own_rounding() {
+    use mbs_core::{dense::Dense, natural::NaturalModel, start::assemble};
+    use mbs_linear::{Options, Saddle, Workspace, equilibrium};
+    let document = mbs_scene::Document::parse(&pendulum(2.0), "test.toml").expect("it is a scene");
+    let scene = document.scene::<f32>().expect("it is a scene");
+    let model = NaturalModel::<f32, 2>::new(&scene).expect("it has a model");
+    let start = assemble(&scene, &model, |p| Dense::new(p), &mut Dense::new(&model));
+    let mut state = start.expect("it assembles").state;
+    let mut w = Workspace::new(&model, Dense::new(&Saddle::new(&model)));
+    let found = equilibrium(&model, model.length(), &Options::default(), &mut state, &mut w);
+    let found = found.unwrap_or_else(|e| panic!("{e}"));
+    assert!(found.relative < 1e-6 && found.unstable == 0, "{found:?}");
+    let at = mbs_core::scene::BodyRef::Body(0);
+    let tip = model.point(at, [0.0, -1.0, 0.0]).value(&state.q);
+    // A thousand roundings: the search ends where the force is rounding, and K is of order one.
+    assert!(tip[0].abs() < 1e-4, "{tip:?}");
+}

@@ -3,7 +3,7 @@
 mod common;
 
 use common::Case;
-use mbs_linear::Instant;
+use mbs_linear::{Instant, LinearError};
 
 /// Differences of fourth order at 1e-4 leave rounding alone: about 1e-11 of these frequencies. What is asked for is 1e-8.
 const SAME: f64 = 1e-9;
@@ -55,7 +55,10 @@ fn double(turn: f64, is_reversed: bool) -> String {
         format!("[[body]]\nname = \"{name}\"\nmass = 1.0\ncenter = {}\ninertia = 0.0\n\n", at(y))
     };
     let joint = |a: &str, b: &str, y| {
-        format!("[[joint]]\nname = \"{a}{b}\"\nkind = \"revolute\"\nbodies = [\"{a}\", \"{b}\"]\nat = {}\n\n", at(y))
+        format!(
+            "[[joint]]\nname = \"{a}{b}\"\nkind = \"revolute\"\nbodies = [\"{a}\", \"{b}\"]\nat = {}\n\n",
+            at(y)
+        )
     };
     let g = format!("[{}, {}]", 9.81 * turn.sin(), -9.81 * turn.cos());
     let (a, b) = (body("a", -1.0), body("b", -2.0));
@@ -170,23 +173,77 @@ at = [0.0, 0.0, 0.0]
     assert!(swings.len() == 2 && swings.iter().zip(wanted).all(|(a, b)| near(*a, b)), "{values:?}");
 }
 
-#[test]
-fn a_spinning_body_nutates() {
-    // Spin about the axis of the largest inertia: nutation at spin sqrt((C - A)(C - B) / (A B)); two more turns are neutral.
-    let body = r#"
+/// A cart of 5 kg on a rail, driving at 20 m/s, with a bob of 2 kg on a bar of 0.7 m; `drag` is a damper to a far wall.
+const CART: &str = r#"
 [[body]]
-name = "body"
-mass = 1.0
-center = [0.0, 0.0, 0.0]
-inertia = [1.0, 2.0, 2.5, 0.0, 0.0, 0.0]
+name = "cart"
+mass = 5.0
+center = [0.0, 0.0]
+inertia = 0.1
+[[body]]
+name = "bob"
+mass = 2.0
+center = [0.0, -0.7]
+inertia = 0.0
+[[joint]]
+name = "rail"
+kind = "prismatic"
+bodies = ["ground", "cart"]
+at = [0.0, 0.0]
+axis = [1.0, 0.0]
+[[joint]]
+name = "pivot"
+kind = "revolute"
+bodies = ["cart", "bob"]
+at = [0.0, 0.0]
 [[initial]]
-body = "body"
-at = [0.0, 0.0, 0.0]
-velocity = [0.0, 0.0, 0.0]
-angular_velocity = [0.0, 0.0, 3.0]
+joint = "rail"
+rate = 20.0
+[[initial]]
+joint = "pivot"
+rate = 0.0
 "#;
-    let mut case = Case::<3>::new(&scene(3, "[0.0, 0.0, 0.0]", body));
-    let values = case.eigenvalues(Instant::Motion);
-    let w = 3.0 * f64::sqrt(1.5 * 0.5 / 2.0);
-    assert!(values.iter().any(|x| x.0.abs() < 1e-6 && near(x.1, w)), "{w}: {values:?}");
+
+#[test]
+fn a_cart_that_drives_has_the_modes_of_one_that_stands() {
+    let w = f64::sqrt((1.0 + 2.0 / 5.0) * 9.81 / 0.7);
+    for instant in [Instant::Motion, Instant::Rest] {
+        let mut case = Case::<2>::new(&scene(2, "[0.0, -9.81]", CART));
+        if instant == Instant::Rest {
+            let found = case.settle().expect("it hangs");
+            assert_eq!((found.unstable, found.neutral), (0, Some(1)));
+        }
+        let linear = case.linear(instant).expect("it is regular");
+        assert!(linear.turning < 1e-12, "nothing turns: {}", linear.turning);
+        let values = case.eigenvalues(instant);
+        let last = values.last().expect("there are modes");
+        assert!(last.0.abs() < SAME && near(last.1, w), "{instant:?}: {values:?}");
+        // Along the rail the eigenvalue is zero twice: rounding alone, and told as such.
+        let zero = (1e3 * linear.noise).sqrt();
+        assert!(zero < 1e-2 * w, "{zero}");
+        assert!(values[..values.len() - 1].iter().all(|x| x.0.hypot(x.1) < zero), "{values:?}");
+    }
+}
+
+#[test]
+fn a_mechanism_that_turns_says_that_its_eigenvalues_hold_for_an_instant() {
+    let turning = format!("{BOB}\n[[initial]]\njoint = \"pivot\"\nrate = 3.0\n");
+    let mut case = Case::<2>::new(&scene(2, "[0.0, -9.81]", &turning));
+    let linear = case.linear(Instant::Motion).expect("it is regular");
+    // The unit vector of the bar is held by a row of its own: its centripetal acceleration is the square of the rate.
+    assert!((linear.turning - 9.0).abs() < 1e-9, "centripetal: {}", linear.turning);
+}
+
+#[test]
+fn a_singular_position_has_no_linearisation() {
+    // The parallelogram lying flat: its two branches cross there, and most tangents lead off the constraints.
+    let text = include_str!("../../scenes/four-bar.toml")
+        .replace("[0.0, 1.0]", "[1.0, 0.0]")
+        .replace("[1.0, 1.0]", "[2.0, 0.0]")
+        .replace("value = 0.0\nrate = -1.0", "value = 0.0");
+    let mut case = Case::<2>::new(&text);
+    let error = case.linear(Instant::Motion).map(|linear| linear.n_freedoms);
+    let is_refused =
+        matches!(error, Err(LinearError::Singular { .. } | LinearError::NotClosed { .. }));
+    assert!(is_refused, "{error:?}");
 }

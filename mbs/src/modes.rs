@@ -4,12 +4,13 @@
 //! lambda = -zeta omega_0 +- i omega_0 sqrt(1 - zeta^2):   omega_0 = |lambda|,  zeta = -Re lambda / |lambda|
 //! ```
 
-use crate::statics::{assembled, settle, workspace};
+use crate::statics::{assembled, equilibrium_start, settle, workspace};
 use crate::stop::StopError;
 use core::f64::consts::TAU;
 use faer::Mat;
 use mbs_core::scene::Scene;
 use mbs_linear::{Equilibrium, Instant, Linear, LinearOptions, linearise};
+use mbs_sparse::Multifrontal;
 use serde_json::{Value, json};
 
 /// About which state.
@@ -19,6 +20,8 @@ pub enum Place {
     Equilibrium,
     /// The start as assembled, with its velocities and the guides' rates.
     Initial,
+    /// The positions of the static equilibrium with the scene's initial velocities: a vehicle that drives straight.
+    Moving,
 }
 
 impl Place {
@@ -28,6 +31,7 @@ impl Place {
         match self {
             Self::Equilibrium => "equilibrium",
             Self::Initial => "initial",
+            Self::Moving => "moving",
         }
     }
 }
@@ -56,6 +60,12 @@ impl Mode {
         self.imaginary / TAU
     }
 
+    /// Does it grow, beyond rounding?
+    #[must_use]
+    pub fn grows(&self) -> bool {
+        !self.is_neutral && self.real > AXIS * self.real.hypot(self.imaginary)
+    }
+
     /// -Re lambda / |lambda| [-]; `None` for a neutral one.
     #[must_use]
     pub fn damping_ratio(&self) -> Option<f64> {
@@ -76,6 +86,9 @@ pub struct Modes {
     pub dof: usize,
     /// Largest acceleration at the state, of coordinates with unit inertia [m sqrt(kg)/s^2]; zero in an equilibrium.
     pub acceleration: f64,
+    /// Largest acceleration that joints ask for because bodies turn [m/s^2]: where it is not zero, eigenvalues hold for an
+    /// instant and depend on the choice of coordinates.
+    pub turning: f64,
     /// The eigenvalues from the slowest to the fastest.
     pub modes: Vec<Mode>,
 }
@@ -86,14 +99,18 @@ impl Modes {
     /// # Errors
     /// [`StopError`] when there is no model, consistent start, equilibrium or linearisation.
     pub fn new<const D: usize>(scene: &Scene<f64>, place: Place) -> Result<Self, StopError> {
-        let (model, start) = assembled::<D>(scene)?;
-        let mut state = start.state;
+        let (model, mut start) = assembled::<D>(scene)?;
         let (found, instant) = match place {
-            Place::Equilibrium => (Some(settle(&model, &mut state)?), Instant::Rest),
+            Place::Equilibrium => (Some(settle(&model, &mut start.state)?), Instant::Rest),
             Place::Initial => (None, Instant::Motion),
+            Place::Moving => {
+                let mut solver = Multifrontal::analyse(&model, mbs_sparse::Options::default());
+                let found = equilibrium_start(scene, &model, &mut solver, &mut start)?;
+                (Some(found), Instant::Motion)
+            }
         };
         let how = (instant, &LinearOptions::default());
-        let linear = linearise(&model, model.length(), how, &state, &mut workspace(&model))
+        let linear = linearise(&model, model.length(), how, &start.state, &mut workspace(&model))
             .map_err(StopError::Linear)?;
         let acceleration = linear.acceleration.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         Ok(Self {
@@ -102,6 +119,7 @@ impl Modes {
             found,
             dof: linear.n_freedoms,
             acceleration,
+            turning: linear.turning,
             modes: eigenvalues(&linear)?,
         })
     }
@@ -109,9 +127,7 @@ impl Modes {
     /// Does every disturbance decay or stay small? Neutral eigenvalues and those on the axis within rounding count as stable.
     #[must_use]
     pub fn is_stable(&self) -> bool {
-        self.modes.iter().all(|mode| {
-            mode.is_neutral || mode.real <= AXIS * mode.real.hypot(mode.imaginary)
-        })
+        !self.modes.iter().any(Mode::grows)
     }
 
     /// One JSON object.
@@ -135,6 +151,7 @@ impl Modes {
             "dof": self.dof,
             "stable": self.is_stable(),
             "acceleration": self.acceleration,
+            "turning": self.turning,
             "equilibrium_residual": self.found.map(|f| f.residual),
             "modes": self.modes.iter().map(mode).collect::<Vec<_>>(),
         })
@@ -147,7 +164,7 @@ const AXIS: f64 = 1e-8;
 const NOISE: f64 = 1e3;
 
 /// The eigenvalues of a linearised motion, conjugate ones once, from the slowest to the fastest.
-fn eigenvalues(linear: &Linear<f64>) -> Result<Vec<Mode>, StopError> {
+pub(crate) fn eigenvalues(linear: &Linear<f64>) -> Result<Vec<Mode>, StopError> {
     let (n, a) = (2 * linear.n_freedoms, linear.state_matrix());
     if n == 0 {
         return Ok(Vec::new());
@@ -165,4 +182,15 @@ fn eigenvalues(linear: &Linear<f64>) -> Result<Vec<Mode>, StopError> {
         size(a).total_cmp(&size(b)).then(a.real.total_cmp(&b.real))
     });
     Ok(modes)
+}
+
+/// Directions without stiffness [-]: in which an equilibrium may stand anywhere.
+pub(crate) fn neutral_directions(linear: &Linear<f64>) -> Result<usize, StopError> {
+    let f = linear.n_freedoms;
+    if f == 0 {
+        return Ok(0);
+    }
+    let stiffness = Mat::from_fn(f, f, |i, j| linear.stiffness[j * f + i]);
+    let sizes = stiffness.singular_values().map_err(|_| StopError::Eigenvalues)?;
+    Ok(sizes.iter().filter(|&&size| size <= NOISE * linear.noise).count())
 }

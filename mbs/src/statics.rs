@@ -1,6 +1,7 @@
 //! Static equilibrium of a scene: as a start of a run, and told in joints, reactions and outputs.
 
 use crate::channels::Channels;
+use crate::modes::{eigenvalues, neutral_directions};
 use crate::simulation::rank;
 use crate::stop::StopError;
 use mbs_core::model::{Model, State};
@@ -8,7 +9,9 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Output, Quantity, Scene};
 use mbs_core::start::{Assembled, assemble, restart};
 use mbs_core::{Cliques, Real, SpdSolver};
-use mbs_linear::{Equilibrium, Options, Saddle, Workspace, equilibrium};
+use mbs_linear::{
+    Equilibrium, Instant, LinearOptions, Options, Saddle, Workspace, equilibrium, linearise,
+};
 use mbs_scene::Channel;
 use mbs_sparse::{Indefinite, Multifrontal};
 use serde_json::{Map, Value, json};
@@ -55,9 +58,9 @@ pub fn equilibrium_start<T: Real, const D: usize>(
 ) -> Result<Equilibrium<T>, StopError> {
     let found = settle(model, &mut start.state)?;
     let analyse = mbs_sparse::Options::default();
-    let make = |p: &_| Multifrontal::analyse(p, analyse);
-    start.residual =
-        restart(scene, model, make, solver, &mut start.state).map_err(StopError::Start)?;
+    let state = &mut start.state;
+    let residual = restart(scene, model, |p| Multifrontal::analyse(p, analyse), solver, state);
+    start.residual = residual.map_err(StopError::Start)?;
     let mut reference = vec![T::ZERO; model.n_extended()];
     model.write_reference(&mut reference);
     let changes = reference.iter().zip(&start.state.q).map(|(&r, &q)| (q - r).abs());
@@ -85,6 +88,10 @@ pub struct Still {
     pub sizes: [usize; 3],
     /// What the search found.
     pub found: Equilibrium<f64>,
+    /// Modes that grow, by the eigenvalues of the equations of motion; `None` where they cannot be linearised.
+    pub unstable: Option<usize>,
+    /// Directions in which it may stand anywhere; likewise.
+    pub neutral: Option<usize>,
     /// Potential energy of gravity, constant forces and springs [J].
     pub potential: f64,
     /// Joint coordinates [rad or m].
@@ -110,6 +117,7 @@ impl Still {
             .filter(|&j| scene.joints[j].kind.n_coordinates(scene.dimension) > 0)
             .map(|joint| Quantity::JointValue { joint });
         let reactions = (0..scene.joints.len()).map(|joint| Quantity::Reaction { joint });
+        let stability = stability(&model, &state);
         let (joints, _) = measured(&of_joints(scene, joints), &model, &state)?;
         let all = of_joints(scene, reactions);
         let (reactions, not_unique) = measured(&all, &model, &state).unwrap_or_default();
@@ -127,6 +135,8 @@ impl Still {
             scene: scene.name.clone(),
             sizes,
             found,
+            unstable: stability.map(|s| s[0]),
+            neutral: stability.map(|s| s[1]),
             potential: model.potential_energy(&state.q, &terms),
             joints,
             reactions,
@@ -148,9 +158,9 @@ impl Still {
             "constraints": constraints,
             "constraint_rank": rank,
             "dof": coordinates - rank,
-            "stable": found.is_stable(),
-            "unstable_directions": found.unstable,
-            "neutral_directions": found.neutral,
+            "stable": self.unstable.map(|n| n == 0),
+            "unstable_modes": self.unstable,
+            "neutral_directions": self.neutral,
             "residual": found.residual,
             "relative_residual": found.relative,
             "violation": found.violation,
@@ -164,6 +174,17 @@ impl Still {
             "outputs": object(&self.outputs),
         })
     }
+}
+
+/// Growing modes and neutral directions at an equilibrium; none where there is no linearisation.
+fn stability<const D: usize>(
+    model: &NaturalModel<f64, D>,
+    state: &State<f64>,
+) -> Option<[usize; 2]> {
+    let how = (Instant::Rest, &LinearOptions::default());
+    let linear = linearise(model, model.length(), how, state, &mut workspace(model)).ok()?;
+    let growing = eigenvalues(&linear).ok()?.iter().filter(|mode| mode.grows()).count();
+    Some([growing, neutral_directions(&linear).ok()?])
 }
 
 fn object(channels: &[(Channel, Vec<f64>)]) -> Map<String, Value> {

@@ -225,7 +225,7 @@ impl StopError {
                 "give the body mass and inertia, or remove the freedom nothing determines"
             }
             Self::Equilibrium(..) => "start nearer to the equilibrium with [[initial]] values",
-            Self::Linear(LinearError::NotClosed { .. }) => {
+            Self::Linear(LinearError::NotClosed { .. } | LinearError::Singular { .. }) => {
                 "move away from the singular position with an [[initial]] value"
             }
             Self::Linear(_) | Self::Eigenvalues => "check the data of the effects",
@@ -355,7 +355,11 @@ fn write_equilibrium(
             write!(f, "there is no static equilibrium: nothing holds the mechanism")
         }
         EquilibriumError::NotClosed { violation, .. } => {
-            write!(f, "the mechanism cannot be closed: a gap of {} m (or rad) is left", few(*violation))
+            write!(
+                f,
+                "the mechanism cannot be closed: a gap of {} m (or rad) is left",
+                few(*violation)
+            )
         }
         EquilibriumError::Undetermined { .. } => {
             write!(f, "a coordinate has no mass, and neither joints nor forces determine it")
@@ -371,8 +375,12 @@ fn write_linear(error: &LinearError, f: &mut core::fmt::Formatter<'_>) -> core::
     match error {
         LinearError::NotClosed { violation } => write!(
             f,
-            "next to this position the joints stay open by {} m (or rad): it is singular",
+            "next to this position the joints stay open by {} m (or rad)",
             few(*violation)
+        ),
+        LinearError::Singular { .. } => write!(
+            f,
+            "the mechanism stands in a singular position: its branches have no common linearisation"
         ),
         LinearError::NoInertia { .. } => write!(
             f,

@@ -37,7 +37,8 @@ pub(crate) struct Equilibrium {
 pub(crate) struct Modes {
     #[command(flatten)]
     common: Common,
-    /// State to linearise about: the static equilibrium at rest, or the start with its velocities.
+    /// State to linearise about: the static equilibrium at rest; the start with its velocities; or the positions of the
+    /// equilibrium with the velocities of the start.
     #[arg(long, value_enum, default_value_t = At::Equilibrium)]
     at: At,
 }
@@ -46,6 +47,7 @@ pub(crate) struct Modes {
 enum At {
     Equilibrium,
     Initial,
+    Moving,
 }
 
 /// Runs `mbs equilibrium`.
@@ -63,6 +65,7 @@ pub(crate) fn modes(arguments: &Modes) -> ExitCode {
     let place = match arguments.at {
         At::Equilibrium => Place::Equilibrium,
         At::Initial => Place::Initial,
+        At::Moving => Place::Moving,
     };
     let analyse = |scene: &Scene<f64>| match scene.dimension {
         Dimension::Planar => mbs::Modes::new::<2>(scene, place),
@@ -128,11 +131,11 @@ fn located(scene: &Scene<f64>, error: &StopError, document: &Document) -> String
 fn still(s: &Still) -> String {
     let found = &s.found;
     let [coordinates, constraints, rank] = s.sizes;
-    let stable = match (found.unstable, found.neutral) {
-        (0, Some(0)) => "yes".to_owned(),
-        (0, None) => "yes, as far as directions can be counted".to_owned(),
-        (0, Some(n)) => format!("yes; nothing holds it in {}", counted(n, "direction")),
-        (n, _) => format!("no: forces lead away in {}", counted(n, "direction")),
+    let stable = match (s.unstable, s.neutral.unwrap_or(0)) {
+        (None, _) => "unknown: it stands in a singular position".to_owned(),
+        (Some(0), 0) => "yes".to_owned(),
+        (Some(0), n) => format!("yes; nothing holds it in {}", counted(n, "direction")),
+        (Some(n), _) => format!("no: {} away from it", grow(n)),
     };
     let mut text = format!("{}: static equilibrium\n", s.scene);
     let rows = [
@@ -146,7 +149,11 @@ fn still(s: &Still) -> String {
         ("stable", stable),
         (
             "largest force left",
-            format!("{} N, {} of the forces", words::size(found.residual), words::size(found.relative)),
+            format!(
+                "{} N, {} of the forces",
+                words::size(found.residual),
+                words::size(found.relative)
+            ),
         ),
         ("largest violation", format!("{} m (or rad)", words::size(found.violation))),
         ("search", format!("{} steps, {} factorisations", found.iterations, found.factorizations)),
@@ -192,7 +199,11 @@ fn spectrum(m: &mbs::Modes) -> String {
         "{}: {} about its {}, {stable}\n",
         m.scene,
         counted(m.dof, "degree of freedom"),
-        if m.place == Place::Equilibrium { "equilibrium" } else { "start" }
+        match m.place {
+            Place::Equilibrium => "equilibrium",
+            Place::Initial => "start",
+            Place::Moving => "equilibrium in motion",
+        }
     );
     // Writing into a String has nothing to fail on.
     let _ = writeln!(
@@ -211,13 +222,17 @@ fn spectrum(m: &mbs::Modes) -> String {
             mode.undamped_frequency(),
         );
     }
-    if m.place == Place::Initial && m.acceleration > 1e-6 {
+    if m.place != Place::Equilibrium && (m.acceleration > 1e-6 || m.turning > 1e-6) {
         let _ = writeln!(
             text,
-            "note: the start is no equilibrium: eigenvalues tell how near motions part at first, not how they go on"
+            "note: this state accelerates or turns: the eigenvalues hold for an instant and for one choice of coordinates"
         );
     }
     text
+}
+
+fn grow(n: usize) -> String {
+    if n == 1 { "1 mode leads".to_owned() } else { format!("{n} modes lead") }
 }
 
 fn counted(n: usize, what: &str) -> String {

@@ -17,6 +17,7 @@ pub(crate) const BUILDS: &[Build] = &[
     Build { package: "mbs-core", features: &["alloc"], is_alloc: true },
     Build { package: "mbs-statespace", features: &[], is_alloc: true },
     Build { package: "mbs-classical", features: &[], is_alloc: true },
+    Build { package: "mbs-linear", features: &[], is_alloc: true },
 ];
 
 /// The targets: Cortex-M4F and Cortex-M7 with hardware floating point.
