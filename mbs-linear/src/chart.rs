@@ -59,7 +59,8 @@ impl<T: Real> Chart<T> {
             for k in 0..j {
                 let factor = l[k * f + j];
                 for i in 0..n {
-                    basis[j * n + i] = basis[j * n + i] - factor * basis[k * n + i];
+                    let part = factor * basis[k * n + i];
+                    basis[j * n + i] -= part;
                 }
             }
             let inverse = T::ONE / l[j * f + j];
@@ -187,7 +188,8 @@ fn cholesky<T: Real>(a: &mut [T], f: usize) -> Result<(), usize> {
         for k in 0..j {
             let factor = a[k * f + j];
             for i in j..f {
-                a[j * f + i] = a[j * f + i] - factor * a[k * f + i];
+                let part = factor * a[k * f + i];
+                a[j * f + i] -= part;
             }
         }
         let pivot = a[j * f + j];

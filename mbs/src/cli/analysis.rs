@@ -213,7 +213,7 @@ fn spectrum(m: &mbs::Modes) -> String {
         "real [1/s]", "imag. [rad/s]", "frequency [Hz]", "undamped [Hz]", "damping"
     );
     for mode in &m.modes {
-        let damping = mode.damping_ratio().map_or("neutral".to_owned(), |x| format!("{x:.6}"));
+        let damping = mode.damping_ratio().map_or("neutral".to_owned(), damped);
         let _ = writeln!(
             text,
             "{:>16.9} {:>16.9} {:>14.9} {:>14.9} {damping:>10}",
@@ -230,6 +230,12 @@ fn spectrum(m: &mbs::Modes) -> String {
         );
     }
     text
+}
+
+/// A damping ratio, without a minus before a zero.
+fn damped(ratio: f64) -> String {
+    let text = format!("{ratio:.6}");
+    if text == "-0.000000" { "0.000000".to_owned() } else { text }
 }
 
 fn grow(n: usize) -> String {
