@@ -101,7 +101,7 @@ impl Modes {
     pub fn new<const D: usize>(scene: &Scene<f64>, place: Place) -> Result<Self, StopError> {
         let (model, mut start) = assembled::<D>(scene)?;
         let (found, instant) = match place {
-            Place::Equilibrium => (Some(settle(&model, &mut start.state)?), Instant::Rest),
+            Place::Equilibrium => (Some(settle(scene, &model, &mut start.state)?), Instant::Rest),
             Place::Initial => (None, Instant::Motion),
             Place::Moving => {
                 let mut solver = Multifrontal::analyse(&model, mbs_sparse::Options::default());

@@ -2,12 +2,13 @@
 
 use crate::engine::Engine;
 use crate::settings::Settings;
+use crate::statics::equilibrium_start;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::Scene;
+use mbs_core::scene::{Scene, Start};
 use mbs_core::start::{Assembled, assemble};
 use mbs_core::step::{StepError, StepReport, largest};
 use mbs_sparse::Multifrontal;
@@ -41,8 +42,11 @@ where
         let model = NaturalModel::<T, D>::new(scene).map_err(|e| StopError::Start(e.into()))?;
         let analyse = mbs_sparse::Options::default();
         let mut solver = Multifrontal::analyse(&model, analyse);
-        let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver)
+        let mut start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver)
             .map_err(StopError::Start)?;
+        if scene.start == Start::Equilibrium {
+            equilibrium_start(scene, &model, &mut solver, &mut start)?;
+        }
         let mut state = start.state.clone();
         let engine = Engine::new(scene, settings, &model, solver, &mut state)?;
         let sizes = engine.sizes(&model, &state);

@@ -6,7 +6,7 @@ use crate::simulation::rank;
 use crate::stop::StopError;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{Output, Quantity, Scene};
+use mbs_core::scene::{EffectKind, Output, Quantity, Scene};
 use mbs_core::start::{Assembled, assemble, restart};
 use mbs_core::{Cliques, Real, SpdSolver};
 use mbs_linear::{
@@ -24,11 +24,62 @@ pub(crate) fn workspace<T: Real, const D: usize>(
     Workspace::new(model, solver)
 }
 
-/// Moves a state to the static equilibrium near it, at rest and with guides at their values of that time.
+/// A scene as it is at rest: without what only motion makes, which is drives, drag, friction, and what a tire does when it rolls.
+pub(crate) fn at_rest<T: Real>(scene: &Scene<T>) -> Scene<T> {
+    let mut still = scene.clone();
+    for effect in &mut still.effects {
+        match &mut effect.kind {
+            EffectKind::SpeedHold { .. }
+            | EffectKind::AeroDrag { .. }
+            | EffectKind::Friction { .. } => effect.enabled = false,
+            EffectKind::Tire { side, rolling_resistance, .. } => {
+                (*side, *rolling_resistance) = (None, T::ZERO);
+            }
+            _ => {}
+        }
+    }
+    still
+}
+
+/// Moves a state to the static equilibrium near it, at rest and with guides at their values of that time. What only motion makes
+/// does not act: drives, drag, friction, and what a tire does when it rolls.
 ///
 /// # Errors
 /// [`StopError::Equilibrium`]; positions are then unchanged.
 pub fn settle<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    model: &NaturalModel<T, D>,
+    state: &mut State<T>,
+) -> Result<Equilibrium<T>, StopError> {
+    let still = at_rest(scene);
+    if still == *scene {
+        return settle_model(model, state);
+    }
+    let quiet = NaturalModel::<T, D>::new(&still).map_err(|e| StopError::Start(e.into()))?;
+    let mut there = State::at_rest(&quiet);
+    there.t = state.t;
+    tell((scene, model), state, &quiet, &mut there);
+    let found = settle_model(&quiet, &mut there)?;
+    tell((&still, &quiet), &there, model, state);
+    Ok(found)
+}
+
+/// Tells a state of one model in another of the same bodies and joints.
+fn tell<T: Real, const D: usize>(
+    (scene, from): (&Scene<T>, &NaturalModel<T, D>),
+    state: &State<T>,
+    to: &NaturalModel<T, D>,
+    told: &mut State<T>,
+) {
+    let motions: Vec<_> = (0..scene.bodies.len()).map(|b| from.motion(scene, b, state)).collect();
+    to.write_motions(&motions, told);
+    let mut terms = to.terms();
+    to.set_inputs(told.t, &mut terms);
+    to.evaluate_forces(&told.q, &told.v, &told.memory, &mut terms);
+    to.remember(&terms, &mut told.memory);
+}
+
+fn settle_model<T: Real, const D: usize>(
     model: &NaturalModel<T, D>,
     state: &mut State<T>,
 ) -> Result<Equilibrium<T>, StopError> {
@@ -56,7 +107,7 @@ pub fn equilibrium_start<T: Real, const D: usize>(
     solver: &mut impl SpdSolver<T>,
     start: &mut Assembled<T>,
 ) -> Result<Equilibrium<T>, StopError> {
-    let found = settle(model, &mut start.state)?;
+    let found = settle(scene, model, &mut start.state)?;
     let analyse = mbs_sparse::Options::default();
     let state = &mut start.state;
     let residual = restart(scene, model, |p| Multifrontal::analyse(p, analyse), solver, state);
@@ -110,9 +161,10 @@ impl Still {
     /// # Errors
     /// [`StopError`] when there is no model, no consistent start or no equilibrium.
     pub fn new<const D: usize>(scene: &Scene<f64>) -> Result<Self, StopError> {
+        let scene = &at_rest(scene);
         let (model, start) = assembled::<D>(scene)?;
         let mut state = start.state;
-        let found = settle(&model, &mut state)?;
+        let found = settle(scene, &model, &mut state)?;
         let joints = (0..scene.joints.len())
             .filter(|&j| scene.joints[j].kind.n_coordinates(scene.dimension) > 0)
             .map(|joint| Quantity::JointValue { joint });
