@@ -7,10 +7,9 @@ pub mod index1;
 pub mod index3;
 mod options;
 mod projection;
-mod saddle;
 mod workspace;
 
+pub use mbs_core::saddle::Saddle;
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use options::{Options, Stabilisation};
-pub use saddle::Saddle;
 pub use workspace::Workspace;

@@ -1,11 +1,11 @@
 //! Scratch of a step, made once: the saddle system, its factor, and what its failure means.
 
-use crate::saddle::{Saddle, System};
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Load, Model, Owner, State, Tangent, Terms};
+use mbs_core::saddle::{Saddle, SaddleSystem};
 use mbs_core::step::{StepError, add_work, largest, take_coordinates};
 use mbs_core::{FactorError, Real, SymmetricSolver};
 
@@ -162,7 +162,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             model.write_jacobian(&self.terms, e, &mut self.jacobian[self.saddle.jacobian(e)]);
         }
         let geometric = geometric.then_some(&self.lambda[..]);
-        let system = System {
+        let system = SaddleSystem {
             model,
             saddle: &self.saddle,
             terms: &self.terms,
@@ -311,7 +311,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             Mass::Acceleration => Some(&self.a[..]),
             Mass::Change => Some(&self.change[..]),
         };
-        let system = System {
+        let system = SaddleSystem {
             model,
             saddle: &self.saddle,
             terms: &self.terms,

@@ -27,6 +27,8 @@ pub mod outputs;
 pub mod real;
 pub mod rigid;
 #[cfg(feature = "alloc")]
+pub mod saddle;
+#[cfg(feature = "alloc")]
 pub mod scene;
 #[cfg(feature = "alloc")]
 pub mod start;

@@ -217,10 +217,11 @@ fn damping_is_the_derivative_of_forces_by_velocity() {
 fn a_wheel_is_damped_along_and_across_its_plane_as_its_forces_change() {
     fn check<const D: usize>(dimension: Dimension) {
         let mut scene = with(dimension, tire(dimension, true));
-        scene.road.left = vec![RoadFeature::Flat { height: 0.45 }];
+        scene.road.left = vec![RoadFeature::Flat { height: 0.5 }];
         scene.road.right = scene.road.left.clone();
         for seed in 1..5 {
-            let mut at = At::<D>::new(&scene, seed, [0.02, 1.0]);
+            // A small slip, which the side force follows.
+            let mut at = At::<D>::new(&scene, seed, [0.02, 0.03]);
             let normal = V::from_fn(|i, _| f64::from(u8::from(i == D - 1)));
             let axis = if D == 2 {
                 V::new(0.0, 0.0, 1.0)

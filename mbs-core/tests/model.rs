@@ -171,7 +171,7 @@ fn every_point_of_every_body_is_where_the_scene_says_in_the_reference_configurat
 /// The power of everything applied, from the laws as the scene format states them.
 fn power<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>) -> f64 {
     let at_start = |course: &Course<f64>| match course {
-        Course::Constant(f) => *f,
+        Course::Constant(f) | Course::Input(f) => *f,
         Course::Table(rows) => rows[0].1,
     };
     let mut power = 0.0;

@@ -89,6 +89,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         for (_, action) in &actions.list {
             self.add_load(action);
         }
+        self.effect_courses = actions.effect_courses().collect();
         (self.courses, self.tables) = (actions.courses, actions.tables);
     }
 

@@ -53,6 +53,8 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) guides: Vec<GuideInput<T>>,
     pub(crate) courses: Vec<CourseInput<T>>,
     pub(crate) tables: Tables<T>,
+    /// The course of each effect that follows one.
+    pub(crate) effect_courses: Vec<(usize, u32)>,
     pub(crate) gravity: S::Point,
     /// What positions are counted from [m].
     pub(crate) base: Vector<T, 3>,
@@ -136,6 +138,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             guides: scene.guides.iter().map(|guide| GuideInput::new(&guide.law)).collect(),
             courses: Vec::new(),
             tables: Tables::empty(),
+            effect_courses: Vec::new(),
             gravity: scene.gravity.map_or_else(S::Point::zero, |g| S::point_from(&Vector::from(g))),
             base,
             length,
@@ -321,6 +324,22 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             n_coordinates: self.n_coordinates,
             n_freedoms: self.n_freedoms,
         }
+    }
+
+    /// Sets the input of `scene.effects[effect]` between two steps; it holds until it is set again. Returns whether the effect has
+    /// one: an enabled effect whose course is [`Course::Input`](mbs_core::scene::Course::Input).
+    pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> bool {
+        let mut is_set = false;
+        for &(_, course) in self.effect_courses.iter().filter(|(e, _)| *e == effect) {
+            is_set |= self.courses[course as usize].set(value);
+        }
+        is_set
+    }
+
+    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. Returns whether the guide is
+    /// an input: [`GuideLaw::Input`](mbs_core::scene::GuideLaw::Input).
+    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> bool {
+        self.guides.get_mut(guide).is_some_and(|guide| guide.set(motion))
     }
 
     /// Number of freedoms of the tree: a ball has three, a free body six (in the plane three), a guided joint none.

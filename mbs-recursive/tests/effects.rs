@@ -5,6 +5,7 @@ mod support;
 use common::effects::{every, with};
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
+use mbs_core::outputs::Reactions;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Planar, Spatial};
@@ -12,6 +13,8 @@ use support::{Run, common, imbalance};
 
 /// What is left of the equations, relative to their parts: a few hundred roundings.
 const ROUNDING: f64 = 1e-12;
+/// The same of the balances of single bodies under forces of order a hundred [N].
+const BODIES: f64 = 1e-10;
 /// A step so short that its energy is known by its powers at both ends [s].
 const SHORT: f64 = 1e-4;
 /// The error of that, relative to energies over the step: third derivatives of order 1e3, and rounding.
@@ -29,6 +32,11 @@ fn check<S: Space<f64>, const D: usize>(what: &str, scene: &Scene<f64>) {
         model.write_motions(&motions, &mut state);
         let left = imbalance(&model, &state);
         assert!(left.iter().all(|&x| x < ROUNDING), "{what}, {D}, seed {seed}: {left:?}");
+        // Effects, gravity and what the joints carry move every body.
+        let mut reactions = Reactions::new(scene, &model).expect("no loops");
+        reactions.update(&state);
+        let left = reactions.residual();
+        assert!(left < BODIES, "{what}, {D}, seed {seed}: {left} N");
         // d(T + V)/dt = power
         let energy = |run: &mut Run<S>| {
             let [kinetic, potential] = run.model.energies(&run.state, &mut run.workspace);

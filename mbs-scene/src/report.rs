@@ -30,6 +30,8 @@ pub struct Section {
     pub rows: Vec<Vec<String>>,
     /// Bars of a column: its number, and a length from 0 to 1 for each row.
     pub bars: Option<(usize, Vec<f64>)>,
+    /// Stands on the page only.
+    pub is_detail: bool,
 }
 
 impl Report {
@@ -46,7 +48,7 @@ impl Report {
     #[must_use]
     pub fn text(&self) -> String {
         let mut out = format!("{}\n", self.title);
-        for section in &self.sections {
+        for section in self.sections.iter().filter(|section| !section.is_detail) {
             // Writing into a String has nothing to fail on.
             let _ = writeln!(out, "\n{}", section.title);
             section.write_text(&mut out);
@@ -93,8 +95,8 @@ impl Section {
             let line = cells.collect::<Vec<_>>().join("  ");
             let _ = writeln!(out, "  {}", line.trim_end());
         }
-        if !self.caption.is_empty() {
-            let _ = writeln!(out, "  ({})", self.caption);
+        for line in wrapped(&self.caption) {
+            let _ = writeln!(out, "  {line}");
         }
     }
 
@@ -133,6 +135,22 @@ impl Section {
     }
 }
 
+/// A text in lines of at most 100 characters, where its words allow.
+fn wrapped(text: &str) -> Vec<String> {
+    const WIDTH: usize = 100;
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + word.chars().count() < WIDTH => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -144,6 +162,7 @@ mod tests {
             head: vec!["effect".into(), "share".into()],
             rows: vec![vec!["a <b>".into(), "5 %".into()], vec!["c".into()]],
             bars: Some((1, vec![0.05])),
+            is_detail: false,
         };
         let provenance = Provenance { command: "mbs explain a.toml".into(), ..Default::default() };
         Report { title: "x < y".into(), error: None, sections: vec![section], provenance }
@@ -160,8 +179,23 @@ mod tests {
     }
 
     #[test]
+    fn details_stand_on_the_page_only() {
+        let mut report = report();
+        report.sections[0].is_detail = true;
+        assert_eq!(report.text(), "x < y\n");
+        assert!(report.page().contains("price &lt;each&gt;"));
+    }
+
+    #[test]
+    fn long_captions_are_wrapped_between_words() {
+        let lines = wrapped(&"word ".repeat(50));
+        assert_eq!((lines.len(), lines[0].len()), (3, 99));
+        assert!(wrapped("").is_empty());
+    }
+
+    #[test]
     fn the_text_has_aligned_columns_and_short_rows_are_no_fault() {
         let text = report().text();
-        assert_eq!(text, "x < y\n\nprice <each>\n  effect  share\n  a <b>   5 %\n  c\n  (a & b)\n");
+        assert_eq!(text, "x < y\n\nprice <each>\n  effect  share\n  a <b>   5 %\n  c\n  a & b\n");
     }
 }

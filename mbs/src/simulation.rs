@@ -64,6 +64,24 @@ where
         self.engine.set_time(t);
     }
 
+    /// Sets the input of `scene.effects[effect]` between two steps: a force, a torque, or what a law of your own asks for. It
+    /// holds until it is set again. Returns whether the effect has an input ([`Course::Input`](mbs_core::scene::Course::Input)).
+    pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> bool {
+        if let Engine::Recursive(tree) = &mut self.engine {
+            let _ = tree.set_input(effect, value);
+        }
+        self.model.set_input(effect, value)
+    }
+
+    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. Returns whether the guide is
+    /// an input ([`GuideLaw::Input`](mbs_core::scene::GuideLaw::Input)).
+    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> bool {
+        if let Engine::Recursive(tree) = &mut self.engine {
+            let _ = tree.set_guide(guide, motion);
+        }
+        self.model.set_guide(guide, motion)
+    }
+
     /// The natural-coordinate model: outputs are measured in it.
     pub fn model(&self) -> &NaturalModel<T, D> {
         &self.model

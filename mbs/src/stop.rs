@@ -9,6 +9,7 @@ use mbs_core::outputs::ReactionError;
 use mbs_core::scene::{BodyRef, Entry, Scene};
 use mbs_core::start::AssemblyError;
 use mbs_core::step::StepError;
+use mbs_linear::{EquilibriumError, LinearError};
 use mbs_recursive::TreeError;
 use mbs_scene::RunError;
 
@@ -66,6 +67,12 @@ pub enum StopError {
     Step(StepError, Option<Owner>),
     /// The scene has no model in relative coordinates.
     Tree(TreeError, Option<Owner>),
+    /// No static equilibrium was found, and whose forces or joints are left open.
+    Equilibrium(EquilibriumError, Option<Owner>),
+    /// The motion cannot be linearised, or its eigenvalues were not found.
+    Linear(LinearError),
+    /// The iteration for the eigenvalues did not converge.
+    Eigenvalues,
     /// The energy invariant drifted by more than a tenth of the energy turned over.
     Energy {
         /// |Pi - Pi(0)| [J].
@@ -97,6 +104,27 @@ impl StopError {
         Self::Step(error, owner)
     }
 
+    /// A search without equilibrium, given whose unknowns and rows are.
+    pub(crate) fn equilibrium(
+        error: EquilibriumError,
+        n: usize,
+        unknown: impl Fn(usize) -> Owner,
+        row: impl Fn(usize) -> Owner,
+    ) -> Self {
+        let owner = match error {
+            EquilibriumError::NotClosed { row: r, .. } => Some(row(r as usize)),
+            EquilibriumError::Undetermined { unknown: u } if u as usize >= n => {
+                Some(row(u as usize - n))
+            }
+            EquilibriumError::NotConverged { unknown: u, .. }
+            | EquilibriumError::Escapes { unknown: u }
+            | EquilibriumError::NotFinite { unknown: u }
+            | EquilibriumError::Undetermined { unknown: u } => Some(unknown(u as usize)),
+            _ => None,
+        };
+        Self::Equilibrium(error, owner)
+    }
+
     /// A scene without a tree.
     pub(crate) fn tree(error: TreeError) -> Self {
         let owner = match error {
@@ -120,9 +148,9 @@ impl StopError {
                 | AssemblyError::Velocity { initial: Some(i), .. },
             ) => return Some(Entry::Initial(*i)),
             Self::Start(error) => start_owner(error)?,
-            Self::Step(_, owner) | Self::Tree(_, owner) => (*owner)?,
+            Self::Step(_, owner) | Self::Tree(_, owner) | Self::Equilibrium(_, owner) => (*owner)?,
             Self::Energy { owner, .. } => *owner,
-            Self::Reaction(_) => return None,
+            Self::Reaction(_) | Self::Linear(_) | Self::Eigenvalues => return None,
         };
         Some(match owner {
             Owner::Body(b) => Entry::Body(b),
@@ -151,6 +179,9 @@ impl StopError {
             Self::Reaction(_) => "no-reactions",
             Self::Tree(..) => "no-tree",
             Self::Energy { .. } => "energy-drift",
+            Self::Equilibrium(..) => "no-equilibrium",
+            Self::Linear(_) => "no-linearisation",
+            Self::Eigenvalues => "no-eigenvalues",
         }
     }
 
@@ -191,6 +222,18 @@ impl StopError {
             }
             Self::Tree(TreeError::Effect(_), _) => "set enabled = false",
             Self::Tree(..) => "give the body mass and inertia, or try index-3",
+            Self::Equilibrium(EquilibriumError::Escapes { .. }, _) => {
+                "hold the mechanism by a joint or a spring; check the direction of gravity"
+            }
+            Self::Equilibrium(EquilibriumError::Undetermined { .. }, _)
+            | Self::Linear(LinearError::NoInertia { .. }) => {
+                "give the body mass and inertia, or remove the freedom nothing determines"
+            }
+            Self::Equilibrium(..) => "start nearer to the equilibrium with [[initial]] values",
+            Self::Linear(LinearError::NotClosed { .. } | LinearError::Singular { .. }) => {
+                "move away from the singular position with an [[initial]] value"
+            }
+            Self::Linear(_) | Self::Eigenvalues => "check the data of the effects",
             Self::Energy { .. } => {
                 "try a smaller step; if it always stops here, the mechanism locks, or cannot follow its guides"
             }
@@ -214,9 +257,9 @@ impl StopError {
     pub fn report(&self, time: f64, names: &Names) -> RunError {
         let owner = match self {
             Self::Start(error) => start_owner(error),
-            Self::Step(_, owner) | Self::Tree(_, owner) => *owner,
+            Self::Step(_, owner) | Self::Tree(_, owner) | Self::Equilibrium(_, owner) => *owner,
             Self::Energy { owner, .. } => Some(*owner),
-            Self::Reaction(_) => None,
+            Self::Reaction(_) | Self::Linear(_) | Self::Eigenvalues => None,
         };
         let (joint, body) = owner.map_or((None, None), |o| names.of(o));
         RunError {
@@ -251,6 +294,9 @@ impl core::fmt::Display for StopError {
             Self::Step(error, _) => write_step(error, f),
             Self::Reaction(error) => write!(f, "{error}"),
             Self::Tree(error, _) => write_tree(error, f),
+            Self::Equilibrium(error, _) => write_equilibrium(error, f),
+            Self::Linear(error) => write_linear(error, f),
+            Self::Eigenvalues => write!(f, "the iteration for the eigenvalues did not converge"),
             Self::Energy { error, turned_over, .. } => write!(
                 f,
                 "the energy is off by {} J, more than a tenth of the {} J turned over: the motion is not resolved",
@@ -298,6 +344,54 @@ fn write_tree(error: &TreeError, f: &mut core::fmt::Formatter<'_>) -> core::fmt:
             write!(f, "a body without mass ends a branch of the tree: its joint meets no inertia")
         }
         TreeError::NoInertia { .. } => write!(f, "nothing beyond a joint resists its motion"),
+        other => write!(f, "{other}"),
+    }
+}
+
+fn write_equilibrium(
+    error: &EquilibriumError,
+    f: &mut core::fmt::Formatter<'_>,
+) -> core::fmt::Result {
+    match error {
+        EquilibriumError::NotConverged { residual, .. } => {
+            write!(f, "no static equilibrium was found: {} N (or N m) is left", few(*residual))
+        }
+        EquilibriumError::Escapes { .. } => {
+            write!(f, "there is no static equilibrium: nothing holds the mechanism")
+        }
+        EquilibriumError::NotClosed { violation, .. } => {
+            write!(
+                f,
+                "the mechanism cannot be closed: a gap of {} m (or rad) is left",
+                few(*violation)
+            )
+        }
+        EquilibriumError::Undetermined { .. } => {
+            write!(f, "a coordinate has no mass, and neither joints nor forces determine it")
+        }
+        EquilibriumError::NotFinite { .. } => {
+            write!(f, "a force became infinite or not a number")
+        }
+        other => write!(f, "{other}"),
+    }
+}
+
+fn write_linear(error: &LinearError, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+    match error {
+        LinearError::NotClosed { violation } => write!(
+            f,
+            "next to this position the joints stay open by {} m (or rad)",
+            few(*violation)
+        ),
+        LinearError::Singular { .. } => write!(
+            f,
+            "the mechanism stands in a singular position: its branches have no common linearisation"
+        ),
+        LinearError::NoInertia { .. } => write!(
+            f,
+            "a force meets no inertia: a coordinate is neither determined by joints nor has mass"
+        ),
+        LinearError::NotFinite => write!(f, "a force became infinite or not a number"),
         other => write!(f, "{other}"),
     }
 }

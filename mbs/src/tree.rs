@@ -117,6 +117,16 @@ where
         self.energies = energies.map(Real::to_f64);
     }
 
+    /// Sets an effect's input; says whether it has one.
+    pub(crate) fn set_input(&mut self, effect: usize, value: [T; 3]) -> bool {
+        self.model.set_input(effect, value)
+    }
+
+    /// Sets a guide's motion; says whether it is an input.
+    pub(crate) fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> bool {
+        self.model.set_guide(guide, motion)
+    }
+
     pub(crate) fn set_time(&mut self, t: T) {
         self.state.t = t;
     }

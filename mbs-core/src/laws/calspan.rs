@@ -10,9 +10,13 @@
 //!
 //! F normal load, a slip angle, g camber. Source: Frik, Leister and Schwartz, *Simulation of the IAVSD Road Vehicle Benchmark
 //! Bombardier Iltis* (1993), in the form of the open Iltis model of UCLouvain. Above W A2 the cornering stiffness falls to A0,
-//! sixteen times below its peak for the Iltis: a feature of the formula. Mz changes its sign where |Fy| > F.
+//! sixteen times below its peak for the Iltis: a feature of the formula. Mz changes its sign where |Fy| > F. Friction mu falls with
+//! the load and would be negative above 26.5 kN for the Iltis: it is held at 0.2 from 22.2 kN on, where the model says nothing.
 
 use crate::Real;
+
+/// Friction below which the polynomial, which falls to zero and below at loads it was never fitted for, is not followed [-].
+pub const LEAST_FRICTION: f64 = 0.2;
 
 /// Coefficients of the model.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,7 +65,7 @@ pub fn side<T: Real>(c: &Coefficients<T>, f: T, slip: T, camber: T) -> Side<T> {
         return Side::default();
     }
     let [a0, a1, a2, a3, a4] = c.a;
-    let mu = (c.b[0] * f + c.b[1] + c.b[2] * f * f) * c.skid;
+    let mu = ((c.b[0] * f + c.b[1] + c.b[2] * f * f) * c.skid).max(T::from_f64(LEAST_FRICTION));
     let (shift, slope) = if f <= c.omega * a2 {
         let d = a1 * f * (f - a2) - a0 * a2;
         (-a2 * a3 * (a4 - f) * f / (a4 * d) * camber, d / (a2 * mu * f))
@@ -150,6 +154,8 @@ mod tests {
             }
         }
         assert_eq!(side(&c, 0.0, 0.1, 0.0), Side::default());
+        // Loads far beyond the model still push against the slip.
+        assert!(side(&c, 40_000.0, 0.1, 0.0).force < 0.0);
     }
 
     #[test]

@@ -64,6 +64,32 @@ pub fn assemble<T: Real, const D: usize, S: SpdSolver<T>>(
     Ok(Assembled { state, change, residual_before, residual, stages })
 }
 
+/// Velocities and accelerations at positions that are given, as [`assemble`] makes them: those that the scene holds, else the
+/// smallest. `state.q` must meet the constraints, with guides at their values of time zero; held positions are not asked for.
+/// Returns the largest residuals of position, velocity and acceleration.
+///
+/// # Errors
+/// [`AssemblyError`] says which joint or entry cannot be met.
+pub fn restart<T: Real, const D: usize, S: SpdSolver<T>>(
+    scene: &Scene<T>,
+    model: &NaturalModel<T, D>,
+    make_start: impl FnOnce(&Problem<'_, T, D>) -> S,
+    solver: &mut impl SpdSolver<T>,
+    state: &mut State<T>,
+) -> Result<[T; 3], AssemblyError> {
+    let problem = Problem::new(model, Hold::all(scene, model));
+    let start_solver = make_start(&problem);
+    let mut assembly = Assembly::new(problem, start_solver);
+    assembly.drive(&state.q, T::ONE);
+    assembly.problem.scale_penalties();
+    let position = norm_inf(&assembly.problem.terms.phi);
+    state.v.fill(T::ZERO);
+    assembly.velocities(state)?;
+    let velocity = assembly.worst();
+    let mut terms = assembly.problem.terms;
+    Ok([position, velocity, accelerations(model, solver, state, &mut terms)?])
+}
+
 struct Assembly<'a, T: Real, S, const D: usize> {
     problem: Problem<'a, T, D>,
     solver: S,

@@ -15,7 +15,7 @@ mod hold;
 mod problem;
 mod rank;
 
-pub use assemble::{Assembled, accelerations, assemble};
+pub use assemble::{Assembled, accelerations, assemble, restart};
 pub use error::AssemblyError;
 pub use problem::Problem;
 pub use rank::constraint_rank;

@@ -1,7 +1,7 @@
 //! Scene files in, result files out, and what to say when that fails.
 
 use mbs::{Settings, SettingsError};
-use mbs_core::scene::Entry;
+use mbs_core::scene::{Entry, Scene};
 use mbs_scene::{Document, Provenance, readable};
 use std::path::Path;
 
@@ -9,6 +9,13 @@ use std::path::Path;
 pub(crate) fn document(scene: &Path) -> Result<Document, String> {
     let bytes = std::fs::read(scene).map_err(|error| unreadable(scene, &error))?;
     Document::from_bytes(&bytes, &scene.display().to_string()).map_err(|error| error.render())
+}
+
+/// Reads a scene file and its scene; else the refusal.
+pub(crate) fn scene(path: &Path) -> Result<(Document, Scene<f64>), String> {
+    let document = document(path)?;
+    let scene = document.scene::<f64>().map_err(|error| error.render())?;
+    Ok((document, scene))
 }
 
 /// A refusal of settings, with its place when the scene asks for them.

@@ -1,5 +1,6 @@
 //! Command line: arguments, refusals, and the commands.
 
+mod analysis;
 mod explain;
 mod files;
 mod run;
@@ -21,7 +22,8 @@ const ABOUT: &str =
     "Dynamics of multibody systems: a scene file in; motion, energies and plots out.";
 const STATUS: &str = "\
 Example: mbs run scenes/double-pendulum.toml --out out
-Exit status: 0 completed, 1 scene or usage refused, 2 the run stopped early (its data are kept).";
+Exit status: 0 completed, 1 scene or usage refused, 2 the run stopped early (its data are kept), or there is no
+equilibrium.";
 /// Commands of the format's contract that are not built yet.
 const NOT_BUILT: [&str; 4] = ["compare", "doctor", "sweep", "export"];
 
@@ -31,6 +33,10 @@ enum Command {
     Run(run::Arguments),
     /// What a scene simulates, what it does not, and the measured price of each effect.
     Explain(explain::Arguments),
+    /// Static equilibrium: joint coordinates, reactions and outputs, and whether it is stable.
+    Equilibrium(analysis::Equilibrium),
+    /// Linearise: eigenvalues, frequencies and damping ratios.
+    Modes(analysis::Modes),
 }
 
 /// Exit status of a refusal.
@@ -54,6 +60,8 @@ pub(crate) fn main() -> ExitCode {
     match cli.command {
         Command::Run(arguments) => run::main(&arguments),
         Command::Explain(arguments) => explain::main(&arguments),
+        Command::Equilibrium(arguments) => analysis::equilibrium(&arguments),
+        Command::Modes(arguments) => analysis::modes(&arguments),
     }
 }
 

@@ -6,7 +6,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mbs::{Outcome, Overrides, Precision, Progress, Settings, words};
 use mbs_core::Real;
 use mbs_core::scene::{Dimension, Scene};
-use mbs_scene::{Document, Provenance, readable};
+use mbs_scene::{Document, Provenance, RunError, readable};
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -102,13 +102,9 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
             "error: {option} is not built yet\nhint: leave it out; give --step instead"
         ));
     }
-    let document = match files::document(&arguments.scene) {
-        Ok(document) => document,
+    let (document, scene) = match files::scene(&arguments.scene) {
+        Ok(both) => both,
         Err(message) => return refuse(&message),
-    };
-    let scene = match document.scene::<f64>() {
-        Ok(scene) => scene,
-        Err(error) => return refuse(&error.render()),
     };
     let settings = match Settings::new(&scene, &arguments.overrides()) {
         Ok(settings) => settings,
@@ -163,15 +159,21 @@ fn report(
     }
     let Some(error) = &outcome.error else { return ExitCode::SUCCESS };
     if !arguments.json {
-        eprint!("{}", stopped(outcome, error, document));
+        let report = outcome.summary.error.as_ref();
+        let text = report.map(|report| stopped("stopped", report, error, document));
+        eprint!("{}", text.unwrap_or_default());
     }
     ExitCode::from(STOPPED)
 }
 
 /// The error of a run that stopped, with the place in the scene that it is about.
-fn stopped(outcome: &Outcome, error: &mbs::StopError, document: &Document) -> String {
-    let Some(report) = &outcome.summary.error else { return String::new() };
-    let message = format!("stopped {}: {}", words::stopped_at(report), report.message);
+pub(crate) fn stopped(
+    what: &str,
+    report: &RunError,
+    error: &mbs::StopError,
+    document: &Document,
+) -> String {
+    let message = format!("{what} {}: {}", words::stopped_at(report), report.message);
     let Some(entry) = error.entry() else {
         return format!("{}: {message}\nhint: {}\n", document.file(), report.hint);
     };

@@ -74,7 +74,7 @@ fn rows(s: &RunSummary) -> Vec<(&str, String)> {
 }
 
 /// Nine decimals, without a minus before a zero.
-fn fixed(x: f64) -> String {
+pub(crate) fn fixed(x: f64) -> String {
     let text = format!("{x:.9}");
     if text.trim_start_matches('-').chars().all(|c| matches!(c, '0' | '.')) {
         return "0.000000000".to_owned();

@@ -163,13 +163,14 @@ fn price_list(title: &str, list: &[Price], prices: &Prices) -> Option<Section> {
         title: title.to_owned(),
         caption: format!(
             "Share of a step = 1 - CPU time per step without it / with all effects: what leaving it out saves, a changed number of \
-             iterations included. Below noise: smaller than the distance of the two best repeats. Changes: the first {} s, with \
+             iterations included. Below noise: not larger than the distance of the two best repeats. Changes: the first {} s, with \
              the given step, in percent of the output's own range.",
             readable(prices.compared_duration)
         ),
         head: head.map(str::to_owned).to_vec(),
         rows: rows.collect(),
         bars: Some((2, lengths.collect())),
+        is_detail: false,
     })
 }
 
@@ -194,6 +195,7 @@ fn changes(prices: &Prices) -> Option<Section> {
         title: "What leaving an effect out changes".to_owned(),
         head: head.map(str::to_owned).to_vec(),
         rows,
+        is_detail: true,
         ..Section::default()
     })
 }

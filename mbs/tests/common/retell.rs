@@ -78,6 +78,7 @@ pub(crate) fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy
             EffectKind::Force { .. } | EffectKind::BodyTorque { .. } => {
                 panic!("the turning of courses is not told here")
             }
+            EffectKind::Own { .. } => panic!("what a law of a user's own turns with is not told"),
             EffectKind::Bushing { .. } | EffectKind::Tire { .. } => {
                 panic!("the axes of a bushing and of a road are global: they do not turn")
             }
@@ -140,6 +141,7 @@ pub(crate) fn reorder(scene: &Scene<f64>) -> Scene<f64> {
             | EffectKind::JointTorque { .. }
             | EffectKind::Limit { .. }
             | EffectKind::Friction { .. } => {}
+            EffectKind::Own { .. } => panic!("laws of a user's own are not renumbered here"),
         }
     }
     s.outputs.clear();

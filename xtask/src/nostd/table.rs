@@ -22,6 +22,7 @@ pub(crate) const BUILDS: &[Build] = &[
     Build { package: "mbs-classical", features: &[], is_alloc: true },
     Build { package: "mbs-recursive", features: &[], is_alloc: false },
     Build { package: "mbs-recursive", features: &["alloc"], is_alloc: true },
+    Build { package: "mbs-linear", features: &[], is_alloc: true },
 ];
 
 /// The targets: Cortex-M4F and Cortex-M7 with hardware floating point.

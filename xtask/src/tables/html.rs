@@ -17,7 +17,7 @@ pub(crate) fn page(rows: &[Row]) -> String {
 
 /// One table with its heading and note.
 fn section(table: &Table, rows: &[Row]) -> String {
-    let distance = table.reference.label;
+    let distance = table.reference.map_or("", |reference| reference.label);
     let mut html = format!(
         "<section class=\"card\">\n<h2><span class=\"tag\">{}</span> {}</h2>\n<p class=\"soft\">{}; scene \
          <code>{}</code>, {} s</p>\n<table>\n<thead>\n<tr><th rowspan=\"2\">method</th><th rowspan=\"2\">step [s]</th>\

@@ -30,8 +30,8 @@ pub(crate) struct Figures {
     pub(crate) energy_error: f64,
     /// Largest kinetic energy plus gross work [J].
     pub(crate) turned_over: f64,
-    /// Distance from the reference at the end.
-    pub(crate) distance: f64,
+    /// Distance from the reference at the end, where there is one.
+    pub(crate) distance: Option<f64>,
     /// CPU time of the stepping [s].
     pub(crate) seconds: f64,
 }
@@ -52,7 +52,7 @@ pub(crate) fn read(
     status: Option<i32>,
     stdout: &[u8],
     stderr: &[u8],
-    reference: Reference,
+    reference: Option<Reference>,
 ) -> Result<Outcome, String> {
     if status == Some(1) {
         let text = String::from_utf8_lossy(stderr);
@@ -83,12 +83,14 @@ fn text(json: &Value, name: &str) -> Result<String, String> {
     value.ok_or_else(|| format!("the error has no {name}"))
 }
 
-fn completed(json: &Value, reference: Reference) -> Result<Figures, String> {
+fn completed(json: &Value, reference: Option<Reference>) -> Result<Figures, String> {
     Ok(Figures {
         energy_error: number(json, "/energy/max_error")?,
         turned_over: number(json, "/energy/turned_over")?,
         seconds: number(json, "/cpu_seconds")?,
-        distance: distance(&json["outputs"][reference.channel], reference)?,
+        distance: reference
+            .map(|reference| distance(&json["outputs"][reference.channel], reference))
+            .transpose()?,
     })
 }
 
@@ -115,8 +117,9 @@ fn stopped(error: &Value) -> Result<Outcome, String> {
 mod tests {
     use super::*;
 
-    const POINT: Reference = Reference { channel: "tip", label: "", value: &[1.0, 2.0] };
-    const ANGLE: Reference = Reference { channel: "beta", label: "", value: &[0.5] };
+    const POINT: Option<Reference> =
+        Some(Reference { channel: "tip", label: "", value: &[1.0, 2.0] });
+    const ANGLE: Option<Reference> = Some(Reference { channel: "beta", label: "", value: &[0.5] });
 
     const DONE: &[u8] = br#"{"completed": true, "error": null, "cpu_seconds": 0.25,
         "energy": {"initial": 1.0, "max_error": 2e-3, "final_error": 1e-3, "turned_over": 4.0},
@@ -125,11 +128,13 @@ mod tests {
     #[test]
     fn completed_run_gives_its_figures() {
         let Ok(Outcome::Completed(figures)) = read(Some(0), DONE, b"", POINT) else { panic!() };
-        assert!((figures.distance - 0.5).abs() < 1e-15);
+        assert!((figures.distance.unwrap() - 0.5).abs() < 1e-15);
         assert!((figures.share() - 5e-4).abs() < 1e-18);
         assert!((figures.seconds - 0.25).abs() < 1e-15);
+        let Ok(Outcome::Completed(figures)) = read(Some(0), DONE, b"", None) else { panic!() };
+        assert_eq!(figures.distance, None);
         let Ok(Outcome::Completed(figures)) = read(Some(0), DONE, b"", ANGLE) else { panic!() };
-        assert!((figures.distance - 0.25).abs() < 1e-15);
+        assert!((figures.distance.unwrap() - 0.25).abs() < 1e-15);
     }
 
     #[test]
@@ -157,7 +162,7 @@ mod tests {
     fn output_that_lacks_something_is_named() {
         assert!(read(Some(101), b"", b"panicked", POINT).unwrap_err().contains("101"));
         assert!(read(None, b"", b"", POINT).is_err());
-        let absent = Reference { channel: "toe", ..POINT };
+        let absent = POINT.map(|point| Reference { channel: "toe", ..point });
         assert!(read(Some(0), DONE, b"", absent).unwrap_err().contains("toe"));
         let json = br#"{"completed": true, "outputs": {"tip": [1, 2]}}"#;
         assert!(read(Some(0), json, b"", POINT).unwrap_err().contains("max_error"));

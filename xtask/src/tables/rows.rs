@@ -33,7 +33,8 @@ impl Row {
     pub(crate) fn ours(&self) -> [String; 4] {
         match &self.outcome {
             Outcome::Completed(f) => {
-                [error(f.energy_error), error(f.share()), error(f.distance), seconds(f.seconds)]
+                let distance = f.distance.map(error).unwrap_or_default();
+                [error(f.energy_error), error(f.share()), distance, seconds(f.seconds)]
             }
             _ => Default::default(),
         }
@@ -56,6 +57,7 @@ impl Row {
         let words = |text: &str| [text.to_owned(), String::new()];
         match self.printed {
             Printed::Numbers(e, s) => [digits(e), s.map(time).unwrap_or_default()],
+            Printed::Time(s) => [String::new(), time(s)],
             Printed::NoConvergence => words("no convergence"),
             Printed::Wrong => words("wrong results"),
             Printed::DoesNotWork => words("does not work"),
@@ -130,7 +132,9 @@ pub(crate) fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
     for row in rows {
         let exact = match &row.outcome {
             Outcome::Completed(f) => {
-                [f.energy_error, f.share(), f.distance, f.seconds].map(|x| format!("{x:e}"))
+                let exact = |x: f64| format!("{x:e}");
+                let distance = f.distance.map(exact).unwrap_or_default();
+                [exact(f.energy_error), exact(f.share()), distance, exact(f.seconds)]
             }
             _ => Default::default(),
         };
@@ -143,7 +147,7 @@ pub(crate) fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
             &step(row.step),
             &energy,
             &share,
-            row.table.reference.channel,
+            row.table.reference.map_or("", |reference| reference.channel),
             &distance,
             &cpu,
             &row.reason(),
@@ -167,7 +171,7 @@ pub(crate) mod tests {
         let figures = Figures {
             energy_error: 4.636e-3,
             turned_over: 19.0,
-            distance: 2.5e-2,
+            distance: Some(2.5e-2),
             seconds: 0.0123,
         };
         let stopped = Outcome::Stopped {
@@ -175,7 +179,7 @@ pub(crate) mod tests {
             message: "no convergence, \"try\" <less>".into(),
             time: 0.0082,
         };
-        let [t1, .., t2, _] = &TABLES;
+        let [t1, _, t2, ..] = &TABLES;
         vec![
             Row::new(t1, &t1.methods[0], 1e-2, Outcome::Completed(figures)),
             Row::new(t1, &t1.methods[1], 1e-4, stopped),

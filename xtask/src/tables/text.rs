@@ -4,7 +4,7 @@ use super::rows::{Row, by_table, step};
 use std::fmt::Write;
 
 /// Widths of the columns: method, step, error, share, distance, time, the report's error and time.
-const WIDTHS: [usize; 8] = [22, 6, 9, 9, 9, 8, 15, 8];
+const WIDTHS: [usize; 8] = [22, 7, 9, 9, 9, 8, 15, 8];
 
 /// All tables.
 pub(crate) fn text(rows: &[Row]) -> String {
@@ -12,11 +12,10 @@ pub(crate) fn text(rows: &[Row]) -> String {
     for (table, rows) in by_table(rows) {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}  {} ({})\n", table.name, table.title, table.source);
-        line(
-            &mut text,
-            ["", "dt", "error", "share", table.reference.channel, "CPU", "report", "CPU"],
-        );
-        line(&mut text, ["", "[s]", "[J]", "[-]", "off by", "[s]", "error", "[s]"]);
+        let (channel, off) =
+            table.reference.map_or(("", ""), |reference| (reference.channel, "off by"));
+        line(&mut text, ["", "dt", "error", "share", channel, "CPU", "report", "CPU"]);
+        line(&mut text, ["", "[s]", "[J]", "[-]", off, "[s]", "error", "[s]"]);
         let mut last = "";
         for row in rows {
             if last != row.method.name && !last.is_empty() {
@@ -85,7 +84,7 @@ mod tests {
         let text = super::text(&samples());
         assert!(text.contains("T1  Double pendulum (publication 1, Table I)"));
         assert!(text.contains(
-            "index-1                  1e-2    4.6e-3    2.4e-4    2.5e-2    0.012  no convergence\n"
+            "index-1                   1e-2    4.6e-3    2.4e-4    2.5e-2    0.012  no convergence\n"
         ));
         assert!(text.contains("2.0e-5     17.2\n"));
         assert!(text.contains("not-converged at 0.0082 s"));

@@ -22,6 +22,9 @@ use crate::scene::BodyRef;
 /// Where a wrench acts: a body and, for a force, a point.
 pub(in crate::outputs) type Applied<T> = (BodyRef, Option<Vector<T, 3>>, Wrench<T>);
 
+/// Where a wrench acts on both bodies (`None`: a moment alone), and the wrench on the first.
+type Pull<T> = ([Option<Vector<T, 3>>; 2], Wrench<T>);
+
 impl<T: Real, const D: usize> Load<T, D> {
     /// Hands out the wrenches it applies at a state; `turned` gives the rotation of a body.
     pub(in crate::outputs) fn apply(
@@ -77,14 +80,14 @@ impl<T: Real, const D: usize> Load<T, D> {
 }
 
 impl<T: Real, const D: usize> Gauge<T, D> {
-    /// The wrench on the first body, its opposite acting on the second, and where each acts; `axes`: the first body's rotation.
+    /// What a law pulls with at a state; `axes`: the first body's rotation. Nothing at length zero.
     fn pull(
         &self,
         law: &Law<T>,
         state: &State<T>,
         axes: &Matrix<T, 3>,
         supplies: &Supplies<'_, T>,
-    ) -> Option<([Option<Vector<T, 3>>; 2], Wrench<T>)> {
+    ) -> Option<Pull<T>> {
         let tension = |value, rate| law.evaluate(value, rate, supplies).tension;
         Some(match self {
             Self::Length { points } => {

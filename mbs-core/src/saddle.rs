@@ -8,11 +8,11 @@
 //! Every row belongs to one element, so the system is a sum over the same elements: the clique of an element is its
 //! coordinates and then its rows.
 
+use crate::model::{Load, Model, Tangent, Terms};
+use crate::{BlockSource, Cliques, Real};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
-use mbs_core::model::{Load, Model, Tangent, Terms};
-use mbs_core::{BlockSource, Cliques, Real};
 
 /// Which unknowns each element couples in the saddle system of a model: what its solver is analysed for.
 #[derive(Debug, Clone)]
@@ -52,12 +52,14 @@ impl Saddle {
     }
 
     /// Entries of all Jacobian rows, element by element.
-    pub(crate) fn n_jacobian(&self) -> usize {
+    #[must_use]
+    pub fn n_jacobian(&self) -> usize {
         self.jacobian[self.starts.len() - 1]
     }
 
     /// Where the rows of `element` are among them.
-    pub(crate) fn jacobian(&self, element: usize) -> Range<usize> {
+    #[must_use]
+    pub fn jacobian(&self, element: usize) -> Range<usize> {
         self.jacobian[element]..self.jacobian[element + 1]
     }
 }
@@ -78,23 +80,27 @@ impl Cliques for Saddle {
 }
 
 /// The saddle system at one instant.
-pub(crate) struct System<'a, T, M> {
-    pub(crate) model: &'a M,
-    pub(crate) saddle: &'a Saddle,
-    pub(crate) terms: &'a Terms<T>,
+#[derive(Debug, Clone, Copy)]
+pub struct SaddleSystem<'a, T, M> {
+    /// The model.
+    pub model: &'a M,
+    /// Its saddle structure.
+    pub saddle: &'a Saddle,
+    /// Its evaluated terms.
+    pub terms: &'a Terms<T>,
     /// Weights of W, without penalty.
-    pub(crate) tangent: Tangent<'a, T>,
+    pub tangent: Tangent<'a, T>,
     /// Jacobian rows of all elements.
-    pub(crate) jacobian: &'a [T],
+    pub jacobian: &'a [T],
     /// delta of each row; empty: zero.
-    pub(crate) delta: &'a [T],
+    pub delta: &'a [T],
     /// Upper part of the right-hand side.
-    pub(crate) load: Load<'a, T>,
+    pub load: Load<'a, T>,
     /// Lower part of the right-hand side, m; empty: zero.
-    pub(crate) rates: &'a [T],
+    pub rates: &'a [T],
 }
 
-impl<T: Real, M: Model<T>> BlockSource<T> for System<'_, T, M> {
+impl<T: Real, M: Model<T>> BlockSource<T> for SaddleSystem<'_, T, M> {
     fn write_block(&self, element: usize, block: &mut [T]) {
         let (k, rows) = (self.model.clique(element).len(), self.model.rows(element));
         let (m, first) = (rows.len(), k * (k + 1) / 2);

@@ -1,0 +1,236 @@
+//! Independent coordinates about a position: an orthonormal split of the coordinates by the Jacobian there.
+//!
+//! ```text
+//! J^T P = [ Q1  Q2 ] [ R11  R12 ]      Householder QR with column pivoting on rows of unit length
+//!                    [  0    0  ]
+//! q = q0 + B z + Q1 y,   B = Q2 L^-T,   Q2^T M Q2 = L L^T:   z are free, y closes the constraints
+//! z = L^T Q2^T (q - q0),   z' = L^T Q2^T q',   z'' = L^T Q2^T q'',      B^T M B = 1
+//! ```
+//!
+//! With the inertia a unit matrix the stiffness of conservative forces is symmetric and eigenvalues are well conditioned.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use mbs_core::Real;
+
+/// The split at one position; matrices are stored column by column.
+#[derive(Debug, Clone)]
+pub(crate) struct Chart<T> {
+    n: usize,
+    /// Independent rows in the order of their pivots, and the length of each.
+    rows: Vec<usize>,
+    lengths: Vec<T>,
+    /// Q, n x n: Q1 then Q2.
+    q: Vec<T>,
+    /// R11, r x r, upper triangle.
+    r: Vec<T>,
+    /// L, f x f, lower triangle.
+    l: Vec<T>,
+    /// B, n x f.
+    pub(crate) basis: Vec<T>,
+}
+
+/// A column whose inertia is below this share of the largest has none.
+const NO_INERTIA: f64 = 1e-13;
+
+impl<T: Real> Chart<T> {
+    /// Splits by `jacobian`, row by row (m rows of n); `mass` multiplies a vector of n by M.
+    ///
+    /// Fails with the index of the freedom without inertia.
+    pub(crate) fn new(
+        n: usize,
+        mut jacobian: Vec<T>,
+        mut mass: impl FnMut(&[T]) -> Vec<T>,
+    ) -> Result<Self, usize> {
+        let (rows, lengths, q, r) = factor(n, &mut jacobian);
+        let rank = rows.len();
+        let f = n - rank;
+        let mut l = vec![T::ZERO; f * f];
+        for j in 0..f {
+            let product = mass(column(&q, n, rank + j));
+            for i in j..f {
+                l[j * f + i] = dot(column(&q, n, rank + i), &product);
+            }
+        }
+        cholesky(&mut l, f)?;
+        let mut basis = q[n * rank..].to_vec();
+        // B L^T = Q2, column by column: B_j = (Q2_j - sum_(k<j) L_jk B_k) / L_jj
+        for j in 0..f {
+            for k in 0..j {
+                let factor = l[k * f + j];
+                for i in 0..n {
+                    basis[j * n + i] = basis[j * n + i] - factor * basis[k * n + i];
+                }
+            }
+            let inverse = T::ONE / l[j * f + j];
+            basis[j * n..(j + 1) * n].iter_mut().for_each(|x| *x *= inverse);
+        }
+        Ok(Self { n, rows, lengths, q, r, l, basis })
+    }
+
+    /// Number of freedoms f.
+    pub(crate) fn n_freedoms(&self) -> usize {
+        self.n - self.rows.len()
+    }
+
+    /// x -= the smallest d with J0 d = b on the independent rows.
+    pub(crate) fn correct(&self, b: &[T], x: &mut [T]) {
+        let rank = self.rows.len();
+        let mut y = vec![T::ZERO; rank];
+        for i in 0..rank {
+            let mut sum = b[self.rows[i]] / self.lengths[i];
+            for k in 0..i {
+                sum -= self.r[i * rank + k] * y[k];
+            }
+            y[i] = sum / self.r[i * rank + i];
+        }
+        for (k, &y) in y.iter().enumerate() {
+            for (x, &q) in x.iter_mut().zip(column(&self.q, self.n, k)) {
+                *x -= q * y;
+            }
+        }
+    }
+
+    /// z of a vector x of n: L^T Q2^T x.
+    pub(crate) fn reduce(&self, x: &[T]) -> Vec<T> {
+        let (rank, f) = (self.rows.len(), self.n_freedoms());
+        let e: Vec<T> = (0..f).map(|j| dot(column(&self.q, self.n, rank + j), x)).collect();
+        (0..f).map(|j| (j..f).fold(T::ZERO, |sum, i| sum + self.l[j * f + i] * e[i])).collect()
+    }
+
+    /// Direction of one freedom: a column of B.
+    pub(crate) fn direction(&self, freedom: usize) -> &[T] {
+        column(&self.basis, self.n, freedom)
+    }
+}
+
+fn column<T>(a: &[T], n: usize, j: usize) -> &[T] {
+    &a[j * n..(j + 1) * n]
+}
+
+fn dot<T: Real>(a: &[T], b: &[T]) -> T {
+    a.iter().zip(b).fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
+}
+
+/// Rows chosen, their lengths, Q and R11. Rows that are shorter than max(n, m) eps^(2/3) of the largest after elimination
+/// depend on the others.
+fn factor<T: Real>(n: usize, jacobian: &mut [T]) -> (Vec<usize>, Vec<T>, Vec<T>, Vec<T>) {
+    let m = jacobian.len() / n.max(1);
+    let mut order: Vec<usize> = (0..m).collect();
+    let mut lengths = vec![T::ONE; m];
+    for (row, length) in jacobian.chunks_exact_mut(n.max(1)).zip(&mut lengths) {
+        let size = dot(row, row).sqrt();
+        if size > T::ZERO {
+            *length = size;
+            row.iter_mut().for_each(|x| *x /= size);
+        }
+    }
+    let third = cube_root(T::EPSILON.to_f64());
+    let tolerance = T::from_f64(n.max(m) as f64 * third * third);
+    let (mut largest, mut rank) = (T::ZERO, 0);
+    let mut q = vec![T::ZERO; n * n];
+    (0..n).for_each(|i| q[i * n + i] = T::ONE);
+    while rank < n.min(m) {
+        let rest = |row: usize| {
+            let tail = &jacobian[row * n + rank..(row + 1) * n];
+            dot(tail, tail)
+        };
+        let best = (rank..m).fold(rank, |b, j| if rest(order[j]) > rest(order[b]) { j } else { b });
+        order.swap(rank, best);
+        let norm = rest(order[rank]).sqrt();
+        largest = largest.max(norm);
+        if norm <= tolerance * largest || norm == T::ZERO {
+            break;
+        }
+        let at = order[rank] * n;
+        let mut v = jacobian[at + rank..at + n].to_vec();
+        let alpha = if v[0] > T::ZERO { -norm } else { norm };
+        v[0] -= alpha;
+        let vv = dot(&v, &v);
+        let reflect = |x: &mut [T]| {
+            let factor = T::TWO * dot(&v, x) / vv;
+            x.iter_mut().zip(&v).for_each(|(x, &v)| *x -= factor * v);
+        };
+        for &row in &order[rank..] {
+            reflect(&mut jacobian[row * n + rank..(row + 1) * n]);
+        }
+        // Q <- Q H: every row of Q is reflected.
+        for i in 0..n {
+            let mut line: Vec<T> = (rank..n).map(|j| q[j * n + i]).collect();
+            reflect(&mut line);
+            (rank..n).zip(line).for_each(|(j, x)| q[j * n + i] = x);
+        }
+        rank += 1;
+    }
+    order.truncate(rank);
+    let mut r = vec![T::ZERO; rank * rank];
+    for (j, &row) in order.iter().enumerate() {
+        r[j * rank..j * rank + j + 1].copy_from_slice(&jacobian[row * n..row * n + j + 1]);
+    }
+    let lengths = order.iter().map(|&row| lengths[row]).collect();
+    (order, lengths, q, r)
+}
+
+/// Cube root of a positive number by Newton's method: the scalar trait has none.
+fn cube_root(x: f64) -> f64 {
+    let mut y = 1.0;
+    for _ in 0..200 {
+        y = (2.0 * y + x / (y * y)) / 3.0;
+    }
+    y
+}
+
+/// L of a symmetric matrix whose lower triangle is given, in place.
+fn cholesky<T: Real>(a: &mut [T], f: usize) -> Result<(), usize> {
+    let largest = (0..f).fold(T::ZERO, |most, j| most.max(a[j * f + j]));
+    for j in 0..f {
+        for k in 0..j {
+            let factor = a[k * f + j];
+            for i in j..f {
+                a[j * f + i] = a[j * f + i] - factor * a[k * f + i];
+            }
+        }
+        let pivot = a[j * f + j];
+        if !(pivot > largest * T::from_f64(NO_INERTIA).max(T::EPSILON)) {
+            return Err(j);
+        }
+        let inverse = T::ONE / pivot.sqrt();
+        a[j * f + j..(j + 1) * f].iter_mut().for_each(|x| *x *= inverse);
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_repeated_row_leaves_the_split_as_it_is() {
+        // x + y = 0 twice and z = 0 in four coordinates, mass diag(1, 3, 1, 4): freedoms x - y with mass 4/2 and w.
+        let jacobian = vec![1.0, 1.0, 0.0, 0.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+        let mass = |x: &[f64]| vec![x[0], 3.0 * x[1], x[2], 4.0 * x[3]];
+        let chart = Chart::new(4, jacobian, mass).expect("every freedom has mass");
+        assert_eq!(chart.n_freedoms(), 2);
+        for j in 0..2 {
+            let b = chart.direction(j);
+            assert!((b[0] + b[1]).abs() < 1e-15 && b[2].abs() < 1e-15, "{b:?}");
+            for k in 0..2 {
+                let product = dot(chart.direction(k), &mass(b));
+                assert!((product - if j == k { 1.0 } else { 0.0 }).abs() < 1e-14);
+            }
+            let z = chart.reduce(b);
+            assert!((z[j] - 1.0).abs() < 1e-14 && z[1 - j].abs() < 1e-14, "{z:?}");
+        }
+        // The smallest change that closes x + y = 0.2 and z = 0.5.
+        let mut x = [0.0; 4];
+        chart.correct(&[0.2, 0.4, 0.5], &mut x);
+        let wanted = [-0.1, -0.1, -0.5, 0.0];
+        assert!(x.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-15), "{x:?}");
+    }
+
+    #[test]
+    fn a_freedom_without_inertia_is_named() {
+        let mass = |x: &[f64]| vec![x[0], 0.0];
+        assert!(Chart::new(2, vec![], mass).is_err());
+    }
+}

@@ -1,0 +1,399 @@
+//! Static equilibrium by pseudo-transient continuation: steps of the flow M q' = Q - J^T lambda on the constraints, which grow
+//! into Newton's method.
+//!
+//! ```text
+//! [ M + s (K + K_geo(lambda))  J^T ] ( d          )     ( s (Q - J^T lambda) )
+//! [ J                           0  ] ( s d_lambda )  =  ( -phi               ),     q += d, closed again; lambda += d_lambda
+//! ```
+//!
+//! The matrix is that of a step of implicit Euler with h^2 = s from rest (dynamic relaxation with the velocity reset to zero
+//! after every step), and for s -> infinity that of Newton's method (C. T. Kelley, D. E. Keyes, SIAM J. Numer. Anal. 35, 1998).
+//! s grows tenfold with every accepted step and shrinks after a refused one. A step is refused when
+//!
+//! - the matrix is not positive where J d = 0 (inertia not (n, m, 0), N. Gould 1985): towards no minimum of energy;
+//! - it turns the mechanism so far that the constraints are broken by a quarter of it;
+//! - the forces at its end work against it by more than half of what they did for it at its start: it went too far.
+//!
+//! Work along the step takes the place of the residual's norm in the line search, because on the way down from a steep or
+//! unstable place forces must be allowed to grow. So the search leaves unstable places unless it starts exactly on one.
+//!
+//! Neutral directions, in which no force acts and K is singular, have the step s (force) / M: rounding alone. s is bounded so
+//! that this moves them by at most sqrt(eps)/10 of the scene's length in each step, and they stay where they started.
+
+use crate::error::EquilibriumError;
+use crate::options::Options;
+use crate::workspace::Workspace;
+use alloc::vec;
+use alloc::vec::Vec;
+use mbs_core::algebra::norm_inf;
+use mbs_core::model::{Model, State};
+use mbs_core::step::{largest, largest_or_nan};
+use mbs_core::{Real, SymmetricSolver};
+
+/// What was found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Equilibrium<T> {
+    /// Steps taken.
+    pub iterations: u32,
+    /// Factorisations, of refused steps and of the test of stability too.
+    pub factorizations: u32,
+    /// Largest force left on a coordinate [N, N m for directions].
+    pub residual: T,
+    /// The same relative to the largest sum of absolute forces on a coordinate [-]; 0 without forces.
+    pub relative: T,
+    /// Largest constraint violation [m or rad].
+    pub violation: T,
+    /// Largest change of a coordinate [m or -].
+    pub change: T,
+    /// Directions in which forces lead away from it: |omega| above [`rate`](Self::rate), omega^2 negative. An estimate by the
+    /// tangent that the effects give, which may leave parts out; the eigenvalues of a linearisation are the last word.
+    pub unstable: usize,
+    /// Directions with |omega| below [`rate`](Self::rate), in which it may stand anywhere, by the same estimate; `None` where the constraints are
+    /// too many for their rank to be found.
+    pub neutral: Option<usize>,
+    /// What counts as neutral [rad/s].
+    pub rate: T,
+}
+
+impl<T> Equilibrium<T> {
+    /// Does no force lead away from it, by the estimate?
+    pub fn is_stable(&self) -> bool {
+        self.unstable == 0
+    }
+}
+
+/// A shrunk step is this much of the refused one, in s.
+const SHRINK: f64 = 0.125;
+/// An accepted step lets s grow by this.
+const GROW: f64 = 10.0;
+/// Steps balanced within the tolerance without progress after which the search ends.
+const PATIENCE: u32 = 40;
+/// Sweeps that close the constraints after a step.
+const SWEEPS: u32 = 20;
+/// Constraint violation of a step relative to its size that is still closed.
+const BROKEN: f64 = 0.25;
+/// Times the scene's length: farther than this nothing is sought.
+const FAR: f64 = 1e6;
+
+/// Moves `s` to a static equilibrium near it, in a scene of the given `length` [m].
+///
+/// Guides keep their values of time `s.t`. Forces that depend on velocity are taken at the velocity in `s`: zero it for an
+/// equilibrium at rest. Positions, multipliers (also as `reaction`) and measured angles are written, accelerations become
+/// zero, velocities stay as they are and are not made consistent with the new positions.
+///
+/// Cost: ten to forty factorisations near an equilibrium, more on a long way down; allocates a few vectors.
+///
+/// # Errors
+/// [`EquilibriumError`]; the state is then unchanged.
+pub fn equilibrium<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    length: T,
+    options: &Options<T>,
+    s: &mut State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<Equilibrium<T>, EquilibriumError> {
+    options.validate()?;
+    let mut search = Search::new(model, length, s, w);
+    search.begin()?;
+    search.descend(options)?;
+    let report = search.report(s);
+    let Search { q, memory, lambda, w, .. } = search;
+    s.q.copy_from_slice(&q);
+    s.q_low.fill(T::ZERO);
+    s.a.fill(T::ZERO);
+    s.a_aux.fill(T::ZERO);
+    s.memory.copy_from_slice(&memory);
+    s.phi.copy_from_slice(&w.terms.phi);
+    for to in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {
+        to.copy_from_slice(&lambda);
+    }
+    Ok(report)
+}
+
+struct Search<'a, T, M, S> {
+    model: &'a M,
+    w: &'a mut Workspace<T, S>,
+    length: T,
+    v: Vec<T>,
+    /// Positions, multipliers, measured angles and J^T lambda - Q, as accepted.
+    q: Vec<T>,
+    lambda: Vec<T>,
+    memory: Vec<T>,
+    residual: Vec<T>,
+    phi: Vec<T>,
+    /// The same for a step on trial.
+    next: Vec<T>,
+    next_lambda: Vec<T>,
+    next_residual: Vec<T>,
+    /// Largest sum of absolute forces on a coordinate [N].
+    scale: T,
+    /// Pseudo-time step squared and its bound [s^2].
+    s: T,
+    bound: T,
+    iterations: u32,
+    factorizations: u32,
+}
+
+impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
+    fn new(model: &'a M, length: T, s: &State<T>, w: &'a mut Workspace<T, S>) -> Self {
+        let zeros = |k| vec![T::ZERO; k];
+        model.set_inputs(s.t, &mut w.terms);
+        let (n, m) = (w.n, w.m);
+        Self {
+            model,
+            w,
+            length,
+            v: s.v.clone(),
+            q: s.q.clone(),
+            lambda: zeros(m),
+            memory: s.memory.clone(),
+            residual: zeros(n),
+            phi: zeros(m),
+            next: s.q.clone(),
+            next_lambda: zeros(m),
+            next_residual: zeros(n),
+            scale: T::ZERO,
+            s: T::ONE,
+            bound: T::ONE,
+            iterations: 0,
+            factorizations: 0,
+        }
+    }
+
+    /// Closes the constraints and finds the multipliers and accelerations at rest, and from them the first s.
+    fn begin(&mut self) -> Result<(), EquilibriumError> {
+        self.model.evaluate(&self.next, &mut self.w.terms);
+        let has_mass = self.factor(T::ZERO);
+        if has_mass {
+            self.close();
+        }
+        let violation = norm_inf(&self.w.terms.phi);
+        if !(violation <= self.length * T::from_f64(1e-6)) {
+            let row = largest_or_nan(&self.w.terms.phi);
+            return Err(EquilibriumError::NotClosed { violation: violation.to_f64(), row });
+        }
+        self.evaluate();
+        let mut acceleration = T::ZERO;
+        // The second sweep removes what the regularisation of the rows left.
+        for _ in 0..if has_mass { 2 } else { 0 } {
+            self.load(T::ONE, &self.next_residual.clone());
+            self.w.solve();
+            acceleration = norm_inf(&self.w.f[..self.w.n]);
+            let n = self.w.n;
+            for (l, &e) in self.next_lambda.iter_mut().zip(&self.w.f[n..]) {
+                *l += e;
+            }
+            self.measure();
+        }
+        self.accept();
+        self.s = if acceleration > T::ZERO { self.length / acceleration } else { self.bound };
+        self.s = self.s.min(self.bound);
+        self.check_finite()
+    }
+
+    /// Steps until the forces are balanced.
+    fn descend(&mut self, options: &Options<T>) -> Result<(), EquilibriumError> {
+        let (mut idle, mut was_refused) = (0, false);
+        let smallest = self.s * T::from_f64(1e-20);
+        while self.factorizations < options.max_factorizations {
+            if self.scale == T::ZERO {
+                return Ok(());
+            }
+            let before = norm_inf(&self.residual);
+            let is_balanced = before <= options.tolerance * self.scale;
+            let Some(size) = self.step(is_balanced) else {
+                self.s *= T::from_f64(SHRINK);
+                was_refused = true;
+                if !(self.s > smallest) {
+                    break;
+                }
+                continue;
+            };
+            self.check_finite()?;
+            self.check_far()?;
+            let left = norm_inf(&self.residual);
+            let is_progress = left < before * T::HALF;
+            if left <= options.tolerance * self.scale {
+                // A small s tells of an unstable place: what looks still there only begins to move.
+                let is_newton = self.s >= self.bound * T::from_f64(SHRINK);
+                let is_still = size <= self.length * T::EPSILON.sqrt() && is_newton;
+                let is_rounding = left <= self.scale * T::EPSILON * T::from_f64(4.0);
+                idle = if is_progress { 0 } else { idle + 1 };
+                if is_rounding || (is_still && !is_progress) || idle > PATIENCE {
+                    return Ok(());
+                }
+            } else {
+                idle = 0;
+            }
+            if !was_refused {
+                self.s = (self.s * T::from_f64(GROW)).min(self.bound);
+            }
+            was_refused = false;
+        }
+        Err(self.not_converged())
+    }
+
+    /// One step with the present s; its size, or nothing when it is refused.
+    fn step(&mut self, is_balanced: bool) -> Option<T> {
+        let n = self.w.n;
+        self.model.evaluate(&self.q, &mut self.w.terms);
+        self.model.evaluate_forces(&self.q, &self.v, &self.memory, &mut self.w.terms);
+        if !self.factor(self.s) {
+            return None;
+        }
+        self.load(self.s, &self.residual.clone());
+        self.w.solve();
+        let size = norm_inf(&self.w.f[..n]);
+        for i in 0..n {
+            self.next[i] = self.q[i] + self.w.f[i];
+        }
+        for k in 0..self.lambda.len() {
+            self.next_lambda[k] = self.lambda[k] + self.w.f[n + k] / self.s;
+        }
+        self.model.evaluate(&self.next, &mut self.w.terms);
+        let broken = norm_inf(&self.w.terms.phi);
+        if !(broken <= size * T::from_f64(BROKEN) + norm_inf(&self.phi) + self.floor())
+            || !self.close()
+        {
+            return None;
+        }
+        self.evaluate();
+        let (mut given, mut left) = (T::ZERO, T::ZERO);
+        for i in 0..n {
+            let d = self.next[i] - self.q[i];
+            given -= self.residual[i] * d;
+            left -= self.next_residual[i] * d;
+        }
+        if !is_balanced && !(left >= -given.abs() * T::HALF) {
+            return None;
+        }
+        self.iterations += 1;
+        self.accept();
+        Some(size)
+    }
+
+    /// Factors at the present terms; is the matrix positive where J d = 0?
+    fn factor(&mut self, s: T) -> bool {
+        self.factorizations += 1;
+        let is_regular = self.w.factor(self.model, s, &self.lambda).is_ok();
+        is_regular && self.w.solver.inertia().negative == self.w.m
+    }
+
+    /// f = (-s residual, -phi).
+    fn load(&mut self, s: T, residual: &[T]) {
+        let (b, c) = self.w.f.split_at_mut(self.w.n);
+        for (b, &r) in b.iter_mut().zip(residual) {
+            *b = -s * r;
+        }
+        for (c, &phi) in c.iter_mut().zip(&self.w.terms.phi) {
+            *c = -phi;
+        }
+    }
+
+    /// Closes the constraints at `next` by sweeps with the factor at hand: the smallest changes in its metric.
+    fn close(&mut self) -> bool {
+        let n = self.w.n;
+        let mut violation = norm_inf(&self.w.terms.phi);
+        for _ in 0..SWEEPS {
+            if violation <= self.floor() {
+                return true;
+            }
+            self.w.f[..n].fill(T::ZERO);
+            for (c, &phi) in self.w.f[n..].iter_mut().zip(&self.w.terms.phi) {
+                *c = -phi;
+            }
+            self.w.solve();
+            for i in 0..n {
+                self.next[i] += self.w.f[i];
+            }
+            self.model.evaluate(&self.next, &mut self.w.terms);
+            let left = norm_inf(&self.w.terms.phi);
+            if !(left <= violation * T::HALF) && left <= self.floor() * T::from_f64(64.0) {
+                return true;
+            }
+            violation = left;
+        }
+        violation <= self.floor() * T::from_f64(64.0)
+    }
+
+    /// Rounding of a constraint row.
+    fn floor(&self) -> T {
+        (norm_inf(&self.next) + self.length) * T::EPSILON * T::from_f64(8.0)
+    }
+
+    /// Forces at `next`.
+    fn evaluate(&mut self) {
+        self.model.evaluate_forces(&self.next, &self.v, &self.memory, &mut self.w.terms);
+        self.measure();
+    }
+
+    /// Residual at `next` with `next_lambda`.
+    fn measure(&mut self) {
+        let lambda = &self.next_lambda;
+        self.scale = self.w.residual(self.model, None, lambda, &mut self.next_residual);
+    }
+
+    /// Takes the trial over.
+    fn accept(&mut self) {
+        let lively = self.w.liveliness(self.model);
+        if lively > T::ZERO {
+            self.bound = self.length / (T::from_f64(10.0) * T::EPSILON.sqrt() * lively);
+        }
+        self.model.remember(&self.w.terms, &mut self.memory);
+        self.q.copy_from_slice(&self.next);
+        self.lambda.copy_from_slice(&self.next_lambda);
+        self.residual.copy_from_slice(&self.next_residual);
+        self.phi.copy_from_slice(&self.w.terms.phi);
+    }
+
+    fn check_finite(&self) -> Result<(), EquilibriumError> {
+        if norm_inf(&self.residual).is_finite() {
+            return Ok(());
+        }
+        Err(EquilibriumError::NotFinite { unknown: largest_or_nan(&self.residual) })
+    }
+
+    fn check_far(&self) -> Result<(), EquilibriumError> {
+        let q = &self.q[..self.w.n];
+        if norm_inf(q) <= self.length * T::from_f64(FAR) {
+            return Ok(());
+        }
+        Err(EquilibriumError::Escapes { unknown: largest(q) })
+    }
+
+    fn not_converged(&mut self) -> EquilibriumError {
+        let unknown = self.w.solver.weakest().unknown;
+        if self.w.solver.inertia().zero > 0 {
+            return EquilibriumError::Undetermined { unknown };
+        }
+        let residual = norm_inf(&self.residual).to_f64();
+        EquilibriumError::NotConverged { residual, unknown: largest(&self.residual) }
+    }
+
+    /// Counts the signs of K + K_geo where J d = 0: s K + M has a negative direction where omega^2 < -1/s, and M - s K where
+    /// omega^2 > 1/s.
+    fn report(&mut self, start: &State<T>) -> Equilibrium<T> {
+        self.model.evaluate(&self.q, &mut self.w.terms);
+        self.model.evaluate_forces(&self.q, &self.v, &self.memory, &mut self.w.terms);
+        let bound = self.bound;
+        let [unstable, stiff] = [bound, -bound].map(|s| {
+            self.factor(s);
+            self.w.solver.inertia().negative.saturating_sub(self.w.m)
+        });
+        let rank = mbs_core::start::constraint_rank(self.model, &self.w.terms);
+        let neutral = rank.map(|rank| (self.w.n - rank).saturating_sub(unstable + stiff));
+        let residual = norm_inf(&self.residual);
+        let change = start.q.iter().zip(&self.q).map(|(&a, &b)| (a - b).abs());
+        Equilibrium {
+            iterations: self.iterations,
+            factorizations: self.factorizations,
+            residual,
+            relative: if self.scale > T::ZERO { residual / self.scale } else { T::ZERO },
+            violation: norm_inf(&self.w.terms.phi),
+            change: change.fold(T::ZERO, T::max),
+            unstable,
+            neutral,
+            rate: T::ONE / bound.sqrt(),
+        }
+    }
+}

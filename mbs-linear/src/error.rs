@@ -1,0 +1,131 @@
+//! Why there is no equilibrium, or no linearisation.
+
+use mbs_core::step::OptionError;
+
+/// A search that found no equilibrium; the state is unchanged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum EquilibriumError {
+    /// An option is out of range.
+    Option(OptionError),
+    /// The forces could not be balanced.
+    NotConverged {
+        /// Largest force left [N or N m].
+        residual: f64,
+        /// The coordinate it acts on.
+        unknown: u32,
+    },
+    /// Nothing holds it: the mechanism fell or drove farther than a million times the scene's length.
+    Escapes {
+        /// The coordinate that went farthest.
+        unknown: u32,
+    },
+    /// The constraints could not be met near the state.
+    NotClosed {
+        /// Largest violation [m or rad].
+        violation: f64,
+        /// The row it belongs to.
+        row: u32,
+    },
+    /// A coordinate without mass that neither constraints nor forces determine.
+    Undetermined {
+        /// The unknown of the saddle system: a coordinate, or from n on a row.
+        unknown: u32,
+    },
+    /// A force became infinite or not a number.
+    NotFinite {
+        /// The coordinate it acts on.
+        unknown: u32,
+    },
+}
+
+impl core::fmt::Display for EquilibriumError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Option(error) => write!(f, "{error}"),
+            Self::NotConverged { residual, .. } => write!(
+                f,
+                "no equilibrium was found: a force of {residual:.3e} N (or N m) is left; start nearer to it"
+            ),
+            Self::Escapes { .. } => write!(
+                f,
+                "no equilibrium was found: nothing holds the mechanism against its forces; hold it by a joint or a spring"
+            ),
+            Self::NotClosed { violation, .. } => write!(
+                f,
+                "the joints could not be closed: {violation:.3e} m (or rad) is left; start from an assembled state"
+            ),
+            Self::Undetermined { .. } => write!(
+                f,
+                "a coordinate has no mass, and neither joints nor forces determine it; give its body mass and inertia"
+            ),
+            Self::NotFinite { .. } => {
+                write!(f, "a force became infinite or not a number; check the data of the effects")
+            }
+        }
+    }
+}
+
+impl core::error::Error for EquilibriumError {}
+
+impl From<OptionError> for EquilibriumError {
+    fn from(error: OptionError) -> Self {
+        Self::Option(error)
+    }
+}
+
+/// A linearisation that cannot be made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum LinearError {
+    /// An option is out of range.
+    Option(OptionError),
+    /// The state, or one within a difference of it, does not meet the constraints.
+    NotClosed {
+        /// Largest violation [m or rad].
+        violation: f64,
+    },
+    /// Closing the constraints next to the state moves as far as the difference itself: a singular position is near.
+    Singular {
+        /// The independent coordinate that was changed.
+        freedom: usize,
+    },
+    /// Accelerations do not follow from the forces: a force meets no inertia.
+    NoInertia {
+        /// The unknown of the saddle system: a coordinate, or from n on a row.
+        unknown: u32,
+    },
+    /// A force became infinite or not a number.
+    NotFinite,
+}
+
+impl core::fmt::Display for LinearError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Option(error) => write!(f, "{error}"),
+            Self::NotClosed { violation } => write!(
+                f,
+                "the joints stay open by {violation:.3e} m (or rad) at the state or next to it; start from an assembled state, away from singular positions"
+            ),
+            Self::Singular { .. } => write!(
+                f,
+                "the state is a singular position, or nearly: its branches have no common linearisation; move away from it"
+            ),
+            Self::NoInertia { .. } => write!(
+                f,
+                "a force meets no inertia: a coordinate is neither determined by joints nor has mass; give its body mass and inertia"
+            ),
+            Self::NotFinite => {
+                write!(f, "a force became infinite or not a number; check the data of the effects")
+            }
+        }
+    }
+}
+
+impl core::error::Error for LinearError {}
+
+impl From<OptionError> for LinearError {
+    fn from(error: OptionError) -> Self {
+        Self::Option(error)
+    }
+}

@@ -1,0 +1,19 @@
+#![doc = include_str!("../README.md")]
+#![no_std]
+
+extern crate alloc;
+
+mod chart;
+mod equilibrium;
+mod error;
+mod linearise;
+mod options;
+mod workspace;
+
+pub use equilibrium::{Equilibrium, equilibrium};
+pub use error::{EquilibriumError, LinearError};
+pub use linearise::{Instant, Linear, linearise};
+pub use mbs_core::saddle::Saddle;
+pub use mbs_core::step::OptionError;
+pub use options::{LinearOptions, Options};
+pub use workspace::Workspace;

@@ -1,0 +1,68 @@
+//! What the caller chooses. Public fields; start from the defaults.
+
+use mbs_core::Real;
+use mbs_core::step::OptionError;
+
+/// Choices for the search of an equilibrium.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options<T> {
+    /// Largest residual force that counts as balanced, relative to the largest sum of absolute forces on a coordinate [-].
+    /// The search goes on to rounding where it can.
+    pub tolerance: T,
+    /// Factorisations allowed.
+    pub max_factorizations: u32,
+}
+
+impl<T: Real> Default for Options<T> {
+    /// Tolerance 1e-9 (f32: 1e-4), at most 2000 factorisations: a fall over many times the scene's length ends before.
+    fn default() -> Self {
+        Self {
+            tolerance: T::from_f64(1e-9).max(T::EPSILON * T::from_f64(1e3)),
+            max_factorizations: 2000,
+        }
+    }
+}
+
+impl<T: Real> Options<T> {
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// [`OptionError`] names the option.
+    pub fn validate(&self) -> Result<(), OptionError> {
+        if !(self.tolerance > T::ZERO && self.tolerance.is_finite()) {
+            return Err(OptionError::NotPositive("tolerance"));
+        }
+        if self.max_factorizations == 0 {
+            return Err(OptionError::NotPositive("max_factorizations"));
+        }
+        Ok(())
+    }
+}
+
+/// Choices for a linearisation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinearOptions<T> {
+    /// Largest change of a coordinate in a difference, relative to the scene's length [-]; of a velocity, the same per second.
+    pub step: T,
+}
+
+impl<T: Real> Default for LinearOptions<T> {
+    /// 1e-4 (f32: 1e-2): the fourth power of it, the error of the differences, is below rounding in smooth forces.
+    fn default() -> Self {
+        Self { step: T::from_f64(1e-4).max(T::from_f64(0.5) * T::EPSILON.sqrt().sqrt()) }
+    }
+}
+
+impl<T: Real> LinearOptions<T> {
+    /// Checks the range.
+    ///
+    /// # Errors
+    /// [`OptionError`] names the option.
+    pub fn validate(&self) -> Result<(), OptionError> {
+        if self.step > T::ZERO && self.step.is_finite() {
+            Ok(())
+        } else {
+            Err(OptionError::NotPositive("step"))
+        }
+    }
+}

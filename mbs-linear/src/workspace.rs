@@ -1,0 +1,172 @@
+//! Scratch of both analyses: the saddle matrix of a model with weights, its factor, and sums of forces.
+//!
+//! ```text
+//! [ M + s (K + K_geo(lambda))   J^T   ] ( d )     ( b )
+//! [ J                          -delta ] ( e )  =  ( c ),      delta_k = 1e-9 J_k diag(W)^-1 J_k^T
+//! ```
+//!
+//! delta lets rows repeat each other; what it leaves open is removed by iteration of the multipliers, so that no result
+//! depends on it.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use mbs_core::algebra::norm_inf;
+use mbs_core::model::{Load, Model, Tangent, Terms};
+use mbs_core::saddle::{Saddle, SaddleSystem};
+use mbs_core::{FactorError, Real, SymmetricSolver};
+
+/// delta relative to the compliance of its row.
+const DELTA: f64 = 1e-9;
+
+/// Scratch over a solver `S` that was analysed for the [`Saddle`] of the model.
+#[derive(Debug, Clone)]
+pub struct Workspace<T, S> {
+    pub(crate) solver: S,
+    saddle: Saddle,
+    pub(crate) terms: Terms<T>,
+    jacobian: Vec<T>,
+    delta: Vec<T>,
+    diagonal: Vec<T>,
+    /// One block, Jacobian or residual of an element.
+    local: Vec<T>,
+    scaled: Vec<T>,
+    /// Right-hand side, then solution, of coordinates and multipliers, n + m.
+    pub(crate) f: Vec<T>,
+    scratch: Vec<T>,
+    pub(crate) n: usize,
+    pub(crate) m: usize,
+}
+
+impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
+    /// Scratch for `model`.
+    pub fn new(model: &impl Model<T>, solver: S) -> Self {
+        let (n, m) = (model.n_unknowns(), model.n_constraints());
+        let saddle = Saddle::new(model);
+        let largest = (0..model.n_elements()).map(|e| model.clique(e).len()).max().unwrap_or(0);
+        Self {
+            terms: model.terms(),
+            jacobian: vec![T::ZERO; saddle.n_jacobian()],
+            delta: vec![T::ZERO; m],
+            diagonal: vec![T::ZERO; n],
+            local: vec![T::ZERO; largest * (largest + 1)],
+            scaled: vec![T::ZERO; m],
+            f: vec![T::ZERO; n + m],
+            scratch: vec![T::ZERO; solver.n_scratch()],
+            solver,
+            saddle,
+            n,
+            m,
+        }
+    }
+
+    /// Factors the saddle matrix at the terms as last evaluated, with the weight `s` [s^2] of the stiffness.
+    pub(crate) fn factor<M: Model<T>>(
+        &mut self,
+        model: &M,
+        s: T,
+        lambda: &[T],
+    ) -> Result<(), FactorError> {
+        for (x, &l) in self.scaled.iter_mut().zip(lambda) {
+            *x = l * s;
+        }
+        for e in 0..model.n_elements() {
+            model.write_jacobian(&self.terms, e, &mut self.jacobian[self.saddle.jacobian(e)]);
+        }
+        let geometric = (s != T::ZERO).then_some(&self.scaled[..]);
+        let tangent = Tangent { stiffness: s, damping: T::ZERO, penalty: &[], geometric };
+        sum_diagonal(model, &self.terms, &tangent, &mut self.local, &mut self.diagonal);
+        let largest = norm_inf(&self.diagonal);
+        let floor = if largest > T::ZERO { largest * T::from_f64(1e-12) } else { T::ONE };
+        for e in 0..model.n_elements() {
+            let clique = model.clique(e);
+            let rows = &self.jacobian[self.saddle.jacobian(e)];
+            for (row, g) in model.rows(e).zip(rows.chunks_exact(clique.len().max(1))) {
+                let compliance = clique.iter().zip(g).fold(T::ZERO, |sum, (&u, &g)| {
+                    sum + g * g / self.diagonal[u as usize].abs().max(floor)
+                });
+                self.delta[row] = compliance * T::from_f64(DELTA);
+            }
+        }
+        self.solver.factor(&SaddleSystem {
+            model,
+            saddle: &self.saddle,
+            terms: &self.terms,
+            tangent,
+            jacobian: &self.jacobian,
+            delta: &self.delta,
+            load: Load { mass: None, multipliers: None, force: T::ZERO },
+            rates: &[],
+        })
+    }
+
+    /// (d, e) = (saddle matrix)^-1 (b, c), all in `f`.
+    pub(crate) fn solve(&mut self) {
+        self.solver.solve(&mut self.f, &mut self.scratch);
+    }
+
+    /// residual = M a + J^T lambda - Q; returns, for each coordinate, nothing, but the largest sum of absolute parts [N].
+    pub(crate) fn residual<M: Model<T>>(
+        &mut self,
+        model: &M,
+        mass: Option<&[T]>,
+        lambda: &[T],
+        residual: &mut [T],
+    ) -> T {
+        let nothing = Load { mass: None, multipliers: None, force: T::ZERO };
+        let parts = [
+            Load { mass, ..nothing },
+            Load { multipliers: Some(lambda), ..nothing },
+            Load { force: T::ONE, ..nothing },
+        ];
+        residual.fill(T::ZERO);
+        self.diagonal.fill(T::ZERO);
+        for load in &parts[usize::from(mass.is_none())..] {
+            for e in 0..model.n_elements() {
+                let clique = model.clique(e);
+                let local = &mut self.local[..clique.len()];
+                model.write_residual(&self.terms, load, e, local);
+                for (&u, &x) in clique.iter().zip(&*local) {
+                    residual[u as usize] += x;
+                    self.diagonal[u as usize] += x.abs();
+                }
+            }
+        }
+        norm_inf(&self.diagonal)
+    }
+
+    /// The largest acceleration that the parts of the last residual would give alone [m/s^2]: what rounding is relative to.
+    /// Coordinates with little mass are left out.
+    pub(crate) fn liveliness<M: Model<T>>(&mut self, model: &M) -> T {
+        let forces = self.diagonal.clone();
+        let tangent =
+            Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty: &[], geometric: None };
+        sum_diagonal(model, &self.terms, &tangent, &mut self.local, &mut self.diagonal);
+        let floor = norm_inf(&self.diagonal) * T::from_f64(1e-6);
+        forces
+            .iter()
+            .zip(&self.diagonal)
+            .fold(T::ZERO, |most, (&f, &m)| if m > floor { most.max(f / m) } else { most })
+    }
+}
+
+/// The diagonal of the sum of all blocks.
+fn sum_diagonal<T: Real, M: Model<T>>(
+    model: &M,
+    terms: &Terms<T>,
+    tangent: &Tangent<'_, T>,
+    local: &mut [T],
+    diagonal: &mut [T],
+) {
+    diagonal.fill(T::ZERO);
+    for e in 0..model.n_elements() {
+        let clique = model.clique(e);
+        let k = clique.len();
+        let block = &mut local[..k * (k + 1) / 2];
+        model.write_block(terms, tangent, e, block);
+        let mut at = 0;
+        for (j, &u) in clique.iter().enumerate() {
+            diagonal[u as usize] += block[at];
+            at += k - j;
+        }
+    }
+}

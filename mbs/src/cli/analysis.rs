@@ -1,0 +1,245 @@
+//! `mbs equilibrium SCENE` and `mbs modes SCENE`.
+
+use super::files::{prepare, scene as load, unwritable};
+use super::run::stopped;
+use super::{STOPPED, refuse, table::fixed};
+use clap::{Args, ValueEnum};
+use mbs::{Names, Place, Still, StopError, words};
+use mbs_core::scene::{Dimension, Scene};
+use mbs_scene::{Channel, Document};
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// What both commands know.
+#[derive(Debug, Args)]
+pub(crate) struct Common {
+    /// Scene file (TOML).
+    scene: PathBuf,
+    /// One JSON object on standard output and nothing else.
+    #[arg(long)]
+    json: bool,
+    /// Directory for the same JSON object as a file, equilibrium.json or modes.json; made if missing.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// Arguments of `mbs equilibrium`.
+#[derive(Debug, Args)]
+pub(crate) struct Equilibrium {
+    #[command(flatten)]
+    common: Common,
+}
+
+/// Arguments of `mbs modes`.
+#[derive(Debug, Args)]
+pub(crate) struct Modes {
+    #[command(flatten)]
+    common: Common,
+    /// State to linearise about: the static equilibrium at rest; the start with its velocities; or the positions of the
+    /// equilibrium with the velocities of the start.
+    #[arg(long, value_enum, default_value_t = At::Equilibrium)]
+    at: At,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum At {
+    Equilibrium,
+    Initial,
+    Moving,
+}
+
+/// Runs `mbs equilibrium`.
+pub(crate) fn equilibrium(arguments: &Equilibrium) -> ExitCode {
+    let analyse = |scene: &Scene<f64>| match scene.dimension {
+        Dimension::Planar => Still::new::<2>(scene),
+        Dimension::Spatial => Still::new::<3>(scene),
+    };
+    let told = |scene: &Scene<f64>| analyse(scene).map(|s| (s.to_json(), still(&s)));
+    command(&arguments.common, "equilibrium.json", told)
+}
+
+/// Runs `mbs modes`.
+pub(crate) fn modes(arguments: &Modes) -> ExitCode {
+    let place = match arguments.at {
+        At::Equilibrium => Place::Equilibrium,
+        At::Initial => Place::Initial,
+        At::Moving => Place::Moving,
+    };
+    let analyse = |scene: &Scene<f64>| match scene.dimension {
+        Dimension::Planar => mbs::Modes::new::<2>(scene, place),
+        Dimension::Spatial => mbs::Modes::new::<3>(scene, place),
+    };
+    let told = |scene: &Scene<f64>| analyse(scene).map(|m| (m.to_json(), spectrum(&m)));
+    command(&arguments.common, "modes.json", told)
+}
+
+/// Reads, analyses, and writes JSON or text.
+fn command(
+    common: &Common,
+    file: &str,
+    analyse: impl Fn(&Scene<f64>) -> Result<(Value, String), StopError>,
+) -> ExitCode {
+    let (document, scene) = match load(&common.scene) {
+        Ok(both) => both,
+        Err(message) => return refuse(&message),
+    };
+    if let Some(out) = &common.out
+        && let Err(error) = prepare(out, file)
+    {
+        return refuse(&unwritable(out, &error));
+    }
+    let result = analyse(&scene);
+    let (object, text) = match &result {
+        Ok((object, text)) => (object.clone(), text.clone()),
+        Err(error) => (failure(&scene, error), String::new()),
+    };
+    if let Some(out) = &common.out
+        && let Err(error) = write(out, file, &object)
+    {
+        return refuse(&unwritable(out, &error));
+    }
+    let text = if common.json { object.to_string() } else { text };
+    // A reader that has gone away is no error of the analysis.
+    if !text.is_empty() {
+        let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
+    }
+    let Err(error) = result else { return ExitCode::SUCCESS };
+    if !common.json {
+        eprint!("{}", located(&scene, &error, &document));
+    }
+    ExitCode::from(STOPPED)
+}
+
+fn write(out: &Path, file: &str, object: &Value) -> std::io::Result<()> {
+    std::fs::write(out.join(file), format!("{object}\n"))
+}
+
+/// The JSON object of an analysis that could not be made.
+fn failure(scene: &Scene<f64>, error: &StopError) -> Value {
+    let report = error.report(0.0, &Names::new(scene));
+    json!({ "scene": scene.name, "completed": false, "error": report })
+}
+
+fn located(scene: &Scene<f64>, error: &StopError, document: &Document) -> String {
+    let report = error.report(0.0, &Names::new(scene));
+    stopped("no result", &report, error, document)
+}
+
+/// An equilibrium as text.
+fn still(s: &Still) -> String {
+    let found = &s.found;
+    let [coordinates, constraints, rank] = s.sizes;
+    let stable = match (s.unstable, s.neutral.unwrap_or(0)) {
+        (None, _) => "unknown: it stands in a singular position".to_owned(),
+        (Some(0), 0) => "yes".to_owned(),
+        (Some(0), n) => format!("yes; nothing holds it in {}", counted(n, "direction")),
+        (Some(n), _) => format!("no: {} away from it", grow(n)),
+    };
+    let mut text = format!("{}: static equilibrium\n", s.scene);
+    let rows = [
+        (
+            "degrees of freedom",
+            format!(
+                "{} ({coordinates} coordinates, {constraints} constraints of rank {rank})",
+                coordinates - rank
+            ),
+        ),
+        ("stable", stable),
+        (
+            "largest force left",
+            format!(
+                "{} N, {} of the forces",
+                words::size(found.residual),
+                words::size(found.relative)
+            ),
+        ),
+        ("largest violation", format!("{} m (or rad)", words::size(found.violation))),
+        ("search", format!("{} steps, {} factorisations", found.iterations, found.factorizations)),
+        ("potential energy", format!("{} J", fixed(s.potential))),
+    ];
+    // Writing into a String has nothing to fail on.
+    for (label, value) in rows {
+        let _ = writeln!(text, "  {label:<24} {value}");
+    }
+    for (title, channels) in
+        [("joints", &s.joints), ("outputs", &s.outputs), ("reactions", &s.reactions)]
+    {
+        if !channels.is_empty() {
+            let _ = writeln!(text, "{title}");
+        }
+        for (channel, values) in channels {
+            let _ = writeln!(text, "  {:<24} {}", channel.name, told(channel, values));
+        }
+    }
+    for joint in &s.not_unique {
+        let _ = writeln!(
+            text,
+            "note: the reaction of joint `{joint}` is not unique: the smallest one is given"
+        );
+    }
+    text
+}
+
+/// Values with their units.
+fn told(channel: &Channel, values: &[f64]) -> String {
+    let parts = channel.components.iter().zip(values).map(|(component, x)| {
+        let label = if component.label.parse::<u32>().is_ok() { "" } else { &component.label };
+        let space = if label.is_empty() { "" } else { " " };
+        format!("{label}{space}{} {}", fixed(*x), component.unit)
+    });
+    parts.collect::<Vec<_>>().join("  ")
+}
+
+/// Eigenvalues as a table.
+fn spectrum(m: &mbs::Modes) -> String {
+    let stable = if m.is_stable() { "stable" } else { "unstable" };
+    let mut text = format!(
+        "{}: {} about its {}, {stable}\n",
+        m.scene,
+        counted(m.dof, "degree of freedom"),
+        match m.place {
+            Place::Equilibrium => "equilibrium",
+            Place::Initial => "start",
+            Place::Moving => "equilibrium in motion",
+        }
+    );
+    // Writing into a String has nothing to fail on.
+    let _ = writeln!(
+        text,
+        "{:>16} {:>16} {:>14} {:>14} {:>10}",
+        "real [1/s]", "imag. [rad/s]", "frequency [Hz]", "undamped [Hz]", "damping"
+    );
+    for mode in &m.modes {
+        let damping = mode.damping_ratio().map_or("neutral".to_owned(), |x| format!("{x:.6}"));
+        let _ = writeln!(
+            text,
+            "{:>16.9} {:>16.9} {:>14.9} {:>14.9} {damping:>10}",
+            mode.real,
+            mode.imaginary,
+            mode.frequency(),
+            mode.undamped_frequency(),
+        );
+    }
+    if m.place != Place::Equilibrium && (m.acceleration > 1e-6 || m.turning > 1e-6) {
+        let _ = writeln!(
+            text,
+            "note: this state accelerates or turns: the eigenvalues hold for an instant and for one choice of coordinates"
+        );
+    }
+    text
+}
+
+fn grow(n: usize) -> String {
+    if n == 1 { "1 mode leads".to_owned() } else { format!("{n} modes lead") }
+}
+
+fn counted(n: usize, what: &str) -> String {
+    match (n, what) {
+        (1, _) => format!("1 {what}"),
+        (_, "degree of freedom") => format!("{n} degrees of freedom"),
+        _ => format!("{n} {what}s"),
+    }
+}

@@ -1,0 +1,196 @@
+//! Eigenvalues of a scene linearised about its equilibrium or its start.
+//!
+//! ```text
+//! lambda = -zeta omega_0 +- i omega_0 sqrt(1 - zeta^2):   omega_0 = |lambda|,  zeta = -Re lambda / |lambda|
+//! ```
+
+use crate::statics::{assembled, equilibrium_start, settle, workspace};
+use crate::stop::StopError;
+use core::f64::consts::TAU;
+use faer::Mat;
+use mbs_core::scene::Scene;
+use mbs_linear::{Equilibrium, Instant, Linear, LinearOptions, linearise};
+use mbs_sparse::Multifrontal;
+use serde_json::{Value, json};
+
+/// About which state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// The static equilibrium near the start, at rest.
+    Equilibrium,
+    /// The start as assembled, with its velocities and the guides' rates.
+    Initial,
+    /// The positions of the static equilibrium with the scene's initial velocities: a vehicle that drives straight.
+    Moving,
+}
+
+impl Place {
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Equilibrium => "equilibrium",
+            Self::Initial => "initial",
+            Self::Moving => "moving",
+        }
+    }
+}
+
+/// An eigenvalue, or a pair of conjugate ones.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mode {
+    /// Real part [1/s]: negative decays.
+    pub real: f64,
+    /// Imaginary part [rad/s], not negative; positive stands for a pair.
+    pub imaginary: f64,
+    /// Too small to be told from zero.
+    pub is_neutral: bool,
+}
+
+impl Mode {
+    /// |lambda| / 2 pi [Hz].
+    #[must_use]
+    pub fn undamped_frequency(&self) -> f64 {
+        self.real.hypot(self.imaginary) / TAU
+    }
+
+    /// Im lambda / 2 pi [Hz].
+    #[must_use]
+    pub fn frequency(&self) -> f64 {
+        self.imaginary / TAU
+    }
+
+    /// Does it grow, beyond rounding?
+    #[must_use]
+    pub fn grows(&self) -> bool {
+        !self.is_neutral && self.real > AXIS * self.real.hypot(self.imaginary)
+    }
+
+    /// -Re lambda / |lambda| [-]; `None` for a neutral one.
+    #[must_use]
+    pub fn damping_ratio(&self) -> Option<f64> {
+        (!self.is_neutral).then(|| -self.real / self.real.hypot(self.imaginary))
+    }
+}
+
+/// The modes of a scene, told.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Modes {
+    /// Name of the scene.
+    pub scene: String,
+    /// About which state.
+    pub place: Place,
+    /// The equilibrium, if that is the place.
+    pub found: Option<Equilibrium<f64>>,
+    /// Freedoms.
+    pub dof: usize,
+    /// Largest acceleration at the state, of coordinates with unit inertia [m sqrt(kg)/s^2]; zero in an equilibrium.
+    pub acceleration: f64,
+    /// Largest acceleration that joints ask for because bodies turn [m/s^2]: where it is not zero, eigenvalues hold for an
+    /// instant and depend on the choice of coordinates.
+    pub turning: f64,
+    /// The eigenvalues from the slowest to the fastest.
+    pub modes: Vec<Mode>,
+}
+
+impl Modes {
+    /// Assembles a scene of D dimensions, lets it settle if its equilibrium is the place, and linearises it.
+    ///
+    /// # Errors
+    /// [`StopError`] when there is no model, consistent start, equilibrium or linearisation.
+    pub fn new<const D: usize>(scene: &Scene<f64>, place: Place) -> Result<Self, StopError> {
+        let (model, mut start) = assembled::<D>(scene)?;
+        let (found, instant) = match place {
+            Place::Equilibrium => (Some(settle(&model, &mut start.state)?), Instant::Rest),
+            Place::Initial => (None, Instant::Motion),
+            Place::Moving => {
+                let mut solver = Multifrontal::analyse(&model, mbs_sparse::Options::default());
+                let found = equilibrium_start(scene, &model, &mut solver, &mut start)?;
+                (Some(found), Instant::Motion)
+            }
+        };
+        let how = (instant, &LinearOptions::default());
+        let linear = linearise(&model, model.length(), how, &start.state, &mut workspace(&model))
+            .map_err(StopError::Linear)?;
+        let acceleration = linear.acceleration.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        Ok(Self {
+            scene: scene.name.clone(),
+            place,
+            found,
+            dof: linear.n_freedoms,
+            acceleration,
+            turning: linear.turning,
+            modes: eigenvalues(&linear)?,
+        })
+    }
+
+    /// Does every disturbance decay or stay small? Neutral eigenvalues and those on the axis within rounding count as stable.
+    #[must_use]
+    pub fn is_stable(&self) -> bool {
+        !self.modes.iter().any(Mode::grows)
+    }
+
+    /// One JSON object.
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        let mode = |m: &Mode| {
+            json!({
+                "real": m.real,
+                "imaginary": m.imaginary,
+                "frequency": m.frequency(),
+                "undamped_frequency": m.undamped_frequency(),
+                "damping_ratio": m.damping_ratio(),
+                "neutral": m.is_neutral,
+            })
+        };
+        json!({
+            "scene": self.scene,
+            "completed": true,
+            "error": null,
+            "at": self.place.name(),
+            "dof": self.dof,
+            "stable": self.is_stable(),
+            "acceleration": self.acceleration,
+            "turning": self.turning,
+            "equilibrium_residual": self.found.map(|f| f.residual),
+            "modes": self.modes.iter().map(mode).collect::<Vec<_>>(),
+        })
+    }
+}
+
+/// A real part below this share of the eigenvalue is rounding of an undamped one: differences give ten digits.
+const AXIS: f64 = 1e-8;
+/// An eigenvalue whose square is below this many times the rounding of the stiffness is zero.
+const NOISE: f64 = 1e3;
+
+/// The eigenvalues of a linearised motion, conjugate ones once, from the slowest to the fastest.
+pub(crate) fn eigenvalues(linear: &Linear<f64>) -> Result<Vec<Mode>, StopError> {
+    let (n, a) = (2 * linear.n_freedoms, linear.state_matrix());
+    if n == 0 {
+        return Ok(Vec::new());
+    }
+    let a = Mat::from_fn(n, n, |i, j| a[j * n + i]);
+    let values = a.eigenvalues().map_err(|_| StopError::Eigenvalues)?;
+    let zero = (NOISE * linear.noise).sqrt();
+    let mut modes: Vec<Mode> = values
+        .iter()
+        .filter(|x| x.im >= 0.0)
+        .map(|x| Mode { real: x.re, imaginary: x.im, is_neutral: x.re.hypot(x.im) <= zero })
+        .collect();
+    modes.sort_by(|a, b| {
+        let size = |m: &Mode| m.undamped_frequency();
+        size(a).total_cmp(&size(b)).then(a.real.total_cmp(&b.real))
+    });
+    Ok(modes)
+}
+
+/// Directions without stiffness [-]: in which an equilibrium may stand anywhere.
+pub(crate) fn neutral_directions(linear: &Linear<f64>) -> Result<usize, StopError> {
+    let f = linear.n_freedoms;
+    if f == 0 {
+        return Ok(0);
+    }
+    let stiffness = Mat::from_fn(f, f, |i, j| linear.stiffness[j * f + i]);
+    let sizes = stiffness.singular_values().map_err(|_| StopError::Eigenvalues)?;
+    Ok(sizes.iter().filter(|&&size| size <= NOISE * linear.noise).count())
+}

@@ -1,0 +1,230 @@
+//! Static equilibrium of a scene: as a start of a run, and told in joints, reactions and outputs.
+
+use crate::channels::Channels;
+use crate::modes::{eigenvalues, neutral_directions};
+use crate::simulation::rank;
+use crate::stop::StopError;
+use mbs_core::model::{Model, State};
+use mbs_core::natural::NaturalModel;
+use mbs_core::scene::{Output, Quantity, Scene};
+use mbs_core::start::{Assembled, assemble, restart};
+use mbs_core::{Cliques, Real, SpdSolver};
+use mbs_linear::{
+    Equilibrium, Instant, LinearOptions, Options, Saddle, Workspace, equilibrium, linearise,
+};
+use mbs_scene::Channel;
+use mbs_sparse::{Indefinite, Multifrontal};
+use serde_json::{Map, Value, json};
+
+/// Scratch of a static or linear analysis of a model.
+pub(crate) fn workspace<T: Real, const D: usize>(
+    model: &NaturalModel<T, D>,
+) -> Workspace<T, Indefinite<T>> {
+    let solver = Indefinite::analyse(&Saddle::new(model), mbs_sparse::Options::default());
+    Workspace::new(model, solver)
+}
+
+/// Moves a state to the static equilibrium near it, at rest and with guides at their values of that time.
+///
+/// # Errors
+/// [`StopError::Equilibrium`]; positions are then unchanged.
+pub fn settle<T: Real, const D: usize>(
+    model: &NaturalModel<T, D>,
+    state: &mut State<T>,
+) -> Result<Equilibrium<T>, StopError> {
+    state.v.fill(T::ZERO);
+    let (length, options) = (model.length(), Options::default());
+    equilibrium(model, length, &options, state, &mut workspace(model)).map_err(|error| {
+        let n = model.n_unknowns();
+        StopError::equilibrium(
+            error,
+            n,
+            |u| model.owner_of_unknown(u),
+            |row| model.owner_of_row(row),
+        )
+    })
+}
+
+/// Turns the start of a scene into one from its static equilibrium: positions settle from those assembled, with guides held;
+/// then velocities follow from the scene's initial ones, and accelerations. Initial positions only say where the search begins.
+///
+/// # Errors
+/// [`StopError`] when there is no equilibrium, or the initial velocities do not fit there.
+pub fn equilibrium_start<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    model: &NaturalModel<T, D>,
+    solver: &mut impl SpdSolver<T>,
+    start: &mut Assembled<T>,
+) -> Result<Equilibrium<T>, StopError> {
+    let found = settle(model, &mut start.state)?;
+    let analyse = mbs_sparse::Options::default();
+    let state = &mut start.state;
+    let residual = restart(scene, model, |p| Multifrontal::analyse(p, analyse), solver, state);
+    start.residual = residual.map_err(StopError::Start)?;
+    let mut reference = vec![T::ZERO; model.n_extended()];
+    model.write_reference(&mut reference);
+    let changes = reference.iter().zip(&start.state.q).map(|(&r, &q)| (q - r).abs());
+    start.change = changes.fold(T::ZERO, T::max);
+    Ok(found)
+}
+
+/// A model with its assembled start.
+pub(crate) fn assembled<const D: usize>(
+    scene: &Scene<f64>,
+) -> Result<(NaturalModel<f64, D>, Assembled<f64>), StopError> {
+    let model = NaturalModel::new(scene).map_err(|e| StopError::Start(e.into()))?;
+    let analyse = mbs_sparse::Options::default();
+    let mut solver = Multifrontal::analyse(&model, analyse);
+    let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver);
+    Ok((model, start.map_err(StopError::Start)?))
+}
+
+/// A static equilibrium, told.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Still {
+    /// Name of the scene.
+    pub scene: String,
+    /// Coordinates, constraints, their rank.
+    pub sizes: [usize; 3],
+    /// What the search found.
+    pub found: Equilibrium<f64>,
+    /// Modes that grow, by the eigenvalues of the equations of motion; `None` where they cannot be linearised.
+    pub unstable: Option<usize>,
+    /// Directions in which it may stand anywhere; likewise.
+    pub neutral: Option<usize>,
+    /// Potential energy of gravity, constant forces and springs [J].
+    pub potential: f64,
+    /// Joint coordinates [rad or m].
+    pub joints: Vec<(Channel, Vec<f64>)>,
+    /// What the first body of each joint does to the second; empty where the loops are too large for reactions.
+    pub reactions: Vec<(Channel, Vec<f64>)>,
+    /// Joints whose reaction is not unique: the smallest is given.
+    pub not_unique: Vec<String>,
+    /// The scene's outputs.
+    pub outputs: Vec<(Channel, Vec<f64>)>,
+}
+
+impl Still {
+    /// Assembles a scene of D dimensions and lets it settle.
+    ///
+    /// # Errors
+    /// [`StopError`] when there is no model, no consistent start or no equilibrium.
+    pub fn new<const D: usize>(scene: &Scene<f64>) -> Result<Self, StopError> {
+        let (model, start) = assembled::<D>(scene)?;
+        let mut state = start.state;
+        let found = settle(&model, &mut state)?;
+        let joints = (0..scene.joints.len())
+            .filter(|&j| scene.joints[j].kind.n_coordinates(scene.dimension) > 0)
+            .map(|joint| Quantity::JointValue { joint });
+        let reactions = (0..scene.joints.len()).map(|joint| Quantity::Reaction { joint });
+        let stability = stability(&model, &state);
+        let (joints, _) = measured(&of_joints(scene, joints), &model, &state)?;
+        let all = of_joints(scene, reactions);
+        let (reactions, not_unique) = measured(&all, &model, &state).unwrap_or_default();
+        let (outputs, _) = if scene.outputs.is_empty() {
+            Default::default()
+        } else {
+            measured(scene, &model, &state)?
+        };
+        let mut terms = model.terms();
+        model.set_inputs(state.t, &mut terms);
+        model.evaluate(&state.q, &mut terms);
+        model.evaluate_forces(&state.q, &state.v, &state.memory, &mut terms);
+        let sizes = [model.n_unknowns(), model.n_constraints(), rank(&model, &state)];
+        Ok(Self {
+            scene: scene.name.clone(),
+            sizes,
+            found,
+            unstable: stability.map(|s| s[0]),
+            neutral: stability.map(|s| s[1]),
+            potential: model.potential_energy(&state.q, &terms),
+            joints,
+            reactions,
+            not_unique,
+            outputs,
+        })
+    }
+
+    /// One JSON object.
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        let found = &self.found;
+        let [coordinates, constraints, rank] = self.sizes;
+        json!({
+            "scene": self.scene,
+            "completed": true,
+            "error": null,
+            "coordinates": coordinates,
+            "constraints": constraints,
+            "constraint_rank": rank,
+            "dof": coordinates - rank,
+            "stable": self.unstable.map(|n| n == 0),
+            "unstable_modes": self.unstable,
+            "neutral_directions": self.neutral,
+            "residual": found.residual,
+            "relative_residual": found.relative,
+            "violation": found.violation,
+            "change": found.change,
+            "iterations": found.iterations,
+            "factorizations": found.factorizations,
+            "potential_energy": self.potential,
+            "joints": object(&self.joints),
+            "reactions": object(&self.reactions),
+            "not_unique": self.not_unique,
+            "outputs": object(&self.outputs),
+        })
+    }
+}
+
+/// Growing modes and neutral directions at an equilibrium; none where there is no linearisation.
+fn stability<const D: usize>(
+    model: &NaturalModel<f64, D>,
+    state: &State<f64>,
+) -> Option<[usize; 2]> {
+    let how = (Instant::Rest, &LinearOptions::default());
+    let linear = linearise(model, model.length(), how, state, &mut workspace(model)).ok()?;
+    let growing = eigenvalues(&linear).ok()?.iter().filter(|mode| mode.grows()).count();
+    Some([growing, neutral_directions(&linear).ok()?])
+}
+
+fn object(channels: &[(Channel, Vec<f64>)]) -> Map<String, Value> {
+    channels.iter().map(|(channel, values)| (channel.name.clone(), json!(values))).collect()
+}
+
+/// The scene with other outputs, one for each quantity and named after its joint.
+fn of_joints(scene: &Scene<f64>, quantities: impl Iterator<Item = Quantity>) -> Scene<f64> {
+    let outputs = quantities.map(|quantity| {
+        let name = match quantity {
+            Quantity::JointValue { joint } | Quantity::Reaction { joint } => {
+                scene.joints[joint].name.clone()
+            }
+            _ => String::new(),
+        };
+        Output { name, quantity }
+    });
+    Scene { outputs: outputs.collect(), ..scene.clone() }
+}
+
+/// Channels with their values.
+type Told = Vec<(Channel, Vec<f64>)>;
+
+/// The outputs of a scene at a state, and the joints whose reaction is not unique.
+fn measured<const D: usize>(
+    scene: &Scene<f64>,
+    model: &NaturalModel<f64, D>,
+    state: &State<f64>,
+) -> Result<(Told, Vec<String>), StopError> {
+    if scene.outputs.is_empty() {
+        return Ok(Default::default());
+    }
+    let mut measures = Channels::new(scene, model)?;
+    let channels = Channel::of_scene(scene);
+    let mut values = vec![0.0; channels.iter().map(|c| c.components.len()).sum()];
+    measures.write(state, &mut values);
+    let mut rest = values.into_iter();
+    let told = channels.into_iter().map(|channel| {
+        let n = channel.components.len();
+        (channel, rest.by_ref().take(n).collect())
+    });
+    Ok((told.collect(), measures.not_unique(scene)))
+}
