@@ -138,7 +138,7 @@ fn json_is_one_object_with_its_keys() {
     assert!(!absent.contains(&"gravity"));
     let prices = &value["prices"];
     assert_eq!((&prices["effects"], &prices["completed"]), (&Value::Array(vec![]), &true.into()));
-    for key in ["timed_steps", "repeats", "seconds_per_step", "compared_duration"] {
+    for key in ["timed_steps", "repeats", "compared_duration", "iterations_per_step"] {
         assert!(prices[key].is_number(), "{key}");
     }
     assert_eq!(prices["timed_steps"], 1000);
@@ -176,11 +176,40 @@ fn guides_are_told_and_leave_no_freedom() {
 
 #[test]
 fn an_idle_spin_is_told_where_a_thin_rod_has_one() {
-    let value = json("rssr", &["--duration", "0.02"]);
-    let rods = value["simulated"]["rods"].as_array().expect("a list");
-    for rod in rods {
-        assert!(rod["body"].is_string() && rod["idle_spin_carried"].is_boolean());
-    }
+    let text = r#"
+[scene]
+dimension = 3
+duration = 0.1
+gravity = [0.0, 0.0, -9.81]
+[[body]]
+name = "on-ball"
+rod = { from = [0.0, 0.0, 0.0], to = [1.0, 0.0, 0.0] }
+mass = 1.0
+[[body]]
+name = "on-hinge"
+rod = { from = [0.0, 3.0, 0.0], to = [1.0, 3.0, 0.0] }
+mass = 1.0
+[[joint]]
+name = "ball"
+kind = "spherical"
+bodies = ["ground", "on-ball"]
+at = [0.0, 0.0, 0.0]
+[[joint]]
+name = "hinge"
+kind = "revolute"
+bodies = ["ground", "on-hinge"]
+at = [0.0, 3.0, 0.0]
+axis = [0.0, 1.0, 0.0]
+"#;
+    let document = Document::parse(text, "rods.toml").expect("TOML");
+    let scene: Scene<f64> = document.scene().expect("a scene");
+    let settings = Settings::new(&scene, &Overrides::default()).expect("the settings are built");
+    let simulated = explain::<f64, 3>(&scene, &settings, &LITTLE).simulated;
+    let rods: Vec<_> =
+        simulated.rods.iter().map(|rod| (rod.body.as_str(), rod.idle_spin_carried)).collect();
+    assert_eq!(rods, [("on-ball", false), ("on-hinge", true)]);
+    // Two swings of the ball and one turn of the hinge; relative coordinates carry the spin too.
+    assert_eq!((simulated.dof, simulated.relative.map(|r| r.sizes.dof)), (Some(3), Some(4)));
     let planar = json("guided-four-bar", &["--duration", "0.02"]);
     assert_eq!(planar["simulated"]["rods"], Value::Array(vec![]), "the plane has no such spin");
 }
@@ -217,9 +246,28 @@ fn leaving_a_damper_out_changes_what_two_runs_differ_by_and_an_idle_effect_chang
     assert!((changes[0].relative.expect("it moves") * changes[0].range - by_hand).abs() < 1e-12);
 
     let idle = price(&explanation, "idle");
-    /// Sums in another order.
+    /// Sums in another order [rad].
     const ROUNDING: f64 = 1e-12;
     assert!(idle.completed && idle.changes[0].largest < ROUNDING, "{:?}", idle.changes);
+    assert!(idle.changes[0].is_rounding && !changes[0].is_rounding);
+    assert!(idle.largest_change().is_none());
+}
+
+#[test]
+fn what_is_rounding_beside_the_scene_is_no_change() {
+    // The guided joint follows its guide whatever acts elsewhere.
+    let text = std::fs::read_to_string(scene("guided-four-bar")).expect("it is there");
+    let effect = DAMPER.replace("pivot", "rocker-pivot");
+    let document = Document::parse(&format!("{text}\n{effect}"), "guided.toml").expect("TOML");
+    let (explanation, _) = explained(&document.scene().expect("a scene"));
+    let changes = &price(&explanation, "damper").changes;
+    let of = |output: &str, unit: &str| {
+        let mut found = changes.iter().filter(|c| c.output == output && c.unit == unit);
+        found.next().expect("it is an output")
+    };
+    assert!(of("crank-angle", "rad").is_rounding && of("rocker-angle", "rad").is_rounding);
+    // The driving moment carries what the damper takes: a channel has an entry for each of its units.
+    assert!(!of("crank-reaction", "N m").is_rounding && !of("crank-reaction", "N").is_rounding);
 }
 
 #[test]

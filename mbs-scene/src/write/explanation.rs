@@ -156,6 +156,8 @@ pub struct Prices {
     pub compared_duration: f64,
     /// The run with all effects reached that.
     pub completed: bool,
+    /// Newton iterations (or evaluations) per step in that run.
+    pub iterations_per_step: f64,
     /// The largest step with all effects.
     pub largest_step: LargestStep,
     /// Each enabled effect alone left out.
@@ -181,6 +183,8 @@ pub struct Price {
     pub below_noise: Option<bool>,
     /// The run without them reached the end.
     pub completed: bool,
+    /// Newton iterations (or evaluations) per step in it.
+    pub iterations_per_step: f64,
     /// Why it did not.
     pub error: Option<RunError>,
     /// The largest step without them.
@@ -190,11 +194,11 @@ pub struct Price {
 }
 
 impl Price {
-    /// The change that is largest beside its range.
+    /// The change that is largest beside its range, if there is more than rounding.
     #[must_use]
     pub fn largest_change(&self) -> Option<&Change> {
         let size = |change: &Change| (change.relative.unwrap_or(0.0), change.largest);
-        self.changes.iter().max_by(|a, b| {
+        self.changes.iter().filter(|change| !change.is_rounding).max_by(|a, b| {
             let ((a, x), (b, y)) = (size(a), size(b));
             a.total_cmp(&b).then(x.total_cmp(&y))
         })
@@ -214,6 +218,8 @@ pub struct Change {
     pub range: f64,
     /// `largest / range`; `None` where the range is nothing but rounding.
     pub relative: Option<f64>,
+    /// The difference is nothing but rounding: at most 1e-9 of the sizes that outputs of this unit have.
+    pub is_rounding: bool,
 }
 
 /// The largest step with which the run completes, found by doubling.

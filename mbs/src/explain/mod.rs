@@ -5,6 +5,7 @@
 //! ```
 
 mod absent;
+mod changes;
 mod kinds;
 mod price;
 mod reach;
@@ -36,7 +37,7 @@ pub struct Effort {
 
 impl Default for Effort {
     fn default() -> Self {
-        Self { timed_steps: 2000, repeats: 7, seconds: 10.0 }
+        Self { timed_steps: 2000, repeats: 5, seconds: 10.0 }
     }
 }
 

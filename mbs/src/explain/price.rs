@@ -1,5 +1,6 @@
 //! Leave-one-out: the same run with and without an effect.
 
+use super::changes::Outputs;
 use super::reach::largest_step;
 use super::timing::{Times, count, interleaved, trial};
 use super::{Effort, kinds, outcome, without};
@@ -8,15 +9,13 @@ use crate::settings::Settings;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
-use mbs_scene::{Change, Channel, Price, Prices, RunError};
+use mbs_scene::{Price, Prices, RunError};
 use std::time::Instant;
 
 /// A recorded step takes so many times one that is only made.
-const RECORDED: f64 = 3.0;
+const RECORDED: f64 = 2.0;
 /// A run is never shortened to fewer steps.
 const FEWEST_STEPS: u64 = 50;
-/// Ranges below this share of the largest value are rounding.
-const ROUNDING: f64 = 1e-12;
 
 /// What is left out together.
 struct Leave {
@@ -55,18 +54,20 @@ where
         seconds_per_step: times[0].best(),
         compared_duration: plan.duration,
         completed: with_all.summary.completed,
+        iterations_per_step: iterations(&with_all),
         largest_step: reach(scene, &with_all),
         ..Prices::default()
     };
-    let channels = Channel::of_scene(scene);
+    let outputs = Outputs::new(scene, &with_all);
     for ((leave, scene), own) in leaves.iter().zip(&scenes[1..]).zip(&times[1..]) {
         let outcome = run(scene);
         let price = Price {
             names: leave.effects.iter().map(|&i| scene.effects[i].name.clone()).collect(),
             kind: leave.kind.to_owned(),
             completed: outcome.summary.completed,
+            iterations_per_step: iterations(&outcome),
             largest_step: reach(scene, &outcome),
-            changes: changes(&channels, &with_all, &outcome),
+            changes: outputs.changes(&outcome),
             error: outcome.summary.error,
             ..share(&times[0], own)
         };
@@ -148,47 +149,7 @@ fn share(with_all: &Times, without: &Times) -> Price {
     }
 }
 
-/// The largest differences of the rows both runs have.
-fn changes(channels: &[Channel], with_all: &Outcome, without: &Outcome) -> Vec<Change> {
-    let (ours, theirs) = (with_all.rows(), without.rows());
-    let common = ours.iter().zip(theirs).take_while(|(a, b)| a.0.total_cmp(&b.0).is_eq()).count();
-    let mut changes: Vec<Change> = Vec::new();
-    let mut column = 0;
-    for channel in channels {
-        let first = changes.len();
-        let mut sizes: Vec<f64> = Vec::new();
-        for component in &channel.components {
-            let values = || ours.iter().map(|(_, row)| row[column]);
-            let pairs = ours[..common].iter().zip(theirs).map(|(a, b)| (a.1[column], b.1[column]));
-            let largest = pairs.fold(0.0, |most, (a, b)| larger(most, (a - b).abs()));
-            let range =
-                values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
-            let size = values().fold(0.0, |most, x| larger(most, x.abs()));
-            column += 1;
-            // components of one unit share an entry
-            match changes[first..].iter().position(|c| c.unit == component.unit) {
-                Some(i) => {
-                    let change = &mut changes[first + i];
-                    change.largest = larger(change.largest, largest);
-                    change.range = change.range.max(range);
-                    sizes[i] = larger(sizes[i], size);
-                }
-                None => {
-                    let (output, unit) = (channel.name.clone(), component.unit.clone());
-                    changes.push(Change { output, unit, largest, range, relative: None });
-                    sizes.push(size);
-                }
-            }
-        }
-        for (change, size) in changes[first..].iter_mut().zip(sizes) {
-            let is_range = change.range > ROUNDING * size;
-            change.relative = is_range.then(|| change.largest / change.range);
-        }
-    }
-    changes
-}
-
-/// The larger of two; a NaN stays one.
-fn larger(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+/// Iterations per step.
+fn iterations(outcome: &Outcome) -> f64 {
+    count(outcome.summary.iterations) / count(outcome.summary.steps.max(1))
 }

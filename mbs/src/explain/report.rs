@@ -96,14 +96,23 @@ fn loops(relative: &Relative) -> String {
 }
 
 fn effects(e: &Explanation) -> Option<Section> {
-    let row = |effect: &mbs_scene::EffectEntry| {
-        let state = if effect.enabled { "on" } else { "switched off: costs nothing" };
-        vec![effect.name.clone(), effect.kind.clone(), state.to_owned()]
+    let mut kinds: Vec<&str> = Vec::new();
+    for effect in &e.effects {
+        if !kinds.contains(&effect.kind.as_str()) {
+            kinds.push(&effect.kind);
+        }
+    }
+    let row = |kind: &&str| {
+        let of = |enabled| {
+            let of = e.effects.iter().filter(|x| x.kind == *kind && x.enabled == enabled);
+            or_none(of.map(|x| x.name.clone()).collect())
+        };
+        vec![(*kind).to_owned(), of(true), of(false)]
     };
     (!e.effects.is_empty()).then(|| Section {
         title: "Effects".to_owned(),
-        head: ["effect", "kind", ""].map(str::to_owned).to_vec(),
-        rows: e.effects.iter().map(row).collect(),
+        head: ["kind", "on", "switched off: costs nothing"].map(str::to_owned).to_vec(),
+        rows: kinds.iter().map(row).collect(),
         ..Section::default()
     })
 }
@@ -147,6 +156,7 @@ fn price_list(title: &str, list: &[Price], prices: &Prices) -> Option<Section> {
             name(price),
             price.kind.clone(),
             share(price),
+            format!("{:.2} ({:.2})", price.iterations_per_step, prices.iterations_per_step),
             largest_step(&price.largest_step),
             price.error.as_ref().map_or("completes".to_owned(), |error| {
                 format!("stops at {} s: {}", few(error.time), error.code)
@@ -154,7 +164,8 @@ fn price_list(title: &str, list: &[Price], prices: &Prices) -> Option<Section> {
             largest_change(price),
         ]
     });
-    let head = ["left out", "kind", "share of a step", "largest step", "the run", "changes most"];
+    let head = ["left out", "kind", "share of a step", "iterations", "largest step", "the run"];
+    let head = head.into_iter().chain(["changes most"]);
     let lengths = list.iter().map(|p| {
         let is_felt = p.below_noise == Some(false);
         p.share.filter(|_| is_felt).unwrap_or(0.0)
@@ -163,11 +174,11 @@ fn price_list(title: &str, list: &[Price], prices: &Prices) -> Option<Section> {
         title: title.to_owned(),
         caption: format!(
             "Share of a step = 1 - CPU time per step without it / with all effects: what leaving it out saves, a changed number of \
-             iterations included. Below noise: not larger than the distance of the two best repeats. Changes: the first {} s, with \
+             iterations per step (in brackets: with all effects) included. Below noise: not larger than the distance of the two best repeats. Changes: the first {} s, with \
              the given step, in percent of the output's own range.",
             readable(prices.compared_duration)
         ),
-        head: head.map(str::to_owned).to_vec(),
+        head: head.map(str::to_owned).collect(),
         rows: rows.collect(),
         bars: Some((2, lengths.collect())),
         is_detail: false,
@@ -177,7 +188,7 @@ fn price_list(title: &str, list: &[Price], prices: &Prices) -> Option<Section> {
 /// Every output that changes, effect by effect.
 fn changes(prices: &Prices) -> Option<Section> {
     let of_price = |price: &Price| {
-        let changed = price.changes.iter().filter(|change| change.largest > 0.0);
+        let changed = price.changes.iter().filter(|change| !change.is_rounding);
         let row = |change: &mbs_scene::Change| {
             vec![
                 name(price),
@@ -216,7 +227,7 @@ fn share(price: &Price) -> String {
 }
 
 fn largest_change(price: &Price) -> String {
-    let Some(change) = price.largest_change().filter(|change| change.largest > 0.0) else {
+    let Some(change) = price.largest_change() else {
         return "nothing".to_owned();
     };
     let relative = change.relative.map_or(String::new(), |x| format!(" ({})", percent(x)));

@@ -6,7 +6,6 @@ use crate::tree::{InSpace, Plane};
 use cpu_time::ThreadTime;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
-use std::time::Instant;
 
 /// Steps fewer than these are no measure.
 const FEWEST_STEPS: u64 = 10;
@@ -62,7 +61,7 @@ where
     (done >= FEWEST_STEPS.min(n)).then(|| seconds / count(done))
 }
 
-/// Seconds that the start takes, and those of a step, roughly.
+/// CPU time that the start takes, and that of a step, roughly [s].
 pub(super) fn trial<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
@@ -70,10 +69,10 @@ pub(super) fn trial<T: Real, const D: usize>(
 where
     Plane<D>: InSpace<T>,
 {
-    let clock = Instant::now();
+    let clock = ThreadTime::now();
     let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
     let start = clock.elapsed().as_secs_f64();
-    let clock = Instant::now();
+    let clock = ThreadTime::now();
     let goes_on = || clock.elapsed().as_secs_f64() < TRIAL.1;
     let n = TRIAL.0.min(settings.n_steps());
     let done = steps(&mut simulation, settings.step_max, n, goes_on);
