@@ -4,11 +4,11 @@
 //! lambda = -zeta omega_0 +- i omega_0 sqrt(1 - zeta^2):   omega_0 = |lambda|,  zeta = -Re lambda / |lambda|
 //! ```
 
-use crate::statics::{assembled, equilibrium_start, settle, workspace};
+use crate::statics::{assembled, at_rest, equilibrium_start, settle, workspace};
 use crate::stop::StopError;
 use core::f64::consts::TAU;
 use faer::Mat;
-use mbs_core::scene::Scene;
+use mbs_core::scene::{Effect, EffectKind, Scene};
 use mbs_linear::{Equilibrium, Instant, Linear, LinearOptions, linearise};
 use mbs_sparse::Multifrontal;
 use serde_json::{Value, json};
@@ -99,6 +99,16 @@ impl Modes {
     /// # Errors
     /// [`StopError`] when there is no model, consistent start, equilibrium or linearisation.
     pub fn new<const D: usize>(scene: &Scene<f64>, place: Place) -> Result<Self, StopError> {
+        let rolls = |effect: &Effect<f64>| {
+            effect.enabled && matches!(effect.kind, EffectKind::Tire { side: Some(_), .. })
+        };
+        if let (false, Some(tire)) =
+            (place == Place::Equilibrium, scene.effects.iter().position(rolls))
+        {
+            return Err(StopError::RollingTire(tire));
+        }
+        let still = at_rest(scene);
+        let scene = if place == Place::Equilibrium { &still } else { scene };
         let (model, mut start) = assembled::<D>(scene)?;
         let (found, instant) = match place {
             Place::Equilibrium => (Some(settle(scene, &model, &mut start.state)?), Instant::Rest),
