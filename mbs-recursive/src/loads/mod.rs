@@ -71,6 +71,7 @@ pub enum Load<T: Real, S: Space<T>> {
 
 impl<T: Real, S: Space<T>> Load<T, S> {
     /// Is it on one link, and that the ground?
+    #[cfg(feature = "alloc")]
     pub(crate) fn is_idle(&self) -> bool {
         match self {
             Self::Between { .. } => false,
