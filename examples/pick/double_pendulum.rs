@@ -51,6 +51,8 @@ pub fn double_pendulum() -> Scene<f64> {
         initials: vec![],
         guides: vec![],
         effects: vec![],
+        road: Default::default(),
+        start: Default::default(),
         outputs: vec![],
         solver: SolverChoice::default(),
     }
