@@ -1,4 +1,4 @@
-//! Elastic stops at both ends of a range: two [`bumper`](super::bumper)s.
+//! Elastic stops at both ends of a range: two [`bumper`]s.
 //!
 //! ```text
 //! tension = F(m - upper, m') above the range,   -F(lower - m, -m') below it,   0 within
