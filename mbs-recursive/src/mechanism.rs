@@ -88,6 +88,7 @@ pub struct Counts {
 
 impl<'a, T: Real, S: Space<T>> Store<'a, T, S> {
     /// What loads see at the place where inertias were factored.
+    #[allow(clippy::needless_update, reason = "with effects compiled there are tables")]
     pub(crate) fn instant<'b>(&'b self, m: &'b Mechanism<'_, T, S>) -> Instant<'b, T, S> {
         Instant {
             links: m.links,
