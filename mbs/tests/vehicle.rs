@@ -3,6 +3,9 @@
 
 mod common;
 
+use mbs::core::actions::{Action, Actions};
+use mbs::core::laws::body::BodyLaw;
+use mbs::core::laws::{foot::foot, road::height};
 use mbs::core::scene::{Output, Quantity};
 use mbs::{Overrides, Settings, Still};
 
@@ -105,5 +108,38 @@ fn energy_is_kept_to_a_thousandth_of_what_is_turned_over_and_better_at_smaller_s
         assert!(fine < 1e-3, "{name}: {fine:e}");
         // Order 1 or better: a quarter of the step.
         assert!(fine < 0.25 * coarse, "{name}: {coarse:e} {fine:e}");
+    }
+}
+
+/// Places of the road that are searched for the nearest [m]; the least distance is then too large by a few 1e-8 m at most.
+const SEARCHED: f64 = 1e-4;
+
+#[test]
+fn wheels_stand_on_the_nearest_point_of_every_stair() {
+    for name in ["iltis-stairs", "iltis-stairs-stiff"] {
+        let actions = Actions::new(&common::scene(name)).expect("the scene has effects");
+        let road = actions.list.iter().find_map(|(_, action)| match action {
+            Action::OnBody { law: BodyLaw::Tire(tire), .. } => Some(tire.road),
+            _ => None,
+        });
+        let road = road.expect("the vehicle has tires");
+        let supplies = actions.tables.supplies(&[]);
+        // The ramp, and the five stairs behind it; wheels pressed in, just touching and a little above.
+        for i in 0..=2600 {
+            let x = 5.5 + 0.01 * f64::from(i);
+            let h = height(road, &supplies, x);
+            let steep = h.slope.hypot(1.0);
+            for distance in [0.30, 0.36, 0.45] {
+                let center = [x - distance * h.slope / steep, h.value + distance / steep];
+                let found = foot(road, &supplies, center).distance;
+                assert!((found - distance).abs() < 1e-12, "{name}, {x}: {found}, not {distance}");
+                let near = (-5000..=5000).step_by(if i % 20 == 0 { 1 } else { 5000 }).map(|k| {
+                    let u = x + SEARCHED * f64::from(k);
+                    (center[0] - u).hypot(center[1] - height(road, &supplies, u).value)
+                });
+                let searched = near.fold(f64::INFINITY, f64::min);
+                assert!(found < searched + 1e-12, "{name}, {x}: {found}, there is {searched}");
+            }
+        }
     }
 }

@@ -15,8 +15,9 @@
 use super::body::{Action, BodyMotion};
 use super::bumper;
 use super::calspan::{self, Coefficients};
+use super::foot::foot;
 use super::scalar::Measure;
-use super::{Part, Supplies, road};
+use super::{Part, Supplies};
 use crate::Real;
 use crate::algebra::{Vector, cross, norm};
 
@@ -73,7 +74,7 @@ impl<T: Real> Tire<T> {
             [way, speed]
         });
         let center = Vector::<T, 3>::from(motion.position);
-        let foot = road::foot(self.road, supplies, [center[0] + way, center[self.up]]);
+        let foot = foot(self.road, supplies, [center[0] + way, center[self.up]]);
         let depth = self.radius - foot.distance;
         let normal = self.vector(foot.normal);
         let ground = Vector::<T, 3>::new(-speed, T::ZERO, T::ZERO);
