@@ -9,14 +9,18 @@ use std::fmt::Write;
 /// The page around the tables, with its style.
 const PAGE: &str = include_str!("page.html");
 
-/// The page with all tables.
-pub(crate) fn page(rows: &[Row]) -> String {
-    let tables: String = by_table(rows).map(|(table, rows)| section(table, rows)).collect();
+/// The page with all tables, and under some of them a drawing.
+pub(crate) fn page(rows: &[Row], drawings: &[(&str, String)]) -> String {
+    let drawing = |table: &Table| {
+        drawings.iter().find(|(name, _)| *name == table.name).map_or("", |(_, svg)| svg)
+    };
+    let tables: String =
+        by_table(rows).map(|(table, rows)| section(table, rows, drawing(table))).collect();
     PAGE.replace("{{remark}}", &escape(REMARK)).replace("{{tables}}", &tables)
 }
 
 /// One table with its heading and note.
-fn section(table: &Table, rows: &[Row]) -> String {
+fn section(table: &Table, rows: &[Row], drawing: &str) -> String {
     let distance = table.reference.map_or("", |reference| reference.label);
     let mut html = format!(
         "<section class=\"card\">\n<h2><span class=\"tag\">{}</span> {}</h2>\n<p class=\"soft\">{}; scene \
@@ -39,7 +43,11 @@ fn section(table: &Table, rows: &[Row]) -> String {
         html.push_str("</tbody>\n");
     }
     // Writing to a string cannot fail.
-    let _ = writeln!(html, "</table>\n<p class=\"soft\">{}</p>\n</section>", escape(table.note));
+    let _ = writeln!(
+        html,
+        "</table>\n<p class=\"soft\">{}</p>\n{drawing}</section>",
+        escape(table.note)
+    );
     html
 }
 
@@ -102,7 +110,7 @@ mod tests {
 
     #[test]
     fn page_has_every_row_escaped_and_needs_nothing_else() {
-        let page = super::page(&samples());
+        let page = super::page(&samples(), &[("T1", "<svg>drawn</svg>".to_owned())]);
         assert!(!page.contains("{{"), "every place is filled");
         assert!(!page.contains("http") && !page.contains("src="), "nothing is fetched");
         assert_eq!(page.matches("<section").count(), 2);
