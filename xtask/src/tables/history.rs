@@ -92,6 +92,7 @@ fn draw(
     let margin = 0.05 * (high - low);
     let mut chart = ChartBuilder::on(&area)
         .margin(8)
+        .margin_right(24)
         .x_label_area_size(36)
         .y_label_area_size(52)
         .build_cartesian_2d(0.0..end, low - margin..high + margin)?;

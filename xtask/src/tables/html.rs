@@ -45,10 +45,22 @@ fn section(table: &Table, rows: &[Row], drawing: &str) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(
         html,
-        "</table>\n<p class=\"soft\">{}</p>\n{drawing}</section>",
-        escape(table.note)
+        "</table>\n<p class=\"soft\">{}</p>\n{}</section>",
+        escape(table.note),
+        figure(drawing)
     );
     html
+}
+
+/// A drawing with its caption, if there is one.
+fn figure(drawing: &str) -> String {
+    if drawing.is_empty() {
+        return String::new();
+    }
+    format!(
+        "<figure>{drawing}<figcaption class=\"soft\">Each method at its first step; grey, the first method at its last one.\
+         </figcaption></figure>\n"
+    )
 }
 
 /// One row; the first of a method carries its name beside all of them.
@@ -114,6 +126,7 @@ mod tests {
         assert!(!page.contains("{{"), "every place is filled");
         assert!(!page.contains("http") && !page.contains("src="), "nothing is fetched");
         assert_eq!(page.matches("<section").count(), 2);
+        assert_eq!(page.matches("<svg>drawn</svg><figcaption").count(), 1);
         assert_eq!(page.matches("data-label=\"step [s]\"").count(), 4);
         assert!(page.contains("no convergence, &quot;try&quot; &lt;less&gt;"));
         assert!(page.contains("singular &amp; stuck"));

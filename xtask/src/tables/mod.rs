@@ -17,9 +17,10 @@ use std::process::{Command, ExitCode};
 /// Runs with more steps than this are left out by `--quick`.
 const QUICK: f64 = 1e6;
 
-/// Runs every entry of the tables and writes them as text, CSV and HTML; exit status 1 where something cannot be run.
-pub(crate) fn tables(quick: bool) -> ExitCode {
-    match run(quick) {
+/// Runs every entry of the tables, or of those named, and writes them as text, CSV and HTML; exit status 1 where something
+/// cannot be run.
+pub(crate) fn tables(quick: bool, names: &[String]) -> ExitCode {
+    match run(quick, names) {
         Ok(()) => ExitCode::SUCCESS,
         Err(why) => {
             eprintln!("cargo xtask tables: {why}");
@@ -30,7 +31,11 @@ pub(crate) fn tables(quick: bool) -> ExitCode {
 
 /// Builds `mbs`, runs all entries one after the other, and writes the files under `target/tables`.
 #[allow(clippy::print_stdout, reason = "the tables are what is asked for")]
-fn run(quick: bool) -> Result<(), String> {
+fn run(quick: bool, names: &[String]) -> Result<(), String> {
+    let known = report::TABLES.map(|table| table.name);
+    if let Some(name) = names.iter().find(|name| !known.contains(&name.as_str())) {
+        return Err(format!("no table `{name}`; there are {}", known.join(", ")));
+    }
     let mut build = process::cargo();
     build.args(["build", "--quiet", "--release", "--package", "mbs", "--bin", "mbs"]);
     process::run(build.current_dir(process::root()))?;
@@ -39,7 +44,8 @@ fn run(quick: bool) -> Result<(), String> {
     let folder = process::target_dir().join("tables");
     let mut rows = Vec::new();
     let mut drawings = Vec::new();
-    for table in &report::TABLES {
+    let is_wanted = |name: &str| names.is_empty() || names.iter().any(|n| n == name);
+    for table in report::TABLES.iter().filter(|table| is_wanted(table.name)) {
         for (method, step) in
             table.entries().filter(|(_, step)| !quick || table.steps(*step) <= QUICK)
         {
