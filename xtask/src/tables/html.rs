@@ -2,7 +2,7 @@
 
 use super::outcome::Outcome;
 use super::report::Table;
-use super::rows::{Row, by_table, step};
+use super::rows::{Row, by_table, sizes, step};
 use super::text::REMARK;
 use std::fmt::Write;
 
@@ -45,7 +45,8 @@ fn section(table: &Table, rows: &[Row], drawing: &str) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(
         html,
-        "</table>\n<p class=\"soft\">{}</p>\n{}</section>",
+        "</table>\n<p class=\"soft\">{}</p>\n<p class=\"soft\">{}</p>\n{}</section>",
+        escape(&sizes(table, rows).join(" ")),
         escape(table.note),
         figure(drawing)
     );
