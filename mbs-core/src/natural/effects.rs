@@ -6,7 +6,7 @@ use super::draft::{EffectDraft, GroupDraft, difference};
 use super::error::ModelError;
 use super::finish::lifted;
 use crate::Real;
-use crate::actions::{Action, Actions, Seat};
+use crate::actions::{Action, Seat};
 use crate::algebra::Vector;
 use crate::laws::scalar::Law;
 use crate::model::Owner;
@@ -15,16 +15,14 @@ use alloc::vec::Vec;
 
 impl<T: Real> Builder<'_, T> {
     /// Adds one group for each enabled effect.
-    pub(super) fn add_effects(&mut self, actions: Actions<T>) -> Result<(), ModelError> {
-        for of_effect in actions.list.chunk_by(|a, b| a.0 == b.0) {
+    pub(super) fn add_effects(&mut self, list: &[(usize, Action<T>)]) -> Result<(), ModelError> {
+        for of_effect in list.chunk_by(|a, b| a.0 == b.0) {
             let mut group = GroupDraft::new(Owner::Effect(of_effect[0].0));
             for (_, action) in of_effect {
                 self.add_action(action, &mut group)?;
             }
             self.groups.push(group);
         }
-        self.effect_courses = actions.effect_courses().collect();
-        (self.courses, self.tables) = (actions.courses, actions.tables);
         Ok(())
     }
 

@@ -15,7 +15,6 @@ use super::build::Builder;
 use super::draft::{RowDraft, difference};
 use crate::Real;
 use crate::algebra::{Vector, across, cross, norm};
-use crate::inputs::GuideInput;
 use crate::scene::{Dimension, Joint, JointKind};
 use alloc::vec::Vec;
 
@@ -122,7 +121,6 @@ impl<T: Real> Builder<'_, T> {
     pub(super) fn add_guides(&mut self) {
         let scene = self.scene;
         for (guide, law) in scene.guides.iter().enumerate() {
-            self.guides.push(GuideInput::new(&law.law));
             let joint = &scene.joints[law.joint];
             let row = match joint.kind {
                 JointKind::Prismatic => {
