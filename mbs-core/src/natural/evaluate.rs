@@ -263,8 +263,8 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
             power += value.dot(&combine::<T, D>(force.point.of(&self.pool), v));
         }
         for torque in &self.torques {
-            for (i, span) in torque.frame.iter().enumerate() {
-                power += self.torque_power(torque, *span, i, (q, v), terms);
+            for span in torque.frame {
+                power += self.torque_power(torque, span, (q, v), terms);
             }
         }
         // A guide's force on the coordinates is -J^T lambda and J v = -phi_t: its power is lambda phi_t.
