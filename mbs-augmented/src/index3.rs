@@ -18,7 +18,8 @@ use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    StepError, StepReport, Stop, check_guides, largest, largest_or_nan, step_scale,
+    StepError, StepReport, Stop, Yardstick, check_guides, largest, largest_or_nan, step_scale,
+    stopping,
 };
 use mbs_core::{Real, SpdSolver};
 
@@ -117,7 +118,6 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<(u32, T, Stop), StepError> {
     let inverse = T::ONE / rule.acceleration;
     let scale = step_scale(rule.dt, &s.a);
-    let goal = scale * options.tolerance;
     let mut last = T::ZERO;
     for iterations in 1..=options.max_iterations {
         factor(model, rule, options, w)?;
@@ -156,11 +156,10 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f) });
         }
-        // At rest nothing moves but the rounding of forces in balance: what no longer shrinks below the last digit of the
-        // coordinates is that.
-        let digit = if iterations > 5 { length * T::EPSILON } else { T::ZERO };
-        let noise = rounding(length, options, w).max(digit);
-        if let Some(stop) = stopping(iterations, correction, last, (goal, scale, noise)) {
+        let moved = options.compensated.then(|| norm_inf(&w.dq));
+        let measures = (scale, options.tolerance);
+        let yardstick = Yardstick::of_coordinates(iterations, measures, length, moved);
+        if let Some(stop) = stopping(iterations, correction, last, &yardstick) {
             return Ok((iterations, correction, stop));
         }
         last = correction;
@@ -196,37 +195,6 @@ fn filter<T: Real, M: Model<T>, S: SpdSolver<T>>(model: &M, w: &mut Workspace<T,
     model.multiply_jacobian(&w.terms, &w.change, &mut w.lambda);
     for k in 0..w.lambda.len() {
         w.lambda[k] *= w.penalty[k];
-    }
-}
-
-/// Size of a correction that is rounding [m]: of the increment where increments are carried, else of the coordinates.
-fn rounding<T: Real, S>(length: T, options: &Options<T>, w: &Workspace<T, S>) -> T {
-    let size = if options.compensated { norm_inf(&w.dq) } else { length };
-    size * T::EPSILON * T::from_f64(64.0)
-}
-
-/// Is this correction the last one?
-fn stopping<T: Real>(
-    iterations: u32,
-    correction: T,
-    last: T,
-    (goal, scale, noise): (T, T, T),
-) -> Option<Stop> {
-    if correction <= goal {
-        return Some(Stop::Converged);
-    }
-    if iterations < 2 {
-        return None;
-    }
-    let contraction = correction / last;
-    if contraction < T::HALF && correction * contraction <= goal {
-        Some(Stop::Converged)
-    } else if contraction > T::HALF && correction <= noise {
-        Some(Stop::Rounding)
-    } else if iterations > 5 && contraction > T::HALF && correction <= scale * T::from_f64(1e-5) {
-        Some(Stop::Passage)
-    } else {
-        None
     }
 }
 

@@ -128,7 +128,9 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         if iterations == 1 {
             w.check_branch(model, length)?;
         }
-        let yardstick = yardstick(iterations, scale, length, options, w);
+        let moved = options.compensated.then(|| norm_inf(&w.dq));
+        let measures = (scale, options.tolerance);
+        let yardstick = Yardstick::of_coordinates(iterations, measures, length, moved);
         if let Some(stop) = stopping(iterations, correction, last, &yardstick) {
             return Ok((iterations, correction, stop));
         }
@@ -148,21 +150,6 @@ fn filter<T: Real, M: Model<T>, S: SymmetricSolver<T>>(model: &M, w: &mut Worksp
     w.solve();
     let n = w.n;
     w.lambda.copy_from_slice(&w.f[n..]);
-}
-
-/// What corrections are measured against: rounding is that of the increment where increments are carried, else of the
-/// coordinates; what no longer shrinks below the last digit of the coordinates is the rounding of forces in balance.
-fn yardstick<T: Real, S>(
-    iterations: u32,
-    scale: T,
-    length: T,
-    options: &Options<T>,
-    w: &Workspace<T, S>,
-) -> Yardstick<T> {
-    let size = if options.compensated { norm_inf(&w.dq) } else { length };
-    let digit = if iterations > 5 { length * T::EPSILON } else { T::ZERO };
-    let noise = (size * T::EPSILON * T::from_f64(64.0)).max(digit);
-    Yardstick { scale, goal: scale * options.tolerance, noise }
 }
 
 /// The saddle matrix, with the geometric stiffness where it leaves W positive on the motions that the constraints allow.

@@ -98,7 +98,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
     #[must_use]
     pub fn new(model: &TreeModel<T, S>) -> Self {
         let (links, rows) = (model.links.len(), model.rows.len());
-        let n_guides = model.guides.len();
+        let n_guides = model.prescribed.n_guides();
         let n = n_components(&model.mechanism());
         let n_scratch = rk4_scratch(n).max(Tableau::<T, 7>::scratch(n));
         Self {
@@ -111,7 +111,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             multipliers: vec![T::ZERO; 5 * rows],
             blocks: vec![T::ZERO; model.order.n_blocks],
             gains: vec![T::ZERO; 2 * model.order.n_gains],
-            inputs: vec![[T::ZERO; 3]; n_guides + model.courses.len()],
+            inputs: vec![[T::ZERO; 3]; n_guides + model.prescribed.n_courses()],
             z: vec![T::ZERO; model.n_coordinates],
             freedoms: vec![T::ZERO; 4 * model.n_freedoms],
             n_guides,
