@@ -87,6 +87,8 @@ fn iterate<T: Real, S: Space<T>>(
     let (beta, gamma) = (options.integrator.beta, options.integrator.gamma);
     let share = dt * dt * beta;
     let rounding = T::EPSILON * T::from_f64(64.0);
+    // Coordinates that go into forces are rounded: what moves them less than that says nothing more.
+    let rest = m.length * T::EPSILON;
     let (passage, enough) = (T::from_f64(0.1), T::from_f64(1e-2));
     let (mut last, mut is_slow) = (T::ZERO, projects);
     for iterations in 1..=options.max_iterations {
@@ -120,7 +122,7 @@ fn iterate<T: Real, S: Space<T>>(
             return Ok((iterations, correction, Stop::Converged));
         }
         if iterations > 2 && rate >= T::HALF {
-            if correction <= scale * rounding {
+            if correction <= scale * rounding || correction <= rest {
                 return Ok((iterations, correction, Stop::Rounding));
             }
             // Near a singular position rounding is amplified: what is left is small against the step.
