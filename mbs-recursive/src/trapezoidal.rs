@@ -9,7 +9,8 @@
 //! Differs from the source: increments in place of hats, which round less; rotations are quaternions, q exp(δ); positions and
 //! velocities are projected on the loops afterwards, and the accelerations are those of the projected state.
 
-use crate::evaluate::{Level, accelerations, is_redundant, note_rank};
+use crate::evaluate::{Level, accelerations, accelerations_ahead, is_redundant, note_rank};
+use crate::loads::Reach;
 use crate::mechanism::{Inputs, Mechanism, Store};
 use crate::options::{Closure, Options};
 use crate::passes::Fault;
@@ -86,6 +87,7 @@ fn iterate<T: Real, S: Space<T>>(
 ) -> Result<(u32, T, Stop), StepError> {
     let (beta, gamma) = (options.integrator.beta, options.integrator.gamma);
     let share = dt * dt * beta;
+    let reach = Reach { place: share, speed: dt * gamma };
     let rounding = T::EPSILON * T::from_f64(64.0);
     // Coordinates that go into forces are rounded: what moves them less than that says nothing more.
     let rest = m.length * T::EPSILON;
@@ -106,7 +108,12 @@ fn iterate<T: Real, S: Space<T>>(
         }
 
         // z̈ₙ₊₁ by the three passes
-        accelerations(m, options, Level::Coarse, s).map_err(|f| failure(m, f))?;
+        if m.loads.is_empty() {
+            accelerations(m, options, Level::Coarse, s)
+        } else {
+            accelerations_ahead(m, options, (Level::Coarse, reach), s)
+        }
+        .map_err(|f| failure(m, f))?;
         for i in 0..start.v.len() {
             s.scratch[i] -= s.zdd[i];
         }
