@@ -12,6 +12,7 @@
 use crate::evaluate::{Level, accelerations, accelerations_ahead, is_redundant, note_rank};
 use crate::loads::Reach;
 use crate::mechanism::{Inputs, Mechanism, Store};
+use crate::mixing::Mixing;
 use crate::options::{Closure, Options};
 use crate::passes::Fault;
 use crate::project::{advance, project};
@@ -92,6 +93,7 @@ fn iterate<T: Real, S: Space<T>>(
     // Coordinates that go into forces are rounded: what moves them less than that says nothing more.
     let rest = m.length * T::EPSILON;
     let (passage, enough) = (T::from_f64(0.1), T::from_f64(1e-2));
+    let mut mixing = Mixing::default();
     let (mut last, mut is_slow) = (T::ZERO, projects);
     for iterations in 1..=options.max_iterations {
         // zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁   [P3 (43)-(44)]
@@ -142,8 +144,15 @@ fn iterate<T: Real, S: Space<T>>(
             }
         }
         // Near a singular position accelerations feel what z and v violate: then each iteration projects them.
+        let was_slow = is_slow;
         is_slow |= iterations > 2 && rate >= T::HALF && options.closure == Closure::Constraints;
         last = correction;
+        if !m.loads.is_empty() {
+            if is_slow != was_slow {
+                mixing = Mixing::default();
+            }
+            mixing.mix(s.scratch, s.zdd, s.history);
+        }
     }
     Err(StepError::NotConverged {
         iterations: options.max_iterations,
