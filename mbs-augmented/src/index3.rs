@@ -38,7 +38,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<StepReport<T>, StepError> {
     let rule = options.integrator.rule(dt);
     w.counts = Counts::default();
-    w.boost = (w.boost * T::from_f64(0.25)).max(T::ONE);
+    w.boost = w.kept_boost();
     w.base = options.penalty.factor();
     begin(model, &rule, options, s, w);
 
@@ -198,6 +198,9 @@ fn filter<T: Real, M: Model<T>, S: SpdSolver<T>>(model: &M, w: &mut Workspace<T,
     }
 }
 
+/// Penalties raised by more than this are taken back before velocities and accelerations are projected.
+const MILD: f64 = 100.0;
+
 /// Projects velocities and accelerations. Returns the violation of the three levels.
 fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
@@ -208,10 +211,13 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<[T; 3], StepError> {
     // The factor belongs to the configuration before the last correction: near enough when that was small.
     // A combination of constraints that is almost lost must not be enforced on velocities and accelerations beyond need: they
-    // would grow like 1 / sigma there. Penalties raised for the iteration are taken back.
+    // would grow like 1 / sigma there. Penalties raised far for the iteration are taken back.
     let raised = w.boost;
-    w.scale_penalties(T::ONE / raised);
-    let is_stale = raised > T::ONE || correction > length * T::from_f64(1e-7);
+    let is_taken_back = raised > T::from_f64(MILD);
+    if is_taken_back {
+        w.scale_penalties(T::ONE / raised);
+    }
+    let is_stale = is_taken_back || correction > length * T::from_f64(1e-7);
     if options.projection == Projection::Correction && is_stale {
         factor(model, rule, options, w)?;
     }
