@@ -1,4 +1,4 @@
-//! Scenes of the repository, assembled and stepped in both formulations.
+//! Scenes of the repository, assembled and stepped in state space and in index-3.
 
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its part")]
 
