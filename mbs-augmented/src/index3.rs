@@ -13,13 +13,13 @@
 
 use crate::options::{Multipliers, Options, Penalty, Projection};
 use crate::projection::Level;
-use crate::workspace::{Counts, Mass, Workspace};
+use crate::workspace::{Mass, Workspace};
 use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    StepError, StepReport, Stop, Yardstick, check_guides, largest, largest_or_nan, step_scale,
-    stopping,
+    Counts, StepError, StepReport, Stop, Yardstick, check_guides, largest, largest_or_nan,
+    step_scale, stopping,
 };
 use mbs_core::{Real, SpdSolver};
 
@@ -42,24 +42,15 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w.base = options.penalty.factor();
     begin(model, &rule, options, s, w);
 
-    let (iterations, correction, stop) = iterate(model, &rule, length, options, s, w)?;
+    let newton = iterate(model, &rule, length, options, s, w)?;
 
     // The accelerations leave the scaling of the iteration.
     for a in &mut w.a {
         *a *= rule.acceleration;
     }
-    let violation = clean(model, &rule, (correction, length), options, w)?;
+    let violation = clean(model, &rule, (newton.1, length), options, w)?;
     w.commit(model, &rule, options.compensated, rule.acceleration, s);
-    let Counts { factorizations, solves } = w.counts;
-    Ok(StepReport {
-        iterations,
-        factorizations,
-        solves,
-        correction,
-        stop,
-        violation,
-        ..StepReport::default()
-    })
+    Ok(StepReport::of_newton(newton, w.counts, violation))
 }
 
 /// Predicts q, v, a and lambda at the end of the step, and evaluates there.

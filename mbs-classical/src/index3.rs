@@ -41,27 +41,19 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     let rule = options.integrator.rule(dt);
     w.begin(options.regularisation);
     predict(model, &rule, options, s, w);
-    let (iterations, correction, stop) = iterate(model, &rule, length, options, s, w)?;
+    let newton = iterate(model, &rule, length, options, s, w)?;
 
     // The accelerations leave the scaling of the iteration.
     for a in &mut w.a {
         *a *= rule.acceleration;
     }
     // The factor belongs to the configuration before the last correction: near enough when that was small.
-    if correction > length * T::from_f64(1e-7) {
+    if newton.1 > length * T::from_f64(1e-7) {
         factor(model, &rule, options, w)?;
     }
     let violation = w.clean(model, (length, rule.acceleration), options.max_sweeps, s)?;
     w.commit(model, &rule, options.compensated, rule.acceleration, s);
-    Ok(StepReport {
-        iterations,
-        factorizations: w.counts.factorizations,
-        solves: w.counts.solves,
-        correction,
-        stop,
-        violation,
-        ..StepReport::default()
-    })
+    Ok(StepReport::of_newton(newton, w.counts, violation))
 }
 
 /// q, v, a and lambda at the end of the step by extrapolation, and everything evaluated there.
@@ -136,10 +128,7 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         }
         last = correction;
     }
-    if last <= scale * T::from_f64(1e-6) {
-        return Ok((options.max_iterations, last, Stop::Tolerance));
-    }
-    Err(w.not_converged(model, options.max_iterations, last / length))
+    w.exhausted(model, (options.max_iterations, last), (scale, length))
 }
 
 /// lambda <- 1/delta J T^-1 J^T lambda, T = W + J^T J / delta: removes what redundant constraints cannot feed, and what would

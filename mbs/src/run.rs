@@ -125,7 +125,6 @@ where
 #[derive(Debug, Default)]
 struct Counts {
     steps: u64,
-    rejected: u64,
     iterations: u64,
     factorizations: u64,
     worst: Duration,
@@ -218,7 +217,6 @@ where
     /// Counts and maxima of a step.
     fn take(&mut self, t: f64, report: &StepReport<T>) -> StepMark {
         self.counts.steps += u64::from(report.steps);
-        self.counts.rejected += u64::from(report.rejected);
         self.reached = t;
         self.counts.iterations += u64::from(report.iterations);
         self.counts.factorizations += u64::from(report.factorizations);

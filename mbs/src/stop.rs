@@ -69,7 +69,7 @@ pub enum StopError {
     Tree(TreeError, Option<Owner>),
     /// No static equilibrium was found, and whose forces or joints are left open.
     Equilibrium(EquilibriumError, Option<Owner>),
-    /// The motion cannot be linearised, or its eigenvalues were not found.
+    /// The motion cannot be linearised.
     Linear(LinearError),
     /// The iteration for the eigenvalues did not converge.
     Eigenvalues,
