@@ -13,11 +13,11 @@
 
 use crate::options::{Options, Penalty};
 use crate::projection::Level;
-use crate::workspace::{Counts, Mass, Workspace};
+use crate::workspace::{Mass, Workspace};
 use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
-use mbs_core::step::{StepError, StepReport, Stop, check_guides, largest, largest_or_nan};
+use mbs_core::step::{Counts, StepError, StepReport, Stop, check_guides, largest, largest_or_nan};
 use mbs_core::{Real, SpdSolver};
 
 /// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
@@ -69,18 +69,9 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let acceleration =
         w.project(model, Level::Acceleration, (size * rounding, limit), options.max_sweeps)?;
     w.commit(model, &rule, options.compensated, T::ONE, s);
-    let Counts { factorizations, solves } = w.counts;
     let violation = [norm_inf(&w.terms.phi), velocity, acceleration];
-    let stop = done.unwrap_or(Stop::Tolerance);
-    Ok(StepReport {
-        iterations,
-        factorizations,
-        solves,
-        correction,
-        stop,
-        violation,
-        ..StepReport::default()
-    })
+    let newton = (iterations, correction, done.unwrap_or(Stop::Tolerance));
+    Ok(StepReport::of_newton(newton, w.counts, violation))
 }
 
 /// Accelerations and multipliers of the last step are the first guess.

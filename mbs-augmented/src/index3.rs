@@ -13,12 +13,13 @@
 
 use crate::options::{Multipliers, Options, Penalty, Projection};
 use crate::projection::Level;
-use crate::workspace::{Counts, Mass, Workspace};
+use crate::workspace::{Mass, Workspace};
 use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    StepError, StepReport, Stop, check_guides, largest, largest_or_nan, step_scale,
+    Counts, StepError, StepReport, Stop, Yardstick, check_guides, largest, largest_or_nan,
+    step_scale, stopping,
 };
 use mbs_core::{Real, SpdSolver};
 
@@ -37,28 +38,19 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<StepReport<T>, StepError> {
     let rule = options.integrator.rule(dt);
     w.counts = Counts::default();
-    w.boost = (w.boost * T::from_f64(0.25)).max(T::ONE);
+    w.boost = w.kept_boost();
     w.base = options.penalty.factor();
     begin(model, &rule, options, s, w);
 
-    let (iterations, correction, stop) = iterate(model, &rule, length, options, s, w)?;
+    let newton = iterate(model, &rule, length, options, s, w)?;
 
     // The accelerations leave the scaling of the iteration.
     for a in &mut w.a {
         *a *= rule.acceleration;
     }
-    let violation = clean(model, &rule, (correction, length), options, w)?;
+    let violation = clean(model, &rule, (newton.1, length), options, w)?;
     w.commit(model, &rule, options.compensated, rule.acceleration, s);
-    let Counts { factorizations, solves } = w.counts;
-    Ok(StepReport {
-        iterations,
-        factorizations,
-        solves,
-        correction,
-        stop,
-        violation,
-        ..StepReport::default()
-    })
+    Ok(StepReport::of_newton(newton, w.counts, violation))
 }
 
 /// Predicts q, v, a and lambda at the end of the step, and evaluates there.
@@ -117,7 +109,6 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<(u32, T, Stop), StepError> {
     let inverse = T::ONE / rule.acceleration;
     let scale = step_scale(rule.dt, &s.a);
-    let goal = scale * options.tolerance;
     let mut last = T::ZERO;
     for iterations in 1..=options.max_iterations {
         factor(model, rule, options, w)?;
@@ -156,11 +147,10 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f) });
         }
-        // At rest nothing moves but the rounding of forces in balance: what no longer shrinks below the last digit of the
-        // coordinates is that.
-        let digit = if iterations > 5 { length * T::EPSILON } else { T::ZERO };
-        let noise = rounding(length, options, w).max(digit);
-        if let Some(stop) = stopping(iterations, correction, last, (goal, scale, noise)) {
+        let moved = options.compensated.then(|| norm_inf(&w.dq));
+        let measures = (scale, options.tolerance);
+        let yardstick = Yardstick::of_coordinates(iterations, measures, length, moved);
+        if let Some(stop) = stopping(iterations, correction, last, &yardstick) {
             return Ok((iterations, correction, stop));
         }
         last = correction;
@@ -199,36 +189,8 @@ fn filter<T: Real, M: Model<T>, S: SpdSolver<T>>(model: &M, w: &mut Workspace<T,
     }
 }
 
-/// Size of a correction that is rounding [m]: of the increment where increments are carried, else of the coordinates.
-fn rounding<T: Real, S>(length: T, options: &Options<T>, w: &Workspace<T, S>) -> T {
-    let size = if options.compensated { norm_inf(&w.dq) } else { length };
-    size * T::EPSILON * T::from_f64(64.0)
-}
-
-/// Is this correction the last one?
-fn stopping<T: Real>(
-    iterations: u32,
-    correction: T,
-    last: T,
-    (goal, scale, noise): (T, T, T),
-) -> Option<Stop> {
-    if correction <= goal {
-        return Some(Stop::Converged);
-    }
-    if iterations < 2 {
-        return None;
-    }
-    let contraction = correction / last;
-    if contraction < T::HALF && correction * contraction <= goal {
-        Some(Stop::Converged)
-    } else if contraction > T::HALF && correction <= noise {
-        Some(Stop::Rounding)
-    } else if iterations > 5 && contraction > T::HALF && correction <= scale * T::from_f64(1e-5) {
-        Some(Stop::Passage)
-    } else {
-        None
-    }
-}
+/// Penalties raised by more than this are taken back before velocities and accelerations are projected.
+const MILD: f64 = 100.0;
 
 /// Projects velocities and accelerations. Returns the violation of the three levels.
 fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
@@ -240,10 +202,13 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<[T; 3], StepError> {
     // The factor belongs to the configuration before the last correction: near enough when that was small.
     // A combination of constraints that is almost lost must not be enforced on velocities and accelerations beyond need: they
-    // would grow like 1 / sigma there. Penalties raised for the iteration are taken back.
+    // would grow like 1 / sigma there. Penalties raised far for the iteration are taken back.
     let raised = w.boost;
-    w.scale_penalties(T::ONE / raised);
-    let is_stale = raised > T::ONE || correction > length * T::from_f64(1e-7);
+    let is_taken_back = raised > T::from_f64(MILD);
+    if is_taken_back {
+        w.scale_penalties(T::ONE / raised);
+    }
+    let is_stale = is_taken_back || correction > length * T::from_f64(1e-7);
     if options.projection == Projection::Correction && is_stale {
         factor(model, rule, options, w)?;
     }

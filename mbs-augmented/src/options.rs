@@ -11,7 +11,7 @@ pub struct Options<T> {
     pub integrator: Integrator<T>,
     /// Penalty on the constraints.
     pub penalty: Penalty<T>,
-    /// A correction of the coordinates below this times the scene's length is small [-].
+    /// A correction below this times what accelerations move in a step is small; in index-1, times the accelerations [-].
     pub tolerance: T,
     /// Iterations allowed in one step.
     pub max_iterations: u32,

@@ -181,6 +181,12 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         rho / (T::ONE - rho).max(T::EPSILON) < room * T::from_f64(FELT) && self.stiffen(rho, room)
     }
 
+    /// What a step begins with: raised penalties fall by a factor of four where the last step felt all combinations well.
+    pub(crate) fn kept_boost(&self) -> T {
+        let is_felt = self.rho < T::from_f64(0.1 * FELT);
+        if is_felt { (self.boost * T::from_f64(0.25)).max(T::ONE) } else { self.boost }
+    }
+
     /// Raises the penalties so that corrections that leave `rho` leave [`FELT`], by rho / (1 - rho) / FELT, at most `room`.
     /// Returns whether they changed.
     fn stiffen(&mut self, rho: T, room: T) -> bool {

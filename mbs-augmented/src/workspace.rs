@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Load, Model, State, Tangent, Terms};
-use mbs_core::step::{add_work, take_coordinates};
+use mbs_core::step::{Counts, add_work, take_coordinates};
 use mbs_core::{Real, SpdSolver};
 
 /// Scratch of the augmented Lagrangian steps over a solver `S`. Nothing is allocated after [`Workspace::new`].
@@ -41,13 +41,6 @@ pub struct Workspace<T, S> {
     /// What one correction left of it in the last step.
     pub(crate) rho: T,
     pub(crate) counts: Counts,
-}
-
-/// Counters within a step.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Counts {
-    pub(crate) factorizations: u32,
-    pub(crate) solves: u32,
 }
 
 impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {

@@ -1,13 +1,17 @@
 //! What must not change a motion: axes, the order of bodies, the order in a joint, the precision; and bodies at rest.
 
+#[path = "../../mbs-core/tests/common/retell.rs"]
+mod retell;
+
 use mbs_augmented::{Options, Workspace, index1, index3};
 use mbs_core::Real;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{BodyRef, Inertia, InitialTarget, Scene};
+use mbs_core::scene::{BodyRef, InitialTarget, Scene};
 use mbs_core::start::assemble;
 use mbs_scene::Document;
 use mbs_sparse::Multifrontal;
+use retell::{reorder, turn_scene, turned};
 
 /// Growth of rounding over some hundred steps of a regular motion, in metres.
 const ROUNDING: f64 = 1e-9;
@@ -72,64 +76,11 @@ const FOUR_BAR: &str = include_str!("../../scenes/spatial-four-bar.toml");
 const TOP: &str = include_str!("../../scenes/spinning-top.toml");
 const DOUBLE: &str = include_str!("../../scenes/double-pendulum.toml");
 
-/// A rotation matrix with no special direction.
-const R: [[f64; 3]; 3] = [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]];
-
-fn turned(x: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| (0..3).map(|k| R[i][k] * x[k]).sum())
-}
-
-fn turn_inertia(six: [f64; 6]) -> [f64; 6] {
-    let [xx, yy, zz, xy, yz, zx] = six;
-    let a = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
-    let entry = |i: usize, j: usize| -> f64 {
-        (0..3)
-            .flat_map(|k| (0..3).map(move |l| (k, l)))
-            .map(|(k, l)| R[i][k] * a[k][l] * R[j][l])
-            .sum()
-    };
-    [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)]
-}
-
-fn turn_scene(scene: &mut Scene<f64>) {
-    scene.gravity = scene.gravity.map(turned);
-    for body in &mut scene.bodies {
-        body.center = turned(body.center);
-        body.inertia = match body.inertia {
-            Inertia::Rod { from, to } => Inertia::Rod { from: turned(from), to: turned(to) },
-            Inertia::Spatial(six) => Inertia::Spatial(turn_inertia(six)),
-            planar @ Inertia::Planar(_) => planar,
-        };
-    }
-    for joint in &mut scene.joints {
-        // Joint places must stay equal to the last bit.
-        joint.points = joint.points.map(turned);
-        joint.axes = joint.axes.map(|a| a.map(turned));
-    }
-    for initial in &mut scene.initials {
-        match &mut initial.target {
-            InitialTarget::Joint { value, rate, .. } => {
-                for numbers in [value, rate].into_iter().flatten().filter(|n| n.len() == 3) {
-                    *numbers = turned([numbers[0], numbers[1], numbers[2]]).to_vec();
-                }
-            }
-            InitialTarget::Body { velocity, angular_velocity, .. } => {
-                if let Some((at, v)) = velocity {
-                    (*at, *v) = (turned(*at), turned(*v));
-                }
-                *angular_velocity = angular_velocity.map(turned);
-            }
-        }
-    }
-    scene.outputs.clear();
-}
-
 #[test]
 fn a_turned_scene_moves_alike() {
     for text in [CHAIN, FOUR_BAR, TOP] {
         let plain = scene::<f64>(text);
-        let mut other = plain.clone();
-        turn_scene(&mut other);
+        let other = turn_scene(&plain);
         let (model, state) = run::<f64, 3>(&plain, 1e-3, 200);
         let expected: Vec<_> =
             points(&plain, &model, &state).into_iter().map(|(n, p)| (n, turned(p))).collect();
@@ -142,22 +93,7 @@ fn a_turned_scene_moves_alike() {
 fn the_order_of_bodies_does_not_matter() {
     for text in [CHAIN, FOUR_BAR] {
         let plain = scene::<f64>(text);
-        let mut other = plain.clone();
-        let last = other.bodies.len() - 1;
-        let mirrored = |b: BodyRef| match b {
-            BodyRef::Body(i) => BodyRef::Body(last - i),
-            ground @ BodyRef::Ground => ground,
-        };
-        other.bodies.reverse();
-        other.outputs.clear();
-        for joint in &mut other.joints {
-            joint.bodies = joint.bodies.map(mirrored);
-        }
-        for initial in &mut other.initials {
-            if let InitialTarget::Body { body, .. } = &mut initial.target {
-                *body = last - *body;
-            }
-        }
+        let other = reorder(&plain);
         let (model, state) = run::<f64, 3>(&plain, 1e-3, 200);
         let expected = points(&plain, &model, &state);
         let (model, state) = run::<f64, 3>(&other, 1e-3, 200);

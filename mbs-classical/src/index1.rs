@@ -48,7 +48,7 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     let rule = options.integrator.rule(dt);
     w.begin(options.regularisation);
     predict(model, &rule, options, s, w);
-    let (iterations, correction, stop) = iterate(model, &rule, length, options, s, w)?;
+    let newton = iterate(model, &rule, length, options, s, w)?;
     let violation = if options.stabilisation == Stabilisation::Projection {
         positions(model, &rule, length, options, s, w)?;
         w.clean(model, (length, T::ONE), options.max_sweeps, s)?
@@ -61,15 +61,7 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         [norm_inf(&w.terms.phi), velocity, acceleration]
     };
     w.commit(model, &rule, options.compensated, T::ONE, s);
-    Ok(StepReport {
-        iterations,
-        factorizations: w.counts.factorizations,
-        solves: w.counts.solves,
-        correction,
-        stop,
-        violation,
-        ..StepReport::default()
-    })
+    Ok(StepReport::of_newton(newton, w.counts, violation))
 }
 
 /// q, v, a at the end of the step by extrapolation, lambda of the last step, and everything evaluated there.
@@ -161,10 +153,7 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         }
         last = correction;
     }
-    if last <= scale * T::from_f64(1e-6) {
-        return Ok((options.max_iterations, last, Stop::Tolerance));
-    }
-    Err(w.not_converged(model, options.max_iterations, last / length))
+    w.exhausted(model, (options.max_iterations, last), (scale, length))
 }
 
 /// Moves q onto phi = 0, and v by the integrator's relation, so that both tell of the same motion. The matrix at the new q is

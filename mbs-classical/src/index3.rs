@@ -41,27 +41,19 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     let rule = options.integrator.rule(dt);
     w.begin(options.regularisation);
     predict(model, &rule, options, s, w);
-    let (iterations, correction, stop) = iterate(model, &rule, length, options, s, w)?;
+    let newton = iterate(model, &rule, length, options, s, w)?;
 
     // The accelerations leave the scaling of the iteration.
     for a in &mut w.a {
         *a *= rule.acceleration;
     }
     // The factor belongs to the configuration before the last correction: near enough when that was small.
-    if correction > length * T::from_f64(1e-7) {
+    if newton.1 > length * T::from_f64(1e-7) {
         factor(model, &rule, options, w)?;
     }
     let violation = w.clean(model, (length, rule.acceleration), options.max_sweeps, s)?;
     w.commit(model, &rule, options.compensated, rule.acceleration, s);
-    Ok(StepReport {
-        iterations,
-        factorizations: w.counts.factorizations,
-        solves: w.counts.solves,
-        correction,
-        stop,
-        violation,
-        ..StepReport::default()
-    })
+    Ok(StepReport::of_newton(newton, w.counts, violation))
 }
 
 /// q, v, a and lambda at the end of the step by extrapolation, and everything evaluated there.
@@ -128,16 +120,15 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         if iterations == 1 {
             w.check_branch(model, length)?;
         }
-        let yardstick = yardstick(iterations, scale, length, options, w);
+        let moved = options.compensated.then(|| norm_inf(&w.dq));
+        let measures = (scale, options.tolerance);
+        let yardstick = Yardstick::of_coordinates(iterations, measures, length, moved);
         if let Some(stop) = stopping(iterations, correction, last, &yardstick) {
             return Ok((iterations, correction, stop));
         }
         last = correction;
     }
-    if last <= scale * T::from_f64(1e-6) {
-        return Ok((options.max_iterations, last, Stop::Tolerance));
-    }
-    Err(w.not_converged(model, options.max_iterations, last / length))
+    w.exhausted(model, (options.max_iterations, last), (scale, length))
 }
 
 /// lambda <- 1/delta J T^-1 J^T lambda, T = W + J^T J / delta: removes what redundant constraints cannot feed, and what would
@@ -148,21 +139,6 @@ fn filter<T: Real, M: Model<T>, S: SymmetricSolver<T>>(model: &M, w: &mut Worksp
     w.solve();
     let n = w.n;
     w.lambda.copy_from_slice(&w.f[n..]);
-}
-
-/// What corrections are measured against: rounding is that of the increment where increments are carried, else of the
-/// coordinates; what no longer shrinks below the last digit of the coordinates is the rounding of forces in balance.
-fn yardstick<T: Real, S>(
-    iterations: u32,
-    scale: T,
-    length: T,
-    options: &Options<T>,
-    w: &Workspace<T, S>,
-) -> Yardstick<T> {
-    let size = if options.compensated { norm_inf(&w.dq) } else { length };
-    let digit = if iterations > 5 { length * T::EPSILON } else { T::ZERO };
-    let noise = (size * T::EPSILON * T::from_f64(64.0)).max(digit);
-    Yardstick { scale, goal: scale * options.tolerance, noise }
 }
 
 /// The saddle matrix, with the geometric stiffness where it leaves W positive on the motions that the constraints allow.

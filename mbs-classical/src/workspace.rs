@@ -6,7 +6,7 @@ use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Load, Model, Owner, State, Tangent, Terms};
 use mbs_core::saddle::{Saddle, SaddleSystem};
-use mbs_core::step::{StepError, add_work, largest, take_coordinates};
+use mbs_core::step::{Counts, StepError, Stop, add_work, largest, take_coordinates};
 use mbs_core::{FactorError, Real, SymmetricSolver};
 
 /// Scratch of the classical steps over a solver `S`. Nothing is allocated after [`Workspace::new`], but for what the solver
@@ -53,13 +53,6 @@ const DEPENDENT: f64 = 0.1;
 
 /// A weakest pivot below this explains why an iteration does not converge.
 const NEAR: f64 = 1e-4;
-
-/// Counters within a step.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Counts {
-    pub(crate) factorizations: u32,
-    pub(crate) solves: u32,
-}
 
 /// Which vector stands at M in a residual.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -270,22 +263,26 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         sum(sums) / sum(sizes).max(T::EPSILON)
     }
 
-    /// The iteration did not converge: near a singular position for want of rank.
-    pub(crate) fn not_converged<M: Model<T>>(
+    /// The allowed iterations are used: the `last` correction is small beside the displacement of the step (`scale`), or the
+    /// iteration did not converge, near a singular position for want of rank.
+    pub(crate) fn exhausted<M: Model<T>>(
         &mut self,
         model: &M,
-        iterations: u32,
-        correction: T,
-    ) -> StepError {
+        (iterations, last): (u32, T),
+        (scale, length): (T, T),
+    ) -> Result<(u32, T, Stop), StepError> {
+        if last <= scale * T::from_f64(1e-6) {
+            return Ok((iterations, last, Stop::Tolerance));
+        }
         let weakest = self.solver.weakest();
         if weakest.ratio < NEAR {
             let error = FactorError { unknown: weakest.unknown, pivot: weakest.ratio };
             if let lost @ StepError::RankLost { .. } = self.diagnose(model, error) {
-                return lost;
+                return Err(lost);
             }
         }
-        let unknown = largest(&self.f[..self.n]);
-        StepError::NotConverged { iterations, correction: correction.to_f64(), unknown }
+        let (unknown, correction) = (largest(&self.f[..self.n]), (last / length).to_f64());
+        Err(StepError::NotConverged { iterations, correction, unknown })
     }
 
     fn last_coordinate(&self) -> u32 {

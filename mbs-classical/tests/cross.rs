@@ -9,10 +9,13 @@ use common::{
 };
 use mbs_classical::{Options, StepError};
 use mbs_core::model::{Model, Owner};
-use mbs_core::scene::{Inertia, InitialTarget, Scene};
+use mbs_core::scene::Scene;
 use mbs_core::start::assemble;
 use mbs_sparse::Multifrontal;
+use retell::{turn_scene, turned};
 
+#[path = "../../mbs-core/tests/common/retell.rs"]
+mod retell;
 #[path = "../../mbs-core/tests/common/mod.rs"]
 mod zoo;
 
@@ -147,52 +150,11 @@ fn regularisation_does_not_change_a_motion_without_redundancy() {
     assert!(distance(&run.steps(1e-3, 300).points(), &expected) < NEAR);
 }
 
-/// A rotation matrix with no special direction.
-const R: [[f64; 3]; 3] = [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]];
-
-fn turned(x: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| (0..3).map(|k| R[i][k] * x[k]).sum())
-}
-
-fn turn_inertia([xx, yy, zz, xy, yz, zx]: [f64; 6]) -> [f64; 6] {
-    let a = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
-    let entry = |i: usize, j: usize| -> f64 {
-        (0..9).map(|kl| R[i][kl / 3] * a[kl / 3][kl % 3] * R[j][kl % 3]).sum()
-    };
-    [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)]
-}
-
-/// Turns bodies, joints, gravity and initial rates given by joints about axes; the scenes here have no others.
-fn turn_scene(scene: &mut Scene<f64>) {
-    scene.gravity = scene.gravity.map(turned);
-    for body in &mut scene.bodies {
-        body.center = turned(body.center);
-        body.inertia = match body.inertia {
-            Inertia::Rod { from, to } => Inertia::Rod { from: turned(from), to: turned(to) },
-            Inertia::Spatial(six) => Inertia::Spatial(turn_inertia(six)),
-            planar @ Inertia::Planar(_) => planar,
-        };
-    }
-    for joint in &mut scene.joints {
-        joint.points = joint.points.map(turned);
-        joint.axes = joint.axes.map(|a| a.map(turned));
-    }
-    for initial in &mut scene.initials {
-        if let InitialTarget::Joint { value, rate, .. } = &mut initial.target {
-            for numbers in [value, rate].into_iter().flatten().filter(|n| n.len() == 3) {
-                *numbers = turned([numbers[0], numbers[1], numbers[2]]).to_vec();
-            }
-        }
-    }
-    scene.outputs.clear();
-}
-
 #[test]
 fn a_turned_scene_moves_alike() {
     for text in [CHAIN, TOP] {
         let plain = scene::<f64>(text);
-        let mut other = plain.clone();
-        turn_scene(&mut other);
+        let other = turn_scene(&plain);
         for index in [Index::One, Index::Three] {
             let expected: Vec<_> = Run::<f64, 3>::new(&plain, index).steps(1e-3, 200).points();
             let expected: Vec<_> = expected.into_iter().map(turned).collect();

@@ -114,6 +114,27 @@ pub(crate) fn add_to<T: Real, const D: usize>(x: &mut [T], at: usize, y: &Vector
     }
 }
 
+/// The unit vector along axis `i`.
+pub(crate) fn unit<T: Real>(i: usize) -> Vector<T, 3> {
+    let mut e = Vector::<T, 3>::zeros();
+    e[i] = T::ONE;
+    e
+}
+
+/// A vector of the plane or of space, in space.
+#[cfg(feature = "alloc")]
+#[inline(always)]
+pub(crate) fn raised<T: Real, const D: usize>(x: &Vector<T, D>) -> Vector<T, 3> {
+    Vector::from_fn(|i, _| if i < D { x[i] } else { T::ZERO })
+}
+
+/// What the plane or space has of a vector of space.
+#[cfg(feature = "alloc")]
+#[inline(always)]
+pub(crate) fn lowered<T: Real, const D: usize>(x: &Vector<T, 3>) -> Vector<T, D> {
+    Vector::from_fn(|i, _| x[i])
+}
+
 /// Euclidean length.
 pub fn norm<T: Real, const D: usize>(x: &Vector<T, D>) -> T {
     x.dot(x).sqrt()
@@ -150,9 +171,7 @@ pub fn across<T: Real>(n: &Vector<T, 3>) -> Vector<T, 3> {
             least = i;
         }
     }
-    let mut e = Vector::<T, 3>::zeros();
-    e[least] = T::ONE;
-    let w = e - n * n[least];
+    let w = unit::<T>(least) - n * n[least];
     w * (T::ONE / norm(&w))
 }
 
@@ -166,8 +185,7 @@ pub fn rotation<T: Real>(w: &Vector<T, 3>) -> Matrix<T, 3> {
     let (s, c) = angle.sin_cos();
     let mut r = Matrix::<T, 3>::zeros();
     for j in 0..3 {
-        let mut e = Vector::<T, 3>::zeros();
-        e[j] = T::ONE;
+        let e = unit(j);
         let column = e * c + cross(&n, &e) * s + n * (n[j] * (T::ONE - c));
         for i in 0..3 {
             r[(i, j)] = column[i];

@@ -2,9 +2,67 @@
 
 use crate::Real;
 use crate::laws::guide;
-use crate::scene::{Course, GuideLaw};
+use crate::scene::{Course, GuideLaw, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
+
+/// The guides of a scene and the courses of its effects.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prescribed<T> {
+    guides: Vec<GuideInput<T>>,
+    /// The effect that asked for each course, and the course.
+    courses: Vec<(usize, CourseInput<T>)>,
+}
+
+impl<T: Real> Prescribed<T> {
+    /// The guides of a scene, and no course.
+    pub(crate) fn new(scene: &Scene<T>) -> Self {
+        let guides = scene.guides.iter().map(|guide| GuideInput::new(&guide.law)).collect();
+        Self { guides, courses: Vec::new() }
+    }
+
+    /// Adds a course for `scene.effects[effect]` and returns its number.
+    pub(crate) fn add(&mut self, effect: usize, course: CourseInput<T>) -> usize {
+        self.courses.push((effect, course));
+        self.courses.len() - 1
+    }
+
+    /// Number of guides.
+    #[must_use]
+    pub fn n_guides(&self) -> usize {
+        self.guides.len()
+    }
+
+    /// Number of courses.
+    #[must_use]
+    pub fn n_courses(&self) -> usize {
+        self.courses.len()
+    }
+
+    /// Writes value, rate and acceleration of each guide and the vector of each course at time `t`.
+    pub fn write(&self, t: T, guides: &mut [[T; 3]], courses: &mut [[T; 3]]) {
+        for (value, guide) in guides.iter_mut().zip(&self.guides) {
+            *value = guide.at(t);
+        }
+        for (value, (_, course)) in courses.iter_mut().zip(&self.courses) {
+            *value = course.at(t);
+        }
+    }
+
+    /// Sets the course of `scene.effects[effect]` from now on; says whether the effect has an input.
+    pub fn set_course(&mut self, effect: usize, value: [T; 3]) -> bool {
+        let mut is_set = false;
+        for (_, course) in self.courses.iter_mut().filter(|(e, _)| *e == effect) {
+            is_set |= course.set(value);
+        }
+        is_set
+    }
+
+    /// Sets value, rate and acceleration of `scene.guides[guide]` at the end of the next step; says whether the guide is an input.
+    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> bool {
+        self.guides.get_mut(guide).is_some_and(|guide| guide.set(motion))
+    }
+}
 
 /// A guide law with its spline prepared.
 #[derive(Debug, Clone, PartialEq)]

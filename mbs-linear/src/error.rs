@@ -95,6 +95,11 @@ pub enum LinearError {
         /// The unknown of the saddle system: a coordinate, or from n on a row.
         unknown: u32,
     },
+    /// Accelerations next to the state did not settle: rows that repeat each other nearly, or coordinates nearly without mass.
+    NotSettled {
+        /// Their last change [m/s^2].
+        left: f64,
+    },
     /// A force became infinite or not a number.
     NotFinite,
 }
@@ -114,6 +119,10 @@ impl core::fmt::Display for LinearError {
             Self::NoInertia { .. } => write!(
                 f,
                 "a force meets no inertia: a coordinate is neither determined by joints nor has mass; give its body mass and inertia"
+            ),
+            Self::NotSettled { left } => write!(
+                f,
+                "the accelerations at the state stay uncertain by {left:.3e} m/s^2: joints nearly repeat each other, or coordinates are nearly without mass; leave a joint out or give mass"
             ),
             Self::NotFinite => {
                 write!(f, "a force became infinite or not a number; check the data of the effects")

@@ -2,11 +2,12 @@
 //!
 //! ```text
 //! [ M + s (K + K_geo(lambda))   J^T   ] ( d )     ( b )
-//! [ J                          -delta ] ( e )  =  ( c ),      delta_k = 1e-9 J_k diag(W)^-1 J_k^T
+//! [ J                          -delta ] ( e )  =  ( c ),      delta_k = 1e-9 J_k J_k^T / W_k,   W_k = max W_uu, J_ku != 0
 //! ```
 //!
 //! delta lets rows repeat each other; what it leaves open is removed by iteration of the multipliers, so that no result
-//! depends on it.
+//! depends on it. W_k is the heaviest coordinate of the row, so that delta is small beside the compliance of the row in
+//! every mechanism: one taken from massless coordinates would leave their rows open by more than an iteration removes.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -17,6 +18,8 @@ use mbs_core::{FactorError, Real, SymmetricSolver};
 
 /// delta relative to the compliance of its row.
 const DELTA: f64 = 1e-9;
+/// Rows of coordinates lighter than this share of the heaviest are scaled as if they had it.
+const LIGHT: f64 = 1e-6;
 
 /// Scratch over a solver `S` that was analysed for the [`Saddle`] of the model.
 #[derive(Debug, Clone)]
@@ -75,15 +78,17 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         let geometric = (s != T::ZERO).then_some(&self.scaled[..]);
         let tangent = Tangent { stiffness: s, damping: T::ZERO, penalty: &[], geometric };
         sum_diagonal(model, &self.terms, &tangent, &mut self.local, &mut self.diagonal);
-        let largest = norm_inf(&self.diagonal);
-        let floor = if largest > T::ZERO { largest * T::from_f64(1e-12) } else { T::ONE };
+        let least = norm_inf(&self.diagonal) * T::from_f64(LIGHT);
         for e in 0..model.n_elements() {
             let clique = model.clique(e);
             let rows = &self.jacobian[self.saddle.jacobian(e)];
             for (row, g) in model.rows(e).zip(rows.chunks_exact(clique.len().max(1))) {
-                let compliance = clique.iter().zip(g).fold(T::ZERO, |sum, (&u, &g)| {
-                    sum + g * g / self.diagonal[u as usize].abs().max(floor)
-                });
+                let (mut square, mut weight) = (T::ZERO, least);
+                for (&u, &g) in clique.iter().zip(g).filter(|(_, g)| **g != T::ZERO) {
+                    square += g * g;
+                    weight = weight.max(self.diagonal[u as usize].abs());
+                }
+                let compliance = square / if weight > T::ZERO { weight } else { T::ONE };
                 self.delta[row] = compliance * T::from_f64(DELTA);
             }
         }

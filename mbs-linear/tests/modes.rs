@@ -247,3 +247,38 @@ fn a_singular_position_has_no_linearisation() {
         matches!(error, Err(LinearError::Singular { .. } | LinearError::NotClosed { .. }));
     assert!(is_refused, "{error:?}");
 }
+
+/// Two bobs on bars of different lengths, joined by a coupler without mass that lies level.
+fn coupled([m1, l1]: [f64; 2], [m2, l2]: [f64; 2]) -> String {
+    let bob = |name: &str, x: f64, m: f64| {
+        format!("[[body]]\nname = \"{name}\"\nmass = {m}\ncenter = [{x}, 0.0]\ninertia = 0.0\n\n")
+    };
+    let pin = |name: &str, a: &str, b: &str, x: f64, y: f64| {
+        format!(
+            "[[joint]]\nname = \"{name}\"\nkind = \"revolute\"\nbodies = [\"{a}\", \"{b}\"]\nat = [{x}, {y}]\n\n"
+        )
+    };
+    let parts = [
+        bob("a", 0.0, m1),
+        bob("b", 2.0, m2),
+        "[[body]]\nname = \"coupler\"\nmass = 0.0\ncenter = [1.0, 0.0]\ninertia = 0.0\n\n".into(),
+        pin("left", "ground", "a", 0.0, l1),
+        pin("right", "ground", "b", 2.0, l2),
+        pin("one", "a", "coupler", 0.0, 0.0),
+        pin("two", "coupler", "b", 2.0, 0.0),
+    ];
+    scene(2, "[0.0, -9.81]", &parts.concat())
+}
+
+#[test]
+fn bobs_joined_by_a_massless_coupler_swing_with_their_common_frequency() {
+    // The coupler carries no vertical force: (m1 + m2) x'' = -(m1 g / l1 + m2 g / l2) x.
+    for (a, b) in [([1.0, 0.5], [3.0, 1.5]), ([1e-3, 1.0], [50.0, 0.3])] {
+        let mut case = Case::<2>::new(&coupled(a, b));
+        case.settle().unwrap_or_else(|e| panic!("{e}"));
+        let values = case.eigenvalues(Instant::Rest);
+        let w = (9.81 * (a[0] / a[1] + b[0] / b[1]) / (a[0] + b[0])).sqrt();
+        assert_eq!(values.len(), 1);
+        assert!(values[0].0.abs() < SAME && near(values[0].1, w), "{values:?} {w}");
+    }
+}

@@ -16,7 +16,7 @@ use crate::rows::{Loop, Row};
 use crate::space::{Numbers, Space};
 use crate::tree::{Seat, TreeModel};
 use mbs_core::Real;
-use mbs_core::actions::{self, Action, Actions};
+use mbs_core::actions::{self, Action};
 use mbs_core::algebra::{Vector, norm};
 use mbs_core::natural::{joint_axes, transverse};
 use mbs_core::scene::{BodyRef, Joint, JointKind, Scene};
@@ -85,12 +85,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 
     /// Adds effects; what acts on the ground alone is nothing.
-    pub(crate) fn add_loads(&mut self, actions: Actions<T>) {
-        for (_, action) in &actions.list {
+    pub(crate) fn add_loads(&mut self, list: &[(usize, Action<T>)]) {
+        for (_, action) in list {
             self.add_load(action);
         }
-        self.effect_courses = actions.effect_courses().collect();
-        (self.courses, self.tables) = (actions.courses, actions.tables);
     }
 
     fn add_load(&mut self, action: &Action<T>) {

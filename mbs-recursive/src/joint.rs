@@ -127,7 +127,7 @@ pub(crate) fn eliminate<T: Real, S: Space<T>>(
                 return Err(pivot);
             }
             // K I = I − U D⁻¹ Uᵀ   [P3 (36)–(37)]
-            (c.column, c.inverse) = (column, T::ONE / pivot);
+            (c.column, c.inverse) = (column, T::ONE / (pivot + c.resistance));
             let left = S::reduced(&c.inertia, &c.column, c.inverse);
             // p + I^a d + U D⁻¹ u   [P3 (38)]
             let force = impulse(kind, p, c) + S::times(&left, &p.bias);

@@ -19,6 +19,7 @@ pub mod link;
 pub mod loads;
 pub mod loops;
 pub mod mechanism;
+pub mod mixing;
 mod options;
 #[cfg(feature = "alloc")]
 mod order;

@@ -124,6 +124,8 @@ pub struct Condensed<T: Real, S: Space<T>> {
     pub drive: S::Motion,
     /// Torque or force of effects along a joint of one freedom.
     pub effort: T,
+    /// What effects add to bᵀ I b of a joint of one freedom: their resistance to its acceleration within a step.
+    pub resistance: T,
 }
 
 impl<T: Real, S: Space<T>> Condensed<T, S> {
@@ -137,6 +139,7 @@ impl<T: Real, S: Space<T>> Condensed<T, S> {
             inverse: T::ZERO,
             drive: S::Motion::zero(),
             effort: T::ZERO,
+            resistance: T::ZERO,
         }
     }
 }

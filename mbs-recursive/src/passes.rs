@@ -62,7 +62,7 @@ pub fn inertias<T: Real, S: Space<T>>(
         // p = (ω × J ω, m ω × (ω × r_G))
         let turning = S::cross_spin(&spin, &S::turning_block(&c.inertia, &spin));
         c.force = S::motion(turning, S::centrifugal(&spin, &p.center) * link.mass);
-        c.effort = T::ZERO;
+        (c.effort, c.resistance) = (T::ZERO, T::ZERO);
     }
 }
 

@@ -4,6 +4,7 @@ use crate::explicit::n_components;
 use crate::link::{Condensed, Placed};
 use crate::loops::LoopStore;
 use crate::mechanism::{Counts, Store};
+use crate::mixing::history;
 use crate::space::{Numbers, Space};
 use crate::tree::TreeModel;
 use alloc::vec;
@@ -77,6 +78,7 @@ pub struct Workspace<T: Real, S: Space<T>> {
     z: Vec<T>,
     /// v, z̈, response, scratch.
     freedoms: Vec<T>,
+    history: Vec<T>,
     n_guides: usize,
     rank: usize,
     explicit: Explicit<T>,
@@ -98,7 +100,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
     #[must_use]
     pub fn new(model: &TreeModel<T, S>) -> Self {
         let (links, rows) = (model.links.len(), model.rows.len());
-        let n_guides = model.guides.len();
+        let n_guides = model.prescribed.n_guides();
         let n = n_components(&model.mechanism());
         let n_scratch = rk4_scratch(n).max(Tableau::<T, 7>::scratch(n));
         Self {
@@ -111,9 +113,13 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             multipliers: vec![T::ZERO; 5 * rows],
             blocks: vec![T::ZERO; model.order.n_blocks],
             gains: vec![T::ZERO; 2 * model.order.n_gains],
-            inputs: vec![[T::ZERO; 3]; n_guides + model.courses.len()],
+            inputs: vec![[T::ZERO; 3]; n_guides + model.prescribed.n_courses()],
             z: vec![T::ZERO; model.n_coordinates],
             freedoms: vec![T::ZERO; 4 * model.n_freedoms],
+            history: vec![
+                T::ZERO;
+                if model.loads.is_empty() { 0 } else { history(model.n_freedoms) }
+            ],
             n_guides,
             rank: 0,
             explicit: Explicit {
@@ -171,6 +177,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             v,
             zdd,
             scratch,
+            history: &mut self.history,
             rank: &mut self.rank,
             counts: Counts::default(),
         };

@@ -9,8 +9,10 @@
 //! Differs from the source: increments in place of hats, which round less; rotations are quaternions, q exp(δ); positions and
 //! velocities are projected on the loops afterwards, and the accelerations are those of the projected state.
 
-use crate::evaluate::{Level, accelerations, is_redundant, note_rank};
+use crate::evaluate::{Level, accelerations, accelerations_ahead, is_redundant, note_rank};
+use crate::loads::Reach;
 use crate::mechanism::{Inputs, Mechanism, Store};
+use crate::mixing::Mixing;
 use crate::options::{Closure, Options};
 use crate::passes::Fault;
 use crate::project::{advance, project};
@@ -86,8 +88,12 @@ fn iterate<T: Real, S: Space<T>>(
 ) -> Result<(u32, T, Stop), StepError> {
     let (beta, gamma) = (options.integrator.beta, options.integrator.gamma);
     let share = dt * dt * beta;
+    let reach = Reach { place: share, speed: dt * gamma };
     let rounding = T::EPSILON * T::from_f64(64.0);
+    // Coordinates that go into forces are rounded: what moves them less than that says nothing more.
+    let rest = m.length * T::EPSILON;
     let (passage, enough) = (T::from_f64(0.1), T::from_f64(1e-2));
+    let mut mixing = Mixing::default();
     let (mut last, mut is_slow) = (T::ZERO, projects);
     for iterations in 1..=options.max_iterations {
         // zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁   [P3 (43)-(44)]
@@ -104,7 +110,12 @@ fn iterate<T: Real, S: Space<T>>(
         }
 
         // z̈ₙ₊₁ by the three passes
-        accelerations(m, options, Level::Coarse, s).map_err(|f| failure(m, f))?;
+        if m.loads.is_empty() {
+            accelerations(m, options, Level::Coarse, s)
+        } else {
+            accelerations_ahead(m, options, (Level::Coarse, reach), s)
+        }
+        .map_err(|f| failure(m, f))?;
         for i in 0..start.v.len() {
             s.scratch[i] -= s.zdd[i];
         }
@@ -120,7 +131,7 @@ fn iterate<T: Real, S: Space<T>>(
             return Ok((iterations, correction, Stop::Converged));
         }
         if iterations > 2 && rate >= T::HALF {
-            if correction <= scale * rounding {
+            if correction <= scale * rounding || correction <= rest {
                 return Ok((iterations, correction, Stop::Rounding));
             }
             // Near a singular position rounding is amplified: what is left is small against the step.
@@ -133,8 +144,15 @@ fn iterate<T: Real, S: Space<T>>(
             }
         }
         // Near a singular position accelerations feel what z and v violate: then each iteration projects them.
+        let was_slow = is_slow;
         is_slow |= iterations > 2 && rate >= T::HALF && options.closure == Closure::Constraints;
         last = correction;
+        if !m.loads.is_empty() {
+            if is_slow != was_slow {
+                mixing = Mixing::default();
+            }
+            mixing.mix(s.scratch, s.zdd, s.history);
+        }
     }
     Err(StepError::NotConverged {
         iterations: options.max_iterations,

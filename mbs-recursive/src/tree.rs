@@ -17,7 +17,7 @@ use mbs_core::Real;
 use mbs_core::actions::{Actions, Tables};
 use mbs_core::algebra::{Matrix, Vector, cross, norm};
 use mbs_core::cluster::{Cluster, Clusters, scene_length};
-use mbs_core::inputs::{CourseInput, GuideInput};
+use mbs_core::inputs::Prescribed;
 use mbs_core::model::Owner;
 use mbs_core::natural::joint_axes;
 use mbs_core::scene::{BodyRef, Joint, JointKind, Scene};
@@ -50,11 +50,8 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) rows: Vec<Row<T, S>>,
     pub(crate) order: Order,
     pub(crate) loads: Vec<Load<T, S>>,
-    pub(crate) guides: Vec<GuideInput<T>>,
-    pub(crate) courses: Vec<CourseInput<T>>,
+    pub(crate) prescribed: Prescribed<T>,
     pub(crate) tables: Tables<T>,
-    /// The course of each effect that follows one.
-    pub(crate) effect_courses: Vec<(usize, u32)>,
     pub(crate) gravity: S::Point,
     /// What positions are counted from [m].
     pub(crate) base: Vector<T, 3>,
@@ -88,7 +85,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let clusters = Clusters::new(scene);
         let actions = Actions::new(scene)?;
         let graph = span(scene, &actions, &clusters)?;
-        let mut tree = Self::ground(scene, clusters);
+        let Actions { list, prescribed, tables } = actions;
+        let mut tree = Self::ground(scene, clusters, (prescribed, tables));
         for branch in &graph.branches {
             tree.add_branch(scene, *branch);
         }
@@ -99,11 +97,15 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         let Self { links, loops, .. } = &mut tree;
         tree.order = Order::new(links, loops);
-        tree.add_loads(actions);
+        tree.add_loads(&list);
         Ok(tree)
     }
 
-    fn ground(scene: &Scene<T>, clusters: Clusters<T>) -> Self {
+    fn ground(
+        scene: &Scene<T>,
+        clusters: Clusters<T>,
+        (prescribed, tables): (Prescribed<T>, Tables<T>),
+    ) -> Self {
         let at_ground = scene.joints.iter().find_map(|joint| {
             (0..2).find(|&i| clusters.of(joint.bodies[i]).is_none()).map(|i| joint.points[i])
         });
@@ -135,10 +137,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             rows: Vec::new(),
             order: Order::default(),
             loads: Vec::new(),
-            guides: scene.guides.iter().map(|guide| GuideInput::new(&guide.law)).collect(),
-            courses: Vec::new(),
-            tables: Tables::empty(),
-            effect_courses: Vec::new(),
+            prescribed,
+            tables,
             gravity: scene.gravity.map_or_else(S::Point::zero, |g| S::point_from(&Vector::from(g))),
             base,
             length,
@@ -244,7 +244,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let mut z = vec![T::ZERO; self.n_coordinates];
         self.write_reference(&mut z);
         let v = vec![T::ZERO; self.n_freedoms];
-        let guides = vec![[T::ZERO; 3]; self.guides.len()];
+        let guides = vec![[T::ZERO; 3]; self.prescribed.n_guides()];
         let mut placed = vec![Placed::<T, S>::ground(); n];
         let mut condensed = vec![Condensed::<T, S>::empty(); n];
         passes::kinematics(&self.links, (&z, &v, &guides), &mut placed);
@@ -329,17 +329,13 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Sets the input of `scene.effects[effect]` between two steps; it holds until it is set again. Returns whether the effect has
     /// one: an enabled effect whose course is [`Course::Input`](mbs_core::scene::Course::Input).
     pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> bool {
-        let mut is_set = false;
-        for &(_, course) in self.effect_courses.iter().filter(|(e, _)| *e == effect) {
-            is_set |= self.courses[course as usize].set(value);
-        }
-        is_set
+        self.prescribed.set_course(effect, value)
     }
 
     /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. Returns whether the guide is
     /// an input: [`GuideLaw::Input`](mbs_core::scene::GuideLaw::Input).
     pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> bool {
-        self.guides.get_mut(guide).is_some_and(|guide| guide.set(motion))
+        self.prescribed.set_guide(guide, motion)
     }
 
     /// Number of freedoms of the tree: a ball has three, a free body six (in the plane three), a guided joint none.
@@ -391,12 +387,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
 
 impl<T: Real, S: Space<T>> Inputs<T> for TreeModel<T, S> {
     fn evaluate(&self, t: T, guides: &mut [[T; 3]], courses: &mut [[T; 3]]) {
-        for (to, guide) in guides.iter_mut().zip(&self.guides) {
-            *to = guide.at(t);
-        }
-        for (to, course) in courses.iter_mut().zip(&self.courses) {
-            *to = course.at(t);
-        }
+        self.prescribed.write(t, guides, courses);
     }
 }
 

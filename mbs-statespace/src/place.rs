@@ -114,7 +114,7 @@ impl<T: Real> Workspace<T> {
     /// [`StepError::RankLost`] when the rank is not that of the start.
     pub(crate) fn choose_columns(&mut self) -> Result<(), StepError> {
         let choice = self.elimination.choose(&self.jacobian.values);
-        self.counts.choices += 1;
+        self.choices += 1;
         self.counts.factorizations += 1;
         self.first_basis = T::ZERO;
         let (row, pivot) = match choice.rank.cmp(&self.rank) {

@@ -18,8 +18,8 @@ use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Load, Model, State, System, Tangent};
 use mbs_core::step::{
-    StepError, StepReport, Stop, add_work, check_guides, largest, largest_or_nan, step_scale,
-    take_coordinates,
+    Counts, StepError, StepReport, Stop, add_work, check_guides, largest, largest_or_nan,
+    step_scale, take_coordinates,
 };
 use mbs_core::{FactorError, Real, SpdSolver};
 
@@ -43,14 +43,14 @@ pub fn step<T: Real, M: Model<T>>(
     w: &mut Workspace<T>,
 ) -> Result<StepReport<T>, StepError> {
     let rule = options.integrator.rule(dt);
-    (w.counts.factorizations, w.counts.solves) = (0, 0);
+    w.counts = Counts::default();
     let is_new = w.is_stale || options.rechoice == Rechoice::EveryStep;
     let mut outcome = attempt(model, (&rule, length), options, s, (w, is_new));
     if outcome.is_err() && !is_new {
         outcome = attempt(model, (&rule, length), options, s, (w, true));
     }
     w.is_stale |= outcome.is_err();
-    let (iterations, correction, stop, violation) = outcome?;
+    let (newton, violation) = outcome?;
     take_coordinates(&rule, true, model.n_unknowns(), s, (&w.dq, &w.v, &w.a));
     s.phi.copy_from_slice(&w.terms.phi);
     for k in 0..w.lambda.len() {
@@ -60,20 +60,11 @@ pub fn step<T: Real, M: Model<T>>(
     }
     s.t += dt;
     add_work(model, dt, s, &mut w.terms);
-    let (factorizations, solves) = (w.counts.factorizations, w.counts.solves);
-    Ok(StepReport {
-        iterations,
-        factorizations,
-        solves,
-        correction,
-        stop,
-        violation,
-        ..StepReport::default()
-    })
+    Ok(StepReport::of_newton(newton, w.counts, violation))
 }
 
-/// Iterations, the last correction, what ended it, and the violations that are left.
-type Done<T> = (u32, T, Stop, [T; 3]);
+/// Iterations, the last correction and what ended it; and the violations that are left.
+type Done<T> = ((u32, T, Stop), [T; 3]);
 
 /// The step with the independent coordinates in hand or, if `is_new`, with others.
 fn attempt<T: Real, M: Model<T>>(
@@ -98,10 +89,10 @@ fn attempt<T: Real, M: Model<T>>(
     }
     model.set_inputs(s.t + rule.dt, &mut w.terms);
     w.place(model, (rule, length), options, s)?;
-    let (iterations, correction, stop) = iterate(model, (rule, length), options, s, w)?;
+    let newton = iterate(model, (rule, length), options, s, w)?;
     check_guides(model, &w.q, &w.terms)?;
     let violation = check_violation(model, length, w)?;
-    Ok((iterations, correction, stop, violation))
+    Ok((newton, violation))
 }
 
 /// The predicted increment, velocity and acceleration of all unknowns.

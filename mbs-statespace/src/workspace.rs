@@ -9,6 +9,7 @@ use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::dense::Dense;
 use mbs_core::model::{Load, Model, State, Terms};
+use mbs_core::step::Counts;
 
 /// Scratch of the state-space step, with the independent coordinates that are chosen at present.
 ///
@@ -53,14 +54,9 @@ pub struct Workspace<T> {
     pub(crate) first_basis: T,
     /// The next step chooses anew.
     pub(crate) is_stale: bool,
+    /// Within a step.
     pub(crate) counts: Counts,
-}
-
-/// Counters.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Counts {
-    pub(crate) factorizations: u32,
-    pub(crate) solves: u32,
+    /// Since the start.
     pub(crate) choices: u32,
 }
 
@@ -109,6 +105,7 @@ impl<T: Real> Workspace<T> {
             first_basis: T::ZERO,
             is_stale: false,
             counts: Counts::default(),
+            choices: 0,
         }
     }
 
@@ -124,7 +121,7 @@ impl<T: Real> Workspace<T> {
 
     /// How often independent coordinates were chosen anew since the start.
     pub fn n_choices(&self) -> u32 {
-        self.counts.choices
+        self.choices
     }
 
     /// change_d = -J_d^-1 rates, the other places left.

@@ -1,12 +1,14 @@
 //! What must not change a motion: the choice of independent columns, axes, precision; and what must hold at every step.
 
 mod common;
+#[path = "../../mbs-core/tests/common/retell.rs"]
+mod retell;
 
 use common::{Bench, apart, scene};
 use mbs_core::model::Model;
-use mbs_core::scene::{Inertia, InitialTarget, Scene};
 use mbs_core::{Cliques, Real};
 use mbs_statespace::{Coordinates, Rechoice, StepError, Workspace};
+use retell::{turn_scene, turned};
 
 /// Growth of rounding over some hundred steps of a regular motion [m].
 const ROUNDING: f64 = 1e-9;
@@ -106,61 +108,11 @@ fn chosen_columns_as_coordinates_change_the_motion_by_the_error_of_the_rule_only
     assert!(fine > ROUNDING && coarse > 8.0 * fine, "{coarse:e} {fine:e}: second order");
 }
 
-/// A rotation matrix with no special direction.
-const R: [[f64; 3]; 3] = [[0.36, 0.48, -0.8], [-0.8, 0.6, 0.0], [0.48, 0.64, 0.6]];
-
-fn turned(x: [f64; 3]) -> [f64; 3] {
-    R.map(|row| row[0] * x[0] + row[1] * x[1] + row[2] * x[2])
-}
-
-fn turn_inertia([xx, yy, zz, xy, yz, zx]: [f64; 6]) -> [f64; 6] {
-    let rows = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
-    // R I R^T: turn the rows, then the columns.
-    let half = rows.map(turned);
-    let columns = [0, 1, 2].map(|j| turned([half[0][j], half[1][j], half[2][j]]));
-    let entry = |i: usize, j: usize| columns[j][i];
-    [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)]
-}
-
-fn turn(scene: &mut Scene<f64>) {
-    scene.gravity = scene.gravity.map(turned);
-    for body in &mut scene.bodies {
-        body.center = turned(body.center);
-        body.inertia = match body.inertia {
-            Inertia::Rod { from, to } => Inertia::Rod { from: turned(from), to: turned(to) },
-            Inertia::Spatial(six) => Inertia::Spatial(turn_inertia(six)),
-            planar @ Inertia::Planar(_) => planar,
-        };
-    }
-    for joint in &mut scene.joints {
-        joint.points = joint.points.map(turned);
-        joint.axes = joint.axes.map(|a| a.map(turned));
-    }
-    for initial in &mut scene.initials {
-        match &mut initial.target {
-            InitialTarget::Joint { value, rate, .. } => {
-                for numbers in [value, rate].into_iter().flatten().filter(|n| n.len() == 3) {
-                    *numbers = turned([numbers[0], numbers[1], numbers[2]]).to_vec();
-                }
-            }
-            InitialTarget::Body { velocity, angular_velocity, .. } => {
-                if let Some((at, v)) = velocity {
-                    (*at, *v) = (turned(*at), turned(*v));
-                }
-                *angular_velocity = angular_velocity.map(turned);
-            }
-        }
-    }
-    scene.outputs.clear();
-}
-
 #[test]
 fn a_turned_scene_moves_alike() {
     for text in [CHAIN, FOUR_BAR, TOP] {
         let mut plain = Bench::<f64, 3>::new(text);
-        let mut other = scene(text);
-        turn(&mut other);
-        let mut other = Bench::<f64, 3>::of(other);
+        let mut other = Bench::<f64, 3>::of(turn_scene(&scene(text)));
         plain.run(1e-3, 200);
         other.run(1e-3, 200);
         let (a, b) = (plain.centers(&plain.state), other.centers(&other.state));

@@ -1,6 +1,8 @@
 //! Motions against closed forms, the tables of the report, and the index-3 augmented Lagrangian.
 
 mod common;
+#[path = "../../mbs-core/tests/common/retell.rs"]
+mod retell;
 
 use common::{Bench, apart, scene};
 use mbs_core::integrator::Integrator;
@@ -111,8 +113,7 @@ fn work_and_reactions_are_those_of_index3() {
 #[test]
 fn the_redundant_spatial_four_bar_moves_like_the_planar_one() {
     let spatial = scene::<f64>(include_str!("../../scenes/spatial-four-bar.toml"));
-    let mut planar = spatial.clone();
-    common::flatten(&mut planar);
+    let planar = retell::flattened(&spatial);
     let mut space = Bench::<f64, 3>::of(spatial);
     let mut plane = Bench::<f64, 2>::of(planar);
     assert!(!space.w.elimination().dropped_rows().is_empty(), "the spatial one is redundant");
@@ -123,7 +124,7 @@ fn the_redundant_spatial_four_bar_moves_like_the_planar_one() {
     let (space, plane) = (space.centers(&space.state), plane.centers(&plane.state));
     for ((name, a), (_, b)) in space.iter().zip(&plane) {
         // Both integrate in the metric of the mass, which is the same: only rounding differs, grown in a thousand steps.
-        let [x, y, off] = common::in_plane(*a);
+        let [x, y, off] = retell::in_plane(*a);
         let difference = apart(&[x, y], &b[..2]).max(off.abs());
         assert!(difference < 1e-9, "{name}: {a:?} {b:?} {difference:e}");
     }

@@ -8,7 +8,7 @@ use crate::statics::{assembled, at_rest, equilibrium_start, settle, workspace};
 use crate::stop::StopError;
 use core::f64::consts::TAU;
 use faer::Mat;
-use mbs_core::scene::{Effect, EffectKind, Scene};
+use mbs_core::scene::Scene;
 use mbs_linear::{Equilibrium, Instant, Linear, LinearOptions, linearise};
 use mbs_sparse::Multifrontal;
 use serde_json::{Value, json};
@@ -99,14 +99,6 @@ impl Modes {
     /// # Errors
     /// [`StopError`] when there is no model, consistent start, equilibrium or linearisation.
     pub fn new<const D: usize>(scene: &Scene<f64>, place: Place) -> Result<Self, StopError> {
-        let rolls = |effect: &Effect<f64>| {
-            effect.enabled && matches!(effect.kind, EffectKind::Tire { side: Some(_), .. })
-        };
-        if let (false, Some(tire)) =
-            (place == Place::Equilibrium, scene.effects.iter().position(rolls))
-        {
-            return Err(StopError::RollingTire(tire));
-        }
         let still = at_rest(scene);
         let scene = if place == Place::Equilibrium { &still } else { scene };
         let (model, mut start) = assembled::<D>(scene)?;

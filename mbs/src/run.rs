@@ -19,6 +19,9 @@ use std::time::Instant;
 
 /// Share of the energy turned over that the invariant may be off by.
 const ENERGY_ALARM: f64 = 0.1;
+/// Steps in a row, or less at the end of a run, that it may be off by more: the first steps from rest turn little over, and
+/// their error may be large beside that and small beside what follows.
+const PATIENCE: u32 = 10;
 
 /// Called now and then with the time reached; does nothing by default.
 pub trait Progress {
@@ -110,6 +113,7 @@ where
         counts: Counts::default(),
         weight,
         reached: 0.0,
+        off: 0,
     };
     run.start();
     let cpu = ProcessTime::now();
@@ -121,7 +125,6 @@ where
 #[derive(Debug, Default)]
 struct Counts {
     steps: u64,
-    rejected: u64,
     iterations: u64,
     factorizations: u64,
     worst: Duration,
@@ -143,6 +146,8 @@ where
     weight: f64,
     /// Time reached [s].
     reached: f64,
+    /// Steps in a row after which the invariant was off.
+    off: u32,
 }
 
 impl<T: Real, const D: usize> Run<'_, T, D>
@@ -191,7 +196,7 @@ where
             let now = Instant::now();
             self.counts.worst = self.counts.worst.max(now - clock);
             clock = now;
-            if let Some(stop) = self.alarm(&mark) {
+            if let Some(stop) = self.alarm(&mark, k == n_steps) {
                 return self.stop(stop);
             }
         }
@@ -212,7 +217,6 @@ where
     /// Counts and maxima of a step.
     fn take(&mut self, t: f64, report: &StepReport<T>) -> StepMark {
         self.counts.steps += u64::from(report.steps);
-        self.counts.rejected += u64::from(report.rejected);
         self.reached = t;
         self.counts.iterations += u64::from(report.iterations);
         self.counts.factorizations += u64::from(report.factorizations);
@@ -228,12 +232,14 @@ where
     }
 
     /// Has the invariant drifted too far? Nothing is said while what was turned over is rounding of what is stored.
-    fn alarm(&self, mark: &StepMark) -> Option<StopError> {
+    fn alarm(&mut self, mark: &StepMark, is_last: bool) -> Option<StopError> {
         let (turned_over, error) = self.recorder.turnover();
         let stored = mark.energies[1].abs() + mark.energies[0];
         let rounding = stored.max(self.weight) * T::EPSILON.to_f64().sqrt();
         let is_off = !(error <= ENERGY_ALARM * turned_over) && !(error <= rounding);
-        is_off.then(|| StopError::Energy {
+        self.off = if is_off { self.off + 1 } else { 0 };
+        let is_stop = self.off >= PATIENCE || (is_off && is_last) || !error.is_finite();
+        is_stop.then(|| StopError::Energy {
             error,
             turned_over,
             owner: self.simulation.most_loaded(),

@@ -28,7 +28,7 @@ pub struct Overrides {
     /// Fixed penalty [N/m in index-3, kg in index-1]; in classical the regularisation 1/alpha, in recursive the report's
     /// closure forces; state-space has none.
     pub penalty: Option<f64>,
-    /// Tolerance, relative to the scene's length.
+    /// Tolerance of the iterations, relative to what accelerations move in a step; with error control the error of a step.
     pub tolerance: Option<f64>,
     /// Threads.
     pub threads: Option<usize>,

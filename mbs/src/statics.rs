@@ -4,6 +4,7 @@ use crate::channels::Channels;
 use crate::modes::{eigenvalues, neutral_directions};
 use crate::simulation::rank;
 use crate::stop::StopError;
+use crate::tree;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{EffectKind, Output, Quantity, Scene};
@@ -72,11 +73,7 @@ fn tell<T: Real, const D: usize>(
     told: &mut State<T>,
 ) {
     let motions: Vec<_> = (0..scene.bodies.len()).map(|b| from.motion(scene, b, state)).collect();
-    to.write_motions(&motions, told);
-    let mut terms = to.terms();
-    to.set_inputs(told.t, &mut terms);
-    to.evaluate_forces(&told.q, &told.v, &told.memory, &mut terms);
-    to.remember(&terms, &mut told.memory);
+    tree::tell(&motions, to, &mut to.terms(), told);
 }
 
 fn settle_model<T: Real, const D: usize>(
@@ -173,11 +170,7 @@ impl Still {
         let (joints, _) = measured(&of_joints(scene, joints), &model, &state)?;
         let all = of_joints(scene, reactions);
         let (reactions, not_unique) = measured(&all, &model, &state).unwrap_or_default();
-        let (outputs, _) = if scene.outputs.is_empty() {
-            Default::default()
-        } else {
-            measured(scene, &model, &state)?
-        };
+        let (outputs, _) = measured(scene, &model, &state)?;
         let mut terms = model.terms();
         model.set_inputs(state.t, &mut terms);
         model.evaluate(&state.q, &mut terms);

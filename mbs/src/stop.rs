@@ -69,10 +69,8 @@ pub enum StopError {
     Tree(TreeError, Option<Owner>),
     /// No static equilibrium was found, and whose forces or joints are left open.
     Equilibrium(EquilibriumError, Option<Owner>),
-    /// The motion cannot be linearised, or its eigenvalues were not found.
+    /// The motion cannot be linearised.
     Linear(LinearError),
-    /// Side forces of rolling tires are not linearised; index of the effect.
-    RollingTire(usize),
     /// The iteration for the eigenvalues did not converge.
     Eigenvalues,
     /// The energy invariant drifted by more than a tenth of the energy turned over.
@@ -152,7 +150,6 @@ impl StopError {
             Self::Start(error) => start_owner(error)?,
             Self::Step(_, owner) | Self::Tree(_, owner) | Self::Equilibrium(_, owner) => (*owner)?,
             Self::Energy { owner, .. } => *owner,
-            Self::RollingTire(effect) => Owner::Effect(*effect),
             Self::Reaction(_) | Self::Linear(_) | Self::Eigenvalues => return None,
         };
         Some(match owner {
@@ -183,7 +180,7 @@ impl StopError {
             Self::Tree(..) => "no-tree",
             Self::Energy { .. } => "energy-drift",
             Self::Equilibrium(..) => "no-equilibrium",
-            Self::Linear(_) | Self::RollingTire(_) => "no-linearisation",
+            Self::Linear(_) => "no-linearisation",
             Self::Eigenvalues => "no-eigenvalues",
         }
     }
@@ -236,8 +233,8 @@ impl StopError {
             Self::Linear(LinearError::NotClosed { .. } | LinearError::Singular { .. }) => {
                 "move away from the singular position with an [[initial]] value"
             }
-            Self::RollingTire(_) => {
-                "linearise at rest with `--at equilibrium`, or set the tires' `side` to \"none\""
+            Self::Linear(LinearError::NotSettled { .. }) => {
+                "leave out a joint that repeats another, or give the lightest body more mass"
             }
             Self::Linear(_) | Self::Eigenvalues => "check the data of the effects",
             Self::Energy { .. } => {
@@ -265,7 +262,6 @@ impl StopError {
             Self::Start(error) => start_owner(error),
             Self::Step(_, owner) | Self::Tree(_, owner) | Self::Equilibrium(_, owner) => *owner,
             Self::Energy { owner, .. } => Some(*owner),
-            Self::RollingTire(effect) => Some(Owner::Effect(*effect)),
             Self::Reaction(_) | Self::Linear(_) | Self::Eigenvalues => None,
         };
         let (joint, body) = owner.map_or((None, None), |o| names.of(o));
@@ -303,9 +299,6 @@ impl core::fmt::Display for StopError {
             Self::Tree(error, _) => write_tree(error, f),
             Self::Equilibrium(error, _) => write_equilibrium(error, f),
             Self::Linear(error) => write_linear(error, f),
-            Self::RollingTire(_) => {
-                write!(f, "side forces of a rolling tire are not linearised yet")
-            }
             Self::Eigenvalues => write!(f, "the iteration for the eigenvalues did not converge"),
             Self::Energy { error, turned_over, .. } => write!(
                 f,
@@ -400,6 +393,11 @@ fn write_linear(error: &LinearError, f: &mut core::fmt::Formatter<'_>) -> core::
         LinearError::NoInertia { .. } => write!(
             f,
             "a force meets no inertia: a coordinate is neither determined by joints nor has mass"
+        ),
+        LinearError::NotSettled { left } => write!(
+            f,
+            "the accelerations next to this position stay uncertain by {} m/s^2",
+            few(*left)
         ),
         LinearError::NotFinite => write!(f, "a force became infinite or not a number"),
         other => write!(f, "{other}"),

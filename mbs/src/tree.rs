@@ -104,15 +104,10 @@ where
     /// Tells the natural state of the tree's.
     fn tell(&mut self, natural: &NaturalModel<T, D>, state: &mut State<T>) {
         self.model.write_motions(&self.state, &mut self.workspace, &mut self.motions);
-        natural.write_motions(&self.motions, state);
         state.t = self.state.t;
         state.work = self.state.work;
         state.power = self.state.power;
-        if !state.memory.is_empty() {
-            natural.set_inputs(state.t, &mut self.terms);
-            natural.evaluate_forces(&state.q, &state.v, &state.memory, &mut self.terms);
-            natural.remember(&self.terms, &mut state.memory);
-        }
+        tell(&self.motions, natural, &mut self.terms, state);
         let energies = self.model.energies(&self.state, &mut self.workspace);
         self.energies = energies.map(Real::to_f64);
     }
@@ -147,6 +142,21 @@ where
 
     pub(crate) fn owner_of_row(&self, row: usize) -> Owner {
         self.model.owner_of_row(row)
+    }
+}
+
+/// Writes the motions of the bodies into a natural state that has its time; measured angles go on from the last ones.
+pub(crate) fn tell<T: Real, const D: usize>(
+    motions: &[RigidMotion<T>],
+    natural: &NaturalModel<T, D>,
+    terms: &mut Terms<T>,
+    state: &mut State<T>,
+) {
+    natural.write_motions(motions, state);
+    if !state.memory.is_empty() {
+        natural.set_inputs(state.t, terms);
+        natural.evaluate_forces(&state.q, &state.v, &state.memory, terms);
+        natural.remember(terms, &mut state.memory);
     }
 }
 

@@ -8,6 +8,7 @@
 mod common;
 
 use common::{FORMULATIONS, distance, scene, settings, worst};
+use mbs::Formulation;
 
 /// Names of the angles, as channels of the scene.
 const ANGLES: [&str; 7] = ["beta", "theta", "gamma", "phi", "delta", "omega", "epsilon"];
@@ -110,7 +111,7 @@ const BETA_AT_1E_6: f64 = 5e-6;
 #[test]
 fn every_formulation_ends_at_the_reference_and_loses_energy_with_order_2() {
     let scene = scene("andrews");
-    for formulation in ["index-1", "index-3", "classical", "state-space", "recursive"] {
+    for formulation in Formulation::ALL.map(Formulation::name) {
         let energy = [1e-4, 1e-5, 1e-6].map(|step| {
             let settings = settings(&scene, formulation, Some(step));
             let outcome = mbs::run::<f64, 2>(&scene, &settings, &mut ());

@@ -235,6 +235,14 @@ fn scenes_that_cannot_be_meant_are_refused_with_place_and_hint() {
 }
 
 #[test]
+fn help_names_every_formulation_and_integrator() {
+    let help = text(&run(&["--help"]).stdout);
+    for name in mbs::FORMULATIONS.iter().chain(&mbs::INTEGRATORS) {
+        assert!(help.contains(name), "{name}: {help}");
+    }
+}
+
+#[test]
 fn what_is_not_built_is_refused_with_the_list_of_what_is() {
     let file = scene("double-pendulum");
     for (arguments, built) in [

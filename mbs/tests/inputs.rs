@@ -2,14 +2,11 @@
 
 mod common;
 
-use common::FORMULATIONS;
 use mbs::core::laws::body::{Action, BodyMotion};
 use mbs::core::laws::own::{OwnScalar, OwnWrench, ScalarLaw, WrenchLaw};
 use mbs::core::laws::scalar::Measure;
 use mbs::core::scene::{BodyRef, Course, Effect, EffectKind, GuideLaw, OwnLaw, Scene};
-use mbs::{Overrides, Settings, Simulation};
-
-const ALL: [&str; 5] = ["index-3", "index-1", "classical", "state-space", "recursive"];
+use mbs::{Formulation, Overrides, Settings, Simulation};
 
 fn simulation(scene: &Scene<f64>, formulation: &str) -> Simulation<f64, 2> {
     let formulation = Some(formulation.to_owned());
@@ -38,7 +35,7 @@ fn close(a: [f64; 2], b: [f64; 2], allowed: f64, what: &str) {
 
 #[test]
 fn an_input_that_is_set_to_a_constant_is_that_constant() {
-    for formulation in ALL {
+    for formulation in Formulation::ALL.map(Formulation::name) {
         let torque = |course| EffectKind::JointTorque { joint: 0, course };
         let mut plain = simulation(&with(torque(Course::Constant([3.0, 0.0, 0.0]))), formulation);
         let mut driven = simulation(&with(torque(Course::Input([3.0, 0.0, 0.0]))), formulation);
@@ -55,7 +52,7 @@ fn an_input_that_is_set_to_a_constant_is_that_constant() {
 
 #[test]
 fn an_input_changes_the_motion_from_the_next_step_on() {
-    for formulation in ALL {
+    for formulation in Formulation::ALL.map(Formulation::name) {
         let scene = with(EffectKind::JointTorque { joint: 0, course: Course::Input([0.0; 3]) });
         let (mut still, mut driven) =
             (simulation(&scene, formulation), simulation(&scene, formulation));
@@ -108,7 +105,7 @@ fn a_spring_of_one_s_own_is_the_spring_of_the_library() {
     let kind = EffectKind::SpringDamper { bodies, points, stiffness, damping, free_length };
     let law = OwnLaw::Length { bodies, points, law: OwnScalar::of::<Towards>() };
     let own = EffectKind::Own { law, course: Course::Constant([0.7, 3.0, 0.0]) };
-    for formulation in ALL {
+    for formulation in Formulation::ALL.map(Formulation::name) {
         let (mut a, mut b) = (
             simulation(&with(kind.clone()), formulation),
             simulation(&with(own.clone()), formulation),
@@ -134,7 +131,7 @@ fn a_wrench_of_one_s_own_takes_what_the_ledger_says() {
         law: OwnWrench::of::<Honey>(),
     };
     let scene = with(EffectKind::Own { law, course: Course::Input([0.5, 0.0, 0.0]) });
-    for formulation in FORMULATIONS.into_iter().chain(["recursive"]) {
+    for formulation in Formulation::ALL.map(Formulation::name) {
         let mut simulation = simulation(&scene, formulation);
         for _ in 0..500 {
             simulation.step(1e-3).expect("a regular step");
@@ -148,7 +145,7 @@ fn a_wrench_of_one_s_own_takes_what_the_ledger_says() {
 
 #[test]
 fn a_guide_that_is_set_follows_what_it_is_told() {
-    for formulation in ALL {
+    for formulation in Formulation::ALL.map(Formulation::name) {
         let mut scene = common::scene("guided-four-bar");
         scene.outputs.clear();
         // At rest, then at 2 rad/s^2.

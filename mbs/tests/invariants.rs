@@ -4,7 +4,7 @@
 #[path = "common/allocations.rs"]
 mod allocations;
 mod common;
-#[path = "common/retell.rs"]
+#[path = "../../mbs-core/tests/common/retell.rs"]
 mod retell;
 
 use common::{Bench, FORMULATIONS, SCENES, cross, distance, dot, scene, worst};

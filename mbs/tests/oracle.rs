@@ -4,7 +4,7 @@
 mod common;
 #[path = "common/oracle.rs"]
 mod oracle;
-#[path = "common/retell.rs"]
+#[path = "../../mbs-core/tests/common/retell.rs"]
 mod retell;
 
 use common::SCENES;

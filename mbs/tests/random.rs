@@ -5,7 +5,7 @@
 mod oracle;
 #[path = "common/random.rs"]
 mod random;
-#[path = "common/retell.rs"]
+#[path = "../../mbs-core/tests/common/retell.rs"]
 mod retell;
 
 use mbs::core::scene::{Dimension, Scene};

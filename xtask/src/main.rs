@@ -49,6 +49,9 @@ enum Job {
         /// Leave out runs of more than a million steps
         #[arg(long)]
         quick: bool,
+        /// These tables alone: T1, T1p, T2, T3, T4, T5.1, T5.2, T5.3, T8
+        #[arg(value_name = "TABLE")]
+        names: Vec<String>,
     },
     /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
     Counts,
@@ -61,7 +64,7 @@ fn main() -> ExitCode {
         Job::Simulate { args } => simulate::simulate(&args),
         Job::Test { quick } => check::test(quick),
         Job::Pick => pick::pick(),
-        Job::Tables { quick } => tables::tables(quick),
+        Job::Tables { quick, names } => tables::tables(quick, &names),
         Job::Counts => counts::counts(),
         Job::CheckNostd => nostd::check_nostd(),
     }

@@ -2,7 +2,7 @@
 
 use super::{Action, ActionError, Actions, Seat, Tables};
 use crate::Real;
-use crate::inputs::CourseInput;
+use crate::inputs::{CourseInput, Prescribed};
 use crate::laws::scalar::Law;
 use crate::scene::{AxisFrame, BodyRef, Course, EffectKind, Scene};
 use alloc::vec::Vec;
@@ -18,7 +18,11 @@ impl<T: Real> Actions<T> {
             effect: 0,
             #[cfg(feature = "tire")]
             roads: None,
-            actions: Self { list: Vec::new(), courses: Vec::new(), tables: Tables::empty() },
+            actions: Self {
+                list: Vec::new(),
+                prescribed: Prescribed::new(scene),
+                tables: Tables::empty(),
+            },
         };
         for (effect, e) in scene.effects.iter().enumerate().filter(|(_, e)| e.enabled) {
             if let Some((feature, false)) = feature(&e.kind) {
@@ -72,8 +76,7 @@ impl<T: Real> Compiler<'_, T> {
     }
 
     pub(super) fn course(&mut self, course: CourseInput<T>) -> u32 {
-        self.actions.courses.push(course);
-        number(self.actions.courses.len() - 1)
+        number(self.actions.prescribed.add(self.effect, course))
     }
 
     fn add(&mut self, kind: &EffectKind<T>) {

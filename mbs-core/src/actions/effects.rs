@@ -8,14 +8,14 @@
 use super::Action;
 use super::compile::{Compiler, ends};
 use crate::Real;
+use crate::algebra::{Vector, norm, unit};
+use crate::cluster::mass_properties;
 use crate::inputs::CourseInput;
 use crate::laws;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
 use crate::natural::joint_axes;
-use crate::scene::{
-    BodyRef, Dimension, EffectKind, Inertia, JointKind, OwnLaw, PolynomialPiece, Scene,
-};
+use crate::scene::{BodyRef, Dimension, EffectKind, JointKind, OwnLaw, PolynomialPiece};
 
 impl<T: Real> Compiler<'_, T> {
     /// A law along a length or about an angle.
@@ -27,13 +27,17 @@ impl<T: Real> Compiler<'_, T> {
                 let ends = ends(bodies, points);
                 self.push(match direction {
                     None => Action::Length { ends, law },
-                    Some(d) => Action::Along { ends, direction: unit(*d), offset: T::ZERO, law },
+                    Some(d) => {
+                        let direction = direction_of(*d);
+                        Action::Along { ends, direction, offset: T::ZERO, law }
+                    }
                 });
             }
             #[cfg(feature = "bumper")]
             EffectKind::Bumper { bodies, points, stiffness, damping, clearance } => {
                 let law = [*stiffness, *damping];
-                let touch = distance(points) - *clearance;
+                let [p, q] = points.map(Vector::<T, 3>::from);
+                let touch = norm(&(q - p)) - *clearance;
                 let law = Law::Bumper { law, touch };
                 self.push(Action::Length { ends: ends(bodies, points), law });
             }
@@ -77,14 +81,14 @@ impl<T: Real> Compiler<'_, T> {
             EffectKind::AeroDrag { body, at, area_coefficient, density } => {
                 let (area_coefficient, density) = (*area_coefficient, *density);
                 let law = BodyLaw::Drag { area_coefficient, density };
-                self.push(Action::OnBody { at: (*body, *at), axis: axis(0), law });
+                self.push(Action::OnBody { at: (*body, *at), axis: unit(0).into(), law });
             }
             #[cfg(feature = "speed-hold")]
             EffectKind::SpeedHold { body, direction, speed, gain, limit } => {
                 let (speed, gain, limit) = (*speed, *gain, *limit);
                 let law = BodyLaw::SpeedHold(laws::speed_hold::SpeedHold { speed, gain, limit });
-                let at = (*body, center(self.scene, *body));
-                self.push(Action::OnBody { at, axis: unit(*direction), law });
+                let at = (*body, mass_properties(self.scene, *body).1.into());
+                self.push(Action::OnBody { at, axis: direction_of(*direction), law });
             }
             #[cfg(feature = "tire")]
             EffectKind::Tire {
@@ -108,7 +112,7 @@ impl<T: Real> Compiler<'_, T> {
                     up: self.scene.dimension.count() - 1,
                     leans: given.is_some() && !self.is_planar(),
                 });
-                let axis = given.map_or_else(|| axis(2), unit);
+                let axis = given.map_or_else(|| unit(2).into(), direction_of);
                 self.push(Action::OnBody { at: (*body, *center), axis, law });
             }
             #[cfg(feature = "own-laws")]
@@ -122,7 +126,7 @@ impl<T: Real> Compiler<'_, T> {
                     OwnLaw::Joint { joint, law } => self.on_joint(joint, Law::Own { law, course }),
                     OwnLaw::Body { body, at, axis, law } => {
                         let law = BodyLaw::Own { law, course };
-                        self.push(Action::OnBody { at: (body, at), axis: unit(axis), law });
+                        self.push(Action::OnBody { at: (body, at), axis: direction_of(axis), law });
                     }
                 }
             }
@@ -139,7 +143,7 @@ impl<T: Real> Compiler<'_, T> {
         let joint = &self.scene.joints[index];
         self.push(match joint.kind {
             JointKind::Prismatic => {
-                let direction = unit(joint_axes(joint, self.scene.dimension)[0]);
+                let direction = direction_of(joint_axes(joint, self.scene.dimension)[0]);
                 let ends = [0, 1].map(|i| (joint.bodies[i], joint.points[i]));
                 Action::Along { ends, direction, offset: T::ZERO, law }
             }
@@ -155,13 +159,13 @@ impl<T: Real> Compiler<'_, T> {
         let ends = bodies.map(|body| (body, at));
         for i in 0..self.scene.dimension.count() {
             if let Some(law) = law(i) {
-                self.push(Action::Along { ends, direction: axis(i), offset: T::ZERO, law });
+                self.push(Action::Along { ends, direction: unit(i).into(), offset: T::ZERO, law });
             }
         }
         let is_planar = self.is_planar();
         for i in (0..3).filter(|&i| i == 2 || !is_planar) {
             if let Some(law) = law(3 + i) {
-                let sides = [axis((i + 1) % 3), axis((i + 2) % 3)];
+                let sides = [unit((i + 1) % 3).into(), unit((i + 2) % 3).into()];
                 self.push(Action::Twist { bodies, sides, law });
             }
         }
@@ -181,25 +185,8 @@ impl<T: Real> Compiler<'_, T> {
     }
 }
 
-fn axis<T: Real>(i: usize) -> [T; 3] {
-    let mut e = [T::ZERO; 3];
-    e[i] = T::ONE;
-    e
-}
-
-fn unit<T: Real>(d: [T; 3]) -> [T; 3] {
-    let size = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
+/// The direction of length one, each component divided by the length.
+fn direction_of<T: Real>(d: [T; 3]) -> [T; 3] {
+    let size = norm(&Vector::from(d));
     d.map(|x| x / size)
-}
-
-fn distance<T: Real>([p, q]: &[[T; 3]; 2]) -> T {
-    let d = [0, 1, 2].map(|i| q[i] - p[i]);
-    (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
-}
-
-fn center<T: Real>(scene: &Scene<T>, body: usize) -> [T; 3] {
-    match scene.bodies[body].inertia {
-        Inertia::Rod { from, to } => [0, 1, 2].map(|i| (from[i] + to[i]) * T::HALF),
-        _ => scene.bodies[body].center,
-    }
 }

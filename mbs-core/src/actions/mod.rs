@@ -13,7 +13,7 @@ mod tables;
 pub use error::ActionError;
 pub use tables::Tables;
 
-use crate::inputs::CourseInput;
+use crate::inputs::Prescribed;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
 use crate::scene::BodyRef;
@@ -99,31 +99,8 @@ pub enum Action<T> {
 pub struct Actions<T> {
     /// Index of the effect, and the action. An effect may have several, one after the other.
     pub list: Vec<(usize, Action<T>)>,
-    /// Prescribed functions of time.
-    pub courses: Vec<CourseInput<T>>,
+    /// Prescribed functions of time; those of the guides stand here too.
+    pub prescribed: Prescribed<T>,
     /// Tables of the laws.
     pub tables: Tables<T>,
-}
-
-impl<T> Action<T> {
-    /// The course that the action follows, if it follows one.
-    #[must_use]
-    pub fn course(&self) -> Option<u32> {
-        match self {
-            Self::Length { law, .. }
-            | Self::Along { law, .. }
-            | Self::Angle { law, .. }
-            | Self::Twist { law, .. } => law.course(),
-            Self::Force { course, .. } | Self::Torque { course, .. } => Some(*course),
-            Self::OnBody { law, .. } => law.course(),
-            Self::Constant { .. } => None,
-        }
-    }
-}
-
-impl<T> Actions<T> {
-    /// The course that each effect follows: index of the effect, number of the course.
-    pub fn effect_courses(&self) -> impl Iterator<Item = (usize, u32)> + '_ {
-        self.list.iter().filter_map(|(effect, action)| Some((*effect, action.course()?)))
-    }
 }

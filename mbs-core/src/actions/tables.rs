@@ -26,8 +26,7 @@ pub struct Tables<T> {
 
 impl<T: Real> Tables<T> {
     /// No tables.
-    #[must_use]
-    pub fn empty() -> Self {
+    pub(super) fn empty() -> Self {
         Self {
             #[cfg(feature = "polynomial")]
             pieces: Vec::new(),

@@ -68,17 +68,6 @@ pub enum BodyLaw<T> {
 /// Actions that one law has at most.
 pub const MOST: usize = 4;
 
-impl<T> BodyLaw<T> {
-    /// The course that is the law's input, if it has one.
-    pub fn course(&self) -> Option<u32> {
-        match self {
-            #[cfg(feature = "own-laws")]
-            Self::Own { course, .. } => Some(*course),
-            _ => None,
-        }
-    }
-}
-
 #[cfg_attr(
     not(feature = "effects"),
     allow(unused_variables, reason = "not every law asks for everything")

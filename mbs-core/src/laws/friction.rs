@@ -1,7 +1,7 @@
 //! Stribeck friction, regularised: against the rate, continuous at rest.
 //!
 //! ```text
-//! f = g(r) r / sqrt(r^2 + e^2) + v r,   g = C + (S - C) exp(-(r / r_s)^2) without exp: C + (S - C) / (1 + (r / r_s)^2)
+//! f = g(r) r / sqrt(r^2 + e^2) + v r,   g = C + (S - C) / (1 + (r / r_s)^2)
 //! ```
 //!
 //! C Coulomb, S static, r_s Stribeck rate, v viscous part, e the regularisation. The fall from S to C is the rational bell in

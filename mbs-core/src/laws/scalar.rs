@@ -81,18 +81,6 @@ pub enum Law<T> {
     },
 }
 
-impl<T> Law<T> {
-    /// The course that the law follows, if it follows one.
-    pub fn course(&self) -> Option<u32> {
-        match self {
-            #[cfg(feature = "own-laws")]
-            Self::Own { course, .. } => Some(*course),
-            Self::Torque { course } => Some(*course),
-            _ => None,
-        }
-    }
-}
-
 #[cfg_attr(
     not(feature = "effects"),
     allow(unused_variables, reason = "not every law asks for everything")

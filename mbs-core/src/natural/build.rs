@@ -8,10 +8,9 @@ use super::model::NaturalModel;
 use super::rigid::rigid_rows;
 use super::sharing::{Entity, EntityKind, Sharing};
 use crate::Real;
-use crate::actions::{Action, Actions, Tables};
+use crate::actions::{Action, Actions};
 use crate::algebra::{Vector, norm};
 use crate::cluster::{Clusters, scene_length};
-use crate::inputs::{CourseInput, GuideInput};
 use crate::model::Owner;
 use crate::scene::{BodyRef, Dimension, InitialTarget, JointKind, Quantity, Scene};
 use alloc::vec::Vec;
@@ -35,8 +34,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             builder.add_joint(joint);
         }
         builder.add_guides();
-        builder.add_effects(actions)?;
-        Ok(finish(builder))
+        builder.add_effects(&actions.list)?;
+        Ok(finish(builder, actions))
     }
 }
 
@@ -49,10 +48,6 @@ pub(super) struct Builder<'a, T: Real> {
     pub(super) bases: Vec<Basis<T>>,
     pub(super) shared: Vec<Vec<usize>>,
     pub(super) groups: Vec<GroupDraft<T>>,
-    pub(super) guides: Vec<GuideInput<T>>,
-    pub(super) courses: Vec<CourseInput<T>>,
-    pub(super) tables: Tables<T>,
-    pub(super) effect_courses: Vec<(usize, u32)>,
     /// Group of each joint that has rows.
     joint_group: Vec<Option<usize>>,
 }
@@ -84,10 +79,6 @@ impl<'a, T: Real> Builder<'a, T> {
             bases,
             shared,
             groups: Vec::new(),
-            guides: Vec::new(),
-            courses: Vec::new(),
-            tables: Tables::empty(),
-            effect_courses: Vec::new(),
             joint_group: alloc::vec![None; scene.joints.len()],
         })
     }

@@ -6,8 +6,8 @@ use super::draft::{EffectDraft, GroupDraft, difference};
 use super::error::ModelError;
 use super::finish::lifted;
 use crate::Real;
-use crate::actions::{Action, Actions, Seat};
-use crate::algebra::Vector;
+use crate::actions::{Action, Seat};
+use crate::algebra::{Vector, unit};
 use crate::laws::scalar::Law;
 use crate::model::Owner;
 use crate::scene::{BodyRef, Dimension};
@@ -15,16 +15,14 @@ use alloc::vec::Vec;
 
 impl<T: Real> Builder<'_, T> {
     /// Adds one group for each enabled effect.
-    pub(super) fn add_effects(&mut self, actions: Actions<T>) -> Result<(), ModelError> {
-        for of_effect in actions.list.chunk_by(|a, b| a.0 == b.0) {
+    pub(super) fn add_effects(&mut self, list: &[(usize, Action<T>)]) -> Result<(), ModelError> {
+        for of_effect in list.chunk_by(|a, b| a.0 == b.0) {
             let mut group = GroupDraft::new(Owner::Effect(of_effect[0].0));
             for (_, action) in of_effect {
                 self.add_action(action, &mut group)?;
             }
             self.groups.push(group);
         }
-        self.effect_courses = actions.effect_courses().collect();
-        (self.courses, self.tables) = (actions.courses, actions.tables);
         Ok(())
     }
 
@@ -96,7 +94,7 @@ impl<T: Real> Builder<'_, T> {
                 self.needs_rotation(me)?;
                 match self.scene.dimension {
                     Dimension::Planar => {
-                        let [x, y, _] = axes::<T>();
+                        let [x, y] = [0, 1].map(unit);
                         EffectDraft::Angle {
                             x1: self.direction(BodyRef::Ground, x),
                             x2: self.direction(BodyRef::Ground, y),
@@ -141,15 +139,6 @@ impl<T: Real> Builder<'_, T> {
     /// The body's directions that were x, y, z in the reference configuration; in the plane x and y.
     fn frame(&mut self, body: usize) -> Vec<Combination<T>> {
         let n = self.scene.dimension.count();
-        axes::<T>()[..n].iter().map(|d| self.direction(BodyRef::Body(body), *d)).collect()
+        (0..n).map(|i| self.direction(BodyRef::Body(body), unit(i))).collect()
     }
-}
-
-/// The three global axes.
-pub(crate) fn axes<T: Real>() -> [Vector<T, 3>; 3] {
-    core::array::from_fn(|i| {
-        let mut e = Vector::<T, 3>::zeros();
-        e[i] = T::ONE;
-        e
-    })
 }

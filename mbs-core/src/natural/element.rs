@@ -5,7 +5,7 @@ use super::forces::Gauge;
 use super::group::{Group, add_curvature, add_mass_product, add_multiples, add_squares};
 use super::model::NaturalModel;
 use crate::Real;
-use crate::algebra::Vector;
+use crate::algebra::{Vector, cross, raised};
 use crate::elements::combine;
 use crate::model::{Load, Tangent, Terms};
 use alloc::vec;
@@ -240,15 +240,12 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         &self,
         torque: &super::forces::BodyTorque,
         span: crate::elements::Span,
-        _direction: usize,
         (q, v): (&[T], &[T]),
         terms: &Terms<T>,
     ) -> T {
         let tau = Vector::<T, 3>::from(terms.courses[torque.course as usize]);
-        let lift =
-            |x: Vector<T, D>| Vector::<T, 3>::from_fn(|i, _| if i < D { x[i] } else { T::ZERO });
-        let u = lift(combine::<T, D>(span.of(&self.pool), q));
-        let w = lift(combine::<T, D>(span.of(&self.pool), v));
-        crate::algebra::cross(&tau, &u).dot(&w) * T::HALF
+        let u = raised(&combine::<T, D>(span.of(&self.pool), q));
+        let w = raised(&combine::<T, D>(span.of(&self.pool), v));
+        cross(&tau, &u).dot(&w) * T::HALF
     }
 }

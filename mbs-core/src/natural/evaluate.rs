@@ -39,8 +39,8 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
             jacobian,
             force: self.constant_force.clone(),
             measures: vec![Measure::default(); self.n_measures],
-            guides: vec![[T::ZERO; 3]; self.guides.len()],
-            courses: vec![[T::ZERO; 3]; self.courses.len()],
+            guides: vec![[T::ZERO; 3]; self.prescribed.n_guides()],
+            courses: vec![[T::ZERO; 3]; self.prescribed.n_courses()],
         }
     }
 
@@ -49,12 +49,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     }
 
     fn set_inputs(&self, t: T, terms: &mut Terms<T>) {
-        for (input, value) in self.guides.iter().zip(&mut terms.guides) {
-            *value = input.at(t);
-        }
-        for (input, value) in self.courses.iter().zip(&mut terms.courses) {
-            *value = input.at(t);
-        }
+        self.prescribed.write(t, &mut terms.guides, &mut terms.courses);
     }
 
     fn evaluate(&self, q: &[T], terms: &mut Terms<T>) {
@@ -268,8 +263,8 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
             power += value.dot(&combine::<T, D>(force.point.of(&self.pool), v));
         }
         for torque in &self.torques {
-            for (i, span) in torque.frame.iter().enumerate() {
-                power += self.torque_power(torque, *span, i, (q, v), terms);
+            for span in torque.frame {
+                power += self.torque_power(torque, span, (q, v), terms);
             }
         }
         // A guide's force on the coordinates is -J^T lambda and J v = -phi_t: its power is lambda phi_t.

@@ -10,7 +10,7 @@ use super::motion::carriers;
 use super::on_body::BodyElement;
 use super::sharing::Entity;
 use crate::Real;
-use crate::actions::Tables;
+use crate::actions::Actions;
 use crate::algebra::{Coef, Vector};
 use crate::cluster::Clusters;
 use crate::elements::{Distance, Dot, Guided, GuidedMotion, Linear, Span, Term};
@@ -32,32 +32,20 @@ pub(crate) fn lifted<T: Real>(c: Coef<T>, f: &Vector<T, 3>) -> Vector<T, 3> {
 }
 
 /// Numbers and lays out everything.
-pub(super) fn finish<T: Real, const D: usize>(builder: Builder<'_, T>) -> NaturalModel<T, D> {
-    let Builder {
-        entities,
-        groups,
-        clusters,
-        bases,
-        shared,
-        guides,
-        courses,
-        tables,
-        effect_courses,
-        length,
-        ..
-    } = builder;
-    let mut layout = Layout::<T, D>::new(entities, groups.as_slice(), clusters, length);
+pub(super) fn finish<T: Real, const D: usize>(
+    builder: Builder<'_, T>,
+    actions: Actions<T>,
+) -> NaturalModel<T, D> {
+    let Builder { entities, groups, clusters, bases, shared, length, .. } = builder;
+    let mut layout = Layout::<T, D>::new(entities, &groups, (clusters, length), actions);
     for group in &groups {
         layout.add(group);
     }
     let mut model = layout.model;
     number_measures(&mut model);
-    (model.tables, model.effect_courses) = (tables, effect_courses);
     let owners = (&model.clusters, bases.as_slice(), shared.as_slice());
     model.carried = carriers(&layout.entities, owners, &model.entity_at);
     model.bases = bases;
-    model.guides = guides;
-    model.courses = courses;
     model
 }
 
@@ -82,8 +70,8 @@ impl<T: Real, const D: usize> Layout<T, D> {
     fn new(
         entities: Vec<Entity<T>>,
         groups: &[GroupDraft<T>],
-        clusters: Clusters<T>,
-        length: T,
+        (clusters, length): (Clusters<T>, T),
+        actions: Actions<T>,
     ) -> Self {
         let mut entity_at = vec![u32::MAX; entities.len()];
         let (mut order, mut unknown_owner) = (Vec::new(), Vec::new());
@@ -129,13 +117,11 @@ impl<T: Real, const D: usize> Layout<T, D> {
             measures: Vec::new(),
             body_elements: Vec::new(),
             n_measures: 0,
-            tables: Tables::empty(),
-            effect_courses: Vec::new(),
+            tables: actions.tables,
+            prescribed: actions.prescribed,
             n_memory: 0,
             point_forces: Vec::new(),
             torques: Vec::new(),
-            guides: Vec::new(),
-            courses: Vec::new(),
             row_owner: Vec::new(),
             unknown_owner,
             clusters,

@@ -7,7 +7,7 @@
 //! ```
 
 use crate::Real;
-use crate::algebra::{Vector, cross, norm};
+use crate::algebra::{Vector, cross, lowered, norm, raised};
 use crate::elements::{Span, Term, combine};
 use crate::laws::Supplies;
 use crate::laws::scalar::{Law, Measure};
@@ -179,10 +179,8 @@ pub(crate) fn add_torque<T: Real, const D: usize>(
     let tau = Vector::<T, 3>::from(torque);
     for span in frame {
         let u: Vector<T, D> = combine(span.of(pool), q);
-        let u3 = Vector::<T, 3>::from_fn(|i, _| if i < D { u[i] } else { T::ZERO });
-        let f3 = cross(&tau, &u3) * T::HALF;
-        let f: Vector<T, D> = Vector::from_fn(|i, _| f3[i]);
-        add_terms(span.of(pool), &f, local);
+        let f = cross(&tau, &raised(&u)) * T::HALF;
+        add_terms::<T, D>(span.of(pool), &lowered(&f), local);
     }
 }
 

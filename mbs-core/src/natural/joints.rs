@@ -14,8 +14,7 @@ use super::basis::Combination;
 use super::build::Builder;
 use super::draft::{RowDraft, difference};
 use crate::Real;
-use crate::algebra::{Vector, across, cross, norm};
-use crate::inputs::GuideInput;
+use crate::algebra::{Vector, across, cross, norm, unit};
 use crate::scene::{Dimension, Joint, JointKind};
 use alloc::vec::Vec;
 
@@ -26,14 +25,14 @@ pub(crate) fn unit_axis<T: Real>(joint: &Joint<T>, i: usize) -> Vector<T, 3> {
             let a = Vector::<T, 3>::from(a);
             a * (T::ONE / norm(&a))
         }
-        None => Vector::<T, 3>::new(T::ZERO, T::ZERO, T::ONE),
+        None => unit(2),
     }
 }
 
 /// Two directions across `axis`, the second a quarter turn after the first, right-handed about the axis.
 pub fn transverse<T: Real>(axis: &Vector<T, 3>, dimension: Dimension) -> [Vector<T, 3>; 2] {
     let v = match dimension {
-        Dimension::Planar => Vector::<T, 3>::new(T::ONE, T::ZERO, T::ZERO),
+        Dimension::Planar => unit(0),
         Dimension::Spatial => across(axis),
     };
     [v, cross(axis, &v)]
@@ -122,7 +121,6 @@ impl<T: Real> Builder<'_, T> {
     pub(super) fn add_guides(&mut self) {
         let scene = self.scene;
         for (guide, law) in scene.guides.iter().enumerate() {
-            self.guides.push(GuideInput::new(&law.law));
             let joint = &scene.joints[law.joint];
             let row = match joint.kind {
                 JointKind::Prismatic => {
@@ -170,7 +168,7 @@ pub fn angle_directions<T: Real>(
 ) -> [[T; 3]; 3] {
     let [n, b] = joint_axes(joint, dimension).map(Vector::<T, 3>::from);
     if joint.kind != JointKind::Universal {
-        let n = if matches!(joint.kind, JointKind::Free) { unit_z() } else { n };
+        let n = if matches!(joint.kind, JointKind::Free) { unit(2) } else { n };
         let [v, w] = transverse(&n, dimension);
         return [v.into(), w.into(), v.into()];
     }
@@ -178,8 +176,4 @@ pub fn angle_directions<T: Real>(
     let v = other - axis * axis.dot(&other);
     let v = v * (T::ONE / norm(&v));
     [v.into(), cross(&axis, &v).into(), other.into()]
-}
-
-fn unit_z<T: Real>() -> Vector<T, 3> {
-    Vector::<T, 3>::new(T::ZERO, T::ZERO, T::ONE)
 }

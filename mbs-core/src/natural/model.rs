@@ -11,7 +11,7 @@ use crate::algebra::Coef;
 use crate::blocks::Cliques;
 use crate::cluster::Clusters;
 use crate::elements::{Distance, Dot, Guided, Linear, Term};
-use crate::inputs::{CourseInput, GuideInput};
+use crate::inputs::Prescribed;
 use crate::model::Owner;
 use alloc::vec::Vec;
 
@@ -44,13 +44,10 @@ pub struct NaturalModel<T: Real, const D: usize> {
     /// Measures of all laws, those of laws on one body last.
     pub(super) n_measures: usize,
     pub(super) tables: Tables<T>,
-    /// The course of each effect that follows one.
-    pub(super) effect_courses: Vec<(usize, u32)>,
+    pub(super) prescribed: Prescribed<T>,
     pub(super) n_memory: usize,
     pub(super) point_forces: Vec<PointForce>,
     pub(super) torques: Vec<BodyTorque>,
-    pub(super) guides: Vec<GuideInput<T>>,
-    pub(super) courses: Vec<CourseInput<T>>,
     pub(super) row_owner: Vec<Owner>,
     pub(super) unknown_owner: Vec<Owner>,
     pub(super) clusters: Clusters<T>,
@@ -86,19 +83,14 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// it is set again. Returns whether the effect has one: an enabled effect whose course is
     /// [`Course::Input`](crate::scene::Course::Input).
     pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> bool {
-        let own = self.effect_courses.iter().filter(|(e, _)| *e == effect);
-        let mut is_set = false;
-        for &(_, course) in own {
-            is_set |= self.courses[course as usize].set(value);
-        }
-        is_set
+        self.prescribed.set_course(effect, value)
     }
 
     /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. Returns whether the guide is
     /// an input: [`GuideLaw::Input`](crate::scene::GuideLaw::Input). Values that jump make accelerations jump with the square of
     /// the step: pass what a smooth reference gives.
     pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> bool {
-        self.guides.get_mut(guide).is_some_and(|guide| guide.set(motion))
+        self.prescribed.set_guide(guide, motion)
     }
 
     /// How many elements stand behind each kind of row: (distance, dot product, linear, guided).

@@ -6,7 +6,7 @@
 //! ```
 
 use crate::Real;
-use crate::algebra::{Vector, cross};
+use crate::algebra::{Vector, cross, lowered, raised};
 use crate::elements::{Span, Term, add_gradient, combine};
 use crate::laws::Supplies;
 use crate::laws::body::{Action, BodyLaw, BodyMotion, MOST};
@@ -23,14 +23,6 @@ pub(crate) struct BodyElement<T> {
     pub(crate) law: BodyLaw<T>,
     pub(crate) measures: Span,
     pub(crate) place: Span,
-}
-
-fn raised<T: Real, const D: usize>(x: &Vector<T, D>) -> Vector<T, 3> {
-    Vector::<T, 3>::from_fn(|i, _| if i < D { x[i] } else { T::ZERO })
-}
-
-fn lowered<T: Real, const D: usize>(x: &Vector<T, 3>) -> Vector<T, D> {
-    Vector::from_fn(|i, _| x[i])
 }
 
 impl<T: Real> BodyElement<T> {

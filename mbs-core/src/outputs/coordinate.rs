@@ -6,9 +6,9 @@
 //! turn    log(R1^T R2),   rate omega2 - omega1 in global axes
 //! ```
 
-use super::frame::{Frame, normalised, unit};
+use super::frame::{Frame, normalised};
 use crate::Real;
-use crate::algebra::{Vector, cross, norm, rotation_vector};
+use crate::algebra::{Vector, cross, norm, rotation_vector, unit};
 use crate::natural::{Affine, NaturalModel, angle_directions, joint_axes, unwrap};
 use crate::scene::{Joint, JointKind, Scene};
 use alloc::boxed::Box;

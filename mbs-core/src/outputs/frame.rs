@@ -7,7 +7,7 @@
 //! ```
 
 use crate::Real;
-use crate::algebra::{Matrix, Vector, across, cross, norm, rotation};
+use crate::algebra::{Matrix, Vector, across, cross, norm, raised, rotation, unit};
 use crate::natural::{Affine, NaturalModel};
 use crate::scene::{BodyRef, Inertia, Scene};
 use alloc::boxed::Box;
@@ -53,16 +53,16 @@ impl<T: Real, const D: usize> Frame<T, D> {
                 (r[(0, 0)], r[(1, 1)], r[(1, 0)], r[(0, 1)]) = (u[0], u[0], u[1], -u[1]);
                 r
             }
-            Self::Full(axes) => Matrix::from_columns(&[0, 1, 2].map(|i| lifted(&axes[i].value(q)))),
+            Self::Full(axes) => Matrix::from_columns(&[0, 1, 2].map(|i| raised(&axes[i].value(q)))),
             Self::Rod { along, reference } => {
-                carry(reference, &normalised(&lifted(&along.value(q))))
+                carry(reference, &normalised(&raised(&along.value(q))))
             }
         }
     }
 
     /// The angular velocity for velocities `x`, the angular acceleration for accelerations.
     pub(super) fn turning(&self, q: &[T], x: &[T]) -> Vector<T, 3> {
-        let arm = |u: &Affine<T, D>| cross(&lifted(&u.value(q)), &lifted(&u.rate(x)));
+        let arm = |u: &Affine<T, D>| cross(&raised(&u.value(q)), &raised(&u.rate(x)));
         match self {
             Self::Planar(u) => arm(u),
             Self::Full(axes) => (arm(&axes[0]) + arm(&axes[1]) + arm(&axes[2])) * T::HALF,
@@ -92,22 +92,10 @@ fn carry<T: Real>(a: &Vector<T, 3>, b: &Vector<T, 3>) -> Matrix<T, 3> {
     Matrix::from_columns(&columns)
 }
 
-/// The unit vector along axis `i`.
-pub(super) fn unit<T: Real>(i: usize) -> Vector<T, 3> {
-    let mut e = Vector::<T, 3>::zeros();
-    e[i] = T::ONE;
-    e
-}
-
 /// x / |x|; zero stays zero.
 pub(super) fn normalised<T: Real>(x: &Vector<T, 3>) -> Vector<T, 3> {
     let length = norm(x);
     if length > T::ZERO { x * (T::ONE / length) } else { *x }
-}
-
-/// A vector of the plane or of space, in space.
-pub(super) fn lifted<T: Real, const D: usize>(x: &Vector<T, D>) -> Vector<T, 3> {
-    Vector::from_fn(|i, _| if i < D { x[i] } else { T::ZERO })
 }
 
 #[cfg(test)]

@@ -1,8 +1,8 @@
 //! The motion of a body, read off natural coordinates.
 
-use super::frame::{Frame, lifted};
+use super::frame::Frame;
 use crate::Real;
-use crate::algebra::Vector;
+use crate::algebra::{Vector, raised};
 use crate::model::State;
 use crate::natural::NaturalModel;
 use crate::rigid::RigidMotion;
@@ -23,7 +23,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         let (point, frame) = (self.point(owner, center.into()), Frame::new(scene, self, owner));
         let [position, velocity, acceleration] =
             [point.value(&state.q), point.rate(&state.v), point.rate(&state.a)]
-                .map(|x: Vector<T, D>| lifted(&x));
+                .map(|x: Vector<T, D>| raised(&x));
         RigidMotion {
             origin: center,
             position,

@@ -15,7 +15,7 @@ use super::minimum_norm::MinimumNorm;
 use super::peel::{Block, peel};
 use super::wrench::{Carrier, Wrench};
 use crate::Real;
-use crate::algebra::{Matrix, Vector, cross};
+use crate::algebra::{Matrix, Vector, cross, raised};
 use crate::cluster::mass_properties;
 use crate::model::State;
 use crate::natural::{Affine, ModelError, NaturalModel};
@@ -259,9 +259,9 @@ impl<T: Real, const D: usize> Balance<T, D> {
         let alpha = self.frame.turning(&state.q, &state.a);
         let inertia = r * self.inertia * r.transpose();
         self.turned = r;
-        self.at = super::frame::lifted(&self.center.value(&state.q));
+        self.at = raised(&self.center.value(&state.q));
         self.missing = Wrench {
-            force: (super::frame::lifted(&self.center.rate(&state.a)) - gravity) * self.mass,
+            force: (raised(&self.center.rate(&state.a)) - gravity) * self.mass,
             moment: inertia * alpha + cross(&omega, &(inertia * omega)),
         };
     }

@@ -14,9 +14,9 @@
 //!
 //! A guide adds the direction it drives: the moment about a, or the force along it.
 
-use super::frame::{lifted, normalised, unit};
+use super::frame::normalised;
 use crate::Real;
-use crate::algebra::{Matrix, Vector, cross};
+use crate::algebra::{Matrix, Vector, cross, raised, unit};
 use crate::natural::{Affine, NaturalModel, joint_axes, transverse};
 use crate::scene::{BodyRef, JointKind, Scene};
 
@@ -82,7 +82,7 @@ impl<T: Real, const D: usize> Carrier<T, D> {
 
     /// The joint's place on the second body.
     pub(super) fn place(&self, q: &[T]) -> Vector<T, 3> {
-        lifted(&self.places[1].value(q))
+        raised(&self.places[1].value(q))
     }
 
     /// How many directions it has.
@@ -133,7 +133,7 @@ impl<T: Real, const D: usize> Carrier<T, D> {
             JointKind::Cylindrical => hand(&[v, w], &[v, w]),
             JointKind::Planar => hand(&[a], &[v, w]),
             JointKind::Distance => {
-                let link = self.place(q) - lifted(&self.places[0].value(q));
+                let link = self.place(q) - raised(&self.places[0].value(q));
                 hand(&[normalised(&link)], &[]);
                 if self.is_hinged {
                     hand(&[a], &[]);

@@ -1,7 +1,7 @@
 //! Held coordinates and rates: rows that exist only while a mechanism is put together.
 
 use crate::Real;
-use crate::algebra::{Matrix, Vector, cross, rotation};
+use crate::algebra::{Matrix, Vector, cross, lowered, raised, rotation, unit};
 use crate::natural::{Affine, NaturalModel, joint_axes, unwrap};
 use crate::scene::{BodyRef, Dimension, InitialTarget, Joint, JointKind, Scene};
 use alloc::boxed::Box;
@@ -125,9 +125,7 @@ impl<T: Real, const D: usize> Hold<T, D> {
                 a.dot(&b)
             }
             Kind::PointRate { x, axis } => {
-                let mut e = Vector::<T, D>::zeros();
-                e[*axis] = T::ONE;
-                x.add_gradient(&e, gradient);
+                x.add_gradient(&lowered(&unit(*axis)), gradient);
                 T::ZERO
             }
             Kind::Spin { first, second, axis } => {
@@ -164,11 +162,7 @@ impl<T: Real, const D: usize> Hold<T, D> {
 
 /// e_axis x u.
 fn spin_arm<T: Real, const D: usize>(u: &Vector<T, D>, axis: usize) -> Vector<T, D> {
-    let u3 = Vector::<T, 3>::from_fn(|i, _| if i < D { u[i] } else { T::ZERO });
-    let mut e = Vector::<T, 3>::zeros();
-    e[axis] = T::ONE;
-    let arm = cross(&e, &u3);
-    Vector::from_fn(|i, _| arm[i])
+    lowered(&cross(&unit(axis), &raised(u)))
 }
 
 /// Rows that hold an angular velocity: three in space, the angle's rate in the plane.

@@ -11,5 +11,5 @@ mod scan;
 pub use commit::{add_work, check_guides, take_coordinates};
 pub use error::{OptionError, StepError};
 pub use newton::{Yardstick, stopping};
-pub use report::{StepReport, Stop};
+pub use report::{Counts, StepReport, Stop};
 pub use scan::{largest, largest_or_nan, step_scale};

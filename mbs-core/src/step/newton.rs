@@ -14,6 +14,23 @@ pub struct Yardstick<T> {
     pub noise: T,
 }
 
+impl<T: Real> Yardstick<T> {
+    /// For corrections of the coordinates themselves at iteration `iterations`, in a scene of the given `length` [m].
+    ///
+    /// Rounding is that of the increment `moved` [m] where increments are carried, else of the coordinates. At rest nothing moves
+    /// but the rounding of forces in balance: what no longer shrinks below the last digit of the coordinates is that.
+    pub fn of_coordinates(
+        iterations: u32,
+        (scale, tolerance): (T, T),
+        length: T,
+        moved: Option<T>,
+    ) -> Self {
+        let rounding = moved.unwrap_or(length) * T::EPSILON * T::from_f64(64.0);
+        let digit = if iterations > 5 { length * T::EPSILON } else { T::ZERO };
+        Self { scale, goal: scale * tolerance, noise: rounding.max(digit) }
+    }
+}
+
 /// Is the correction of iteration `iterations` (from 1) the last one? `last` is the correction before it.
 pub fn stopping<T: Real>(
     iterations: u32,

@@ -12,10 +12,19 @@ pub enum Stop {
     /// The step ended within reach of a singular position: the multiplier of a combination of constraints that has almost no
     /// effect there is left as it was extrapolated.
     Passage,
-    /// The allowed iterations are used and the last correction is below `tolerance` times the scene's length.
+    /// The allowed iterations are used, and the last correction is small beside the step though not below its tolerance.
     Tolerance,
     /// Explicit: nothing is iterated.
     Explicit,
+}
+
+/// What a step did with matrices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    /// Factorisations.
+    pub factorizations: u32,
+    /// Back-substitutions.
+    pub solves: u32,
 }
 
 /// What a step did. Counts only; time is measured from outside.
@@ -37,6 +46,18 @@ pub struct StepReport<T> {
     pub stop: Stop,
     /// Largest |phi|, |phi'|, |phi''| after the step [m, m/s, m/s^2].
     pub violation: [T; 3],
+}
+
+impl<T: Real> StepReport<T> {
+    /// Of a step by Newton's method: iterations, the last correction and what ended them; work; largest violations.
+    pub fn of_newton(
+        (iterations, correction, stop): (u32, T, Stop),
+        Counts { factorizations, solves }: Counts,
+        violation: [T; 3],
+    ) -> Self {
+        let rest = Self::default();
+        Self { iterations, factorizations, solves, correction, stop, violation, ..rest }
+    }
 }
 
 impl<T: Real> Default for StepReport<T> {

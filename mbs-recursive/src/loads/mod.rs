@@ -9,10 +9,12 @@
 mod gauge;
 mod instant;
 mod on_body;
+mod tangent;
 
 pub use gauge::Gauge;
 pub use instant::Instant;
 pub use on_body::OnBody;
+pub use tangent::Reach;
 
 use crate::link::Condensed;
 use crate::space::{Numbers, Space};

@@ -4,7 +4,8 @@
 //! action (d, m, f)   force -f d at the law's point, moment -f m
 //! ```
 
-use super::Instant;
+use super::{Instant, Reach};
+use crate::link::Condensed;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::algebra::Vector;
@@ -61,6 +62,25 @@ impl<T: Real, S: Space<T>> OnBody<T, S> {
             moment -= S::spin_from(&Vector::from(*m)) * measure.tension;
         }
         S::wrench(&at.arm(self.link, &self.point), &force) + S::motion(moment, S::Point::zero())
+    }
+
+    /// The same where the accelerations `a` of the links are replaced by unknown ones, with what the law adds to the link's inertia.
+    pub(super) fn apply_ahead(
+        &self,
+        at: &Instant<'_, T, S>,
+        (reach, a): (Reach<T>, &S::Motion),
+        c: &mut Condensed<T, S>,
+    ) {
+        let mut actions = [Action::default(); MOST];
+        let actions = &mut actions[..self.law.n_actions()];
+        self.evaluate(at, actions);
+        let arm = at.arm(self.link, &self.point);
+        for Action { force, moment, measure } in actions.iter() {
+            let moment = S::spin_from(&Vector::from(*moment));
+            let w = S::wrench(&arm, &S::point_from(&Vector::from(*force)))
+                + S::motion(moment, S::Point::zero());
+            reach.resist(c, (&w, a), measure);
+        }
     }
 
     /// Stored energy [J].

@@ -1,4 +1,4 @@
-//! Scenes of the repository, assembled and stepped in both formulations.
+//! Scenes of the repository, assembled and stepped in state space and in index-3.
 
 #![allow(dead_code, unreachable_pub, reason = "each test binary uses its part")]
 
@@ -6,7 +6,7 @@ use mbs_augmented::index3;
 use mbs_core::Real;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{BodyRef, Dimension, Inertia, Scene};
+use mbs_core::scene::{BodyRef, Scene};
 use mbs_core::start::assemble;
 use mbs_scene::Document;
 use mbs_sparse::Multifrontal;
@@ -94,33 +94,4 @@ impl<T: Real, const D: usize> Bench<T, D> {
 /// Largest difference of a coordinate.
 pub fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |d: f64, (a, b)| d.max((a - b).abs()))
-}
-
-/// The axes of the plane of scenes/spatial-four-bar.toml, and its normal.
-const PLANE: [[f64; 3]; 3] = [[0.424, 0.768, 0.48], [-0.768, 0.024, 0.64], [0.48, -0.64, 0.6]];
-
-/// The planar scene of a spatial one that moves in that plane.
-pub fn flatten(scene: &mut Scene<f64>) {
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let flat = |x: [f64; 3]| [dot(PLANE[0], x), dot(PLANE[1], x), 0.0];
-    scene.dimension = Dimension::Planar;
-    scene.outputs.clear();
-    scene.gravity = scene.gravity.map(flat);
-    for body in &mut scene.bodies {
-        body.center = flat(body.center);
-        if let Inertia::Spatial([xx, yy, zz, xy, yz, zx]) = body.inertia {
-            let n = PLANE[2];
-            let turned = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]].map(|row| dot(row, n));
-            body.inertia = Inertia::Planar(dot(turned, n));
-        }
-    }
-    for joint in &mut scene.joints {
-        joint.points = joint.points.map(flat);
-        joint.axes = [None; 2];
-    }
-}
-
-/// Coordinates in that plane and off it.
-pub fn in_plane(x: [f64; 3]) -> [f64; 3] {
-    PLANE.map(|axis| axis[0] * x[0] + axis[1] * x[1] + axis[2] * x[2])
 }

@@ -41,13 +41,9 @@ pub(crate) struct Arguments {
 
 /// Runs the command.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
-    let document = match files::document(&arguments.scene) {
-        Ok(document) => document,
+    let (document, scene) = match files::scene(&arguments.scene) {
+        Ok(both) => both,
         Err(message) => return refuse(&message),
-    };
-    let scene = match document.scene::<f64>() {
-        Ok(scene) => scene,
-        Err(error) => return refuse(&error.render()),
     };
     let overrides = Overrides {
         formulation: arguments.formulation.clone(),

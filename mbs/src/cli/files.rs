@@ -5,15 +5,11 @@ use mbs_core::scene::{Entry, Scene};
 use mbs_scene::{Document, Provenance, readable};
 use std::path::Path;
 
-/// Reads a scene file; else the refusal.
-pub(crate) fn document(scene: &Path) -> Result<Document, String> {
-    let bytes = std::fs::read(scene).map_err(|error| unreadable(scene, &error))?;
-    Document::from_bytes(&bytes, &scene.display().to_string()).map_err(|error| error.render())
-}
-
 /// Reads a scene file and its scene; else the refusal.
 pub(crate) fn scene(path: &Path) -> Result<(Document, Scene<f64>), String> {
-    let document = document(path)?;
+    let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
+    let document = Document::from_bytes(&bytes, &path.display().to_string());
+    let document = document.map_err(|error| error.render())?;
     let scene = document.scene::<f64>().map_err(|error| error.render())?;
     Ok((document, scene))
 }

@@ -72,7 +72,7 @@ fn hint(error: &clap::Error) -> Option<String> {
         _ => return None,
     };
     if NOT_BUILT.contains(&word.as_str()) {
-        return Some(format!("`mbs {word}` is not built yet; `mbs run` and `mbs explain` are"));
+        return Some(format!("`mbs {word}` is not built yet; `mbs --help` lists what is"));
     }
     std::path::Path::new(word).exists().then(|| format!("to run a scene, write `mbs run {word}`"))
 }

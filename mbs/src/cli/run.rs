@@ -16,7 +16,7 @@ use std::process::ExitCode;
 pub(crate) struct Arguments {
     /// Scene file (TOML).
     scene: PathBuf,
-    /// auto, index-1, index-3; like the options below: left out, the scene's, else auto.
+    /// auto, index-1, index-3, classical, state-space, recursive; like the options below: left out, the scene's, else auto.
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
     /// Step [s]; else 0.001.
@@ -25,10 +25,12 @@ pub(crate) struct Arguments {
     /// Duration [s].
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     duration: Option<f64>,
-    /// Fixed penalty alpha: N/m in index-3, kg in index-1 (left out: in proportion to the mass).
+    /// Fixed penalty alpha: N/m in index-3, kg in index-1 (left out: in proportion to the mass); in classical a regularisation
+    /// of 1/alpha, in recursive the report's closing forces (left out: neither).
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     penalty: Option<f64>,
-    /// Newton tolerance, relative to the scene's length; else 1e-10.
+    /// Corrections of an iteration are small below this share of what accelerations move in a step, else 1e-10; with rk54 the
+    /// error of a step, else 1e-8.
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
     tolerance: Option<f64>,
     /// Threads; runs have one so far.
@@ -43,7 +45,7 @@ pub(crate) struct Arguments {
     /// f32, f64; left out: f64.
     #[arg(long, value_name = "P")]
     precision: Option<String>,
-    /// trapezoidal, newmark, generalised-alpha, hht; else trapezoidal.
+    /// trapezoidal, newmark, generalised-alpha, hht; in recursive also rk4, rk54; else trapezoidal.
     #[arg(long, value_name = "I")]
     integrator: Option<String>,
     /// Wanted error (not built).

@@ -8,7 +8,7 @@ use mbs::scene_file::Document;
 use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
 use std::path::PathBuf;
 
-/// All scenes of the repository.
+/// Scenes of the repository, without those of vehicles.
 pub(crate) const SCENES: [&str; 15] = [
     "simple-pendulum",
     "double-pendulum",
@@ -27,7 +27,7 @@ pub(crate) const SCENES: [&str; 15] = [
     "andrews",
 ];
 
-/// The formulations, by name.
+/// The augmented formulations, by name.
 pub(crate) const FORMULATIONS: [&str; 2] = ["index-3", "index-1"];
 
 /// Path of a scene of the repository.

@@ -2,21 +2,25 @@
 
 use super::outcome::Outcome;
 use super::report::Table;
-use super::rows::{Row, by_table, step};
+use super::rows::{Row, by_table, sizes, step};
 use super::text::REMARK;
 use std::fmt::Write;
 
 /// The page around the tables, with its style.
 const PAGE: &str = include_str!("page.html");
 
-/// The page with all tables.
-pub(crate) fn page(rows: &[Row]) -> String {
-    let tables: String = by_table(rows).map(|(table, rows)| section(table, rows)).collect();
+/// The page with all tables, and under some of them a drawing.
+pub(crate) fn page(rows: &[Row], drawings: &[(&str, String)]) -> String {
+    let drawing = |table: &Table| {
+        drawings.iter().find(|(name, _)| *name == table.name).map_or("", |(_, svg)| svg)
+    };
+    let tables: String =
+        by_table(rows).map(|(table, rows)| section(table, rows, drawing(table))).collect();
     PAGE.replace("{{remark}}", &escape(REMARK)).replace("{{tables}}", &tables)
 }
 
 /// One table with its heading and note.
-fn section(table: &Table, rows: &[Row]) -> String {
+fn section(table: &Table, rows: &[Row], drawing: &str) -> String {
     let distance = table.reference.map_or("", |reference| reference.label);
     let mut html = format!(
         "<section class=\"card\">\n<h2><span class=\"tag\">{}</span> {}</h2>\n<p class=\"soft\">{}; scene \
@@ -39,8 +43,25 @@ fn section(table: &Table, rows: &[Row]) -> String {
         html.push_str("</tbody>\n");
     }
     // Writing to a string cannot fail.
-    let _ = writeln!(html, "</table>\n<p class=\"soft\">{}</p>\n</section>", escape(table.note));
+    let _ = writeln!(
+        html,
+        "</table>\n<p class=\"soft\">{}</p>\n<p class=\"soft\">{}</p>\n{}</section>",
+        escape(&sizes(table, rows).join(" ")),
+        escape(table.note),
+        figure(drawing)
+    );
     html
+}
+
+/// A drawing with its caption, if there is one.
+fn figure(drawing: &str) -> String {
+    if drawing.is_empty() {
+        return String::new();
+    }
+    format!(
+        "<figure>{drawing}<figcaption class=\"soft\">Each method at its first step; grey, the first method at its last one.\
+         </figcaption></figure>\n"
+    )
 }
 
 /// One row; the first of a method carries its name beside all of them.
@@ -102,10 +123,11 @@ mod tests {
 
     #[test]
     fn page_has_every_row_escaped_and_needs_nothing_else() {
-        let page = super::page(&samples());
+        let page = super::page(&samples(), &[("T1", "<svg>drawn</svg>".to_owned())]);
         assert!(!page.contains("{{"), "every place is filled");
         assert!(!page.contains("http") && !page.contains("src="), "nothing is fetched");
         assert_eq!(page.matches("<section").count(), 2);
+        assert_eq!(page.matches("<svg>drawn</svg><figcaption").count(), 1);
         assert_eq!(page.matches("data-label=\"step [s]\"").count(), 4);
         assert!(page.contains("no convergence, &quot;try&quot; &lt;less&gt;"));
         assert!(page.contains("singular &amp; stuck"));

@@ -34,6 +34,8 @@ pub(crate) struct Figures {
     pub(crate) distance: Option<f64>,
     /// CPU time of the stepping [s].
     pub(crate) seconds: f64,
+    /// Coordinates, constraints and freedoms.
+    pub(crate) sizes: [u64; 3],
 }
 
 impl Figures {
@@ -77,6 +79,11 @@ fn number(json: &Value, place: &str) -> Result<f64, String> {
     value.ok_or_else(|| format!("the output has no number at {place}"))
 }
 
+/// The count of that name in the output.
+fn count(json: &Value, name: &str) -> Result<u64, String> {
+    json[name].as_u64().ok_or_else(|| format!("the output has no count {name}"))
+}
+
 /// The text at a place in the output.
 fn text(json: &Value, name: &str) -> Result<String, String> {
     let value = json[name].as_str().map(str::to_owned);
@@ -88,6 +95,7 @@ fn completed(json: &Value, reference: Option<Reference>) -> Result<Figures, Stri
         energy_error: number(json, "/energy/max_error")?,
         turned_over: number(json, "/energy/turned_over")?,
         seconds: number(json, "/cpu_seconds")?,
+        sizes: [count(json, "coordinates")?, count(json, "constraints")?, count(json, "dof")?],
         distance: reference
             .map(|reference| distance(&json["outputs"][reference.channel], reference))
             .transpose()?,
@@ -122,6 +130,7 @@ mod tests {
     const ANGLE: Option<Reference> = Some(Reference { channel: "beta", label: "", value: &[0.5] });
 
     const DONE: &[u8] = br#"{"completed": true, "error": null, "cpu_seconds": 0.25,
+        "coordinates": 4, "constraints": 2, "dof": 2,
         "energy": {"initial": 1.0, "max_error": 2e-3, "final_error": 1e-3, "turned_over": 4.0},
         "outputs": {"tip": [1.3, 2.4], "beta": 0.25}}"#;
 
@@ -131,6 +140,7 @@ mod tests {
         assert!((figures.distance.unwrap() - 0.5).abs() < 1e-15);
         assert!((figures.share() - 5e-4).abs() < 1e-18);
         assert!((figures.seconds - 0.25).abs() < 1e-15);
+        assert_eq!(figures.sizes, [4, 2, 2]);
         let Ok(Outcome::Completed(figures)) = read(Some(0), DONE, b"", None) else { panic!() };
         assert_eq!(figures.distance, None);
         let Ok(Outcome::Completed(figures)) = read(Some(0), DONE, b"", ANGLE) else { panic!() };

@@ -1,6 +1,6 @@
 //! One row for each method and step: ours beside the report's, as words and as CSV.
 
-use super::outcome::Outcome;
+use super::outcome::{Figures, Outcome};
 use super::report::{Method, Printed, Table};
 
 /// One entry of a table: what was run, and what came of it.
@@ -71,6 +71,32 @@ pub(crate) fn by_table(rows: &[Row]) -> impl Iterator<Item = (&'static Table, &[
     rows.chunk_by(|a, b| a.table.name == b.table.name).map(|rows| (rows[0].table, rows))
 }
 
+/// The sizes of the models of a table, ours and the report's; methods with the same ones are told together.
+pub(crate) fn sizes(table: &Table, rows: &[Row]) -> Vec<String> {
+    let mut told: Vec<(Vec<&str>, String)> = Vec::new();
+    for row in rows {
+        let Outcome::Completed(Figures { sizes: [coordinates, constraints, freedoms], .. }) =
+            row.outcome
+        else {
+            continue;
+        };
+        let printed = table.sizes.iter().find(|(name, _)| *name == row.method.formulation);
+        let printed = printed.map_or(String::new(), |(_, text)| format!("; the report: {text}"));
+        let text = format!(
+            "{coordinates} coordinates, {constraints} constraints, freedoms: {freedoms}{printed}"
+        );
+        let name = row.method.formulation;
+        if told.iter().any(|(names, _)| names.contains(&name)) {
+            continue;
+        }
+        match told.iter_mut().find(|(_, same)| *same == text) {
+            Some((names, _)) => names.push(name),
+            None => told.push((vec![name], text)),
+        }
+    }
+    told.into_iter().map(|(names, text)| format!("{}: {text}.", names.join(", "))).collect()
+}
+
 /// An error with two digits.
 pub(crate) fn error(x: f64) -> String {
     format!("{x:.1e}")
@@ -123,6 +149,9 @@ pub(crate) fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
         "reference_channel",
         "reference_distance",
         "cpu_s",
+        "coordinates",
+        "constraints",
+        "freedoms",
         "reason",
         "report_row",
         "report_error",
@@ -139,6 +168,10 @@ pub(crate) fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
             _ => Default::default(),
         };
         let [energy, share, distance, cpu] = exact;
+        let sizes = match &row.outcome {
+            Outcome::Completed(figures) => figures.sizes.map(|n| n.to_string()),
+            _ => Default::default(),
+        };
         let [report_error, report_cpu] = row.report();
         let record = [
             row.table.name,
@@ -150,6 +183,9 @@ pub(crate) fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
             row.table.reference.map_or("", |reference| reference.channel),
             &distance,
             &cpu,
+            &sizes[0],
+            &sizes[1],
+            &sizes[2],
             &row.reason(),
             row.method.printed_name,
             &report_error,
@@ -162,7 +198,6 @@ pub(crate) fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
 
 #[cfg(test)]
 pub(crate) mod tests {
-    use super::super::outcome::Figures;
     use super::super::report::TABLES;
     use super::*;
 
@@ -173,6 +208,7 @@ pub(crate) mod tests {
             turned_over: 19.0,
             distance: Some(2.5e-2),
             seconds: 0.0123,
+            sizes: [4, 2, 2],
         };
         let stopped = Outcome::Stopped {
             code: "not-converged".into(),
@@ -204,6 +240,24 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn sizes_of_the_models_stand_beside_the_report() {
+        let rows = samples();
+        assert_eq!(
+            sizes(rows[0].table, &rows[..2]),
+            ["index-1: 4 coordinates, 2 constraints, freedoms: 2."]
+        );
+        let [.., t8] = &TABLES;
+        let rows: Vec<_> = t8.methods[..4]
+            .iter()
+            .map(|m| Row::new(t8, m, 1e-3, rows[0].outcome.clone()))
+            .collect();
+        let told = sizes(t8, &rows);
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert!(told[0].starts_with("index-3, classical: 4 coord"), "{told:?}");
+        assert!(told[0].ends_with("the report: 168 variables, 157 constraints and 1 guide, 11 freedoms with the guided one."));
+    }
+
+    #[test]
     fn numbers_keep_two_or_three_digits() {
         assert_eq!(
             [0.00312, 0.0423, 17.2, 1003.0].map(seconds),
@@ -221,6 +275,6 @@ pub(crate) mod tests {
         assert_eq!(records.len(), 4);
         assert!(records.iter().all(|record| record.len() == width));
         assert_eq!(&records[0][4], "4.636e-3");
-        assert!(records[1][9].ends_with("no convergence, \"try\" <less>"));
+        assert!(records[1][12].ends_with("no convergence, \"try\" <less>"));
     }
 }

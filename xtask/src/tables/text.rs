@@ -1,6 +1,6 @@
 //! The tables as text for a terminal.
 
-use super::rows::{Row, by_table, step};
+use super::rows::{Row, by_table, sizes, step};
 use std::fmt::Write;
 
 /// Widths of the columns: method, step, error, share, distance, time, the report's error and time.
@@ -38,6 +38,9 @@ pub(crate) fn text(rows: &[Row]) -> String {
             }
         }
         text.push('\n');
+        for sizes in sizes(table, rows) {
+            paragraph(&mut text, 0, &sizes);
+        }
         paragraph(&mut text, 0, table.note);
         text.push('\n');
     }

@@ -8,10 +8,9 @@
 //! on a body   -f d at the law's point and -f m, over the law's actions
 //! ```
 
-use super::super::frame::{lifted, unit};
 use super::{Gauge, Load, Wrench};
 use crate::Real;
-use crate::algebra::{Matrix, Vector, cross, norm};
+use crate::algebra::{Matrix, Vector, cross, norm, raised, unit};
 use crate::laws::Supplies;
 use crate::laws::body::{Action, BodyMotion, MOST};
 use crate::laws::scalar::Law;
@@ -42,14 +41,14 @@ impl<T: Real, const D: usize> Load<T, D> {
                 }
             }
             Self::Constant { body, point, force } => {
-                let at = lifted(&point.value(&state.q));
+                let at = raised(&point.value(&state.q));
                 take((BodyRef::Body(*body), Some(at), push(*force)));
             }
             Self::Force { body, point, course, turns } => {
                 let body = BodyRef::Body(*body);
                 let given = Vector::<T, 3>::from(supplies.courses[*course]);
                 let force = if *turns { turned(body) * given } else { given };
-                take((body, Some(lifted(&point.value(&state.q))), push(force)));
+                take((body, Some(raised(&point.value(&state.q))), push(force)));
             }
             Self::Torque { body, course } => {
                 let given = supplies.courses[*course];
@@ -58,10 +57,10 @@ impl<T: Real, const D: usize> Load<T, D> {
             }
             Self::OnBody { body, point, frame, axis, law } => {
                 let body = BodyRef::Body(*body);
-                let at = lifted(&point.value(&state.q));
+                let at = raised(&point.value(&state.q));
                 let motion = BodyMotion {
                     position: at.into(),
-                    velocity: lifted(&point.rate(&state.v)).into(),
+                    velocity: raised(&point.rate(&state.v)).into(),
                     axis: (turned(body) * axis).into(),
                     spin: frame.turning(&state.q, &state.v).into(),
                 };
@@ -101,8 +100,8 @@ impl<T: Real, const D: usize> Gauge<T, D> {
             }
             Self::Along { points, direction, offset } => {
                 let ([p, r], rate) = ends(points, state);
-                let d = lifted(&direction.value(&state.q));
-                let turning = lifted(&direction.rate(&state.v));
+                let d = raised(&direction.value(&state.q));
+                let turning = raised(&direction.rate(&state.v));
                 let value = (r - p).dot(&d) - *offset;
                 let f = tension(value, rate.dot(&d) + (r - p).dot(&turning));
                 ([Some(r); 2], push(d * f))
@@ -116,7 +115,7 @@ impl<T: Real, const D: usize> Gauge<T, D> {
             }
             Self::Twist { sides } => {
                 let now =
-                    |x: &Affine<T, D>| (lifted(&x.value(&state.q)), lifted(&x.rate(&state.v)));
+                    |x: &Affine<T, D>| (raised(&x.value(&state.q)), raised(&x.rate(&state.v)));
                 let [[(a1, a1_t), (b1, b1_t)], [(a2, a2_t), (b2, b2_t)]] =
                     [0, 1].map(|body| [0, 1].map(|side| now(&sides[body][side])));
                 let value = (b1.dot(&a2) - a1.dot(&b2)) * T::HALF;
@@ -133,8 +132,8 @@ fn ends<T: Real, const D: usize>(
     points: &[Affine<T, D>; 2],
     state: &State<T>,
 ) -> ([Vector<T, 3>; 2], Vector<T, 3>) {
-    let rate = lifted(&points[1].rate(&state.v)) - lifted(&points[0].rate(&state.v));
-    ([0, 1].map(|i| lifted(&points[i].value(&state.q))), rate)
+    let rate = raised(&points[1].rate(&state.v)) - raised(&points[0].rate(&state.v));
+    ([0, 1].map(|i| raised(&points[i].value(&state.q))), rate)
 }
 
 fn push<T: Real>(force: Vector<T, 3>) -> Wrench<T> {

@@ -10,7 +10,7 @@ use super::wrench::Wrench;
 use crate::Real;
 use crate::actions::{Action, ActionError, Actions, Seat, Tables};
 use crate::algebra::Vector;
-use crate::inputs::CourseInput;
+use crate::inputs::Prescribed;
 use crate::laws::Supplies;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
@@ -23,7 +23,7 @@ use alloc::vec::Vec;
 #[derive(Debug, Clone)]
 pub(super) struct Loads<T: Real, const D: usize> {
     list: Vec<Load<T, D>>,
-    courses: Vec<CourseInput<T>>,
+    prescribed: Prescribed<T>,
     /// The courses' vectors at the instant.
     values: Vec<[T; 3]>,
     tables: Tables<T>,
@@ -80,17 +80,16 @@ impl<T: Real, const D: usize> Loads<T, D> {
     /// # Errors
     /// [`ActionError`] as for the model.
     pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ActionError> {
-        let Actions { list, courses, tables } = Actions::new(scene)?;
+        let Actions { list, prescribed, tables } = Actions::new(scene)?;
         let list = list.iter().map(|(effect, action)| Load::new((scene, model), *effect, action));
         let list = list.collect();
-        Ok(Self { list, values: vec![[T::ZERO; 3]; courses.len()], courses, tables })
+        let values = vec![[T::ZERO; 3]; prescribed.n_courses()];
+        Ok(Self { list, prescribed, values, tables })
     }
 
     /// The effects, and the inputs of the instant `t`.
     pub(super) fn at(&mut self, t: T) -> (&[Load<T, D>], Supplies<'_, T>) {
-        for (value, course) in self.values.iter_mut().zip(&self.courses) {
-            *value = course.at(t);
-        }
+        self.prescribed.write(t, &mut [], &mut self.values);
         (&self.list, self.tables.supplies(&self.values))
     }
 }

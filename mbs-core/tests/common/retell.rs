@@ -1,7 +1,7 @@
 //! The same mechanism told in another way: turned as a whole, its bodies in another order.
 #![allow(dead_code, reason = "each binary uses its part")]
 
-use mbs::core::scene::{
+use mbs_core::scene::{
     BodyRef, Dimension, EffectKind, Inertia, InitialTarget, Joint, JointKind, Scene,
 };
 

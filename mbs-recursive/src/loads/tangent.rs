@@ -1,0 +1,118 @@
+//! Effects that answer to accelerations within a step: their stiffness and damping as inertia.
+//!
+//! ```text
+//! z̈ moves place and rate at the end of a step by s = β h² and c = γ h of itself, hence
+//! f(z̈) = f(z̈*) + κ w·(a − a*),   κ = s ∂f/∂m + c ∂f/∂m'      w the unit wrench, a* the accelerations that f was evaluated for
+//!
+//! on one link, or against the ground      I += κ w wᵀ,   p += w (f − κ w·a*)
+//! across a joint of one freedom           bᵀ I b += κ (w·b)²,   τ += κ (w·b)² z̈*
+//! between other links                     as on one link, for each of the two
+//! ```
+//!
+//! The first two are the linear part exactly. In the third the other link's acceleration counts as known, so that an iteration is
+//! left: it contracts, for M + 2 κ diag(w wᵀ) − κ (w₁ − w₂)(w₁ − w₂)ᵀ is positive definite.
+//! Accelerations that no longer change feel none of this: only the way there depends on κ.
+
+use super::{Instant, Load};
+use crate::link::{Condensed, Kind};
+use crate::space::{Numbers, Space};
+use mbs_core::Real;
+use mbs_core::laws::scalar::Measure;
+
+/// How far accelerations reach within a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reach<T> {
+    /// β h²: what they do to places [s^2].
+    pub place: T,
+    /// γ h: what they do to rates [s].
+    pub speed: T,
+}
+
+impl<T: Real> Reach<T> {
+    /// κ, not below zero.
+    #[inline]
+    fn weight(self, measure: &Measure<T>) -> T {
+        (self.place * measure.stiffness + self.speed * measure.damping).max(T::ZERO)
+    }
+
+    /// A tension with the unit wrench `w` on a link that was to have the acceleration `a`.
+    #[inline]
+    pub(super) fn resist<S: Space<T>>(
+        self,
+        c: &mut Condensed<T, S>,
+        (w, a): (&S::Motion, &S::Motion),
+        measure: &Measure<T>,
+    ) {
+        let weight = self.weight(measure);
+        c.force += *w * (measure.tension - weight * w.dot(a));
+        if weight > T::ZERO {
+            c.inertia = S::reduced(&c.inertia, w, -weight);
+        }
+    }
+}
+
+impl<T: Real, S: Space<T>> Load<T, S> {
+    /// Adds the load's forces as [`apply`](Self::apply) does, and how they answer to accelerations that differ from `zdd` of the
+    /// freedoms and `a` of the links.
+    pub fn apply_ahead(
+        &self,
+        at: &Instant<'_, T, S>,
+        (reach, zdd, a): (Reach<T>, &[T], &[S::Motion]),
+        condensed: &mut [Condensed<T, S>],
+    ) {
+        match self {
+            Self::Between { links, gauge, law } => {
+                let (measure, gradient) = gauge.evaluate(at, *links, law);
+                let Some(end) = outer(at, *links) else {
+                    for (&link, w) in links.iter().zip(gradient).filter(|(link, _)| **link > 0) {
+                        let link = link as usize;
+                        reach.resist(&mut condensed[link], (&w, &a[link]), &measure);
+                    }
+                    return;
+                };
+                for (&link, g) in links.iter().zip(gradient) {
+                    condensed[link as usize].force += g * measure.tension;
+                }
+                let arm = gradient[end].dot(&at.placed[links[end] as usize].freedom);
+                let weight = reach.weight(&measure) * arm * arm;
+                resist_joint(at, links[end], (weight, zdd), condensed);
+            }
+            Self::Angle { link, law } => {
+                let [value, rate] = at.coordinate(*link);
+                let measure = law.evaluate(value, rate, &at.supplies);
+                condensed[*link as usize].effort -= measure.tension;
+                resist_joint(at, *link, (reach.weight(&measure), zdd), condensed);
+            }
+            Self::OnBody(load) => {
+                let link = load.link as usize;
+                load.apply_ahead(at, (reach, &a[link]), &mut condensed[link]);
+            }
+            Self::Constant { .. } | Self::Force { .. } | Self::Torque { .. } => {
+                self.apply(at, condensed);
+            }
+        }
+    }
+}
+
+/// Resists the acceleration of a joint of one freedom; a guided one has none.
+fn resist_joint<T: Real, S: Space<T>>(
+    at: &Instant<'_, T, S>,
+    link: u32,
+    (weight, zdd): (T, &[T]),
+    condensed: &mut [Condensed<T, S>],
+) {
+    let joint = &at.links[link as usize];
+    if matches!(joint.kind, Kind::Revolute | Kind::Prismatic) {
+        let c = &mut condensed[link as usize];
+        c.resistance += weight;
+        c.effort += weight * zdd[joint.v as usize];
+    }
+}
+
+/// Which of two links hangs from the other by one joint of at most one freedom.
+fn outer<T: Real, S: Space<T>>(at: &Instant<'_, T, S>, links: [u32; 2]) -> Option<usize> {
+    (0..2).find(|&i| {
+        let link = &at.links[links[i] as usize];
+        links[i] > 0 && link.parent == links[1 - i] && link.kind.n_freedoms::<T, S>() <= 1
+    })
+}
