@@ -187,3 +187,91 @@ fn a_wheel_on_its_side_and_one_below_the_road_have_finite_forces() {
         }
     }
 }
+
+/// The load, and the largest side force over slip: the parabola's top, A0 + A1 A2 / 4 [N, N/rad].
+const LOAD: f64 = 4.6e5 * 0.01;
+const CORNERING: f64 = 2625.0 + 14.47 * 12930.0 / 4.0;
+
+#[test]
+fn forces_do_not_jump_at_standstill_and_without_slip() {
+    let tire = Tire { radial: [4.6e5, 0.0], ..wheel(true) };
+    let step = 1e-4;
+    // Slip changes by 1 / v_s per m/s at most; so does the direction of what resists rolling; trail times load is 0.08 m.
+    let force = (CORNERING + 0.01 * LOAD) / STANDSTILL * step;
+    let moment = force * (0.36 + 2.0 * 0.08);
+    for angles in [[0.0, 0.0], [0.1, 0.3]] {
+        let start = motion(0.3, 0.01, angles);
+        let start = BodyMotion { spin: [0.0; 3], ..start };
+        // Through standstill at several velocities across, and through zero slip at several ahead.
+        for (way, other) in [(0, 1), (1, 0)] {
+            for aside in [-0.4, -0.03, 0.0, 0.002, 0.1, 3.0] {
+                let mut last: Option<[V; 2]> = None;
+                for k in -5000..=5000 {
+                    let mut velocity = [0.0; 3];
+                    (velocity[way], velocity[other]) = (f64::from(k) * step, aside);
+                    let now = wrench(&tire, &BodyMotion { velocity, ..start });
+                    if let Some(last) = last {
+                        let [f, m] = [0, 1].map(|i| norm(&(now[i] - last[i])));
+                        let case = format!("{angles:?} {velocity:?}: {f} N, {m} N m");
+                        assert!(f < force && m < moment, "{case}");
+                    }
+                    last = Some(now);
+                }
+            }
+        }
+    }
+    // At rest only what carries acts, and what camber pushes.
+    let rest = BodyMotion { velocity: [0.0; 3], spin: [0.0; 3], ..motion(0.3, 0.01, [0.0; 2]) };
+    assert!(norm(&(wrench(&tire, &rest)[0] - V::z() * LOAD)) < 1e-8);
+}
+
+#[test]
+fn a_mirrored_wheel_has_mirrored_forces_and_the_sense_of_its_axis_does_not_matter() {
+    let tire = wheel(true);
+    let mirror = |[x, y, z]: [f64; 3]| [x, -y, z];
+    // Turning is mirrored the other way.
+    let turning = |[x, y, z]: [f64; 3]| [-x, y, -z];
+    for x in PLACES {
+        for angles in ANGLES {
+            let motion = motion(x, 0.01, angles);
+            let [force, moment] = wrench(&tire, &motion);
+            let mirrored = BodyMotion {
+                position: mirror(motion.position),
+                velocity: mirror(motion.velocity),
+                axis: mirror(motion.axis),
+                spin: turning(motion.spin),
+            };
+            let reversed = BodyMotion { axis: motion.axis.map(|a| -a), ..motion };
+            let case = format!("x {x}, {angles:?}");
+            // Rounding of forces of some kN.
+            let [f, m] = wrench(&tire, &mirrored);
+            assert!(norm(&(f - V::from(mirror(force.into())))) < 1e-9, "{case}");
+            assert!(norm(&(m - V::from(turning(moment.into())))) < 1e-9, "{case}");
+            let [f, m] = wrench(&tire, &reversed);
+            assert!(norm(&(f - force)) < 1e-9 && norm(&(m - moment)) < 1e-9, "{case}");
+        }
+    }
+}
+
+#[test]
+fn nothing_pulls_a_wheel_down_and_one_off_the_road_is_free() {
+    let tire = wheel(true);
+    for x in PLACES {
+        for angles in ANGLES {
+            for i in -40..=40 {
+                let depth = 1e-4 * f64::from(i);
+                for speed in [-8.0, -0.5, 0.0, 0.5, 8.0] {
+                    let mut motion = motion(x, depth, angles);
+                    motion.velocity[2] = speed;
+                    let told = actions(&tire, &motion);
+                    let case = format!("x {x}, {angles:?}, {depth} m, {speed} m/s");
+                    assert!(told[RADIAL].measure.tension <= 0.0, "{case}");
+                    // `motion` leaves rounding of the depth.
+                    if depth < -1e-9 || told[RADIAL].measure.tension == 0.0 {
+                        assert!(told.iter().all(|action| action.measure.tension == 0.0), "{case}");
+                    }
+                }
+            }
+        }
+    }
+}
