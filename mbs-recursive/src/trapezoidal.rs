@@ -6,6 +6,9 @@
 //! z̈ₙ₊₁ by the three passes at (zₙ₊₁, żₙ₊₁), until h² β Δz̈ is small
 //! ```
 //!
+//! Effects answer to Δz̈ within the passes, so that stiff ones let the iteration contract (`loads::Reach`), and iterates of models with
+//! effects are mixed (`mixing`); without effects the iteration is the source's.
+//!
 //! Differs from the source: increments in place of hats, which round less; rotations are quaternions, q exp(δ); positions and
 //! velocities are projected on the loops afterwards, and the accelerations are those of the projected state.
 
@@ -36,7 +39,7 @@ pub struct Start<'a, T> {
 
 /// Makes one step of length `dt` [s]: the end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`.
 ///
-/// Cost: three to six evaluations for steps that resolve the motion; no allocation.
+/// Cost: three to six evaluations for steps that resolve the motion, stiff effects or not; no allocation.
 ///
 /// # Errors
 /// [`StepError`]; unknowns and rows are numbered as freedoms and rows.
