@@ -89,9 +89,8 @@ fn iterate<T: Real, S: Space<T>>(
     (start, projects): (Start<'_, T>, bool),
     s: &mut Store<'_, T, S>,
 ) -> Result<(u32, T, Stop), StepError> {
-    let (beta, gamma) = (options.integrator.beta, options.integrator.gamma);
-    let share = dt * dt * beta;
-    let reach = Reach { place: share, speed: dt * gamma };
+    let share = dt * dt * options.integrator.beta;
+    let reach = Reach { place: share, speed: dt * options.integrator.gamma };
     let rounding = T::EPSILON * T::from_f64(64.0);
     // Coordinates that go into forces are rounded: what moves them less than that says nothing more.
     let rest = m.length * T::EPSILON;
@@ -99,14 +98,7 @@ fn iterate<T: Real, S: Space<T>>(
     let mut mixing = Mixing::default();
     let (mut last, mut is_slow) = (T::ZERO, projects);
     for iterations in 1..=options.max_iterations {
-        // zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁   [P3 (43)-(44)]
-        for i in 0..start.v.len() {
-            let (v, a, next) = (start.v[i], start.a[i], s.zdd[i]);
-            s.v[i] = v + dt * ((T::ONE - gamma) * a + gamma * next);
-            s.scratch[i] = dt * (v + dt * ((T::HALF - beta) * a + beta * next));
-        }
-        s.z.copy_from_slice(start.z);
-        advance(m.links, s.scratch, s.z);
+        reach_end(m, (dt, options), &start, s);
         s.scratch.copy_from_slice(s.zdd);
         if is_slow {
             project(m, options, s).map_err(|f| failure(m, f))?;
@@ -162,6 +154,25 @@ fn iterate<T: Real, S: Space<T>>(
         correction: (last / m.length).to_f64(),
         unknown: largest(s.scratch),
     })
+}
+
+/// zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁; increments are left in the scratch.
+#[inline]
+fn reach_end<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    (dt, options): (T, &Options<T>),
+    start: &Start<'_, T>,
+    s: &mut Store<'_, T, S>,
+) {
+    let (beta, gamma) = (options.integrator.beta, options.integrator.gamma);
+    for i in 0..start.v.len() {
+        // [P3 (43)-(44)]
+        let (v, a, next) = (start.v[i], start.a[i], s.zdd[i]);
+        s.v[i] = v + dt * ((T::ONE - gamma) * a + gamma * next);
+        s.scratch[i] = dt * (v + dt * ((T::HALF - beta) * a + beta * next));
+    }
+    s.z.copy_from_slice(start.z);
+    advance(m.links, s.scratch, s.z);
 }
 
 /// |Φ|, |Φ̇| and |Φ̈| as last evaluated.
