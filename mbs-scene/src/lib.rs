@@ -14,7 +14,7 @@ pub use record::{
 };
 pub use report::{Report, Section};
 pub use write::{
-    Absence, Change, Chosen, CsvWriter, EffectEntry, EnergySummary, Explanation, GuideEntry,
-    JointGroup, LargestStep, Outputs, Price, Prices, Relative, Rod, RunError, RunSummary,
-    SearchEnd, Simulated, Sizes, ViolationSummary, readable,
+    Absence, Change, Chosen, Contact, CsvWriter, EffectEntry, EnergySummary, Explanation,
+    GuideEntry, JointGroup, LargestStep, Outputs, Price, Prices, Relative, Rod, RunError,
+    RunSummary, SearchEnd, Simulated, Sizes, ViolationSummary, readable,
 };

@@ -11,9 +11,10 @@ use crate::words::{notes, stop_text, summary_rows};
 use core::time::Duration;
 use cpu_time::ProcessTime;
 use mbs_core::Real;
-use mbs_core::scene::Scene;
+use mbs_core::outputs::{self, Contacts};
+use mbs_core::scene::{EffectKind, Scene};
 use mbs_core::step::StepReport;
-use mbs_scene::{Channel, CsvWriter, Outputs, Provenance, RunRecord, RunSummary};
+use mbs_scene::{Channel, Contact, CsvWriter, Outputs, Provenance, RunRecord, RunSummary};
 use std::io;
 use std::time::Instant;
 
@@ -92,9 +93,10 @@ where
     let started = Simulation::<T, D>::new(scene, settings);
     let started = started.and_then(|simulation| {
         let measures = Channels::new(scene, simulation.model())?;
-        Ok((simulation, measures))
+        let contacts = Contacts::new(scene, simulation.model());
+        Ok((simulation, measures, contacts.map_err(|e| StopError::Start(e.into()))?))
     });
-    let (simulation, measures) = match started {
+    let (simulation, measures, contacts) = match started {
         Ok(both) => both,
         Err(error) => return not_started(scene, settings, &channels, &names, error),
     };
@@ -107,6 +109,7 @@ where
         settings,
         simulation,
         measures,
+        contacts,
         recorder,
         figure,
         values: Vec::new(),
@@ -138,6 +141,7 @@ where
     settings: &'a Settings,
     simulation: Simulation<T, D>,
     measures: Channels<T, D>,
+    contacts: Contacts<T, D>,
     recorder: Recorder,
     figure: Figure<T, D>,
     values: Vec<f64>,
@@ -162,6 +166,7 @@ where
         let energies = self.simulation.initial_energies();
         let mark = StepMark { t: 0.0, energies, violation, iterations: 0 };
         self.recorder.mark(&mark);
+        self.contacts.start(self.simulation.state());
         self.row(&mark, false);
     }
 
@@ -221,6 +226,7 @@ where
         self.counts.iterations += u64::from(report.iterations);
         self.counts.factorizations += u64::from(report.factorizations);
         self.measures.track(self.simulation.state());
+        self.contacts.watch(self.simulation.state());
         let mark = StepMark {
             t,
             energies: self.simulation.energies(),
@@ -269,6 +275,8 @@ where
             constraint_rank,
             dof: coordinates - constraint_rank,
             not_unique: self.measures.not_unique(self.scene),
+            contacts: self.contacts.instants().iter().map(|i| contact(self.scene, i)).collect(),
+            contacts_left_out: self.contacts.left_out(),
             ..plain_summary(self.scene, settings)
         };
         let (energy, violation, iterations) = self.recorder.page_series();
@@ -286,6 +294,18 @@ where
         };
         let table = self.recorder.table().map(|(t, row)| (t, row.to_vec())).collect();
         Outcome { summary, error, record, channels: self.recorder.channels.clone(), table }
+    }
+}
+
+/// An instant with the effect's name.
+fn contact<T: Real>(scene: &Scene<T>, instant: &outputs::Instant) -> Contact {
+    let effect = &scene.effects[instant.effect];
+    let is_limit = matches!(effect.kind, EffectKind::Limit { .. });
+    Contact {
+        time: instant.t,
+        effect: effect.name.clone(),
+        end: is_limit.then_some(["lower", "upper"][instant.end]),
+        event: if instant.makes { "made" } else { "broken" },
     }
 }
 

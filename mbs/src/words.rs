@@ -3,11 +3,16 @@
 use crate::settings::Settings;
 use mbs_core::Real;
 use mbs_core::scene::{BodyRef, Scene};
-use mbs_scene::{RunError, RunSummary, readable};
+use mbs_scene::{Contact, RunError, RunSummary, readable};
 
 /// Three significant digits: the size is what matters.
 pub(crate) fn few(x: f64) -> String {
     readable(format!("{x:.2e}").parse().unwrap_or(x))
+}
+
+/// Six significant digits: an instant.
+fn few_more(x: f64) -> String {
+    readable(format!("{x:.5e}").parse().unwrap_or(x))
 }
 
 /// The summary table of a page.
@@ -16,7 +21,7 @@ pub(crate) fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
         return Vec::new();
     }
     let row = |label: &str, value: String| (label.to_owned(), value);
-    vec![
+    let mut rows = vec![
         row("degrees of freedom", s.dof.to_string()),
         row(
             "coordinates, constraints, their rank",
@@ -31,7 +36,27 @@ pub(crate) fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
         row("CPU time of the steps", duration(s.cpu_seconds)),
         row("times real time", format!("{:.0}", s.real_time_factor)),
         row("slowest step", duration(s.worst_step_seconds)),
-    ]
+    ];
+    rows.extend(contacts(s).map(|text| row("contacts", text)));
+    rows
+}
+
+/// The first contacts of a run, and how many there were.
+fn contacts(s: &RunSummary) -> Option<String> {
+    const FIRST: usize = 8;
+    if s.contacts.is_empty() {
+        return None;
+    }
+    let one = |c: &Contact| {
+        let end = c.end.map_or_else(String::new, |end| format!(" ({end})"));
+        format!("`{}`{end} {} at {} s", c.effect, c.event, few_more(c.time))
+    };
+    let mut text = s.contacts.iter().take(FIRST).map(one).collect::<Vec<_>>().join(", ");
+    let more = s.contacts.len().saturating_sub(FIRST) as u64 + s.contacts_left_out;
+    if more > 0 {
+        text += &format!(", and {more} more");
+    }
+    Some(text)
 }
 
 /// A size for a table: four digits, and a plain zero.

@@ -3,6 +3,9 @@
 
 mod common;
 
+use mbs::core::actions::{Action, Actions};
+use mbs::core::laws::body::BodyLaw;
+use mbs::core::laws::{foot::foot, road::height};
 use mbs::core::scene::{Output, Quantity};
 use mbs::{Overrides, Settings, Still};
 
@@ -31,6 +34,65 @@ fn static_equilibrium_is_the_published_one() {
     }
 }
 
+/// Two programs, which differ in where they take the slip of a tire (0.02 % of the way across) and in what camber does to its
+/// load; the reference has four to seven digits [-].
+const REFERENCE: f64 = 1e-3;
+
+/// After 5 s: x, y, yaw, roll, yaw rate, v_x, v_y of the chassis (Robotran model of UCLouvain).
+const RAMP_STEERS: [(&str, [f64; 7]); 3] = [
+    (
+        "iltis-ramp-steer-10",
+        [49.29088, -6.754062, -0.290895, -0.0057392, -0.06253012, 9.556278, -2.868697],
+    ),
+    (
+        "iltis-ramp-steer-20",
+        [97.41250, -17.33649, -0.4006217, -0.01612108, -0.08564136, 18.36862, -7.516234],
+    ),
+    (
+        "iltis-ramp-steer-30",
+        [145.9981, -25.37493, -0.4055022, -0.02442894, -0.08484078, 27.51252, -11.06744],
+    ),
+];
+
+#[test]
+fn steering_ramps_end_where_those_of_an_independent_program_do() {
+    for (name, reference) in RAMP_STEERS {
+        let mut scene = common::scene(name);
+        let at = [scene.bodies[0].center, [1.0, 0.0, 0.57], [0.0, 1.0, 0.57]];
+        let place = |at| Quantity::Position { body: 0, at };
+        let speed = |at| Quantity::Velocity { body: 0, at };
+        let quantities = at.map(place).into_iter().chain(at.map(speed));
+        scene.outputs = quantities
+            .enumerate()
+            .map(|(i, quantity)| Output { name: format!("{i}"), quantity })
+            .collect();
+        for formulation in ["index-3", "recursive"] {
+            let settings = common::settings(&scene, formulation, None);
+            let outcome = mbs::run::<f64, 3>(&scene, &settings, &mut ());
+            let (_, row) = outcome.rows().last().expect("there are rows");
+            let vector = |i: usize| [row[3 * i], row[3 * i + 1], row[3 * i + 2]];
+            let minus = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+            let [center, nose, flank, v, v_nose, v_flank] = [0, 1, 2, 3, 4, 5].map(vector);
+            let (x, y) = (minus(nose, center), minus(flank, center));
+            let (x_t, y_t) = (minus(v_nose, v), minus(v_flank, v));
+            let z = common::cross(x, y);
+            // The rotation is that by pitch about y, then roll about x, then yaw about z.
+            let yaw_rate = (x_t[1] * y[1] - x[1] * y_t[1]) / (x[1] * x[1] + y[1] * y[1]);
+            let ours = [center[0], center[1], x[1].atan2(y[1]), -z[1].asin(), yaw_rate, v[0], v[1]];
+            for (k, (ours, theirs)) in ours.iter().zip(reference).enumerate() {
+                let off = ours / theirs - 1.0;
+                println!(
+                    "{name} {formulation}, number {k}: {ours:.7}, {off:+.1e} of the reference"
+                );
+                assert!(
+                    off.abs() < REFERENCE,
+                    "{name} {formulation}, number {k}: {ours}, {theirs}"
+                );
+            }
+        }
+    }
+}
+
 /// Chassis position and vertical acceleration over a run, and the energy error as a share of the energy turned over.
 fn run(name: &str, formulation: &str, (step, duration): (f64, f64)) -> (Vec<[f64; 4]>, f64) {
     let mut scene = common::scene(name);
@@ -44,6 +106,8 @@ fn run(name: &str, formulation: &str, (step, duration): (f64, f64)) -> (Vec<[f64
         formulation: Some(formulation.to_owned()),
         step: Some(step),
         duration: Some(duration),
+        // What iterations leave adds up over thousands of steps: two digits less than the default.
+        tolerance: Some(1e-12),
         ..Overrides::default()
     };
     let settings = Settings::new(&scene, &overrides).expect("the settings are built");
@@ -149,6 +213,39 @@ fn energy_is_kept_to_a_thousandth_of_what_is_turned_over_and_better_at_smaller_s
             assert!(fine < 1e-3, "{name}, {formulation}: {fine:e}");
             // Order 1 or better: a quarter of the step.
             assert!(fine < 0.25 * coarse, "{name}, {formulation}: {coarse:e} {fine:e}");
+        }
+    }
+}
+
+/// Places of the road that are searched for the nearest [m]; the least distance is then too large by a few 1e-8 m at most.
+const SEARCHED: f64 = 1e-4;
+
+#[test]
+fn wheels_stand_on_the_nearest_point_of_every_stair() {
+    for name in ["iltis-stairs", "iltis-stairs-stiff"] {
+        let actions = Actions::new(&common::scene(name)).expect("the scene has effects");
+        let road = actions.list.iter().find_map(|(_, action)| match action {
+            Action::OnBody { law: BodyLaw::Tire(tire), .. } => Some(tire.road),
+            _ => None,
+        });
+        let road = road.expect("the vehicle has tires");
+        let supplies = actions.tables.supplies(&[]);
+        // The ramp, and the five stairs behind it; wheels pressed in, just touching and a little above.
+        for i in 0..=2600 {
+            let x = 5.5 + 0.01 * f64::from(i);
+            let h = height(road, &supplies, x);
+            let steep = h.slope.hypot(1.0);
+            for distance in [0.30, 0.36, 0.45] {
+                let center = [x - distance * h.slope / steep, h.value + distance / steep];
+                let found = foot(road, &supplies, center).distance;
+                assert!((found - distance).abs() < 1e-12, "{name}, {x}: {found}, not {distance}");
+                let near = (-5000..=5000).step_by(if i % 20 == 0 { 1 } else { 5000 }).map(|k| {
+                    let u = x + SEARCHED * f64::from(k);
+                    (center[0] - u).hypot(center[1] - height(road, &supplies, u).value)
+                });
+                let searched = near.fold(f64::INFINITY, f64::min);
+                assert!(found < searched + 1e-12, "{name}, {x}: {found}, there is {searched}");
+            }
         }
     }
 }

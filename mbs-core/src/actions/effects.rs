@@ -110,6 +110,7 @@ impl<T: Real> Compiler<'_, T> {
                     road: roads[usize::from(center[1] < T::ZERO && !self.is_planar())],
                     travel,
                     up: self.scene.dimension.count() - 1,
+                    leans: given.is_some() && !self.is_planar(),
                 });
                 let axis = given.map_or_else(|| unit(2).into(), direction_of);
                 self.push(Action::OnBody { at: (*body, *center), axis, law });

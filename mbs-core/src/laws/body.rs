@@ -91,7 +91,7 @@ impl<T: Real> BodyLaw<T> {
             #[cfg(feature = "drag")]
             Self::Drag { .. } => false,
             #[cfg(feature = "tire")]
-            Self::Tire(tire) => tire.n_actions() > 1,
+            Self::Tire(tire) => tire.leans || tire.n_actions() > 1,
             #[cfg(any(feature = "speed-hold", feature = "own-laws"))]
             _ => true,
         }

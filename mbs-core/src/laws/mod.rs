@@ -10,6 +10,8 @@ pub mod bumper;
 pub mod calspan;
 #[cfg(feature = "drag")]
 pub mod drag;
+#[cfg(feature = "tire")]
+pub mod foot;
 #[cfg(feature = "friction")]
 pub mod friction;
 pub mod guide;

@@ -1,13 +1,9 @@
-//! Roads: heights over x, the same across it, and the nearest point of a road to the centre of a wheel.
+//! Roads: heights over x, the same across it.
 //!
 //! ```text
 //! rise    slope 0 -> s -> 0, linear over the rounding r at both ends, s = height / (length - r)
 //! bump    A (1 - cos(2 pi (x - x0) / L))
-//! foot    u with (u - x) + (h(u) - z) h'(u) = 0,   distance n.(c - foot), normal n = (-h', 1) / sqrt(1 + h'^2)
 //! ```
-//!
-//! The distance to the nearest point has the normal as its gradient, so that a force by distance along the normal has a
-//! potential on every road. The foot is unique while hollows are rounder than the wheel: h'' (R - deflection) < 1.
 
 use super::{Part, Supplies, guide};
 use crate::Real;
@@ -79,6 +75,42 @@ impl<T: Real> Feature<T> {
             }
         }
     }
+
+    /// A bound of h'' between two places; `None`: level there.
+    fn hollow(&self, [lower, upper]: [T; 2], knots: (&[[T; 2]], &[T])) -> Option<T> {
+        let within = |start: T, length: T| start <= upper && start + length >= lower;
+        match *self {
+            Self::Flat(_) => None,
+            Self::Rise { start, length, height, rounding } => {
+                within(start, length).then(|| height.abs() / ((length - rounding) * rounding))
+            }
+            Self::Bump { start, length, amplitude } => within(start, length).then(|| {
+                let k = T::TWO * T::PI / length;
+                amplitude.abs() * k * k
+            }),
+            Self::Spline(part) => spline_hollow(part.of(knots.0), part.of(knots.1), [lower, upper]),
+        }
+    }
+}
+
+/// Change of slope at the end of a table that is no hollow [-].
+const LEVEL: f64 = 1e-6;
+
+/// The largest curvature of the knots about a range; where the table rises from its end there, a bound that none exceeds.
+fn spline_hollow<T: Real>(table: &[[T; 2]], curvatures: &[T], [lower, upper]: [T; 2]) -> Option<T> {
+    let (first, last) = (table.first()?[0], table.last()?[0]);
+    if !(first <= upper && last >= lower) || table.len() < 2 {
+        return None;
+    }
+    let rise = |x| guide::spline(table, curvatures, x).rate;
+    let kink = T::from_f64(LEVEL);
+    if (first >= lower && rise(first) > kink) || (last <= upper && rise(last) < -kink) {
+        return Some(T::ONE / T::EPSILON);
+    }
+    let from = table.partition_point(|knot| knot[0] <= lower).saturating_sub(1);
+    let to = table.partition_point(|knot| knot[0] < upper) + 1;
+    let about = curvatures.get(from..to.min(curvatures.len()))?;
+    Some(about.iter().fold(T::ZERO, |most, &c| most.max(c)))
 }
 
 /// A rise of length, height and rounding at the distance `u` from its start.
@@ -118,39 +150,21 @@ pub fn height<T: Real>(road: Part, supplies: &Supplies<'_, T>, x: T) -> Height<T
     sum
 }
 
-/// The nearest point of a road, as seen from a centre.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Foot<T> {
-    /// Distance, negative below the road [m].
-    pub distance: T,
-    /// Unit normal of the road there: along x, and up.
-    pub normal: [T; 2],
-}
-
-/// Newton steps that the foot may take; hollows as tight as the wheel may end before.
-const STEPS: usize = 20;
-
-/// The nearest point to (x, z) [m]. Cost: one height on level ground, a few on slopes.
-pub fn foot<T: Real>(road: Part, supplies: &Supplies<'_, T>, [x, z]: [T; 2]) -> Foot<T> {
-    let mut u = x;
-    let mut h = height(road, supplies, u);
-    let goal = T::EPSILON * T::from_f64(4.0);
-    for _ in 0..STEPS {
-        let above = z - h.value;
-        let residual = u - x - above * h.slope;
-        if residual.abs() <= goal * (above.abs() + x.abs()) {
-            break;
+/// The largest h'' [1/m] of a road between `lower` and `upper`, or a bound of it; `None` where it is level there.
+///
+/// Cost: a few operations for each part of the road, and for the knots of a spline that lie there.
+pub fn hollow<T: Real>(
+    road: Part,
+    supplies: &Supplies<'_, T>,
+    [lower, upper]: [T; 2],
+) -> Option<T> {
+    let mut sum = None;
+    for feature in road.of(supplies.features) {
+        if let Some(hollow) = feature.hollow([lower, upper], supplies.knots) {
+            sum = Some(sum.unwrap_or(T::ZERO) + hollow);
         }
-        let steep = T::ONE + h.slope * h.slope;
-        // Where the road is hollow the full slope may vanish: then the step of a straight road is taken.
-        let full = steep - above * h.curvature;
-        let pivot = if full > steep * T::from_f64(0.1) { full } else { steep };
-        u -= residual / pivot;
-        h = height(road, supplies, u);
     }
-    let inverse = T::ONE / (T::ONE + h.slope * h.slope).sqrt();
-    let normal = [-h.slope * inverse, inverse];
-    Foot { distance: normal[0] * (x - u) + normal[1] * (z - h.value), normal }
+    sum
 }
 
 #[cfg(test)]
@@ -185,29 +199,29 @@ mod tests {
     }
 
     #[test]
-    fn the_normal_is_the_gradient_of_the_distance() {
+    fn the_bound_of_a_hollow_holds_where_a_road_bends_and_level_parts_have_none() {
         let (road, s) = supplies();
-        let step = 1e-6;
-        for i in 0..80 {
-            let c = [0.1 * f64::from(i), 0.8];
-            let distance = |dx: f64, dz: f64| foot(road, &s, [c[0] + dx, c[1] + dz]).distance;
-            let at = foot(road, &s, c);
-            let by = [
-                (distance(step, 0.0) - distance(-step, 0.0)) / (2.0 * step),
-                (distance(0.0, step) - distance(0.0, -step)) / (2.0 * step),
-            ];
-            // The curvature jumps at corners, so that second differences are of the order of the step.
-            assert!((by[0] - at.normal[0]).abs() < 1e-5 && (by[1] - at.normal[1]).abs() < 1e-5);
+        for i in 0..90 {
+            let x = 0.013 + 0.1 * f64::from(i);
+            match hollow(road, &s, [x - 0.02, x + 0.02]) {
+                Some(bound) => assert!(height(road, &s, x).curvature <= bound, "{x}"),
+                None => assert!(height(road, &s, x).slope == 0.0, "{x}"),
+            }
         }
+        assert_eq!(hollow(road, &s, [0.0, 0.9]), None);
+        assert_eq!(hollow(road, &s, [3.1, 3.9]), None);
     }
 
     #[test]
-    fn on_a_straight_slope_the_distance_is_that_of_a_line() {
-        let (road, s) = supplies();
-        let (x, z) = (2.0, 0.7);
-        let at = foot(road, &s, [x, z]);
-        // Height 0.25 and slope 0.2 in the middle.
-        let expected = (z - 0.25) / 1.04_f64.sqrt();
-        assert!((at.distance - expected).abs() < 1e-14);
+    fn a_table_is_as_hollow_as_its_knots_and_has_no_bound_where_it_rises_from_its_end() {
+        let table = [[0.0, 0.0], [1.0, 0.1], [2.0, 0.0], [3.0, 0.1], [4.0, 0.0]];
+        let (mut curvatures, mut scratch) = ([0.0; 5], [0.0; 5]);
+        guide::spline_curvatures(&table, &mut curvatures, &mut scratch);
+        let of = |x| spline_hollow(&table, &curvatures, x);
+        assert_eq!(of([-2.0, -0.1]), None);
+        assert_eq!(of([4.1, 9.0]), None);
+        assert_eq!(of([1.2, 1.8]), Some(curvatures[2]));
+        assert_eq!(of([1.2, 2.8]), Some(curvatures[2]));
+        assert!(of([-0.1, 0.1]) > Some(1e9) && of([3.9, 4.2]) > Some(1e9));
     }
 }

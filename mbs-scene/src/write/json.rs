@@ -53,6 +53,31 @@ pub struct RunSummary {
     /// Joints whose reaction is not unique; the smallest one is given.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub not_unique: Vec<String>,
+    /// When bumpers, limits and tires made and broke contact, in order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub contacts: Vec<Contact>,
+    /// How many more there were than are listed.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub contacts_left_out: u64,
+}
+
+/// A contact made or broken.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+pub struct Contact {
+    /// When, interpolated within the step [s].
+    pub time: f64,
+    /// Name of the effect.
+    pub effect: String,
+    /// `lower` or `upper` end of a limit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end: Option<&'static str>,
+    /// `made` or `broken`.
+    pub event: &'static str,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "what serde asks for")]
+fn is_zero(n: &u64) -> bool {
+    *n == 0
 }
 
 /// Why a run stopped early.

@@ -12,6 +12,6 @@ pub use explanation::{
     Absence, Change, EffectEntry, Explanation, GuideEntry, JointGroup, LargestStep, Price, Prices,
     Relative, Rod, SearchEnd, Simulated, Sizes,
 };
-pub use json::{Chosen, EnergySummary, Outputs, RunError, RunSummary, ViolationSummary};
+pub use json::{Chosen, Contact, EnergySummary, Outputs, RunError, RunSummary, ViolationSummary};
 pub use readable::readable;
 pub(crate) use readable::rounded;

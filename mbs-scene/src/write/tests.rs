@@ -1,6 +1,6 @@
 //! Files read back as what was written.
 
-use crate::{Channel, CsvWriter, Document, Outputs, RunError, RunSummary};
+use crate::{Channel, Contact, CsvWriter, Document, Outputs, RunError, RunSummary};
 use proptest::prelude::*;
 
 const SCENE: &str = r#"
@@ -115,4 +115,11 @@ fn json_has_exactly_the_keys_of_the_format() {
     assert_eq!(keys(&json["error"]), ["code", "hint", "joint", "message", "time"]);
     assert_eq!(keys(&json["chosen"]), ["formulation", "reasons"]);
     assert_eq!(json["not_unique"], serde_json::json!(["pivot"]));
+    let contact = |end, event| Contact { time: 0.5, effect: "stop".into(), end, event };
+    summary.contacts = vec![contact(None, "made"), contact(Some("upper"), "broken")];
+    summary.contacts_left_out = 3;
+    let json: serde_json::Value = serde_json::from_str(&summary.to_json()).unwrap();
+    assert_eq!(keys(&json["contacts"][0]), ["effect", "event", "time"]);
+    assert_eq!(json["contacts"][1]["end"], "upper");
+    assert_eq!(json["contacts_left_out"], 3);
 }

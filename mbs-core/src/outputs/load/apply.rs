@@ -8,6 +8,7 @@
 //! on a body   -f d at the law's point and -f m, over the law's actions
 //! ```
 
+use super::super::frame::Frame;
 use super::{Gauge, Load, Wrench};
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, norm, raised, unit};
@@ -57,13 +58,8 @@ impl<T: Real, const D: usize> Load<T, D> {
             }
             Self::OnBody { body, point, frame, axis, law } => {
                 let body = BodyRef::Body(*body);
-                let at = raised(&point.value(&state.q));
-                let motion = BodyMotion {
-                    position: at.into(),
-                    velocity: raised(&point.rate(&state.v)).into(),
-                    axis: (turned(body) * axis).into(),
-                    spin: frame.turning(&state.q, &state.v).into(),
-                };
+                let motion = motion((point, frame), &(turned(body) * axis), state);
+                let at = Vector::from(motion.position);
                 let mut actions = [Action::default(); MOST];
                 let actions = &mut actions[..law.n_actions()];
                 law.evaluate(&motion, supplies, actions);
@@ -87,43 +83,78 @@ impl<T: Real, const D: usize> Gauge<T, D> {
         axes: &Matrix<T, 3>,
         supplies: &Supplies<'_, T>,
     ) -> Option<Pull<T>> {
-        let tension = |value, rate| law.evaluate(value, rate, supplies).tension;
+        let [value, rate] = self.measure(state);
+        let tension = law.evaluate(value, rate, supplies).tension;
         Some(match self {
+            Self::Length { points } => {
+                let ([p, r], _) = ends(points, state);
+                if !(value > T::ZERO) {
+                    return None;
+                }
+                ([Some(p), Some(r)], push((r - p) * (tension / value)))
+            }
+            Self::Along { points, direction, .. } => {
+                let ([_, r], _) = ends(points, state);
+                ([Some(r); 2], push(raised(&direction.value(&state.q)) * tension))
+            }
+            Self::Angle { axis, .. } => ([None; 2], twist(axes * axis * tension)),
+            Self::Twist { sides } => {
+                let [[a1, b1], [a2, b2]] = [0, 1]
+                    .map(|body| [0, 1].map(|side| raised(&sides[body][side].value(&state.q))));
+                let g = (cross(&a2, &b1) - cross(&b2, &a1)) * T::HALF;
+                ([None; 2], twist(g * tension))
+            }
+        })
+    }
+
+    /// What a law measures at a state, and its rate; no rate at length zero.
+    pub(super) fn measure(&self, state: &State<T>) -> [T; 2] {
+        match self {
             Self::Length { points } => {
                 let ([p, r], rate) = ends(points, state);
                 let (line, length) = (r - p, norm(&(r - p)));
                 if !(length > T::ZERO) {
-                    return None;
+                    return [length, T::ZERO];
                 }
-                let n = line * (T::ONE / length);
-                ([Some(p), Some(r)], push(n * tension(length, n.dot(&rate))))
+                [length, (line * (T::ONE / length)).dot(&rate)]
             }
             Self::Along { points, direction, offset } => {
                 let ([p, r], rate) = ends(points, state);
                 let d = raised(&direction.value(&state.q));
                 let turning = raised(&direction.rate(&state.v));
-                let value = (r - p).dot(&d) - *offset;
-                let f = tension(value, rate.dot(&d) + (r - p).dot(&turning));
-                ([Some(r); 2], push(d * f))
+                [(r - p).dot(&d) - *offset, rate.dot(&d) + (r - p).dot(&turning)]
             }
-            Self::Angle { axis, angle, memory } => {
+            Self::Angle { angle, memory, .. } => {
                 let (mut value, mut rate) = ([T::ZERO], [T::ZERO]);
                 value[0] = memory.map_or(T::ZERO, |place| state.memory[place]);
                 angle.track(&state.q, &mut value);
                 angle.rates(&state.q, &state.v, &mut rate);
-                ([None; 2], twist(axes * axis * tension(value[0], rate[0])))
+                [value[0], rate[0]]
             }
             Self::Twist { sides } => {
                 let now =
                     |x: &Affine<T, D>| (raised(&x.value(&state.q)), raised(&x.rate(&state.v)));
                 let [[(a1, a1_t), (b1, b1_t)], [(a2, a2_t), (b2, b2_t)]] =
                     [0, 1].map(|body| [0, 1].map(|side| now(&sides[body][side])));
-                let value = (b1.dot(&a2) - a1.dot(&b2)) * T::HALF;
+                let value = b1.dot(&a2) - a1.dot(&b2);
                 let rate = b1_t.dot(&a2) + b1.dot(&a2_t) - a1_t.dot(&b2) - a1.dot(&b2_t);
-                let g = (cross(&a2, &b1) - cross(&b2, &a1)) * T::HALF;
-                ([None; 2], twist(g * tension(value, rate * T::HALF)))
+                [value * T::HALF, rate * T::HALF]
             }
-        })
+        }
+    }
+}
+
+/// What a law on one body sees of it, with the law's direction as it has turned.
+pub(super) fn motion<T: Real, const D: usize>(
+    (point, frame): (&Affine<T, D>, &Frame<T, D>),
+    axis: &Vector<T, 3>,
+    state: &State<T>,
+) -> BodyMotion<T> {
+    BodyMotion {
+        position: raised(&point.value(&state.q)).into(),
+        velocity: raised(&point.rate(&state.v)).into(),
+        axis: (*axis).into(),
+        spin: frame.turning(&state.q, &state.v).into(),
     }
 }
 

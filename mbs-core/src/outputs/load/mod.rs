@@ -1,8 +1,10 @@
 //! Effects as seen by the bodies: what acts, at which places, by which law.
 
 mod apply;
+mod gap;
 
 pub(super) use apply::Applied;
+pub(super) use gap::{Gap, MOST_GAPS};
 
 use super::coordinate::Coordinate;
 use super::frame::Frame;
@@ -80,11 +82,32 @@ impl<T: Real, const D: usize> Loads<T, D> {
     /// # Errors
     /// [`ActionError`] as for the model.
     pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ActionError> {
+        Ok(Self::of(scene, model, |_| true)?.0)
+    }
+
+    /// The enabled effects that act on one side only, and their indices.
+    ///
+    /// # Errors
+    /// [`ActionError`] as for the model.
+    pub(super) fn one_sided(
+        scene: &Scene<T>,
+        model: &NaturalModel<T, D>,
+    ) -> Result<(Self, Vec<usize>), ActionError> {
+        Self::of(scene, model, |load| load.n_gaps() > 0)
+    }
+
+    fn of(
+        scene: &Scene<T>,
+        model: &NaturalModel<T, D>,
+        keeps: impl Fn(&Load<T, D>) -> bool,
+    ) -> Result<(Self, Vec<usize>), ActionError> {
         let Actions { list, prescribed, tables } = Actions::new(scene)?;
-        let list = list.iter().map(|(effect, action)| Load::new((scene, model), *effect, action));
-        let list = list.collect();
+        let load = |(effect, action): &(usize, Action<T>)| {
+            (*effect, Load::new((scene, model), *effect, action))
+        };
+        let (effects, list) = list.iter().map(load).filter(|(_, load)| keeps(load)).unzip();
         let values = vec![[T::ZERO; 3]; prescribed.n_courses()];
-        Ok(Self { list, prescribed, values, tables })
+        Ok((Self { list, prescribed, values, tables }, effects))
     }
 
     /// The effects, and the inputs of the instant `t`.

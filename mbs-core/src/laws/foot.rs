@@ -1,0 +1,361 @@
+//! The nearest point of a road to the centre of a wheel.
+//!
+//! ```text
+//! foot    u where D = ((u - x)^2 + (h(u) - z)^2)/2 is least,   D' = (u - x) + (h(u) - z) h'(u) = 0
+//! normal  n = (-h', 1) / sqrt(1 + h'^2),   distance d = n.(c - foot)
+//! turn    dn/ds = -kappa / (1 - kappa d),   kappa = h'' / (1 + h'^2)^(3/2)       s the centre's way along the road
+//! ```
+//!
+//! The distance to the nearest point has the normal as its gradient, so that a force by distance along the normal has a
+//! potential on every road.
+//!
+//! **What is found.** Newton's method on D', kept within a bracket that holds a minimum of D, starts from the point below the
+//! centre and ends in a stationary point, always one at least as near as that start. Where h'' d < 1 holds over the reach of
+//! the centre, h'' bounded by the sum over the road's parts, that point is the nearest: the circle of radius d about the
+//! centre, which touches the road there, is rounder than the road everywhere, so that the road stays below it. Scenes are
+//! refused whose features break h'' R < 1, so this covers every wheel that is pressed in, one feature at a time.
+//!
+//! Elsewhere, which is in hollows as tight as the wheel and where a centre is far above a road, the road within the distance
+//! already found is looked at in [`CELLS`] equal cells, every cell at whose ends the distance shows a minimum within is
+//! searched, and the nearest of all is taken. A second minimum inside one cell (an eighth of the distance) may be missed.
+//!
+//! **Two points equally near.** The nearest point, and with it the direction of the force, jumps where the centre crosses the
+//! middle between two points that are equally near; distance and force stay continuous in size. Equally near ones are
+//! decided for the one found first. A wheel that rests in a hollow tighter than itself sits on such a jump: one force stands
+//! for two, and alternates.
+//!
+//! A crest that is sharp, at the end of a table, is the nearest point to all centres in a wedge above it: there the normal
+//! points to the centre.
+
+use super::road::{self, Height};
+use super::{Part, Supplies};
+use crate::Real;
+
+/// The nearest point of a road, as seen from a centre.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Foot<T> {
+    /// Distance, negative below the road [m].
+    pub distance: T,
+    /// Unit normal of the road there: along x, and up.
+    pub normal: [T; 2],
+    /// h'' there; on a sharp crest so far below zero that [`turn`](Self::turn) is that of a point [1/m].
+    pub bend: T,
+}
+
+/// Newton steps and bisections of one search at most: as many as a double has bits, and some.
+const STEPS: usize = 64;
+/// Cells in which the reach of a centre is looked at where one search does not tell.
+pub const CELLS: u32 = 16;
+
+/// The nearest point to (x, z) [m]. Cost: one height where the road is level within the centre's height above it, a few on
+/// slopes; where the point is not surely the nearest, about forty.
+pub fn foot<T: Real>(road: Part, supplies: &Supplies<'_, T>, [x, z]: [T; 2]) -> Foot<T> {
+    let below = road::height(road, supplies, x);
+    let above = z - below.value;
+    let reach = above.abs();
+    let Some(hollow) = road::hollow(road, supplies, [x - reach, x + reach]) else {
+        return Foot { distance: above, normal: [T::ZERO, T::ONE], bend: T::ZERO };
+    };
+    let goal = T::EPSILON * T::from_f64(4.0) * (reach + x.abs() + z.abs());
+    let search = Search { road, supplies, center: [x, z], goal, slack: T::TWO * goal * reach };
+    let start = search.spot(x, below);
+    let side = if start.slope > T::ZERO { -reach } else { reach };
+    let near = search.settle(start, x + side);
+    let distance = (near.square + near.square).sqrt();
+    if above > T::ZERO && hollow * distance < T::ONE {
+        return search.foot(&near);
+    }
+    search.foot(&search.among(near, distance))
+}
+
+impl<T: Real> Foot<T> {
+    /// How the normal turns as the centre moves along the road by its tangent (normal_up, -normal_x) [1/m]. In a hollow it
+    /// grows without bound where the centre comes to the centre of curvature; it is cut off at a hundred times h''.
+    pub fn turn(&self) -> T {
+        let up = self.normal[1];
+        let kappa = self.bend * up * up * up;
+        -kappa / (T::ONE - kappa * self.distance).max(T::from_f64(0.01))
+    }
+}
+
+/// What stays the same in the searches of one centre.
+struct Search<'a, T> {
+    road: Part,
+    supplies: &'a Supplies<'a, T>,
+    center: [T; 2],
+    /// Rounding of D' [m], and of D [m^2].
+    goal: T,
+    slack: T,
+}
+
+/// A place of the road.
+#[derive(Debug, Clone, Copy)]
+struct Spot<T> {
+    u: T,
+    height: Height<T>,
+    /// D [m^2] and D' [m].
+    square: T,
+    slope: T,
+}
+
+impl<T: Real> Search<'_, T> {
+    fn at(&self, u: T) -> Spot<T> {
+        self.spot(u, road::height(self.road, self.supplies, u))
+    }
+
+    fn spot(&self, u: T, height: Height<T>) -> Spot<T> {
+        let (along, above) = (u - self.center[0], self.center[1] - height.value);
+        let square = (along * along + above * above) * T::HALF;
+        Spot { u, height, square, slope: along - above * height.slope }
+    }
+
+    /// A minimum of D between `near`, from which D falls towards `far`, and `far`, where it has risen or rises again.
+    fn settle(&self, mut near: Spot<T>, mut far: T) -> Spot<T> {
+        let forward = far > near.u;
+        let mut last = near;
+        let (mut step, mut before) = ((far - near.u).abs(), (far - near.u).abs());
+        for _ in 0..STEPS {
+            if last.slope.abs() <= self.goal {
+                break;
+            }
+            let newton = last.u - last.slope / self.pivot(&last.height);
+            let is_within = (newton > near.u) == forward && (newton < far) == forward;
+            let is_small = (newton - last.u).abs() <= before * T::HALF;
+            let u = if is_within && is_small { newton } else { (near.u + far) * T::HALF };
+            if u == near.u || u == far {
+                break;
+            }
+            (before, step) = (step, (u - last.u).abs());
+            last = self.at(u);
+            let falls_on = (last.slope < T::ZERO) == forward;
+            if falls_on && last.square <= near.square + self.slack {
+                near = last;
+            } else {
+                far = u;
+            }
+        }
+        last
+    }
+
+    /// D'', or that of a straight road where D'' may vanish.
+    fn pivot(&self, height: &Height<T>) -> T {
+        let steep = T::ONE + height.slope * height.slope;
+        let full = steep - (self.center[1] - height.value) * height.curvature;
+        if full > steep * T::from_f64(0.1) { full } else { steep }
+    }
+
+    /// The nearest of all minima that cells within `distance` show, `best` among them.
+    fn among(&self, mut best: Spot<T>, distance: T) -> Spot<T> {
+        let width = T::TWO * distance / T::from_f64(f64::from(CELLS));
+        let mut left = self.at(self.center[0] - distance);
+        for _ in 0..CELLS {
+            let right = self.at(left.u + width);
+            let found =
+                if left.slope < T::ZERO && (right.slope > T::ZERO || right.square >= left.square) {
+                    Some(self.settle(left, right.u))
+                } else if right.slope > T::ZERO && left.square >= right.square {
+                    Some(self.settle(right, left.u))
+                } else {
+                    None
+                };
+            if let Some(found) = found
+                && found.square < best.square - self.slack
+            {
+                best = found;
+            }
+            left = right;
+        }
+        best
+    }
+
+    fn foot(&self, spot: &Spot<T>) -> Foot<T> {
+        let Height { value, slope, curvature } = spot.height;
+        let inverse = T::ONE / (T::ONE + slope * slope).sqrt();
+        let (mut normal, mut bend) = ([-slope * inverse, inverse], curvature);
+        let to_center = [self.center[0] - spot.u, self.center[1] - value];
+        let length = (spot.square + spot.square).sqrt();
+        if spot.slope.abs() > T::EPSILON.sqrt() * length {
+            // A sharp crest: nowhere near it does D' vanish.
+            let signed = if to_center[1] < T::ZERO { -length } else { length };
+            normal = to_center.map(|x| x / signed);
+            bend = -T::ONE / (T::EPSILON * length);
+        }
+        let distance = normal[0] * to_center[0] + normal[1] * to_center[1];
+        Foot { distance, normal, bend }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use super::super::road::Feature;
+    use super::*;
+    use std::format;
+
+    /// Counts from 0 to 1 without repeating itself soon: the golden section.
+    fn spread(i: u32) -> f64 {
+        (f64::from(i) * 0.618_033_988_749_894_9).fract()
+    }
+
+    fn rise(length: f64, height: f64, rounding: f64) -> Feature<f64> {
+        Feature::Rise { start: 0.0, length, height, rounding }
+    }
+
+    fn bump(start: f64, length: f64, amplitude: f64) -> Feature<f64> {
+        Feature::Bump { start, length, amplitude }
+    }
+
+    fn with<R>(features: &[Feature<f64>], f: impl FnOnce(Part, &Supplies<'_, f64>) -> R) -> R {
+        let n = u32::try_from(features.len()).expect("a short road");
+        f(Part { first: 0, n }, &Supplies { features, ..Supplies::courses(&[]) })
+    }
+
+    /// Least distance over places a ten-thousandth of it apart; too large by 1e-8 of it, times what bends.
+    fn by_search(road: Part, s: &Supplies<'_, f64>, [x, z]: [f64; 2]) -> f64 {
+        let reach = (z - road::height(road, s, x).value).abs();
+        let places = (-10_000..=10_000).map(|i| x + f64::from(i) * 1e-4 * reach);
+        let distance = |u: f64| {
+            let above = z - road::height(road, s, u).value;
+            ((u - x) * (u - x) + above * above).sqrt()
+        };
+        places.map(distance).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Both ways to the distance, for centres over the middle of a road.
+    fn holds(features: &[Feature<f64>], [from, to]: [f64; 2], heights: [f64; 2]) {
+        with(features, |road, s| {
+            for i in 0..400 {
+                let x = from + (to - from) * spread(i);
+                let above = heights[0] + (heights[1] - heights[0]) * spread(7 * i + 3);
+                let z = road::height(road, s, x).value + above;
+                let found = foot(road, s, [x, z]).distance.abs();
+                let searched = by_search(road, s, [x, z]);
+                let case = format!("{features:?} at ({x}, {z}): {found}, {searched}");
+                assert!(found <= searched + 1e-13, "{case}");
+                assert!(found >= searched - 2e-7 * searched, "{case}");
+            }
+        });
+    }
+
+    #[test]
+    fn the_foot_is_the_nearest_point_in_hollows_up_to_as_tight_as_the_wheel() {
+        // Curvature times a wheel of 0.36 m: 0.4, 0.65, 0.8, 0.97.
+        for [length, height] in [[0.9, -0.25], [0.577, -0.15], [0.522, -0.15], [0.545, -0.2]] {
+            for sign in [1.0, -1.0] {
+                let road = [rise(length, sign * height, length / 2.0)];
+                holds(&road, [-0.4, length + 0.4], [0.01, 0.36]);
+            }
+        }
+        holds(&[bump(0.0, 2.0, -0.2)], [-0.4, 2.4], [0.01, 0.36]);
+    }
+
+    #[test]
+    fn the_foot_is_the_nearest_point_in_hollows_tighter_than_the_wheel_and_on_crests() {
+        // Curvature times the distance up to 4: some centres have two points that are nearly as near.
+        holds(&[rise(0.4, -0.2, 0.2)], [-0.4, 0.8], [0.01, 0.6]);
+        holds(&[rise(0.3, 0.25, 0.1)], [-0.4, 0.8], [0.01, 0.6]);
+        holds(&[bump(0.0, 1.0, 0.1), bump(1.0, 1.0, 0.1)], [0.0, 2.0], [0.01, 0.9]);
+        holds(&[bump(0.0, 0.8, -0.15)], [-0.4, 1.2], [0.01, 0.9]);
+        holds(&[rise(0.6, 0.3, 0.2), bump(0.3, 0.5, 0.05)], [-0.4, 1.0], [0.01, 0.7]);
+    }
+
+    #[test]
+    fn the_foot_is_the_nearest_point_far_above_a_road_and_a_little_below_it() {
+        holds(&[rise(0.9, -0.25, 0.45)], [-1.0, 2.0], [0.4, 2.0]);
+        holds(&[bump(0.0, 5.0, 0.1)], [-1.0, 6.0], [0.4, 2.0]);
+        holds(&[bump(0.0, 5.0, 0.1)], [-1.0, 6.0], [-0.2, 0.0]);
+    }
+
+    #[test]
+    fn a_wheel_over_the_foot_of_a_stair_stands_where_it_touches() {
+        // The hollow that an unguarded Newton method leaves: 0.3912 m.
+        with(&[rise(0.577, -0.15, 0.2885)], |road, s| {
+            let at = foot(road, s, [0.343_526_631, 0.290_336_3]);
+            assert!((at.distance - 0.356).abs() < 1e-9, "{at:?}");
+        });
+    }
+
+    #[test]
+    fn the_normal_is_the_gradient_of_the_distance_and_turns_as_told() {
+        let features = [
+            Feature::Flat(0.1),
+            Feature::Rise { start: 1.0, length: 2.0, height: 0.3, rounding: 0.5 },
+            bump(4.0, 3.0, 0.05),
+        ];
+        with(&features, |road, s| {
+            let step = 1e-6;
+            for i in 0..80 {
+                let c = [0.1 * f64::from(i), 0.8];
+                let near = |dx: f64, dz: f64| foot(road, s, [c[0] + dx, c[1] + dz]);
+                let at = near(0.0, 0.0);
+                let slope = |a: Foot<f64>, b: Foot<f64>| (a.distance - b.distance) / (2.0 * step);
+                let by = [
+                    slope(near(step, 0.0), near(-step, 0.0)),
+                    slope(near(0.0, step), near(0.0, -step)),
+                ];
+                // The curvature jumps at corners, so that second differences are of the order of the step.
+                assert!((by[0] - at.normal[0]).abs() < 1e-5 && (by[1] - at.normal[1]).abs() < 1e-5);
+                // Along the tangent (up, -x), away from corners.
+                let along = |h: f64| near(at.normal[1] * h, -at.normal[0] * h);
+                let (before, after) = (along(-step), along(step));
+                if (before.bend - after.bend).abs() < 1e-4 {
+                    let turned =
+                        [0, 1].map(|k| (after.normal[k] - before.normal[k]) / (2.0 * step));
+                    let told = [at.turn() * at.normal[1], -at.turn() * at.normal[0]];
+                    assert!(
+                        (turned[0] - told[0]).abs() < 1e-4 && (turned[1] - told[1]).abs() < 1e-4,
+                        "{c:?}: {turned:?} {told:?}"
+                    );
+                }
+            }
+        });
+    }
+
+    #[test]
+    fn on_a_straight_slope_the_distance_is_that_of_a_line() {
+        with(
+            &[
+                Feature::Flat(0.1),
+                Feature::Rise { start: 1.0, length: 2.0, height: 0.3, rounding: 0.5 },
+            ],
+            |road, s| {
+                // Height 0.25 and slope 0.2 in the middle.
+                let expected = (0.7 - 0.25) / 1.04_f64.sqrt();
+                assert!((foot(road, s, [2.0, 0.7]).distance - expected).abs() < 1e-14);
+            },
+        );
+    }
+
+    #[test]
+    fn over_the_sharp_end_of_a_table_the_normal_points_to_the_centre() {
+        let (knots, curvatures) = ([[0.0, 0.0], [1.0, 0.5]], [0.0, 0.0]);
+        let features = [Feature::Spline(Part { first: 0, n: 2 })];
+        let s = Supplies {
+            features: &features,
+            knots: (&knots, &curvatures),
+            ..Supplies::courses(&[])
+        };
+        let road = Part { first: 0, n: 1 };
+        let at = foot(road, &s, [0.9, 0.9]);
+        let d = (0.01_f64 + 0.16).sqrt();
+        assert!((at.distance - d).abs() < 1e-12, "{at:?}");
+        assert!((at.normal[0] + 0.1 / d).abs() < 1e-12 && (at.normal[1] - 0.4 / d).abs() < 1e-12);
+        assert!((at.turn() - 1.0 / d).abs() < 1e-6 / d);
+        // In the hollow at the other end the wheel rests on both sides, and one is told.
+        let at = foot(road, &s, [-0.05, 0.3]);
+        let slope = (0.3 + 0.05 * 0.5) / 1.25_f64.sqrt();
+        assert!((at.distance - slope).abs() < 1e-14, "{at:?} {slope}");
+    }
+
+    #[test]
+    fn what_is_not_a_number_ends_a_search() {
+        with(&[bump(0.0, 5.0, 0.1)], |road, s| {
+            for center in
+                [[f64::NAN, 0.3], [1.0, f64::NAN], [1.0, f64::INFINITY], [f64::INFINITY, 0.3]]
+            {
+                let _ = foot(road, s, center);
+            }
+        });
+    }
+}

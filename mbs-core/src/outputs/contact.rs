@@ -1,0 +1,155 @@
+//! Instants at which one-sided effects make and break contact, interpolated within steps.
+//!
+//! ```text
+//! g(t0 + r h) = g0 H00 + h g0' H10 + g1 H01 + h g1' H11,   H00 = (1 + 2r)(1 - r)^2,  H10 = r (1 - r)^2,
+//!                                                           H01 = r^2 (3 - 2r),       H11 = r^2 (r - 1)
+//! ```
+//!
+//! Where the gap g has changed its sign over a step, the instant is the root of the cubic through values and rates at both
+//! ends. Steps are not cut there: the laws begin and end without a jump, and the instant is for the record alone. Its error is
+//! that of the states at both ends over the speed, and the h^3 that the kink of the gap's third derivative leaves.
+//! A contact shorter than a step, which no end of a step has seen and no force has answered, is not listed.
+
+use super::load::{Gap, Loads, MOST_GAPS};
+use crate::Real;
+use crate::model::State;
+use crate::natural::{ModelError, NaturalModel};
+use crate::scene::Scene;
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// Instants kept of a run at most.
+pub const MOST_INSTANTS: usize = 1000;
+
+/// A contact that is made or broken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Instant {
+    /// When [s].
+    pub t: f64,
+    /// Index of the effect in the scene.
+    pub effect: usize,
+    /// Of a limit: 0 its lower end, 1 its upper one. 0 else.
+    pub end: usize,
+    /// Made, or broken?
+    pub makes: bool,
+}
+
+/// Watches the gaps of bumpers, limits and tires from step to step.
+#[derive(Debug, Clone)]
+pub struct Contacts<T: Real, const D: usize> {
+    loads: Loads<T, D>,
+    effects: Vec<usize>,
+    /// The gaps at the end of the last step.
+    last: Vec<[Gap<T>; MOST_GAPS]>,
+    t: f64,
+    instants: Vec<Instant>,
+    left_out: u64,
+}
+
+impl<T: Real, const D: usize> Contacts<T, D> {
+    /// Prepares the one-sided effects of a scene; without any, nothing is ever evaluated.
+    ///
+    /// # Errors
+    /// [`ModelError`] as for the model.
+    pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ModelError> {
+        let (loads, effects) = Loads::one_sided(scene, model)?;
+        let last = vec![[Gap::default(); MOST_GAPS]; effects.len()];
+        let most = if effects.is_empty() { 0 } else { MOST_INSTANTS };
+        Ok(Self { loads, effects, last, t: 0.0, instants: Vec::with_capacity(most), left_out: 0 })
+    }
+
+    /// Takes the gaps at the state from which a run starts.
+    pub fn start(&mut self, state: &State<T>) {
+        if self.effects.is_empty() {
+            return;
+        }
+        let (list, supplies) = self.loads.at(state.t);
+        for (load, last) in list.iter().zip(&mut self.last) {
+            *last = load.gaps(state, &supplies);
+        }
+        self.t = state.t.to_f64();
+    }
+
+    /// Takes the gaps at the end of a step, and lists what has changed since the last.
+    ///
+    /// Cost: one evaluation of each one-sided effect, and some fifty operations for each change; no allocation.
+    pub fn watch(&mut self, state: &State<T>) {
+        if self.effects.is_empty() {
+            return;
+        }
+        let (from, to) = (self.t, state.t.to_f64());
+        let first = self.instants.len();
+        let (list, supplies) = self.loads.at(state.t);
+        for ((load, &effect), last) in list.iter().zip(&self.effects).zip(&mut self.last) {
+            let gaps = load.gaps(state, &supplies);
+            for (end, (a, b)) in last.iter().zip(&gaps).take(load.n_gaps()).enumerate() {
+                let makes = b.value < T::ZERO;
+                if makes == (a.value < T::ZERO) {
+                    continue;
+                }
+                if self.instants.len() == MOST_INSTANTS {
+                    self.left_out += 1;
+                    continue;
+                }
+                let share = root([a, b].map(|gap| [gap.value, gap.rate].map(T::to_f64)), to - from);
+                self.instants.push(Instant { t: from + share * (to - from), effect, end, makes });
+            }
+            *last = gaps;
+        }
+        // One step's changes come in the order of the effects.
+        self.instants[first..].sort_unstable_by(|a, b| a.t.total_cmp(&b.t));
+        self.t = to;
+    }
+
+    /// The instants so far, in order; at most [`MOST_INSTANTS`].
+    #[must_use]
+    pub fn instants(&self) -> &[Instant] {
+        &self.instants
+    }
+
+    /// How many more there were.
+    #[must_use]
+    pub fn left_out(&self) -> u64 {
+        self.left_out
+    }
+}
+
+/// Bisections of a root: to 1e-16 of the step.
+const HALVINGS: u32 = 53;
+
+/// Where in a step of length h the cubic through value and rate at both ends is zero, from 0 to 1; the values have different
+/// signs. Bisection needs no care where the cubic is flat, and contacts are rare.
+fn root([[g0, rate0], [g1, rate1]]: [[f64; 2]; 2], h: f64) -> f64 {
+    let cubic = |r: f64| {
+        let s = 1.0 - r;
+        (g0 * (1.0 + 2.0 * r) + h * rate0 * r) * s * s
+            + (g1 * (3.0 - 2.0 * r) - h * rate1 * s) * r * r
+    };
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if (cubic(middle) < 0.0) == (g0 < 0.0) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_root_of_a_cubic_is_exact_and_lies_within_the_step() {
+        // g = (t - 0.3)(t^2 + 1) over two units of time.
+        let g = |t: f64| (t - 0.3) * (t * t + 1.0);
+        let rate = |t: f64| t * t + 1.0 + 2.0 * t * (t - 0.3);
+        let share = root([[g(-0.5), rate(-0.5)], [g(1.5), rate(1.5)]], 2.0);
+        assert!((share - 0.4).abs() < 1e-15, "{share}");
+        // Rates that cannot be.
+        let share = root([[1.0, 1e6], [-1.0, 1e6]], 1.0);
+        assert!((0.0..=1.0).contains(&share));
+    }
+}
