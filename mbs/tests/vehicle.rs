@@ -4,10 +4,13 @@
 mod common;
 
 use mbs::core::actions::{Action, Actions};
-use mbs::core::laws::body::BodyLaw;
+use mbs::core::laws::body::{BodyLaw, BodyMotion};
 use mbs::core::laws::{foot::foot, road::height};
-use mbs::core::scene::{Output, Quantity};
+use mbs::core::model::State;
+use mbs::core::natural::NaturalModel;
+use mbs::core::scene::{BodyRef, Output, Quantity, Scene};
 use mbs::{Overrides, Settings, Still};
+use std::collections::BTreeMap;
 
 /// A number of the published equilibrium (Robotran model of UCLouvain), held to 1e-3 of itself.
 fn published(what: &str, ours: f64, theirs: f64) {
@@ -31,6 +34,71 @@ fn static_equilibrium_is_the_published_one() {
         let reaction = find(&still.reactions, &format!("leaf-link-{side}-left"));
         let axial = reaction[1].hypot(reaction[2]);
         published(&format!("axial force of the {side} leaf link [N]"), axial, force);
+    }
+}
+
+/// Forces of the spring elements with a vehicle at rest in a state, tension positive, and the tires' loads [N].
+fn forces(
+    scene: &Scene<f64>,
+    state: &[f64],
+    model: &NaturalModel<f64, 3>,
+) -> BTreeMap<String, f64> {
+    let Actions { list, tables, .. } = Actions::new(scene).expect("every law is built");
+    let supplies = tables.supplies(&[]);
+    let place = |(body, at): (BodyRef, [f64; 3])| model.point(body, at).value(state);
+    let force = |action: &Action<f64>| match action {
+        Action::Length { ends: [first, second], law } => {
+            law.evaluate((place(*second) - place(*first)).norm(), 0.0, &supplies).tension
+        }
+        Action::Along { ends: [first, second], direction, offset, law } => {
+            let along = model.direction(first.0, *direction).value(state);
+            let distance = (place(*second) - place(*first)).dot(&along) - offset;
+            law.evaluate(distance, 0.0, &supplies).tension
+        }
+        Action::OnBody { at: (body, at), axis, law: BodyLaw::Tire(tire) } => {
+            let motion = BodyMotion {
+                position: place((BodyRef::Body(*body), *at)).into(),
+                axis: model.direction(BodyRef::Body(*body), *axis).value(state).into(),
+                velocity: [0.0; 3],
+                spin: [0.0; 3],
+            };
+            let mut actions = vec![Default::default(); tire.n_actions()];
+            tire.evaluate(&motion, &supplies, &mut actions);
+            -actions[0].measure.tension
+        }
+        other => panic!("no force of {other:?}"),
+    };
+    list.iter()
+        .map(|(effect, action)| (scene.effects[*effect].name.clone(), force(action)))
+        .collect()
+}
+
+#[test]
+fn nominal_forces_and_those_of_the_equilibrium_are_the_published_ones() {
+    let scene = common::scene("iltis-equilibrium");
+    let model = NaturalModel::<f64, 3>::new(&scene).expect("the scene has a model");
+    let mut state = State::at_rest(&model);
+    // Nominal: Frik, Leister and Schwartz as the model of UCLouvain quotes and meets them; equilibrium: that model.
+    let nominal =
+        [("leaf", [-2728.86; 2]), ("damper-spring", [-128.03; 2]), ("tire", [3829.50, 3593.52])];
+    let at_rest = [
+        ("leaf", [-3068.62, -2885.51]),
+        ("damper-spring", [-335.29, -241.64]),
+        ("tire", [3831.31, 3591.91]),
+    ];
+    for (what, wanted) in [("nominal", nominal), ("equilibrium", at_rest)] {
+        if what == "equilibrium" {
+            mbs::settle(&scene, &model, &mut state).expect("it rests");
+        }
+        let found = forces(&scene, &state.q, &model);
+        for (element, both) in wanted {
+            for (axle, wanted) in ["front", "rear"].into_iter().zip(both) {
+                for side in ["left", "right"] {
+                    let name = format!("{element}-{axle}-{side}");
+                    published(&format!("{what}: {name} [N]"), found[&name], wanted);
+                }
+            }
+        }
     }
 }
 
