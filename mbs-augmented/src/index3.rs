@@ -42,13 +42,13 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w.base = options.penalty.factor();
     begin(model, &rule, options, s, w);
 
-    let newton = iterate(model, &rule, length, options, s, w)?;
+    let (newton, since) = iterate(model, &rule, length, options, s, w)?;
 
     // The accelerations leave the scaling of the iteration.
     for a in &mut w.a {
         *a *= rule.acceleration;
     }
-    let violation = clean(model, &rule, (newton.1, length), options, w)?;
+    let violation = clean(model, &rule, (since, length), options, w)?;
     w.commit(model, &rule, options.compensated, rule.acceleration, s);
     Ok(StepReport::of_newton(newton, w.counts, violation))
 }
@@ -98,7 +98,10 @@ fn evaluate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     }
 }
 
-/// The Newton loop. Returns iterations, the last correction, and what ended it.
+/// A factor is kept after corrections that shrank to this share: the next ones shrink as fast, and a new one costs more.
+const REUSE: f64 = 1e-3;
+
+/// The Newton loop. Returns iterations, the last correction and the sum of those since the factor, and what ended it.
 fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     rule: &Rule<T>,
@@ -106,12 +109,17 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     options: &Options<T>,
     s: &State<T>,
     w: &mut Workspace<T, S>,
-) -> Result<(u32, T, Stop), StepError> {
+) -> Result<((u32, T, Stop), T), StepError> {
     let inverse = T::ONE / rule.acceleration;
     let scale = step_scale(rule.dt, &s.a);
     let mut last = T::ZERO;
+    // Corrections since the matrix was factored, and the contraction of the last two.
+    let (mut since, mut contraction) = (T::ZERO, T::ONE);
     for iterations in 1..=options.max_iterations {
-        factor(model, rule, options, w)?;
+        if !(contraction <= T::from_f64(REUSE)) {
+            factor(model, rule, options, w)?;
+            since = T::ZERO;
+        }
         if iterations == 1 {
             if options.adaptive_penalty && w.adapt(model) {
                 factor(model, rule, options, w)?;
@@ -147,16 +155,18 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f) });
         }
+        since += correction;
         let moved = options.compensated.then(|| norm_inf(&w.dq));
         let measures = (scale, options.tolerance);
         let yardstick = Yardstick::of_coordinates(iterations, measures, length, moved);
         if let Some(stop) = stopping(iterations, correction, last, &yardstick) {
-            return Ok((iterations, correction, stop));
+            return Ok(((iterations, correction, stop), since));
         }
+        contraction = if iterations > 1 { correction / last } else { T::ONE };
         last = correction;
     }
     if last <= scale * T::from_f64(1e-6) {
-        return Ok((options.max_iterations, last, Stop::Tolerance));
+        return Ok(((options.max_iterations, last, Stop::Tolerance), since));
     }
     let (iterations, unknown) = (options.max_iterations, largest(&w.f));
     Err(StepError::NotConverged { iterations, correction: (last / length).to_f64(), unknown })
@@ -196,11 +206,11 @@ const MILD: f64 = 100.0;
 fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     rule: &Rule<T>,
-    (correction, length): (T, T),
+    (since, length): (T, T),
     options: &Options<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<[T; 3], StepError> {
-    // The factor belongs to the configuration before the last correction: near enough when that was small.
+    // The factor belongs to the configuration before the last corrections: near enough when they were small.
     // A combination of constraints that is almost lost must not be enforced on velocities and accelerations beyond need: they
     // would grow like 1 / sigma there. Penalties raised far for the iteration are taken back.
     let raised = w.boost;
@@ -208,7 +218,7 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
     if is_taken_back {
         w.scale_penalties(T::ONE / raised);
     }
-    let is_stale = is_taken_back || correction > length * T::from_f64(1e-7);
+    let is_stale = is_taken_back || since > length * T::from_f64(1e-7);
     if options.projection == Projection::Correction && is_stale {
         factor(model, rule, options, w)?;
     }

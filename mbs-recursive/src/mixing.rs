@@ -5,8 +5,8 @@
 //! next x = g − Σ (q·r) (p − q)
 //! ```
 //!
-//! In n steps of a linear iteration n slow directions are found and left out. What an iteration that contracts fast leaves over is not
-//! changed by much. Source: Anderson (1965), in the form of Fang and Saad (2009), type II.
+//! In n steps of a linear iteration n slow directions are found and left out; an iteration that contracts fast is hardly changed.
+//! Source: Anderson (1965), in the form of Fang and Saad (2009), type II.
 
 use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
@@ -30,11 +30,15 @@ pub(crate) struct Mixing {
 }
 
 impl Mixing {
-    /// Replaces g by the next x; `r` is x − g, `history` has [`history`] numbers: last r and x, then the pairs.
+    /// Replaces g by the next x; `r` is x − g, `history` has [`history`] numbers: last r and x, then the pairs. Too short, it leaves
+    /// g as it is.
     ///
     /// Cost: at most `4 DEPTH` products of n numbers.
     pub(crate) fn mix<T: Real>(&mut self, r: &[T], g: &mut [T], history: &mut [T]) {
         let n = r.len();
+        if n == 0 || history.len() < self::history(n) {
+            return;
+        }
         let (last, pairs) = history.split_at_mut(2 * n);
         if self.has_last {
             if self.n_pairs == DEPTH {

@@ -6,7 +6,8 @@
 //! ```
 //!
 //! Both are responses of the tree as it was factored last, which is near enough after a step: the residuals are always those of the
-//! new state. Cost: an evaluation of the rows and about a fifth of a condensation for each sweep.
+//! new state. Inertias are then those of the last iteration: with effects their resistance to accelerations within the step is part of
+//! the weight, so that stiff springs are spared. Cost: an evaluation of the rows and about a fifth of a condensation for each sweep.
 
 use crate::evaluate::{note_rank, respond};
 use crate::link::{Kind, Link};

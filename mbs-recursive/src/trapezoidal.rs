@@ -6,6 +6,9 @@
 //! z̈ₙ₊₁ by the three passes at (zₙ₊₁, żₙ₊₁), until h² β Δz̈ is small
 //! ```
 //!
+//! Effects answer to Δz̈ within the passes, so that stiff ones let the iteration contract (`loads::Reach`), and iterates of models with
+//! effects are mixed (`mixing`); without effects the iteration is the source's.
+//!
 //! Differs from the source: increments in place of hats, which round less; rotations are quaternions, q exp(δ); positions and
 //! velocities are projected on the loops afterwards, and the accelerations are those of the projected state.
 
@@ -36,7 +39,7 @@ pub struct Start<'a, T> {
 
 /// Makes one step of length `dt` [s]: the end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`.
 ///
-/// Cost: three to six evaluations for steps that resolve the motion; no allocation.
+/// Cost: three to six evaluations for steps that resolve the motion, stiff effects or not; no allocation.
 ///
 /// # Errors
 /// [`StepError`]; unknowns and rows are numbered as freedoms and rows.
@@ -86,9 +89,8 @@ fn iterate<T: Real, S: Space<T>>(
     (start, projects): (Start<'_, T>, bool),
     s: &mut Store<'_, T, S>,
 ) -> Result<(u32, T, Stop), StepError> {
-    let (beta, gamma) = (options.integrator.beta, options.integrator.gamma);
-    let share = dt * dt * beta;
-    let reach = Reach { place: share, speed: dt * gamma };
+    let share = dt * dt * options.integrator.beta;
+    let reach = Reach { place: share, speed: dt * options.integrator.gamma };
     let rounding = T::EPSILON * T::from_f64(64.0);
     // Coordinates that go into forces are rounded: what moves them less than that says nothing more.
     let rest = m.length * T::EPSILON;
@@ -96,14 +98,7 @@ fn iterate<T: Real, S: Space<T>>(
     let mut mixing = Mixing::default();
     let (mut last, mut is_slow) = (T::ZERO, projects);
     for iterations in 1..=options.max_iterations {
-        // zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁   [P3 (43)-(44)]
-        for i in 0..start.v.len() {
-            let (v, a, next) = (start.v[i], start.a[i], s.zdd[i]);
-            s.v[i] = v + dt * ((T::ONE - gamma) * a + gamma * next);
-            s.scratch[i] = dt * (v + dt * ((T::HALF - beta) * a + beta * next));
-        }
-        s.z.copy_from_slice(start.z);
-        advance(m.links, s.scratch, s.z);
+        reach_end(m, (dt, options), &start, s);
         s.scratch.copy_from_slice(s.zdd);
         if is_slow {
             project(m, options, s).map_err(|f| failure(m, f))?;
@@ -159,6 +154,25 @@ fn iterate<T: Real, S: Space<T>>(
         correction: (last / m.length).to_f64(),
         unknown: largest(s.scratch),
     })
+}
+
+/// zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁; increments are left in the scratch.
+#[inline]
+fn reach_end<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    (dt, options): (T, &Options<T>),
+    start: &Start<'_, T>,
+    s: &mut Store<'_, T, S>,
+) {
+    let (beta, gamma) = (options.integrator.beta, options.integrator.gamma);
+    for i in 0..start.v.len() {
+        // [P3 (43)-(44)]
+        let (v, a, next) = (start.v[i], start.a[i], s.zdd[i]);
+        s.v[i] = v + dt * ((T::ONE - gamma) * a + gamma * next);
+        s.scratch[i] = dt * (v + dt * ((T::HALF - beta) * a + beta * next));
+    }
+    s.z.copy_from_slice(start.z);
+    advance(m.links, s.scratch, s.z);
 }
 
 /// |Φ|, |Φ̇| and |Φ̈| as last evaluated.
