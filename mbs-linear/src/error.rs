@@ -95,9 +95,9 @@ pub enum LinearError {
         /// The unknown of the saddle system: a coordinate, or from n on a row.
         unknown: u32,
     },
-    /// Accelerations next to the state did not settle: rows that repeat each other nearly, or coordinates nearly without mass.
+    /// Accelerations next to the state do not meet the constraints: rows nearly repeat each other.
     NotSettled {
-        /// Their last change [m/s^2].
+        /// By how much at most [m/s^2].
         left: f64,
     },
     /// A force became infinite or not a number.
@@ -122,7 +122,7 @@ impl core::fmt::Display for LinearError {
             ),
             Self::NotSettled { left } => write!(
                 f,
-                "the accelerations at the state stay uncertain by {left:.3e} m/s^2: joints nearly repeat each other, or coordinates are nearly without mass; leave a joint out or give mass"
+                "accelerations miss the joints by {left:.3e} m/s^2: joints nearly repeat each other; leave one of them out"
             ),
             Self::NotFinite => {
                 write!(f, "a force became infinite or not a number; check the data of the effects")

@@ -234,7 +234,7 @@ impl StopError {
                 "move away from the singular position with an [[initial]] value"
             }
             Self::Linear(LinearError::NotSettled { .. }) => {
-                "leave out a joint that repeats another, or give the lightest body more mass"
+                "leave out a joint that nearly repeats another"
             }
             Self::Linear(_) | Self::Eigenvalues => "check the data of the effects",
             Self::Energy { .. } => {
@@ -394,11 +394,9 @@ fn write_linear(error: &LinearError, f: &mut core::fmt::Formatter<'_>) -> core::
             f,
             "a force meets no inertia: a coordinate is neither determined by joints nor has mass"
         ),
-        LinearError::NotSettled { left } => write!(
-            f,
-            "the accelerations next to this position stay uncertain by {} m/s^2",
-            few(*left)
-        ),
+        LinearError::NotSettled { left } => {
+            write!(f, "accelerations next to this position miss the joints by {} m/s^2", few(*left))
+        }
         LinearError::NotFinite => write!(f, "a force became infinite or not a number"),
         other => write!(f, "{other}"),
     }
