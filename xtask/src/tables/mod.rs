@@ -42,10 +42,12 @@ fn run(quick: bool, names: &[String]) -> Result<(), String> {
     let mbs = process::target_dir().join("release").join("mbs");
 
     let folder = process::target_dir().join("tables");
+    let runs = folder.join("runs");
     let mut rows = Vec::new();
     let mut drawings = Vec::new();
     let is_wanted = |name: &str| names.is_empty() || names.iter().any(|n| n == name);
     for table in report::TABLES.iter().filter(|table| is_wanted(table.name)) {
+        let mut lines = Vec::new();
         for (method, step) in
             table.entries().filter(|(_, step)| !quick || table.steps(*step) <= QUICK)
         {
@@ -53,10 +55,20 @@ fn run(quick: bool, names: &[String]) -> Result<(), String> {
             if stderr().is_terminal() {
                 eprint!("\r\x1b[K{note}");
             }
-            rows.push(Row::new(table, method, step, entry(&mbs, table, method, step)?));
+            let drawn = table.history.filter(|_| table.draws(method, step));
+            let outcome = entry(&mbs, table, method, step, drawn.map(|_| &*runs))?;
+            if let Some(history) = drawn.filter(|_| outcome.has_run()) {
+                let points = history::read(&runs.join("run.csv"), &history)?;
+                // The finest run lies below the others.
+                let at = if table.is_finest(method, step) { 0 } else { lines.len() };
+                lines.insert(
+                    at,
+                    history::Line { name: format!("{}, {step:e} s", method.name), points },
+                );
+            }
+            rows.push(Row::new(table, method, step, outcome));
         }
         if let Some(history) = &table.history {
-            let lines = histories(&mbs, table, history, &folder.join("runs"))?;
             drawings.push((table.name, history::svg(history, &lines)?));
         }
     }
@@ -76,52 +88,23 @@ fn run(quick: bool, names: &[String]) -> Result<(), String> {
     write("tables.html", html::page(&rows, &drawings).as_bytes())
 }
 
-/// The command of one entry, with the release build of `mbs`.
-fn command(mbs: &Path, table: &report::Table, method: &report::Method, step: f64) -> Command {
-    let mut command = Command::new(mbs);
-    command.args(["run", "--json", "--formulation", method.formulation]);
-    command.args(["--step", &format!("{step:e}")]).args(method.arguments);
-    command.arg(process::root().join("scenes").join(format!("{}.toml", table.scene)));
-    command
-}
-
-/// Runs one entry.
+/// Runs one entry with the release build of `mbs`; with a folder, its files are left there.
 fn entry(
     mbs: &Path,
     table: &report::Table,
     method: &report::Method,
     step: f64,
+    out: Option<&Path>,
 ) -> Result<outcome::Outcome, String> {
-    let mut command = command(mbs, table, method, step);
+    let mut command = Command::new(mbs);
+    command.args(["run", "--json", "--formulation", method.formulation]);
+    command.args(["--step", &format!("{step:e}")]).args(method.arguments);
+    command.arg(process::root().join("scenes").join(format!("{}.toml", table.scene)));
+    if let Some(out) = out {
+        command.arg("--out").arg(out);
+    }
     let output =
         command.output().map_err(|e| format!("cannot start `{}`: {e}", process::line(&command)))?;
     outcome::read(output.status.code(), &output.stdout, &output.stderr, table.reference)
         .map_err(|why| format!("`{}`: {why}", process::line(&command)))
-}
-
-/// The histories of a table: the first method at its smallest step, then every method of the report at its first step. What
-/// stopped is drawn as far as it came.
-fn histories(
-    mbs: &Path,
-    table: &report::Table,
-    history: &report::History,
-    folder: &Path,
-) -> Result<Vec<history::Line>, String> {
-    let entries: Vec<_> = table.entries().collect();
-    let first = entries.first().map(|(method, _)| method.name);
-    let finest = entries.iter().rev().find(|(method, _)| Some(method.name) == first);
-    let printed = entries.iter().filter(|(method, step)| {
-        method.dt.first() == Some(step) && !method.printed.is_empty() && method.arguments.is_empty()
-    });
-    finest
-        .into_iter()
-        .chain(printed)
-        .map(|&(method, step)| {
-            let mut command = command(mbs, table, method, step);
-            let output = command.arg("--out").arg(folder).output();
-            output.map_err(|e| format!("cannot start `{}`: {e}", process::line(&command)))?;
-            let points = history::read(&folder.join("run.csv"), history)?;
-            Ok(history::Line { name: format!("{}, {step:e} s", method.name), points })
-        })
-        .collect()
 }

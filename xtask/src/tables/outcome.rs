@@ -23,6 +23,13 @@ pub(crate) enum Outcome {
     NotBuilt,
 }
 
+impl Outcome {
+    /// Did it make steps, so that there are rows of it?
+    pub(crate) fn has_run(&self) -> bool {
+        matches!(self, Self::Completed(_) | Self::Stopped { .. })
+    }
+}
+
 /// The figures of a run that reached its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Figures {

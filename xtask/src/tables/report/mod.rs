@@ -102,6 +102,19 @@ impl Table {
         })
     }
 
+    /// Is this the first method at its smallest step?
+    pub(crate) fn is_finest(&self, method: &Method, step: f64) -> bool {
+        let last = self.entries().take_while(|(m, _)| m.name == self.methods[0].name).last();
+        last.is_some_and(|(m, dt)| m.name == method.name && dt.to_bits() == step.to_bits())
+    }
+
+    /// Is the history of this entry drawn? The finest one is, and every method of the report at its first step.
+    pub(crate) fn draws(&self, method: &Method, step: f64) -> bool {
+        let is_first = method.dt.first().is_some_and(|dt| dt.to_bits() == step.to_bits());
+        let is_printed = !method.printed.is_empty() && method.arguments.is_empty();
+        (is_first && is_printed) || self.is_finest(method, step)
+    }
+
     /// Number of steps of a run.
     pub(crate) fn steps(&self, step: f64) -> f64 {
         (self.duration / step).ceil()
@@ -199,6 +212,17 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn each_method_of_the_report_is_drawn_once_and_the_finest_run_too() {
+        let [.., t8] = &TABLES;
+        let drawn: Vec<_> = t8.entries().filter(|(m, step)| t8.draws(m, *step)).collect();
+        let names: Vec<_> = drawn.iter().map(|(m, step)| (m.name, *step)).collect();
+        let wanted =
+            [("index-3", 5e-3), ("index-3", 1e-3), ("classical", 2.5e-3), ("recursive", 2.5e-3)];
+        assert_eq!(names, wanted);
+        assert_eq!(drawn.iter().filter(|(m, step)| t8.is_finest(m, *step)).count(), 1);
     }
 
     #[test]
