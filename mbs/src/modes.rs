@@ -10,7 +10,6 @@ use core::f64::consts::TAU;
 use faer::Mat;
 use mbs_core::scene::Scene;
 use mbs_linear::{Equilibrium, Instant, Linear, LinearOptions, linearise};
-use mbs_sparse::Multifrontal;
 use serde_json::{Value, json};
 
 /// About which state.
@@ -101,12 +100,11 @@ impl Modes {
     pub fn new<const D: usize>(scene: &Scene<f64>, place: Place) -> Result<Self, StopError> {
         let still = at_rest(scene);
         let scene = if place == Place::Equilibrium { &still } else { scene };
-        let (model, mut start) = assembled::<D>(scene)?;
+        let (model, mut solver, mut start) = assembled::<f64, D>(scene)?;
         let (found, instant) = match place {
             Place::Equilibrium => (Some(settle(scene, &model, &mut start.state)?), Instant::Rest),
             Place::Initial => (None, Instant::Motion),
             Place::Moving => {
-                let mut solver = Multifrontal::analyse(&model, mbs_sparse::Options::default());
                 let found = equilibrium_start(scene, &model, &mut solver, &mut start)?;
                 (Some(found), Instant::Motion)
             }

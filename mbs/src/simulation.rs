@@ -2,16 +2,15 @@
 
 use crate::engine::Engine;
 use crate::settings::Settings;
-use crate::statics::equilibrium_start;
+use crate::statics::{assembled, equilibrium_start};
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Scene, Start};
-use mbs_core::start::{Assembled, assemble};
+use mbs_core::start::Assembled;
 use mbs_core::step::{StepError, StepReport, largest};
-use mbs_sparse::Multifrontal;
 
 /// A scene ready to step, in D dimensions and scalar T.
 ///
@@ -39,11 +38,7 @@ where
     /// # Errors
     /// [`StopError`] when there is no model, no consistent start, or the formulation cannot run the scene.
     pub fn new(scene: &Scene<T>, settings: &Settings) -> Result<Self, StopError> {
-        let model = NaturalModel::<T, D>::new(scene).map_err(|e| StopError::Start(e.into()))?;
-        let analyse = mbs_sparse::Options::default();
-        let mut solver = Multifrontal::analyse(&model, analyse);
-        let mut start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver)
-            .map_err(StopError::Start)?;
+        let (model, mut solver, mut start) = assembled::<T, D>(scene)?;
         if scene.start == Start::Equilibrium {
             equilibrium_start(scene, &model, &mut solver, &mut start)?;
         }

@@ -116,15 +116,21 @@ pub fn equilibrium_start<T: Real, const D: usize>(
     Ok(found)
 }
 
-/// A model with its assembled start.
-pub(crate) fn assembled<const D: usize>(
-    scene: &Scene<f64>,
-) -> Result<(NaturalModel<f64, D>, Assembled<f64>), StopError> {
+/// A model, its solver, and its assembled start.
+pub(crate) type Ready<T, const D: usize> = (NaturalModel<T, D>, Multifrontal<T>, Assembled<T>);
+
+/// Builds the model of a scene and assembles it.
+///
+/// # Errors
+/// [`StopError::Start`] when there is no model or no consistent start.
+pub(crate) fn assembled<T: Real, const D: usize>(
+    scene: &Scene<T>,
+) -> Result<Ready<T, D>, StopError> {
     let model = NaturalModel::new(scene).map_err(|e| StopError::Start(e.into()))?;
     let analyse = mbs_sparse::Options::default();
     let mut solver = Multifrontal::analyse(&model, analyse);
     let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver);
-    Ok((model, start.map_err(StopError::Start)?))
+    Ok((model, solver, start.map_err(StopError::Start)?))
 }
 
 /// A static equilibrium, told.
@@ -159,7 +165,7 @@ impl Still {
     /// [`StopError`] when there is no model, no consistent start or no equilibrium.
     pub fn new<const D: usize>(scene: &Scene<f64>) -> Result<Self, StopError> {
         let scene = &at_rest(scene);
-        let (model, start) = assembled::<D>(scene)?;
+        let (model, _, start) = assembled::<f64, D>(scene)?;
         let mut state = start.state;
         let found = settle(scene, &model, &mut state)?;
         let joints = (0..scene.joints.len())

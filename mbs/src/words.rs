@@ -7,12 +7,11 @@ use mbs_scene::{Contact, RunError, RunSummary, readable};
 
 /// Three significant digits: the size is what matters.
 pub(crate) fn few(x: f64) -> String {
-    readable(format!("{x:.2e}").parse().unwrap_or(x))
+    significant(x, 3)
 }
 
-/// Six significant digits: an instant.
-fn few_more(x: f64) -> String {
-    readable(format!("{x:.5e}").parse().unwrap_or(x))
+fn significant(x: f64, digits: usize) -> String {
+    readable(format!("{x:.*e}", digits - 1).parse().unwrap_or(x))
 }
 
 /// The summary table of a page.
@@ -49,7 +48,7 @@ fn contacts(s: &RunSummary) -> Option<String> {
     }
     let one = |c: &Contact| {
         let end = c.end.map_or_else(String::new, |end| format!(" ({end})"));
-        format!("`{}`{end} {} at {} s", c.effect, c.event, few_more(c.time))
+        format!("`{}`{end} {} at {} s", c.effect, c.event, significant(c.time, 6))
     };
     let mut text = s.contacts.iter().take(FIRST).map(one).collect::<Vec<_>>().join(", ");
     let more = s.contacts.len().saturating_sub(FIRST) as u64 + s.contacts_left_out;
@@ -141,11 +140,15 @@ pub(crate) fn notes<T: Real>(
         ));
     }
     for joint in &s.not_unique {
-        notes.push(format!(
-            "the reaction of joint `{joint}` is not unique: the smallest one is given"
-        ));
+        notes.push(not_unique(joint));
     }
     notes
+}
+
+/// Of a joint whose reaction the motion does not determine.
+#[must_use]
+pub fn not_unique(joint: &str) -> String {
+    format!("the reaction of joint `{joint}` is not unique: the smallest one is given")
 }
 
 /// A time on the way, with as many digits as one can read while it runs.

@@ -2,7 +2,8 @@
 
 use super::files::{prepare, scene as load, unwritable};
 use super::run::stopped;
-use super::{STOPPED, refuse, table::fixed};
+use super::table::{counted, fixed};
+use super::{STOPPED, refuse};
 use clap::{Args, ValueEnum};
 use mbs::{Names, Place, Still, StopError, words};
 use mbs_core::scene::{Dimension, Scene};
@@ -135,7 +136,7 @@ fn still(s: &Still) -> String {
     let stable = match (s.unstable, s.neutral.unwrap_or(0)) {
         (None, _) => "unknown: it stands in a singular position".to_owned(),
         (Some(0), 0) => "yes".to_owned(),
-        (Some(0), n) => format!("yes; nothing holds it in {}", counted(n, "direction")),
+        (Some(0), n) => format!("yes; nothing holds it in {}", counted(n as u64, "direction")),
         (Some(n), _) => format!("no: {} away from it", grow(n)),
     };
     let mut text = format!("{}: static equilibrium\n", s.scene);
@@ -175,10 +176,7 @@ fn still(s: &Still) -> String {
         }
     }
     for joint in &s.not_unique {
-        let _ = writeln!(
-            text,
-            "note: the reaction of joint `{joint}` is not unique: the smallest one is given"
-        );
+        let _ = writeln!(text, "note: {}", words::not_unique(joint));
     }
     text
 }
@@ -199,7 +197,7 @@ fn spectrum(m: &mbs::Modes) -> String {
     let mut text = format!(
         "{}: {} about its {}, {stable}\n",
         m.scene,
-        counted(m.dof, "degree of freedom"),
+        counted(m.dof as u64, "degree of freedom"),
         match m.place {
             Place::Equilibrium => "equilibrium",
             Place::Initial => "start",
@@ -240,12 +238,4 @@ fn damped(ratio: f64) -> String {
 
 fn grow(n: usize) -> String {
     if n == 1 { "1 mode leads".to_owned() } else { format!("{n} modes lead") }
-}
-
-fn counted(n: usize, what: &str) -> String {
-    match (n, what) {
-        (1, _) => format!("1 {what}"),
-        (_, "degree of freedom") => format!("{n} degrees of freedom"),
-        _ => format!("{n} {what}s"),
-    }
 }

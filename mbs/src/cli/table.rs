@@ -82,6 +82,11 @@ pub(crate) fn fixed(x: f64) -> String {
     text
 }
 
-fn counted(n: u64, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+/// So many of something.
+pub(crate) fn counted(n: u64, what: &str) -> String {
+    match (n, what) {
+        (1, _) => format!("1 {what}"),
+        (_, "degree of freedom") => format!("{n} degrees of freedom"),
+        _ => format!("{n} {what}s"),
+    }
 }
