@@ -41,7 +41,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let mut iterations = 0;
     while iterations < options.max_iterations && done.is_none() {
         iterations += 1;
-        constrain(model, (&rule, length), options, s, w)?;
+        constrain(model, (&rule, length, iterations == 1), options, s, w)?;
         let correction = newton(model, &rule, s, w)?;
         done = if correction <= goal || (iterations > 1 && correction * correction <= goal * last) {
             Some(Stop::Converged)
@@ -61,7 +61,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
             unknown: largest(&w.f),
         });
     }
-    let velocity = constrain(model, (&rule, length), options, s, w)?;
+    let velocity = constrain(model, (&rule, length, false), options, s, w)?;
     model.evaluate_bias(&w.q, &w.v, &mut w.terms);
     let size = norm_inf(&w.a).max(norm_inf(&w.terms.phi_bias));
     let rounding = T::EPSILON * T::from_f64(1024.0);
@@ -71,7 +71,69 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w.commit(model, &rule, options.compensated, T::ONE, s);
     let violation = [norm_inf(&w.terms.phi), velocity, acceleration];
     let newton = (iterations, correction, done.unwrap_or(Stop::Tolerance));
-    Ok(StepReport::of_newton(newton, w.counts, violation))
+    Ok(w.report(newton, violation))
+}
+
+/// Corrections of [`settle`] at most.
+const MOST_SETTLING: u32 = 12;
+
+/// Makes velocities, accelerations and multipliers consistent at the present positions [P2 (5)]: what a change of index begins
+/// with. Positions stay.
+///
+/// Cost: one or two factorisations and a few solutions; no allocation.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn settle<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    length: T,
+    options: &Options<T>,
+    s: &mut State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<(), StepError> {
+    // A step of no length: nothing moves, and stiffness and damping have no part in the matrix.
+    let rule = Rule {
+        dt: T::ZERO,
+        velocity: T::ZERO,
+        acceleration: T::ONE,
+        auxiliary: T::ZERO,
+        alpha_f: T::ZERO,
+    };
+    w.counts = Counts::default();
+    w.boost = T::ONE;
+    w.base = options.penalty.factor();
+    begin(model, &rule, options, s, w);
+    w.q.copy_from_slice(&s.q);
+    w.v.copy_from_slice(&s.v);
+    w.dq.fill(T::ZERO);
+    move_to(model, options, s, w);
+    w.factor(model, (T::ZERO, T::ZERO), false)?;
+    velocities(model, (length, false), options, w)?;
+    if model.has_forces() {
+        model.evaluate_forces(&w.q, &w.v, &s.memory, &mut w.terms);
+    }
+    model.evaluate_bias(&w.q, &w.v, &mut w.terms);
+    let goal = norm_inf(&s.a).max(T::ONE) * options.tolerance;
+    let mut last = T::ZERO;
+    for iterations in 1..=MOST_SETTLING {
+        let correction = correct(model, w)?;
+        if correction <= goal || (iterations > 1 && correction > last * T::HALF) {
+            break;
+        }
+        last = correction;
+    }
+    w.sigma.fill(T::ZERO);
+    let n = w.f.len();
+    s.v[..n].copy_from_slice(&w.v[..n]);
+    s.a[..n].copy_from_slice(&w.a[..n]);
+    s.a_aux[..n].copy_from_slice(&w.a[..n]);
+    for to in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {
+        to.copy_from_slice(&w.lambda);
+    }
+    if model.has_forces() || model.has_guides() {
+        s.power = model.power(&s.q, &s.v, &s.reaction, &w.terms);
+    }
+    Ok(())
 }
 
 /// Accelerations and multipliers of the last step are the first guess.
@@ -99,7 +161,7 @@ fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
 /// q, v from the accelerations by the integrator, projected; the matrix W at q is left factored. Returns |phi'|.
 fn constrain<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
-    (rule, length): (&Rule<T>, T),
+    (rule, length, is_first): (&Rule<T>, T, bool),
     options: &Options<T>,
     s: &State<T>,
     w: &mut Workspace<T, S>,
@@ -118,11 +180,25 @@ fn constrain<T: Real, M: Model<T>, S: SpdSolver<T>>(
     for i in 0..w.f.len() {
         w.v[i] += rule.velocity * (w.dq[i] - w.dq_predicted[i]);
     }
+    velocities(model, (length, is_first), options, w)
+}
+
+/// Projects the velocities at q with W factored there, which is left so. Returns |phi'|.
+fn velocities<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    (length, is_first): (T, bool),
+    options: &Options<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<T, StepError> {
     let speed = norm_inf(&w.v);
     let rounding = T::EPSILON * T::from_f64(16.0);
     if model.has_guides() {
         model.evaluate_phi_t(&w.q, &mut w.terms);
         check_guides(model, &w.q, &w.terms)?;
+    }
+    if is_first {
+        w.violation(model, Level::Velocity);
+        w.penalty_energy = w.stored(&w.rates);
     }
     let limit = (length + speed) * T::from_f64(5e-10).max(rounding * T::from_f64(64.0));
     let left = w.project(model, Level::Velocity, (speed * rounding, limit), options.max_sweeps)?;
@@ -212,6 +288,14 @@ fn newton<T: Real, M: Model<T>, S: SpdSolver<T>>(
         w.factor(model, (T::ONE / rule.acceleration, rule.velocity / rule.acceleration), false)?;
     }
     model.evaluate_bias(&w.q, &w.v, &mut w.terms);
+    correct(model, w)
+}
+
+/// One correction of accelerations and multipliers with the matrix in hand; returns its size [m/s^2].
+fn correct<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    w: &mut Workspace<T, S>,
+) -> Result<T, StepError> {
     w.violation(model, Level::Acceleration);
     for k in 0..w.mu.len() {
         w.mu[k] = w.lambda[k] + w.penalty[k] * w.rates[k];

@@ -50,7 +50,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     }
     let violation = clean(model, &rule, (since, length), options, w)?;
     w.commit(model, &rule, options.compensated, rule.acceleration, s);
-    Ok(StepReport::of_newton(newton, w.counts, violation))
+    Ok(w.report(newton, violation))
 }
 
 /// Predicts q, v, a and lambda at the end of the step, and evaluates there.
@@ -67,10 +67,11 @@ fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
         (w.dq[i], w.v[i], w.a[i]) = (dq, v, a * inverse);
         w.q[i] = s.q[i] + dq;
     }
+    let share = s.extrapolation(rule.dt);
     for k in 0..w.lambda.len() {
         w.lambda[k] = match options.multipliers {
             Multipliers::FromZero => T::ZERO,
-            _ => (s.lambda[k] + s.lambda[k] - s.lambda_previous[k]) * inverse,
+            _ => (s.lambda[k] + (s.lambda[k] - s.lambda_previous[k]) * share) * inverse,
         };
         w.penalty[k] = match options.penalty {
             Penalty::Scaled(factor) => factor * w.boost * w.masses[k],
@@ -145,6 +146,9 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
             w.a[i] -= d;
         }
         evaluate(model, options, s, w);
+        if iterations == 1 {
+            w.penalty_energy = w.stored(&w.terms.phi) * rule.acceleration;
+        }
 
         // lambda <- lambda + alpha phi   [P3 (2)]
         for k in 0..w.lambda.len() {

@@ -5,10 +5,14 @@ extern crate alloc;
 
 pub mod index1;
 pub mod index3;
+mod index_change;
+mod multi_index;
 mod options;
 mod projection;
 mod workspace;
 
+pub use index_change::{Index, IndexChange};
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
+pub use multi_index::MultiIndex;
 pub use options::{Multipliers, Options, Penalty, Projection};
 pub use workspace::Workspace;

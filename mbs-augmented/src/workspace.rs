@@ -4,7 +4,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Load, Model, State, Tangent, Terms};
-use mbs_core::step::{Counts, add_work, take_coordinates};
+use mbs_core::step::{Counts, StepReport, Stop, add_work, take_coordinates};
 use mbs_core::{Real, SpdSolver};
 
 /// Scratch of the augmented Lagrangian steps over a solver `S`. Nothing is allocated after [`Workspace::new`].
@@ -41,6 +41,17 @@ pub struct Workspace<T, S> {
     /// What one correction left of it in the last step.
     pub(crate) rho: T,
     pub(crate) counts: Counts,
+    /// Energy that the penalties held after the first correction [J].
+    pub(crate) penalty_energy: T,
+    kept: Memory<T>,
+}
+
+/// What one step tells the next, beside the state.
+#[derive(Debug, Clone)]
+struct Memory<T> {
+    boost: T,
+    rho: T,
+    probe: Vec<T>,
 }
 
 impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
@@ -78,7 +89,21 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             probe: vec![T::ONE; m],
             rho: T::ZERO,
             counts: Counts::default(),
+            penalty_energy: T::ZERO,
+            kept: Memory { boost: T::ONE, rho: T::ZERO, probe: vec![T::ONE; m] },
         }
+    }
+
+    /// Keeps what the last step leaves for the next one, so that a trial of that can be undone.
+    pub fn keep(&mut self) {
+        (self.kept.boost, self.kept.rho) = (self.boost, self.rho);
+        self.kept.probe.copy_from_slice(&self.probe);
+    }
+
+    /// Goes back to what was kept: a trial leaves no trace.
+    pub fn undo(&mut self) {
+        (self.boost, self.rho) = (self.kept.boost, self.kept.rho);
+        self.probe.copy_from_slice(&self.kept.probe);
     }
 
     /// The terms as last evaluated.
@@ -124,6 +149,18 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         }
         s.t += rule.dt;
         add_work(model, rule.dt, s, &mut self.terms);
+    }
+
+    /// What a step did.
+    pub(crate) fn report(&self, newton: (u32, T, Stop), violation: [T; 3]) -> StepReport<T> {
+        let penalty_energy = self.penalty_energy;
+        StepReport { penalty_energy, ..StepReport::of_newton(newton, self.counts, violation) }
+    }
+
+    /// 1/2 x^T s x with the penalties s in mass units [P2 (29)].
+    pub(crate) fn stored(&self, x: &[T]) -> T {
+        let sum = x.iter().zip(&self.penalty).fold(T::ZERO, |sum, (&x, &s)| sum + s * x * x);
+        sum * T::HALF
     }
 
     /// f = T^-1 f.

@@ -10,6 +10,7 @@ pub mod algebra;
 pub mod blocks;
 #[cfg(feature = "alloc")]
 pub mod cluster;
+pub mod control;
 #[cfg(feature = "alloc")]
 pub mod dense;
 pub mod elements;

@@ -166,6 +166,8 @@ impl<T: Real, M: Model<T>> BlockSource<T> for System<'_, T, M> {
 pub struct State<T> {
     /// Time [s].
     pub t: T,
+    /// Length of the last step [s]; zero where there was none that multipliers may be extrapolated from.
+    pub dt: T,
     /// Coordinates, extended [m or -].
     pub q: Vec<T>,
     /// What `q` lost to rounding, extended: the position is q + q_low.
@@ -201,6 +203,7 @@ impl<T: Real> State<T> {
         model.write_reference(&mut q);
         Self {
             t: T::ZERO,
+            dt: T::ZERO,
             q,
             q_low: zeros(n),
             v: zeros(n),
@@ -216,9 +219,19 @@ impl<T: Real> State<T> {
         }
     }
 
+    /// Share of the last change of the multipliers that is expected over the next `dt` [s], at most two.
+    ///
+    /// ```text
+    /// lambda = lambda_n + (dt / dt_n) (lambda_n - lambda_(n-1))
+    /// ```
+    pub fn extrapolation(&self, dt: T) -> T {
+        if self.dt > T::ZERO { (dt / self.dt).min(T::TWO) } else { T::ZERO }
+    }
+
     /// Overwrites this state with another of the same model, without allocating.
     pub fn copy_from(&mut self, other: &Self) {
         self.t = other.t;
+        self.dt = other.dt;
         self.q.copy_from_slice(&other.q);
         self.q_low.copy_from_slice(&other.q_low);
         self.v.copy_from_slice(&other.v);

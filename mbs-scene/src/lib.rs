@@ -10,11 +10,11 @@ pub use page::page;
 pub use read::{Document, Place, ReadError, ReadFault, suggestion};
 pub use record::{
     Animation, Channel, ChannelSeries, Component, EnergySeries, IterationSeries, Polyline,
-    Provenance, RunRecord, Trace, ViolationSeries,
+    Provenance, RunRecord, StepRow, StepSeries, Trace, ViolationSeries,
 };
 pub use report::{Report, Section};
 pub use write::{
-    Absence, Change, Chosen, Contact, CsvWriter, EffectEntry, EnergySummary, Explanation,
-    GuideEntry, JointGroup, LargestStep, Outputs, Price, Prices, Relative, Rod, RunError,
-    RunSummary, SearchEnd, Simulated, Sizes, ViolationSummary, readable,
+    Absence, Change, Chosen, Contact, ControlSummary, CsvWriter, EffectEntry, EnergySummary,
+    Explanation, GuideEntry, JointGroup, LargestStep, Outputs, Price, Prices, Relative, Rod,
+    RunError, RunSummary, SearchEnd, Simulated, Sizes, ViolationSummary, readable, write_steps,
 };

@@ -117,6 +117,8 @@ pub struct RunRecord {
     pub violation: Option<ViolationSeries>,
     /// Newton iterations.
     pub iterations: Option<IterationSeries>,
+    /// Lengths of the steps, where they are controlled.
+    pub steps: Option<StepSeries>,
     /// Rows of the summary table: label and value.
     pub summary: Vec<(String, String)>,
     /// What the user should know, such as redundant constraints.
@@ -243,4 +245,59 @@ pub struct IterationSeries {
     pub times: Vec<f64>,
     /// Iterations of each step.
     pub counts: Vec<u32>,
+}
+
+/// The steps that a run made.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StepSeries {
+    /// Ends of the steps [s].
+    pub times: Vec<f64>,
+    /// Pi(t) - Pi(0) there [J].
+    pub energy_errors: Vec<f64>,
+    /// Each step.
+    pub rows: Vec<StepRow>,
+}
+
+/// A step; or several in a row where they are thinned: the shortest, and the largest of the rest.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StepRow {
+    /// Length [s].
+    pub length: f64,
+    /// 1 or 3, in formulations that have an index.
+    pub index: Option<u8>,
+    /// Iterations.
+    pub iterations: u32,
+    /// Trials before it that were rejected.
+    pub rejected: u32,
+    /// Change of the invariant in it [J].
+    pub energy_change: f64,
+    /// Energy that the penalties held after the first correction [J].
+    pub penalty_energy: f64,
+    /// Estimate of its error, relative to the scene's length.
+    pub error_estimate: Option<f64>,
+    /// What kept the next step from being longer.
+    pub limit: Option<&'static str>,
+}
+
+impl StepRow {
+    /// This step together with one before it that is not kept.
+    #[must_use]
+    pub fn after(&self, before: &Self) -> Self {
+        if before.length == 0.0 {
+            return self.clone();
+        }
+        let change = [self.energy_change, before.energy_change];
+        Self {
+            length: if self.length > 0.0 { self.length.min(before.length) } else { before.length },
+            index: self.index.min(before.index),
+            iterations: self.iterations.max(before.iterations),
+            rejected: self.rejected + before.rejected,
+            energy_change: if change[0].abs() < change[1].abs() { change[1] } else { change[0] },
+            penalty_energy: self.penalty_energy.max(before.penalty_energy),
+            error_estimate: self
+                .error_estimate
+                .map(|x| before.error_estimate.map_or(x, |y| x.max(y))),
+            limit: self.limit,
+        }
+    }
 }

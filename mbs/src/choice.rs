@@ -4,15 +4,17 @@ use mbs_core::Real;
 use mbs_core::integrator::Integrator;
 
 /// Formulations that are built, by their names in scenes and on the command line.
-pub const FORMULATIONS: [&str; 6] =
-    ["auto", "index-1", "index-3", "classical", "state-space", "recursive"];
+pub const FORMULATIONS: [&str; 7] =
+    ["auto", "index-1", "index-3", "multi-index", "classical", "state-space", "recursive"];
 /// Integrators that are built.
 pub const INTEGRATORS: [&str; 6] =
     ["trapezoidal", "newmark", "generalised-alpha", "hht", "rk4", "rk54"];
 /// Precisions that are built.
 pub const PRECISIONS: [&str; 2] = ["f32", "f64"];
+/// Controls of the step size.
+pub const STEP_RULES: [&str; 5] = ["fixed", "energy", "energy-printed", "error", "both"];
 /// Names of the scene format that are not built yet.
-pub(crate) const NOT_BUILT: [&str; 4] = ["multi-index", "rk853", "radau5", "dd"];
+pub(crate) const NOT_BUILT: [&str; 3] = ["rk853", "radau5", "dd"];
 
 /// A formulation that can run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,6 +23,8 @@ pub enum Formulation {
     Index3,
     /// Index-1 augmented Lagrangian.
     Index1,
+    /// Augmented Lagrangian in index-3 for long steps and in index-1 for short ones.
+    MultiIndex,
     /// Index-3 classical Lagrangian.
     Classical,
     /// State space: independent coordinates by a null-space basis.
@@ -30,9 +34,15 @@ pub enum Formulation {
 }
 
 impl Formulation {
-    /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::Index1, Self::Index3, Self::Classical, Self::StateSpace, Self::Recursive];
+    /// All of them, in the order of [`FORMULATIONS`] after `auto`.
+    pub const ALL: [Self; 6] = [
+        Self::Index1,
+        Self::Index3,
+        Self::MultiIndex,
+        Self::Classical,
+        Self::StateSpace,
+        Self::Recursive,
+    ];
 
     /// Its name.
     #[must_use]
@@ -40,10 +50,17 @@ impl Formulation {
         match self {
             Self::Index3 => "index-3",
             Self::Index1 => "index-1",
+            Self::MultiIndex => "multi-index",
             Self::Classical => "classical",
             Self::StateSpace => "state-space",
             Self::Recursive => "recursive",
         }
+    }
+
+    /// Is it one of the augmented Lagrangian's forms, with a penalty on the constraints?
+    #[must_use]
+    pub fn is_augmented(self) -> bool {
+        matches!(self, Self::Index1 | Self::Index3 | Self::MultiIndex)
     }
 
     /// Does it run with this integrator?
@@ -112,6 +129,61 @@ impl IntegratorKind {
     }
 }
 
+/// What chooses the length of the steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StepRule {
+    /// Nothing: all steps are as long as asked for.
+    Fixed,
+    /// The change of the energy invariant.
+    Energy,
+    /// The same as publication 2 prints it: the step changes only where the change crosses a limit.
+    EnergyPrinted,
+    /// An estimate of the local error.
+    Error,
+    /// The shorter of both.
+    Both,
+}
+
+impl StepRule {
+    /// All of them, in the order of [`STEP_RULES`].
+    pub const ALL: [Self; 5] =
+        [Self::Fixed, Self::Energy, Self::EnergyPrinted, Self::Error, Self::Both];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fixed => "fixed",
+            Self::Energy => "energy",
+            Self::EnergyPrinted => "energy-printed",
+            Self::Error => "error",
+            Self::Both => "both",
+        }
+    }
+
+    /// Does the energy invariant steer?
+    #[must_use]
+    pub fn has_energy(self) -> bool {
+        matches!(self, Self::Energy | Self::EnergyPrinted | Self::Both)
+    }
+
+    /// Does the error estimate steer?
+    #[must_use]
+    pub fn has_error(self) -> bool {
+        matches!(self, Self::Error | Self::Both)
+    }
+
+    /// The rule of those that are given.
+    pub(crate) fn of(energy: bool, error: bool) -> Self {
+        match (energy, error) {
+            (false, false) => Self::Fixed,
+            (true, false) => Self::Energy,
+            (false, true) => Self::Error,
+            (true, true) => Self::Both,
+        }
+    }
+}
+
 /// Number format of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Precision {
@@ -138,8 +210,8 @@ mod tests {
 
     #[test]
     fn every_name_that_is_offered_stands_for_something() {
-        let names = Formulation::ALL.map(Formulation::name);
-        assert!(FORMULATIONS[1..].iter().all(|name| names.contains(name)));
+        assert_eq!(Formulation::ALL.map(Formulation::name), FORMULATIONS[1..]);
+        assert_eq!(StepRule::ALL.map(StepRule::name), STEP_RULES);
         assert_eq!(IntegratorKind::ALL.map(IntegratorKind::name), INTEGRATORS);
     }
 }

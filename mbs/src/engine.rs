@@ -5,7 +5,7 @@ use crate::settings::Settings;
 use crate::simulation::rank;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane, Tree};
-use mbs_augmented::{Penalty, index1, index3};
+use mbs_augmented::{IndexChange, Penalty, index1, index3};
 use mbs_classical as classical;
 use mbs_core::model::{Model, Owner, State, Terms};
 use mbs_core::natural::NaturalModel;
@@ -21,12 +21,10 @@ pub enum Engine<T: Real, const D: usize>
 where
     Plane<D>: InSpace<T>,
 {
-    /// Index-3 or index-1 augmented Lagrangian.
+    /// Index-3 or index-1 augmented Lagrangian, or both by turns.
     Augmented {
-        /// Index-1?
-        is_index1: bool,
-        /// Its options.
-        options: mbs_augmented::Options<T>,
+        /// Which index, with its options.
+        index: Index<T>,
         /// Its scratch.
         workspace: Box<mbs_augmented::Workspace<T, Multifrontal<T>>>,
     },
@@ -48,6 +46,17 @@ where
     Recursive(Box<Tree<T, D>>),
 }
 
+/// Which index the augmented Lagrangian is stepped in.
+#[derive(Debug, Clone, Copy)]
+pub enum Index<T> {
+    /// Index-1.
+    One(mbs_augmented::Options<T>),
+    /// Index-3.
+    Three(mbs_augmented::Options<T>),
+    /// Index-3 for long steps, index-1 for short ones.
+    Both(IndexChange<T>),
+}
+
 impl<T: Real, const D: usize> Engine<T, D>
 where
     Plane<D>: InSpace<T>,
@@ -60,11 +69,15 @@ where
         state: &mut State<T>,
     ) -> Result<Self, StopError> {
         match settings.formulation {
-            Formulation::Index1 | Formulation::Index3 => {
-                let is_index1 = settings.formulation == Formulation::Index1;
-                let options = augmented_options(is_index1, settings);
+            Formulation::Index1 | Formulation::Index3 | Formulation::MultiIndex => {
+                let [one, three] = augmented_options(settings);
+                let index = match settings.formulation {
+                    Formulation::Index1 => Index::One(one),
+                    Formulation::Index3 => Index::Three(three),
+                    _ => Index::Both(IndexChange::new(one, three)),
+                };
                 let workspace = Box::new(mbs_augmented::Workspace::new(model, solver));
-                Ok(Self::Augmented { is_index1, options, workspace })
+                Ok(Self::Augmented { index, workspace })
             }
             Formulation::Classical => {
                 let options = classical_options(settings);
@@ -100,12 +113,11 @@ where
     ) -> Result<StepReport<T>, StepError> {
         let step = (dt, model.length());
         match self {
-            Self::Augmented { is_index1: false, options, workspace } => {
-                index3::step(model, step, options, state, workspace)
-            }
-            Self::Augmented { is_index1: true, options, workspace } => {
-                index1::step(model, step, options, state, workspace)
-            }
+            Self::Augmented { index, workspace } => match index {
+                Index::One(options) => index1::step(model, step, options, state, workspace),
+                Index::Three(options) => index3::step(model, step, options, state, workspace),
+                Index::Both(change) => change.step(model, step, state, workspace),
+            },
             Self::Classical { options, workspace } => {
                 classical::index3::step(model, step, options, state, workspace)
             }
@@ -114,6 +126,54 @@ where
             }
             Self::Recursive(tree) => tree.step(model, dt, state),
         }
+    }
+
+    /// Called before a trial of length `dt` [s] after `reductions` in a row; says whether it has changed the state.
+    pub(crate) fn prepare(
+        &mut self,
+        model: &NaturalModel<T, D>,
+        dt: T,
+        reductions: u32,
+        state: &mut State<T>,
+    ) -> bool {
+        let step = (dt, model.length());
+        match self {
+            Self::Augmented { index: Index::Both(change), workspace } => {
+                change.prepare(model, step, reductions, state, workspace)
+            }
+            _ => false,
+        }
+    }
+
+    /// Keeps what stands beside the natural state, so that steps after it can be undone.
+    pub(crate) fn keep(&mut self) {
+        match self {
+            Self::Augmented { workspace, .. } => workspace.keep(),
+            Self::Recursive(tree) => tree.keep(),
+            _ => {}
+        }
+    }
+
+    /// Goes back to what was kept; the natural state is the caller's.
+    pub(crate) fn undo(&mut self) {
+        match self {
+            Self::Augmented { workspace, .. } => workspace.undo(),
+            Self::Recursive(tree) => tree.undo(),
+            _ => {}
+        }
+    }
+
+    /// The index in which the next step would be made, and the changes of it so far; nothing where there is none.
+    pub(crate) fn index(&self) -> Option<(u8, u32)> {
+        let Self::Augmented { index, .. } = self else { return None };
+        Some(match index {
+            Index::One(_) => (1, 0),
+            Index::Three(_) => (3, 0),
+            Index::Both(change) => {
+                let is_one = change.index() == mbs_augmented::Index::One;
+                (if is_one { 1 } else { 3 }, change.changes())
+            }
+        })
     }
 
     /// Sets the clock of a state that is not the natural one.
@@ -185,18 +245,20 @@ where
     }
 }
 
-fn augmented_options<T: Real>(is_index1: bool, settings: &Settings) -> mbs_augmented::Options<T> {
+/// Options of index-1 and index-3.
+fn augmented_options<T: Real>(settings: &Settings) -> [mbs_augmented::Options<T>; 2] {
     use mbs_augmented::Options;
-    let mut options = if is_index1 { Options::index1() } else { Options::index3() };
-    options.integrator = settings.integrator.coefficients();
-    if let Some(alpha) = settings.penalty {
-        options.penalty = Penalty::Fixed(T::from_f64(alpha));
-        options.adaptive_penalty = false;
-    }
-    if let Some(tolerance) = settings.tolerance {
-        options.tolerance = T::from_f64(tolerance);
-    }
-    options
+    [Options::index1(), Options::index3()].map(|mut options| {
+        options.integrator = settings.integrator.coefficients();
+        if let Some(alpha) = settings.penalty {
+            options.penalty = Penalty::Fixed(T::from_f64(alpha));
+            options.adaptive_penalty = false;
+        }
+        if let Some(tolerance) = settings.tolerance {
+            options.tolerance = T::from_f64(tolerance);
+        }
+        options
+    })
 }
 
 fn classical_options<T: Real>(settings: &Settings) -> classical::Options<T> {

@@ -6,20 +6,21 @@ use mbs_core::scene::{BodyRef, Dimension, Inertia, Joint, JointKind, Quantity, S
 use mbs_scene::{Animation, Polyline, Trace};
 
 /// Pictures kept of a run at most.
-const MOST_FRAMES: usize = 600;
+const MOST_FRAMES: f64 = 600.0;
 
 /// Points of the figure, and the animation they fill.
 #[derive(Debug)]
 pub(crate) struct Figure<T: Real, const D: usize> {
     points: Vec<Affine<T, D>>,
     pub(crate) animation: Animation,
-    every: usize,
-    calls: usize,
+    /// Time between pictures, and of the next one [s].
+    every: f64,
+    next: f64,
 }
 
 impl<T: Real, const D: usize> Figure<T, D> {
-    /// Lays out the figure; `n_rows` pictures will be offered.
-    pub(crate) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, n_rows: usize) -> Self {
+    /// Lays out the figure of a run of the given duration [s].
+    pub(crate) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, duration: f64) -> Self {
         let mut layout = Layout { scene, model, points: Vec::new() };
         let bodies = (0..scene.bodies.len()).map(|b| layout.body(b)).collect();
         let traces = layout.traces();
@@ -38,25 +39,21 @@ impl<T: Real, const D: usize> Figure<T, D> {
             rails: rails(scene),
             ..Animation::default()
         };
-        Self {
-            points: layout.points,
-            animation,
-            every: n_rows.div_ceil(MOST_FRAMES).max(1),
-            calls: 0,
-        }
+        Self { points: layout.points, animation, every: duration / MOST_FRAMES, next: 0.0 }
     }
 
-    /// Takes a picture at every so-many-th call.
+    /// Takes a picture where one is due.
     pub(crate) fn offer(&mut self, t: f64, q: &[T], is_last: bool) {
-        if self.calls.is_multiple_of(self.every) || is_last {
+        if t >= self.next || is_last {
             let numbers = self.points.iter().flat_map(|p| {
                 let x = p.value(q);
                 (0..D).map(move |i| x[i].to_f64())
             });
             self.animation.frames.push(numbers.collect());
             self.animation.times.push(t);
+            // Half a hair early: times are rounded.
+            self.next = ((t / self.every + 1e-6).floor() + 1.0 - 1e-6) * self.every;
         }
-        self.calls += 1;
     }
 }
 

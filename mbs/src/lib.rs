@@ -2,6 +2,7 @@
 
 mod channels;
 mod choice;
+mod control;
 mod engine;
 pub mod explain;
 mod figure;
@@ -24,7 +25,10 @@ pub use mbs_scene as scene_file;
 pub use mbs_sparse as sparse;
 pub use mbs_statespace as statespace;
 
-pub use choice::{FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, PRECISIONS, Precision};
+pub use choice::{
+    FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
+    StepRule,
+};
 pub use engine::Engine;
 pub use modes::{Mode, Modes, Place};
 pub use run::{Outcome, Progress, run};

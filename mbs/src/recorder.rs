@@ -2,75 +2,61 @@
 //! step.
 
 use mbs_scene::{
-    Channel, ChannelSeries, EnergySeries, EnergySummary, IterationSeries, ViolationSeries,
+    Channel, ChannelSeries, EnergySeries, IterationSeries, StepRow, StepSeries, ViolationSeries,
     ViolationSummary,
 };
 
-/// Rows kept at most (and one more for the end).
+/// Rows kept at most (and one more for the end); twice as many where the number of steps is not known before.
 pub(crate) const MOST_ROWS: u64 = 10_000;
 
-/// What one step left behind.
-#[derive(Debug, Clone, Copy)]
+/// What one step left behind; of several, the largest.
+#[derive(Debug, Clone, Default)]
 pub(crate) struct StepMark {
     pub(crate) t: f64,
     /// Kinetic energy, potential energy, work.
     pub(crate) energies: [f64; 3],
     pub(crate) violation: [f64; 3],
-    pub(crate) iterations: u32,
+    pub(crate) step: StepRow,
+}
+
+impl StepMark {
+    /// This one with the maxima of those that came before and were not kept.
+    fn after(&self, before: &Self) -> Self {
+        let violation = core::array::from_fn(|i| self.violation[i].max(before.violation[i]));
+        Self { violation, step: self.step.after(&before.step), ..*self }
+    }
 }
 
 /// Series and maxima of a run.
 #[derive(Debug)]
 pub(crate) struct Recorder {
     pub(crate) channels: Vec<Channel>,
-    /// Row times and all components, row by row.
-    pub(crate) times: Vec<f64>,
-    pub(crate) rows: Vec<f64>,
+    /// One mark for each row, and all components, row by row.
+    marks: Vec<StepMark>,
+    rows: Vec<f64>,
     n_columns: usize,
+    /// A row is kept of so many steps.
     every: u64,
     initial: f64,
-    energy: EnergySeries,
-    violation: ViolationSeries,
-    iterations: IterationSeries,
-    max_error: f64,
-    last_error: f64,
     max_violation: [f64; 3],
     /// Largest values since the last row, so that thinning hides no peak.
-    recent: [f64; 3],
-    recent_iterations: u32,
-    max_kinetic: f64,
-    gross_work: f64,
-    last_work: f64,
+    recent: StepMark,
 }
 
 impl Recorder {
-    /// For a run of `n_steps`, starting from the given energies.
-    pub(crate) fn new(channels: Vec<Channel>, n_steps: u64, energies: [f64; 3]) -> Self {
+    /// For a run of `n_steps`, as far as that is known, from the invariant at the start.
+    pub(crate) fn new(channels: Vec<Channel>, n_steps: u64, initial: f64) -> Self {
         let n_columns = channels.iter().map(|c| c.components.len()).sum();
         Self {
             channels,
-            times: Vec::new(),
+            marks: Vec::new(),
             rows: Vec::new(),
             n_columns,
             every: n_steps.div_ceil(MOST_ROWS).max(1),
-            initial: energies[0] + energies[1],
-            energy: EnergySeries::default(),
-            violation: ViolationSeries::default(),
-            iterations: IterationSeries::default(),
-            max_error: 0.0,
-            last_error: 0.0,
+            initial,
             max_violation: [0.0; 3],
-            recent: [0.0; 3],
-            recent_iterations: 0,
-            max_kinetic: energies[0],
-            gross_work: 0.0,
-            last_work: 0.0,
+            recent: StepMark::default(),
         }
-    }
-
-    /// How many rows a full run will have.
-    pub(crate) fn n_rows(&self, n_steps: u64) -> usize {
-        usize::try_from(n_steps / self.every).unwrap_or(usize::MAX).saturating_add(2)
     }
 
     /// Is step `k` (0: the start) kept as a row?
@@ -80,54 +66,39 @@ impl Recorder {
 
     /// Takes the maxima of a step.
     pub(crate) fn mark(&mut self, step: &StepMark) {
-        let [kinetic, potential, work] = step.energies;
-        self.last_error = (kinetic + potential - work - self.initial).abs();
-        if !(self.last_error <= self.max_error) {
-            self.max_error = self.last_error;
+        for (most, &v) in self.max_violation.iter_mut().zip(&step.violation) {
+            *most = most.max(v);
         }
-        for (i, &v) in step.violation.iter().enumerate() {
-            self.max_violation[i] = self.max_violation[i].max(v);
-            self.recent[i] = self.recent[i].max(v);
-        }
-        self.recent_iterations = self.recent_iterations.max(step.iterations);
-        self.max_kinetic = self.max_kinetic.max(kinetic);
-        self.gross_work += (work - self.last_work).abs();
-        self.last_work = work;
-    }
-
-    /// The energy turned over so far, and the present error of the invariant [J].
-    pub(crate) fn turnover(&self) -> (f64, f64) {
-        (self.max_kinetic + self.gross_work, self.last_error)
+        self.recent = step.after(&self.recent);
     }
 
     /// Keeps a row; `values` are all components of all channels.
     pub(crate) fn keep(&mut self, step: &StepMark, values: &[f64]) {
-        let [kinetic, potential, work] = step.energies;
-        self.times.push(step.t);
+        self.marks.push(step.after(&self.recent));
         self.rows.extend_from_slice(values);
-        self.energy.times.push(step.t);
-        self.energy.kinetic.push(kinetic);
-        self.energy.potential.push(potential);
-        self.energy.invariant_error.push(kinetic + potential - work - self.initial);
-        self.violation.times.push(step.t);
-        self.violation.position.push(self.recent[0]);
-        self.violation.velocity.push(self.recent[1]);
-        self.violation.acceleration.push(self.recent[2]);
-        if step.iterations > 0 {
-            self.iterations.times.push(step.t);
-            self.iterations.counts.push(self.recent_iterations);
+        self.recent = StepMark::default();
+        if self.marks.len() as u64 > 2 * MOST_ROWS {
+            self.thin();
         }
-        self.recent = [0.0; 3];
-        self.recent_iterations = 0;
     }
 
-    pub(crate) fn energy_summary(&self) -> EnergySummary {
-        EnergySummary {
-            initial: self.initial,
-            max_error: self.max_error,
-            final_error: self.last_error,
-            turned_over: self.turnover().0,
-        }
+    /// Drops every second row, the first not.
+    fn thin(&mut self) {
+        self.every *= 2;
+        let n = self.n_columns;
+        let kept = (0..self.marks.len()).step_by(2);
+        let rows = kept.clone().flat_map(|i| &self.rows[i * n..(i + 1) * n]).copied().collect();
+        let joined = |i: usize| match i {
+            0 => self.marks[0].clone(),
+            _ => self.marks[i].after(&self.marks[i - 1]),
+        };
+        let marks = kept.map(joined).collect();
+        (self.rows, self.marks) = (rows, marks);
+    }
+
+    /// Time of the last row.
+    pub(crate) fn last_time(&self) -> Option<f64> {
+        self.marks.last().map(|mark| mark.t)
     }
 
     pub(crate) fn violation_summary(&self) -> ViolationSummary {
@@ -148,7 +119,13 @@ impl Recorder {
     /// All rows as time and components.
     pub(crate) fn table(&self) -> impl Iterator<Item = (f64, &[f64])> {
         let n = self.n_columns;
-        self.times.iter().enumerate().map(move |(i, &t)| (t, &self.rows[i * n..(i + 1) * n]))
+        let marks = self.marks.iter().enumerate();
+        marks.map(move |(i, mark)| (mark.t, &self.rows[i * n..(i + 1) * n]))
+    }
+
+    /// One number of each row.
+    fn column(&self, of: impl Fn(&StepMark) -> f64) -> Vec<f64> {
+        self.marks.iter().map(of).collect()
     }
 
     pub(crate) fn series(&self) -> Vec<ChannelSeries> {
@@ -160,7 +137,7 @@ impl Recorder {
             });
             let series = ChannelSeries {
                 channel: channel.clone(),
-                times: self.times.clone(),
+                times: self.column(|mark| mark.t),
                 values: values.collect(),
             };
             first += channel.components.len();
@@ -169,7 +146,47 @@ impl Recorder {
         self.channels.iter().map(of_channel).collect()
     }
 
-    pub(crate) fn page_series(&self) -> (EnergySeries, ViolationSeries, IterationSeries) {
-        (self.energy.clone(), self.violation.clone(), self.iterations.clone())
+    pub(crate) fn energy(&self) -> EnergySeries {
+        EnergySeries {
+            times: self.column(|mark| mark.t),
+            kinetic: self.column(|mark| mark.energies[0]),
+            potential: self.column(|mark| mark.energies[1]),
+            invariant_error: self.column(|mark| self.error(mark)),
+        }
+    }
+
+    /// Pi(t) - Pi(0) [J].
+    fn error(&self, mark: &StepMark) -> f64 {
+        let [kinetic, potential, work] = mark.energies;
+        kinetic + potential - work - self.initial
+    }
+
+    pub(crate) fn violation(&self) -> ViolationSeries {
+        ViolationSeries {
+            times: self.column(|mark| mark.t),
+            position: self.column(|mark| mark.violation[0]),
+            velocity: self.column(|mark| mark.violation[1]),
+            acceleration: self.column(|mark| mark.violation[2]),
+        }
+    }
+
+    /// The rows that end a step: all but the start.
+    fn steps(&self) -> impl Iterator<Item = &StepMark> {
+        self.marks.iter().filter(|mark| mark.step.length > 0.0)
+    }
+
+    pub(crate) fn iterations(&self) -> IterationSeries {
+        IterationSeries {
+            times: self.steps().map(|mark| mark.t).collect(),
+            counts: self.steps().map(|mark| mark.step.iterations).collect(),
+        }
+    }
+
+    pub(crate) fn step_series(&self) -> StepSeries {
+        StepSeries {
+            times: self.steps().map(|mark| mark.t).collect(),
+            energy_errors: self.steps().map(|mark| self.error(mark)).collect(),
+            rows: self.steps().map(|mark| mark.step.clone()).collect(),
+        }
     }
 }

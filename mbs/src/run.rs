@@ -7,19 +7,20 @@ use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::{Names, StopError};
 use crate::tree::{InSpace, Plane};
-use crate::words::{notes, stop_text, summary_rows};
+use crate::words::{limit_name, notes, stop_text, summary_rows};
 use core::time::Duration;
 use cpu_time::ProcessTime;
 use mbs_core::Real;
+use mbs_core::control::{Accepted, Invariant};
 use mbs_core::outputs::{self, Contacts};
 use mbs_core::scene::{EffectKind, Scene};
-use mbs_core::step::StepReport;
-use mbs_scene::{Channel, Contact, CsvWriter, Outputs, Provenance, RunRecord, RunSummary};
+use mbs_scene::{
+    Channel, Contact, ControlSummary, CsvWriter, EnergySummary, Outputs, Provenance, RunRecord,
+    RunSummary, StepRow, StepSeries,
+};
 use std::io;
 use std::time::Instant;
 
-/// Share of the energy turned over that the invariant may be off by.
-const ENERGY_ALARM: f64 = 0.1;
 /// Steps in a row, or less at the end of a run, that it may be off by more: the first steps from rest turn little over, and
 /// their error may be large beside that and small beside what follows.
 const PATIENCE: u32 = 10;
@@ -44,6 +45,7 @@ pub struct Outcome {
     record: RunRecord,
     channels: Vec<Channel>,
     table: Vec<(f64, Vec<f64>)>,
+    steps: StepSeries,
 }
 
 impl Outcome {
@@ -57,6 +59,20 @@ impl Outcome {
             csv.row(*t, row)?;
         }
         csv.finish()
+    }
+
+    /// Writes the steps as CSV: their lengths, and what came of them.
+    ///
+    /// # Errors
+    /// Those of the sink.
+    pub fn write_steps(&self, sink: impl io::Write) -> io::Result<()> {
+        mbs_scene::write_steps(sink, &self.steps)
+    }
+
+    /// The steps of the rows.
+    #[must_use]
+    pub fn steps(&self) -> &StepSeries {
+        &self.steps
     }
 
     /// The page, with how the run was made.
@@ -101,9 +117,8 @@ where
         Err(error) => return not_started(scene, settings, &channels, &names, error),
     };
     let n_steps = settings.n_steps();
-    let recorder = Recorder::new(channels, n_steps, simulation.initial_energies());
-    let weight = weight(scene) * simulation.model().length().to_f64();
-    let figure = Figure::new(scene, simulation.model(), recorder.n_rows(n_steps));
+    let recorder = Recorder::new(channels, n_steps, simulation.invariant().initial());
+    let figure = Figure::new(scene, simulation.model(), settings.duration);
     let mut run = Run {
         scene,
         settings,
@@ -113,14 +128,18 @@ where
         recorder,
         figure,
         values: Vec::new(),
+        mark: StepMark::default(),
         counts: Counts::default(),
-        weight,
         reached: 0.0,
         off: 0,
     };
     run.start();
     let cpu = ProcessTime::now();
-    let error = run.steps(n_steps, progress).err();
+    let error = if run.simulation.is_controlled() {
+        run.controlled_steps(progress).err()
+    } else {
+        run.steps(n_steps, progress).err()
+    };
     let cpu = cpu.elapsed();
     run.finish(cpu, error, &names)
 }
@@ -131,6 +150,7 @@ struct Counts {
     iterations: u64,
     factorizations: u64,
     worst: Duration,
+    control: ControlSummary,
 }
 
 struct Run<'a, T: Real, const D: usize>
@@ -145,9 +165,9 @@ where
     recorder: Recorder,
     figure: Figure<T, D>,
     values: Vec<f64>,
+    /// What the last step left behind.
+    mark: StepMark,
     counts: Counts,
-    /// Weight of all bodies times the scene's length [J].
-    weight: f64,
     /// Time reached [s].
     reached: f64,
     /// Steps in a row after which the invariant was off.
@@ -164,7 +184,7 @@ where
         self.values = vec![0.0; n];
         let violation = self.simulation.start.residual.map(Real::to_f64);
         let energies = self.simulation.initial_energies();
-        let mark = StepMark { t: 0.0, energies, violation, iterations: 0 };
+        let mark = StepMark { energies, violation, ..StepMark::default() };
         self.recorder.mark(&mark);
         self.contacts.start(self.simulation.state());
         self.row(&mark, false);
@@ -177,6 +197,7 @@ where
         self.recorder.keep(mark, &self.values);
     }
 
+    /// Steps of fixed length, or intervals over which an explicit method controls its own.
     fn steps(&mut self, n_steps: u64, progress: &mut impl Progress) -> Result<(), StopError> {
         let (h, end) = (self.settings.step_max, self.settings.duration);
         let mut clock = Instant::now();
@@ -185,69 +206,120 @@ where
             let (from, to) = ((k - 1) as f64 * h, if k == n_steps { end } else { k as f64 * h });
             let is_full = k < n_steps || (to - from - h).abs() <= 1e-9 * h * k as f64;
             let dt = if is_full { h } else { to - from };
-            let report = match self.simulation.step(T::from_f64(dt)) {
-                Ok(report) => report,
-                Err(error) => {
-                    let stop = self.simulation.explain(error);
-                    return self.stop(stop);
-                }
-            };
-            self.simulation.set_time(T::from_f64(to));
-            let mark = self.take(to, &report);
-            if self.recorder.keeps(k) || k == n_steps {
-                self.row(&mark, k == n_steps);
-                progress.reached(to);
-            }
-            let now = Instant::now();
-            self.counts.worst = self.counts.worst.max(now - clock);
-            clock = now;
-            if let Some(stop) = self.alarm(&mark, k == n_steps) {
-                return self.stop(stop);
-            }
+            self.step(dt, Some(to), &mut clock)?;
+            self.finish_step((k, k == n_steps), progress)?;
         }
         Ok(())
+    }
+
+    /// Steps of controlled length, to the end.
+    fn controlled_steps(&mut self, progress: &mut impl Progress) -> Result<(), StopError> {
+        let end = self.settings.duration;
+        let mut clock = Instant::now();
+        let mut k = 0;
+        let mut is_last = false;
+        while !is_last {
+            let rest = end - self.reached;
+            let length = self.step(rest, None, &mut clock)?;
+            is_last = length >= rest;
+            if is_last {
+                self.simulation.set_time(T::from_f64(end));
+                (self.reached, self.mark.t) = (end, end);
+            }
+            k += 1;
+            self.finish_step((k, is_last), progress)?;
+        }
+        Ok(())
+    }
+
+    /// One step of at most `rest` [s], with its counts; the time at its end is known where steps are fixed. Returns its length.
+    fn step(&mut self, rest: f64, to: Option<f64>, clock: &mut Instant) -> Result<f64, StopError> {
+        let accepted = match self.simulation.advance(T::from_f64(rest)) {
+            Ok(accepted) => accepted,
+            Err(error) => {
+                let stop = self.simulation.explain(error);
+                return self.stop(stop).map(|()| 0.0);
+            }
+        };
+        if let Some(to) = to {
+            self.simulation.set_time(T::from_f64(to));
+        }
+        self.take(&accepted);
+        let now = Instant::now();
+        self.counts.worst = self.counts.worst.max(now - *clock);
+        *clock = now;
+        Ok(accepted.step.to_f64())
+    }
+
+    /// A row where one is due, and the alarm.
+    fn finish_step(
+        &mut self,
+        (k, is_last): (u64, bool),
+        progress: &mut impl Progress,
+    ) -> Result<(), StopError> {
+        if self.recorder.keeps(k) || is_last {
+            let mark = self.mark.clone();
+            self.row(&mark, is_last);
+            progress.reached(mark.t);
+        }
+        match self.alarm(is_last) {
+            Some(stop) => self.stop(stop),
+            None => Ok(()),
+        }
     }
 
     /// Keeps the state at which the run stops.
     fn stop(&mut self, stop: StopError) -> Result<(), StopError> {
         let t = self.reached;
-        if self.recorder.times.last().is_none_or(|&last| last < t) {
+        if self.recorder.last_time().is_none_or(|last| last < t) {
             let energies = self.simulation.energies();
-            let mark = StepMark { t, energies, violation: [0.0; 3], iterations: 0 };
-            self.row(&mark, true);
+            self.row(&StepMark { t, energies, ..StepMark::default() }, true);
         }
         Err(stop)
     }
 
     /// Counts and maxima of a step.
-    fn take(&mut self, t: f64, report: &StepReport<T>) -> StepMark {
+    fn take(&mut self, accepted: &Accepted<T>) {
+        let report = &accepted.attempt.report;
+        let t = self.simulation.state().t.to_f64();
         self.counts.steps += u64::from(report.steps);
         self.reached = t;
         self.counts.iterations += u64::from(report.iterations);
         self.counts.factorizations += u64::from(report.factorizations);
         self.measures.track(self.simulation.state());
         self.contacts.watch(self.simulation.state());
-        let mark = StepMark {
+        let index = self.simulation.index().map(|(index, _)| index);
+        let is_controlled = self.simulation.is_controlled();
+        self.mark = StepMark {
             t,
-            energies: self.simulation.energies(),
+            energies: accepted.attempt.energies,
             violation: report.violation.map(Real::to_f64),
-            iterations: report.iterations,
+            step: StepRow {
+                length: accepted.step.to_f64(),
+                index,
+                iterations: report.iterations,
+                rejected: accepted.rejected,
+                energy_change: accepted.change,
+                penalty_energy: report.penalty_energy.to_f64(),
+                error_estimate: self.settings.rule.has_error().then_some(accepted.attempt.error),
+                limit: is_controlled.then(|| limit_name(accepted.limit)),
+            },
         };
-        self.recorder.mark(&mark);
-        mark
+        self.recorder.mark(&self.mark);
+        self.counts.control.take(&self.mark.step);
     }
 
-    /// Has the invariant drifted too far? Nothing is said while what was turned over is rounding of what is stored.
-    fn alarm(&mut self, mark: &StepMark, is_last: bool) -> Option<StopError> {
-        let (turned_over, error) = self.recorder.turnover();
-        let stored = mark.energies[1].abs() + mark.energies[0];
-        let rounding = stored.max(self.weight) * T::EPSILON.to_f64().sqrt();
-        let is_off = !(error <= ENERGY_ALARM * turned_over) && !(error <= rounding);
+    /// Has the invariant drifted too far?
+    fn alarm(&mut self, is_last: bool) -> Option<StopError> {
+        let invariant = self.simulation.invariant();
+        let is_off = invariant.is_off(self.settings.energy_alarm);
+        let (error, turned_over) = (invariant.error().abs(), invariant.turned_over());
         self.off = if is_off { self.off + 1 } else { 0 };
         let is_stop = self.off >= PATIENCE || (is_off && is_last) || !error.is_finite();
         is_stop.then(|| StopError::Energy {
             error,
             turned_over,
+            share: self.settings.energy_alarm,
             owner: self.simulation.most_loaded(),
         })
     }
@@ -257,6 +329,9 @@ where
         let cpu_seconds = cpu.as_secs_f64();
         let [coordinates, constraints, constraint_rank] = self.simulation.sizes();
         let settings = self.settings;
+        let index_changes = self.simulation.index().map_or(0, |(_, changes)| u64::from(changes));
+        let control =
+            ControlSummary { rule: settings.rule.name(), index_changes, ..self.counts.control };
         let summary = RunSummary {
             steps: self.counts.steps,
             completed: error.is_none(),
@@ -267,7 +342,8 @@ where
             worst_step_seconds: self.counts.worst.as_secs_f64(),
             iterations: self.counts.iterations,
             factorizations: self.counts.factorizations,
-            energy: self.recorder.energy_summary(),
+            energy: energy_summary(self.simulation.invariant()),
+            control: self.simulation.is_controlled().then_some(control),
             violation: self.recorder.violation_summary(),
             outputs: Outputs(self.recorder.last()),
             coordinates,
@@ -279,21 +355,23 @@ where
             contacts_left_out: self.contacts.left_out(),
             ..plain_summary(self.scene, settings)
         };
-        let (energy, violation, iterations) = self.recorder.page_series();
+        let steps = self.recorder.step_series();
         let record = RunRecord {
             scene: self.scene.name.clone(),
             channels: self.recorder.series(),
             animation: Some(self.figure.animation),
-            energy: Some(energy),
-            violation: Some(violation),
-            iterations: Some(iterations),
+            energy: Some(self.recorder.energy()),
+            violation: Some(self.recorder.violation()),
+            iterations: Some(self.recorder.iterations()),
+            steps: self.simulation.is_controlled().then(|| steps.clone()),
             summary: summary_rows(&summary),
             notes: notes(self.scene, settings, &summary, self.simulation.start.change.to_f64()),
             error: summary.error.as_ref().map(stop_text),
             ..RunRecord::default()
         };
         let table = self.recorder.table().map(|(t, row)| (t, row.to_vec())).collect();
-        Outcome { summary, error, record, channels: self.recorder.channels.clone(), table }
+        let channels = self.recorder.channels.clone();
+        Outcome { summary, error, record, channels, table, steps }
     }
 }
 
@@ -309,11 +387,16 @@ fn contact<T: Real>(scene: &Scene<T>, instant: &outputs::Instant) -> Contact {
     }
 }
 
-/// Weight of all bodies [N].
-fn weight<T: Real>(scene: &Scene<T>) -> f64 {
-    let mass: f64 = scene.bodies.iter().map(|body| body.mass.to_f64()).sum();
-    let squares = scene.gravity.map_or(0.0, |g| g.iter().map(|x| x.to_f64() * x.to_f64()).sum());
-    mass * f64::sqrt(squares)
+/// The invariant over every step.
+fn energy_summary(invariant: &Invariant) -> EnergySummary {
+    EnergySummary {
+        initial: invariant.initial(),
+        max_error: invariant.max_error(),
+        final_error: invariant.error().abs(),
+        turned_over: invariant.turned_over(),
+        scatter: invariant.scatter(),
+        drift: invariant.drift(),
+    }
 }
 
 fn plain_summary<T: Real>(scene: &Scene<T>, settings: &Settings) -> RunSummary {
@@ -343,5 +426,12 @@ fn not_started<T: Real>(
         error: summary.error.as_ref().map(stop_text),
         ..RunRecord::default()
     };
-    Outcome { summary, error: Some(error), record, channels: channels.to_vec(), table: Vec::new() }
+    Outcome {
+        summary,
+        error: Some(error),
+        record,
+        channels: channels.to_vec(),
+        table: Vec::new(),
+        steps: StepSeries::default(),
+    }
 }

@@ -2,8 +2,10 @@
 
 use crate::choice::{
     FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, NOT_BUILT, PRECISIONS, Precision,
+    STEP_RULES, StepRule,
 };
 use mbs_core::Real;
+use mbs_core::control::EnergyRule;
 use mbs_core::scene::{Scene, SolverChoice};
 use mbs_scene::{Chosen, readable};
 
@@ -11,6 +13,11 @@ use mbs_scene::{Chosen, readable};
 const MOST_STEPS: f64 = 1e12;
 /// Step when neither scene nor command line gives one [s].
 const DEFAULT_STEP: f64 = 1e-3;
+
+/// Error of a step by its estimate when neither gives one, relative to the scene's length.
+const DEFAULT_ERROR: f64 = 1e-6;
+/// Share of the energy turned over that the invariant may be off by.
+const DEFAULT_ALARM: f64 = 0.1;
 
 /// What the command line (or a caller) says; `None` leaves it to the scene.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -23,6 +30,18 @@ pub struct Overrides {
     pub precision: Option<String>,
     /// Step [s].
     pub step: Option<f64>,
+    /// Largest step of a controlled length [s].
+    pub step_max: Option<f64>,
+    /// What chooses the length of the steps; left out, the tolerances that are given.
+    pub step_control: Option<String>,
+    /// [U, L] of the energy rule.
+    pub energy_tolerance: Option<[f64; 2]>,
+    /// Error of a step by its estimate, relative to the scene's length.
+    pub error_tolerance: Option<f64>,
+    /// Do steps of a controlled length end at contacts and kinks of the road?
+    pub events: Option<bool>,
+    /// Share of the energy turned over that the invariant may be off by.
+    pub energy_alarm: Option<f64>,
     /// Duration [s].
     pub duration: Option<f64>,
     /// Fixed penalty [N/m in index-3, kg in index-1]; in classical the regularisation 1/alpha, in recursive the report's
@@ -49,6 +68,16 @@ pub struct Settings {
     pub step: f64,
     /// Largest step of a controlled step size [s], and the distance of recorded rows: `step` when left out.
     pub step_max: f64,
+    /// What chooses the length of the steps.
+    pub rule: StepRule,
+    /// [U, L] of the energy rule.
+    pub energy_tolerance: [f64; 2],
+    /// Error of a step by its estimate, relative to the scene's length.
+    pub error_tolerance: f64,
+    /// Do steps of a controlled length end at contacts and kinks of the road?
+    pub events: bool,
+    /// Share of the energy turned over that the invariant may be off by before the run stops.
+    pub energy_alarm: f64,
     /// Duration [s].
     pub duration: f64,
     /// Fixed penalty, if any.
@@ -79,6 +108,8 @@ pub enum SettingsError {
         /// The value.
         value: f64,
     },
+    /// U and L of the energy rule, the smaller one first.
+    LimitOrder([f64; 2]),
     /// Names that do not go together.
     NotTogether {
         /// Formulation.
@@ -106,6 +137,11 @@ impl SettingsError {
             }
             Self::NotBuilt { value, built, .. } => mbs_scene::suggestion(value, built, "built are"),
             Self::NotPositive { .. } => "write a number larger than zero".to_owned(),
+            Self::LimitOrder(_) => "write the larger one first: U, then L".to_owned(),
+            Self::NotTogether { option, .. } if option.starts_with("step control") => {
+                "rk54 controls its own step by --tolerance; the others need an implicit integrator"
+                    .to_owned()
+            }
             Self::NotTogether { option, .. } if option == "penalty" => {
                 "leave the penalty out".to_owned()
             }
@@ -130,6 +166,12 @@ impl core::fmt::Display for SettingsError {
             Self::NotPositive { key, value } => {
                 write!(f, "{key} must be positive and finite, but is {}", readable(*value))
             }
+            Self::LimitOrder([upper, lower]) => write!(
+                f,
+                "energy_tolerance: U must be larger than L, but U is {} and L is {}",
+                readable(*upper),
+                readable(*lower)
+            ),
             Self::NotTogether { formulation, option } => {
                 write!(f, "formulation `{}` has no `{option}`", formulation.name())
             }
@@ -171,16 +213,20 @@ impl Settings {
         let of_scene = |x: Option<T>| x.map(Real::to_f64);
         let step = overrides.step.or(of_scene(solver.step)).unwrap_or(DEFAULT_STEP);
         let step = positive("step", step)?;
-        let step_max = of_scene(solver.step_max).unwrap_or(step);
+        let step_max = overrides.step_max.or(of_scene(solver.step_max)).unwrap_or(step);
         let step_max = positive("step_max", step_max)?;
+        let rule = step_rule(solver, overrides, (formulation, integrator))?;
+        let is_controlled = integrator == IntegratorKind::Rk54 || rule != StepRule::Fixed;
+        let limits =
+            overrides.energy_tolerance.or(solver.energy_tolerance.map(|l| l.map(T::to_f64)));
+        let limits = limits.unwrap_or([EnergyRule::default().upper, EnergyRule::default().lower]);
         let duration = overrides.duration.unwrap_or(scene.duration.to_f64());
         let duration = positive("duration", duration)?;
         if duration / step > MOST_STEPS {
             return Err(SettingsError::TooManySteps { step, duration });
         }
         // A scene's penalty is meant for the augmented Lagrangian.
-        let is_augmented = matches!(formulation, Formulation::Index1 | Formulation::Index3);
-        let of_file = of_scene(solver.penalty).filter(|_| is_augmented);
+        let of_file = of_scene(solver.penalty).filter(|_| formulation.is_augmented());
         let penalty = overrides.penalty.or(of_file);
         Ok(Self {
             asked,
@@ -188,7 +234,21 @@ impl Settings {
             integrator,
             precision,
             step,
-            step_max: if integrator == IntegratorKind::Rk54 { step_max } else { step },
+            step_max: if is_controlled { step_max } else { step },
+            rule,
+            energy_tolerance: ordered(limits)?,
+            error_tolerance: positive(
+                "error_tolerance",
+                overrides
+                    .error_tolerance
+                    .or(of_scene(solver.error_tolerance))
+                    .unwrap_or(DEFAULT_ERROR),
+            )?,
+            events: overrides.events.or(solver.locate_events).unwrap_or(rule != StepRule::Fixed),
+            energy_alarm: positive(
+                "energy_alarm",
+                overrides.energy_alarm.or(of_scene(solver.energy_alarm)).unwrap_or(DEFAULT_ALARM),
+            )?,
             duration,
             penalty: checked("penalty", penalty)?,
             tolerance: checked("tolerance", overrides.tolerance.or(of_scene(solver.tolerance)))?,
@@ -236,14 +296,8 @@ fn method<T>(
         "formulation",
         (&overrides.formulation, &solver.formulation, "auto"),
         &FORMULATIONS,
-        [
-            None,
-            Some(Formulation::Index1),
-            Some(Formulation::Index3),
-            Some(Formulation::Classical),
-            Some(Formulation::StateSpace),
-            Some(Formulation::Recursive),
-        ],
+        // `auto` stands before them.
+        core::array::from_fn(|i| i.checked_sub(1).map(|i| Formulation::ALL[i])),
     )?;
     let (_, integrator) = named(
         "integrator",
@@ -265,6 +319,26 @@ fn method<T>(
         return Err(SettingsError::NotTogether { formulation, option });
     }
     Ok((asked, formulation, integrator))
+}
+
+/// What chooses the length of the steps: what is named, else what tolerances are given for. The energy limits of a scene are
+/// meant for multi-index, which has the energy rule anyway.
+fn step_rule<T>(
+    solver: &SolverChoice<T>,
+    overrides: &Overrides,
+    (formulation, integrator): (Formulation, IntegratorKind),
+) -> Result<StepRule, SettingsError> {
+    let has_energy = overrides.energy_tolerance.is_some() || formulation == Formulation::MultiIndex;
+    let has_error = overrides.error_tolerance.is_some() || solver.error_tolerance.is_some();
+    let given = StepRule::of(has_energy, has_error);
+    let names = (&overrides.step_control, &solver.step_control, given.name());
+    let (_, rule) = named("step control", names, &STEP_RULES, StepRule::ALL)?;
+    if rule != StepRule::Fixed && integrator.is_explicit() {
+        let option =
+            format!("step control {} beside integrator {}", rule.name(), integrator.name());
+        return Err(SettingsError::NotTogether { formulation, option });
+    }
+    Ok(rule)
 }
 
 /// The value that belongs to the first name given: override, scene, default.
@@ -292,6 +366,12 @@ fn positive(key: &'static str, value: f64) -> Result<f64, SettingsError> {
     } else {
         Err(SettingsError::NotPositive { key, value })
     }
+}
+
+/// U and L of the energy rule.
+fn ordered([upper, lower]: [f64; 2]) -> Result<[f64; 2], SettingsError> {
+    let limits = [positive("energy_tolerance", upper)?, positive("energy_tolerance", lower)?];
+    if upper > lower { Ok(limits) } else { Err(SettingsError::LimitOrder(limits)) }
 }
 
 fn checked(key: &'static str, value: Option<f64>) -> Result<Option<f64>, SettingsError> {

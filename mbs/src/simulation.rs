@@ -1,11 +1,13 @@
 //! A scene that can step: model, consistent state and formulation in one place.
 
+use crate::control::Control;
 use crate::engine::Engine;
 use crate::settings::Settings;
 use crate::statics::{assembled, equilibrium_start};
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
+use mbs_core::control::{Accepted, Attempt, Invariant, Limit};
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Scene, Start};
@@ -27,6 +29,8 @@ where
     pub start: Assembled<T>,
     sizes: [usize; 3],
     initial_energy: [f64; 2],
+    control: Option<Box<Control<T>>>,
+    invariant: Invariant,
 }
 
 impl<T: Real, const D: usize> Simulation<T, D>
@@ -46,15 +50,65 @@ where
         let engine = Engine::new(scene, settings, &model, solver, &mut state)?;
         let sizes = engine.sizes(&model, &state);
         let initial_energy = engine.start_energies(&model, &state);
-        Ok(Self { model, state, engine, start, sizes, initial_energy })
+        let control = Control::new(settings, &state).map(Box::new);
+        let [kinetic, potential] = initial_energy;
+        let ground = weight(scene) * model.length().to_f64();
+        let invariant = Invariant::new([kinetic, potential, 0.0], ground, T::EPSILON.to_f64());
+        Ok(Self { model, state, engine, start, sizes, initial_energy, control, invariant })
     }
 
     /// Advances by `dt` [s]: one step, or as many as the control of the step size takes.
     ///
     /// # Errors
-    /// [`StepError`]; the state is then unchanged.
+    /// [`StepError`]; the state is then that after the last accepted step.
     pub fn step(&mut self, dt: T) -> Result<StepReport<T>, StepError> {
-        self.engine.step(&self.model, dt, &mut self.state)
+        if self.control.is_none() {
+            return self.advance(dt).map(|accepted| accepted.attempt.report);
+        }
+        let end = self.state.t + dt;
+        let mut sum = StepReport { steps: 0, ..StepReport::default() };
+        loop {
+            let rest = end - self.state.t;
+            let accepted = self.advance(rest)?;
+            sum.add(&accepted.attempt.report);
+            if accepted.step >= rest {
+                self.set_time(end);
+                return Ok(sum);
+            }
+        }
+    }
+
+    /// Makes one step: of `rest` [s] where the length of steps is fixed, of at most that where it is controlled.
+    ///
+    /// # Errors
+    /// [`StepError`]; the state is then unchanged.
+    pub fn advance(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
+        let Self { model, state, engine, control, invariant, .. } = self;
+        if let Some(control) = control {
+            return control.step((model, engine), state, invariant, rest);
+        }
+        engine.prepare(model, rest, 0, state);
+        let report = engine.step(model, rest, state)?;
+        let energies = engine.energies(model, state);
+        let change = invariant.change(energies);
+        invariant.mark(state.t.to_f64(), energies);
+        let attempt = Attempt { report, t: state.t, energies, error: 0.0 };
+        Ok(Accepted { attempt, step: rest, rejected: 0, change, limit: Limit::Largest })
+    }
+
+    /// Are the lengths of the steps controlled?
+    pub fn is_controlled(&self) -> bool {
+        self.control.is_some()
+    }
+
+    /// The energy invariant, watched over every step so far.
+    pub fn invariant(&self) -> &Invariant {
+        &self.invariant
+    }
+
+    /// The index in which the next step would be made, and the changes of it so far, where a formulation has one.
+    pub fn index(&self) -> Option<(u8, u32)> {
+        self.engine.index()
     }
 
     /// Sets the clock: sums of many steps drift, multiples do not.
@@ -126,6 +180,13 @@ where
         let n = mbs_core::Cliques::n_unknowns(&self.model);
         self.model.owner_of_unknown(largest(&self.state.a[..n]) as usize)
     }
+}
+
+/// Weight of all bodies [N].
+fn weight<T: Real>(scene: &Scene<T>) -> f64 {
+    let mass: f64 = scene.bodies.iter().map(|body| body.mass.to_f64()).sum();
+    let squares = scene.gravity.map_or(0.0, |g| g.iter().map(|x| x.to_f64() * x.to_f64()).sum());
+    mass * f64::sqrt(squares)
 }
 
 /// Rank of the constraints at a state; the number of rows where it cannot be told.

@@ -79,6 +79,8 @@ pub enum StopError {
         error: f64,
         /// Largest kinetic energy plus gross work [J].
         turned_over: f64,
+        /// Share of it that was allowed [-].
+        share: f64,
         /// Whose constraint carries the largest force, or whose coordinate accelerates most.
         owner: Owner,
     },
@@ -300,10 +302,11 @@ impl core::fmt::Display for StopError {
             Self::Equilibrium(error, _) => write_equilibrium(error, f),
             Self::Linear(error) => write_linear(error, f),
             Self::Eigenvalues => write!(f, "the iteration for the eigenvalues did not converge"),
-            Self::Energy { error, turned_over, .. } => write!(
+            Self::Energy { error, turned_over, share, .. } => write!(
                 f,
-                "the energy is off by {} J, more than a tenth of the {} J turned over: the motion is not resolved",
+                "the energy is off by {} J, more than {} % of the {} J turned over: the motion is not resolved",
                 few(*error),
+                few(*share * 100.0),
                 few(*turned_over)
             ),
         }

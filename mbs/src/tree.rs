@@ -40,6 +40,7 @@ where
 {
     model: TreeModel<T, <Plane<D> as InSpace<T>>::Space>,
     state: TreeState<T>,
+    saved: TreeState<T>,
     workspace: Workspace<T, <Plane<D> as InSpace<T>>::Space>,
     options: Options<T>,
     integrator: IntegratorKind,
@@ -66,6 +67,7 @@ where
         let rank = model.rank(&start, &mut workspace).unwrap_or_else(|_| model.n_rows());
         let motions = (0..scene.bodies.len()).map(|b| natural.motion(scene, b, state)).collect();
         let mut tree = Self {
+            saved: start.clone(),
             state: start,
             workspace,
             options: options(settings),
@@ -99,6 +101,16 @@ where
         }?;
         self.tell(natural, state);
         Ok(report)
+    }
+
+    /// Keeps the state, so that steps after it can be undone.
+    pub(crate) fn keep(&mut self) {
+        self.saved.copy_from(&self.state);
+    }
+
+    /// Goes back to what was kept; the natural state is not told.
+    pub(crate) fn undo(&mut self) {
+        self.state.copy_from(&self.saved);
     }
 
     /// Tells the natural state of the tree's.

@@ -2,6 +2,7 @@
 
 use crate::settings::Settings;
 use mbs_core::Real;
+use mbs_core::control::Limit;
 use mbs_core::scene::{BodyRef, Scene};
 use mbs_scene::{Contact, RunError, RunSummary, readable};
 
@@ -12,6 +13,17 @@ pub(crate) fn few(x: f64) -> String {
 
 fn significant(x: f64, digits: usize) -> String {
     readable(format!("{x:.*e}", digits - 1).parse().unwrap_or(x))
+}
+
+/// What kept a step from being longer, as it stands in files.
+pub(crate) fn limit_name(limit: Limit) -> &'static str {
+    match limit {
+        Limit::Largest => "max",
+        Limit::Energy => "energy",
+        Limit::Error => "error",
+        Limit::Event => "event",
+        Limit::Failure => "failure",
+    }
 }
 
 /// The summary table of a page.

@@ -99,6 +99,8 @@ impl<T: Real> Scene<T> {
             ("step_max", solver.step_max),
             ("tolerance", solver.tolerance),
             ("penalty", solver.penalty),
+            ("error_tolerance", solver.error_tolerance),
+            ("energy_alarm", solver.energy_alarm),
         ] {
             if let Some(number) = number {
                 place.positive(field, number)?;

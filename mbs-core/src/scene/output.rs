@@ -68,8 +68,16 @@ pub struct SolverChoice<T> {
     pub tolerance: Option<T>,
     /// The printed alpha: N/m in index-3, kg in index-1.
     pub penalty: Option<T>,
-    /// [U, L] of the multi-index energy rule.
+    /// What chooses the length of the steps, as written, likewise.
+    pub step_control: Option<String>,
+    /// [U, L] of the energy rule: shares of the energy that moves.
     pub energy_tolerance: Option<[T; 2]>,
+    /// Error of a step by its estimate, relative to the scene's length.
+    pub error_tolerance: Option<T>,
+    /// Do steps of a controlled length end at contacts and kinks of the road?
+    pub locate_events: Option<bool>,
+    /// Share of the energy turned over that the invariant may be off by before the run stops.
+    pub energy_alarm: Option<T>,
     /// Further keys accepted by the reader and not used yet.
     pub unused: Vec<String>,
 }

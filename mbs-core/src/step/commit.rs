@@ -14,6 +14,7 @@ pub fn take_coordinates<T: Real>(
     s: &mut State<T>,
     (dq, v, a): (&[T], &[T], &[T]),
 ) {
+    s.dt = rule.dt;
     let shift = rule.auxiliary / rule.acceleration;
     for i in 0..n {
         let (_, _, a_predicted) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);

@@ -46,6 +46,8 @@ pub struct StepReport<T> {
     pub stop: Stop,
     /// Largest |phi|, |phi'|, |phi''| after the step [m, m/s, m/s^2].
     pub violation: [T; 3],
+    /// Energy that the penalties held after the first correction [P2 (29)]; zero in formulations without penalties [J].
+    pub penalty_energy: T,
 }
 
 impl<T: Real> StepReport<T> {
@@ -60,6 +62,23 @@ impl<T: Real> StepReport<T> {
     }
 }
 
+impl<T: Real> StepReport<T> {
+    /// Adds the counts of a step that followed; the rest is that step's, the larger where it is a size.
+    pub fn add(&mut self, next: &Self) {
+        let sums = Self {
+            iterations: self.iterations + next.iterations,
+            factorizations: self.factorizations + next.factorizations,
+            solves: self.solves + next.solves,
+            steps: self.steps + next.steps,
+            rejected: self.rejected + next.rejected,
+            penalty_energy: self.penalty_energy.max(next.penalty_energy),
+            ..*next
+        };
+        let violation = core::array::from_fn(|i| self.violation[i].max(next.violation[i]));
+        *self = Self { violation, ..sums };
+    }
+}
+
 impl<T: Real> Default for StepReport<T> {
     fn default() -> Self {
         Self {
@@ -71,6 +90,7 @@ impl<T: Real> Default for StepReport<T> {
             correction: T::ZERO,
             stop: Stop::Converged,
             violation: [T::ZERO; 3],
+            penalty_energy: T::ZERO,
         }
     }
 }

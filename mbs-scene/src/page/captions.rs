@@ -1,6 +1,6 @@
 //! The sentence under each plot.
 
-use crate::record::{EnergySeries, IterationSeries, ViolationSeries};
+use crate::record::{EnergySeries, IterationSeries, StepSeries, ViolationSeries};
 use crate::write::readable;
 
 pub(super) fn energy_error(series: &EnergySeries) -> String {
@@ -45,6 +45,20 @@ pub(super) fn iterations(series: &IterationSeries) -> String {
     let mean = sum as f64 / n as f64;
     format!(
         "Newton iterations of each step: {mean:.2} on average, {most} at most. The line is an upper edge."
+    )
+}
+
+pub(super) fn steps(series: &StepSeries) -> String {
+    let lengths = || series.rows.iter().map(|row| row.length);
+    let (least, most) = lengths().fold((f64::INFINITY, 0.0_f64), |(a, b), h| (a.min(h), b.max(h)));
+    let rejected: u32 = series.rows.iter().map(|row| row.rejected).sum();
+    let in_one = series.rows.iter().filter(|row| row.index == Some(1)).count();
+    let index = match in_one {
+        0 => String::new(),
+        n => format!(" {n} were made in index-1."),
+    };
+    format!(
+        "Length of the steps: {least:.1e} s at least, {most:.1e} s at most; {rejected} trials were rejected.{index}"
     )
 }
 

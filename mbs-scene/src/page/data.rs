@@ -170,9 +170,14 @@ fn health_panels(record: &RunRecord) -> Vec<Panel> {
         let lines = vec![upper_edge("iterations", &iterations.times, &counts)];
         add("Newton iterations", "per step", captions::iterations(iterations), lines);
     }
+    if let Some(steps) = &record.steps {
+        let lengths: Vec<f64> = steps.rows.iter().map(|row| row.length).collect();
+        let lines = vec![line("step", &steps.times, &lengths)];
+        add("step size", "s", captions::steps(steps), lines);
+    }
     for panel in &mut panels {
-        panel.log = panel.title == "constraint violation";
-        panel.steps = panel.title == "Newton iterations";
+        panel.log = ["constraint violation", "step size"].contains(&panel.title.as_str());
+        panel.steps = ["Newton iterations", "step size"].contains(&panel.title.as_str());
     }
     panels
 }

@@ -53,13 +53,20 @@ pub(crate) fn read_solver<T: Real>(fields: &Fields<'_>) -> Read<SolverChoice<T>>
             "step_max",
             "tolerance",
             "penalty",
+            "step_control",
             "energy_tolerance",
+            "error_tolerance",
+            "locate_events",
+            "energy_alarm",
         ],
         &[],
     )?;
     let context = fields.context;
     let word = |key| -> Read<Option<String>> {
         fields.get(key).map(|item| context.text(item).map(str::to_owned)).transpose()
+    };
+    let flag = |key| -> Read<Option<bool>> {
+        fields.get(key).map(|_| fields.flag(key, false)).transpose()
     };
     let energy_tolerance = match fields.get("energy_tolerance") {
         None => None,
@@ -75,7 +82,11 @@ pub(crate) fn read_solver<T: Real>(fields: &Fields<'_>) -> Read<SolverChoice<T>>
         step_max: fields.optional("step_max")?,
         tolerance: fields.optional("tolerance")?,
         penalty: fields.optional("penalty")?,
+        step_control: word("step_control")?,
         energy_tolerance,
+        error_tolerance: fields.optional("error_tolerance")?,
+        locate_events: flag("locate_events")?,
+        energy_alarm: fields.optional("energy_alarm")?,
         unused: Vec::new(),
     })
 }

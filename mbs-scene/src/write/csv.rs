@@ -1,6 +1,6 @@
 //! CSV: one row per recorded time, written as the run goes.
 
-use crate::record::Channel;
+use crate::record::{Channel, StepSeries};
 use std::io::{self, Write};
 
 /// Writes a header and then one row per recorded time; floats in the shortest form that reads back exactly.
@@ -59,6 +59,43 @@ impl<W: Write> CsvWriter<W> {
     pub fn finish(mut self) -> io::Result<()> {
         self.out.flush()
     }
+}
+
+/// Writes one row for each step that is kept: when it ended, its length, and what came of it.
+///
+/// # Errors
+/// Those of the sink.
+pub fn write_steps(sink: impl Write, steps: &StepSeries) -> io::Result<()> {
+    let mut out = csv::Writer::from_writer(sink);
+    let header = [
+        "t",
+        "step",
+        "index",
+        "iterations",
+        "rejected",
+        "energy_error",
+        "energy_change",
+        "penalty_energy",
+        "error_estimate",
+        "limit",
+    ];
+    out.write_record(header).map_err(io::Error::from)?;
+    for ((&t, &error), row) in steps.times.iter().zip(&steps.energy_errors).zip(&steps.rows) {
+        let record = [
+            shortest(t),
+            shortest(row.length),
+            row.index.map_or_else(String::new, |i| i.to_string()),
+            row.iterations.to_string(),
+            row.rejected.to_string(),
+            shortest(error),
+            shortest(row.energy_change),
+            shortest(row.penalty_energy),
+            row.error_estimate.map_or_else(String::new, shortest),
+            row.limit.unwrap_or_default().to_owned(),
+        ];
+        out.write_record(record).map_err(io::Error::from)?;
+    }
+    out.flush()
 }
 
 /// The shortest decimal text that reads back as the same number; exponents where they are shorter.

@@ -1,5 +1,6 @@
 //! JSON: the summary of a run, with the keys of the scene format.
 
+use crate::record::StepRow;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// The summary of a run: one JSON object. Numbers that are not finite are written as `null`.
@@ -45,6 +46,9 @@ pub struct RunSummary {
     pub energy: EnergySummary,
     /// Largest constraint violation.
     pub violation: ViolationSummary,
+    /// What the control of the step size did; absent where steps are fixed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub control: Option<ControlSummary>,
     /// Channels at `end_time`.
     pub outputs: Outputs,
     /// What `auto` chose and why.
@@ -110,6 +114,45 @@ pub struct EnergySummary {
     pub final_error: f64,
     /// Largest kinetic energy, plus the work done without regard to its sign: what errors compare with.
     pub turned_over: f64,
+    /// Root of the mean square of its changes from step to step.
+    pub scatter: f64,
+    /// Slope of the straight line through its errors, by least squares [W].
+    pub drift: f64,
+}
+
+/// What the control of the step size did.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+pub struct ControlSummary {
+    /// `energy`, `error` or `both`.
+    pub rule: &'static str,
+    /// Steps kept.
+    pub accepted: u64,
+    /// Trials rejected, or shortened to end at an event.
+    pub rejected: u64,
+    /// The shortest step [s].
+    pub smallest_step: f64,
+    /// The longest [s].
+    pub largest_step: f64,
+    /// Changes of the index, both ways.
+    pub index_changes: u64,
+    /// Steps in index-1.
+    pub index_1_steps: u64,
+    /// Steps that ended at an event.
+    pub events: u64,
+}
+
+impl ControlSummary {
+    /// Counts a step.
+    pub fn take(&mut self, step: &StepRow) {
+        self.accepted += 1;
+        self.rejected += u64::from(step.rejected);
+        self.largest_step = self.largest_step.max(step.length);
+        let is_first = self.accepted == 1;
+        self.smallest_step =
+            if is_first { step.length } else { self.smallest_step.min(step.length) };
+        self.index_1_steps += u64::from(step.index == Some(1));
+        self.events += u64::from(step.limit == Some("event"));
+    }
 }
 
 /// Largest residuals over every step.

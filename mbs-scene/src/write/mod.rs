@@ -7,11 +7,13 @@ mod readable;
 #[cfg(test)]
 mod tests;
 
-pub use csv::CsvWriter;
+pub use csv::{CsvWriter, write_steps};
 pub use explanation::{
     Absence, Change, EffectEntry, Explanation, GuideEntry, JointGroup, LargestStep, Price, Prices,
     Relative, Rod, SearchEnd, Simulated, Sizes,
 };
-pub use json::{Chosen, Contact, EnergySummary, Outputs, RunError, RunSummary, ViolationSummary};
+pub use json::{
+    Chosen, Contact, ControlSummary, EnergySummary, Outputs, RunError, RunSummary, ViolationSummary,
+};
 pub use readable::readable;
 pub(crate) use readable::rounded;

@@ -16,12 +16,32 @@ use std::process::ExitCode;
 pub(crate) struct Arguments {
     /// Scene file (TOML).
     scene: PathBuf,
-    /// auto, index-1, index-3, classical, state-space, recursive; like the options below: left out, the scene's, else auto.
+    /// auto, index-1, index-3, multi-index, classical, state-space, recursive; like the options below: left out, the scene's, else auto.
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
-    /// Step [s]; else 0.001.
+    /// Step [s], the first where lengths are controlled; else 0.001.
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
     step: Option<f64>,
+    /// Largest step of a controlled length [s]; else the step.
+    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    step_max: Option<f64>,
+    /// What chooses the length of the steps: fixed, energy (changes of the energy invariant; as publication 2 prints it: energy-printed), error (an estimate of the local
+    /// error), both; left out: what tolerances are given for, energy in multi-index, else fixed.
+    #[arg(long, value_name = "C")]
+    step_control: Option<String>,
+    /// A step that changes the invariant by more than U of the energy that moves is repeated shorter, after less than L the next
+    /// is longer; else 1e-5,1e-7.
+    #[arg(long, value_name = "U,L", value_parser = two_numbers, allow_negative_numbers = true)]
+    energy_tolerance: Option<[f64; 2]>,
+    /// Error of a step by its estimate, in lengths of the scene; else 1e-6.
+    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    error_tolerance: Option<f64>,
+    /// on, off: steps of a controlled length end where contact is made or broken and at kinks of the road; else on.
+    #[arg(long, value_name = "WORD", value_parser = switch, action = clap::ArgAction::Set)]
+    events: Option<bool>,
+    /// The run stops when the invariant is off by more than this share of the energy turned over; else 0.1.
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    energy_alarm: Option<f64>,
     /// Duration [s].
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     duration: Option<f64>,
@@ -36,7 +56,7 @@ pub(crate) struct Arguments {
     /// Threads; runs have one so far.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// Directory for run.csv, run.json and run.html; made if missing.
+    /// Directory for run.csv, steps.csv, run.json and run.html; made if missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// One JSON object on standard output and nothing else.
@@ -66,6 +86,12 @@ impl Arguments {
             integrator: self.integrator.clone(),
             precision: self.precision.clone(),
             step: self.step,
+            step_max: self.step_max,
+            step_control: self.step_control.clone(),
+            energy_tolerance: self.energy_tolerance,
+            error_tolerance: self.error_tolerance,
+            events: self.events,
+            energy_alarm: self.energy_alarm,
             duration: self.duration,
             penalty: self.penalty,
             tolerance: self.tolerance,
@@ -77,6 +103,12 @@ impl Arguments {
         let options = [
             ("formulation", self.formulation.clone()),
             ("step", self.step.map(|x| x.to_string())),
+            ("step-max", self.step_max.map(|x| x.to_string())),
+            ("step-control", self.step_control.clone()),
+            ("energy-tolerance", self.energy_tolerance.map(|[u, l]| format!("{u},{l}"))),
+            ("error-tolerance", self.error_tolerance.map(|x| x.to_string())),
+            ("events", self.events.map(|on| if on { "on" } else { "off" }.to_owned())),
+            ("energy-alarm", self.energy_alarm.map(|x| x.to_string())),
             ("duration", self.duration.map(|x| x.to_string())),
             ("penalty", self.penalty.map(|x| x.to_string())),
             ("tolerance", self.tolerance.map(|x| x.to_string())),
@@ -94,6 +126,22 @@ impl Arguments {
             (self.realtime, "--realtime"),
         ];
         options.into_iter().find(|(given, _)| *given).map(|(_, name)| name)
+    }
+}
+
+/// `U,L`.
+fn two_numbers(text: &str) -> Result<[f64; 2], String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let both = text.split_once(',').and_then(|(u, l)| Some([number(u)?, number(l)?]));
+    both.ok_or_else(|| "write two numbers with a comma, such as 1e-5,1e-7".to_owned())
+}
+
+/// `on` or `off`.
+fn switch(text: &str) -> Result<bool, String> {
+    match text {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => Err("write on or off".to_owned()),
     }
 }
 
@@ -193,6 +241,7 @@ fn write_files(
     settings: &Settings,
 ) -> std::io::Result<()> {
     outcome.write_csv(std::io::BufWriter::new(std::fs::File::create(out.join("run.csv"))?))?;
+    outcome.write_steps(std::io::BufWriter::new(std::fs::File::create(out.join("steps.csv"))?))?;
     std::fs::write(out.join("run.json"), outcome.summary.to_json() + "\n")?;
     std::fs::write(out.join("run.html"), outcome.page(arguments.provenance(settings)))
 }

@@ -23,7 +23,7 @@ pub(crate) fn text(outcome: &Outcome, out: Option<&Path>) -> String {
         line(format!("note: {note}"));
     }
     if let Some(out) = out {
-        line(format!("wrote run.csv, run.json and run.html to {}", out.display()));
+        line(format!("wrote run.csv, steps.csv, run.json and run.html to {}", out.display()));
     }
     text
 }

@@ -1,0 +1,113 @@
+//! Which index a step is made in [P2 4, 5].
+//!
+//! Index-3 for long steps, index-1 for short ones: from 3 to 1 where the step falls below a threshold, or where several
+//! reductions in a row have not helped; back where it grows beyond twice the threshold. Before each change velocities,
+//! accelerations and multipliers are made consistent at the present positions [P2 (5)].
+
+use crate::options::Options;
+use crate::workspace::Workspace;
+use crate::{index1, index3};
+use mbs_core::model::{Model, State};
+use mbs_core::step::{StepError, StepReport};
+use mbs_core::{Real, SpdSolver};
+
+/// Which form of the equations is stepped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Index {
+    /// Accelerations constrained.
+    One,
+    /// Positions constrained.
+    Three,
+}
+
+/// Both forms, with the rule that changes between them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IndexChange<T> {
+    /// Choices in index-1.
+    pub index1: Options<T>,
+    /// Choices in index-3.
+    pub index3: Options<T>,
+    /// Shorter steps are made in index-1 [s].
+    pub threshold: T,
+    /// Times the threshold, beyond which steps are made in index-3 again.
+    pub hysteresis: T,
+    /// Reductions of one step in a row after which index-1 is tried, whatever the step (the flowchart's maxite).
+    pub patience: u32,
+    /// Present index.
+    index: Index,
+    changes: u32,
+    /// The trial before [s].
+    last: T,
+}
+
+impl<T: Real> IndexChange<T> {
+    /// Begins in index-3; threshold 1e-4 s, hysteresis 2, patience 4.
+    #[must_use]
+    pub fn new(index1: Options<T>, index3: Options<T>) -> Self {
+        Self {
+            index1,
+            index3,
+            threshold: T::from_f64(1e-4),
+            hysteresis: T::TWO,
+            patience: 4,
+            index: Index::Three,
+            changes: 0,
+            last: T::ZERO,
+        }
+    }
+
+    /// The present index.
+    #[must_use]
+    pub fn index(&self) -> Index {
+        self.index
+    }
+
+    /// Changes of index so far.
+    #[must_use]
+    pub fn changes(&self) -> u32 {
+        self.changes
+    }
+
+    /// Chooses the index for a trial of length `h` [s] after `reductions` of it in a row. Where the state cannot be made
+    /// consistent the index stays. Returns whether it changed, and the state with it.
+    pub fn prepare<M: Model<T>, S: SpdSolver<T>>(
+        &mut self,
+        model: &M,
+        (h, length): (T, T),
+        reductions: u32,
+        s: &mut State<T>,
+        w: &mut Workspace<T, S>,
+    ) -> bool {
+        let is_grown = reductions == 0 && h > self.last;
+        self.last = h;
+        let wanted = match self.index {
+            Index::Three if h < self.threshold || reductions >= self.patience => Index::One,
+            Index::One if is_grown && h > self.threshold * self.hysteresis => Index::Three,
+            same => same,
+        };
+        let is_changed =
+            wanted != self.index && index1::settle(model, length, &self.index1, s, w).is_ok();
+        if is_changed {
+            self.index = wanted;
+            self.changes += 1;
+        }
+        is_changed
+    }
+
+    /// One step of length `h` [s] in the present index.
+    ///
+    /// # Errors
+    /// [`StepError`]; the state is then unchanged.
+    pub fn step<M: Model<T>, S: SpdSolver<T>>(
+        &self,
+        model: &M,
+        (h, length): (T, T),
+        s: &mut State<T>,
+        w: &mut Workspace<T, S>,
+    ) -> Result<StepReport<T>, StepError> {
+        match self.index {
+            Index::One => index1::step(model, (h, length), &self.index1, s, w),
+            Index::Three => index3::step(model, (h, length), &self.index3, s, w),
+        }
+    }
+}

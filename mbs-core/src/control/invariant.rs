@@ -1,0 +1,156 @@
+//! The energy invariant of a run, watched from step to step.
+//!
+//! ```text
+//! Pi = T + V - W = constant,   W work of dampers, courses and guides                  [P2 (31)]
+//! ```
+
+/// Rounding of a sum of energies, in units of the largest of its parts and of the precision.
+const ROUNDINGS: f64 = 64.0;
+
+/// What the invariant did so far. Energies in joules.
+///
+/// Cost of a step: some thirty operations, in `f64` for every scalar.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Invariant {
+    initial: f64,
+    last: [f64; 3],
+    error: f64,
+    max_error: f64,
+    max_kinetic: f64,
+    potential: [f64; 2],
+    gross_work: f64,
+    /// Energy below which nothing is told from rounding, for one epsilon.
+    ground: f64,
+    epsilon: f64,
+    line: Line,
+}
+
+/// Sums of the scatter and of the straight line through the errors.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Line {
+    n: f64,
+    squares: f64,
+    /// Means of time and error, and sums of their products about them.
+    t: f64,
+    e: f64,
+    tt: f64,
+    te: f64,
+}
+
+impl Invariant {
+    /// Starts from kinetic energy, potential energy and work [J]; `ground` is the energy that the scene's loads have anyway
+    /// [J], such as its weight times its length, and `epsilon` that of the scalar.
+    #[must_use]
+    pub fn new(energies: [f64; 3], ground: f64, epsilon: f64) -> Self {
+        let [kinetic, potential, work] = energies;
+        Self {
+            initial: kinetic + potential - work,
+            last: energies,
+            error: 0.0,
+            max_error: 0.0,
+            max_kinetic: kinetic,
+            potential: [potential; 2],
+            gross_work: 0.0,
+            ground,
+            epsilon,
+            line: Line::default(),
+        }
+    }
+
+    /// Takes the energies after a step that ended at `t` [s].
+    pub fn mark(&mut self, t: f64, energies: [f64; 3]) {
+        let change = self.change(energies);
+        let [kinetic, potential, work] = energies;
+        self.error = kinetic + potential - work - self.initial;
+        // A NaN stays.
+        if !(self.error.abs() <= self.max_error) {
+            self.max_error = self.error.abs();
+        }
+        self.max_kinetic = self.max_kinetic.max(kinetic);
+        self.potential = [self.potential[0].min(potential), self.potential[1].max(potential)];
+        self.gross_work += (work - self.last[2]).abs();
+        self.last = energies;
+        self.line.take(t, self.error, change);
+    }
+
+    /// Pi(0) [J].
+    #[must_use]
+    pub fn initial(&self) -> f64 {
+        self.initial
+    }
+
+    /// Pi(t) - Pi(0) after the last step [J].
+    #[must_use]
+    pub fn error(&self) -> f64 {
+        self.error
+    }
+
+    /// The largest |Pi(t) - Pi(0)| so far [J].
+    #[must_use]
+    pub fn max_error(&self) -> f64 {
+        self.max_error
+    }
+
+    /// What energies after a step would change of Pi [J].
+    #[must_use]
+    pub fn change(&self, [kinetic, potential, work]: [f64; 3]) -> f64 {
+        let [k, p, w] = self.last;
+        (kinetic - k) + (potential - p) - (work - w)
+    }
+
+    /// The energy turned over: largest kinetic energy plus gross work [J].
+    #[must_use]
+    pub fn turned_over(&self) -> f64 {
+        self.max_kinetic + self.gross_work
+    }
+
+    /// What changes within a step are measured against, `energies` at its end: the largest kinetic energy plus the range of the
+    /// potential one [J]. It does not grow with the length of a run, and knows no zero of the potential energy.
+    #[must_use]
+    pub fn scale(&self, [kinetic, potential, _]: [f64; 3]) -> f64 {
+        let range = self.potential[1].max(potential) - self.potential[0].min(potential);
+        self.max_kinetic.max(kinetic) + range
+    }
+
+    /// A change of this size may be rounding of the energies [J].
+    #[must_use]
+    pub fn rounding(&self) -> f64 {
+        let [kinetic, potential, work] = self.last;
+        let parts = kinetic + potential.abs() + work.abs() + self.ground;
+        ROUNDINGS * self.epsilon * parts
+    }
+
+    /// Is the invariant off by more than `share` of the energy turned over? Nothing is said while what was turned over is
+    /// rounding of what is stored. A NaN is off.
+    #[must_use]
+    pub fn is_off(&self, share: f64) -> bool {
+        let error = self.error.abs();
+        let stored = (self.last[0] + self.last[1].abs()).max(self.ground);
+        !(error <= share * self.turned_over()) && !(error <= stored * libm::sqrt(self.epsilon))
+    }
+
+    /// Root of the mean square of the changes from step to step [J].
+    #[must_use]
+    pub fn scatter(&self) -> f64 {
+        if self.line.n > 0.0 { libm::sqrt(self.line.squares / self.line.n) } else { 0.0 }
+    }
+
+    /// Slope of the straight line through the errors after all steps, by least squares [W].
+    #[must_use]
+    pub fn drift(&self) -> f64 {
+        if self.line.tt > 0.0 { self.line.te / self.line.tt } else { 0.0 }
+    }
+}
+
+impl Line {
+    /// One more point.
+    fn take(&mut self, t: f64, error: f64, change: f64) {
+        self.n += 1.0;
+        self.squares += change * change;
+        let (dt, de) = (t - self.t, error - self.e);
+        self.t += dt / self.n;
+        self.e += de / self.n;
+        self.tt += dt * (t - self.t);
+        self.te += dt * (error - self.e);
+    }
+}
