@@ -195,6 +195,13 @@ where
         [model.kinetic_energy(&s.v).to_f64(), model.potential_energy(&s.q, &terms).to_f64()]
     }
 
+    /// Takes the energies anew where they are kept from the last step.
+    pub(crate) fn watch(&mut self) {
+        if let Self::Recursive(tree) = self {
+            tree.watch();
+        }
+    }
+
     /// Kinetic and potential energy and the work so far [J].
     pub(crate) fn energies(&self, model: &NaturalModel<T, D>, s: &State<T>) -> [f64; 3] {
         let work = s.work.to_f64();

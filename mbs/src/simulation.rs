@@ -155,6 +155,12 @@ where
         self.engine.energies(&self.model, &self.state)
     }
 
+    /// The same, taken anew: what watching the invariant costs in each step.
+    pub(crate) fn watched_energies(&mut self) -> [f64; 3] {
+        self.engine.watch();
+        self.energies()
+    }
+
     /// The same at the start.
     pub fn initial_energies(&self) -> [f64; 3] {
         [self.initial_energy[0], self.initial_energy[1], 0.0]

@@ -120,6 +120,11 @@ where
         state.work = self.state.work;
         state.power = self.state.power;
         tell(&self.motions, natural, &mut self.terms, state);
+        self.watch();
+    }
+
+    /// Takes kinetic and potential energy.
+    pub(crate) fn watch(&mut self) {
         let energies = self.model.energies(&self.state, &mut self.workspace);
         self.energies = energies.map(Real::to_f64);
     }

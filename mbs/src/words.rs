@@ -4,10 +4,11 @@ use crate::settings::Settings;
 use mbs_core::Real;
 use mbs_core::control::Limit;
 use mbs_core::scene::{BodyRef, Scene};
-use mbs_scene::{Contact, RunError, RunSummary, readable};
+use mbs_scene::{Contact, ControlSummary, RunError, RunSummary, readable};
 
 /// Three significant digits: the size is what matters.
-pub(crate) fn few(x: f64) -> String {
+#[must_use]
+pub fn few(x: f64) -> String {
     significant(x, 3)
 }
 
@@ -43,13 +44,40 @@ pub(crate) fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
         row("Newton iterations", s.iterations.to_string()),
         row("factorisations", s.factorizations.to_string()),
         row("largest energy error", format!("{} J", size(s.energy.max_error))),
+        row("energy drift, scatter from step to step", drift(s)),
         row("largest violation", violation(s)),
         row("CPU time of the steps", duration(s.cpu_seconds)),
         row("times real time", format!("{:.0}", s.real_time_factor)),
         row("slowest step", duration(s.worst_step_seconds)),
     ];
+    rows.extend(s.control.as_ref().map(|c| row("control of the step", control(c))));
     rows.extend(contacts(s).map(|text| row("contacts", text)));
     rows
+}
+
+/// Drift and scatter of the energy invariant, for a table.
+#[must_use]
+pub fn drift(s: &RunSummary) -> String {
+    format!("{} W, {} J", size(s.energy.drift), size(s.energy.scatter))
+}
+
+/// What the control of the step size did, for a table.
+#[must_use]
+pub fn control(c: &ControlSummary) -> String {
+    let rule = match c.rule {
+        "energy" => "by the energy invariant",
+        "energy-printed" => "by the energy invariant as printed",
+        "error" => "by the error estimate",
+        _ => "by the energy invariant and the error estimate",
+    };
+    let mut text = format!("{rule}; {} trials rejected", c.rejected);
+    if c.index_1_steps > 0 {
+        text += &format!("; {} steps in index-1, {} changes", c.index_1_steps, c.index_changes);
+    }
+    if c.events > 0 {
+        text += &format!("; {} steps ended at an event", c.events);
+    }
+    text
 }
 
 /// The first contacts of a run, and how many there were.

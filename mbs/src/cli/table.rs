@@ -30,12 +30,15 @@ pub(crate) fn text(outcome: &Outcome, out: Option<&Path>) -> String {
 
 fn headline(s: &RunSummary) -> String {
     let formulation = s.chosen.as_ref().map_or(s.formulation.as_str(), |c| c.formulation.as_str());
+    let lengths = s.control.as_ref().map_or_else(
+        || readable(s.step),
+        |c| format!("{} to {}", words::few(c.smallest_step), words::few(c.largest_step)),
+    );
     format!(
-        "{}: {formulation}, {}, {} of {} s to t = {} s{}",
+        "{}: {formulation}, {}, {} of {lengths} s to t = {} s{}",
         s.scene,
         s.precision,
         counted(s.steps, "step"),
-        readable(s.step),
         readable(s.end_time),
         if s.completed { "" } else { " (stopped)" }
     )
@@ -54,6 +57,7 @@ fn rows(s: &RunSummary) -> Vec<(&str, String)> {
             ),
         ),
         ("largest energy error", format!("{} J", words::size(s.energy.max_error))),
+        ("energy drift, scatter", words::drift(s)),
         ("largest violation", words::violation(s)),
         ("iterations", format!("{} ({} factorisations)", s.iterations, s.factorizations)),
         (
@@ -66,6 +70,7 @@ fn rows(s: &RunSummary) -> Vec<(&str, String)> {
             ),
         ),
     ];
+    rows.extend(s.control.as_ref().map(|control| ("control of the step", words::control(control))));
     for (name, values) in &s.outputs.0 {
         let values: Vec<String> = values.iter().map(|v| fixed(*v)).collect();
         rows.push((name, values.join("  ")));

@@ -15,6 +15,7 @@ mod timing;
 
 pub use report::report;
 
+use crate::choice::StepRule;
 use crate::run;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
@@ -71,6 +72,9 @@ where
         let error = Some(error.report(0.0, &Names::new(scene)));
         return Explanation { error, ..explanation };
     }
+    // Runs are compared row by row: their steps are fixed.
+    let fixed = Settings { rule: StepRule::Fixed, step_max: settings.step, ..settings.clone() };
+    let settings = if settings.rule == StepRule::Fixed { settings } else { &fixed };
     let (prices, error) = price::prices::<T, D>(scene, settings, effort);
     Explanation { prices: Some(prices), error, ..explanation }
 }

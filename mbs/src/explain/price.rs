@@ -2,7 +2,7 @@
 
 use super::changes::Outputs;
 use super::reach::largest_step;
-use super::timing::{Times, count, interleaved, trial};
+use super::timing::{Times, count, interleaved, monitor, trial};
 use super::{Effort, kinds, outcome, without};
 use crate::run::Outcome;
 use crate::settings::Settings;
@@ -52,6 +52,7 @@ where
         timed_steps: plan.timed_steps,
         repeats: effort.repeats,
         seconds_per_step: times[0].best(),
+        monitor_seconds_per_step: monitor::<T, D>(&scenes[0], settings, rounds),
         compared_duration: plan.duration,
         completed: with_all.summary.completed,
         iterations_per_step: iterations(&with_all),

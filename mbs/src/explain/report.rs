@@ -135,6 +135,7 @@ fn whole(prices: &Prices) -> Section {
                 "CPU time per step",
                 prices.seconds_per_step.map_or("not measured".into(), duration),
             ),
+            row("of it to watch the energy invariant", monitor(prices)),
             row(
                 "run",
                 format!("{completes} (over the first {} s)", readable(prices.compared_duration)),
@@ -148,6 +149,19 @@ fn whole(prices: &Prices) -> Section {
         ),
         ..Section::default()
     }
+}
+
+/// What watching the invariant costs, and as a share of a step.
+fn monitor(prices: &Prices) -> String {
+    let Some(seconds) = prices.monitor_seconds_per_step else {
+        return "not measured".to_owned();
+    };
+    let share = prices.seconds_per_step.filter(|&step| step > 0.0).map(|step| seconds / step);
+    format!(
+        "{:.0} ns{}",
+        seconds * 1e9,
+        share.map_or(String::new(), |share| format!(" ({})", percent(share)))
+    )
 }
 
 fn price_list(title: &str, list: &[Price], prices: &Prices) -> Option<Section> {

@@ -61,6 +61,31 @@ where
     (done >= FEWEST_STEPS.min(n)).then(|| seconds / count(done))
 }
 
+/// CPU time per step of watching the energy invariant, the least of the repeats: the energies of one state, taken again and
+/// again.
+pub(super) fn monitor<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    (n, repeats): (u64, u32),
+) -> Option<f64>
+where
+    Plane<D>: InSpace<T>,
+{
+    let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
+    simulation.advance(T::from_f64(settings.step)).ok()?;
+    let mut invariant = *simulation.invariant();
+    let once = |_| {
+        let clock = ThreadTime::now();
+        for k in 0..n {
+            let energies = core::hint::black_box(&mut simulation).watched_energies();
+            core::hint::black_box(invariant.change(energies));
+            invariant.mark(count(k), energies);
+        }
+        clock.elapsed().as_secs_f64() / count(n.max(1))
+    };
+    (0..repeats).map(once).min_by(f64::total_cmp)
+}
+
 /// CPU time that the start takes, and that of a step, roughly [s].
 pub(super) fn trial<T: Real, const D: usize>(
     scene: &Scene<T>,
