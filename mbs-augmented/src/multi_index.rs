@@ -38,9 +38,11 @@ impl<T: Real> MultiIndex<T> {
         model.evaluate(&s.q, &mut terms);
         model.evaluate_forces(&s.q, &s.v, &s.memory, &mut terms);
         let energies = [model.kinetic_energy(&s.v), model.potential_energy(&s.q, &terms), s.work];
+        let begun = model.kinetic_energy(&s.a) * first * first;
+        let invariant = Invariant::new(energies.map(T::to_f64), ground, T::EPSILON.to_f64());
         Self {
             driver: Driver::new(rules, first),
-            invariant: Invariant::new(energies.map(T::to_f64), ground, T::EPSILON.to_f64()),
+            invariant: invariant.begun_with(begun.to_f64()),
             estimate: rules.error.map(|_| LocalError::new(&change.index3.integrator)),
             change,
             saved: s.clone(),

@@ -53,7 +53,9 @@ where
         let control = Control::new(settings, &state).map(Box::new);
         let [kinetic, potential] = initial_energy;
         let ground = weight(scene) * model.length().to_f64();
-        let invariant = Invariant::new([kinetic, potential, 0.0], ground, T::EPSILON.to_f64());
+        let begun = model.kinetic_energy(&state.a).to_f64() * settings.step * settings.step;
+        let invariant = Invariant::new([kinetic, potential, 0.0], ground, T::EPSILON.to_f64())
+            .begun_with(begun);
         Ok(Self { model, state, engine, start, sizes, initial_energy, control, invariant })
     }
 

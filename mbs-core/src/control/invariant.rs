@@ -22,6 +22,8 @@ pub struct Invariant {
     /// Energy below which nothing is told from rounding, for one epsilon.
     ground: f64,
     epsilon: f64,
+    /// Energy that is about to move at the start.
+    begun: f64,
     line: Line,
 }
 
@@ -53,8 +55,16 @@ impl Invariant {
             gross_work: 0.0,
             ground,
             epsilon,
+            begun: 0.0,
             line: Line::default(),
         }
+    }
+
+    /// From rest nothing has moved yet, and every change would be large beside nothing: `energy` [J] is what the accelerations
+    /// at the start give within the time that its steps are meant for.
+    #[must_use]
+    pub fn begun_with(self, energy: f64) -> Self {
+        Self { begun: energy, ..self }
     }
 
     /// Takes the energies after a step that ended at `t` [s].
@@ -105,11 +115,11 @@ impl Invariant {
     }
 
     /// What changes within a step are measured against, `energies` at its end: the largest kinetic energy plus the range of the
-    /// potential one [J]. It does not grow with the length of a run, and knows no zero of the potential energy.
+    /// potential one, at least what the start set going [J]. It does not grow with the length of a run, and knows no zero of the potential energy.
     #[must_use]
     pub fn scale(&self, [kinetic, potential, _]: [f64; 3]) -> f64 {
         let range = self.potential[1].max(potential) - self.potential[0].min(potential);
-        self.max_kinetic.max(kinetic) + range
+        (self.max_kinetic.max(kinetic) + range).max(self.begun)
     }
 
     /// A change of this size may be rounding of the energies [J].
