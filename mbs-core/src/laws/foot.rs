@@ -119,7 +119,11 @@ impl<T: Real> Search<'_, T> {
                 break;
             }
             let newton = last.u - last.slope / self.pivot(&last.height);
-            let is_within = (newton > near.u) == forward && (newton < far) == forward;
+            let is_within = if forward {
+                newton > near.u && newton < far
+            } else {
+                newton < near.u && newton > far
+            };
             let is_small = (newton - last.u).abs() <= before * T::HALF;
             let u = if is_within && is_small { newton } else { (near.u + far) * T::HALF };
             if u == near.u || u == far {
@@ -150,14 +154,15 @@ impl<T: Real> Search<'_, T> {
         let mut left = self.at(self.center[0] - distance);
         for _ in 0..CELLS {
             let right = self.at(left.u + width);
-            let found =
-                if left.slope < T::ZERO && (right.slope > T::ZERO || right.square >= left.square) {
-                    Some(self.settle(left, right.u))
-                } else if right.slope > T::ZERO && left.square >= right.square {
-                    Some(self.settle(right, left.u))
-                } else {
-                    None
-                };
+            let (falls, rises) = (left.slope < -self.goal, right.slope > self.goal);
+            let found = if falls && (rises || right.square >= left.square) {
+                Some(self.settle(left, right.u))
+            } else if rises && left.square >= right.square {
+                Some(self.settle(right, left.u))
+            } else {
+                // A cell may begin in a minimum, and another follow.
+                (left.slope.abs() <= self.goal).then_some(left)
+            };
             if let Some(found) = found
                 && found.square < best.square - self.slack
             {
@@ -189,6 +194,7 @@ impl<T: Real> Search<'_, T> {
 mod tests {
     extern crate std;
 
+    use super::super::guide;
     use super::super::road::Feature;
     use super::*;
     use std::format;
@@ -346,6 +352,33 @@ mod tests {
         let at = foot(road, &s, [-0.05, 0.3]);
         let slope = (0.3 + 0.05 * 0.5) / 1.25_f64.sqrt();
         assert!((at.distance - slope).abs() < 1e-14, "{at:?} {slope}");
+    }
+
+    #[test]
+    fn the_foot_at_the_ends_of_a_table_is_the_nearest_point_from_both_sides() {
+        let table = [[0.0, 0.0], [0.6, 0.05], [1.2, 0.02], [2.0, 0.1]];
+        for (sx, sz) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
+            let mut knots = table.map(|[x, z]| [8.0 + sx * x, sz * z]);
+            if sx < 0.0 {
+                knots.reverse();
+            }
+            let (mut curvatures, mut scratch) = ([0.0; 4], [0.0; 4]);
+            guide::spline_curvatures(&knots, &mut curvatures, &mut scratch);
+            let features = [Feature::Spline(Part { first: 0, n: 4 })];
+            let s = Supplies {
+                features: &features,
+                knots: (&knots, &curvatures),
+                ..Supplies::courses(&[])
+            };
+            let road = Part { first: 0, n: 1 };
+            for i in 0..80 {
+                let x = knots[3 * (i % 2)][0] - 0.06 + 0.0015 * i as f64;
+                let center = [x, road::height(road, &s, x).value + 0.3];
+                let (found, searched) =
+                    (foot(road, &s, center).distance, by_search(road, &s, center));
+                assert!(found <= searched + 1e-13, "{knots:?} {center:?}: {found}, {searched}");
+            }
+        }
     }
 
     #[test]

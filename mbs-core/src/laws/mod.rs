@@ -15,6 +15,7 @@ pub mod foot;
 #[cfg(feature = "friction")]
 pub mod friction;
 pub mod guide;
+pub mod kink;
 #[cfg(feature = "limit")]
 pub mod limit;
 pub mod own;

@@ -98,6 +98,21 @@ pub fn value<T: Real>(pieces: &[Piece<T>], x: T) -> (T, T) {
     find(pieces, x).map_or((T::ZERO, T::ZERO), |piece| piece.value(x))
 }
 
+/// Steps of value or slope between two pieces that are none, beside those of the pieces [-].
+const LEVEL: f64 = 1e-6;
+
+/// Hands out the places between pieces where value or slope jump.
+pub fn kinks<T: Real>(pieces: &[Piece<T>], mut take: impl FnMut(T)) {
+    let jumps = |a: T, b: T| (a - b).abs() > T::from_f64(LEVEL) * (a.abs() + b.abs());
+    for pair in pieces.windows(2) {
+        let place = pair[1].lower;
+        let [(p, dp), (q, dq)] = [0, 1].map(|i| pair[i].value(place));
+        if jumps(p, q) || jumps(dp, dq) {
+            take(place);
+        }
+    }
+}
+
 /// The integral from the first piece's lower end to `x` [J for a spring].
 pub fn energy<T: Real>(pieces: &[Piece<T>], x: T) -> T {
     find(pieces, x).map_or(T::ZERO, |piece| piece.energy + piece.integral(x))
@@ -105,7 +120,10 @@ pub fn energy<T: Real>(pieces: &[Piece<T>], x: T) -> T {
 
 #[cfg(test)]
 mod tests {
+    extern crate std;
+
     use super::*;
+    use std::vec::Vec;
 
     fn damper() -> [Piece<f64>; 3] {
         let piece = |range, c: &[f64]| Piece::new(range, c).unwrap();
@@ -116,6 +134,23 @@ mod tests {
         ];
         link(&mut pieces);
         pieces
+    }
+
+    #[test]
+    fn kinks_are_where_value_or_slope_jump_and_not_where_pieces_join_smoothly() {
+        let piece = |range, c: &[f64]| Piece::new(range, c).unwrap();
+        // One parabola; a bend; a step.
+        let pieces = [
+            piece([-1.0, 0.3], &[1.0, -2.0, 3.0]),
+            piece([0.3, 2.0], &[1.0, -2.0, 3.0]),
+            piece([2.0, 3.0], &[9.0]),
+            piece([3.0, 4.0], &[8.0]),
+        ];
+        let mut found = Vec::new();
+        kinks(&pieces, |place| found.push(place));
+        assert_eq!(found, [2.0, 3.0]);
+        // The published damper joins smoothly, to the digits of its coefficients.
+        kinks(&damper(), |place| panic!("{place}"));
     }
 
     #[test]

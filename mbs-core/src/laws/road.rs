@@ -76,6 +76,23 @@ impl<T: Real> Feature<T> {
         }
     }
 
+    /// Where its pieces meet, each other or the level road.
+    pub(super) fn ends(&self, knots: (&[[T; 2]], &[T])) -> [Option<T>; 4] {
+        match *self {
+            Self::Flat(_) => [None; 4],
+            Self::Rise { start, length, rounding, .. } => {
+                let end = start + length;
+                [start, start + rounding, end - rounding, end].map(Some)
+            }
+            Self::Bump { start, length, .. } => [Some(start), Some(start + length), None, None],
+            Self::Spline(part) => {
+                let table = part.of(knots.0);
+                let ends = [table.first(), table.last()].map(|knot| knot.map(|knot| knot[0]));
+                [ends[0], ends[1], None, None]
+            }
+        }
+    }
+
     /// A bound of h'' between two places; `None`: level there.
     fn hollow(&self, [lower, upper]: [T; 2], knots: (&[[T; 2]], &[T])) -> Option<T> {
         let within = |start: T, length: T| start <= upper && start + length >= lower;

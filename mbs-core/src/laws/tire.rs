@@ -60,7 +60,31 @@ pub struct Tire<T> {
     pub leans: bool,
 }
 
-/// How the wheel stands on the road.
+/// A wheel over its road.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch<T> {
+    /// Deflection, positive pressed in [m], and the rate at which it ends [m/s].
+    pub deflection: [T; 2],
+    /// The centre, along the road from its zero and up [m].
+    pub place: [T; 2],
+    /// Its velocity against the road [m/s].
+    pub speed: [T; 2],
+}
+
+/// How the wheel stands on the road, and moves over it.
+struct Stand<T> {
+    stance: Stance<T>,
+    /// The centre, along the road and up.
+    place: [T; 2],
+    /// Its velocity against the road, and the road's own.
+    velocity: Vector<T, 3>,
+    ground: Vector<T, 3>,
+    /// The deflection and the rate at which it ends.
+    depth: T,
+    rate: T,
+}
+
+/// What of the wheel touches the road.
 struct Stance<T> {
     /// The road's normal.
     normal: Vector<T, 3>,
@@ -101,21 +125,8 @@ impl<T: Real> Tire<T> {
         out: &mut [Action<T>],
     ) {
         out.fill(Action::default());
-        let [way, speed] = self.travel.map_or([T::ZERO; 2], |course| {
-            let [way, speed, _] = supplies.courses[course as usize];
-            [way, speed]
-        });
-        let center = Vector::<T, 3>::from(motion.position);
-        let foot = foot(self.road, supplies, [center[0] + way, center[self.up]]);
-        let stance = self.stance(&Vector::from(motion.axis), &foot);
-        let depth = self.radius - stance.reach;
-        let ground = Vector::<T, 3>::new(-speed, T::ZERO, T::ZERO);
-        let velocity = Vector::<T, 3>::from(motion.velocity) - ground;
+        let Stand { stance, velocity, ground, depth, rate, .. } = self.stand(motion, supplies);
         let [force, moment] = &stance.row;
-        let mut rate = force.dot(&velocity);
-        if self.leans {
-            rate += moment.dot(&Vector::from(motion.spin));
-        }
         let contact = bumper::contact(self.radial, depth, -rate);
         out[RADIAL] = Action {
             force: (*force).into(),
@@ -134,6 +145,33 @@ impl<T: Real> Tire<T> {
         if load > T::ZERO && out.len() > 1 {
             self.roll((load, &stance), (motion, &velocity, &ground), out);
         }
+    }
+
+    /// How far it is pressed in, and where it is over its road. Cost: that of the nearest point, and no force.
+    pub fn touch(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>) -> Touch<T> {
+        let Stand { place, velocity, depth, rate, .. } = self.stand(motion, supplies);
+        Touch { deflection: [depth, rate], place, speed: [velocity[0], velocity[self.up]] }
+    }
+
+    #[inline]
+    fn stand(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>) -> Stand<T> {
+        let [way, speed] = self.travel.map_or([T::ZERO; 2], |course| {
+            let [way, speed, _] = supplies.courses[course as usize];
+            [way, speed]
+        });
+        let center = Vector::<T, 3>::from(motion.position);
+        let place = [center[0] + way, center[self.up]];
+        let foot = foot(self.road, supplies, place);
+        let stance = self.stance(&Vector::from(motion.axis), &foot);
+        let depth = self.radius - stance.reach;
+        let ground = Vector::<T, 3>::new(-speed, T::ZERO, T::ZERO);
+        let velocity = Vector::<T, 3>::from(motion.velocity) - ground;
+        let [force, moment] = &stance.row;
+        let mut rate = force.dot(&velocity);
+        if self.leans {
+            rate += moment.dot(&Vector::from(motion.spin));
+        }
+        Stand { stance, place, velocity, ground, depth, rate }
     }
 
     /// Where a wheel with the given axis touches the road; how its deflection changes.

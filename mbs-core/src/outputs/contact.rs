@@ -1,15 +1,11 @@
 //! Instants at which one-sided effects make and break contact, interpolated within steps.
 //!
-//! ```text
-//! g(t0 + r h) = g0 H00 + h g0' H10 + g1 H01 + h g1' H11,   H00 = (1 + 2r)(1 - r)^2,  H10 = r (1 - r)^2,
-//!                                                           H01 = r^2 (3 - 2r),       H11 = r^2 (r - 1)
-//! ```
-//!
-//! Where the gap g has changed its sign over a step, the instant is the root of the cubic through values and rates at both
-//! ends. Steps are not cut there: the laws begin and end without a jump, and the instant is for the record alone. Its error is
+//! Where a gap has changed its sign over a step, the instant is the root of the cubic through values and rates at both ends.
+//! Steps are not cut there: the laws begin and end without a jump, and the instant is for the record alone. Its error is
 //! that of the states at both ends over the speed, and the h^3 that the kink of the gap's third derivative leaves.
 //! A contact shorter than a step, which no end of a step has seen and no force has answered, is not listed.
 
+use super::cubic::Cubic;
 use super::load::{Gap, Loads, MOST_GAPS};
 use crate::Real;
 use crate::model::State;
@@ -65,7 +61,7 @@ impl<T: Real, const D: usize> Contacts<T, D> {
         }
         let (list, supplies) = self.loads.at(state.t);
         for (load, last) in list.iter().zip(&mut self.last) {
-            *last = load.gaps(state, &supplies);
+            *last = load.reading(state, &supplies).gaps;
         }
         self.t = state.t.to_f64();
     }
@@ -81,7 +77,7 @@ impl<T: Real, const D: usize> Contacts<T, D> {
         let first = self.instants.len();
         let (list, supplies) = self.loads.at(state.t);
         for ((load, &effect), last) in list.iter().zip(&self.effects).zip(&mut self.last) {
-            let gaps = load.gaps(state, &supplies);
+            let gaps = load.reading(state, &supplies).gaps;
             for (end, (a, b)) in last.iter().zip(&gaps).take(load.n_gaps()).enumerate() {
                 let makes = b.value < T::ZERO;
                 if makes == (a.value < T::ZERO) {
@@ -91,7 +87,7 @@ impl<T: Real, const D: usize> Contacts<T, D> {
                     self.left_out += 1;
                     continue;
                 }
-                let share = root([a, b].map(|gap| [gap.value, gap.rate].map(T::to_f64)), to - from);
+                let share = Cubic::new([*a, *b], to - from).root(0.0, [0.0, 1.0]);
                 self.instants.push(Instant { t: from + share * (to - from), effect, end, makes });
             }
             *last = gaps;
@@ -111,45 +107,5 @@ impl<T: Real, const D: usize> Contacts<T, D> {
     #[must_use]
     pub fn left_out(&self) -> u64 {
         self.left_out
-    }
-}
-
-/// Bisections of a root: to 1e-16 of the step.
-const HALVINGS: u32 = 53;
-
-/// Where in a step of length h the cubic through value and rate at both ends is zero, from 0 to 1; the values have different
-/// signs. Bisection needs no care where the cubic is flat, and contacts are rare.
-fn root([[g0, rate0], [g1, rate1]]: [[f64; 2]; 2], h: f64) -> f64 {
-    let cubic = |r: f64| {
-        let s = 1.0 - r;
-        (g0 * (1.0 + 2.0 * r) + h * rate0 * r) * s * s
-            + (g1 * (3.0 - 2.0 * r) - h * rate1 * s) * r * r
-    };
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if (cubic(middle) < 0.0) == (g0 < 0.0) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_root_of_a_cubic_is_exact_and_lies_within_the_step() {
-        // g = (t - 0.3)(t^2 + 1) over two units of time.
-        let g = |t: f64| (t - 0.3) * (t * t + 1.0);
-        let rate = |t: f64| t * t + 1.0 + 2.0 * t * (t - 0.3);
-        let share = root([[g(-0.5), rate(-0.5)], [g(1.5), rate(1.5)]], 2.0);
-        assert!((share - 0.4).abs() < 1e-15, "{share}");
-        // Rates that cannot be.
-        let share = root([[1.0, 1e6], [-1.0, 1e6]], 1.0);
-        assert!((0.0..=1.0).contains(&share));
     }
 }

@@ -1,11 +1,14 @@
 //! What is recorded of a motion: points, joint coordinates and reactions, measured from a state of the model.
 //!
 //! Nothing here knows a formulation or an integrator: [`Measures`] reads positions, velocities and accelerations,
-//! [`Reactions`] closes the balance of every body of the scene from them, [`Contacts`] lists when one-sided effects touch.
+//! [`Reactions`] closes the balance of every body of the scene from them, [`Contacts`] lists when one-sided effects touch,
+//! [`Events`] says where within a step a law's kink is passed, for steps that are to end there.
 
 mod contact;
 mod coordinate;
+mod cubic;
 mod error;
+mod event;
 mod frame;
 mod load;
 mod measure;
@@ -17,5 +20,6 @@ mod wrench;
 
 pub use contact::{Contacts, Instant, MOST_INSTANTS};
 pub use error::ReactionError;
+pub use event::{Crossing, Events};
 pub use measure::{Measures, start_values};
 pub use reaction::{LARGEST_BLOCK, Reactions};

@@ -1,21 +1,25 @@
-//! Gaps of effects that act on one side only: positive apart, negative pressed in.
+//! Gaps of effects that act on one side only, positive apart, negative pressed in; and the kinks of laws.
 //!
 //! ```text
 //! bumper   g = m - touch
 //! limit    g = m - lower and upper - m
-//! tire     g = -(deflection)
+//! tire     g = -(deflection),   kinks of its road by the centre's place over it
+//! spring   by pieces: kinks between them by m
 //! ```
 
 #![cfg_attr(
     not(feature = "effects"),
-    allow(unused_imports, unused_mut, unused_variables, reason = "not every effect is one-sided")
+    allow(unused_imports, unused_mut, unused_variables, reason = "not every law has a kink")
 )]
 
-use super::Load;
 use super::apply::motion;
+use super::{Gauge, Load};
 use crate::Real;
 use crate::laws::Supplies;
-use crate::laws::body::{Action, BodyLaw, MOST};
+use crate::laws::body::BodyLaw;
+use crate::laws::kink::{self, Kink};
+#[cfg(feature = "polynomial")]
+use crate::laws::polynomial;
 use crate::laws::scalar::Law;
 use crate::model::State;
 
@@ -28,6 +32,15 @@ pub(in crate::outputs) struct Gap<T> {
 
 /// Gaps that one effect has at most: those of a limit, lower and upper.
 pub(in crate::outputs) const MOST_GAPS: usize = 2;
+
+/// What of an effect is watched, at a state.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(in crate::outputs) struct Reading<T> {
+    /// Its gaps, [`Load::n_gaps`] of them.
+    pub(in crate::outputs) gaps: [Gap<T>; MOST_GAPS],
+    /// What tells its kinks: a wheel's centre along its road and up, or a length and zero.
+    pub(in crate::outputs) place: [Gap<T>; 2],
+}
 
 impl<T: Real, const D: usize> Load<T, D> {
     /// How many gaps it has; none where it acts always.
@@ -43,13 +56,60 @@ impl<T: Real, const D: usize> Load<T, D> {
         }
     }
 
-    /// Its gaps at a state, [`n_gaps`](Self::n_gaps) of them.
-    pub(in crate::outputs) fn gaps(
+    /// Can its law have kinks besides those of its gaps?
+    pub(in crate::outputs) fn may_have_kinks(&self) -> bool {
+        match self {
+            #[cfg(feature = "polynomial")]
+            Self::Between { law: Law::Polynomial { pieces, of_rate: false }, .. } => pieces.n > 1,
+            #[cfg(feature = "tire")]
+            Self::OnBody { law: BodyLaw::Tire(_), .. } => true,
+            _ => false,
+        }
+    }
+
+    /// Hands out the kinks of its law, in no order.
+    pub(in crate::outputs) fn kinks(
+        &self,
+        supplies: &Supplies<'_, T>,
+        mut take: impl FnMut(Kink<T>),
+    ) {
+        match self {
+            #[cfg(feature = "polynomial")]
+            Self::Between { law: Law::Polynomial { pieces, of_rate: false }, .. } => {
+                polynomial::kinks(pieces.of(supplies.pieces), |place| {
+                    take(Kink { place, height: T::ZERO, slope: T::ZERO });
+                });
+            }
+            #[cfg(feature = "tire")]
+            Self::OnBody { law: BodyLaw::Tire(tire), .. } => {
+                kink::of_road(tire.road, supplies, take);
+            }
+            _ => {}
+        }
+    }
+
+    /// How far from its place a kink may be passed [m]: on a slope, a wheel stands off its foot by less than its radius.
+    pub(in crate::outputs) fn reach(&self) -> T {
+        match self {
+            #[cfg(feature = "tire")]
+            Self::OnBody { law: BodyLaw::Tire(tire), .. } => tire.radius,
+            _ => T::ZERO,
+        }
+    }
+
+    /// Does it measure an angle [rad], not a length [m]?
+    pub(in crate::outputs) fn is_angular(&self) -> bool {
+        matches!(self, Self::Between { gauge: Gauge::Angle { .. }, .. })
+    }
+
+    /// What of it is watched, at a state. Cost: one length or angle, or one wheel's nearest point of the road.
+    pub(in crate::outputs) fn reading(
         &self,
         state: &State<T>,
         supplies: &Supplies<'_, T>,
-    ) -> [Gap<T>; MOST_GAPS] {
-        let mut gaps = [Gap::default(); MOST_GAPS];
+    ) -> Reading<T> {
+        let mut reading = Reading::default();
+        let Reading { gaps, place } = &mut reading;
         match self {
             #[cfg(feature = "bumper")]
             Self::Between { gauge, law: Law::Bumper { touch, .. }, .. } => {
@@ -62,17 +122,21 @@ impl<T: Real, const D: usize> Load<T, D> {
                 gaps[0] = Gap { value: value - limit.lower, rate };
                 gaps[1] = Gap { value: limit.upper - value, rate: -rate };
             }
+            #[cfg(feature = "polynomial")]
+            Self::Between { gauge, law: Law::Polynomial { of_rate: false, .. }, .. } => {
+                let [value, rate] = gauge.measure(state);
+                place[0] = Gap { value, rate };
+            }
             #[cfg(feature = "tire")]
             Self::OnBody { point, frame, axis, law: BodyLaw::Tire(tire), .. } => {
                 let axis = frame.rotation(&state.q) * axis;
-                let mut actions = [Action::default(); MOST];
-                let actions = &mut actions[..tire.n_actions()];
-                tire.evaluate(&motion((point, frame), &axis, state), supplies, actions);
-                let measure = &actions[crate::laws::tire::RADIAL].measure;
-                gaps[0] = Gap { value: -measure.value, rate: measure.rate };
+                let touch = tire.touch(&motion((point, frame), &axis, state), supplies);
+                let [depth, rate] = touch.deflection;
+                gaps[0] = Gap { value: -depth, rate };
+                *place = [0, 1].map(|i| Gap { value: touch.place[i], rate: touch.speed[i] });
             }
             _ => {}
         }
-        gaps
+        reading
     }
 }

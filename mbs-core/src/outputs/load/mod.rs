@@ -4,7 +4,7 @@ mod apply;
 mod gap;
 
 pub(super) use apply::Applied;
-pub(super) use gap::{Gap, MOST_GAPS};
+pub(super) use gap::{Gap, MOST_GAPS, Reading};
 
 use super::coordinate::Coordinate;
 use super::frame::Frame;
@@ -94,6 +94,17 @@ impl<T: Real, const D: usize> Loads<T, D> {
         model: &NaturalModel<T, D>,
     ) -> Result<(Self, Vec<usize>), ActionError> {
         Self::of(scene, model, |load| load.n_gaps() > 0)
+    }
+
+    /// The enabled effects whose laws have gaps or may have kinks, and their indices.
+    ///
+    /// # Errors
+    /// [`ActionError`] as for the model.
+    pub(super) fn with_kinks(
+        scene: &Scene<T>,
+        model: &NaturalModel<T, D>,
+    ) -> Result<(Self, Vec<usize>), ActionError> {
+        Self::of(scene, model, |load| load.n_gaps() > 0 || load.may_have_kinks())
     }
 
     fn of(

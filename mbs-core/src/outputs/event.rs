@@ -1,0 +1,194 @@
+//! Where within a trial step a law passes a kink, so that the step can be made again to end there.
+//!
+//! ```text
+//! gap      of bumpers, limits, tires: 0 where contact is made or broken
+//! kink     of a road under a wheel that is pressed in, and between the pieces of a polynomial spring
+//! ```
+//!
+//! Values and rates at both ends of the step give a cubic for each, and its first change of sign is told as a share of the step.
+//! A trial that ends within a band about zero has landed: there the value is on neither side, and the next step leaves to either
+//! without a second event. Whoever steps makes a trial, asks [`Events::crossing`], tries again from the same beginning with that
+//! share of the step while it has not landed, and ends with [`Events::accept`]. It is the method of the secant with a cubic in
+//! place of a line, and two or three trials are usual.
+//!
+//! The band is 1e-9 of the scene's length (of a radian for angles), ten times what steps are solved to; in `f32` 128 roundings.
+//! To it comes what the rounding of the time leaves at the rate of the gap.
+//!
+//! Not told: kinks of dampers, friction and a user's own laws; courses' tables, whose times are known beforehand; a road's
+//! kinks that come under a wheel in the air; two places of a road that become equally near to a wheel in a hollow as tight as it.
+
+use super::cubic::Cubic;
+use super::load::{Gap, Load, Loads, Reading};
+use crate::Real;
+use crate::laws::kink::Kink;
+use crate::model::State;
+use crate::natural::{ModelError, NaturalModel};
+use crate::scene::Scene;
+use alloc::vec::Vec;
+
+/// An event within a trial step, or at its end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crossing {
+    /// Share of the trial step after which it comes, aimed a hair past it: from 0.001 to 1; up to 1.05 where the trial ends just
+    /// short of it, so that no tiny step need follow.
+    pub share: f64,
+    /// The trial's end lies so near that it may serve; the share is one.
+    pub landed: bool,
+    /// Index of the effect in the scene.
+    pub effect: usize,
+}
+
+/// Compares gaps and kinks at the ends of trial steps with those at their beginning.
+#[derive(Debug, Clone)]
+pub struct Events<T: Real, const D: usize> {
+    loads: Loads<T, D>,
+    watched: Vec<Watched<T>>,
+    /// When the step begins [s].
+    t: T,
+}
+
+/// What is known of one effect.
+#[derive(Debug, Clone)]
+struct Watched<T> {
+    effect: usize,
+    n_gaps: usize,
+    /// In order of their places, on a crest from left to right.
+    kinks: Vec<Kink<T>>,
+    reach: T,
+    /// Without what the time's rounding adds [m or rad].
+    band: f64,
+    /// At the beginning of the step, and at the end of the last trial.
+    begin: Reading<T>,
+    end: Reading<T>,
+}
+
+/// Shares of the scene's length, or of a radian, that are nothing: at least, and in roundings.
+const BAND: f64 = 1e-9;
+const BAND_ROUNDINGS: f64 = 128.0;
+/// Roundings of the time that a gap may be off by.
+const TIME_ROUNDINGS: f64 = 4.0;
+
+impl<T: Real, const D: usize> Events<T, D> {
+    /// Prepares what is watched of a scene; without any of it, nothing is ever evaluated.
+    ///
+    /// Cost: an entry for each bumper, limit, tire and polynomial spring, and one for each kink of each tire's road.
+    ///
+    /// # Errors
+    /// [`ModelError`] as for the model.
+    pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ModelError> {
+        let (mut loads, effects) = Loads::with_kinks(scene, model)?;
+        let (list, supplies) = loads.at(T::ZERO);
+        let watch = |(load, &effect): (&Load<T, D>, &usize)| {
+            let mut kinks = Vec::new();
+            load.kinks(&supplies, |kink| kinks.push(kink));
+            let band = BAND.max(BAND_ROUNDINGS * T::EPSILON.to_f64());
+            let size = if load.is_angular() { 1.0 } else { model.length().to_f64() };
+            Watched::new(effect, load.n_gaps(), (kinks, load.reach()), band * size)
+        };
+        let watched = list.iter().zip(&effects).map(watch).collect();
+        Ok(Self { loads, watched, t: T::ZERO })
+    }
+
+    /// Takes what is watched at a state from which the next step begins: at the start of a run, or after it was set from outside.
+    ///
+    /// Cost: one length, angle or nearest point of the road for each effect; no allocation.
+    pub fn start(&mut self, state: &State<T>) {
+        self.read(state);
+        for watched in &mut self.watched {
+            watched.begin = watched.end;
+        }
+        self.t = state.t;
+    }
+
+    /// The first event within the trial step that ends in a state. Does not move the beginning of the step.
+    ///
+    /// Cost: as [`start`](Self::start), and some eighty operations for each gap and each kink near the way of a wheel that is
+    /// pressed in; a bisection of fifty cubics for each that changes. No allocation.
+    pub fn crossing(&mut self, state: &State<T>) -> Option<Crossing> {
+        self.read(state);
+        let (from, to) = (self.t.to_f64(), state.t.to_f64());
+        if self.watched.is_empty() || !(to > from) {
+            return None;
+        }
+        let mut first: Option<Crossing> = None;
+        for watched in &self.watched {
+            watched.crossings([from, to], |crossing| {
+                if first.is_none_or(|first| crossing.share < first.share) {
+                    first = Some(crossing);
+                }
+            });
+        }
+        first
+    }
+
+    /// Ends the step in a state, from which the next begins.
+    ///
+    /// Reads it anew, so that it need not be the one that [`crossing`](Self::crossing) was last asked for. Cost: as
+    /// [`start`](Self::start).
+    pub fn accept(&mut self, state: &State<T>) {
+        self.start(state);
+    }
+
+    fn read(&mut self, state: &State<T>) {
+        if self.watched.is_empty() {
+            return;
+        }
+        let (list, supplies) = self.loads.at(state.t);
+        for (load, watched) in list.iter().zip(&mut self.watched) {
+            watched.end = load.reading(state, &supplies);
+        }
+    }
+}
+
+impl<T: Real> Watched<T> {
+    fn new(effect: usize, n_gaps: usize, (mut kinks, reach): (Vec<Kink<T>>, T), band: f64) -> Self {
+        // A wheel that rolls on passes the steeper normal of a crest first.
+        let key = |kink: &Kink<T>| [kink.place.to_f64(), -kink.slope.to_f64()];
+        kinks.sort_unstable_by(|a, b| {
+            let ([p, s], [q, u]) = (key(a), key(b));
+            p.total_cmp(&q).then(s.total_cmp(&u))
+        });
+        kinks.dedup();
+        let (begin, end) = (Reading::default(), Reading::default());
+        Self { effect, n_gaps, kinks, reach, band, begin, end }
+    }
+
+    /// Hands out the first change of each gap and of each kink that may be passed.
+    fn crossings(&self, [from, to]: [f64; 2], mut take: impl FnMut(Crossing)) {
+        let mut watch = |begin: Gap<T>, end: Gap<T>| {
+            let rate = begin.rate.abs().max(end.rate.abs()).to_f64();
+            let late = TIME_ROUNDINGS * T::EPSILON.to_f64() * to.abs();
+            let cubic = Cubic::new([begin, end], to - from);
+            if let Some(change) = cubic.change(self.band + late * rate) {
+                let effect = self.effect;
+                take(Crossing { share: change.share, landed: change.lands, effect });
+            }
+        };
+        let (begin, end) = (&self.begin, &self.end);
+        for i in 0..self.n_gaps {
+            watch(begin.gaps[i], end.gaps[i]);
+        }
+        // Before a wheel has touched, no kink of its road comes first.
+        if self.n_gaps > 0 && begin.gaps[0].value.to_f64() > self.band {
+            return;
+        }
+        for kink in self.near() {
+            watch(passage(kink, &begin.place), passage(kink, &end.place));
+        }
+    }
+
+    /// The kinks that may be passed between the two places, and one on either side.
+    fn near(&self) -> &[Kink<T>] {
+        let (a, b) = (self.begin.place[0].value, self.end.place[0].value);
+        let (lower, upper) = (a.min(b) - self.reach, a.max(b) + self.reach);
+        let first = self.kinks.partition_point(|kink| kink.place < lower);
+        let end = self.kinks.partition_point(|kink| kink.place <= upper);
+        &self.kinks[first.saturating_sub(1)..end.max(first).saturating_add(1).min(self.kinks.len())]
+    }
+}
+
+/// What tells a kink, and its rate.
+fn passage<T: Real>(kink: &Kink<T>, place: &[Gap<T>; 2]) -> Gap<T> {
+    let [value, rate] = [place.map(|x| x.value), place.map(|x| x.rate)];
+    Gap { value: kink.value(value), rate: kink.rate(rate) }
+}
