@@ -275,7 +275,7 @@ pub struct StepRow {
     pub penalty_energy: f64,
     /// Estimate of its error, relative to the scene's length.
     pub error_estimate: Option<f64>,
-    /// What kept the next step from being longer.
+    /// What kept the next step from being longer: `max`, `energy`, `error`, `event`, `contact`, `failure`.
     pub limit: Option<&'static str>,
 }
 

@@ -6,27 +6,41 @@ use crate::settings::Settings;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::control::{
-    Accepted, Attempt, Driver, EnergyRule, Invariant, LocalError, Rules, Stepper,
+    Accepted, Attempt, Crossing, Driver, EnergyRule, Invariant, LocalError, Rules, Stepper,
 };
 use mbs_core::model::State;
-use mbs_core::natural::NaturalModel;
+use mbs_core::natural::{ModelError, NaturalModel};
+use mbs_core::outputs::Events;
+use mbs_core::scene::Scene;
 use mbs_core::step::StepError;
 
 /// The driver of a run, with the state to which a rejected step goes back.
 #[derive(Debug)]
-pub(crate) struct Control<T> {
+pub(crate) struct Control<T: Real, const D: usize> {
     driver: Driver<T>,
     estimate: Option<LocalError<T>>,
+    events: Option<Events<T, D>>,
     saved: State<T>,
 }
 
-impl<T: Real> Control<T> {
+impl<T: Real, const D: usize> Control<T, D>
+where
+    Plane<D>: InSpace<T>,
+{
     /// As the settings say; nothing for steps of fixed length.
-    pub(crate) fn new(settings: &Settings, state: &State<T>) -> Option<Self> {
+    ///
+    /// # Errors
+    /// [`ModelError`] as for the model.
+    pub(crate) fn new(
+        scene: &Scene<T>,
+        settings: &Settings,
+        model: &NaturalModel<T, D>,
+        state: &State<T>,
+    ) -> Result<Option<Self>, ModelError> {
         let rule = settings.rule;
         let (energy, error) = (rule.has_energy(), rule.has_error());
         if !energy && !error {
-            return None;
+            return Ok(None);
         }
         let estimate = error.then(|| LocalError::new(&settings.integrator.coefficients()));
         let rules = Rules {
@@ -38,24 +52,23 @@ impl<T: Real> Control<T> {
             error: estimate.map(|e| (settings.error_tolerance, e.power())),
         };
         let driver = Driver::new(rules, T::from_f64(settings.step));
-        Some(Self { driver, estimate, saved: state.clone() })
+        let mut events = settings.events.then(|| Events::new(scene, model)).transpose()?;
+        events.iter_mut().for_each(|events| events.start(state));
+        Ok(Some(Self { driver, estimate, events, saved: state.clone() }))
     }
 
     /// One step of at most `rest` [s].
-    pub(crate) fn step<const D: usize>(
+    pub(crate) fn step(
         &mut self,
         (model, engine): (&NaturalModel<T, D>, &mut Engine<T, D>),
         state: &mut State<T>,
         invariant: &mut Invariant,
         rest: T,
-    ) -> Result<Accepted<T>, StepError>
-    where
-        Plane<D>: InSpace<T>,
-    {
+    ) -> Result<Accepted<T>, StepError> {
         self.saved.copy_from(state);
         engine.keep();
-        let Self { driver, estimate, saved } = self;
-        let mut trial = Trial { model, engine, state, saved, estimate: *estimate };
+        let Self { driver, estimate, events, saved } = self;
+        let mut trial = Trial { model, engine, state, saved, estimate: *estimate, events };
         driver.step(&mut trial, invariant, rest)
     }
 }
@@ -70,6 +83,7 @@ where
     state: &'a mut State<T>,
     saved: &'a mut State<T>,
     estimate: Option<LocalError<T>>,
+    events: &'a mut Option<Events<T, D>>,
 }
 
 impl<T: Real, const D: usize> Stepper<T> for Trial<'_, T, D>
@@ -100,5 +114,19 @@ where
         self.engine.undo();
     }
 
-    fn keep(&mut self, _: bool) {}
+    fn crossing(&mut self, _: T) -> Option<Crossing> {
+        let crossing = self.events.as_mut()?.crossing(self.state)?;
+        let mbs_core::outputs::Crossing { share, landed, too_stiff, .. } = crossing;
+        Some(Crossing { share, is_landed: landed, is_too_stiff: too_stiff })
+    }
+
+    fn keep(&mut self, at_event: bool) {
+        if let Some(events) = self.events {
+            events.accept(self.state);
+        }
+        if at_event {
+            // Multipliers bend here: nothing is extrapolated.
+            self.state.dt = T::ZERO;
+        }
+    }
 }

@@ -29,7 +29,7 @@ where
     pub start: Assembled<T>,
     sizes: [usize; 3],
     initial_energy: [f64; 2],
-    control: Option<Box<Control<T>>>,
+    control: Option<Box<Control<T, D>>>,
     invariant: Invariant,
 }
 
@@ -50,7 +50,8 @@ where
         let engine = Engine::new(scene, settings, &model, solver, &mut state)?;
         let sizes = engine.sizes(&model, &state);
         let initial_energy = engine.start_energies(&model, &state);
-        let control = Control::new(settings, &state).map(Box::new);
+        let control = Control::new(scene, settings, &model, &state);
+        let control = control.map_err(|e| StopError::Start(e.into()))?.map(Box::new);
         let [kinetic, potential] = initial_energy;
         let ground = weight(scene) * model.length().to_f64();
         let begun = model.kinetic_energy(&state.a).to_f64() * settings.step * settings.step;

@@ -23,6 +23,7 @@ pub(crate) fn limit_name(limit: Limit) -> &'static str {
         Limit::Energy => "energy",
         Limit::Error => "error",
         Limit::Event => "event",
+        Limit::Contact => "contact",
         Limit::Failure => "failure",
     }
 }

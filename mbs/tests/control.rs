@@ -5,7 +5,7 @@
 mod common;
 
 use common::scene;
-use mbs::core::scene::{Dimension, InitialTarget, Scene};
+use mbs::core::scene::{Dimension, InitialTarget, Quantity, Scene};
 use mbs::{Outcome, Overrides, Settings};
 
 /// Runs a scene; what is left out is the scene's.
@@ -61,9 +61,9 @@ fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
 /// The cheapest run with a fixed step, in trials, that keeps the energy within `error`.
 fn cheapest_fixed(scene: &Scene<f64>, formulation: &str, error: f64) -> u64 {
     let steps = (0..24).map(|k| 1e-2 / f64::powf(2.0, 0.25 * f64::from(k)));
-    let reached = steps.map(|step| run(scene, &fixed(formulation, step))).find(|outcome| {
-        outcome.summary.completed && outcome.summary.energy.max_error <= error
-    });
+    let reached = steps
+        .map(|step| run(scene, &fixed(formulation, step)))
+        .find(|outcome| outcome.summary.completed && outcome.summary.energy.max_error <= error);
     reached.map(|outcome| trials(&outcome)).expect("some step is short enough")
 }
 
@@ -90,9 +90,9 @@ fn suspension(name: &str) {
     let lengths = |from: f64, to: f64| {
         let rows = steps.times.iter().zip(&steps.rows);
         let inside = rows.filter(move |(t, _)| **t > from && **t <= to);
-        inside.map(|(_, row)| row.length).fold((f64::INFINITY, 0.0), |(a, b), h| {
-            (f64::min(a, h), f64::max(b, h))
-        })
+        inside
+            .map(|(_, row)| row.length)
+            .fold((f64::INFINITY, 0.0), |(a, b), h| (f64::min(a, h), f64::max(b, h)))
     };
     assert!(lengths(0.9, 2.9).0 >= 0.99e-2, "{name}: {:?}", lengths(0.9, 2.9));
     assert!(lengths(4.0, 5.98).0 >= 0.99e-2, "{name}: {:?}", lengths(4.0, 5.98));
@@ -100,24 +100,24 @@ fn suspension(name: &str) {
 }
 
 #[test]
-fn multi_index_on_the_halved_suspension_has_the_error_of_index_1_for_a_quarter_of_its_factorisations() {
+fn multi_index_on_the_halved_suspension_has_the_error_of_index_1_for_a_quarter_of_its_factorisations()
+ {
     suspension("iltis-suspension-halved");
 }
 
 #[test]
-fn multi_index_on_the_stiff_suspension_has_the_error_of_index_1_for_a_quarter_of_its_factorisations() {
+fn multi_index_on_the_stiff_suspension_has_the_error_of_index_1_for_a_quarter_of_its_factorisations()
+ {
     suspension("iltis-suspension-stiff");
 }
 
 #[test]
 fn the_double_pendulum_takes_no_more_trials_than_the_best_fixed_step_and_short_ones_at_the_whips() {
     let mut scene = scene("double-pendulum");
-    scene.outputs[0].quantity = match scene.outputs[0].quantity {
-        mbs::core::scene::Quantity::Position { body, at } => {
-            mbs::core::scene::Quantity::Acceleration { body, at }
-        }
-        other => other,
-    };
+    let tip = scene.outputs[0].quantity.clone();
+    if let Quantity::Position { body, at } = tip {
+        scene.outputs[0].quantity = Quantity::Acceleration { body, at };
+    }
     let multi = completed(&scene, &multi_index([1e-6, 1e-8], (1e-3, 5e-2)));
     let cheapest = cheapest_fixed(&scene, "index-3", multi.summary.energy.max_error);
     println!("double pendulum: {} trials, fixed {cheapest}", trials(&multi));
@@ -129,9 +129,8 @@ fn the_double_pendulum_takes_no_more_trials_than_the_best_fixed_step_and_short_o
         .map(|((_, row), step)| (f64::hypot(row[0], row[1]), step.length))
         .collect();
     points.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mean = |points: &[(f64, f64)]| {
-        points.iter().map(|p| p.1).sum::<f64>() / points.len() as f64
-    };
+    let mean =
+        |points: &[(f64, f64)]| points.iter().map(|p| p.1).sum::<f64>() / points.len() as f64;
     let tenth = points.len() / 10;
     let [whips, rest] = [mean(&points[..tenth]), mean(&points[tenth..])];
     println!("double pendulum: steps of {whips:.2e} s at the whips, {rest:.2e} s else");
@@ -156,9 +155,9 @@ fn a_blow_in_a_calm_motion_costs_a_tenth_of_the_fixed_step_that_works_everywhere
     // The largest fixed step, by halves, that is as near to the exact answer.
     let wanted = error(&multi).max(1e-4);
     let steps = (0..14).map(|k| 2e-2 / f64::powi(2.0, k));
-    let works = steps.map(|step| run(&scene, &to(fixed("index-3", step)))).find(|outcome| {
-        outcome.summary.completed && error(outcome) <= wanted
-    });
+    let works = steps
+        .map(|step| run(&scene, &to(fixed("index-3", step))))
+        .find(|outcome| outcome.summary.completed && error(outcome) <= wanted);
     let works = works.expect("some step is short enough");
     println!(
         "hammer: error {:.1e} in {} trials, fixed {:.1e} in {}",
@@ -239,30 +238,23 @@ fn true_errors_fall_with_the_tolerance_of_the_estimate_over_four_decades() {
 #[test]
 fn every_formulation_takes_controlled_steps_and_tighter_tolerances_give_better_answers() {
     let scene = scene("slider-crank");
-    let of = ("slider-crank", 1.0, &["slider"][..], None);
-    let names: Vec<&str> = completed(&scene, &fixed("index-3", 1e-2))
-        .summary
-        .outputs
-        .0
-        .iter()
-        .map(|(name, _)| &*name.clone().leak())
-        .collect();
-    let exact = reference((of.0, of.1, Vec::leak(names.clone()), None));
+    let names = ["crank-angle", "slide"];
+    let exact = reference(("slider-crank", 1.0, &["crank-angle", "slide"], None));
     for formulation in &mbs::FORMULATIONS[1..] {
-        for rule in ["energy", "energy-printed", "error", "both"] {
+        for rule in &mbs::STEP_RULES[1..] {
             let error = |tolerance: f64| {
                 let overrides = Overrides {
                     duration: Some(1.0),
                     step_max: Some(2e-2),
-                    step_control: Some(rule.to_owned()),
+                    step_control: Some((*rule).to_owned()),
                     error_tolerance: Some(tolerance),
                     energy_tolerance: Some([tolerance, tolerance / 100.0]),
                     ..with(formulation)
                 };
-                let outcome = completed(&scene, &overrides);
-                largest_difference(&outputs(&outcome, &names), &exact)
+                largest_difference(&outputs(&completed(&scene, &overrides), &names), &exact)
             };
             let [loose, tight] = [1e-5, 1e-7].map(error);
+            println!("{formulation} {rule}: {loose:.1e}, {tight:.1e}");
             // Order two and a step with the cube root: 10^(4/3) = 21; the energy rule may be lucky at the loose end.
             assert!(tight <= loose / 2.0, "{formulation} {rule}: {loose:.1e}, {tight:.1e}");
         }
@@ -281,17 +273,17 @@ fn spread() -> impl Iterator<Item = f64> {
     .take(100)
 }
 
-/// Scales the first initial value (or rate) of a joint.
+/// Scales the first initial value (or rate) of a joint that is not zero.
 fn scaled(scene: &Scene<f64>, factor: f64) -> Scene<f64> {
     let mut scene = scene.clone();
-    let initial = scene.initial.iter_mut().find_map(|initial| match &mut initial.target {
+    let numbers = scene.initials.iter_mut().find_map(|initial| match &mut initial.target {
         InitialTarget::Joint { value, rate, .. } => {
             let is_moved = |x: &&mut Vec<f64>| x.iter().any(|x| *x != 0.0);
             value.iter_mut().chain(rate).find(is_moved)
         }
-        _ => None,
+        InitialTarget::Body { .. } => None,
     });
-    initial.expect("a joint starts off its reference").iter_mut().for_each(|x| *x *= factor);
+    numbers.expect("a joint starts off its reference").iter_mut().for_each(|x| *x *= factor);
     scene
 }
 
@@ -329,9 +321,8 @@ fn a_hundred_starts_pass_the_singular_positions_of_two_four_bars() {
 #[test]
 fn a_hundred_starts_pass_with_redundant_constraints() {
     let base = scene("spatial-four-bar");
-    let names: Vec<String> =
-        completed(&base, &fixed("index-3", 1e-2)).summary.outputs.0.into_iter().map(|o| o.0).collect();
-    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let channels = completed(&base, &fixed("index-3", 1e-2)).summary.outputs.0;
+    let names: Vec<&str> = channels.iter().map(|(name, _)| name.as_str()).collect();
     let mut most = 0.0_f64;
     for share in spread() {
         let start = scaled(&base, 1.0 + 0.1 * share);
@@ -398,7 +389,7 @@ fn an_alarm_stops_the_run_with_a_typed_error_before_numbers_are_lost() {
     let scene = scene("double-pendulum");
     // At 0.2 s the whips are not resolved.
     let outcome = run(&scene, &Overrides { energy_alarm: Some(1e-3), ..fixed("index-3", 2e-2) });
-    let error = outcome.summary.error.expect("it stops");
+    let error = outcome.summary.error.as_ref().expect("it stops");
     assert_eq!(error.code, "energy-drift");
     assert!(outcome.rows().iter().all(|(_, row)| row.iter().all(|x| x.is_finite())));
     let same = run(&scene, &Overrides { energy_alarm: Some(0.5), ..fixed("index-3", 2e-2) });

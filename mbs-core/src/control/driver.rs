@@ -13,7 +13,7 @@ const SMALLEST: f64 = 1e-10;
 /// The last step before a limit may be this much longer than planned, so that no sliver remains.
 const LAST_STEP: f64 = 1.01;
 /// Re-solves of a step that shall end at an event.
-const MOST_LANDINGS: u32 = 6;
+const MOST_LANDINGS: u32 = 12;
 
 /// What a driver steps: a mechanism with a formulation and a state that can be put back.
 pub trait Stepper<T: Real> {
@@ -61,10 +61,12 @@ pub struct Attempt<T> {
 /// An event within a trial.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
-    /// Where, as a share of the trial.
+    /// Where, as a share of the trial; above one where it ended just before.
     pub share: f64,
     /// The trial ends so near to it that it may be taken.
     pub is_landed: bool,
+    /// No event, but a contact that began with the trial and is too stiff for its length.
+    pub is_too_stiff: bool,
 }
 
 /// By what steps are chosen.
@@ -89,6 +91,8 @@ pub enum Limit {
     Error,
     /// An event ended the step.
     Event,
+    /// A contact that began with the step, and is stiff.
+    Contact,
     /// A step that did not converge.
     Failure,
 }
@@ -184,11 +188,18 @@ impl<T: Real> Driver<T> {
             let r = &attempt.report;
             work = [work[0] + r.iterations, work[1] + r.factorizations, work[2] + r.solves];
             let crossing = stepper.crossing(h);
-            if let Some(crossing) = crossing.filter(|c| !c.is_landed && landings < MOST_LANDINGS) {
+            let retry = crossing.filter(|c| !c.is_landed && landings < MOST_LANDINGS);
+            let retry = retry.map(|c| (h * T::from_f64(c.share), c.is_too_stiff));
+            if let Some((to, is_too_stiff)) = retry.filter(|&(to, _)| to <= rest) {
                 stepper.undo();
                 rejected += 1;
                 landings += 1;
-                h *= T::from_f64(crossing.share);
+                if is_too_stiff {
+                    self.energy.iter_mut().for_each(Steering::forget);
+                    reason = Some(Limit::Contact);
+                    reductions += 1;
+                }
+                h = to;
                 continue;
             }
             let change = invariant.change(attempt.energies);
@@ -202,14 +213,15 @@ impl<T: Real> Driver<T> {
                     h = self.shortened(h, factor).ok_or(StepError::StepTooSmall { step })?;
                 }
                 Verdict::Kept(factor, limit) => {
-                    stepper.keep(crossing.is_some());
+                    let is_landed = crossing.is_some_and(|c| c.is_landed);
+                    stepper.keep(is_landed);
                     invariant.mark(attempt.t.to_f64(), attempt.energies);
-                    let was_cut = is_last || landings > 0;
+                    let was_cut = is_last || is_landed;
                     // A step that was cut short says nothing against the step that was planned.
                     let wish = h * T::from_f64(factor);
                     let base = if was_cut && reductions == 0 { self.next.max(wish) } else { wish };
                     self.next = base.min(self.max_step);
-                    let limit = match (landings > 0, reason) {
+                    let limit = match (is_landed, reason) {
                         (true, _) => Limit::Event,
                         (_, Some(reason)) => reason,
                         _ if self.next >= self.max_step => Limit::Largest,

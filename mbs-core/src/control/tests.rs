@@ -96,8 +96,11 @@ impl Stepper<f64> for Pendulum {
         let event = self.event?;
         let from = self.saved.0;
         let is_inside = from < event && self.t >= event;
-        is_inside
-            .then(|| Crossing { share: (event - from) / h, is_landed: self.t <= event + 1e-12 })
+        is_inside.then(|| Crossing {
+            share: (event - from) / h,
+            is_landed: self.t <= event + 1e-12,
+            is_too_stiff: false,
+        })
     }
 
     fn keep(&mut self, _: bool) {

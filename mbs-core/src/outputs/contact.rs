@@ -1,8 +1,8 @@
 //! Instants at which one-sided effects make and break contact, interpolated within steps.
 //!
 //! Where a gap has changed its sign over a step, the instant is the root of the cubic through values and rates at both ends.
-//! Steps are not cut there: the laws begin and end without a jump, and the instant is for the record alone. Its error is
-//! that of the states at both ends over the speed, and the h^3 that the kink of the gap's third derivative leaves.
+//! Steps of a fixed length are not cut there: the laws begin and end without a jump, and the instant is for the record. Its
+//! error is that of the states at both ends over the speed, and the h^3 that the kink of the gap's third derivative leaves.
 //! A contact shorter than a step, which no end of a step has seen and no force has answered, is not listed.
 
 use super::cubic::Cubic;

@@ -11,6 +11,11 @@
 //! share of the step while it has not landed, and ends with [`Events::accept`]. It is the method of the secant with a cubic in
 //! place of a line, and two or three trials are usual.
 //!
+//! A contact that begins with the step has a stiffness of its own, which the step may be too long for. The trapezoidal rule then
+//! throws it back within the step, with all its energy, as if no time had passed. Of the way p = -g0' h that the speed alone would
+//! give, it goes p / (1 + (w h / 2)^2) where w^2 is stiffness over mass: less than four fifths are told as a trial too long, with
+//! the share that makes w h one.
+//!
 //! The band is 1e-9 of the scene's length (of a radian for angles), ten times what steps are solved to; in `f32` 128 roundings.
 //! To it comes what the rounding of the time leaves at the rate of the gap.
 //!
@@ -34,6 +39,8 @@ pub struct Crossing {
     pub share: f64,
     /// The trial's end lies so near that it may serve; the share is one.
     pub landed: bool,
+    /// No event, but a contact that began with the step and is too stiff for its length.
+    pub too_stiff: bool,
     /// Index of the effect in the scene.
     pub effect: usize,
 }
@@ -45,6 +52,8 @@ pub struct Events<T: Real, const D: usize> {
     watched: Vec<Watched<T>>,
     /// When the step begins [s].
     t: T,
+    /// Trials of it so far.
+    trials: u32,
 }
 
 /// What is known of one effect.
@@ -65,6 +74,16 @@ struct Watched<T> {
 /// Shares of the scene's length, or of a radian, that are nothing: at least, and in roundings.
 const BAND: f64 = 1e-9;
 const BAND_ROUNDINGS: f64 = 128.0;
+/// Part of its way that a contact goes in the step that begins it, at least; 4/5 where w h is one.
+const RESOLVED: f64 = 0.8;
+/// Trials of a step after which the cubic is no longer trusted where a contact holds.
+const SLOW: u32 = 3;
+/// Part of what its rate would press a gap in by, below which the contact holds it.
+const HELD: f64 = 0.2;
+/// Ways of a contact that need no resolution, in bands.
+const WAY: f64 = 100.0;
+/// Bounds of the share in which a stiff contact is tried again.
+const SHARES: [f64; 2] = [0.02, 0.5];
 /// Roundings of the time that a gap may be off by.
 const TIME_ROUNDINGS: f64 = 4.0;
 
@@ -86,7 +105,7 @@ impl<T: Real, const D: usize> Events<T, D> {
             Watched::new(effect, load.n_gaps(), (kinks, load.reach()), band * size)
         };
         let watched = list.iter().zip(&effects).map(watch).collect();
-        Ok(Self { loads, watched, t: T::ZERO })
+        Ok(Self { loads, watched, t: T::ZERO, trials: 0 })
     }
 
     /// Takes what is watched at a state from which the next step begins: at the start of a run, or after it was set from outside.
@@ -98,6 +117,7 @@ impl<T: Real, const D: usize> Events<T, D> {
             watched.begin = watched.end;
         }
         self.t = state.t;
+        self.trials = 0;
     }
 
     /// The first event within the trial step that ends in a state. Does not move the beginning of the step.
@@ -111,8 +131,10 @@ impl<T: Real, const D: usize> Events<T, D> {
             return None;
         }
         let mut first: Option<Crossing> = None;
+        self.trials += 1;
+        let is_slow = self.trials > SLOW;
         for watched in &self.watched {
-            watched.crossings([from, to], |crossing| {
+            watched.crossings(([from, to], is_slow), |crossing| {
                 if first.is_none_or(|first| crossing.share < first.share) {
                     first = Some(crossing);
                 }
@@ -154,17 +176,27 @@ impl<T: Real> Watched<T> {
     }
 
     /// Hands out the first change of each gap and of each kink that may be passed.
-    fn crossings(&self, [from, to]: [f64; 2], mut take: impl FnMut(Crossing)) {
+    fn crossings(&self, ([from, to], is_slow): ([f64; 2], bool), mut take: impl FnMut(Crossing)) {
+        let (begin, end) = (&self.begin, &self.end);
+        for i in 0..self.n_gaps {
+            if let Some(share) = self.entry([begin.gaps[i], end.gaps[i]], to - from) {
+                let effect = self.effect;
+                return take(Crossing { share, landed: false, too_stiff: true, effect });
+            }
+        }
         let mut watch = |begin: Gap<T>, end: Gap<T>| {
             let rate = begin.rate.abs().max(end.rate.abs()).to_f64();
             let late = TIME_ROUNDINGS * T::EPSILON.to_f64() * to.abs();
             let cubic = Cubic::new([begin, end], to - from);
             if let Some(change) = cubic.change(self.band + late * rate) {
                 let effect = self.effect;
-                take(Crossing { share: change.share, landed: change.lands, effect });
+                let (mut share, landed) = (change.share, change.lands);
+                if is_slow && !landed {
+                    share = share.min(self.free([begin, end], to - from));
+                }
+                take(Crossing { share, landed, too_stiff: false, effect });
             }
         };
-        let (begin, end) = (&self.begin, &self.end);
         for i in 0..self.n_gaps {
             watch(begin.gaps[i], end.gaps[i]);
         }
@@ -175,6 +207,31 @@ impl<T: Real> Watched<T> {
         for kink in self.near() {
             watch(passage(kink, &begin.place), passage(kink, &end.place));
         }
+    }
+
+    /// The share of a step of length `h` [s] after which a gap closes at the rate of its beginning, where a stiff contact has kept
+    /// it from going on: the cubic then follows the contact, and not the way to it. Else one.
+    fn free(&self, [begin, end]: [Gap<T>; 2], h: f64) -> f64 {
+        let [begin, rate, end] = [begin.value, begin.rate, end.value].map(T::to_f64);
+        let on = begin + rate * h;
+        let is_held = begin > self.band && on < 0.0 && end > HELD * on;
+        if is_held { (begin + 0.5 * self.band) / (begin - on) } else { 1.0 }
+    }
+
+    /// The share of a step of length `h` [s] in which a contact that begins with it is resolved, where it is not in the whole.
+    fn entry(&self, [begin, end]: [Gap<T>; 2], h: f64) -> Option<f64> {
+        let [begin, rate, end] = [begin.value, begin.rate, end.value].map(T::to_f64);
+        let way = -rate * h;
+        if begin.abs() > self.band || way <= WAY * self.band {
+            return None;
+        }
+        let part = -end / way;
+        if part >= RESOLVED {
+            return None;
+        }
+        // part = 1 / (1 + x^2) with x = w h / 2; nothing is known of x where the contact has opened again.
+        let share = 0.5 / libm::sqrt(1.0 / part.max(f64::MIN_POSITIVE) - 1.0);
+        Some(share.clamp(SHARES[0], SHARES[1]))
     }
 
     /// The kinks that may be passed between the two places, and one on either side.
