@@ -1,14 +1,18 @@
 //! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates, regenerate tables.
 
+mod chart;
 mod check;
 mod counts;
 mod documentation;
+mod mbs;
 mod nostd;
+mod page;
 mod pick;
 mod process;
 mod simulate;
 mod summary;
 mod tables;
+mod tell;
 #[cfg(test)]
 mod tidy;
 
