@@ -10,6 +10,7 @@ mod page;
 mod pick;
 mod process;
 mod simulate;
+mod steps;
 mod summary;
 mod tables;
 mod tell;
@@ -57,6 +58,15 @@ enum Job {
         #[arg(value_name = "TABLE")]
         names: Vec<String>,
     },
+    /// Run the experiments on variable steps beside fixed ones: text, CSV and HTML under target/steps
+    Steps {
+        /// Leave out the finest runs
+        #[arg(long)]
+        quick: bool,
+        /// These experiments alone: F6, P2, A, B, C, H
+        #[arg(value_name = "EXPERIMENT")]
+        names: Vec<String>,
+    },
     /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
     Counts,
     /// Cross-compile the no_std crates for a microcontroller, without and with alloc
@@ -69,6 +79,7 @@ fn main() -> ExitCode {
         Job::Test { quick } => check::test(quick),
         Job::Pick => pick::pick(),
         Job::Tables { quick, names } => tables::tables(quick, &names),
+        Job::Steps { quick, names } => steps::steps(quick, &names),
         Job::Counts => counts::counts(),
         Job::CheckNostd => nostd::check_nostd(),
     }

@@ -26,7 +26,7 @@ const STYLES: [Style; 6] = [
     Style { color: RGBColor(204, 106, 20), dashes: "9 4", corners: &[(0, -4), (4, 3), (-4, 3)] },
     Style {
         color: RGBColor(34, 145, 80),
-        dashes: "2 3",
+        dashes: "4 3",
         corners: &[(-3, -3), (3, -3), (3, 3), (-3, 3)],
     },
     Style {

@@ -43,15 +43,31 @@ fn legend(series: &[Series]) -> String {
     format!("<ul class=\"legend\">{}</ul>\n", named.map(entry).collect::<String>())
 }
 
-/// A sentence whose numbers are not broken at the sign of their exponent.
+/// Units that stay beside their number.
+const UNITS: [&str; 6] = ["s", "J", "m", "rad", "%", "m/s²"];
+
+/// A sentence that is not broken within a number or a name such as index-3, nor between a number and its unit.
 pub(crate) fn words(sentence: &str) -> String {
-    let is_number =
-        |word: &str| word.contains("e-") && word.starts_with(|c: char| c.is_ascii_digit());
-    let word = |word: &str| {
+    let mut html = String::new();
+    let mut last = "";
+    for (i, word) in sentence.split(' ').enumerate() {
+        let is_unit = UNITS.contains(&word.trim_end_matches([',', '.', ';', ':', ')']));
+        let is_beside = is_unit && last.ends_with(|c: char| c.is_ascii_digit());
+        html.push_str(match (i, is_beside) {
+            (0, _) => "",
+            (_, true) => "&nbsp;",
+            (_, false) => " ",
+        });
         let text = escape(word);
-        if is_number(word) { format!("<span class=\"number\">{text}</span>") } else { text }
-    };
-    sentence.split(' ').map(word).collect::<Vec<_>>().join(" ")
+        let parts = word.as_bytes().windows(2);
+        if parts.into_iter().any(|pair| pair[0] == b'-' && pair[1].is_ascii_digit()) {
+            html.push_str(&format!("<span class=\"number\">{text}</span>"));
+        } else {
+            html.push_str(&text);
+        }
+        last = word;
+    }
+    html
 }
 
 /// Text as HTML.
@@ -65,8 +81,9 @@ mod tests {
     use crate::chart::{Axis, Kind};
 
     #[test]
-    fn numbers_in_sentences_stay_whole() {
-        assert_eq!(words("2.5e-11 m < 3"), "<span class=\"number\">2.5e-11</span> m &lt; 3");
+    fn numbers_stay_whole_and_beside_their_units() {
+        let told = "<span class=\"number\">2.5e-11</span>&nbsp;m, &lt; 3 in <span class=\"number\">index-3</span>";
+        assert_eq!(words("2.5e-11 m, < 3 in index-3"), told);
     }
 
     #[test]
