@@ -10,6 +10,8 @@ pub(crate) enum Rule {
     /// The change of the energy invariant within a step: more than this share of the energy turned over is refused, and a step
     /// with less than a hundredth of it is followed by a longer one.
     Energy(f64),
+    /// The same as the report's second publication prints it.
+    Printed(f64),
     /// The error of a step as its estimate has it, as a share of the scene's length.
     Error(f64),
     /// Both, with the same tolerance.
@@ -79,9 +81,10 @@ impl Case {
     pub(crate) fn tolerance(&self) -> Option<f64> {
         match self.rule {
             Rule::Fixed => None,
-            Rule::Energy(tolerance) | Rule::Error(tolerance) | Rule::Both(tolerance) => {
-                Some(tolerance)
-            }
+            Rule::Energy(tolerance)
+            | Rule::Printed(tolerance)
+            | Rule::Error(tolerance)
+            | Rule::Both(tolerance) => Some(tolerance),
         }
     }
 
@@ -90,9 +93,15 @@ impl Case {
         match self.rule {
             Rule::Fixed => "fixed",
             Rule::Energy(_) => "energy",
+            Rule::Printed(_) => "energy-printed",
             Rule::Error(_) => "error",
             Rule::Both(_) => "both",
         }
+    }
+
+    /// The rule in words.
+    pub(crate) fn rule(&self) -> &'static str {
+        if let Rule::Printed(_) = self.rule { "energy as printed" } else { self.control() }
     }
 
     /// What it is called: formulation, rule, and step or tolerance.
@@ -106,7 +115,7 @@ impl Case {
             Some(true) => ", events on",
             Some(false) => ", events off",
         };
-        format!("{}, {} {number}{events}", self.formulation, self.control())
+        format!("{}, {} {number}{events}", self.formulation, self.rule())
     }
 
     /// The arguments of `mbs run`, without the scene.
@@ -118,7 +127,7 @@ impl Case {
             add("--step-control", self.control().to_owned());
             add("--step-max", step(self.largest));
         }
-        if let Rule::Energy(upper) | Rule::Both(upper) = self.rule {
+        if let Rule::Energy(upper) | Rule::Printed(upper) | Rule::Both(upper) = self.rule {
             add("--energy-tolerance", format!("{},{}", size(upper), size(upper / 100.0)));
         }
         if let Rule::Error(tolerance) | Rule::Both(tolerance) = self.rule {
@@ -163,6 +172,9 @@ mod tests {
             energy.arguments().join(" "),
             "--formulation multi-index --step 1e-3 --step-control energy --step-max 1e-2 --energy-tolerance 1e-6,1e-8"
         );
+        let printed = Case { rule: Rule::Printed(1e-6), ..energy.clone() };
+        assert_eq!(printed.arguments()[5], "energy-printed");
+        assert_eq!(printed.name(), "multi-index, energy as printed 1e-6");
         let both = Case::variable("andrews", "index-3", Rule::Both(1e-5 / 10_f64.sqrt()), steps);
         let both = both.lasting(Some(3.0)).with_events(false);
         assert!(both.arguments().join(" ").ends_with(

@@ -1,6 +1,5 @@
 //! Drawings that several experiments have: histories of runs, and errors over tolerances and times.
 
-use super::case::Rule;
 use super::lab::Run;
 use super::record::Record;
 use crate::chart::{Axis, Chart, Kind, Look, Series};
@@ -73,27 +72,26 @@ pub(crate) fn points<'a>(
     runs.into_iter().filter_map(|run| Some([x(run)?, y(run)?])).collect()
 }
 
-/// Error over CPU time: a curve for each formulation with fixed and with variable steps.
-pub(crate) fn work_precision<'a>(
-    runs: &'a [Run],
+/// Error over CPU time: a curve for each formulation under each rule.
+pub(crate) fn work_precision(
+    runs: &[Run],
     label: &str,
     error: impl Fn(&Run) -> Option<f64>,
 ) -> Chart {
-    let mut kinds: Vec<(&'a str, bool)> = Vec::new();
-    let kind = |run: &'a Run| (run.case.formulation, run.case.rule == Rule::Fixed);
+    let kind = |run: &Run| (run.case.formulation, run.case.rule());
+    let mut kinds: Vec<_> = Vec::new();
     for run in runs {
         if !kinds.contains(&kind(run)) {
             kinds.push(kind(run));
         }
     }
-    let series = kinds.into_iter().map(|(formulation, is_fixed)| {
-        let these = runs.iter().filter(|run| kind(run) == (formulation, is_fixed));
-        let steps = if is_fixed { "fixed steps" } else { "variable steps" };
-        curve(
-            format!("{formulation}, {steps}"),
-            style(formulation),
-            points(these, Run::seconds, &error),
-        )
+    let series = kinds.iter().map(|&(formulation, rule)| {
+        let these = runs.iter().filter(|run| kind(run) == (formulation, rule));
+        // Two rules of one formulation must not look alike.
+        let like = kinds.iter().filter(|other| other.0 == formulation);
+        let place = like.take_while(|other| other.1 != rule).count();
+        let style = if place == 0 { style(formulation) } else { OTHER + place - 1 };
+        curve(format!("{formulation}, {rule}"), style, points(these, Run::seconds, &error))
     });
     log_log("CPU [s]", label, series.collect())
 }

@@ -65,7 +65,9 @@ fn run(case: &Case, out: Option<&Path>) -> Outcome {
     }
     let usual = match case.rule {
         Rule::Fixed => case.step,
-        Rule::Energy(tolerance) => 2.0 * duration * tolerance.sqrt().min(0.02) / 6.0,
+        Rule::Energy(tolerance) | Rule::Printed(tolerance) => {
+            2.0 * duration * tolerance.sqrt().min(0.02) / 6.0
+        }
         Rule::Error(tolerance) | Rule::Both(tolerance) => duration * (0.003 * tolerance).cbrt(),
     };
     let usual = usual.min(case.largest);
