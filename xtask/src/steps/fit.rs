@@ -2,6 +2,16 @@
 
 /// Slope of log y over log x by least squares; `None` for fewer than two points.
 pub(crate) fn slope(points: &[[f64; 2]]) -> Option<f64> {
+    power(points).map(|power| power[0])
+}
+
+/// y at x by the power of x that fits the points best.
+pub(crate) fn continued(points: &[[f64; 2]], x: f64) -> Option<f64> {
+    power(points).map(|[slope, one]| (one + slope * x.ln()).exp())
+}
+
+/// Slope of log y over log x by least squares, and log y at one; `None` for fewer than two points.
+fn power(points: &[[f64; 2]]) -> Option<[f64; 2]> {
     let logs: Vec<_> = points.iter().filter(is_positive).map(|p| p.map(f64::ln)).collect();
     let n = count(logs.len());
     let mean = |i: usize| logs.iter().map(|p| p[i]).sum::<f64>() / n;
@@ -9,7 +19,8 @@ pub(crate) fn slope(points: &[[f64; 2]]) -> Option<f64> {
     let (above, below) = logs.iter().fold((0.0, 0.0), |(above, below), p| {
         (above + (p[0] - x) * (p[1] - y), below + (p[0] - x) * (p[0] - x))
     });
-    (below > 0.0).then_some(above / below)
+    let slope = above / below;
+    (below > 0.0).then_some([slope, y - slope * x])
 }
 
 /// y at x between the two points about it, by logarithms; `None` outside them. The points have their x in any order.
@@ -92,6 +103,7 @@ mod tests {
         assert!(is_close(slope(&square), 2.0));
         assert!(is_close(between(&square, 4.0), 48.0));
         assert_eq!(between(&square, 6.0), None);
+        assert!(continued(&square, 6.0).is_some_and(|y| (y - 108.0).abs() < 1e-9));
         assert_eq!((slope(&[]), slope(&square[..1])), (None, None));
     }
 

@@ -36,6 +36,8 @@ const EXPLICIT: [[&str; 4]; 2] = [
     ["--integrator", "rk54", "--tolerance", "1e-12"],
     ["--integrator", "rk54", "--tolerance", "1e-13"],
 ];
+/// The longest step of the explicit method, and its first one [s].
+const LONGEST: f64 = 1e-3;
 /// Two fixed steps of index 3, the second one half of the first [s].
 const FINEST: [f64; 2] = [1e-4, 5e-5];
 /// Rounding of a number of this size.
@@ -69,7 +71,7 @@ impl Watched {
         }
         let explicit = EXPLICIT.each_ref().map(|arguments| Case {
             arguments,
-            ..Case::fixed(self.scene, "recursive", 1e-4).lasting(self.time)
+            ..Case::fixed(self.scene, "recursive", LONGEST).lasting(self.time)
         });
         if let Some([a, b]) = self.pair(lab, &explicit)? {
             let doubt = distance(&a, &b).max(ROUNDING * norm(&b));

@@ -1,7 +1,7 @@
 //! Does a rule see the error? How the true error follows the tolerance, and what it is at equal time.
 
 use super::case::size;
-use super::fit::{between, median, rises, slope};
+use super::fit::{between, continued, median, rises, slope};
 use super::section::Section;
 use crate::tell::ratio;
 
@@ -37,10 +37,13 @@ impl Sight {
         Self { scene, rule, power: slope(points), rises, excess: None }
     }
 
-    /// Beside the estimate: points (time, error) of both.
+    /// Beside the estimate: points (time, error) of both. Where their times do not meet, the line of the estimate is continued.
     pub(crate) fn beside(self, points: &[[f64; 2]], estimate: &[[f64; 2]]) -> Self {
-        let ratios = points.iter().filter_map(|[s, e]| Some(e / between(estimate, *s)?));
-        Self { excess: median(ratios.collect()), ..self }
+        type Line = fn(&[[f64; 2]], f64) -> Option<f64>;
+        let excess = |line: Line| {
+            median(points.iter().filter_map(|[s, e]| Some(e / line(estimate, *s)?)).collect())
+        };
+        Self { excess: excess(between).or_else(|| excess(continued)), ..self }
     }
 
     /// How the error follows the tolerance, as a sentence.
@@ -161,6 +164,8 @@ mod tests {
         let slow = sight(&FALLING).beside(&[[1.0, 5e-3]], &estimate);
         assert!(slow.blindness().unwrap().contains("50.0 times"));
         assert_eq!(sight(&FALLING).beside(&[[1.0, 2e-4]], &estimate).blindness(), None);
+        let apart = sight(&FALLING).beside(&[[10.0, 2e-4]], &estimate);
+        assert!(apart.blindness().unwrap().contains("200 times"), "the line is continued");
         let flat = sight(&[[1e-3, 1e-2], [1e-5, 1e-2]]);
         assert!(flat.blindness().unwrap().contains("power 0.00"));
         let mut section = Section::new("B", "title");

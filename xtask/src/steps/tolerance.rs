@@ -80,7 +80,8 @@ pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
     let mut section = Section::new("B", "What a tolerance buys");
     section.words(
         "Index 3 with steps chosen by the estimate of the error of a step, by the change of the energy (refused above the tolerance, \
-        lengthened below a hundredth of it), and by both with the same tolerance. The largest step is a fiftieth of the run.",
+        lengthened below a hundredth of it), and by both with the same tolerance. The largest step is a fiftieth of the run. \
+        Errors at equal time are those of the middle of all tolerances; where times do not meet, the line of the estimate is continued.",
     );
     let mut sights = Vec::new();
     for (watched, steps) in &SCENES {
