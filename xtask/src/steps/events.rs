@@ -66,6 +66,7 @@ fn scene(watched: &Watched, runs: &[Run], section: &mut Section) {
         cells
     };
     section.behind("Every run", &head, runs.iter().map(row).collect());
+    section.words(reached(runs));
     let of = |events: bool, number: &dyn Fn(&Run) -> Option<f64>| {
         points(runs.iter().filter(|run| run.case.events == Some(events)), Run::seconds, number)
     };
@@ -88,4 +89,43 @@ fn scene(watched: &Watched, runs: &[Run], section: &mut Section) {
     };
     draw(section, "True error", &watched.label(), &|run| run.true_error);
     draw(section, "Largest energy error", "largest energy error [J]", &Run::energy_error);
+}
+
+/// How many steps ended at events.
+fn reached(runs: &[Run]) -> String {
+    let on = runs.iter().filter(|run| run.case.events == Some(true));
+    let counts = on.filter_map(|run| run.figures()?.control).map(|control| control.events);
+    match (counts.clone().min(), counts.max()) {
+        (Some(_), Some(0)) => {
+            "No step ended at an event: with and without are the same.".to_owned()
+        }
+        (Some(least), Some(most)) => {
+            format!("With events on, {least} to {most} steps ended at one.")
+        }
+        _ => "No run with events on came to its end.".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mbs::outcome::{Control, Figures, Outcome};
+
+    #[test]
+    fn steps_that_ended_at_events_are_counted() {
+        let run = |case: &Case, events| {
+            let control = Some(Control { events, ..Control::default() });
+            let outcome = Outcome::Completed(Figures { control, ..Figures::default() });
+            Run { case: case.clone(), outcome, true_error: None }
+        };
+        let cases = cases(&SCENES[0], true);
+        let with =
+            |events: [u64; 2]| reached(&[run(&cases[0], events[0]), run(&cases[2], events[1])]);
+        assert_eq!(with([3, 12]), "With events on, 3 to 12 steps ended at one.");
+        assert!(with([0, 0]).contains("the same"));
+        assert!(
+            reached(&[run(&cases[1], 5)]).contains("No run"),
+            "those with events off do not count"
+        );
+    }
 }
