@@ -1,14 +1,19 @@
 //! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates, regenerate tables.
 
+mod chart;
 mod check;
 mod counts;
 mod documentation;
+mod mbs;
 mod nostd;
+mod page;
 mod pick;
 mod process;
 mod simulate;
+mod steps;
 mod summary;
 mod tables;
+mod tell;
 #[cfg(test)]
 mod tidy;
 
@@ -53,6 +58,15 @@ enum Job {
         #[arg(value_name = "TABLE")]
         names: Vec<String>,
     },
+    /// Run the experiments on variable steps beside fixed ones: text, CSV and HTML under target/steps
+    Steps {
+        /// Leave out the finest runs
+        #[arg(long)]
+        quick: bool,
+        /// These experiments alone: F6, P2, A, B, C, H
+        #[arg(value_name = "EXPERIMENT")]
+        names: Vec<String>,
+    },
     /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
     Counts,
     /// Cross-compile the no_std crates for a microcontroller, without and with alloc
@@ -65,6 +79,7 @@ fn main() -> ExitCode {
         Job::Test { quick } => check::test(quick),
         Job::Pick => pick::pick(),
         Job::Tables { quick, names } => tables::tables(quick, &names),
+        Job::Steps { quick, names } => steps::steps(quick, &names),
         Job::Counts => counts::counts(),
         Job::CheckNostd => nostd::check_nostd(),
     }

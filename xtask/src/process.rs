@@ -1,7 +1,9 @@
-//! Child processes and places: the repository root, the target folder, cargo.
+//! Child processes and places: the repository root, the target folder, cargo; progress and files.
 
 use std::env;
 use std::ffi::OsStr;
+use std::fs;
+use std::io::{IsTerminal, stderr};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, ExitStatus, Stdio};
 
@@ -59,4 +61,25 @@ pub(crate) fn exit_code(status: ExitStatus) -> ExitCode {
     let signal: Option<i32> = None;
     let code = status.code().or(signal.map(|s| 128 + s)).unwrap_or(1);
     ExitCode::from(u8::try_from(code).unwrap_or(1))
+}
+
+/// Tells on a terminal what is being done, over what was told before.
+pub(crate) fn progress(what: &str) {
+    if stderr().is_terminal() {
+        eprint!("\r\x1b[K{what}");
+    }
+}
+
+/// Writes a file, with its folder, and prints its path.
+///
+/// # Errors
+///
+/// The path, and why it cannot be written.
+#[allow(clippy::print_stdout, reason = "the file is what is asked for")]
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
+    let folder = path.parent().unwrap_or(path);
+    let written = fs::create_dir_all(folder).and_then(|()| fs::write(path, bytes));
+    written.map_err(|e| format!("cannot write {}: {e}", path.display()))?;
+    println!("{}", path.display());
+    Ok(())
 }

@@ -2,17 +2,17 @@
 
 mod history;
 mod html;
-mod outcome;
 mod report;
 mod rows;
 mod text;
 
+use crate::mbs::outcome::Outcome;
+use crate::mbs::{Mbs, columns, scene};
+use crate::page;
 use crate::process;
 use rows::Row;
-use std::fs;
-use std::io::{IsTerminal, stderr};
 use std::path::Path;
-use std::process::{Command, ExitCode};
+use std::process::ExitCode;
 
 /// Runs with more steps than this are left out by `--quick`.
 const QUICK: f64 = 1e6;
@@ -36,10 +36,7 @@ fn run(quick: bool, names: &[String]) -> Result<(), String> {
     if let Some(name) = names.iter().find(|name| !known.contains(&name.as_str())) {
         return Err(format!("no table `{name}`; there are {}", known.join(", ")));
     }
-    let mut build = process::cargo();
-    build.args(["build", "--quiet", "--release", "--package", "mbs", "--bin", "mbs"]);
-    process::run(build.current_dir(process::root()))?;
-    let mbs = process::target_dir().join("release").join("mbs");
+    let mbs = Mbs::build()?;
 
     let folder = process::target_dir().join("tables");
     let runs = folder.join("runs");
@@ -51,14 +48,11 @@ fn run(quick: bool, names: &[String]) -> Result<(), String> {
         for (method, step) in
             table.entries().filter(|(_, step)| !quick || table.steps(*step) <= QUICK)
         {
-            let note = format!("{} {} dt {step:.0e}", table.name, method.name);
-            if stderr().is_terminal() {
-                eprint!("\r\x1b[K{note}");
-            }
+            process::progress(&format!("{} {} dt {step:.0e}", table.name, method.name));
             let drawn = table.history.filter(|_| table.draws(method, step));
             let outcome = entry(&mbs, table, method, step, drawn.map(|_| &*runs))?;
             if let Some(history) = drawn.filter(|_| outcome.has_run()) {
-                let points = history::read(&runs.join("run.csv"), &history)?;
+                let points = columns::history(&runs.join("run.csv"), history.column)?;
                 // The finest run lies below the others.
                 let at = if table.is_finest(method, step) { 0 } else { lines.len() };
                 lines.insert(
@@ -69,42 +63,32 @@ fn run(quick: bool, names: &[String]) -> Result<(), String> {
             rows.push(Row::new(table, method, step, outcome));
         }
         if let Some(history) = &table.history {
-            drawings.push((table.name, history::svg(history, &lines)?));
+            let chart = history::chart(history, lines);
+            drawings.push((table.name, page::figure(&chart, history::CAPTION)?));
         }
     }
-    if stderr().is_terminal() {
-        eprint!("\r\x1b[K");
-    }
+    process::progress("");
 
     println!("{}", text::text(&rows));
-    let write = |name: &str, bytes: &[u8]| -> Result<(), String> {
-        let path = folder.join(name);
-        let written = fs::create_dir_all(&folder).and_then(|()| fs::write(&path, bytes));
-        written.map_err(|e| format!("cannot write {}: {e}", path.display()))?;
-        println!("{}", path.display());
-        Ok(())
-    };
-    write("tables.csv", &rows::csv(&rows)?)?;
-    write("tables.html", html::page(&rows, &drawings).as_bytes())
+    process::write(&folder.join("tables.csv"), &rows::csv(&rows)?)?;
+    process::write(&folder.join("tables.html"), html::page(&rows, &drawings).as_bytes())
 }
 
-/// Runs one entry with the release build of `mbs`; with a folder, its files are left there.
+/// Runs one entry; with a folder, its files are left there. A reference that its table has must be there.
 fn entry(
-    mbs: &Path,
+    mbs: &Mbs,
     table: &report::Table,
     method: &report::Method,
     step: f64,
     out: Option<&Path>,
-) -> Result<outcome::Outcome, String> {
-    let mut command = Command::new(mbs);
-    command.args(["run", "--json", "--formulation", method.formulation]);
-    command.args(["--step", &format!("{step:e}")]).args(method.arguments);
-    command.arg(process::root().join("scenes").join(format!("{}.toml", table.scene)));
-    if let Some(out) = out {
-        command.arg("--out").arg(out);
+) -> Result<Outcome, String> {
+    let step = format!("{step:e}");
+    let arguments = ["--formulation", method.formulation, "--step", &step];
+    let arguments: Vec<_> =
+        arguments.iter().chain(method.arguments).map(|&word| word.to_owned()).collect();
+    let outcome = mbs.run(&scene(table.scene), &arguments, out, None)?;
+    if let (Some(figures), Some(reference)) = (outcome.figures(), table.reference) {
+        figures.distance(reference.channel, reference.value)?;
     }
-    let output =
-        command.output().map_err(|e| format!("cannot start `{}`: {e}", process::line(&command)))?;
-    outcome::read(output.status.code(), &output.stdout, &output.stderr, table.reference)
-        .map_err(|why| format!("`{}`: {why}", process::line(&command)))
+    Ok(outcome)
 }

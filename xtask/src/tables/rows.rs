@@ -1,7 +1,8 @@
 //! One row for each method and step: ours beside the report's, as words and as CSV.
 
-use super::outcome::{Figures, Outcome};
 use super::report::{Method, Printed, Table};
+use crate::mbs::outcome::{Figures, Outcome};
+use crate::tell::{error, seconds, step};
 
 /// One entry of a table: what was run, and what came of it.
 #[derive(Debug, Clone)]
@@ -29,26 +30,20 @@ impl Row {
         Self { table, method, step, outcome, printed: table.printed(method, step) }
     }
 
+    /// Distance from the reference at the end, where there is one.
+    fn distance(&self) -> Option<f64> {
+        let reference = self.table.reference?;
+        self.outcome.figures()?.distance(reference.channel, reference.value).ok()
+    }
+
     /// Our error [J], its share of the energy turned over, the distance from the reference, the time [s].
     pub(crate) fn ours(&self) -> [String; 4] {
         match &self.outcome {
             Outcome::Completed(f) => {
-                let distance = f.distance.map(error).unwrap_or_default();
+                let distance = self.distance().map(error).unwrap_or_default();
                 [error(f.energy_error), error(f.share()), distance, seconds(f.seconds)]
             }
             _ => Default::default(),
-        }
-    }
-
-    /// Why there are no numbers of ours; empty where there are.
-    pub(crate) fn reason(&self) -> String {
-        match &self.outcome {
-            Outcome::Completed(_) => String::new(),
-            Outcome::Stopped { code, message, time } => {
-                format!("{code} at {} s: {message}", (time * 1e6).round() / 1e6)
-            }
-            Outcome::Refused(why) => format!("refused: {why}"),
-            Outcome::NotBuilt => "not built".to_owned(),
         }
     }
 
@@ -97,11 +92,6 @@ pub(crate) fn sizes(table: &Table, rows: &[Row]) -> Vec<String> {
     told.into_iter().map(|(names, text)| format!("{}: {text}.", names.join(", "))).collect()
 }
 
-/// An error with two digits.
-pub(crate) fn error(x: f64) -> String {
-    format!("{x:.1e}")
-}
-
 /// A printed error with two digits, or all it has.
 fn digits(x: f64) -> String {
     let (two, all) = (error(x), format!("{x:e}"));
@@ -111,25 +101,6 @@ fn digits(x: f64) -> String {
 /// A printed time [s].
 fn time(x: f64) -> String {
     if x < 10.0 && x.fract() == 0.0 { format!("{x:.1}") } else { x.to_string() }
-}
-
-/// A step, as short as it can be written.
-pub(crate) fn step(x: f64) -> String {
-    format!("{x:e}")
-}
-
-/// A time with two or three digits [s].
-pub(crate) fn seconds(x: f64) -> String {
-    let digits = if x < 0.01 {
-        4
-    } else if x < 1.0 {
-        3
-    } else if x < 100.0 {
-        1
-    } else {
-        0
-    };
-    format!("{x:.digits$}")
 }
 
 /// Every row as CSV.
@@ -162,7 +133,7 @@ pub(crate) fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
         let exact = match &row.outcome {
             Outcome::Completed(f) => {
                 let exact = |x: f64| format!("{x:e}");
-                let distance = f.distance.map(exact).unwrap_or_default();
+                let distance = row.distance().map(exact).unwrap_or_default();
                 [exact(f.energy_error), exact(f.share()), distance, exact(f.seconds)]
             }
             _ => Default::default(),
@@ -186,7 +157,7 @@ pub(crate) fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
             &sizes[0],
             &sizes[1],
             &sizes[2],
-            &row.reason(),
+            &row.outcome.reason(),
             row.method.printed_name,
             &report_error,
             &report_cpu,
@@ -203,19 +174,22 @@ pub(crate) mod tests {
 
     /// One row of each kind.
     pub(crate) fn samples() -> Vec<Row> {
+        let [t1, _, t2, ..] = &TABLES;
+        let reference = t1.reference.unwrap().value;
+        let tip = [reference[0] + 2.5e-2, reference[1]];
         let figures = Figures {
             energy_error: 4.636e-3,
             turned_over: 19.0,
-            distance: Some(2.5e-2),
             seconds: 0.0123,
             sizes: [4, 2, 2],
+            outputs: [("tip".to_owned(), tip.to_vec())].into(),
+            ..Figures::default()
         };
         let stopped = Outcome::Stopped {
             code: "not-converged".into(),
             message: "no convergence, \"try\" <less>".into(),
             time: 0.0082,
         };
-        let [t1, _, t2, ..] = &TABLES;
         vec![
             Row::new(t1, &t1.methods[0], 1e-2, Outcome::Completed(figures)),
             Row::new(t1, &t1.methods[1], 1e-4, stopped),
@@ -230,8 +204,8 @@ pub(crate) mod tests {
         assert_eq!(rows[0].ours(), ["4.6e-3", "2.4e-4", "2.5e-2", "0.012"]);
         assert_eq!(rows[0].report(), ["no convergence", ""]);
         assert_eq!(rows[1].report(), ["2.0e-5", "17.2"]);
-        assert!(rows[1].reason().starts_with("not-converged at 0.0082 s: no convergence"));
-        assert_eq!(rows[2].reason(), "not built");
+        assert!(rows[1].outcome.reason().starts_with("not-converged at 0.0082 s: no convergence"));
+        assert_eq!(rows[2].outcome.reason(), "not built");
         assert_eq!(rows[2].report(), ["", ""]);
         assert_eq!(rows[3].report(), ["does not work", ""]);
         let tables: Vec<_> =
@@ -255,15 +229,6 @@ pub(crate) mod tests {
         assert_eq!(told.len(), 1, "{told:?}");
         assert!(told[0].starts_with("index-3, classical: 4 coord"), "{told:?}");
         assert!(told[0].ends_with("the report: 168 variables, 157 constraints and 1 guide, 11 freedoms with the guided one."));
-    }
-
-    #[test]
-    fn numbers_keep_two_or_three_digits() {
-        assert_eq!(
-            [0.00312, 0.0423, 17.2, 1003.0].map(seconds),
-            ["0.0031", "0.042", "17.2", "1003"]
-        );
-        assert_eq!([5e-2, 1e-6].map(step), ["5e-2", "1e-6"]);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The tables as text for a terminal.
 
-use super::rows::{Row, by_table, sizes, step};
+use super::rows::{Row, by_table, sizes};
+use crate::tell::{paragraph, step};
 use std::fmt::Write;
 
 /// Widths of the columns: method, step, error, share, distance, time, the report's error and time.
@@ -23,7 +24,7 @@ pub(crate) fn text(rows: &[Row]) -> String {
             }
             last = row.method.name;
             let [mut error, share, distance, seconds] = row.ours();
-            let mut reason = row.reason();
+            let mut reason = row.outcome.reason();
             // Few words stand in the row, more below it.
             if !reason.is_empty() && reason.len() <= WIDTHS[2] {
                 error = std::mem::take(&mut reason);
@@ -52,23 +53,6 @@ pub(crate) fn text(rows: &[Row]) -> String {
 pub(crate) const REMARK: &str = "error: largest error of the energy invariant over every step; share: of the energy turned \
     over, the largest kinetic energy plus the work done; CPU: of the stepping. The report's times are those of its authors' machines.";
 
-/// Width of a page of text.
-const PAGE: usize = 100;
-
-/// Words in lines that fit the page, with a margin on their left.
-fn paragraph(text: &mut String, margin: usize, words: &str) {
-    let mut line = String::new();
-    for word in words.split_whitespace() {
-        if !line.is_empty() && margin + line.len() + 1 + word.len() > PAGE {
-            let _ = writeln!(text, "{:margin$}{line}", "");
-            line.clear();
-        }
-        let gap = if line.is_empty() { "" } else { " " };
-        let _ = write!(line, "{gap}{word}");
-    }
-    let _ = writeln!(text, "{:margin$}{line}", "");
-}
-
 /// One line; names stand on the left of their columns, numbers on the right.
 fn line(text: &mut String, cells: [&str; 8]) {
     let mut line = format!("{:<width$}", cells[0], width = WIDTHS[0]);
@@ -91,7 +75,7 @@ mod tests {
         ));
         assert!(text.contains("2.0e-5     17.2\n"));
         assert!(text.contains("not-converged at 0.0082 s"));
-        assert!(text.lines().all(|line| line.len() <= super::PAGE), "{text}");
+        assert!(text.lines().all(|line| line.len() <= crate::tell::PAGE), "{text}");
         assert!(text.contains("not built") && text.contains("refused: singular & stuck"));
     }
 }

@@ -1,0 +1,173 @@
+//! Where experiments run: cases one after the other, the least of their times, and the files of a run.
+
+use super::case::Case;
+use super::record::Record;
+use crate::mbs::outcome::{Figures, Outcome};
+use crate::mbs::{self, Mbs};
+use crate::process;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// A run that takes longer is ended.
+const LIMIT: Duration = Duration::from_secs(300);
+/// A run that takes longer is not repeated for its time [s].
+const LONG: f64 = 30.0;
+
+/// A case and what came of it, with the least of its times.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Run {
+    /// The case.
+    pub(crate) case: Case,
+    /// What came of it.
+    pub(crate) outcome: Outcome,
+    /// Distance of the watched channel from its reference at the end, where one is watched.
+    pub(crate) true_error: Option<f64>,
+}
+
+impl Run {
+    /// Its figures, where it reached its end.
+    pub(crate) fn figures(&self) -> Option<&Figures> {
+        self.outcome.figures()
+    }
+
+    /// Its CPU time [s].
+    pub(crate) fn seconds(&self) -> Option<f64> {
+        self.figures().map(|f| f.seconds)
+    }
+
+    /// Its largest energy error [J].
+    pub(crate) fn energy_error(&self) -> Option<f64> {
+        self.figures().map(|f| f.energy_error)
+    }
+}
+
+/// Runs a case; with a folder, its files are left there.
+pub(crate) type Runner<'a> = dyn Fn(&Case, Option<&Path>) -> Result<Outcome, String> + 'a;
+
+/// Where experiments run.
+pub(crate) struct Lab<'a> {
+    /// Runs a case.
+    pub(crate) runner: &'a Runner<'a>,
+    /// Are the finest runs left out?
+    pub(crate) quick: bool,
+    /// The folder for files of runs.
+    pub(crate) folder: PathBuf,
+}
+
+impl Lab<'_> {
+    /// Runs the cases in turn, as often as is said; each keeps its least time.
+    ///
+    /// # Errors
+    ///
+    /// Why a case cannot be run at all.
+    pub(crate) fn measure(&self, cases: &[Case], repeats: u32) -> Result<Vec<Run>, String> {
+        let mut runs: Vec<Run> = Vec::new();
+        for (i, case) in cases.iter().enumerate() {
+            process::progress(&format!(
+                "{} {} ({} of {})",
+                case.scene,
+                case.name(),
+                i + 1,
+                cases.len()
+            ));
+            let outcome = (self.runner)(case, None)?;
+            runs.push(Run { case: case.clone(), outcome, true_error: None });
+        }
+        for turn in 1..repeats {
+            for run in &mut runs {
+                let Outcome::Completed(least) = &mut run.outcome else { continue };
+                if least.seconds > LONG {
+                    continue;
+                }
+                process::progress(&format!(
+                    "{} {}, again ({turn})",
+                    run.case.scene,
+                    run.case.name()
+                ));
+                if let Outcome::Completed(figures) = (self.runner)(&run.case, None)? {
+                    least.seconds = least.seconds.min(figures.seconds);
+                }
+            }
+        }
+        Ok(runs)
+    }
+
+    /// Runs a case once and reads its steps and some channels from its files; nothing where it makes no steps.
+    ///
+    /// # Errors
+    ///
+    /// Why it cannot be run at all, or what its files lack.
+    pub(crate) fn record(&self, case: &Case, channels: &[&str]) -> Result<Option<Record>, String> {
+        process::progress(&format!("{} {}, with its files", case.scene, case.name()));
+        let folder = self.folder.join("runs");
+        // What an earlier run left there is none of this one's; at first there is nothing.
+        let _ = fs::remove_dir_all(&folder);
+        let outcome = (self.runner)(case, Some(&folder))?;
+        outcome.has_run().then(|| Record::read(&folder, channels)).transpose()
+    }
+}
+
+/// Runs a case with `mbs`; a scene with something appended is written into the folder first.
+///
+/// # Errors
+///
+/// Why it cannot be run at all.
+pub(crate) fn run(
+    mbs: &Mbs,
+    folder: &Path,
+    case: &Case,
+    out: Option<&Path>,
+) -> Result<Outcome, String> {
+    let mut scene = mbs::scene(case.scene);
+    if !scene.is_file() {
+        return Ok(Outcome::Refused(format!("there is no scene `{}`", case.scene)));
+    }
+    if !case.appended.is_empty() {
+        let place = |e: std::io::Error| format!("{}: {e}", scene.display());
+        let text = fs::read_to_string(&scene).map_err(place)? + case.appended;
+        let copy = folder.join(format!("{}.toml", case.scene));
+        fs::create_dir_all(folder).and_then(|()| fs::write(&copy, text)).map_err(place)?;
+        scene = copy;
+    }
+    mbs.run(&scene, &case.arguments(), out, Some(LIMIT))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fake;
+    use super::*;
+    use std::cell::Cell;
+
+    #[test]
+    fn the_least_time_is_kept_and_what_stops_is_run_once() {
+        let calls = Cell::new(0);
+        let runner = |case: &Case, _: Option<&Path>| {
+            calls.set(calls.get() + 1);
+            let seconds = [0.3, 0.2, 0.4][calls.get() % 3];
+            let figures = Figures { seconds, ..Figures::default() };
+            Ok(if case.formulation == "index-3" {
+                Outcome::Completed(figures)
+            } else {
+                Outcome::Refused("no".into())
+            })
+        };
+        let lab = Lab { runner: &runner, quick: true, folder: PathBuf::new() };
+        let cases = ["index-3", "index-1"].map(|f| Case::fixed("andrews", f, 1e-3));
+        let runs = lab.measure(&cases, 4).unwrap();
+        assert_eq!(calls.get(), 2 + 3);
+        assert!((runs[0].seconds().unwrap() - 0.2).abs() < 1e-12);
+        assert_eq!((runs[1].seconds(), runs[1].energy_error()), (None, None));
+    }
+
+    #[test]
+    fn files_of_a_run_are_read_back() {
+        fake::with_lab(|lab| {
+            let case = Case::fixed("iltis-suspension-stiff", "index-3", 1e-2);
+            let record = lab.record(&case, &["wheel.z"]).unwrap().unwrap();
+            assert!(record.steps.len() > 100 && record.channels.len() == 1);
+            let refused = Case { formulation: "absent", ..case };
+            assert_eq!(lab.record(&refused, &[]), Ok(None));
+        });
+    }
+}

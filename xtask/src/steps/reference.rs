@@ -1,0 +1,182 @@
+//! A channel at the end of a run, as it is known from elsewhere.
+
+use super::case::{Case, Rule};
+use super::lab::{Lab, Run};
+use crate::mbs::outcome::Figures;
+use crate::tell::error;
+
+/// A channel that is watched at the end of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Watched {
+    /// The scene.
+    pub(crate) scene: &'static str,
+    /// The channel; all of them where it is empty.
+    pub(crate) channel: &'static str,
+    /// Its unit.
+    pub(crate) unit: &'static str,
+    /// When [s]; else at the scene's end.
+    pub(crate) time: Option<f64>,
+    /// Its value, where it is printed elsewhere with all digits.
+    pub(crate) digits: &'static [f64],
+}
+
+/// Its value, with where it comes from and how far off it may be.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Reference {
+    /// The value.
+    pub(crate) value: Vec<f64>,
+    /// How far off it may be.
+    pub(crate) doubt: f64,
+    /// Where it comes from.
+    pub(crate) source: String,
+}
+
+/// Tolerances of two runs of the explicit method, the second one for the value.
+const EXPLICIT: [[&str; 4]; 2] = [
+    ["--integrator", "rk54", "--tolerance", "1e-12"],
+    ["--integrator", "rk54", "--tolerance", "1e-13"],
+];
+/// The longest step of the explicit method, and its first one [s].
+const LONGEST: f64 = 1e-3;
+/// Two fixed steps of index 3, the second one half of the first [s].
+const FINEST: [f64; 2] = [1e-4, 5e-5];
+/// Rounding of a number of this size.
+const ROUNDING: f64 = 1e-15;
+
+impl Watched {
+    /// The channel in a run that reached its end.
+    fn value(&self, figures: &Figures) -> Option<Vec<f64>> {
+        if self.channel.is_empty() {
+            return Some(figures.outputs.values().flatten().copied().collect());
+        }
+        figures.outputs.get(self.channel).cloned()
+    }
+
+    /// What is measured, in words.
+    pub(crate) fn label(&self) -> String {
+        let channel = if self.channel.is_empty() { "all channels" } else { self.channel };
+        format!("error of {channel} [{}]", self.unit)
+    }
+
+    /// The reference: printed digits, else an independent formulation and integrator, else extrapolation of fixed steps.
+    ///
+    /// # Errors
+    ///
+    /// Why the runs cannot be made.
+    pub(crate) fn reference(&self, lab: &Lab<'_>) -> Result<Option<Reference>, String> {
+        if !self.digits.is_empty() {
+            let (value, source) = (self.digits.to_vec(), "printed with all digits".to_owned());
+            let doubt = ROUNDING * norm(&value);
+            return Ok(Some(Reference { value, doubt, source }));
+        }
+        let explicit = EXPLICIT.each_ref().map(|arguments| Case {
+            arguments,
+            ..Case::fixed(self.scene, "recursive", LONGEST).lasting(self.time)
+        });
+        if let Some([a, b]) = self.pair(lab, &explicit)? {
+            let doubt = distance(&a, &b).max(ROUNDING * norm(&b));
+            let source = "recursive, explicit Runge-Kutta at 1e-13".to_owned();
+            return Ok(Some(Reference { value: b, doubt, source }));
+        }
+        let fixed = FINEST.map(|step| Case::fixed(self.scene, "index-3", step).lasting(self.time));
+        let Some([a, b]) = self.pair(lab, &fixed)? else { return Ok(None) };
+        let value: Vec<_> = a.iter().zip(&b).map(|(a, b)| (4.0 * b - a) / 3.0).collect();
+        let doubt = distance(&value, &b);
+        let source = format!("index 3 at {:e} and {:e} s, extrapolated", FINEST[0], FINEST[1]);
+        Ok(Some(Reference { value, doubt, source }))
+    }
+
+    /// The values of two runs, where both reach their end.
+    fn pair(&self, lab: &Lab<'_>, cases: &[Case; 2]) -> Result<Option<[Vec<f64>; 2]>, String> {
+        let runs = lab.measure(cases, 1)?;
+        let value = |run: &Run| run.figures().and_then(|figures| self.value(figures));
+        Ok(value(&runs[0]).zip(value(&runs[1])).map(<[_; 2]>::from))
+    }
+
+    /// Measures cases, with their true errors.
+    ///
+    /// # Errors
+    ///
+    /// Why a case cannot be run at all.
+    pub(crate) fn measure(
+        &self,
+        lab: &Lab<'_>,
+        reference: &Reference,
+        cases: &[Case],
+        repeats: u32,
+    ) -> Result<Vec<Run>, String> {
+        let mut runs = lab.measure(cases, repeats)?;
+        for run in &mut runs {
+            let value = run.figures().and_then(|figures| self.value(figures));
+            run.true_error = value.map(|value| distance(&value, &reference.value));
+        }
+        Ok(runs)
+    }
+
+    /// A run of index 3 until the watched time.
+    pub(crate) fn case(&self, rule: Rule, steps: [f64; 2]) -> Case {
+        Case::variable(self.scene, "index-3", rule, steps).lasting(self.time)
+    }
+}
+
+impl Reference {
+    /// Where it comes from and how far off it may be, as a sentence.
+    pub(crate) fn told(&self, watched: &Watched) -> String {
+        let when = watched.time.map_or("the end".to_owned(), |t| format!("{t} s"));
+        let channel = if watched.channel.is_empty() { "all channels" } else { watched.channel };
+        format!(
+            "The true error is the distance of {channel} at {when} from its reference ({}), which is known to {} {}.",
+            self.source,
+            error(self.doubt),
+            watched.unit
+        )
+    }
+}
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// Distance of two values; of different lengths, none that is known.
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    let apart: Vec<_> = a.iter().zip(b).map(|(a, b)| a - b).collect();
+    if a.len() == b.len() { norm(&apart) } else { f64::NAN }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fake;
+    use super::*;
+
+    const TIP: Watched = Watched {
+        scene: "double-pendulum",
+        channel: "tip",
+        unit: "m",
+        time: Some(3.0),
+        digits: &[1.0, -2.0],
+    };
+
+    #[test]
+    fn printed_digits_come_before_runs() {
+        fake::with_lab(|lab| {
+            let printed = TIP.reference(lab).unwrap().unwrap();
+            assert_eq!(
+                (printed.value.as_slice(), printed.source.as_str()),
+                (TIP.digits, "printed with all digits")
+            );
+            let run = Watched { digits: &[], ..TIP }.reference(lab).unwrap().unwrap();
+            assert!(run.source.contains("Runge-Kutta") && run.doubt < 1e-10, "{run:?}");
+            // The made-up vehicle has no tree.
+            let stairs = Watched { scene: "iltis-stairs", channel: "nose", digits: &[], ..TIP };
+            let extrapolated = stairs.reference(lab).unwrap().unwrap();
+            assert!(extrapolated.source.contains("extrapolated"));
+            assert!(extrapolated.told(&stairs).contains("nose at 3 s"));
+        });
+    }
+
+    #[test]
+    fn distances_need_equal_lengths() {
+        assert!((distance(&[3.0, 0.0], &[0.0, 4.0]) - 5.0).abs() < 1e-15);
+        assert!(distance(&[1.0], &[1.0, 2.0]).is_nan());
+    }
+}

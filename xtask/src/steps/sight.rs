@@ -1,0 +1,186 @@
+//! Does a rule see the error? How the true error follows the tolerance, and what it is at equal time.
+
+use super::case::size;
+use super::fit::{between, continued, median, rises, slope};
+use super::section::Section;
+use crate::tell::ratio;
+
+/// How much larger the error may be than that of the estimate at equal time before a rule is said not to see it.
+const BLIND: f64 = 10.0;
+/// The least power of the tolerance that the error of a rule follows that sees it.
+const FLAT: f64 = 0.15;
+/// Above so many times the doubt of the reference an error is judged.
+const ABOVE_DOUBT: f64 = 10.0;
+
+/// What a rule sees of the error in a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Sight {
+    scene: &'static str,
+    rule: &'static str,
+    /// The power of the tolerance that the error follows; none where runs came to no end.
+    power: Option<f64>,
+    /// Tolerances at which the error is more than twice that of the next looser one.
+    rises: Vec<f64>,
+    /// The error at equal time, by that of the estimate.
+    excess: Option<f64>,
+}
+
+impl Sight {
+    /// From points (tolerance, error) in order from loose to tight, and how far off the reference may be.
+    pub(crate) fn new(
+        scene: &'static str,
+        rule: &'static str,
+        points: &[[f64; 2]],
+        doubt: f64,
+    ) -> Self {
+        let rises = rises(points, ABOVE_DOUBT * doubt);
+        Self { scene, rule, power: slope(points), rises, excess: None }
+    }
+
+    /// Beside the estimate: points (time, error) of both. Where their times do not meet, the line of the estimate is continued.
+    pub(crate) fn beside(self, points: &[[f64; 2]], estimate: &[[f64; 2]]) -> Self {
+        type Line = fn(&[[f64; 2]], f64) -> Option<f64>;
+        let excess = |line: Line| {
+            median(points.iter().filter_map(|[s, e]| Some(e / line(estimate, *s)?)).collect())
+        };
+        Self { excess: excess(between).or_else(|| excess(continued)), ..self }
+    }
+
+    /// How the error follows the tolerance, as a sentence.
+    pub(crate) fn behaviour(&self) -> String {
+        let Some(power) = self.power else {
+            return format!("With {} too few runs came to their end.", self.named());
+        };
+        let told = if self.rises.is_empty() {
+            "each error is at most twice that of the next looser tolerance".to_owned()
+        } else {
+            format!(
+                "the error is more than twice that of the next looser tolerance at {}",
+                self.risen()
+            )
+        };
+        format!("With {} it follows the tolerance to the power {power:.2}; {told}.", self.named())
+    }
+
+    /// What the error is at equal time, as a sentence; empty where it is not known.
+    pub(crate) fn at_equal_time(&self) -> String {
+        self.excess.map_or(String::new(), |excess| {
+            let named = self.named();
+            format!(
+                "With {named} it is {} times that with the estimate at equal time.",
+                ratio(excess)
+            )
+        })
+    }
+
+    /// Why the rule does not see the error; `None` where it does.
+    fn blindness(&self) -> Option<String> {
+        let Some(power) = self.power else { return Some("too few runs came to their end".into()) };
+        if power < FLAT {
+            return Some(format!("the error follows the tolerance to the power {power:.2} only"));
+        }
+        let excess = self.excess.filter(|excess| *excess > BLIND)?;
+        Some(format!("the error is {} times that with the estimate at equal time", ratio(excess)))
+    }
+
+    fn named(&self) -> String {
+        if self.rule == "both" { "both".into() } else { format!("the {}", self.rule) }
+    }
+
+    fn risen(&self) -> String {
+        self.rises.iter().copied().map(size).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// All scenes and rules in one table, whether errors fall, and which scenes the energy does not see.
+pub(crate) fn tell(sights: &[Sight], section: &mut Section) {
+    section.heading("All scenes");
+    let row = |sight: &Sight| {
+        vec![
+            format!("{}, {}", sight.scene, sight.rule),
+            sight.power.map_or("none".into(), |power| format!("{power:.2}")),
+            if sight.rises.is_empty() { "nowhere".into() } else { sight.risen() },
+            sight.excess.map_or(String::new(), ratio),
+        ]
+    };
+    let head = [
+        "scene and rule",
+        "power of the tolerance",
+        "error rises at",
+        "error / that of the estimate",
+    ];
+    section.table(&head, sights.iter().map(row).collect());
+    for rule in ["estimate", "both"] {
+        let of_rule: Vec<_> = sights.iter().filter(|sight| sight.rule == rule).collect();
+        let rising =
+            of_rule.iter().filter(|sight| !sight.rises.is_empty() || sight.power.is_none());
+        let named: Vec<_> =
+            rising.map(|sight| format!("{} at {}", sight.scene, sight.risen())).collect();
+        let what = format!(
+            "tolerances on {}: each error is at most twice that of the next looser tolerance",
+            called(rule)
+        );
+        let measured = match named.len() {
+            0 => format!("in all {} scenes", of_rule.len()),
+            _ => format!("not in {}", named.join("; ")),
+        };
+        section.claim(what, measured, (!of_rule.is_empty()).then_some(named.is_empty()));
+    }
+    let energy = sights.iter().filter(|sight| sight.rule == "energy");
+    let unseen =
+        energy.filter_map(|sight| Some(format!("{}: {}.", sight.scene, sight.blindness()?)));
+    let unseen: Vec<_> = unseen.collect();
+    section.words(if unseen.is_empty() {
+        "The change of the energy sees the error in every scene.".to_owned()
+    } else {
+        format!("Where the change of the energy does not see the error: {}", unseen.join(" "))
+    });
+}
+
+fn called(rule: &str) -> &str {
+    if rule == "both" { "estimate and energy" } else { "the estimate" }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FALLING: [[f64; 2]; 3] = [[1e-3, 1e-2], [1e-4, 1e-3], [1e-5, 1e-4]];
+
+    #[test]
+    fn behaviour_names_where_an_error_rises() {
+        let told = Sight::new("andrews", "estimate", &FALLING, 1e-12).behaviour();
+        assert!(told.contains("power 1.00") && told.contains("at most twice"), "{told}");
+        let rising = [[1e-3, 1e-2], [1e-4, 3e-2], [1e-5, 1e-4]];
+        let told = Sight::new("andrews", "both", &rising, 1e-12).behaviour();
+        assert!(told.starts_with("With both it") && told.contains("tolerance at 1e-4"), "{told}");
+        assert!(Sight::new("andrews", "both", &[], 1e-12).behaviour().contains("too few"));
+    }
+
+    #[test]
+    fn a_scene_that_the_energy_does_not_see_is_named() {
+        let sight = |points: &[[f64; 2]]| Sight::new("andrews", "energy", points, 1e-12);
+        let estimate = [[0.1, 1e-2], [1.0, 1e-4]];
+        let slow = sight(&FALLING).beside(&[[1.0, 5e-3]], &estimate);
+        assert!(slow.blindness().unwrap().contains("50.0 times"));
+        assert_eq!(sight(&FALLING).beside(&[[1.0, 2e-4]], &estimate).blindness(), None);
+        let apart = sight(&FALLING).beside(&[[10.0, 2e-4]], &estimate);
+        assert!(apart.blindness().unwrap().contains("200 times"), "the line is continued");
+        let flat = sight(&[[1e-3, 1e-2], [1e-5, 1e-2]]);
+        assert!(flat.blindness().unwrap().contains("power 0.00"));
+        let mut section = Section::new("B", "title");
+        tell(&[flat], &mut section);
+        assert!(section.text().contains("does not see the error: andrews"));
+    }
+
+    #[test]
+    fn a_rising_error_fails_its_claim() {
+        let rising = [[1e-3, 1e-2], [1e-4, 3e-2]];
+        let sights =
+            [FALLING.as_slice(), &rising].map(|p| Sight::new("andrews", "estimate", p, 1e-12));
+        let mut section = Section::new("B", "title");
+        tell(&sights, &mut section);
+        let holds: Vec<_> = section.claims().map(|claim| claim.holds).collect();
+        assert_eq!(holds, [Some(false), None]);
+    }
+}

@@ -1,0 +1,270 @@
+//! The report's own experiment: the front suspension over its bump, with fixed steps and with steps and index of its own
+//! (Figures 6 and 7 of the report, Figures 10 to 12 of its second publication).
+
+mod histories;
+
+use super::case::{Case, Rule, size};
+use super::draw::work_precision;
+use super::fit::span;
+use super::lab::{Lab, Run};
+use super::rows::{HEAD, row_with, told};
+use super::section::Section;
+use crate::tell::{self, error, ratio, seconds};
+
+/// The scenes: the damper as printed there, and the suspension whose rubber stop the bump hits.
+const SCENES: [&str; 2] = ["iltis-suspension-halved", "iltis-suspension-stiff"];
+/// Step of the report's run in index 1 [s].
+const FINE: f64 = 5e-4;
+/// Step of the report's run in index 3, and the largest one of the variable run [s].
+const COARSE: f64 = 1e-2;
+/// First step of the variable run [s].
+const FIRST: f64 = 1e-3;
+/// The report's tolerance.
+const TOLERANCE: f64 = 1e-6;
+/// Tolerances that are tried.
+const TOLERANCES: [f64; 3] = [1e-5, TOLERANCE, 1e-7];
+/// How often each case is run for its time.
+const REPEATS: u32 = 5;
+/// CPU times that the report prints, in the order of its runs [s].
+const PRINTED: [f64; 3] = [8.41, 36.07, 155.0];
+
+/// Largest share of the time of index 1 that the claim allows.
+const QUARTER: f64 = 0.25;
+/// Largest share of the time of the cheapest fixed step that the claim allows.
+const CHEAPEST: f64 = 0.7;
+
+/// Runs the experiment.
+pub(crate) fn run(lab: &Lab<'_>) -> Result<Section, String> {
+    let mut section =
+        Section::new("F6", "Front suspension over a bump: the report's own experiment");
+    section.words(
+        "The suspension settles from rest off its equilibrium, and meets a bump from 3.0 to 3.2 s. The report runs it in index 3 with \
+        a fixed step of 1e-2 s, with steps and index of its own (first step 1e-3 s, tolerances 1e-6 and 1e-8 of the energy turned \
+        over), and in index 1 with a fixed step of 5e-4 s. The rule of energy also steers the step between its two tolerances; as \
+        printed, the step stays there. Times are the least of 5 runs in turn; the report's are those of its \
+        authors' machine.",
+    );
+    for scene in SCENES {
+        section.heading(scene);
+        experiment(lab, scene, &mut section)?;
+    }
+    Ok(section)
+}
+
+fn multi(scene: &'static str, tolerance: f64) -> Case {
+    Case::variable(scene, "multi-index", Rule::Energy(tolerance), [FIRST, COARSE])
+}
+
+/// The report's three runs.
+fn printed(scene: &'static str) -> [Case; 3] {
+    [
+        Case::fixed(scene, "index-3", COARSE),
+        multi(scene, TOLERANCE),
+        Case::fixed(scene, "index-1", FINE),
+    ]
+}
+
+/// Every case of a scene: the report's three, other tolerances, and the sweep of fixed steps about that of index 1.
+fn cases(scene: &'static str, quick: bool) -> Vec<Case> {
+    let mut cases = printed(scene).to_vec();
+    let tolerances = TOLERANCES.into_iter().filter(|t| !quick || *t >= TOLERANCE);
+    for tolerance in tolerances {
+        let ours = multi(scene, tolerance);
+        let as_printed = Case { rule: Rule::Printed(tolerance), ..ours.clone() };
+        cases.extend([ours, as_printed].into_iter().filter(|case| !printed(scene).contains(case)));
+    }
+    for quarter in -2..=8 {
+        let step = FINE * 2_f64.powf(f64::from(quarter) / 4.0);
+        let both = ["index-1", "index-3"].map(|formulation| Case::fixed(scene, formulation, step));
+        cases.extend(both.into_iter().filter(|case| !printed(scene).contains(case)));
+    }
+    cases
+}
+
+fn experiment(lab: &Lab<'_>, scene: &'static str, section: &mut Section) -> Result<(), String> {
+    let mut runs = lab.measure(&cases(scene, lab.quick), REPEATS)?;
+    extend(lab, scene, &mut runs)?;
+    let [_, multi, index_1, ..] = &runs[..] else { return Err("too few runs".into()) };
+    report(&runs[..3], section);
+    claims(multi, index_1, &runs, section);
+    at_equal_error(&runs, section);
+    let records = printed(scene).map(|case| lab.record(&case, &["wheel.z"]));
+    let [coarse, variable, fine] = records;
+    histories::draw([coarse?, variable?, fine?], section);
+    section.figure(
+        &work_precision(&runs, "largest energy error [J]", Run::energy_error),
+        "Largest energy error over CPU time, of every run: lower and further left is better.",
+    );
+    section.runs.extend(runs);
+    Ok(())
+}
+
+/// Fixed steps are halved until one formulation has an error as small as that of every variable run, so that each is judged.
+fn extend(lab: &Lab<'_>, scene: &'static str, runs: &mut Vec<Run>) -> Result<(), String> {
+    let most = if lab.quick { 1 } else { 4 };
+    let is_variable = |run: &&Run| run.case.rule != Rule::Fixed;
+    let Some([least, _]) = span(runs.iter().filter(is_variable).filter_map(Run::energy_error))
+    else {
+        return Ok(());
+    };
+    let finest = FINE / std::f64::consts::SQRT_2;
+    for halvings in 1..=most {
+        if cheapest(runs, least).is_some() {
+            break;
+        }
+        let step = finest * 2_f64.powi(-halvings);
+        let both = ["index-1", "index-3"].map(|f| Case::fixed(scene, f, step));
+        runs.extend(lab.measure(&both, REPEATS)?);
+    }
+    Ok(())
+}
+
+/// The cheapest fixed-step run whose largest energy error is at most this [J].
+fn cheapest(runs: &[Run], at_most: f64) -> Option<&Run> {
+    let fixed = runs.iter().filter(|run| run.case.rule == Rule::Fixed);
+    let reach = fixed.filter(|run| run.energy_error().is_some_and(|e| e <= at_most));
+    reach.filter(|run| run.seconds().is_some()).min_by(|a, b| {
+        let [a, b] = [a, b].map(|run| run.seconds().unwrap_or(f64::INFINITY));
+        a.total_cmp(&b)
+    })
+}
+
+/// The report's three runs beside its figures.
+fn report(runs: &[Run], section: &mut Section) {
+    let head = [&HEAD[..], &["CPU / index 1", "report's CPU [s]", "report's ratio"]].concat();
+    let slowest = runs.last().and_then(Run::seconds);
+    let rows = runs.iter().zip(PRINTED).map(|(run, printed)| {
+        let share = run.seconds().zip(slowest).map(|(a, b)| a / b);
+        let last = PRINTED[PRINTED.len() - 1];
+        row_with(run, [told(share, ratio), printed.to_string(), ratio(printed / last)])
+    });
+    section.table(&head, rows.collect());
+}
+
+fn claims(multi: &Run, index_1: &Run, runs: &[Run], section: &mut Section) {
+    let what = format!(
+        "{}: at most 1/4 of the CPU time of index 1 at {FINE:e} s, at no larger energy error",
+        multi.case.scene
+    );
+    let (Some(ours), Some(theirs)) = (multi.figures(), index_1.figures()) else {
+        return section.claim(what, "one of the two did not reach its end".into(), None);
+    };
+    let share = ours.seconds / theirs.seconds;
+    let reaches = ours.energy_error <= theirs.energy_error;
+    let errors = format!(
+        "energy error {} J against {} J",
+        error(ours.energy_error),
+        error(theirs.energy_error)
+    );
+    section.claim(
+        what,
+        format!("ratio {}, {errors}", ratio(share)),
+        Some(share <= QUARTER && reaches),
+    );
+
+    let what = format!(
+        "{}: at most 0.7 of the CPU time of the cheapest fixed step that reaches the energy error of index 1 at {FINE:e} s",
+        multi.case.scene
+    );
+    let Some(best) = cheapest(runs, theirs.energy_error) else { return };
+    let best_seconds = best.seconds().unwrap_or(f64::INFINITY);
+    let share = ours.seconds / best_seconds;
+    let reaching = if reaches { "reaches it" } else { "does not reach it" };
+    let measured = format!(
+        "ratio {}: {} takes {} s and {reaching}, the cheapest, {}, {} s",
+        ratio(share),
+        multi.case.name(),
+        seconds(ours.seconds),
+        best.case.name(),
+        seconds(best_seconds)
+    );
+    section.claim(what, measured, Some(share <= CHEAPEST && reaches));
+}
+
+/// Each variable run beside the cheapest fixed step whose error is no larger than its own.
+fn at_equal_error(runs: &[Run], section: &mut Section) {
+    let variable: Vec<_> = runs.iter().filter(|run| run.case.rule != Rule::Fixed).collect();
+    let mut ratios = Vec::new();
+    let rows = variable.iter().map(|run| {
+        let Some(figures) = run.figures() else {
+            return vec![run.case.name(), run.outcome.reason()];
+        };
+        let mut cells =
+            vec![run.case.name(), error(figures.energy_error), seconds(figures.seconds)];
+        let best = cheapest(runs, figures.energy_error);
+        let share = best.and_then(Run::seconds).map(|s| figures.seconds / s);
+        ratios.extend(share);
+        cells.push(best.map_or("none of the sweep".into(), |best| best.case.name()));
+        cells.extend([
+            told(best.and_then(Run::energy_error), error),
+            told(best.and_then(Run::seconds), seconds),
+        ]);
+        cells.push(told(share, ratio));
+        cells
+    });
+    let rows: Vec<_> = rows.collect();
+    let head = [
+        "run",
+        "energy error [J]",
+        "CPU [s]",
+        "cheapest fixed step",
+        "its error [J]",
+        "its CPU [s]",
+        "ratio of CPU",
+    ];
+    section.table(&head, rows);
+    let within = ratios.iter().filter(|r| **r <= CHEAPEST).count();
+    let fixed = runs.iter().filter(|run| run.case.rule == Rule::Fixed);
+    let finest = fixed.map(|run| run.case.step).fold(FINE, f64::min);
+    if let Some(ends) = span(ratios.iter().copied()) {
+        section.words(format!(
+            "At equal error the variable runs take {} the time of the cheapest fixed step; at most 0.7 of it in {within} of {}. The fixed \
+            steps are those of index 1 and index 3 from {} down to {} s, most of them in ratios of the fourth root of 2.",
+            tell::ratios(ends),
+            ratios.len(),
+            size(4.0 * FINE),
+            size(finest)
+        ));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mbs::outcome::{Figures, Outcome};
+
+    const SCENE: &str = SCENES[0];
+
+    fn of(case: Case, energy_error: f64, seconds: f64) -> Run {
+        let figures = Figures { energy_error, seconds, ..Figures::default() };
+        Run { case, outcome: Outcome::Completed(figures), true_error: None }
+    }
+
+    #[test]
+    fn the_sweep_has_each_step_once_and_the_report_s_runs_first() {
+        let cases = cases(SCENE, false);
+        assert_eq!(cases[..3], printed(SCENE));
+        assert_eq!(cases.len(), 3 + 2 + 3 + 2 * 11 - 1);
+        let twice = cases.iter().enumerate().any(|(i, case)| cases[..i].contains(case));
+        assert!(!twice, "no case is run twice");
+    }
+
+    #[test]
+    fn claims_are_judged_beside_the_cheapest_step_that_reaches_the_error() {
+        let fixed = |formulation, step, e, s| of(Case::fixed(SCENE, formulation, step), e, s);
+        let coarse = fixed("index-3", 1e-3, 2e-3, 0.2);
+        let runs = [fixed("index-1", FINE, 1e-3, 1.0), fixed("index-3", FINE, 9e-4, 0.5), coarse];
+        assert_eq!(cheapest(&runs, 1e-3), Some(&runs[1]));
+        assert_eq!(cheapest(&runs, 1e-4), None);
+        let judged = |energy_error, seconds| {
+            let mut section = Section::new("F6", "title");
+            let multi = of(multi(SCENE, TOLERANCE), energy_error, seconds);
+            claims(&multi, &runs[0], &runs, &mut section);
+            section.claims().map(|claim| claim.holds).collect::<Vec<_>>()
+        };
+        assert_eq!(judged(1e-3, 0.2), [Some(true), Some(true)]);
+        assert_eq!(judged(2e-3, 0.2), [Some(false), Some(false)], "the error is too large");
+        assert_eq!(judged(1e-3, 0.4), [Some(false), Some(false)], "too slow");
+        assert_eq!(judged(1e-3, 0.3), [Some(false), Some(true)]);
+    }
+}
