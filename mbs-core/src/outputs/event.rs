@@ -210,12 +210,12 @@ impl<T: Real> Watched<T> {
     }
 
     /// The share of a step of length `h` [s] after which a gap closes at the rate of its beginning, where a stiff contact has kept
-    /// it from going on: the cubic then follows the contact, and not the way to it. Else one.
+    /// it from going on: the cubic then follows the contact, and not the way to it. Else infinite.
     fn free(&self, [begin, end]: [Gap<T>; 2], h: f64) -> f64 {
         let [begin, rate, end] = [begin.value, begin.rate, end.value].map(T::to_f64);
         let on = begin + rate * h;
         let is_held = begin > self.band && on < 0.0 && end > HELD * on;
-        if is_held { (begin + 0.5 * self.band) / (begin - on) } else { 1.0 }
+        if is_held { (begin + 0.5 * self.band) / (begin - on) } else { f64::INFINITY }
     }
 
     /// The share of a step of length `h` [s] in which a contact that begins with it is resolved, where it is not in the whole.

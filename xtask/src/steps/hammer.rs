@@ -9,10 +9,17 @@ use super::section::Section;
 use crate::tell::{error, ratio, seconds};
 
 /// What is watched.
-pub(crate) const WATCHED: Watched =
-    Watched { scene: "hammer-blow", channel: "", unit: "m, rad", time: None, digits: &[] };
+///
+/// Half way back from the blow, by the closed form in the scene's file.
+pub(crate) const WATCHED: Watched = Watched {
+    scene: "hammer-blow",
+    channel: "angle",
+    unit: "rad",
+    time: Some(7.5),
+    digits: &[0.565_606_072_417_484],
+};
 /// First and largest step of the variable runs [s].
-const STEPS: [f64; 2] = [1e-3, 2e-2];
+const STEPS: [f64; 2] = [1e-3, 5e-2];
 /// The largest fixed step [s].
 const COARSEST: f64 = 1e-2;
 /// How often it is halved at most.
