@@ -11,7 +11,7 @@ use crate::chart::Series;
 use crate::tell::{error, step};
 
 /// What is watched, with the first and the largest step [s].
-const SCENES: [(Watched, [f64; 2]); 5] = [
+const SCENES: [(Watched, [f64; 2]); 6] = [
     (
         Watched {
             scene: "double-pendulum",
@@ -62,6 +62,17 @@ const SCENES: [(Watched, [f64; 2]); 5] = [
             digits: &[],
         },
         [1e-3, 0.062],
+    ),
+    (
+        // Before the blow: a spring alone, whose energy every step keeps.
+        Watched {
+            scene: "hammer-blow",
+            channel: "angle",
+            unit: "rad",
+            time: Some(4.0),
+            digits: &[0.247_213_592_867_112],
+        },
+        [1e-3, 0.08],
     ),
 ];
 /// A rule for each tolerance, with its name on the command line, its name here, and its style.
