@@ -2,6 +2,8 @@
 //! starts.
 #![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
+#[path = "common/allocations.rs"]
+mod allocations;
 mod common;
 
 use common::scene;
@@ -424,4 +426,30 @@ fn settings_of_the_control_are_taken_from_the_scene_and_refused_where_they_canno
     let unknown = Overrides { step_control: Some("enrgy".to_owned()), ..with("index-3") };
     assert!(refused(unknown).contains("energy"));
     assert!(refused(Overrides { step_max: Some(0.0), ..with("multi-index") }).contains("step_max"));
+}
+
+#[test]
+fn a_controlled_step_allocates_nothing_even_when_it_is_rejected_or_ends_at_an_event() {
+    let scene = scene("iltis-suspension-stiff");
+    for formulation in &mbs::FORMULATIONS[1..] {
+        let overrides = Overrides {
+            error_tolerance: Some(1e-4),
+            energy_tolerance: Some([1e-5, 1e-7]),
+            step_control: Some("both".to_owned()),
+            ..multi_index([1e-5, 1e-7], (1e-3, 1e-2))
+        };
+        let overrides = Overrides { formulation: Some((*formulation).to_owned()), ..overrides };
+        let settings = Settings::new(&scene, &overrides).expect("the settings are built");
+        let mut simulation = mbs::Simulation::<f64, 3>::new(&scene, &settings).expect("it starts");
+        simulation.advance(1.0).expect("it steps");
+        let (mut rejected, mut landed) = (0, 0);
+        let before = allocations::count();
+        for _ in 0..300 {
+            let accepted = simulation.advance(6.0).expect("it steps");
+            rejected += accepted.rejected;
+            landed += u32::from(accepted.limit == mbs::core::control::Limit::Event);
+        }
+        assert_eq!(allocations::count(), before, "{formulation}");
+        assert!(rejected > 5 && landed > 1, "{formulation}: {rejected} rejected, {landed} landed");
+    }
 }
