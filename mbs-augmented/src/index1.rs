@@ -115,13 +115,21 @@ pub fn settle<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model.evaluate_bias(&w.q, &w.v, &mut w.terms);
     let goal = norm_inf(&s.a).max(T::ONE) * options.tolerance;
     let mut last = T::ZERO;
-    for iterations in 1..=MOST_SETTLING {
+    let mut iterations = 0;
+    while iterations < MOST_SETTLING {
+        iterations += 1;
         let correction = correct(model, w)?;
-        if correction <= goal || (iterations > 1 && correction > last * T::HALF) {
+        let is_slow = iterations > 1 && correction > last * T::HALF;
+        last = correction;
+        if correction <= goal || is_slow {
             break;
         }
-        last = correction;
     }
+    if !(last <= norm_inf(&w.a).max(T::ONE) * options.tolerance.sqrt()) {
+        let (correction, unknown) = ((last / length).to_f64(), largest(&w.f));
+        return Err(StepError::NotConverged { iterations, correction, unknown });
+    }
+    w.settled = w.counts;
     w.sigma.fill(T::ZERO);
     let n = w.f.len();
     s.v[..n].copy_from_slice(&w.v[..n]);

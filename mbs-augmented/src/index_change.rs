@@ -36,7 +36,8 @@ pub struct IndexChange<T> {
     /// Present index.
     index: Index,
     changes: u32,
-    /// The trial before [s].
+    /// The last trial, and the last step that was kept [s].
+    tried: T,
     last: T,
 }
 
@@ -52,6 +53,7 @@ impl<T: Real> IndexChange<T> {
             patience: 4,
             index: Index::Three,
             changes: 0,
+            tried: T::ZERO,
             last: T::ZERO,
         }
     }
@@ -69,7 +71,7 @@ impl<T: Real> IndexChange<T> {
     }
 
     /// Chooses the index for a trial of length `h` [s] after `reductions` of it in a row. Where the state cannot be made
-    /// consistent the index stays. Returns whether it changed, and the state with it.
+    /// consistent the index stays, and the workspace goes back to what it kept. Returns whether it changed, and the state with it.
     pub fn prepare<M: Model<T>, S: SpdSolver<T>>(
         &mut self,
         model: &M,
@@ -79,19 +81,31 @@ impl<T: Real> IndexChange<T> {
         w: &mut Workspace<T, S>,
     ) -> bool {
         let is_grown = reductions == 0 && h > self.last;
-        self.last = h;
         let wanted = match self.index {
             Index::Three if h < self.threshold || reductions >= self.patience => Index::One,
             Index::One if is_grown && h > self.threshold * self.hysteresis => Index::Three,
             same => same,
         };
-        let is_changed =
-            wanted != self.index && index1::settle(model, length, &self.index1, s, w).is_ok();
-        if is_changed {
-            self.index = wanted;
-            self.changes += 1;
+        if wanted == self.index {
+            return false;
         }
-        is_changed
+        if index1::settle(model, length, &self.index1, s, w).is_err() {
+            w.undo();
+            return false;
+        }
+        self.index = wanted;
+        self.changes += 1;
+        true
+    }
+
+    /// A trial of length `h` [s] has come to its end.
+    pub fn tried(&mut self, h: T) {
+        self.tried = h;
+    }
+
+    /// The last trial is kept: the next step may be longer than it.
+    pub fn keep(&mut self) {
+        self.last = self.tried;
     }
 
     /// One step of length `h` [s] in the present index.

@@ -38,11 +38,10 @@ impl<T: Real> MultiIndex<T> {
         model.evaluate(&s.q, &mut terms);
         model.evaluate_forces(&s.q, &s.v, &s.memory, &mut terms);
         let energies = [model.kinetic_energy(&s.v), model.potential_energy(&s.q, &terms), s.work];
-        let begun = model.kinetic_energy(&s.a) * first * first;
         let invariant = Invariant::new(energies.map(T::to_f64), ground, T::EPSILON.to_f64());
         Self {
             driver: Driver::new(rules, first),
-            invariant: invariant.begun_with(begun.to_f64()),
+            invariant,
             estimate: rules.error.map(|_| LocalError::new(&change.index3.integrator)),
             change,
             saved: s.clone(),
@@ -78,7 +77,8 @@ impl<T: Real> MultiIndex<T> {
         w.keep();
         let Self { change, driver, invariant, estimate, saved } = self;
         let mut trial = Trial { model, length, change, estimate: *estimate, s, saved, w };
-        driver.step(&mut trial, invariant, rest)
+        let t = trial.s.t;
+        driver.step(&mut trial, invariant, (t, rest))
     }
 }
 
@@ -110,7 +110,9 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Stepper<T> for Trial<'_, T, M, S> {
         let potential = self.model.potential_energy(&s.q, self.w.terms());
         let energies = [self.model.kinetic_energy(&s.v), potential, s.work].map(T::to_f64);
         let error = self.estimate.map_or(T::ZERO, |e| e.of(h, &self.saved.a, &s.a) / self.length);
-        Ok(Attempt { report, t: s.t, energies, error: error.to_f64() })
+        let acceleration_energy = self.model.kinetic_energy(&s.a).to_f64();
+        self.change.tried(h);
+        Ok(Attempt { report, t: s.t, energies, error: error.to_f64(), acceleration_energy })
     }
 
     fn undo(&mut self) {
@@ -118,5 +120,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Stepper<T> for Trial<'_, T, M, S> {
         self.w.undo();
     }
 
-    fn keep(&mut self, _: bool) {}
+    fn keep(&mut self, _: bool) {
+        self.change.keep();
+    }
 }

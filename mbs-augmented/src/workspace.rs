@@ -44,6 +44,8 @@ pub struct Workspace<T, S> {
     /// Energy that the penalties held after the first correction [J].
     pub(crate) penalty_energy: T,
     kept: Memory<T>,
+    /// What a change of index did before the step.
+    pub(crate) settled: Counts,
 }
 
 /// What one step tells the next, beside the state.
@@ -91,6 +93,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             counts: Counts::default(),
             penalty_energy: T::ZERO,
             kept: Memory { boost: T::ONE, rho: T::ZERO, probe: vec![T::ONE; m] },
+            settled: Counts::default(),
         }
     }
 
@@ -151,10 +154,15 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         add_work(model, rule.dt, s, &mut self.terms);
     }
 
-    /// What a step did.
-    pub(crate) fn report(&self, newton: (u32, T, Stop), violation: [T; 3]) -> StepReport<T> {
+    /// What a step did, with the change of index before it.
+    pub(crate) fn report(&mut self, newton: (u32, T, Stop), violation: [T; 3]) -> StepReport<T> {
+        let settled = core::mem::take(&mut self.settled);
+        let counts = Counts {
+            factorizations: self.counts.factorizations + settled.factorizations,
+            solves: self.counts.solves + settled.solves,
+        };
         let penalty_energy = self.penalty_energy;
-        StepReport { penalty_energy, ..StepReport::of_newton(newton, self.counts, violation) }
+        StepReport { penalty_energy, ..StepReport::of_newton(newton, counts, violation) }
     }
 
     /// 1/2 x^T s x with the penalties s in mass units [P2 (29)].

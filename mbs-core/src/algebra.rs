@@ -146,8 +146,8 @@ pub fn norm_inf<T: Real>(x: &[T]) -> T {
     let mut largest = T::ZERO;
     for &xi in x {
         let size = xi.abs();
-        // Written so that a NaN is kept, not lost.
-        if !(size <= largest) {
+        // A NaN is taken, and then nothing is larger.
+        if size > largest || !(size >= T::ZERO) {
             largest = size;
         }
     }

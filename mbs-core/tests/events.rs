@@ -358,9 +358,10 @@ stiffness = 80000.0
 
 #[test]
 fn a_contact_that_starts_with_a_step_too_long_for_it_is_told_with_the_share_that_resolves_it() {
-    // Of the 0.1 m that 1 m/s would give in 0.1 s it goes this far: 1 / (1 + x^2), x = w h / 2, by the trapezoidal rule; w h is one
-    // in 0.5 / x of the step.
-    for (way, share) in [(0.02, Some(0.25)), (0.05, Some(0.5)), (0.09, None), (-0.03, Some(0.02))] {
+    // Of the 0.1 m that 1 m/s would give in 0.1 s it goes this far: 1 / (1 + x^2), x = w h / 2, by the trapezoidal rule; w h is 0.9
+    // in 0.45 / x of the step.
+    for (way, share) in [(0.02, Some(0.225)), (0.05, Some(0.45)), (0.09, None), (-0.03, Some(0.02))]
+    {
         let course = move |t: f64| {
             if t > 0.0 {
                 vec![[[-way, 0.0, 0.0], [0.3, 0.0, 0.0]]]

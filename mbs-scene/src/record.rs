@@ -1,5 +1,6 @@
 //! What a run leaves behind, as plain data: channels, pictures, energies, counts.
 
+use crate::write::ControlSummary;
 use mbs_core::scene::{Dimension, JointKind, Quantity, Scene};
 
 /// A recorded channel: its name and its components.
@@ -256,6 +257,8 @@ pub struct StepSeries {
     pub energy_errors: Vec<f64>,
     /// Each step.
     pub rows: Vec<StepRow>,
+    /// Counts over all steps, those that are not kept among them.
+    pub totals: ControlSummary,
 }
 
 /// A step; or several in a row where they are thinned: the shortest, and the largest of the rest.
@@ -294,10 +297,11 @@ impl StepRow {
             rejected: self.rejected + before.rejected,
             energy_change: if change[0].abs() < change[1].abs() { change[1] } else { change[0] },
             penalty_energy: self.penalty_energy.max(before.penalty_energy),
-            error_estimate: self
-                .error_estimate
-                .map(|x| before.error_estimate.map_or(x, |y| x.max(y))),
-            limit: self.limit,
+            error_estimate: [self, before]
+                .iter()
+                .filter_map(|row| row.error_estimate)
+                .reduce(f64::max),
+            limit: self.limit.or(before.limit),
         }
     }
 }

@@ -8,7 +8,7 @@ use mbs_core::Real;
 use mbs_core::control::{
     Accepted, Attempt, Crossing, Driver, EnergyRule, Invariant, LocalError, Rules, Stepper,
 };
-use mbs_core::model::State;
+use mbs_core::model::{Model, State};
 use mbs_core::natural::{ModelError, NaturalModel};
 use mbs_core::outputs::Events;
 use mbs_core::scene::Scene;
@@ -69,7 +69,8 @@ where
         engine.keep();
         let Self { driver, estimate, events, saved } = self;
         let mut trial = Trial { model, engine, state, saved, estimate: *estimate, events };
-        driver.step(&mut trial, invariant, rest)
+        let t = trial.state.t;
+        driver.step(&mut trial, invariant, (t, rest))
     }
 }
 
@@ -106,7 +107,10 @@ where
         let error = self
             .estimate
             .map_or(T::ZERO, |estimate| estimate.of(h, &self.saved.a, &self.state.a) / length);
-        Ok(Attempt { report, t: self.state.t, energies, error: error.to_f64() })
+        let acceleration_energy = self.model.kinetic_energy(&self.state.a).to_f64();
+        self.engine.tried(h);
+        let (t, error) = (self.state.t, error.to_f64());
+        Ok(Attempt { report, t, energies, error, acceleration_energy })
     }
 
     fn undo(&mut self) {
@@ -121,6 +125,7 @@ where
     }
 
     fn keep(&mut self, at_event: bool) {
+        self.engine.accept();
         if let Some(events) = self.events {
             events.accept(self.state);
         }

@@ -145,6 +145,20 @@ where
         }
     }
 
+    /// A trial of length `dt` [s] has come to its end.
+    pub(crate) fn tried(&mut self, dt: T) {
+        if let Self::Augmented { index: Index::Both(change), .. } = self {
+            change.tried(dt);
+        }
+    }
+
+    /// The last trial is the step.
+    pub(crate) fn accept(&mut self) {
+        if let Self::Augmented { index: Index::Both(change), .. } = self {
+            change.keep();
+        }
+    }
+
     /// Keeps what stands beside the natural state, so that steps after it can be undone.
     pub(crate) fn keep(&mut self) {
         match self {
@@ -255,9 +269,11 @@ where
 /// Options of index-1 and index-3.
 fn augmented_options<T: Real>(settings: &Settings) -> [mbs_augmented::Options<T>; 2] {
     use mbs_augmented::Options;
-    [Options::index1(), Options::index3()].map(|mut options| {
+    // One number cannot be kg and N/m: of both indices it is that of index-3.
+    let is_for = |is_index1: bool| !is_index1 || settings.formulation == Formulation::Index1;
+    [(Options::index1(), true), (Options::index3(), false)].map(|(mut options, is_index1)| {
         options.integrator = settings.integrator.coefficients();
-        if let Some(alpha) = settings.penalty {
+        if let Some(alpha) = settings.penalty.filter(|_| is_for(is_index1)) {
             options.penalty = Penalty::Fixed(T::from_f64(alpha));
             options.adaptive_penalty = false;
         }

@@ -29,7 +29,7 @@ pub use choice::{
     FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
     StepRule,
 };
-pub use engine::Engine;
+pub use engine::{Engine, Index};
 pub use modes::{Mode, Modes, Place};
 pub use run::{Outcome, Progress, run};
 pub use settings::{Overrides, Settings, SettingsError};

@@ -2,8 +2,8 @@
 //! step.
 
 use mbs_scene::{
-    Channel, ChannelSeries, EnergySeries, IterationSeries, StepRow, StepSeries, ViolationSeries,
-    ViolationSummary,
+    Channel, ChannelSeries, ControlSummary, EnergySeries, IterationSeries, StepRow, StepSeries,
+    ViolationSeries, ViolationSummary,
 };
 
 /// Rows kept at most (and one more for the end); twice as many where the number of steps is not known before.
@@ -72,9 +72,16 @@ impl Recorder {
         self.recent = step.after(&self.recent);
     }
 
+    /// The last step ends at `t` [s], whatever its rounded length says.
+    pub(crate) fn end_at(&mut self, t: f64) {
+        self.recent.t = t;
+    }
+
     /// Keeps a row; `values` are all components of all channels.
     pub(crate) fn keep(&mut self, step: &StepMark, values: &[f64]) {
-        self.marks.push(step.after(&self.recent));
+        // A step that was marked is among the recent ones; a start and a stop are not.
+        let is_marked = self.recent.step.length > 0.0 && self.recent.t == step.t;
+        self.marks.push(if is_marked { self.recent.clone() } else { step.after(&self.recent) });
         self.rows.extend_from_slice(values);
         self.recent = StepMark::default();
         if self.marks.len() as u64 > 2 * MOST_ROWS {
@@ -182,11 +189,12 @@ impl Recorder {
         }
     }
 
-    pub(crate) fn step_series(&self) -> StepSeries {
+    pub(crate) fn step_series(&self, totals: ControlSummary) -> StepSeries {
         StepSeries {
             times: self.steps().map(|mark| mark.t).collect(),
             energy_errors: self.steps().map(|mark| self.error(mark)).collect(),
             rows: self.steps().map(|mark| mark.step.clone()).collect(),
+            totals,
         }
     }
 }

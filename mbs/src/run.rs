@@ -25,6 +25,9 @@ use std::time::Instant;
 /// their error may be large beside that and small beside what follows.
 const PATIENCE: u32 = 10;
 
+/// Roundings of the time at the end that are nothing.
+const LAST_ROUNDINGS: f64 = 32.0;
+
 /// Called now and then with the time reached; does nothing by default.
 pub trait Progress {
     /// Time reached [s].
@@ -206,7 +209,7 @@ where
             let (from, to) = ((k - 1) as f64 * h, if k == n_steps { end } else { k as f64 * h });
             let is_full = k < n_steps || (to - from - h).abs() <= 1e-9 * h * k as f64;
             let dt = if is_full { h } else { to - from };
-            self.step(dt, Some(to), &mut clock)?;
+            self.step(T::from_f64(dt), Some(to), &mut clock)?;
             self.finish_step((k, k == n_steps), progress)?;
         }
         Ok(())
@@ -214,17 +217,20 @@ where
 
     /// Steps of controlled length, to the end.
     fn controlled_steps(&mut self, progress: &mut impl Progress) -> Result<(), StopError> {
-        let end = self.settings.duration;
+        let end = T::from_f64(self.settings.duration);
         let mut clock = Instant::now();
         let mut k = 0;
         let mut is_last = false;
         while !is_last {
-            let rest = end - self.reached;
-            let length = self.step(rest, None, &mut clock)?;
-            is_last = length >= rest;
+            is_last = self.step(end - self.simulation.state().t, None, &mut clock)?;
+            // What is left may be less than the clock can tell.
+            let left = end - self.simulation.state().t;
+            is_last |= left <= end * T::EPSILON * T::from_f64(LAST_ROUNDINGS);
             if is_last {
-                self.simulation.set_time(T::from_f64(end));
-                (self.reached, self.mark.t) = (end, end);
+                self.simulation.set_time(end);
+                self.reached = self.settings.duration;
+                self.recorder.end_at(self.reached);
+                self.mark.t = self.reached;
             }
             k += 1;
             self.finish_step((k, is_last), progress)?;
@@ -232,13 +238,14 @@ where
         Ok(())
     }
 
-    /// One step of at most `rest` [s], with its counts; the time at its end is known where steps are fixed. Returns its length.
-    fn step(&mut self, rest: f64, to: Option<f64>, clock: &mut Instant) -> Result<f64, StopError> {
-        let accepted = match self.simulation.advance(T::from_f64(rest)) {
+    /// One step of at most `rest` [s], with its counts; the time at its end is known where steps are fixed. Says
+    /// whether it took the whole.
+    fn step(&mut self, rest: T, to: Option<f64>, clock: &mut Instant) -> Result<bool, StopError> {
+        let accepted = match self.simulation.advance(rest) {
             Ok(accepted) => accepted,
             Err(error) => {
                 let stop = self.simulation.explain(error);
-                return self.stop(stop).map(|()| 0.0);
+                return self.stop(stop).map(|()| true);
             }
         };
         if let Some(to) = to {
@@ -248,7 +255,7 @@ where
         let now = Instant::now();
         self.counts.worst = self.counts.worst.max(now - *clock);
         *clock = now;
-        Ok(accepted.step.to_f64())
+        Ok(accepted.is_last)
     }
 
     /// A row where one is due, and the alarm.
@@ -272,7 +279,7 @@ where
     fn stop(&mut self, stop: StopError) -> Result<(), StopError> {
         let t = self.reached;
         if self.recorder.last_time().is_none_or(|last| last < t) {
-            let energies = self.simulation.energies();
+            let energies = self.simulation.invariant().energies();
             self.row(&StepMark { t, energies, ..StepMark::default() }, true);
         }
         Err(stop)
@@ -343,7 +350,7 @@ where
             iterations: self.counts.iterations,
             factorizations: self.counts.factorizations,
             energy: energy_summary(self.simulation.invariant()),
-            control: self.simulation.is_controlled().then_some(control),
+            control: self.simulation.is_controlled().then(|| control.clone()),
             violation: self.recorder.violation_summary(),
             outputs: Outputs(self.recorder.last()),
             coordinates,
@@ -355,7 +362,7 @@ where
             contacts_left_out: self.contacts.left_out(),
             ..plain_summary(self.scene, settings)
         };
-        let steps = self.recorder.step_series();
+        let steps = self.recorder.step_series(control);
         let record = RunRecord {
             scene: self.scene.name.clone(),
             channels: self.recorder.series(),

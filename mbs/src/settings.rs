@@ -222,8 +222,9 @@ impl Settings {
         let limits = limits.unwrap_or([EnergyRule::default().upper, EnergyRule::default().lower]);
         let duration = overrides.duration.unwrap_or(scene.duration.to_f64());
         let duration = positive("duration", duration)?;
-        if duration / step > MOST_STEPS {
-            return Err(SettingsError::TooManySteps { step, duration });
+        let shorter = step.min(step_max);
+        if duration / shorter > MOST_STEPS {
+            return Err(SettingsError::TooManySteps { step: shorter, duration });
         }
         // A scene's penalty is meant for the augmented Lagrangian.
         let of_file = of_scene(solver.penalty).filter(|_| formulation.is_augmented());
@@ -234,7 +235,7 @@ impl Settings {
             integrator,
             precision,
             step,
-            step_max: if is_controlled { step_max } else { step },
+            step_max: if is_controlled { step_max.min(duration) } else { step },
             rule,
             energy_tolerance: ordered(limits)?,
             error_tolerance: positive(
@@ -321,24 +322,34 @@ fn method<T>(
     Ok((asked, formulation, integrator))
 }
 
-/// What chooses the length of the steps: what is named, else what tolerances are given for. The energy limits of a scene are
-/// meant for multi-index, which has the energy rule anyway.
+/// What chooses the length of the steps: what the command line names, what it gives tolerances for, what the scene names, what
+/// it gives the other tolerance for. The energy limits of a scene are meant for multi-index, which has the energy rule anyway.
 fn step_rule<T>(
     solver: &SolverChoice<T>,
     overrides: &Overrides,
     (formulation, integrator): (Formulation, IntegratorKind),
 ) -> Result<StepRule, SettingsError> {
-    let has_energy = overrides.energy_tolerance.is_some() || formulation == Formulation::MultiIndex;
-    let has_error = overrides.error_tolerance.is_some() || solver.error_tolerance.is_some();
-    let given = StepRule::of(has_energy, has_error);
-    let names = (&overrides.step_control, &solver.step_control, given.name());
-    let (_, rule) = named("step control", names, &STEP_RULES, StepRule::ALL)?;
-    if rule != StepRule::Fixed && integrator.is_explicit() {
-        let option =
-            format!("step control {} beside integrator {}", rule.name(), integrator.name());
-        return Err(SettingsError::NotTogether { formulation, option });
+    let of_formulation = formulation == Formulation::MultiIndex;
+    let given = [overrides.energy_tolerance.is_some(), overrides.error_tolerance.is_some()];
+    let is_named = overrides.step_control.is_some() || solver.step_control.is_some();
+    let (from_caller, default) = if overrides.step_control.is_none() && given != [false; 2] {
+        let rule = StepRule::of(given[0] || of_formulation, given[1]);
+        (Some(rule.name().to_owned()), rule)
+    } else {
+        let default = StepRule::of(of_formulation, solver.error_tolerance.is_some());
+        (overrides.step_control.clone(), default)
+    };
+    let names = (&from_caller, &solver.step_control, default.name());
+    let (_, rule) = named("step_control", names, &STEP_RULES, StepRule::ALL)?;
+    if rule == StepRule::Fixed || !integrator.is_explicit() {
+        return Ok(rule);
     }
-    Ok(rule)
+    // A tolerance in the scene is for integrators that can use it.
+    if !is_named && given == [false; 2] {
+        return Ok(StepRule::Fixed);
+    }
+    let option = format!("step control {} beside integrator {}", rule.name(), integrator.name());
+    Err(SettingsError::NotTogether { formulation, option })
 }
 
 /// The value that belongs to the first name given: override, scene, default.

@@ -54,9 +54,7 @@ where
         let control = control.map_err(|e| StopError::Start(e.into()))?.map(Box::new);
         let [kinetic, potential] = initial_energy;
         let ground = weight(scene) * model.length().to_f64();
-        let begun = model.kinetic_energy(&state.a).to_f64() * settings.step * settings.step;
-        let invariant = Invariant::new([kinetic, potential, 0.0], ground, T::EPSILON.to_f64())
-            .begun_with(begun);
+        let invariant = Invariant::new([kinetic, potential, 0.0], ground, T::EPSILON.to_f64());
         Ok(Self { model, state, engine, start, sizes, initial_energy, control, invariant })
     }
 
@@ -72,12 +70,15 @@ where
         let mut sum = StepReport { steps: 0, ..StepReport::default() };
         loop {
             let rest = end - self.state.t;
-            let accepted = self.advance(rest)?;
-            sum.add(&accepted.attempt.report);
-            if accepted.step >= rest {
-                self.set_time(end);
-                return Ok(sum);
+            if rest > T::ZERO {
+                let accepted = self.advance(rest)?;
+                sum.add(&accepted.attempt.report);
+                if !accepted.is_last {
+                    continue;
+                }
             }
+            self.set_time(end);
+            return Ok(sum);
         }
     }
 
@@ -90,13 +91,24 @@ where
         if let Some(control) = control {
             return control.step((model, engine), state, invariant, rest);
         }
+        engine.keep();
         engine.prepare(model, rest, 0, state);
         let report = engine.step(model, rest, state)?;
+        engine.tried(rest);
+        engine.accept();
         let energies = engine.energies(model, state);
         let change = invariant.change(energies);
         invariant.mark(state.t.to_f64(), energies);
-        let attempt = Attempt { report, t: state.t, energies, error: 0.0 };
-        Ok(Accepted { attempt, step: rest, rejected: 0, change, limit: Limit::Largest })
+        let t = state.t;
+        let attempt = Attempt { report, t, energies, error: 0.0, acceleration_energy: 0.0 };
+        Ok(Accepted {
+            attempt,
+            step: rest,
+            rejected: 0,
+            change,
+            limit: Limit::Largest,
+            is_last: true,
+        })
     }
 
     /// Are the lengths of the steps controlled?
@@ -130,7 +142,8 @@ where
     }
 
     /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. Returns whether the guide is
-    /// an input ([`GuideLaw::Input`](mbs_core::scene::GuideLaw::Input)).
+    /// an input ([`GuideLaw::Input`](mbs_core::scene::GuideLaw::Input)). Where lengths are controlled, the first of the steps
+    /// within the next [`step`](Self::step) takes it over.
     pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> bool {
         if let Engine::Recursive(tree) = &mut self.engine {
             let _ = tree.set_guide(guide, motion);

@@ -215,7 +215,7 @@ impl StopError {
                 "joints repeat each other, or the mechanism stands in a singular position: index-3 and index-1 pass both"
             }
             Self::Step(StepError::StepTooSmall { .. }, _) => {
-                "try the trapezoidal integrator or a looser tolerance: the motion may be stiff or not smooth here"
+                "try a looser tolerance, or steps of fixed length by the trapezoidal rule: the motion may be stiff or not smooth here"
             }
             Self::Step(..) => "try a smaller step, or another formulation",
             Self::Reaction(_) => "leave the reaction outputs out",
@@ -422,7 +422,7 @@ fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) -> core::fmt:
             write!(f, "the constraints depend on each other (relative pivot {})", few(*pivot))
         }
         StepError::StepTooSmall { step } => {
-            write!(f, "the error control asked for a step of {} s", few(*step))
+            write!(f, "the control of the step asked for a step of {} s", few(*step))
         }
         StepError::Violated { level, violation, .. } => {
             let (name, unit) = [

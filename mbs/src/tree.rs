@@ -48,6 +48,7 @@ where
     terms: Terms<T>,
     rank: usize,
     energies: [f64; 2],
+    saved_energies: [f64; 2],
 }
 
 impl<T: Real, const D: usize> Tree<T, D>
@@ -76,6 +77,7 @@ where
             terms: natural.terms(),
             rank,
             energies: [0.0; 2],
+            saved_energies: [0.0; 2],
             model,
         };
         tree.tell(natural, state);
@@ -106,11 +108,13 @@ where
     /// Keeps the state, so that steps after it can be undone.
     pub(crate) fn keep(&mut self) {
         self.saved.copy_from(&self.state);
+        self.saved_energies = self.energies;
     }
 
     /// Goes back to what was kept; the natural state is not told.
     pub(crate) fn undo(&mut self) {
         self.state.copy_from(&self.saved);
+        self.energies = self.saved_energies;
     }
 
     /// Tells the natural state of the tree's.

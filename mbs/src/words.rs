@@ -161,7 +161,7 @@ pub(crate) fn notes<T: Real>(
     } else if s.dof == 0 && scene.guides.is_empty() {
         notes.push("no degree of freedom is left and nothing is guided: nothing moves".to_owned());
     }
-    if settings.step > settings.duration {
+    if settings.step > settings.duration && s.control.is_none() {
         notes.push(format!(
             "the step of {} s is longer than the run: there is one step of {} s",
             readable(settings.step),

@@ -187,7 +187,9 @@ fn rssr_rocker_follows_the_crank_in_closed_form() {
 /// Outcome of the double pendulum in the printed form to 10 s: largest energy error, or the error of the step that failed.
 fn printed(alpha: f64, step: f64, projection: Projection) -> Result<f64, (f64, StepError)> {
     let mut bench = Bench::<2>::new("double-pendulum", "index-3", step);
-    let mbs::Engine::Augmented { options, .. } = bench.simulation.engine_mut() else {
+    let mbs::Engine::Augmented { index: mbs::Index::Three(options), .. } =
+        bench.simulation.engine_mut()
+    else {
         panic!("index-3 is an augmented Lagrangian");
     };
     *options = Options { projection, ..Options::printed(alpha) };

@@ -10,10 +10,12 @@ use crate::step::{StepError, StepReport};
 const AFTER_FAILURE: f64 = 0.25;
 /// A step is never shorter than this share of the largest.
 const SMALLEST: f64 = 1e-10;
-/// The last step before a limit may be this much longer than planned, so that no sliver remains.
-const LAST_STEP: f64 = 1.01;
+/// And not shorter than so many roundings of the time.
+const TIME_ROUNDINGS: f64 = 16.0;
 /// Re-solves of a step that shall end at an event.
 const MOST_LANDINGS: u32 = 12;
+/// Growth of the step where no rule says anything.
+const FREE: f64 = 2.0;
 
 /// What a driver steps: a mechanism with a formulation and a state that can be put back.
 pub trait Stepper<T: Real> {
@@ -56,6 +58,9 @@ pub struct Attempt<T> {
     pub energies: [f64; 3],
     /// Its local error relative to the scene's length; zero where none is asked for [-].
     pub error: f64,
+    /// 1/2 a^T M a at its end [J/s^2]: from rest nothing has moved yet, and what the accelerations give in a first step stands for
+    /// the energy that moves. Zero where it is not known.
+    pub acceleration_energy: f64,
 }
 
 /// An event within a trial.
@@ -100,7 +105,7 @@ pub enum Limit {
 /// A step that was accepted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accepted<T> {
-    /// What the last trial came to; iterations, factorisations and solutions of all of them.
+    /// What the last trial came to; iterations, factorisations and solutions of all that came to their end.
     pub attempt: Attempt<T>,
     /// Its length [s].
     pub step: T,
@@ -108,8 +113,10 @@ pub struct Accepted<T> {
     pub rejected: u32,
     /// Change of the invariant in it [J].
     pub change: f64,
-    /// What limits the next step.
+    /// What kept this step or the next from being longer.
     pub limit: Limit,
+    /// It took the whole of the time that was left.
+    pub is_last: bool,
 }
 
 /// The state of the step-size control.
@@ -118,16 +125,19 @@ pub struct Driver<T> {
     max_step: T,
     energy: Option<Steering>,
     error: Option<(f64, StepControl<T>)>,
-    /// The step that is tried next [s].
+    /// The step that is tried next, and the first one [s].
     next: T,
+    first: T,
 }
 
-/// What became of a trial.
-enum Verdict {
-    /// Kept; factor for the next step and what limits it.
-    Kept(f64, Limit),
-    /// Repeated with the factor, because of this.
-    Repeated(f64, Limit),
+/// What the rules say of a trial, with what they would remember of it.
+struct Judgement<T> {
+    /// Factor for the next step, or for its repetition.
+    factor: f64,
+    limit: Limit,
+    is_kept: bool,
+    energy: Option<Steering>,
+    error: Option<(f64, StepControl<T>)>,
 }
 
 impl<T: Real> Driver<T> {
@@ -139,11 +149,13 @@ impl<T: Real> Driver<T> {
     pub fn new(rules: Rules<T>, first_step: T) -> Self {
         let is_length = |h: T| h > T::ZERO && h.is_finite();
         assert!(is_length(first_step) && is_length(rules.max_step), "positive steps");
+        let first = first_step.min(rules.max_step);
         Self {
             max_step: rules.max_step,
             energy: rules.energy.map(Steering::new),
             error: rules.error.map(|(tolerance, power)| (tolerance, StepControl::new(power))),
-            next: first_step.min(rules.max_step),
+            next: first,
+            first,
         }
     }
 
@@ -153,35 +165,37 @@ impl<T: Real> Driver<T> {
         self.next
     }
 
-    /// Makes one step of at most `rest` [s], with as many trials as it takes; the invariant is marked with it.
+    /// Makes one step of at most `rest` [s] from time `t` [s], with as many trials as it takes; the invariant is marked with it.
     ///
     /// No allocation but what the stepper does.
     ///
     /// # Errors
     /// That of the last trial, [`StepError::StepTooSmall`] where rules reject steps that no longer matter. The state is then
     /// that of the last accepted step.
+    ///
+    /// # Panics
+    /// If `rest` is not positive.
     pub fn step(
         &mut self,
         stepper: &mut impl Stepper<T>,
         invariant: &mut Invariant,
-        rest: T,
+        (t, rest): (T, T),
     ) -> Result<Accepted<T>, StepError> {
-        let planned = self.next.min(self.max_step);
-        let is_last = rest <= planned * T::from_f64(LAST_STEP);
-        let mut h = if is_last { rest } else { planned };
+        assert!(rest > T::ZERO, "time is left");
+        let (mut h, is_cut) = self.planned(t, rest);
         let (mut rejected, mut reductions, mut landings) = (0, 0, 0);
         let mut work = [0_u32; 3];
         let mut reason = None;
         loop {
             stepper.prepare(h, reductions)?;
-            let attempt = match stepper.attempt(h) {
+            let mut attempt = match stepper.attempt(h) {
                 Ok(attempt) => attempt,
                 Err(error) => {
                     rejected += 1;
                     reductions += 1;
                     self.energy.iter_mut().for_each(Steering::forget);
                     reason = Some(Limit::Failure);
-                    h = self.shortened(h, AFTER_FAILURE).ok_or(error)?;
+                    h = self.shortened((t, h), AFTER_FAILURE).map_err(|_| error)?;
                     continue;
                 }
             };
@@ -189,8 +203,11 @@ impl<T: Real> Driver<T> {
             work = [work[0] + r.iterations, work[1] + r.factorizations, work[2] + r.solves];
             let crossing = stepper.crossing(h);
             let retry = crossing.filter(|c| !c.is_landed && landings < MOST_LANDINGS);
-            let retry = retry.map(|c| (h * T::from_f64(c.share), c.is_too_stiff));
-            if let Some((to, is_too_stiff)) = retry.filter(|&(to, _)| to <= rest) {
+            let retry = retry.and_then(|c| {
+                let to = self.shortened((t, h), c.share).ok()?;
+                (to <= rest.min(self.max_step)).then_some((to, c.is_too_stiff))
+            });
+            if let Some((to, is_too_stiff)) = retry {
                 stepper.undo();
                 rejected += 1;
                 landings += 1;
@@ -203,76 +220,111 @@ impl<T: Real> Driver<T> {
                 continue;
             }
             let change = invariant.change(attempt.energies);
-            match self.judge(&attempt, change, invariant) {
-                Verdict::Repeated(factor, limit) => {
-                    stepper.undo();
-                    rejected += 1;
-                    reductions += 1;
-                    reason = Some(limit);
-                    let step = h.to_f64() * factor;
-                    h = self.shortened(h, factor).ok_or(StepError::StepTooSmall { step })?;
-                }
-                Verdict::Kept(factor, limit) => {
-                    let is_landed = crossing.is_some_and(|c| c.is_landed);
-                    stepper.keep(is_landed);
-                    invariant.mark(attempt.t.to_f64(), attempt.energies);
-                    let was_cut = is_last || is_landed;
-                    // A step that was cut short says nothing against the step that was planned.
-                    let wish = h * T::from_f64(factor);
-                    let base = if was_cut && reductions == 0 { self.next.max(wish) } else { wish };
-                    self.next = base.min(self.max_step);
-                    let limit = match (is_landed, reason) {
-                        (true, _) => Limit::Event,
-                        (_, Some(reason)) => reason,
-                        _ if self.next >= self.max_step => Limit::Largest,
-                        _ => limit,
-                    };
-                    let mut attempt = attempt;
-                    let r = &mut attempt.report;
-                    [r.iterations, r.factorizations, r.solves] = work;
-                    r.rejected = rejected;
-                    return Ok(Accepted { attempt, step: h, rejected, change, limit });
-                }
+            let judgement = self.judge(&attempt, change, invariant);
+            if !judgement.is_kept {
+                stepper.undo();
+                rejected += 1;
+                reductions += 1;
+                (self.energy, self.error) = (judgement.energy, judgement.error);
+                reason = Some(judgement.limit);
+                h = self.shortened((t, h), judgement.factor)?;
+                continue;
             }
+            let is_landed = crossing.is_some_and(|c| c.is_landed);
+            stepper.keep(is_landed);
+            invariant.mark(attempt.t.to_f64(), attempt.energies);
+            let was_cut = is_cut || landings > 0;
+            let limit = self.plan(h, (was_cut, reductions), judgement);
+            let limit = if is_landed { Limit::Event } else { reason.unwrap_or(limit) };
+            let r = &mut attempt.report;
+            [r.iterations, r.factorizations, r.solves] = work;
+            r.rejected = rejected;
+            let is_last = h >= rest;
+            return Ok(Accepted { attempt, step: h, rejected, change, limit, is_last });
         }
+    }
+
+    /// The first trial of a step: the planned one, or all that is left, or half of it where that is less than two planned ones,
+    /// so that no sliver remains. Says whether it is cut short by what is left.
+    fn planned(&self, t: T, rest: T) -> (T, bool) {
+        if rest <= self.next {
+            (rest, rest < self.next)
+        } else if rest < self.next + self.next {
+            (told(t, rest * T::HALF).min(rest), true)
+        } else {
+            (told(t, self.next), false)
+        }
+    }
+
+    /// Plans the next step after one of length `h` that is kept; gives what limits it.
+    fn plan(&mut self, h: T, (was_cut, reductions): (bool, u32), judgement: Judgement<T>) -> Limit {
+        let Judgement { factor, limit, energy, error, .. } = judgement;
+        // Right after a reduction the step does not grow.
+        let factor = if reductions > 0 { factor.min(1.0) } else { factor };
+        let wish = h * T::from_f64(factor);
+        if was_cut && reductions == 0 {
+            // A step that was cut short says nothing against the planned one, and little about its error.
+            self.next = self.next.max(wish).min(self.max_step);
+        } else {
+            (self.energy, self.error) = (energy, error);
+            self.next = wish.min(self.max_step);
+        }
+        if self.next >= self.max_step { Limit::Largest } else { limit }
     }
 
     /// The step times a factor, if it is not too short.
-    fn shortened(&self, h: T, factor: f64) -> Option<T> {
-        let h = h * T::from_f64(factor);
-        (h >= self.max_step * T::from_f64(SMALLEST)).then_some(h)
+    fn shortened(&self, (t, h): (T, T), factor: f64) -> Result<T, StepError> {
+        let wish = h * T::from_f64(factor);
+        let least = (self.max_step * T::from_f64(SMALLEST))
+            .max(t.abs() * T::EPSILON * T::from_f64(TIME_ROUNDINGS));
+        if wish >= least {
+            Ok(told(t, wish))
+        } else {
+            Err(StepError::StepTooSmall { step: wish.to_f64() })
+        }
     }
 
     /// What the rules say of a trial.
-    fn judge(&mut self, attempt: &Attempt<T>, change: f64, invariant: &Invariant) -> Verdict {
-        let (mut factor, mut limit) = (f64::INFINITY, Limit::Largest);
-        let mut rejection: Option<(f64, Limit)> = None;
-        if let Some(steering) = &mut self.energy {
-            let scale = invariant.scale(attempt.energies).max(f64::MIN_POSITIVE);
+    fn judge(&self, attempt: &Attempt<T>, change: f64, invariant: &Invariant) -> Judgement<T> {
+        let (mut energy, mut error) = (self.energy, self.error);
+        let mut kept = (f64::INFINITY, Limit::Largest);
+        let mut rejected: Option<(f64, Limit)> = None;
+        if let Some(steering) = &mut energy {
+            let first = self.first.to_f64();
+            let begun = attempt.acceleration_energy * first * first;
+            let scale = invariant.scale(attempt.energies).max(begun).max(f64::MIN_POSITIVE);
             let beyond = change.abs() - invariant.rounding();
-            let e = if beyond <= 0.0 { 0.0 } else { beyond / scale };
-            match steering.judge(e) {
-                Ok(wish) => (factor, limit) = (wish, Limit::Energy),
-                Err(wish) => rejection = Some((wish, Limit::Energy)),
+            match steering.judge(if beyond <= 0.0 { 0.0 } else { beyond / scale }) {
+                Ok(wish) => kept = (wish, Limit::Energy),
+                Err(wish) => rejected = Some((wish, Limit::Energy)),
             }
         }
-        if let Some((tolerance, control)) = &mut self.error {
-            let error = attempt.error / *tolerance;
-            if !(error <= 1.0) {
-                let wish = control.rejected(T::from_f64(error)).to_f64();
-                if rejection.is_none_or(|(factor, _)| wish < factor) {
-                    rejection = Some((wish, Limit::Error));
+        if let Some((tolerance, control)) = &mut error {
+            let share = T::from_f64(attempt.error / *tolerance);
+            if !(share <= T::ONE) {
+                let wish = control.rejected(share).to_f64();
+                if rejected.is_none_or(|(factor, _)| wish < factor) {
+                    rejected = Some((wish, Limit::Error));
                 }
-            } else if rejection.is_none() {
-                let wish = control.accepted(T::from_f64(error)).to_f64();
-                if wish < factor {
-                    (factor, limit) = (wish, Limit::Error);
+            } else if rejected.is_none() {
+                let wish = control.accepted(share).to_f64();
+                if wish < kept.0 {
+                    kept = (wish, Limit::Error);
                 }
             }
         }
-        match rejection {
-            Some((factor, limit)) => Verdict::Repeated(factor, limit),
-            None => Verdict::Kept(if factor.is_finite() { factor } else { 2.0 }, limit),
+        let is_kept = rejected.is_none();
+        if !is_kept {
+            energy.iter_mut().for_each(Steering::forget);
         }
+        let (factor, limit) = rejected.unwrap_or(kept);
+        let factor = if factor.is_finite() { factor } else { FREE };
+        Judgement { factor, limit, is_kept, energy, error }
     }
+}
+
+/// The step by which the clock moves when it is asked to move by `h` [s]: times are rounded.
+fn told<T: Real>(t: T, h: T) -> T {
+    let step = (t + h) - t;
+    if step > T::ZERO { step } else { h }
 }

@@ -30,9 +30,9 @@ pub struct EnergyRule {
 /// Bounds of the factor after a rejected step, in the printed form after a small change, and else.
 const REJECTED: [f64; 2] = [0.2, 0.8];
 const ENLARGED: [f64; 2] = [1.0, 2.0];
-const STEERED: [f64; 2] = [0.5, 1.5];
+const STEERED: [f64; 2] = [0.5, 1.2];
 /// What is remembered of a change in the next step.
-const MEMORY: f64 = 0.7;
+const MEMORY: f64 = 0.85;
 /// In the printed form, small changes in a row after which the step grows: one may be a passage through zero.
 const CALM: u32 = 2;
 
@@ -90,7 +90,8 @@ impl Steering {
         }
         let remembered = e.max(MEMORY * self.memory).max(f64::MIN_POSITIVE);
         let factor = within(STEERED, libm::pow(libm::sqrt(upper * lower) / remembered, exponent));
-        self.memory = remembered * libm::pow(factor, 1.0 / exponent);
+        // A shorter step makes it smaller; a longer one not larger, so that it fades.
+        self.memory = remembered * libm::pow(factor.min(1.0), 1.0 / exponent);
         Ok(factor)
     }
 

@@ -32,7 +32,7 @@ impl<T: Real> LocalError<T> {
     /// The power of h that the estimate goes with.
     #[must_use]
     pub fn power(&self) -> u32 {
-        if self.velocity > T::from_f64(1e-12) { 2 } else { 3 }
+        if self.velocity > T::EPSILON * T::from_f64(16.0) { 2 } else { 3 }
     }
 
     /// Largest error of a coordinate [m or -] in a step `h` [s] from accelerations `from` to accelerations `to`.
@@ -42,7 +42,8 @@ impl<T: Real> LocalError<T> {
         let mut most = T::ZERO;
         for (&a, &b) in from.iter().zip(to) {
             let change = (b - a).abs();
-            if !(change <= most) {
+            // A NaN is taken, and then nothing is larger.
+            if change > most || !(change >= T::ZERO) {
                 most = change;
             }
         }

@@ -22,8 +22,6 @@ pub struct Invariant {
     /// Energy below which nothing is told from rounding, for one epsilon.
     ground: f64,
     epsilon: f64,
-    /// Energy that is about to move at the start.
-    begun: f64,
     line: Line,
 }
 
@@ -55,16 +53,8 @@ impl Invariant {
             gross_work: 0.0,
             ground,
             epsilon,
-            begun: 0.0,
             line: Line::default(),
         }
-    }
-
-    /// From rest nothing has moved yet, and every change would be large beside nothing: `energy` [J] is what the accelerations
-    /// at the start give within the time that its steps are meant for.
-    #[must_use]
-    pub fn begun_with(self, energy: f64) -> Self {
-        Self { begun: energy, ..self }
     }
 
     /// Takes the energies after a step that ended at `t` [s].
@@ -72,15 +62,21 @@ impl Invariant {
         let change = self.change(energies);
         let [kinetic, potential, work] = energies;
         self.error = kinetic + potential - work - self.initial;
-        // A NaN stays.
-        if !(self.error.abs() <= self.max_error) {
-            self.max_error = self.error.abs();
+        let size = self.error.abs();
+        if size > self.max_error || size.is_nan() {
+            self.max_error = size;
         }
         self.max_kinetic = self.max_kinetic.max(kinetic);
         self.potential = [self.potential[0].min(potential), self.potential[1].max(potential)];
         self.gross_work += (work - self.last[2]).abs();
         self.last = energies;
         self.line.take(t, self.error, change);
+    }
+
+    /// Kinetic energy, potential energy and work after the last step [J].
+    #[must_use]
+    pub fn energies(&self) -> [f64; 3] {
+        self.last
     }
 
     /// Pi(0) [J].
@@ -115,11 +111,11 @@ impl Invariant {
     }
 
     /// What changes within a step are measured against, `energies` at its end: the largest kinetic energy plus the range of the
-    /// potential one, at least what the start set going [J]. It does not grow with the length of a run, and knows no zero of the potential energy.
+    /// potential one [J]. It does not grow with the length of a run, and knows no zero of the potential energy.
     #[must_use]
     pub fn scale(&self, [kinetic, potential, _]: [f64; 3]) -> f64 {
         let range = self.potential[1].max(potential) - self.potential[0].min(potential);
-        (self.max_kinetic.max(kinetic) + range).max(self.begun)
+        self.max_kinetic.max(kinetic) + range
     }
 
     /// A change of this size may be rounding of the energies [J].

@@ -18,7 +18,7 @@
 //!         let v = self.v - 9.81 * h;
 //!         (self.t, self.y, self.v) = (self.t + h, self.y + 0.5 * h * (self.v + v), v);
 //!         let energies = [0.5 * v * v, 9.81 * self.y, 0.0];
-//!         Ok(Attempt { report: StepReport::default(), t: self.t, energies, error: 0.0 })
+//!         Ok(Attempt { energies, t: self.t, report: StepReport::default(), error: 0.0, acceleration_energy: 0.0 })
 //!     }
 //!     fn undo(&mut self) {
 //!         [self.t, self.y, self.v] = self.saved;
@@ -32,7 +32,7 @@
 //! let mut invariant = Invariant::new([0.0, 9.81 * 9.81, 0.0], 9.81, f64::EPSILON);
 //! while fall.t < 1.0 {
 //!     let rest = 1.0 - fall.t;
-//!     driver.step(&mut fall, &mut invariant, rest)?;
+//!     driver.step(&mut fall, &mut invariant, (1.0 - rest, rest))?;
 //! }
 //! assert!((fall.y - 0.5 * 9.81).abs() < 1e-12 && driver.next() == 0.1);
 //! assert!(invariant.max_error() < 1e-12);

@@ -14,7 +14,7 @@
 //! A contact that begins with the step has a stiffness of its own, which the step may be too long for. The trapezoidal rule then
 //! throws it back within the step, with all its energy, as if no time had passed. Of the way p = -g0' h that the speed alone would
 //! give, it goes p / (1 + (w h / 2)^2) where w^2 is stiffness over mass: less than four fifths are told as a trial too long, with
-//! the share that makes w h one.
+//! the share that makes w h nearly one.
 //!
 //! The band is 1e-9 of the scene's length (of a radian for angles), ten times what steps are solved to; in `f32` 128 roundings.
 //! To it comes what the rounding of the time leaves at the rate of the gap.
@@ -79,7 +79,9 @@ const RESOLVED: f64 = 0.8;
 /// Trials of a step after which the cubic is no longer trusted where a contact holds.
 const SLOW: u32 = 3;
 /// Part of what its rate would press a gap in by, below which the contact holds it.
-const HELD: f64 = 0.2;
+const HELD: f64 = 0.8;
+/// Half of w h that the share aims at, a little below that where a contact is resolved.
+const AIM: f64 = 0.45;
 /// Ways of a contact that need no resolution, in bands.
 const WAY: f64 = 100.0;
 /// Bounds of the share in which a stiff contact is tried again.
@@ -179,7 +181,9 @@ impl<T: Real> Watched<T> {
     fn crossings(&self, ([from, to], is_slow): ([f64; 2], bool), mut take: impl FnMut(Crossing)) {
         let (begin, end) = (&self.begin, &self.end);
         for i in 0..self.n_gaps {
-            if let Some(share) = self.entry([begin.gaps[i], end.gaps[i]], to - from) {
+            let late = TIME_ROUNDINGS * T::EPSILON.to_f64() * to.abs();
+            let step = (to - from, self.band + late * begin.gaps[i].rate.abs().to_f64());
+            if let Some(share) = Self::entry([begin.gaps[i], end.gaps[i]], step) {
                 let effect = self.effect;
                 return take(Crossing { share, landed: false, too_stiff: true, effect });
             }
@@ -218,11 +222,11 @@ impl<T: Real> Watched<T> {
         if is_held { (begin + 0.5 * self.band) / (begin - on) } else { f64::INFINITY }
     }
 
-    /// The share of a step of length `h` [s] in which a contact that begins with it is resolved, where it is not in the whole.
-    fn entry(&self, [begin, end]: [Gap<T>; 2], h: f64) -> Option<f64> {
+    /// The share of a step of length `h` [s] in which a contact that begins with it, within `band`, is resolved, where it is not in the whole.
+    fn entry([begin, end]: [Gap<T>; 2], (h, band): (f64, f64)) -> Option<f64> {
         let [begin, rate, end] = [begin.value, begin.rate, end.value].map(T::to_f64);
         let way = -rate * h;
-        if begin.abs() > self.band || way <= WAY * self.band {
+        if begin.abs() > band || way <= WAY * band {
             return None;
         }
         let part = -end / way;
@@ -230,7 +234,7 @@ impl<T: Real> Watched<T> {
             return None;
         }
         // part = 1 / (1 + x^2) with x = w h / 2; nothing is known of x where the contact has opened again.
-        let share = 0.5 / libm::sqrt(1.0 / part.max(f64::MIN_POSITIVE) - 1.0);
+        let share = AIM / libm::sqrt(1.0 / part.max(f64::MIN_POSITIVE) - 1.0);
         Some(share.clamp(SHARES[0], SHARES[1]))
     }
 

@@ -29,7 +29,7 @@ pub enum StepError {
         /// Size of its pivot, relative to what a row of full effect has.
         pivot: f64,
     },
-    /// The step-size control needed a step too short to matter.
+    /// The control of the step needed one too short to matter.
     StepTooSmall {
         /// The step it asked for [s].
         step: f64,
@@ -68,7 +68,7 @@ impl core::fmt::Display for StepError {
             ),
             Self::StepTooSmall { step } => write!(
                 f,
-                "the error control asked for a step of {step:.1e} s: the motion may be stiff or not smooth here; try an implicit integrator or a looser tolerance"
+                "the control of the step asked for a step of {step:.1e} s: the motion may be stiff or not smooth here; try a looser tolerance or another integrator"
             ),
             Self::NotFinite { .. } => {
                 write!(f, "a number became infinite or NaN: try a smaller step")

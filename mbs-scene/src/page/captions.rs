@@ -49,16 +49,17 @@ pub(super) fn iterations(series: &IterationSeries) -> String {
 }
 
 pub(super) fn steps(series: &StepSeries) -> String {
-    let lengths = || series.rows.iter().map(|row| row.length);
-    let (least, most) = lengths().fold((f64::INFINITY, 0.0_f64), |(a, b), h| (a.min(h), b.max(h)));
-    let rejected: u32 = series.rows.iter().map(|row| row.rejected).sum();
-    let in_one = series.rows.iter().filter(|row| row.index == Some(1)).count();
-    let index = match in_one {
+    let c = &series.totals;
+    if c.accepted == 0 {
+        return String::new();
+    }
+    let index = match c.index_1_steps {
         0 => String::new(),
         n => format!(" {n} were made in index-1."),
     };
     format!(
-        "Length of the steps: {least:.1e} s at least, {most:.1e} s at most; {rejected} trials were rejected.{index}"
+        "Length of the {} steps: {:.1e} s at least, {:.1e} s at most; {} trials were rejected.{index}",
+        c.accepted, c.smallest_step, c.largest_step, c.rejected
     )
 }
 

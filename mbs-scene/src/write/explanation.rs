@@ -152,7 +152,7 @@ pub struct Prices {
     pub repeats: u32,
     /// CPU time per step with all effects, the least of the repeats [s].
     pub seconds_per_step: Option<f64>,
-    /// Share of it that watching the energy invariant takes, in every run and every formulation [s].
+    /// CPU time per step of watching the energy invariant, part of the above in every run and every formulation [s].
     pub monitor_seconds_per_step: Option<f64>,
     /// Length of the runs that are compared, from the start [s].
     pub compared_duration: f64,

@@ -123,7 +123,7 @@ pub struct EnergySummary {
 /// What the control of the step size did.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct ControlSummary {
-    /// `energy`, `error` or `both`.
+    /// `energy`, `energy-printed`, `error` or `both`.
     pub rule: &'static str,
     /// Steps kept.
     pub accepted: u64,

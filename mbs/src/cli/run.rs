@@ -29,8 +29,8 @@ pub(crate) struct Arguments {
     /// error), both; left out: what tolerances are given for, energy in multi-index, else fixed.
     #[arg(long, value_name = "C")]
     step_control: Option<String>,
-    /// A step that changes the invariant by more than U of the energy that moves is repeated shorter, after less than L the next
-    /// is longer; else 1e-5,1e-7.
+    /// A step that changes the invariant by more than U of the energy that moves is repeated shorter; the change is kept between
+    /// L and U as far as the largest step allows; else 1e-5,1e-7.
     #[arg(long, value_name = "U,L", value_parser = two_numbers, allow_negative_numbers = true)]
     energy_tolerance: Option<[f64; 2]>,
     /// Error of a step by its estimate, in lengths of the scene; else 1e-6.
@@ -45,7 +45,7 @@ pub(crate) struct Arguments {
     /// Duration [s].
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     duration: Option<f64>,
-    /// Fixed penalty alpha: N/m in index-3, kg in index-1 (left out: in proportion to the mass); in classical a regularisation
+    /// Fixed penalty alpha: N/m in index-3 and in multi-index' long steps, kg in index-1 (left out: in proportion to the mass); in classical a regularisation
     /// of 1/alpha, in recursive the report's closing forces (left out: neither).
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     penalty: Option<f64>,
