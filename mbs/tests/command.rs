@@ -246,7 +246,10 @@ fn help_names_every_formulation_and_integrator() {
 fn what_is_not_built_is_refused_with_the_list_of_what_is() {
     let file = scene("double-pendulum");
     for (arguments, built) in [
-        (["--formulation", "penalty"], "index-1, index-3, classical, state-space, recursive"),
+        (
+            ["--formulation", "penalty"],
+            "index-1, index-3, multi-index, classical, state-space, recursive",
+        ),
         (["--integrator", "rk853"], "trapezoidal, newmark"),
         (["--precision", "dd"], "f32, f64"),
         (["--threads", "4"], "1"),

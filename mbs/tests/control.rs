@@ -503,7 +503,7 @@ name = "push"
 kind = "force"
 body = "mass"
 at = [0.0, 0.0]
-table = [[0.0, 0.0], [1.0, 0.0], [2.0, 10.0]]
+table = [[0, 0, 0], [1, 0, 0], [2, 10, 0]]
 "#;
     let document = mbs::scene_file::Document::parse(text, "push").expect("it is read");
     let scene: Scene<f64> = document.scene().expect("it is a scene");

@@ -138,7 +138,8 @@ fn every_kept_step_changes_the_invariant_by_less_than_its_limit_and_none_is_long
     // The energy that moves is at most twice the height of 2 m.
     let scale = 4.0 * G;
     assert!(steps.iter().all(|s| s.change.abs() <= limits[0] * scale + invariant.rounding()));
-    assert!(steps.iter().all(|s| s.step <= 0.1));
+    // The clock of 20 s tells a step to a few of its last digits.
+    assert!(steps.iter().all(|s| s.step <= 0.1 + 1e-14));
     // It nearly stands at the top and falls through the bottom: steps differ by more than three.
     let lengths = steps[1..steps.len() - 1].iter().map(|s| s.step);
     let (least, most) = lengths.fold((1.0_f64, 0.0_f64), |(a, b), h| (a.min(h), b.max(h)));
@@ -211,7 +212,9 @@ fn failures_shorten_the_step_and_it_grows_again() {
     let lengths: [f64; 12] = core::array::from_fn(|_| {
         driver.step(&mut pendulum, &mut invariant, (0.5, 10.0)).expect("it steps").step
     });
-    assert!(lengths.windows(2).all(|h| h[1] > h[0]) && lengths[11] > 0.02, "{lengths:?}");
+    // Not right after the failure, then by a fifth at each step.
+    assert!((lengths[0] / accepted.step - 1.0).abs() < 1e-12, "{lengths:?}");
+    assert!(lengths.windows(2).all(|h| (h[1] / h[0] - 1.2).abs() < 1e-9), "{lengths:?}");
 }
 
 #[test]
