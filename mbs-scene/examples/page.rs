@@ -77,6 +77,7 @@ fn run(spatial: bool) -> RunRecord {
         energy: Some(energy),
         violation: Some(violation),
         iterations: Some(iterations),
+        steps: None,
         summary: [
             ("time reached", "9.998 s of 10 s"),
             ("degrees of freedom", "2"),

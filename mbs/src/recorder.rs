@@ -80,7 +80,7 @@ impl Recorder {
     /// Keeps a row; `values` are all components of all channels.
     pub(crate) fn keep(&mut self, step: &StepMark, values: &[f64]) {
         // A step that was marked is among the recent ones; a start and a stop are not.
-        let is_marked = self.recent.step.length > 0.0 && self.recent.t == step.t;
+        let is_marked = self.recent.step.length > 0.0 && self.recent.t >= step.t;
         self.marks.push(if is_marked { self.recent.clone() } else { step.after(&self.recent) });
         self.rows.extend_from_slice(values);
         self.recent = StepMark::default();

@@ -130,6 +130,55 @@ pub struct Driver<T> {
     first: T,
 }
 
+/// The trials of one step so far.
+#[derive(Debug, Default)]
+struct Effort {
+    rejected: u32,
+    reductions: u32,
+    landings: u32,
+    /// Iterations, factorisations, solutions.
+    work: [u32; 3],
+    /// Why the last trial was shortened.
+    reason: Option<Limit>,
+}
+
+impl Effort {
+    /// A trial failed or was rejected.
+    fn reduced(&mut self, reason: Limit) {
+        self.rejected += 1;
+        self.reductions += 1;
+        self.reason = Some(reason);
+    }
+
+    /// A trial is made again to end at an event, or to resolve a contact.
+    fn landed(&mut self, is_too_stiff: bool) {
+        self.landings += 1;
+        if is_too_stiff {
+            self.reduced(Limit::Contact);
+        } else {
+            self.rejected += 1;
+        }
+    }
+
+    /// What a trial did.
+    fn add<T>(&mut self, report: &StepReport<T>) {
+        let [iterations, factorizations, solves] = self.work;
+        self.work = [
+            iterations + report.iterations,
+            factorizations + report.factorizations,
+            solves + report.solves,
+        ];
+    }
+
+    /// The last trial with the work of all.
+    fn told<T>(&self, mut attempt: Attempt<T>) -> Attempt<T> {
+        let report = &mut attempt.report;
+        [report.iterations, report.factorizations, report.solves] = self.work;
+        report.rejected = self.rejected;
+        attempt
+    }
+}
+
 /// What the rules say of a trial, with what they would remember of it.
 struct Judgement<T> {
     /// Factor for the next step, or for its repetition.
@@ -183,38 +232,30 @@ impl<T: Real> Driver<T> {
     ) -> Result<Accepted<T>, StepError> {
         assert!(rest > T::ZERO, "time is left");
         let (mut h, is_cut) = self.planned(t, rest);
-        let (mut rejected, mut reductions, mut landings) = (0, 0, 0);
-        let mut work = [0_u32; 3];
-        let mut reason = None;
+        let mut effort = Effort::default();
         loop {
-            stepper.prepare(h, reductions)?;
-            let mut attempt = match stepper.attempt(h) {
+            stepper.prepare(h, effort.reductions)?;
+            let attempt = match stepper.attempt(h) {
                 Ok(attempt) => attempt,
                 Err(error) => {
-                    rejected += 1;
-                    reductions += 1;
+                    effort.reduced(Limit::Failure);
                     self.energy.iter_mut().for_each(Steering::forget);
-                    reason = Some(Limit::Failure);
                     h = self.shortened((t, h), AFTER_FAILURE).map_err(|_| error)?;
                     continue;
                 }
             };
-            let r = &attempt.report;
-            work = [work[0] + r.iterations, work[1] + r.factorizations, work[2] + r.solves];
+            effort.add(&attempt.report);
             let crossing = stepper.crossing(h);
-            let retry = crossing.filter(|c| !c.is_landed && landings < MOST_LANDINGS);
+            let retry = crossing.filter(|c| !c.is_landed && effort.landings < MOST_LANDINGS);
             let retry = retry.and_then(|c| {
                 let to = self.shortened((t, h), c.share).ok()?;
                 (to <= rest.min(self.max_step)).then_some((to, c.is_too_stiff))
             });
             if let Some((to, is_too_stiff)) = retry {
                 stepper.undo();
-                rejected += 1;
-                landings += 1;
+                effort.landed(is_too_stiff);
                 if is_too_stiff {
                     self.energy.iter_mut().for_each(Steering::forget);
-                    reason = Some(Limit::Contact);
-                    reductions += 1;
                 }
                 h = to;
                 continue;
@@ -223,24 +264,19 @@ impl<T: Real> Driver<T> {
             let judgement = self.judge(&attempt, change, invariant);
             if !judgement.is_kept {
                 stepper.undo();
-                rejected += 1;
-                reductions += 1;
+                effort.reduced(judgement.limit);
                 (self.energy, self.error) = (judgement.energy, judgement.error);
-                reason = Some(judgement.limit);
                 h = self.shortened((t, h), judgement.factor)?;
                 continue;
             }
             let is_landed = crossing.is_some_and(|c| c.is_landed);
             stepper.keep(is_landed);
             invariant.mark(attempt.t.to_f64(), attempt.energies);
-            let was_cut = is_cut || landings > 0;
-            let limit = self.plan(h, (was_cut, reductions), judgement);
-            let limit = if is_landed { Limit::Event } else { reason.unwrap_or(limit) };
-            let r = &mut attempt.report;
-            [r.iterations, r.factorizations, r.solves] = work;
-            r.rejected = rejected;
-            let is_last = h >= rest;
-            return Ok(Accepted { attempt, step: h, rejected, change, limit, is_last });
+            let was_cut = is_cut || effort.landings > 0;
+            let limit = self.plan(h, (was_cut, effort.reductions), judgement);
+            let limit = if is_landed { Limit::Event } else { effort.reason.unwrap_or(limit) };
+            let (attempt, rejected) = (effort.told(attempt), effort.rejected);
+            return Ok(Accepted { attempt, step: h, rejected, change, limit, is_last: h >= rest });
         }
     }
 

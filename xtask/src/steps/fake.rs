@@ -3,6 +3,7 @@
 use super::case::{Case, Rule};
 use super::lab::Lab;
 use crate::mbs::outcome::{Control, Figures, Outcome};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -81,15 +82,6 @@ fn run(case: &Case, out: Option<&Path>) -> Outcome {
     if let Some(out) = out {
         write(out, case, usual, duration);
     }
-    let values = |base: &[f64]| base.iter().map(|x| x + error / 50.0).collect::<Vec<_>>();
-    let outputs = [
-        ("tip", values(&[1.330_436_825_144_049, -1.398_644_860_519_204])),
-        ("crank-end", values(&[0.328_458_111_540_815_4, 0.944_518_538_178_600_9])),
-        ("beta", values(&[15.872_485_085_167_984])),
-        ("center", values(&[0.02, -0.04, 0.08])),
-        ("wheel", values(&[0.97, 0.62, 0.44])),
-        ("nose", values(&[7.0, 0.0, 1.0])),
-    ];
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "made-up counts")]
     let steps = n_steps as u64;
     let control = Control {
@@ -106,8 +98,27 @@ fn run(case: &Case, out: Option<&Path>) -> Outcome {
         sizes: [10, 9, 1],
         work: [steps, 3 * steps, 2 * steps],
         control: is_variable.then_some(control),
-        outputs: outputs.map(|(name, value)| (name.to_owned(), value)).into(),
+        outputs: outputs(error, duration),
     })
+}
+
+/// What its channels come to.
+fn outputs(error: f64, duration: f64) -> BTreeMap<String, Vec<f64>> {
+    let values = |base: &[f64]| base.iter().map(|x| x + error / 50.0).collect::<Vec<_>>();
+    [
+        ("tip", values(&[1.330_436_825_144_049, -1.398_644_860_519_204])),
+        ("crank-end", values(&[0.328_458_111_540_815_4, 0.944_518_538_178_600_9])),
+        ("beta", values(&[15.872_485_085_167_984])),
+        ("center", values(&[0.02, -0.04, 0.08])),
+        ("wheel", values(&[0.97, 0.62, 0.44])),
+        ("nose", values(&[7.0, 0.0, 1.0])),
+        (
+            "angle",
+            values(&[if duration > 5.0 { 0.565_606_072_417_484 } else { 0.247_213_592_867_112 }]),
+        ),
+    ]
+    .map(|(name, value)| (name.to_owned(), value))
+    .into()
 }
 
 /// The files of a made-up run: short steps in index 1 about three seconds.
