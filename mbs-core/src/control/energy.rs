@@ -9,8 +9,8 @@
 //! Differs from the source: e is a share of the energy that moves, not of the total with its arbitrary zero; the h of (33) is
 //! left out, since U and L are compared with the change in one step; a step that is kept follows the rule too, where the source
 //! changes the step only at the limits. A step that changes at the limits only is shortened late and enlarged late, and the errors
-//! of a swing forth and back no longer cancel: at the same cost the invariant drifts five times as far. The printed form is an
-//! option. Since e passes through zero between gain and loss, larger changes are remembered for a few steps.
+//! of a swing forth and back no longer cancel: at the same cost the invariant errs twice (a suspension) to eight times (a double
+//! pendulum) as far. The printed form is an option. Since e passes through zero between gain and loss, larger changes are remembered for a few steps.
 
 /// The rule with its limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
