@@ -71,6 +71,8 @@ fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
     for k in 0..w.lambda.len() {
         w.lambda[k] = match options.multipliers {
             Multipliers::FromZero => T::ZERO,
+            // Equal steps: as printed, to the last digit.
+            _ if share == T::ONE => (s.lambda[k] + s.lambda[k] - s.lambda_previous[k]) * inverse,
             _ => (s.lambda[k] + (s.lambda[k] - s.lambda_previous[k]) * share) * inverse,
         };
         w.penalty[k] = match options.penalty {
