@@ -104,7 +104,10 @@ fn json_has_exactly_the_keys_of_the_format() {
     ];
     expected.sort_unstable();
     assert_eq!(keys(&json), expected);
-    assert_eq!(keys(&json["energy"]), ["final_error", "initial", "max_error", "turned_over"]);
+    assert_eq!(
+        keys(&json["energy"]),
+        ["drift", "final_error", "initial", "max_error", "scatter", "turned_over"]
+    );
     assert_eq!(keys(&json["violation"]), ["acceleration", "position", "velocity"]);
     assert_eq!(json["outputs"]["tip"], serde_json::json!([1.0, 2.0]));
     assert!(json["outputs"]["angle"].is_null() && json["error"].is_null());
