@@ -67,13 +67,11 @@ fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
         (w.dq[i], w.v[i], w.a[i]) = (dq, v, a * inverse);
         w.q[i] = s.q[i] + dq;
     }
-    let share = s.extrapolation(rule.dt);
+    let lambda = s.extrapolated(rule.dt);
     for k in 0..w.lambda.len() {
         w.lambda[k] = match options.multipliers {
             Multipliers::FromZero => T::ZERO,
-            // Equal steps: as printed, to the last digit.
-            _ if share == T::ONE => (s.lambda[k] + s.lambda[k] - s.lambda_previous[k]) * inverse,
-            _ => (s.lambda[k] + (s.lambda[k] - s.lambda_previous[k]) * share) * inverse,
+            _ => lambda(k) * inverse,
         };
         w.penalty[k] = match options.penalty {
             Penalty::Scaled(factor) => factor * w.boost * w.masses[k],

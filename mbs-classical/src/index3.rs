@@ -70,9 +70,9 @@ fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         (w.dq[i], w.v[i], w.a[i]) = (dq, v, a * inverse);
     }
     // lambda = 2 lambda_n - lambda_(n-1)   [P3 (3)]
-    let share = s.extrapolation(rule.dt);
+    let lambda = s.extrapolated(rule.dt);
     for k in 0..w.lambda.len() {
-        w.lambda[k] = (s.lambda[k] + (s.lambda[k] - s.lambda_previous[k]) * share) * inverse;
+        w.lambda[k] = lambda(k) * inverse;
     }
     model.set_inputs(s.t + rule.dt, &mut w.terms);
     w.evaluate(model, options.compensated, s);

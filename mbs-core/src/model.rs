@@ -219,13 +219,18 @@ impl<T: Real> State<T> {
         }
     }
 
-    /// Share of the last change of the multipliers that is expected over the next `dt` [s], at most two.
+    /// Multipliers at the end of the next step of `dt` [s], as their last change goes on; it counts at most twice.
     ///
     /// ```text
-    /// lambda = lambda_n + (dt / dt_n) (lambda_n - lambda_(n-1))
+    /// lambda_k = lambda_n + (dt / dt_n) (lambda_n - lambda_(n-1))
     /// ```
-    pub fn extrapolation(&self, dt: T) -> T {
-        if self.dt > T::ZERO { (dt / self.dt).min(T::TWO) } else { T::ZERO }
+    pub fn extrapolated(&self, dt: T) -> impl Fn(usize) -> T + '_ {
+        let share = if self.dt > T::ZERO { (dt / self.dt).min(T::TWO) } else { T::ZERO };
+        move |k| {
+            let (last, previous) = (self.lambda[k], self.lambda_previous[k]);
+            // Equal steps: as printed, to the last digit.
+            if share == T::ONE { last + last - previous } else { last + (last - previous) * share }
+        }
     }
 
     /// Overwrites this state with another of the same model, without allocating.

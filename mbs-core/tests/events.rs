@@ -371,7 +371,7 @@ fn a_contact_that_starts_with_a_step_too_long_for_it_is_told_with_the_share_that
         };
         let mut given = Given::<f64, 2>::new(&slider(BUMPER), &course);
         given.go(0.1);
-        let told = given.events.crossing(&given.state).filter(|crossing| crossing.too_stiff);
+        let told = given.events.crossing(&given.state).filter(|crossing| crossing.is_too_stiff);
         match (told, share) {
             (Some(told), Some(share)) => {
                 assert!((told.share - share).abs() < 1e-9, "{way}: {told:?}")

@@ -119,9 +119,7 @@ where
     }
 
     fn crossing(&mut self, _: T) -> Option<Crossing> {
-        let crossing = self.events.as_mut()?.crossing(self.state)?;
-        let mbs_core::outputs::Crossing { share, landed, too_stiff, .. } = crossing;
-        Some(Crossing { share, is_landed: landed, is_too_stiff: too_stiff })
+        self.events.as_mut()?.crossing(self.state)
     }
 
     fn keep(&mut self, at_event: bool) {

@@ -63,15 +63,18 @@ pub struct Attempt<T> {
     pub acceleration_energy: f64,
 }
 
-/// An event within a trial.
+/// An event within a trial, or at its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
-    /// Where, as a share of the trial; above one where it ended just before.
+    /// Share of the trial after which it comes, aimed a hair past it: from 0.001 to 1; up to 1.05 where the trial ends just
+    /// short of it, so that no tiny step need follow.
     pub share: f64,
-    /// The trial ends so near to it that it may be taken.
+    /// The trial's end lies so near that it may serve; the share is one.
     pub is_landed: bool,
     /// No event, but a contact that began with the trial and is too stiff for its length.
     pub is_too_stiff: bool,
+    /// Index of the effect in the scene.
+    pub effect: usize,
 }
 
 /// By what steps are chosen.

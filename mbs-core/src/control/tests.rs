@@ -102,6 +102,7 @@ impl Stepper<f64> for Pendulum {
             share: (event - from) / h,
             is_landed: self.t <= event + 1e-12,
             is_too_stiff: false,
+            effect: 0,
         })
     }
 

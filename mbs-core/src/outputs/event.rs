@@ -25,25 +25,12 @@
 use super::cubic::Cubic;
 use super::load::{Gap, Load, Loads, Reading};
 use crate::Real;
+use crate::control::Crossing;
 use crate::laws::kink::Kink;
 use crate::model::State;
 use crate::natural::{ModelError, NaturalModel};
 use crate::scene::Scene;
 use alloc::vec::Vec;
-
-/// An event within a trial step, or at its end.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Crossing {
-    /// Share of the trial step after which it comes, aimed a hair past it: from 0.001 to 1; up to 1.05 where the trial ends just
-    /// short of it, so that no tiny step need follow.
-    pub share: f64,
-    /// The trial's end lies so near that it may serve; the share is one.
-    pub landed: bool,
-    /// No event, but a contact that began with the step and is too stiff for its length.
-    pub too_stiff: bool,
-    /// Index of the effect in the scene.
-    pub effect: usize,
-}
 
 /// Compares gaps and kinks at the ends of trial steps with those at their beginning.
 #[derive(Debug, Clone)]
@@ -185,7 +172,7 @@ impl<T: Real> Watched<T> {
             let step = (to - from, self.band + late * begin.gaps[i].rate.abs().to_f64());
             if let Some(share) = Self::entry([begin.gaps[i], end.gaps[i]], step) {
                 let effect = self.effect;
-                return take(Crossing { share, landed: false, too_stiff: true, effect });
+                return take(Crossing { share, is_landed: false, is_too_stiff: true, effect });
             }
         }
         let mut watch = |begin: Gap<T>, end: Gap<T>| {
@@ -194,11 +181,11 @@ impl<T: Real> Watched<T> {
             let cubic = Cubic::new([begin, end], to - from);
             if let Some(change) = cubic.change(self.band + late * rate) {
                 let effect = self.effect;
-                let (mut share, landed) = (change.share, change.lands);
-                if is_slow && !landed {
+                let (mut share, is_landed) = (change.share, change.lands);
+                if is_slow && !is_landed {
                     share = share.min(self.free([begin, end], to - from));
                 }
-                take(Crossing { share, landed, too_stiff: false, effect });
+                take(Crossing { share, is_landed, is_too_stiff: false, effect });
             }
         };
         for i in 0..self.n_gaps {

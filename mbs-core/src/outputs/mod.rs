@@ -20,6 +20,6 @@ mod wrench;
 
 pub use contact::{Contacts, Instant, MOST_INSTANTS};
 pub use error::ReactionError;
-pub use event::{Crossing, Events};
+pub use event::Events;
 pub use measure::{Measures, start_values};
 pub use reaction::{LARGEST_BLOCK, Reactions};

@@ -80,7 +80,7 @@ impl<'a, T: Real, const D: usize> Given<'a, T, D> {
             loop {
                 self.go(t + step);
                 let Some(crossing) = self.events.crossing(&self.state) else { break };
-                if crossing.landed {
+                if crossing.is_landed {
                     landings.push(Landing { t: t + step, effect: crossing.effect, trials });
                     break;
                 }
