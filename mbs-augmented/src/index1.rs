@@ -14,10 +14,10 @@
 use crate::options::{Options, Penalty};
 use crate::projection::Level;
 use crate::workspace::{Mass, Workspace};
-use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{Counts, StepError, StepReport, Stop, check_guides, largest, largest_or_nan};
+use mbs_core::team::{add_product, norm_inf, on_stretches, set_sum, subtract};
 use mbs_core::{Real, SpdSolver};
 
 /// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
@@ -37,7 +37,8 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w.base = options.penalty.factor();
     begin(model, &rule, options, s, w);
     let (mut last, mut done) = (T::ZERO, None);
-    let goal = norm_inf(&s.a).max(norm_inf(&s.v) / dt * T::EPSILON) * options.tolerance;
+    let goal = norm_inf(model.team(), &s.a).max(norm_inf(model.team(), &s.v) / dt * T::EPSILON)
+        * options.tolerance;
     let mut iterations = 0;
     while iterations < options.max_iterations && done.is_none() {
         iterations += 1;
@@ -63,13 +64,13 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     }
     let velocity = constrain(model, (&rule, length, false), options, s, w)?;
     model.evaluate_bias(&w.q, &w.v, &mut w.terms);
-    let size = norm_inf(&w.a).max(norm_inf(&w.terms.phi_bias));
+    let size = norm_inf(model.team(), &w.a).max(norm_inf(model.team(), &w.terms.phi_bias));
     let rounding = T::EPSILON * T::from_f64(1024.0);
     let limit = (T::ONE + size) * T::from_f64(5e-10).max(rounding);
     let acceleration =
         w.project(model, Level::Acceleration, (size * rounding, limit), options.max_sweeps)?;
     w.commit(model, &rule, options.compensated, T::ONE, s);
-    let violation = [norm_inf(&w.terms.phi), velocity, acceleration];
+    let violation = [norm_inf(model.team(), &w.terms.phi), velocity, acceleration];
     let newton = (iterations, correction, done.unwrap_or(Stop::Tolerance));
     Ok(w.report(newton, violation))
 }
@@ -113,7 +114,7 @@ pub fn settle<T: Real, M: Model<T>, S: SpdSolver<T>>(
         model.evaluate_forces(&w.q, &w.v, &s.memory, &mut w.terms);
     }
     model.evaluate_bias(&w.q, &w.v, &mut w.terms);
-    let goal = norm_inf(&s.a).max(T::ONE) * options.tolerance;
+    let goal = norm_inf(model.team(), &s.a).max(T::ONE) * options.tolerance;
     let mut last = T::ZERO;
     let mut iterations = 0;
     while iterations < MOST_SETTLING {
@@ -125,7 +126,7 @@ pub fn settle<T: Real, M: Model<T>, S: SpdSolver<T>>(
             break;
         }
     }
-    if !(last <= norm_inf(&w.a).max(T::ONE) * options.tolerance.sqrt()) {
+    if !(last <= norm_inf(model.team(), &w.a).max(T::ONE) * options.tolerance.sqrt()) {
         let (correction, unknown) = ((last / length).to_f64(), largest(&w.f));
         return Err(StepError::NotConverged { iterations, correction, unknown });
     }
@@ -152,10 +153,13 @@ fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
     s: &State<T>,
     w: &mut Workspace<T, S>,
 ) {
-    for i in 0..w.f.len() {
-        let (_, _, a) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
-        w.a[i] = a;
-    }
+    let n = w.f.len();
+    on_stretches(model.team(), [&mut w.a[..n]], |first, [a]| {
+        for (k, a) in a.iter_mut().enumerate() {
+            let i = first + k;
+            *a = rule.predict(s.v[i], s.a[i], s.a_aux[i]).2;
+        }
+    });
     for k in 0..w.lambda.len() {
         w.lambda[k] = s.lambda[k];
         w.penalty[k] = match options.penalty {
@@ -175,19 +179,26 @@ fn constrain<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<T, StepError> {
     let inverse = T::ONE / rule.acceleration;
-    for i in 0..w.f.len() {
-        let (dq, v, a) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
-        let d = (w.a[i] - a) * inverse;
-        w.dq[i] = dq + d;
-        w.v[i] = v;
-        w.dq_predicted[i] = dq;
-        w.change[i] = T::ZERO;
-    }
+    let (n, a) = (w.f.len(), &w.a);
+    let vectors = [&mut w.dq[..n], &mut w.v[..n], &mut w.dq_predicted[..n], &mut w.change[..n]];
+    on_stretches(model.team(), vectors, |first, [dq, v, dq_predicted, change]| {
+        for k in 0..dq.len() {
+            let i = first + k;
+            let predicted = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
+            dq[k] = predicted.0 + (a[i] - predicted.2) * inverse;
+            v[k] = predicted.1;
+            dq_predicted[k] = predicted.0;
+            change[k] = T::ZERO;
+        }
+    });
     positions(model, length, options, s, w)?;
     // The velocity follows the projected position, so that both tell of the same motion near a singular position.
-    for i in 0..w.f.len() {
-        w.v[i] += rule.velocity * (w.dq[i] - w.dq_predicted[i]);
-    }
+    let (dq, dq_predicted) = (&w.dq, &w.dq_predicted);
+    on_stretches(model.team(), [&mut w.v[..n]], |first, [v]| {
+        for k in 0..v.len() {
+            v[k] += rule.velocity * (dq[first + k] - dq_predicted[first + k]);
+        }
+    });
     velocities(model, (length, is_first), options, w)
 }
 
@@ -198,7 +209,7 @@ fn velocities<T: Real, M: Model<T>, S: SpdSolver<T>>(
     options: &Options<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<T, StepError> {
-    let speed = norm_inf(&w.v);
+    let speed = norm_inf(model.team(), &w.v);
     let rounding = T::EPSILON * T::from_f64(16.0);
     if model.has_guides() {
         model.evaluate_phi_t(&w.q, &mut w.terms);
@@ -206,7 +217,7 @@ fn velocities<T: Real, M: Model<T>, S: SpdSolver<T>>(
     }
     if is_first {
         w.violation(model, Level::Velocity);
-        w.penalty_energy = w.stored(&w.rates);
+        w.penalty_energy = w.stored(model.team(), &w.rates);
     }
     let limit = (length + speed) * T::from_f64(5e-10).max(rounding * T::from_f64(64.0));
     let left = w.project(model, Level::Velocity, (speed * rounding, limit), options.max_sweeps)?;
@@ -231,27 +242,22 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let limit = length * T::from_f64(LIMIT).max(T::EPSILON * T::from_f64(256.0));
     w.sigma.fill(T::ZERO);
     move_to(model, options, s, w);
-    let mut violation = norm_inf(&w.terms.phi);
+    let mut violation = norm_inf(model.team(), &w.terms.phi);
     for sweeps in 0..options.max_sweeps {
         w.factor(model, (T::ZERO, T::ZERO), false)?;
         if violation <= goal {
             break;
         }
-        for k in 0..w.mu.len() {
-            w.mu[k] = w.sigma[k] + w.penalty[k] * w.terms.phi[k];
-        }
+        set_sum(model.team(), &mut w.mu, &w.sigma, (&w.penalty, &w.terms.phi));
         w.assemble(model, if sweeps > 0 { Mass::Change } else { Mass::None }, T::ZERO);
         w.solve();
-        for i in 0..w.f.len() {
-            w.dq[i] -= w.f[i];
-            w.change[i] -= w.f[i];
-        }
+        let n = w.f.len();
+        subtract(model.team(), &mut w.dq[..n], &w.f);
+        subtract(model.team(), &mut w.change[..n], &w.f);
         move_to(model, options, s, w);
-        for k in 0..w.sigma.len() {
-            w.sigma[k] += w.penalty[k] * w.terms.phi[k];
-        }
-        let contraction = norm_inf(&w.terms.phi) / violation;
-        violation = norm_inf(&w.terms.phi);
+        add_product(model.team(), &mut w.sigma, (&w.penalty, &w.terms.phi));
+        let contraction = norm_inf(model.team(), &w.terms.phi) / violation;
+        violation = norm_inf(model.team(), &w.terms.phi);
         let is_raised = contraction > T::from_f64(0.1) && w.raise_penalties(contraction);
         if contraction > T::from_f64(0.9) && !is_raised {
             break;
@@ -273,9 +279,12 @@ fn move_to<T: Real, M: Model<T>, S: SpdSolver<T>>(
     s: &State<T>,
     w: &mut Workspace<T, S>,
 ) {
-    for i in 0..w.f.len() {
-        w.q[i] = s.q[i] + w.dq[i];
-    }
+    let (n, dq) = (w.f.len(), &w.dq);
+    on_stretches(model.team(), [&mut w.q[..n]], |first, [q]| {
+        for k in 0..q.len() {
+            q[k] = s.q[first + k] + dq[first + k];
+        }
+    });
     if options.compensated {
         model.advance(&s.q, &w.dq, &s.phi, &mut w.terms);
     } else {
@@ -305,19 +314,14 @@ fn correct<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<T, StepError> {
     w.violation(model, Level::Acceleration);
-    for k in 0..w.mu.len() {
-        w.mu[k] = w.lambda[k] + w.penalty[k] * w.rates[k];
-    }
+    set_sum(model.team(), &mut w.mu, &w.lambda, (&w.penalty, &w.rates));
     w.assemble(model, Mass::Acceleration, T::ONE);
     w.solve();
-    for i in 0..w.f.len() {
-        w.a[i] -= w.f[i];
-    }
+    let n = w.f.len();
+    subtract(model.team(), &mut w.a[..n], &w.f);
     w.violation(model, Level::Acceleration);
-    for k in 0..w.lambda.len() {
-        w.lambda[k] += w.penalty[k] * w.rates[k];
-    }
-    let correction = norm_inf(&w.f);
+    add_product(model.team(), &mut w.lambda, (&w.penalty, &w.rates));
+    let correction = norm_inf(model.team(), &w.f);
     if correction.is_finite() {
         Ok(correction)
     } else {

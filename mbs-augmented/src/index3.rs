@@ -14,13 +14,13 @@
 use crate::options::{Multipliers, Options, Penalty, Projection};
 use crate::projection::Level;
 use crate::workspace::{Mass, Workspace};
-use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
     Counts, StepError, StepReport, Stop, Yardstick, check_guides, largest, largest_or_nan,
     step_scale, stopping,
 };
+use mbs_core::team::{add_product, norm_inf, on_stretches, set_sum};
 use mbs_core::{Real, SpdSolver};
 
 /// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
@@ -45,9 +45,9 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let (newton, since) = iterate(model, &rule, length, options, s, w)?;
 
     // The accelerations leave the scaling of the iteration.
-    for a in &mut w.a {
-        *a *= rule.acceleration;
-    }
+    on_stretches(model.team(), [&mut w.a], |_, [a]| {
+        a.iter_mut().for_each(|a| *a *= rule.acceleration)
+    });
     let violation = clean(model, &rule, (since, length), options, w)?;
     w.commit(model, &rule, options.compensated, rule.acceleration, s);
     Ok(w.report(newton, violation))
@@ -62,22 +62,30 @@ fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w: &mut Workspace<T, S>,
 ) {
     let inverse = T::ONE / rule.acceleration;
-    for i in 0..w.f.len() {
-        let (dq, v, a) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
-        (w.dq[i], w.v[i], w.a[i]) = (dq, v, a * inverse);
-        w.q[i] = s.q[i] + dq;
-    }
-    let lambda = s.extrapolated(rule.dt);
-    for k in 0..w.lambda.len() {
-        w.lambda[k] = match options.multipliers {
-            Multipliers::FromZero => T::ZERO,
-            _ => lambda(k) * inverse,
-        };
-        w.penalty[k] = match options.penalty {
-            Penalty::Scaled(factor) => factor * w.boost * w.masses[k],
-            Penalty::Fixed(alpha) => alpha * inverse,
-        };
-    }
+    let n = w.f.len();
+    let coordinates = [&mut w.dq[..n], &mut w.v[..n], &mut w.a[..n], &mut w.q[..n]];
+    on_stretches(model.team(), coordinates, |first, [dq, v, a, q]| {
+        for k in 0..q.len() {
+            let i = first + k;
+            let predicted = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
+            (dq[k], v[k], a[k]) = (predicted.0, predicted.1, predicted.2 * inverse);
+            q[k] = s.q[i] + dq[k];
+        }
+    });
+    let (expected, boost, masses) = (s.extrapolated(rule.dt), w.boost, &w.masses);
+    let rows = [&mut w.lambda[..], &mut w.penalty];
+    on_stretches(model.team(), rows, |first, [lambda, penalty]| {
+        for k in 0..lambda.len() {
+            lambda[k] = match options.multipliers {
+                Multipliers::FromZero => T::ZERO,
+                _ => expected(first + k) * inverse,
+            };
+            penalty[k] = match options.penalty {
+                Penalty::Scaled(factor) => factor * boost * masses[first + k],
+                Penalty::Fixed(alpha) => alpha * inverse,
+            };
+        }
+    });
     model.set_inputs(s.t + rule.dt, &mut w.terms);
     evaluate(model, options, s, w);
 }
@@ -112,7 +120,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<((u32, T, Stop), T), StepError> {
     let inverse = T::ONE / rule.acceleration;
-    let scale = step_scale(rule.dt, &s.a);
+    let scale = step_scale(model.team(), rule.dt, &s.a);
     let mut last = T::ZERO;
     // Corrections since the matrix was factored, and the contraction of the last two.
     let (mut since, mut contraction) = (T::ZERO, T::ONE);
@@ -131,36 +139,26 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         }
 
         // f = M a/a' + J^T (s phi + lambda/a') - Q/a'   [P3 (9)]
-        for k in 0..w.mu.len() {
-            w.mu[k] = w.lambda[k] + w.penalty[k] * w.terms.phi[k];
-        }
+        set_sum(model.team(), &mut w.mu, &w.lambda, (&w.penalty, &w.terms.phi));
         w.assemble(model, Mass::Acceleration, inverse);
 
         // T d = -f,   q += d,   v += v' d,   a += a' d   [P3 (8), (4), (5)]
         w.solve();
-        for i in 0..w.f.len() {
-            let d = w.f[i];
-            w.dq[i] -= d;
-            w.q[i] = s.q[i] + w.dq[i];
-            w.v[i] -= rule.velocity * d;
-            w.a[i] -= d;
-        }
+        correct(model, rule, s, w);
         evaluate(model, options, s, w);
         if iterations == 1 {
-            w.penalty_energy = w.stored(&w.terms.phi) * rule.acceleration;
+            w.penalty_energy = w.stored(model.team(), &w.terms.phi) * rule.acceleration;
         }
 
         // lambda <- lambda + alpha phi   [P3 (2)]
-        for k in 0..w.lambda.len() {
-            w.lambda[k] += w.penalty[k] * w.terms.phi[k];
-        }
+        add_product(model.team(), &mut w.lambda, (&w.penalty, &w.terms.phi));
 
-        let correction = norm_inf(&w.f);
+        let correction = norm_inf(model.team(), &w.f);
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f) });
         }
         since += correction;
-        let moved = options.compensated.then(|| norm_inf(&w.dq));
+        let moved = options.compensated.then(|| norm_inf(model.team(), &w.dq));
         let measures = (scale, options.tolerance);
         let yardstick = Yardstick::of_coordinates(iterations, measures, length, moved);
         if let Some(stop) = stopping(iterations, correction, last, &yardstick) {
@@ -174,6 +172,27 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     }
     let (iterations, unknown) = (options.max_iterations, largest(&w.f));
     Err(StepError::NotConverged { iterations, correction: (last / length).to_f64(), unknown })
+}
+
+/// q += d,   v += v' d,   a += a' d   with d = -f
+fn correct<T: Real, M: Model<T>, S: SpdSolver<T>>(
+    model: &M,
+    rule: &Rule<T>,
+    s: &State<T>,
+    w: &mut Workspace<T, S>,
+) {
+    let (n, f) = (w.f.len(), &w.f);
+    let coordinates = [&mut w.dq[..n], &mut w.v[..n], &mut w.a[..n], &mut w.q[..n]];
+    on_stretches(model.team(), coordinates, |first, [dq, v, a, q]| {
+        let n = q.len();
+        let (f, q_n) = (&f[first..][..n], &s.q[first..][..n]);
+        for k in 0..n {
+            dq[k] -= f[k];
+            q[k] = q_n[k] + dq[k];
+            v[k] -= rule.velocity * f[k];
+            a[k] -= f[k];
+        }
+    });
 }
 
 /// T, with the geometric stiffness where it is wanted and leaves T positive definite.
@@ -198,9 +217,12 @@ fn filter<T: Real, M: Model<T>, S: SpdSolver<T>>(model: &M, w: &mut Workspace<T,
     let n = w.f.len();
     w.change[..n].copy_from_slice(&w.f);
     model.multiply_jacobian(&w.terms, &w.change, &mut w.lambda);
-    for k in 0..w.lambda.len() {
-        w.lambda[k] *= w.penalty[k];
-    }
+    let penalty = &w.penalty;
+    on_stretches(model.team(), [&mut w.lambda], |first, [lambda]| {
+        for (lambda, &s) in lambda.iter_mut().zip(&penalty[first..]) {
+            *lambda *= s;
+        }
+    });
 }
 
 /// Penalties raised by more than this are taken back before velocities and accelerations are projected.
@@ -231,7 +253,7 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
         check_guides(model, &w.q, &w.terms)?;
     }
     let sweeps = options.max_sweeps;
-    let speed = norm_inf(&w.v);
+    let speed = norm_inf(model.team(), &w.v);
     let rounding = T::EPSILON * T::from_f64(16.0);
     let velocity = match options.projection {
         Projection::Correction => {
@@ -249,7 +271,7 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
         Projection::PrintedTangent => w.project_with_tangent(model, Level::Velocity),
     };
     model.evaluate_bias(&w.q, &w.v, &mut w.terms);
-    let size = norm_inf(&w.a).max(norm_inf(&w.terms.phi_bias));
+    let size = norm_inf(model.team(), &w.a).max(norm_inf(model.team(), &w.terms.phi_bias));
     let acceleration = match options.projection {
         Projection::Correction => {
             let limit = (T::ONE + size) * T::from_f64(5e-10).max(rounding * T::from_f64(64.0));
@@ -267,7 +289,7 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
         balance(model, rule, w);
     }
     w.boost = raised;
-    Ok([norm_inf(&w.terms.phi), velocity, acceleration])
+    Ok([norm_inf(model.team(), &w.terms.phi), velocity, acceleration])
 }
 
 /// sigma <- sigma - s J T^-1 (M a + J^T (lambda + sigma) - Q): multipliers in balance with the projected accelerations.

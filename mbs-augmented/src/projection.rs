@@ -11,9 +11,9 @@
 //! the level is reached. Any factored matrix near W will do: the fixed point does not depend on it.
 
 use crate::workspace::{Mass, Workspace};
-use mbs_core::algebra::norm_inf;
 use mbs_core::model::Model;
 use mbs_core::step::{StepError, largest};
+use mbs_core::team::{add_product, norm_inf, on_stretches, set_sum};
 use mbs_core::{Real, SpdSolver};
 
 /// What one correction may leave of the multiplier of the least felt combination of constraints.
@@ -41,11 +41,13 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         };
         model.multiply_jacobian(&self.terms, x, &mut self.rates);
         if level == Level::Acceleration || model.has_guides() {
-            for (r, &b) in self.rates.iter_mut().zip(b) {
-                *r += b;
-            }
+            on_stretches(model.team(), [&mut self.rates], |first, [rates]| {
+                for (r, &b) in rates.iter_mut().zip(&b[first..]) {
+                    *r += b;
+                }
+            });
         }
-        norm_inf(&self.rates)
+        norm_inf(model.team(), &self.rates)
     }
 
     /// Projects v or a with the factored matrix; the multipliers are left in `sigma`. Returns the violation left.
@@ -68,9 +70,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             }
             self.sweep(model, level, sweeps > 0);
             let left = self.violation(model, level);
-            for i in 0..self.sigma.len() {
-                self.sigma[i] += self.penalty[i] * self.rates[i];
-            }
+            add_product(model.team(), &mut self.sigma, (&self.penalty, &self.rates));
             let contraction = left / violation;
             violation = left;
             if contraction > T::HALF && violation <= limit {
@@ -156,22 +156,25 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     /// Returns whether the penalties changed, so that T must be factored anew. Needs T factored. Cost: one solve.
     pub(crate) fn adapt<M: Model<T>>(&mut self, model: &M) -> bool {
         if self.rho > T::from_f64(FOLLOWED) {
-            let inverse = T::ONE / norm_inf(&self.probe);
+            let inverse = T::ONE / norm_inf(model.team(), &self.probe);
             self.probe.iter_mut().for_each(|u| *u *= inverse);
         } else {
             spread(&mut self.probe);
         }
-        let size = norm_inf(&self.probe);
+        let size = norm_inf(model.team(), &self.probe);
         self.mu.copy_from_slice(&self.probe);
         self.assemble(model, Mass::None, T::ZERO);
         self.solve();
         let n = self.f.len();
         self.change[..n].copy_from_slice(&self.f);
         model.multiply_jacobian(&self.terms, &self.change, &mut self.rates);
-        for k in 0..self.probe.len() {
-            self.probe[k] -= self.penalty[k] * self.rates[k];
-        }
-        let rho = norm_inf(&self.probe) / size;
+        let (penalty, rates) = (&self.penalty, &self.rates);
+        on_stretches(model.team(), [&mut self.probe], |first, [probe]| {
+            for k in 0..probe.len() {
+                probe[k] -= penalty[first + k] * rates[first + k];
+            }
+        });
+        let rho = norm_inf(model.team(), &self.probe) / size;
         self.rho = if rho.is_finite() { rho } else { T::ZERO };
         if !(rho > T::from_f64(FELT)) {
             return false;
@@ -227,19 +230,22 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
 
     /// One sweep; as long as nothing `is_changed` the mass has no part in it.
     fn sweep<M: Model<T>>(&mut self, model: &M, level: Level, is_changed: bool) {
-        for i in 0..self.mu.len() {
-            self.mu[i] = self.sigma[i] + self.penalty[i] * self.rates[i];
-        }
+        set_sum(model.team(), &mut self.mu, &self.sigma, (&self.penalty, &self.rates));
         self.assemble(model, if is_changed { Mass::Change } else { Mass::None }, T::ZERO);
         self.solve();
         let x = match level {
             Level::Velocity => &mut self.v,
             Level::Acceleration => &mut self.a,
         };
-        for i in 0..self.f.len() {
-            x[i] -= self.f[i];
-            self.change[i] -= self.f[i];
-        }
+        let (n, f) = (self.f.len(), &self.f);
+        let vectors = [&mut x[..n], &mut self.change[..n]];
+        on_stretches(model.team(), vectors, |first, [x, change]| {
+            let f = &f[first..][..x.len()];
+            for i in 0..x.len() {
+                x[i] -= f[i];
+                change[i] -= f[i];
+            }
+        });
     }
 }
 

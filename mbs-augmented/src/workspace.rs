@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Load, Model, State, Tangent, Terms};
 use mbs_core::step::{Counts, StepReport, Stop, add_work, take_coordinates};
+use mbs_core::team::{Team, on_stretches, sum};
 use mbs_core::{Real, SpdSolver};
 
 /// Scratch of the augmented Lagrangian steps over a solver `S`. Nothing is allocated after [`Workspace::new`].
@@ -143,13 +144,19 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         unit: T,
         s: &mut State<T>,
     ) {
-        take_coordinates(rule, compensated, self.f.len(), s, (&self.dq, &self.v, &self.a));
-        for k in 0..self.lambda.len() {
-            s.lambda_previous[k] = s.lambda[k];
-            s.lambda[k] = self.lambda[k] * unit;
-            s.reaction[k] = s.lambda[k] + self.sigma[k];
-            s.phi[k] = self.terms.phi[k];
-        }
+        let team = model.team();
+        take_coordinates(team, (rule, compensated, self.f.len()), s, (&self.dq, &self.v, &self.a));
+        let (lambda, sigma, phi) = (&self.lambda, &self.sigma, &self.terms.phi);
+        let rows = [&mut s.lambda_previous[..], &mut s.lambda, &mut s.reaction, &mut s.phi];
+        on_stretches(team, rows, |first, [previous, last, reaction, phi_n]| {
+            for k in 0..last.len() {
+                let i = first + k;
+                previous[k] = last[k];
+                last[k] = lambda[i] * unit;
+                reaction[k] = last[k] + sigma[i];
+                phi_n[k] = phi[i];
+            }
+        });
         s.t += rule.dt;
         add_work(model, rule.dt, s, &mut self.terms);
     }
@@ -166,9 +173,13 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     }
 
     /// 1/2 x^T s x with the penalties s in mass units [P2 (29)].
-    pub(crate) fn stored(&self, x: &[T]) -> T {
-        let sum = x.iter().zip(&self.penalty).fold(T::ZERO, |sum, (&x, &s)| sum + s * x * x);
-        sum * T::HALF
+    pub(crate) fn stored<W: Team>(&self, team: &W, x: &[T]) -> T {
+        let penalty = &self.penalty;
+        let part = |from: usize, to: usize| {
+            let pairs = x[from..to].iter().zip(&penalty[from..to]);
+            pairs.fold(T::ZERO, |sum, (&x, &s)| sum + s * x * x)
+        };
+        sum(team, x.len(), part) * T::HALF
     }
 
     /// f = T^-1 f.

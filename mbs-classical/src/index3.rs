@@ -88,7 +88,7 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<(u32, T, Stop), StepError> {
     let inverse = T::ONE / rule.acceleration;
-    let scale = step_scale(rule.dt, &s.a);
+    let scale = step_scale(model.team(), rule.dt, &s.a);
     let mut last = T::ZERO;
     for iterations in 1..=options.max_iterations {
         factor(model, rule, options, w)?;

@@ -335,7 +335,12 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         unit: T,
         s: &mut State<T>,
     ) {
-        take_coordinates(rule, compensated, self.n, s, (&self.dq, &self.v, &self.a));
+        take_coordinates(
+            model.team(),
+            (rule, compensated, self.n),
+            s,
+            (&self.dq, &self.v, &self.a),
+        );
         for k in 0..self.lambda.len() {
             s.lambda_previous[k] = s.lambda[k];
             s.lambda[k] = self.lambda[k] * unit;

@@ -26,8 +26,8 @@ pub trait Cliques {
     }
 }
 
-/// The numbers of a sum of elements at one state.
-pub trait BlockSource<T: Real> {
+/// The numbers of a sum of elements at one state. Elements may be asked for by several threads at the same time.
+pub trait BlockSource<T: Real>: Sync {
     /// Writes the lower triangle of the symmetric block of `element`, packed column by column:
     /// (0,0), (1,0), ..., (k-1,0), (1,1), (2,1), ... ; `block` has k (k + 1) / 2 places, all are written.
     fn write_block(&self, element: usize, block: &mut [T]);

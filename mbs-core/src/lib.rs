@@ -34,6 +34,8 @@ pub mod scene;
 #[cfg(feature = "alloc")]
 pub mod start;
 pub mod step;
+pub mod team;
 
 pub use blocks::{BlockSource, Cliques, FactorError, SpdSolver, SymmetricSolver};
 pub use real::Real;
+pub use team::{Alone, Team};

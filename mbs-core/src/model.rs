@@ -10,6 +10,7 @@
 use crate::Real;
 use crate::blocks::{BlockSource, Cliques};
 pub use crate::laws::scalar::Measure;
+use crate::team::{Alone, Team};
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -59,7 +60,11 @@ pub struct Load<'a, T> {
 }
 
 /// A mechanism in dependent coordinates with constant mass matrix.
-pub trait Model<T: Real>: Cliques {
+pub trait Model<T: Real>: Cliques + Sync {
+    /// Who shares the work of a step in this model: its evaluation does, and a formulation's vectors.
+    fn team(&self) -> &impl Team {
+        &Alone
+    }
     /// Unknowns and constants together.
     fn n_extended(&self) -> usize;
     /// Number of constraint rows m.

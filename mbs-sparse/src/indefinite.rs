@@ -86,7 +86,7 @@ impl<T: Real> Indefinite<T> {
     /// When a clique names an unknown that does not exist, or one unknown twice; with more than 2^32 - 1 unknowns,
     /// elements or scattered entries.
     pub fn analyse(cliques: &impl Cliques, options: Options) -> Self {
-        let plan = plan(cliques, options);
+        let plan = plan(cliques, Options { grain: u64::MAX, ..options });
         let n = plan.order.len();
         let (mut children, mut maps, mut map_starts) = (Vec::new(), Vec::new(), vec![0]);
         for front in &plan.fronts {

@@ -7,11 +7,15 @@ mod multifrontal;
 mod options;
 mod pivoting;
 mod plan;
+mod share;
 mod sweep;
+mod tasks;
 mod tree;
 
 pub use indefinite::{Delays, Indefinite};
 pub use multifrontal::Multifrontal;
 pub use options::{Counters, Options, Pivoting};
 
-pub use mbs_core::{BlockSource, Cliques, FactorError, Real, SpdSolver, SymmetricSolver};
+pub use mbs_core::{
+    Alone, BlockSource, Cliques, FactorError, Real, SpdSolver, SymmetricSolver, Team,
+};

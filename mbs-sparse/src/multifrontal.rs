@@ -1,4 +1,4 @@
-//! L D L^T of a sum of element blocks, front by front; no matrix of all unknowns is ever formed.
+//! L D L^T of a sum of element blocks, front by front; no matrix of all unknowns is ever formed. Subtrees are tasks for a [`Team`].
 //!
 //! ```text
 //! front_s = sum of elements whose first unknown it eliminates + sum of updates of its children
@@ -6,19 +6,22 @@
 //!           [ L_21  I ] [     U  ] [         I      ]          U: update for the parent
 //! ```
 
-use crate::kernel::{self, BadPivot};
+use crate::graph::Lists;
+use crate::kernel;
 use crate::options::{Counters, Options, Pivoting};
-use crate::pivoting::eliminate_largest;
-use crate::plan::{Front, Part, Place, Plan, column, plan};
+use crate::plan::{Part, Place, Plan, column, plan};
+use crate::share::{Numbers, Vectors};
 use crate::sweep;
+use mbs_core::team::{Alone, Team, on_stretches};
 use mbs_core::{BlockSource, Cliques, FactorError, Real, SpdSolver};
 
-/// Serial multifrontal L D L^T: analysed once, factored many times without allocation.
+/// Multifrontal L D L^T: analysed once, factored many times without allocation, by one thread or by a team.
 #[derive(Debug, Clone)]
-pub struct Multifrontal<T: Real> {
+pub struct Multifrontal<T: Real, W: Team = Alone> {
     plan: Plan,
     pivoting: Pivoting,
-    /// All fronts, one after the other.
+    team: W,
+    /// All fronts, with room for a block beside those of each task.
     fronts: Vec<T>,
     pivots: Vec<T>,
     /// Unknowns in the order in which they were eliminated last.
@@ -27,8 +30,10 @@ pub struct Multifrontal<T: Real> {
     is_one_block: bool,
     /// For each pivot its row in its front before the swaps of [`Pivoting::Diagonal`].
     taken: Vec<u32>,
-    /// One block or one residual of an element.
-    block: Vec<T>,
+    /// Residuals of all elements; of one where the team is one.
+    residuals: Vec<T>,
+    /// For each unknown where it stands in `residuals`, in the order of the elements; empty where the team is one.
+    parts: Lists,
 }
 
 impl<T: Real> Multifrontal<T> {
@@ -41,17 +46,40 @@ impl<T: Real> Multifrontal<T> {
     /// When a clique names an unknown that does not exist, or one unknown twice; with more than 2^32 - 1 unknowns,
     /// elements or scattered entries.
     pub fn analyse(cliques: &impl Cliques, options: Options) -> Self {
-        let plan = plan(cliques, options);
-        let k = plan.largest_clique;
-        let n_taken = if options.pivoting == Pivoting::Diagonal { plan.order.len() } else { 0 };
+        Self::on(Alone, cliques, options)
+    }
+}
+
+impl<T: Real, W: Team> Multifrontal<T, W> {
+    /// As [`analyse`](Multifrontal::analyse), for a team. What it computes has the same bits whatever the team.
+    ///
+    /// # Panics
+    /// As [`analyse`](Multifrontal::analyse).
+    pub fn on(team: W, cliques: &impl Cliques, options: Options) -> Self {
+        Self::planned(team, plan(cliques, options), options.pivoting)
+    }
+
+    /// The same analysis for another team; what was factored is lost.
+    pub fn with_team<V: Team>(self, team: V) -> Multifrontal<T, V> {
+        Multifrontal::planned(team, self.plan, self.pivoting)
+    }
+
+    fn planned(team: W, plan: Plan, pivoting: Pivoting) -> Self {
+        let n_taken = if pivoting == Pivoting::Diagonal { plan.order.len() } else { 0 };
+        let is_shared = team.size() > 1;
+        let parts =
+            if is_shared { by_unknown(&plan.cliques, plan.order.len()) } else { Lists::default() };
+        let n_residuals = if is_shared { plan.cliques.items.len() } else { plan.largest_clique };
         Self {
-            pivoting: options.pivoting,
+            pivoting,
+            team,
             is_one_block: plan.fronts.len() == 1 && plan.is_natural && n_taken == 0,
-            fronts: vec![T::ZERO; plan.counters.stored],
+            fronts: vec![T::ZERO; plan.tasks.sizes[0]],
             pivots: vec![T::ZERO; plan.order.len()],
             order: plan.order.clone(),
             taken: vec![0; n_taken],
-            block: vec![T::ZERO; k * (k + 1) / 2],
+            residuals: vec![T::ZERO; n_residuals],
+            parts,
             plan,
         }
     }
@@ -61,84 +89,24 @@ impl<T: Real> Multifrontal<T> {
         self.plan.counters
     }
 
-    /// Eliminates the pivots of one assembled front.
-    #[inline(always)]
-    fn eliminate(&mut self, front: usize) -> Result<(), FactorError> {
-        let Front { p, f, offset, first, .. } = self.plan.fronts[front];
-        let a = &mut self.fronts[offset..offset + column(f, f)];
-        let d = &mut self.pivots[first..first + p];
-        let result = match self.pivoting {
-            Pivoting::None => kernel::eliminate(a, d, f),
-            Pivoting::Diagonal => {
-                let taken = &mut self.taken[first..first + p];
-                let result = eliminate_largest(a, d, taken, f);
-                for (u, &row) in self.order[first..].iter_mut().zip(&*taken) {
-                    *u = self.plan.order[first + row as usize];
-                }
-                result
-            }
+    /// Both sweeps on a vector in the storage of the tasks, of which `x` is the right-hand side.
+    fn sweep(&self, x: &[T], storage: &mut [T]) {
+        let vectors = Vectors {
+            plan: &self.plan,
+            team: &self.team,
+            fronts: &self.fronts,
+            taken: &self.taken,
+            order: &self.plan.order,
+            x,
         };
-        result.map_err(|BadPivot { column, pivot }| FactorError {
-            unknown: self.order[first + column],
-            pivot: pivot.to_f64(),
-        })
-    }
-
-    /// Forward and backward sweep on `y`, in the order of the analysis.
-    fn sweep(&self, y: &mut [T], scratch: &mut [T]) {
-        for front in &self.plan.fronts {
-            self.visit(front, y, scratch, Direction::Forward);
-        }
-        for front in self.plan.fronts.iter().rev() {
-            self.visit(front, y, scratch, Direction::Backward);
-        }
-    }
-
-    /// One front of one sweep.
-    #[inline(always)]
-    fn visit(&self, front: &Front, y: &mut [T], scratch: &mut [T], direction: Direction) {
-        let Front { p, f, offset, first, .. } = *front;
-        let a = &self.fronts[offset..offset + column(f, f)];
-        let taken = self.taken.get(first..first + p);
-        if taken.is_none() && front.is_consecutive {
-            let z = &mut y[first..first + f];
-            return match direction {
-                Direction::Forward => sweep::forward(a, z, p),
-                Direction::Backward => sweep::backward(a, z, p),
-            };
-        }
-        let rows = &self.plan.rows[front.rows.clone()];
-        let (z1, z2) = scratch[..f].split_at_mut(p);
-        let place = |k: usize| first + taken.map_or(k, |taken| taken[k] as usize);
-        match direction {
-            Direction::Forward => (0..p).for_each(|k| z1[k] = y[place(k)]),
-            Direction::Backward => z1.copy_from_slice(&y[first..first + p]),
-        }
-        for (z, &row) in z2.iter_mut().zip(rows) {
-            *z = y[row as usize];
-        }
-        let z = &mut scratch[..f];
-        match direction {
-            Direction::Forward => {
-                sweep::forward(a, z, p);
-                y[first..first + p].copy_from_slice(&z[..p]);
-                for (&z, &row) in z[p..].iter().zip(rows) {
-                    y[row as usize] = z;
-                }
-            }
-            Direction::Backward => {
-                sweep::backward(a, z, p);
-                (0..p).for_each(|k| y[place(k)] = z[k]);
-            }
-        }
+        vectors.solve(storage);
     }
 }
 
-/// The two sweeps of a solution.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Direction {
-    Forward,
-    Backward,
+/// For each unknown its places in the list of all cliques.
+fn by_unknown(cliques: &Lists, n: usize) -> Lists {
+    let single = Lists { start: (0..=cliques.items.len()).collect(), items: cliques.items.clone() };
+    single.transposed(n)
 }
 
 /// Adds the packed triangle `from` of a part into the packed front `a` of `f` unknowns.
@@ -165,35 +133,16 @@ pub(crate) fn add_part<T: Real>(a: &mut [T], f: usize, part: &Part, targets: &[u
     }
 }
 
-impl<T: Real> SpdSolver<T> for Multifrontal<T> {
+impl<T: Real, W: Team> SpdSolver<T> for Multifrontal<T, W> {
     /// Fails with the first pivot that is zero, negative, infinite or not a number.
     fn factor<S: BlockSource<T>>(&mut self, source: &S) -> Result<(), FactorError> {
-        for s in 0..self.plan.fronts.len() {
-            let front = &self.plan.fronts[s];
-            let f = front.f;
-            let (done, rest) = self.fronts.split_at_mut(front.offset);
-            let a = &mut rest[..column(f, f)];
-            let mut elements = &self.plan.elements[front.elements.clone()];
-            if front.is_first_whole {
-                source.write_block(elements[0].source, a);
-                elements = &elements[1..];
-            } else {
-                a.fill(T::ZERO);
-            }
-            for part in elements {
-                let size = part.size as usize;
-                let block = &mut self.block[..size * (size + 1) / 2];
-                source.write_block(part.source, block);
-                add_part(a, f, part, &self.plan.targets, block);
-            }
-            for part in &self.plan.children[front.children.clone()] {
-                let size = part.size as usize;
-                let update = &done[part.source..part.source + size * (size + 1) / 2];
-                add_part(a, f, part, &self.plan.targets, update);
-            }
-            self.eliminate(s)?;
-        }
-        Ok(())
+        let numbers = Numbers {
+            fronts: &mut self.fronts,
+            pivots: &mut self.pivots,
+            order: &mut self.order,
+            taken: &mut self.taken,
+        };
+        numbers.factor((&self.plan, self.pivoting), &self.team, source)
     }
 
     fn solve(&self, x: &mut [T], scratch: &mut [T]) {
@@ -203,34 +152,44 @@ impl<T: Real> SpdSolver<T> for Multifrontal<T> {
         if self.is_one_block && sweep::solve_small(&self.fronts, x) {
             return;
         }
-        if self.plan.is_natural {
-            return self.sweep(x, scratch);
-        }
-        let (y, scratch) = scratch.split_at_mut(n);
-        for (y, &u) in y.iter_mut().zip(&self.plan.order) {
-            *y = x[u as usize];
-        }
-        self.sweep(y, scratch);
-        for (&y, &u) in y.iter().zip(&self.plan.order) {
-            x[u as usize] = y;
-        }
+        let storage = &mut scratch[..self.plan.tasks.sizes[1]];
+        self.sweep(x, storage);
+        let (storage, stored_at) = (&*storage, &self.plan.tasks.stored_at);
+        on_stretches(&self.team, [x], |first, [x]| {
+            for (x, &at) in x.iter_mut().zip(&stored_at[first..]) {
+                *x = storage[at as usize];
+            }
+        });
     }
 
     fn n_scratch(&self) -> usize {
-        self.plan.order.len() + self.plan.counters.largest_front
+        self.plan.tasks.sizes[1]
     }
 
     fn assemble<S: BlockSource<T>>(&mut self, source: &S, f: &mut [T]) {
         assert_eq!(f.len(), self.plan.order.len(), "assemble needs one place for each unknown");
-        f.fill(T::ZERO);
-        for e in 0..self.plan.cliques.len() {
-            let clique = self.plan.cliques.get(e);
-            let residual = &mut self.block[..clique.len()];
-            source.write_residual(e, residual);
-            for (&u, &value) in clique.iter().zip(&*residual) {
-                f[u as usize] += value;
+        let cliques = &self.plan.cliques;
+        if self.team.size() == 1 {
+            f.fill(T::ZERO);
+            for e in 0..cliques.len() {
+                let clique = cliques.get(e);
+                let residual = &mut self.residuals[..clique.len()];
+                source.write_residual(e, residual);
+                for (&u, &value) in clique.iter().zip(&*residual) {
+                    f[u as usize] += value;
+                }
             }
+            return;
         }
+        write_residuals(&self.team, source, cliques, (0, cliques.len()), &mut self.residuals);
+        let (residuals, parts) = (&self.residuals, &self.parts);
+        on_stretches(&self.team, [f], |first, [f]| {
+            for (u, f) in f.iter_mut().enumerate() {
+                // In the order of the elements: the same bits as above.
+                let places = parts.get(first + u).iter();
+                *f = places.fold(T::ZERO, |sum, &at| sum + residuals[at as usize]);
+            }
+        });
     }
 
     fn pivots(&self) -> &[T] {
@@ -239,5 +198,33 @@ impl<T: Real> SpdSolver<T> for Multifrontal<T> {
 
     fn elimination_order(&self) -> &[u32] {
         &self.order
+    }
+}
+
+/// Elements whose residuals one thread writes at a time.
+const ELEMENTS: usize = 128;
+
+/// Writes the residuals of elements `from..to` one after the other.
+fn write_residuals<T: Real, W: Team, S: BlockSource<T>>(
+    team: &W,
+    source: &S,
+    cliques: &Lists,
+    (from, to): (usize, usize),
+    residuals: &mut [T],
+) {
+    if to - from > ELEMENTS {
+        let half = from + (to - from) / 2;
+        let (left, right) = residuals.split_at_mut(cliques.start[half] - cliques.start[from]);
+        team.join(
+            || write_residuals(team, source, cliques, (from, half), left),
+            || write_residuals(team, source, cliques, (half, to), right),
+        );
+        return;
+    }
+    let mut rest = residuals;
+    for e in from..to {
+        let (residual, tail) = rest.split_at_mut(cliques.get(e).len());
+        source.write_residual(e, residual);
+        rest = tail;
     }
 }

@@ -22,18 +22,21 @@ pub struct Options {
     pub pivoting: Pivoting,
     /// Systems of at most this many unknowns are one dense front in the given order.
     pub dense_up_to: usize,
+    /// Trees of fronts are cut into tasks of about this many nanoseconds of factorisation; `u64::MAX`: never. The sums of a
+    /// solution depend on it, and never on who works on the tasks.
+    pub grain: u64,
 }
 
 impl Default for Options {
     /// No pivoting; one dense front up to 8 unknowns. Measured on chains of 4, 6 and 12 unknowns an element: dense is
     /// 8 % faster at n = 6, equal at 8 and 9, 6 to 13 % slower at 12, and takes 1.5 to 1.7 times as long at 24.
     fn default() -> Self {
-        Self { pivoting: Pivoting::None, dense_up_to: 8 }
+        Self { pivoting: Pivoting::None, dense_up_to: 8, grain: 20_000 }
     }
 }
 
 /// Exact sizes of one analysis; times are measured from outside.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Counters {
     /// Unknowns.
     pub n: usize,
@@ -51,6 +54,10 @@ pub struct Counters {
     pub flops: u64,
     /// Additions that carry the updates of fronts into their parents.
     pub extend_adds: u64,
+    /// Tasks that the tree of fronts is cut into.
+    pub n_tasks: usize,
+    /// Time of all fronts over that of the longest way from a leaf to a root, as estimated: no team is faster than that.
+    pub parallelism: f64,
 }
 
 impl Counters {

@@ -9,6 +9,7 @@
 
 use crate::graph::{self, Lists, index};
 use crate::options::{Counters, Options};
+use crate::tasks::{Tasks, tasks};
 use crate::tree::{self, Fronts};
 use mbs_core::Cliques;
 pub(crate) use mbs_core::dense::front::column;
@@ -47,7 +48,7 @@ pub(crate) struct Front {
     pub(crate) offset: usize,
     /// Place of the first pivot in the elimination order.
     pub(crate) first: usize,
-    /// Whether its unknowns are the consecutive places `first`, ..., `first + f - 1`.
+    /// Whether its unknowns stand together in the vector of its task.
     pub(crate) is_consecutive: bool,
     /// Places of the remaining rows in the list of all rows.
     pub(crate) rows: Range<usize>,
@@ -69,6 +70,8 @@ pub(crate) struct Plan {
     pub(crate) targets: Vec<u32>,
     /// Elimination places of the remaining rows of all fronts.
     pub(crate) rows: Vec<u32>,
+    /// What may be done at the same time.
+    pub(crate) tasks: Tasks,
     /// Unknown at each place of the elimination.
     pub(crate) order: Vec<u32>,
     /// Whether `order` is 0, 1, 2, ...
@@ -98,9 +101,9 @@ pub(crate) fn plan(cliques: &impl Cliques, options: Options) -> Plan {
         } else {
             graph::minimum_degree_then_multipliers(&elements, &is_multiplier)
         };
-        (node, tree::fronts(&elements, &place, &weight))
+        (node, tree::fronts(&elements, &place, &weight, options.grain as f64))
     };
-    Planner::new(cliques, &node, &fronts).finish(&fronts)
+    Planner::new(cliques, &node, &fronts, options.grain as f64).finish(&fronts)
 }
 
 /// One front for all unknowns, if there are any.
@@ -109,8 +112,10 @@ fn one_front(n: usize) -> Fronts {
         pivots: Lists::with_capacity(1),
         rows: Lists::with_capacity(1),
         parent: Vec::new(),
+        work: Vec::new(),
     };
     if n > 0 {
+        fronts.work.push(0.0);
         fronts.pivots.items.push(0);
         fronts.pivots.close();
         fronts.rows.close();
@@ -132,7 +137,7 @@ struct Planner {
 
 impl Planner {
     /// Numbers the unknowns and sizes the fronts.
-    fn new(cliques: Lists, node: &[u32], fronts: &Fronts) -> Self {
+    fn new(cliques: Lists, node: &[u32], fronts: &Fronts, grain: f64) -> Self {
         let n = node.len();
         let n_fronts = fronts.parent.len();
         let by_node = Lists { start: (0..=n).collect(), items: node.to_vec() };
@@ -164,21 +169,21 @@ impl Planner {
             });
         }
         plan.is_natural = plan.order.iter().enumerate().all(|(k, &u)| k == u as usize);
-        let mut offset = 0;
         for (s, front) in plan.fronts.iter_mut().enumerate() {
             let start = plan.rows.len();
             for &v in fronts.rows.get(s) {
                 plan.rows.extend(unknowns.get(v as usize).iter().map(|&u| place[u as usize]));
             }
-            let rows = &mut plan.rows[start..];
-            rows.sort_unstable();
-            front.is_consecutive =
-                rows.iter().enumerate().all(|(k, &q)| q as usize == front.first + front.p + k);
+            plan.rows[start..].sort_unstable();
             front.rows = start..plan.rows.len();
             front.f = front.p + front.rows.len();
-            front.offset = offset;
-            offset += column(front.f, front.f);
         }
+        plan.largest_clique =
+            (0..plan.cliques.len()).map(|e| plan.cliques.get(e).len()).max().unwrap_or(0);
+        let largest_block = column(plan.largest_clique, plan.largest_clique);
+        let tree = (&plan.fronts[..], &fronts.parent[..]);
+        plan.tasks = tasks(tree, &plan.rows, &fronts.work, (grain, largest_block));
+        plan.place_fronts(&place);
         let elements_of = elements_by_front(&plan.cliques, &place, &front_of_place, n_fronts);
         Self { plan, row: vec![0; n], place, elements_of }
     }
@@ -201,8 +206,8 @@ impl Planner {
         let mut plan = self.plan;
         plan.counters.n = plan.order.len();
         plan.counters.n_elements = plan.cliques.len();
-        plan.largest_clique =
-            (0..plan.cliques.len()).map(|e| plan.cliques.get(e).len()).max().unwrap_or(0);
+        plan.counters.n_tasks = plan.tasks.list.len();
+        plan.counters.parallelism = parallelism(fronts);
         plan
     }
 
@@ -239,6 +244,44 @@ impl Planner {
         }
         self.plan.fronts[s].children = from..self.plan.children.len();
     }
+}
+
+impl Plan {
+    /// Where fronts and unknowns are stored, task by task.
+    fn place_fronts(&mut self, place: &[u32]) {
+        let mut stored_at_place = vec![0; place.len()];
+        for task in &self.tasks.list {
+            let mut offset = task.numbers[1];
+            for front in &mut self.fronts[task.fronts.clone()] {
+                front.offset = offset;
+                offset += column(front.f, front.f);
+                let rows = &self.tasks.rows[front.rows.clone()];
+                let next = front.first - task.places.start + front.p;
+                front.is_consecutive =
+                    rows.iter().enumerate().all(|(k, &q)| q as usize == next + k);
+            }
+            for (k, q) in task.places.clone().enumerate() {
+                stored_at_place[q] = index(task.vector[1] + k);
+            }
+        }
+        self.tasks.stored_at = place.iter().map(|&q| stored_at_place[q as usize]).collect();
+    }
+}
+
+/// Work of all fronts over that of the longest way up.
+fn parallelism(fronts: &Fronts) -> f64 {
+    let mut longest = fronts.work.clone();
+    let mut most = 0.0_f64;
+    let mut below = vec![0.0_f64; longest.len()];
+    for s in 0..longest.len() {
+        longest[s] += below[s];
+        most = most.max(longest[s]);
+        if let Some(above) = below.get_mut(fronts.parent[s] as usize) {
+            *above = above.max(longest[s]);
+        }
+    }
+    let all: f64 = fronts.work.iter().sum();
+    if most > 0.0 { all / most } else { 1.0 }
 }
 
 /// The elements of each front: an element goes where its first unknown is eliminated.

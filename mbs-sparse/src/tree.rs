@@ -31,10 +31,13 @@ pub(crate) struct Fronts {
     pub(crate) rows: Lists,
     /// Parent of each front, or [`NONE`].
     pub(crate) parent: Vec<u32>,
+    /// Time that each front takes [ns], roughly.
+    pub(crate) work: Vec<f64>,
 }
 
-/// Builds the fronts for nodes of `weight` unknowns eliminated at `place`.
-pub(crate) fn fronts(elements: &Lists, place: &[u32], weight: &[usize]) -> Fronts {
+/// Builds the fronts for nodes of `weight` unknowns eliminated at `place`. A tree of more work than `grain` [ns] has the heaviest
+/// child of every front first, so that what goes up from it to the next fork stands together.
+pub(crate) fn fronts(elements: &Lists, place: &[u32], weight: &[usize], grain: f64) -> Fronts {
     let n = place.len();
     let mut at = vec![0_u32; n];
     for v in 0..n {
@@ -44,13 +47,22 @@ pub(crate) fn fronts(elements: &Lists, place: &[u32], weight: &[usize]) -> Front
     let parent: Vec<u32> =
         (0..n).map(|v| rows.get(v).iter().copied().min().unwrap_or(NONE)).collect();
     let size = |v: usize| weight[at[v] as usize];
-    let representative = merged(&rows, &parent, size);
+    let (representative, sizes) = merged(&rows, &parent, size);
+    let work: Vec<f64> = sizes.iter().map(|&(p, f)| time(p, f)).collect();
 
     // Parent of each surviving front, by the front that swallowed the parent.
     let above: Vec<u32> = (0..n)
         .map(|v| if parent[v] == NONE { NONE } else { representative[parent[v] as usize] })
         .collect();
-    let order = postorder(&representative, &above);
+    let mut total = vec![0.0; n];
+    for v in (0..n).filter(|&v| representative[v] as usize == v) {
+        total[v] += work[v];
+        if above[v] != NONE {
+            total[above[v] as usize] += total[v];
+        }
+    }
+    let all: f64 = (0..n).filter(|&v| representative[v] as usize == v).map(|v| work[v]).sum();
+    let order = postorder(&representative, &above, (all > grain).then_some(&total));
 
     let mut number = vec![NONE; n];
     for (s, &v) in order.iter().enumerate() {
@@ -76,7 +88,8 @@ pub(crate) fn fronts(elements: &Lists, place: &[u32], weight: &[usize]) -> Front
             above => number[above as usize],
         })
         .collect();
-    Fronts { pivots, rows: kept, parent }
+    let work = order.iter().map(|&v| work[v as usize]).collect();
+    Fronts { pivots, rows: kept, parent, work }
 }
 
 /// rows(v) for every place v of the elimination, as places.
@@ -119,8 +132,13 @@ fn structure(elements: &Lists, place: &[u32]) -> Lists {
     rows
 }
 
-/// Merges fronts upwards; the result names for each node the node whose front eliminates it.
-fn merged(rows: &Lists, parent: &[u32], size: impl Fn(usize) -> usize) -> Vec<u32> {
+/// Merges fronts upwards; the result names for each node the node whose front eliminates it, with the pivots and the unknowns
+/// of that front.
+fn merged(
+    rows: &Lists,
+    parent: &[u32],
+    size: impl Fn(usize) -> usize,
+) -> (Vec<u32>, Vec<(usize, usize)>) {
     let n = parent.len();
     let mut p: Vec<usize> = (0..n).map(&size).collect();
     let mut f: Vec<usize> = (0..n)
@@ -140,7 +158,13 @@ fn merged(rows: &Lists, parent: &[u32], size: impl Fn(usize) -> usize) -> Vec<u3
     for v in (0..n).rev() {
         into[v] = into[into[v] as usize];
     }
-    into
+    (into, p.into_iter().zip(f).collect())
+}
+
+/// Time of a front of `p` pivots and `f` unknowns [ns].
+pub(crate) fn time(p: usize, f: usize) -> f64 {
+    let carried = ((f - p) * (f - p + 1) / 2) as f64;
+    work(p, f) * MULTIPLY_SUBTRACT + carried * EXTEND_ADD + FRONT
 }
 
 /// Whether a child front (pivots, size) costs less inside its parent than beside it.
@@ -157,8 +181,8 @@ fn work(p: usize, f: usize) -> f64 {
     (0..p).map(|k| ((f - k) * (f - k + 5)) as f64 / 2.0).sum()
 }
 
-/// Surviving fronts with children before parents, each subtree together.
-fn postorder(representative: &[u32], above: &[u32]) -> Vec<u32> {
+/// Surviving fronts with children before parents, each subtree together; with the `total` work of subtrees the largest first.
+fn postorder(representative: &[u32], above: &[u32], total: Option<&Vec<f64>>) -> Vec<u32> {
     let n = representative.len();
     let mut children = chains(n);
     let mut roots = Vec::new();
@@ -174,7 +198,16 @@ fn postorder(representative: &[u32], above: &[u32]) -> Vec<u32> {
     open.reverse();
     while let Some(v) = open.pop() {
         order.push(crate::graph::index(v));
+        let from = open.len();
         open.extend(children.iter(v));
+        if let Some(total) = total {
+            // Read backwards, the one visited last comes first.
+            let heaviest =
+                (from..open.len()).max_by(|&a, &b| total[open[a]].total_cmp(&total[open[b]]));
+            if let Some(heaviest) = heaviest {
+                open[from..=heaviest].rotate_right(1);
+            }
+        }
     }
     order.reverse();
     order

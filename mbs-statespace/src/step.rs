@@ -51,7 +51,7 @@ pub fn step<T: Real, M: Model<T>>(
     }
     w.is_stale |= outcome.is_err();
     let (newton, violation) = outcome?;
-    take_coordinates(&rule, true, model.n_unknowns(), s, (&w.dq, &w.v, &w.a));
+    take_coordinates(model.team(), (&rule, true, model.n_unknowns()), s, (&w.dq, &w.v, &w.a));
     s.phi.copy_from_slice(&w.terms.phi);
     for k in 0..w.lambda.len() {
         s.lambda_previous[k] = s.lambda[k];
@@ -130,7 +130,8 @@ fn iterate<T: Real, M: Model<T>>(
     w: &mut Workspace<T>,
 ) -> Result<(u32, T, Stop), StepError> {
     let n = model.n_unknowns();
-    let scale = step_scale(rule.dt, &s.a[..n]).max(step_scale(rule.dt, &w.a[..n]));
+    let team = model.team();
+    let scale = step_scale(team, rule.dt, &s.a[..n]).max(step_scale(team, rule.dt, &w.a[..n]));
     let mut last = T::ZERO;
     residual(model, s, w);
     for iterations in 1..=options.max_iterations {

@@ -12,6 +12,7 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Scene;
 use mbs_core::step::{StepError, StepReport};
 use mbs_core::{Cliques, Real};
+use mbs_parallel::Threads;
 use mbs_sparse::{Indefinite, Multifrontal};
 use mbs_statespace as statespace;
 
@@ -26,7 +27,9 @@ where
         /// Which index, with its options.
         index: Index<T>,
         /// Its scratch.
-        workspace: Box<mbs_augmented::Workspace<T, Multifrontal<T>>>,
+        workspace: Box<mbs_augmented::Workspace<T, Multifrontal<T, Threads>>>,
+        /// Who shares the work of its steps.
+        team: Threads,
     },
     /// Index-3 classical Lagrangian.
     Classical {
@@ -57,6 +60,23 @@ pub enum Index<T> {
     Both(IndexChange<T>),
 }
 
+impl<T: Real> Index<T> {
+    /// Advances the state by one step of (dt [s], scene's length [m]).
+    fn step<M: Model<T>, S: mbs_core::SpdSolver<T>>(
+        &mut self,
+        model: &M,
+        step: (T, T),
+        state: &mut State<T>,
+        workspace: &mut mbs_augmented::Workspace<T, S>,
+    ) -> Result<StepReport<T>, StepError> {
+        match self {
+            Self::One(options) => index1::step(model, step, options, state, workspace),
+            Self::Three(options) => index3::step(model, step, options, state, workspace),
+            Self::Both(change) => change.step(model, step, state, workspace),
+        }
+    }
+}
+
 impl<T: Real, const D: usize> Engine<T, D>
 where
     Plane<D>: InSpace<T>,
@@ -76,8 +96,11 @@ where
                     Formulation::Index3 => Index::Three(three),
                     _ => Index::Both(IndexChange::new(one, three)),
                 };
+                let n = settings.threads;
+                let team = Threads::new(n).map_err(|_| StopError::NoThreads(n))?;
+                let solver = solver.with_team(team.clone());
                 let workspace = Box::new(mbs_augmented::Workspace::new(model, solver));
-                Ok(Self::Augmented { index, workspace })
+                Ok(Self::Augmented { index, workspace, team })
             }
             Formulation::Classical => {
                 let options = classical_options(settings);
@@ -113,11 +136,12 @@ where
     ) -> Result<StepReport<T>, StepError> {
         let step = (dt, model.length());
         match self {
-            Self::Augmented { index, workspace } => match index {
-                Index::One(options) => index1::step(model, step, options, state, workspace),
-                Index::Three(options) => index3::step(model, step, options, state, workspace),
-                Index::Both(change) => change.step(model, step, state, workspace),
-            },
+            Self::Augmented { index, workspace, team: Threads::One } => {
+                index.step(model, step, state, workspace)
+            }
+            Self::Augmented { index, workspace, team } => {
+                index.step(&model.with_team(team), step, state, workspace)
+            }
             Self::Classical { options, workspace } => {
                 classical::index3::step(model, step, options, state, workspace)
             }
@@ -138,7 +162,7 @@ where
     ) -> bool {
         let step = (dt, model.length());
         match self {
-            Self::Augmented { index: Index::Both(change), workspace } => {
+            Self::Augmented { index: Index::Both(change), workspace, .. } => {
                 change.prepare(model, step, reductions, state, workspace)
             }
             _ => false,
@@ -223,6 +247,11 @@ where
             let [kinetic, potential] = self.start_energies(model, s);
             return [kinetic, potential, work];
         };
+        if let Self::Augmented { team, .. } = self {
+            let model = model.with_team(team);
+            let potential = model.potential_energy(&s.q, terms);
+            return [model.kinetic_energy(&s.v).to_f64(), potential.to_f64(), work];
+        }
         let kinetic = model.kinetic_energy(&s.v).to_f64();
         [kinetic, model.potential_energy(&s.q, terms).to_f64(), work]
     }

@@ -84,6 +84,8 @@ pub struct Settings {
     pub penalty: Option<f64>,
     /// Tolerance, if any.
     pub tolerance: Option<f64>,
+    /// Threads that share the work of a step.
+    pub threads: usize,
 }
 
 /// A setting that is refused.
@@ -131,7 +133,6 @@ impl SettingsError {
     #[must_use]
     pub fn hint(&self) -> String {
         match self {
-            Self::NotBuilt { key: "threads", .. } => "leave it out, or write 1".to_owned(),
             Self::NotBuilt { value, built, .. } if NOT_BUILT.contains(&value.as_str()) => {
                 format!("built are: {}", built.join(", "))
             }
@@ -141,6 +142,9 @@ impl SettingsError {
             Self::NotTogether { option, .. } if option.starts_with("step control") => {
                 "rk54 controls its own step by --tolerance; the others need an implicit integrator"
                     .to_owned()
+            }
+            Self::NotTogether { option, .. } if option == "threads" => {
+                "threads share the steps of index-3, index-1 and multi-index".to_owned()
             }
             Self::NotTogether { option, .. } if option == "penalty" => {
                 "leave the penalty out".to_owned()
@@ -156,9 +160,6 @@ impl SettingsError {
 impl core::fmt::Display for SettingsError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::NotBuilt { key: "threads", value, .. } => {
-                write!(f, "{value} threads: runs have one thread so far")
-            }
             Self::NotBuilt { key, value, .. } if NOT_BUILT.contains(&value.as_str()) => {
                 write!(f, "{key} `{value}` is not built yet")
             }
@@ -201,14 +202,13 @@ impl Settings {
             &PRECISIONS,
             [Precision::F32, Precision::F64],
         )?;
-        if let Some(threads) = overrides.threads.filter(|&n| n != 1) {
-            let value = threads.to_string();
-            return Err(SettingsError::NotBuilt {
-                key: "threads",
-                value,
-                built: &["1"],
-                from_scene: false,
-            });
+        let threads = overrides.threads.unwrap_or(1);
+        if threads == 0 {
+            return Err(SettingsError::NotPositive { key: "threads", value: 0.0 });
+        }
+        if threads > 1 && !formulation.is_augmented() {
+            let option = "threads".to_owned();
+            return Err(SettingsError::NotTogether { formulation, option });
         }
         let of_scene = |x: Option<T>| x.map(Real::to_f64);
         let step = overrides.step.or(of_scene(solver.step)).unwrap_or(DEFAULT_STEP);
@@ -253,6 +253,7 @@ impl Settings {
             duration,
             penalty: checked("penalty", penalty)?,
             tolerance: checked("tolerance", overrides.tolerance.or(of_scene(solver.tolerance)))?,
+            threads,
         })
     }
 

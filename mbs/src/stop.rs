@@ -73,6 +73,8 @@ pub enum StopError {
     Linear(LinearError),
     /// The iteration for the eigenvalues did not converge.
     Eigenvalues,
+    /// The operating system did not give that many threads.
+    NoThreads(usize),
     /// The energy invariant drifted by more than a tenth of the energy turned over.
     Energy {
         /// |Pi - Pi(0)| [J].
@@ -152,7 +154,9 @@ impl StopError {
             Self::Start(error) => start_owner(error)?,
             Self::Step(_, owner) | Self::Tree(_, owner) | Self::Equilibrium(_, owner) => (*owner)?,
             Self::Energy { owner, .. } => *owner,
-            Self::Reaction(_) | Self::Linear(_) | Self::Eigenvalues => return None,
+            Self::Reaction(_) | Self::Linear(_) | Self::Eigenvalues | Self::NoThreads(_) => {
+                return None;
+            }
         };
         Some(match owner {
             Owner::Body(b) => Entry::Body(b),
@@ -184,6 +188,7 @@ impl StopError {
             Self::Equilibrium(..) => "no-equilibrium",
             Self::Linear(_) => "no-linearisation",
             Self::Eigenvalues => "no-eigenvalues",
+            Self::NoThreads(_) => "no-threads",
         }
     }
 
@@ -239,6 +244,7 @@ impl StopError {
                 "leave out a joint that nearly repeats another"
             }
             Self::Linear(_) | Self::Eigenvalues => "check the data of the effects",
+            Self::NoThreads(_) => "ask for fewer threads",
             Self::Energy { .. } => {
                 "try a smaller step; if it always stops here, the mechanism locks, or cannot follow its guides"
             }
@@ -264,7 +270,7 @@ impl StopError {
             Self::Start(error) => start_owner(error),
             Self::Step(_, owner) | Self::Tree(_, owner) | Self::Equilibrium(_, owner) => *owner,
             Self::Energy { owner, .. } => Some(*owner),
-            Self::Reaction(_) | Self::Linear(_) | Self::Eigenvalues => None,
+            Self::Reaction(_) | Self::Linear(_) | Self::Eigenvalues | Self::NoThreads(_) => None,
         };
         let (joint, body) = owner.map_or((None, None), |o| names.of(o));
         RunError {
@@ -302,6 +308,7 @@ impl core::fmt::Display for StopError {
             Self::Equilibrium(error, _) => write_equilibrium(error, f),
             Self::Linear(error) => write_linear(error, f),
             Self::Eigenvalues => write!(f, "the iteration for the eigenvalues did not converge"),
+            Self::NoThreads(n) => write!(f, "the system gives no {n} threads"),
             Self::Energy { error, turned_over, share, .. } => write!(
                 f,
                 "the energy is off by {} J, more than {} % of the {} J turned over: the motion is not resolved",

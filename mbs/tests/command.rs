@@ -252,7 +252,7 @@ fn what_is_not_built_is_refused_with_the_list_of_what_is() {
         ),
         (["--integrator", "rk853"], "trapezoidal, newmark"),
         (["--precision", "dd"], "f32, f64"),
-        (["--threads", "4"], "1"),
+        (["--threads", "0"], "threads must be positive"),
     ] {
         let output = run(&[&[file.as_str(), "--json"], &arguments[..]].concat());
         let errors = text(&output.stderr);

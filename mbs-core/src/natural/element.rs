@@ -29,7 +29,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         diagonal
     }
 
-    /// The rates of a group of `K` unknowns; `K` = 0: of any number, known at run time only.
+    /// The rates of the rows of a group of `K` unknowns; `K` = 0: of any number, known at run time only.
     #[inline(always)]
     pub(super) fn multiply_sized_jacobian<const K: usize>(
         &self,
@@ -39,7 +39,6 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         rates: &mut [T],
     ) {
         let slots = &group.slots.of(&self.slots)[..group.n_unknown as usize];
-        let rates = group.rows.of_mut(rates);
         let width = group.width as usize;
         let jacobian = &terms.jacobian[group.jacobian as usize..][..width * rates.len()];
         if K == 0 {

@@ -1,11 +1,11 @@
 //! The numbers of a [`NaturalModel`]: constraints, forces, blocks and residuals, element by element.
 
-use super::forces::{Gauge, add_terms, add_torque};
+use super::forces::Gauge;
 use super::model::NaturalModel;
 use crate::Real;
-use crate::algebra::Vector;
 use crate::elements::combine;
 use crate::model::{Load, Measure, Model, Owner, Tangent, Terms};
+use crate::team::Alone;
 use alloc::vec;
 use core::ops::Range;
 
@@ -53,61 +53,15 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     }
 
     fn evaluate(&self, q: &[T], terms: &mut Terms<T>) {
-        let (phi, jacobian) = (&mut terms.phi[..], &mut terms.jacobian[..]);
-        for row in &self.distances {
-            row.evaluate::<D>(q, phi, jacobian);
-        }
-        for row in &self.dots {
-            row.evaluate::<D>(&self.pool, q, phi, jacobian);
-        }
-        for row in &self.linears {
-            row.evaluate::<T, D>(&self.pool, q, phi);
-        }
-        for row in &self.guided {
-            let f = terms.guides[row.guide as usize][0];
-            row.evaluate::<T, D>(&self.pool, q, f, (phi, jacobian));
-        }
+        self.evaluate_on(&Alone, q, terms);
     }
 
     fn advance(&self, q: &[T], dq: &[T], phi_n: &[T], terms: &mut Terms<T>) {
-        let (phi, jacobian) = (&mut terms.phi[..], &mut terms.jacobian[..]);
-        for row in &self.distances {
-            row.advance::<D>((q, dq), phi_n, phi, jacobian);
-        }
-        for row in &self.dots {
-            row.advance::<D>(&self.pool, (q, dq), phi_n, (phi, jacobian));
-        }
-        for row in &self.linears {
-            row.advance::<T, D>(&self.pool, dq, phi_n, phi);
-        }
-        for row in &self.guided {
-            let f = terms.guides[row.guide as usize][0];
-            row.evaluate_at_sum::<T, D>(&self.pool, (q, dq), f, (phi, jacobian));
-        }
+        self.advance_on(&Alone, (q, dq), phi_n, terms);
     }
 
     fn evaluate_forces(&self, q: &[T], v: &[T], memory: &[T], terms: &mut Terms<T>) {
-        let supplies = self.tables.supplies(&terms.courses);
-        let jacobian = &mut terms.jacobian;
-        for (element, measure) in self.measures.iter().zip(&mut terms.measures) {
-            *measure = element.evaluate::<D>(&self.pool, (q, v, memory), &supplies, jacobian);
-        }
-        for element in &self.body_elements {
-            let out = (&mut jacobian[..], &mut terms.measures[..]);
-            element.evaluate::<D>(&self.pool, (q, v), &supplies, out);
-        }
-        for force in &self.point_forces {
-            let value = self.point_force(force, q, terms.courses[force.course as usize]);
-            let local = force.force.of_mut(&mut terms.force);
-            local.fill(T::ZERO);
-            add_terms(force.point.of(&self.pool), &value, local);
-        }
-        for torque in &self.torques {
-            let local = torque.force.of_mut(&mut terms.force);
-            local.fill(T::ZERO);
-            let tau = terms.courses[torque.course as usize];
-            add_torque::<T, D>(&self.pool, &torque.frame, tau, q, local);
-        }
+        self.evaluate_forces_on(&Alone, (q, v, memory), terms);
     }
 
     fn remember(&self, terms: &Terms<T>, memory: &mut [T]) {
@@ -126,29 +80,11 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     }
 
     fn evaluate_bias(&self, q: &[T], v: &[T], terms: &mut Terms<T>) {
-        for row in &self.distances {
-            terms.phi_bias[row.row as usize] = row.bias::<D>(v);
-        }
-        for row in &self.dots {
-            terms.phi_bias[row.row as usize] = row.bias::<D>(&self.pool, v);
-        }
-        for row in &self.guided {
-            let f = terms.guides[row.guide as usize];
-            terms.phi_bias[row.row as usize] = row.bias::<T, D>(&self.pool, (q, v), f);
-        }
+        self.evaluate_bias_on(&Alone, (q, v), terms);
     }
 
     fn multiply_jacobian(&self, terms: &Terms<T>, x: &[T], rates: &mut [T]) {
-        for group in &self.groups {
-            match group.clique.len() {
-                2 => self.multiply_sized_jacobian::<2>(group, terms, x, rates),
-                4 => self.multiply_sized_jacobian::<4>(group, terms, x, rates),
-                6 => self.multiply_sized_jacobian::<6>(group, terms, x, rates),
-                9 => self.multiply_sized_jacobian::<9>(group, terms, x, rates),
-                12 => self.multiply_sized_jacobian::<12>(group, terms, x, rates),
-                _ => self.multiply_sized_jacobian::<0>(group, terms, x, rates),
-            }
-        }
+        self.multiply_jacobian_on(&Alone, terms, x, rates);
     }
 
     fn effective_masses(&self, terms: &Terms<T>, masses: &mut [T]) {
@@ -219,34 +155,11 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     }
 
     fn kinetic_energy(&self, v: &[T]) -> T {
-        let mut twice = T::ZERO;
-        for group in &self.groups {
-            let (g, slots) = (group.mass.of(&self.mass), group.slots.of(&self.slots));
-            let nb = if g.is_empty() { 0 } else { group.n_unknown as usize };
-            for i in 0..nb {
-                let mut sum = Vector::<T, D>::zeros();
-                for j in 0..nb {
-                    sum += g[i * nb + j].apply(&crate::algebra::load::<T, D>(v, slots[j]));
-                }
-                twice += sum.dot(&crate::algebra::load::<T, D>(v, slots[i]));
-            }
-        }
-        twice * T::HALF
+        self.kinetic_energy_on(&Alone, v)
     }
 
     fn potential_energy(&self, q: &[T], terms: &Terms<T>) -> T {
-        let mut energy = T::ZERO;
-        for (&w, &x) in self.weight.iter().zip(q) {
-            energy -= w * x;
-        }
-        let supplies = self.tables.supplies(&terms.courses);
-        for (element, measure) in self.measures.iter().zip(&terms.measures) {
-            energy += element.energy(measure, &supplies);
-        }
-        for element in &self.body_elements {
-            energy += element.energy(&terms.measures);
-        }
-        energy
+        self.potential_energy_on(&Alone, q, terms)
     }
 
     fn power(&self, q: &[T], v: &[T], lambda: &[T], terms: &Terms<T>) -> T {

@@ -43,6 +43,7 @@ pub(super) fn finish<T: Real, const D: usize>(
     }
     let mut model = layout.model;
     number_measures(&mut model);
+    model.marks = model.marks();
     let owners = (&model.clusters, bases.as_slice(), shared.as_slice());
     model.carried = carriers(&layout.entities, owners, &model.entity_at);
     model.bases = bases;
@@ -129,6 +130,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             entity_at,
             carried: Vec::new(),
             length,
+            marks: Vec::new(),
         };
         Self { model, entities }
     }

@@ -19,8 +19,10 @@ mod memory;
 mod model;
 mod motion;
 mod on_body;
+mod parts;
 mod rigid;
 mod sharing;
+mod teamed;
 
 pub use affine::Affine;
 pub use basis::INDEPENDENCE;
@@ -31,3 +33,4 @@ pub(crate) use group::{add_squares, packed};
 pub use joints::{angle_directions, joint_axes, transverse};
 pub use model::NaturalModel;
 pub use sharing::TOLERANCE;
+pub use teamed::Teamed;

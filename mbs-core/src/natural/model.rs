@@ -5,6 +5,7 @@ use super::forces::{BodyTorque, MeasureElement, PointForce};
 use super::group::Group;
 use super::motion::Carried;
 use super::on_body::BodyElement;
+use super::parts::Mark;
 use crate::Real;
 use crate::actions::Tables;
 use crate::algebra::Coef;
@@ -58,6 +59,8 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) carried: Vec<Carried<T>>,
     /// The scene's length [m].
     pub(super) length: T,
+    /// Where parts begin, and the end.
+    pub(super) marks: Vec<Mark>,
 }
 
 impl<T: Real, const D: usize> Cliques for NaturalModel<T, D> {

@@ -4,34 +4,40 @@ use super::error::StepError;
 use crate::Real;
 use crate::integrator::Rule;
 use crate::model::{Model, State, Terms};
+use crate::team::{Team, on_stretches};
 
 /// (q, q_low) += dq without rounding where `compensated`, q += dq where not; v and a are taken over, and the auxiliary
 /// accelerations follow. All slices are read over the unknowns (the length of `dq` or less: `n`).
-pub fn take_coordinates<T: Real>(
-    rule: &Rule<T>,
-    compensated: bool,
-    n: usize,
+pub fn take_coordinates<T: Real, W: Team>(
+    team: &W,
+    (rule, compensated, n): (&Rule<T>, bool, usize),
     s: &mut State<T>,
     (dq, v, a): (&[T], &[T], &[T]),
 ) {
     s.dt = rule.dt;
     let shift = rule.auxiliary / rule.acceleration;
-    for i in 0..n {
-        let (_, _, a_predicted) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
-        s.a_aux[i] += shift * (a[i] - a_predicted);
-        s.v[i] = v[i];
-        s.a[i] = a[i];
-        if compensated {
-            // (q, q_low) += dq, exactly
-            let y = dq[i] + s.q_low[i];
-            let sum = s.q[i] + y;
-            let back = sum - s.q[i];
-            s.q_low[i] = (s.q[i] - (sum - back)) + (y - back);
-            s.q[i] = sum;
-        } else {
-            s.q[i] += dq[i];
+    let State { q, q_low, v: v_n, a: a_n, a_aux, .. } = s;
+    let vectors = [&mut q[..n], &mut q_low[..n], &mut v_n[..n], &mut a_n[..n], &mut a_aux[..n]];
+    on_stretches(team, vectors, |first, [q, q_low, v_n, a_n, a_aux]| {
+        let n = q.len();
+        let (dq, v, a) = (&dq[first..][..n], &v[first..][..n], &a[first..][..n]);
+        for i in 0..n {
+            let (_, _, a_predicted) = rule.predict(v_n[i], a_n[i], a_aux[i]);
+            a_aux[i] += shift * (a[i] - a_predicted);
+            v_n[i] = v[i];
+            a_n[i] = a[i];
+            if compensated {
+                // (q, q_low) += dq, exactly
+                let y = dq[i] + q_low[i];
+                let sum = q[i] + y;
+                let back = sum - q[i];
+                q_low[i] = (q[i] - (sum - back)) + (y - back);
+                q[i] = sum;
+            } else {
+                q[i] += dq[i];
+            }
         }
-    }
+    });
 }
 
 /// Adds the work of the last `dt` [s] to the ledger of a state whose q, v and reaction are final, by the trapezoidal rule in

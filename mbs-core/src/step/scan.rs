@@ -1,11 +1,11 @@
 //! What steps look for in a vector.
 
 use crate::Real;
-use crate::algebra::norm_inf;
+use crate::team::{Team, norm_inf};
 
 /// The displacement that accelerations cause in a step: what corrections are small against [m].
-pub fn step_scale<T: Real>(dt: T, a: &[T]) -> T {
-    norm_inf(a) * dt * dt * T::HALF
+pub fn step_scale<T: Real, W: Team>(team: &W, dt: T, a: &[T]) -> T {
+    norm_inf(team, a) * dt * dt * T::HALF
 }
 
 /// Index of the entry largest in absolute value.

@@ -69,6 +69,44 @@ impl Sum {
         Self::random(n as usize, cliques, 2)
     }
 
+    /// A grid of nodes of `size` unknowns, an element for each pair of neighbours.
+    pub(crate) fn grid(rows: usize, columns: usize, size: usize) -> Self {
+        let node =
+            |r: usize, c: usize| (0..size).map(move |i| ((r * columns + c) * size + i) as u32);
+        let mut cliques = Vec::new();
+        for r in 0..rows {
+            for c in 0..columns {
+                if c + 1 < columns {
+                    cliques.push(node(r, c).chain(node(r, c + 1)).collect());
+                }
+                if r + 1 < rows {
+                    cliques.push(node(r, c).chain(node(r + 1, c)).collect());
+                }
+            }
+        }
+        Self::random(rows * columns * size, cliques, 3)
+    }
+
+    /// A binary tree of nodes of `size` unknowns, an element for each node with the one above.
+    pub(crate) fn tree(levels: u32, size: usize) -> Self {
+        let n_nodes = (1_usize << levels) - 1;
+        let node = |v: usize| (v * size..(v + 1) * size).map(|u| u as u32);
+        let cliques = (1..n_nodes).map(|v| node((v - 1) / 2).chain(node(v)).collect()).collect();
+        Self::random(n_nodes * size, cliques, 4)
+    }
+
+    /// Chains of elements of 12 unknowns that do not meet.
+    pub(crate) fn forest(chains: usize, length: usize) -> Self {
+        let pitch = 6 * length + 6;
+        let mut cliques = Vec::new();
+        for c in 0..chains {
+            for e in 0..length {
+                cliques.push((0..12).map(|i| (c * pitch + 6 * e + i) as u32).collect());
+            }
+        }
+        Self::random(chains * pitch, cliques, 5)
+    }
+
     /// The full matrix, row by row.
     pub(crate) fn dense(&self) -> Vec<f64> {
         let mut t = vec![0.0; self.n * self.n];

@@ -1,0 +1,285 @@
+//! A model cut into parts that may be evaluated at the same time: neighbouring groups with their stretches of every table.
+//!
+//! ```text
+//! tables stand in the order of the groups, so a cut between two groups cuts each table and each store once:
+//! [ groups | rows | Jacobian | forces | measures ]  =  [ those of part 1 ] [ those of part 2 ] ...
+//! ```
+//!
+//! Where it is cut depends on the number of groups alone.
+
+use super::group::Group;
+use super::model::NaturalModel;
+use crate::Real;
+use crate::elements::{Distance, Dot, Guided, Linear, Span};
+use crate::laws::scalar::Measure;
+use crate::team::Team;
+use alloc::vec::Vec;
+use core::ops::Range;
+
+/// Groups of a part: some ten microseconds of evaluation.
+const GROUPS: usize = 64;
+
+/// The first of everything that belongs to a group and those after it.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Mark {
+    group: usize,
+    pub(super) row: usize,
+    pub(super) jacobian: usize,
+    force: usize,
+    distance: usize,
+    dot: usize,
+    linear: usize,
+    guided: usize,
+    measure: usize,
+    body_element: usize,
+    pub(super) body_measure: usize,
+    point_force: usize,
+    torque: usize,
+}
+
+/// Neighbouring groups: from one mark to another.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Part {
+    pub(super) from: Mark,
+    to: Mark,
+}
+
+/// What the evaluation of a part writes: its stretches, or empty ones of what is not written.
+#[derive(Debug)]
+pub(super) struct Out<'a, T> {
+    /// One number for each row.
+    pub(super) rows: &'a mut [T],
+    pub(super) jacobian: &'a mut [T],
+    pub(super) force: &'a mut [T],
+    pub(super) measures: &'a mut [Measure<T>],
+    pub(super) body_measures: &'a mut [Measure<T>],
+}
+
+impl<T> Default for Out<'_, T> {
+    fn default() -> Self {
+        Self {
+            rows: &mut [],
+            jacobian: &mut [],
+            force: &mut [],
+            measures: &mut [],
+            body_measures: &mut [],
+        }
+    }
+}
+
+impl Part {
+    pub(super) fn groups<'a>(&self, all: &'a [Group]) -> &'a [Group] {
+        &all[self.from.group..self.to.group]
+    }
+    pub(super) fn rows(&self) -> Range<usize> {
+        self.from.row..self.to.row
+    }
+    pub(super) fn distances<'a, T>(&self, all: &'a [T]) -> &'a [T] {
+        &all[self.from.distance..self.to.distance]
+    }
+    pub(super) fn dots<'a, T>(&self, all: &'a [T]) -> &'a [T] {
+        &all[self.from.dot..self.to.dot]
+    }
+    pub(super) fn linears<'a, T>(&self, all: &'a [T]) -> &'a [T] {
+        &all[self.from.linear..self.to.linear]
+    }
+    pub(super) fn guided<'a, T>(&self, all: &'a [T]) -> &'a [T] {
+        &all[self.from.guided..self.to.guided]
+    }
+    pub(super) fn measures<'a, T>(&self, all: &'a [T]) -> &'a [T] {
+        &all[self.from.measure..self.to.measure]
+    }
+    pub(super) fn body_elements<'a, T>(&self, all: &'a [T]) -> &'a [T] {
+        &all[self.from.body_element..self.to.body_element]
+    }
+    pub(super) fn point_forces<'a, T>(&self, all: &'a [T]) -> &'a [T] {
+        &all[self.from.point_force..self.to.point_force]
+    }
+    pub(super) fn torques<'a, T>(&self, all: &'a [T]) -> &'a [T] {
+        &all[self.from.torque..self.to.torque]
+    }
+
+    /// A span of the Jacobian store, within the stretch of the part.
+    #[inline(always)]
+    pub(super) fn place(&self, span: Span) -> Span {
+        shifted(span, self.from.jacobian)
+    }
+    /// A span of the force store, within the stretch of the part.
+    #[inline(always)]
+    pub(super) fn force(&self, span: Span) -> Span {
+        shifted(span, self.from.force)
+    }
+    /// A span of the measures of body laws, within the stretch of the part.
+    #[inline(always)]
+    pub(super) fn body_measures(&self, span: Span) -> Span {
+        shifted(span, self.from.body_measure)
+    }
+    /// A row with its places within the stretches of the part.
+    #[inline(always)]
+    pub(super) fn distance<T: Real>(&self, row: &Distance<T>) -> Distance<T> {
+        let places = row.places.map(|at| at - narrow(self.from.jacobian));
+        Distance { places, row: row.row - narrow(self.from.row), ..*row }
+    }
+    /// Likewise.
+    #[inline(always)]
+    pub(super) fn dot<T: Real>(&self, row: &Dot<T>) -> Dot<T> {
+        Dot { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
+    }
+    /// Likewise.
+    #[inline(always)]
+    pub(super) fn linear(&self, row: &Linear) -> Linear {
+        Linear { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
+    }
+    /// Likewise.
+    #[inline(always)]
+    pub(super) fn guide(&self, row: &Guided) -> Guided {
+        Guided { place: self.place(row.place), row: row.row - narrow(self.from.row), ..*row }
+    }
+}
+
+#[inline(always)]
+fn shifted(span: Span, by: usize) -> Span {
+    Span { start: span.start - narrow(by), end: span.end - narrow(by) }
+}
+
+#[inline(always)]
+fn narrow(i: usize) -> u32 {
+    super::finish::index(i)
+}
+
+impl<'a, T> Out<'a, T> {
+    /// Cuts at a mark, given the first mark.
+    fn split(self, first: &Mark, at: &Mark) -> (Self, Self) {
+        let (rows, rows_after) = cut(self.rows, at.row - first.row);
+        let (jacobian, jacobian_after) = cut(self.jacobian, at.jacobian - first.jacobian);
+        let (force, force_after) = cut(self.force, at.force - first.force);
+        let (measures, measures_after) = cut(self.measures, at.measure - first.measure);
+        let (body, body_after) = cut(self.body_measures, at.body_measure - first.body_measure);
+        (
+            Self { rows, jacobian, force, measures, body_measures: body },
+            Self {
+                rows: rows_after,
+                jacobian: jacobian_after,
+                force: force_after,
+                measures: measures_after,
+                body_measures: body_after,
+            },
+        )
+    }
+}
+
+fn cut<T>(x: &mut [T], at: usize) -> (&mut [T], &mut [T]) {
+    x.split_at_mut(at.min(x.len()))
+}
+
+impl<T: Real, const D: usize> NaturalModel<T, D> {
+    /// Marks between the parts, when all tables are filled.
+    pub(super) fn marks(&self) -> Vec<Mark> {
+        let mut marks = Vec::with_capacity(self.groups.len() / GROUPS + 2);
+        let mut force = 0;
+        for (g, group) in self.groups.iter().enumerate() {
+            if g % GROUPS == 0 {
+                marks.push(self.mark(g, group, force));
+            }
+            force = force.max(group.force.end as usize);
+        }
+        marks.push(Mark {
+            group: self.groups.len(),
+            row: self.n_rows,
+            jacobian: self.n_jacobian,
+            force,
+            distance: self.distances.len(),
+            dot: self.dots.len(),
+            linear: self.linears.len(),
+            guided: self.guided.len(),
+            measure: self.measures.len(),
+            body_element: self.body_elements.len(),
+            body_measure: self.n_measures - self.measures.len(),
+            point_force: self.point_forces.len(),
+            torque: self.torques.len(),
+        });
+        marks
+    }
+
+    fn mark(&self, g: usize, group: &Group, force: usize) -> Mark {
+        let (row, jacobian) = (group.rows.start, group.jacobian);
+        let body_element = self.body_elements.partition_point(|e| e.place.start < jacobian);
+        let body_measure = self.body_elements[..body_element]
+            .last()
+            .map_or(0, |element| element.measures.end as usize - self.measures.len());
+        Mark {
+            group: g,
+            row: row as usize,
+            jacobian: jacobian as usize,
+            force,
+            distance: group.distances.start as usize,
+            dot: group.dots.start as usize,
+            linear: self.linears.partition_point(|r| r.row < row),
+            guided: self.guided.partition_point(|r| r.row < row),
+            measure: self.measures.partition_point(|m| m.place.start < jacobian),
+            body_element,
+            body_measure,
+            point_force: self.point_forces.partition_point(|f| (f.force.start as usize) < force),
+            torque: self.torques.partition_point(|t| (t.force.start as usize) < force),
+        }
+    }
+
+    /// Calls `work` on parts of the model with what each writes; all of it at once where the team is one.
+    #[inline(always)]
+    pub(super) fn on_parts<W: Team>(
+        &self,
+        team: &W,
+        out: Out<'_, T>,
+        work: impl Fn(&Part, Out<'_, T>) + Sync,
+    ) {
+        if let ([from, .., to], 1) = (&self.marks[..], team.size()) {
+            work(&Part { from: *from, to: *to }, out);
+        } else {
+            on_marks(team, &self.marks, out, &work);
+        }
+    }
+
+    /// The sum of `part` over the parts, pair by pair: the same bits for every team.
+    pub(super) fn sum_of_parts<W: Team>(&self, team: &W, part: impl Fn(&Part) -> T + Sync) -> T {
+        sum_of_marks(team, &self.marks, &part)
+    }
+}
+
+fn on_marks<W: Team, T: Real>(
+    team: &W,
+    marks: &[Mark],
+    out: Out<'_, T>,
+    work: &(impl Fn(&Part, Out<'_, T>) + Sync),
+) {
+    match marks {
+        [from, to] => work(&Part { from: *from, to: *to }, out),
+        [from, .., _] => {
+            let half = marks.len() / 2;
+            let (left, right) = out.split(from, &marks[half]);
+            team.join(
+                || on_marks(team, &marks[..=half], left, work),
+                || on_marks(team, &marks[half..], right, work),
+            );
+        }
+        _ => {}
+    }
+}
+
+fn sum_of_marks<W: Team, T: Real>(
+    team: &W,
+    marks: &[Mark],
+    part: &(impl Fn(&Part) -> T + Sync),
+) -> T {
+    match marks {
+        [from, to] => part(&Part { from: *from, to: *to }),
+        [_, .., _] => {
+            let half = marks.len() / 2;
+            let (a, b) = team.join(
+                || sum_of_marks(team, &marks[..=half], part),
+                || sum_of_marks(team, &marks[half..], part),
+            );
+            a + b
+        }
+        _ => T::ZERO,
+    }
+}

@@ -1,0 +1,312 @@
+//! The evaluation of a [`NaturalModel`] by a team, part by part; and the model that brings its team along.
+
+use super::forces::{add_terms, add_torque};
+use super::model::NaturalModel;
+use super::parts::Out;
+use crate::Real;
+use crate::algebra::Vector;
+use crate::blocks::Cliques;
+use crate::model::{Load, Model, Owner, Tangent, Terms};
+use crate::team::{Team, sum};
+use core::ops::Range;
+
+impl<T: Real, const D: usize> NaturalModel<T, D> {
+    /// This model with a team that its evaluation, and the vectors of a step, are shared among. Same bits for every team.
+    pub fn with_team<'a, W: Team>(&'a self, team: &'a W) -> Teamed<'a, T, D, W> {
+        Teamed { model: self, team }
+    }
+
+    pub(super) fn evaluate_on<W: Team>(&self, team: &W, q: &[T], terms: &mut Terms<T>) {
+        let Terms { phi, jacobian, guides, .. } = terms;
+        let guides = &guides[..];
+        let out = Out { rows: phi, jacobian, ..Out::default() };
+        self.on_parts(team, out, |part, Out { rows: phi, jacobian, .. }| {
+            for row in part.distances(&self.distances) {
+                part.distance(row).evaluate::<D>(q, phi, jacobian);
+            }
+            for row in part.dots(&self.dots) {
+                part.dot(row).evaluate::<D>(&self.pool, q, phi, jacobian);
+            }
+            for row in part.linears(&self.linears) {
+                part.linear(row).evaluate::<T, D>(&self.pool, q, phi);
+            }
+            for row in part.guided(&self.guided) {
+                let f = guides[row.guide as usize][0];
+                part.guide(row).evaluate::<T, D>(&self.pool, q, f, (phi, jacobian));
+            }
+        });
+    }
+
+    pub(super) fn advance_on<W: Team>(
+        &self,
+        team: &W,
+        (q, dq): (&[T], &[T]),
+        phi_n: &[T],
+        terms: &mut Terms<T>,
+    ) {
+        let Terms { phi, jacobian, guides, .. } = terms;
+        let guides = &guides[..];
+        let out = Out { rows: phi, jacobian, ..Out::default() };
+        self.on_parts(team, out, |part, Out { rows: phi, jacobian, .. }| {
+            let phi_n = &phi_n[part.rows()];
+            for row in part.distances(&self.distances) {
+                part.distance(row).advance::<D>((q, dq), phi_n, phi, jacobian);
+            }
+            for row in part.dots(&self.dots) {
+                part.dot(row).advance::<D>(&self.pool, (q, dq), phi_n, (phi, jacobian));
+            }
+            for row in part.linears(&self.linears) {
+                part.linear(row).advance::<T, D>(&self.pool, dq, phi_n, phi);
+            }
+            for row in part.guided(&self.guided) {
+                let f = guides[row.guide as usize][0];
+                part.guide(row).evaluate_at_sum::<T, D>(&self.pool, (q, dq), f, (phi, jacobian));
+            }
+        });
+    }
+
+    pub(super) fn evaluate_forces_on<W: Team>(
+        &self,
+        team: &W,
+        (q, v, memory): (&[T], &[T], &[T]),
+        terms: &mut Terms<T>,
+    ) {
+        let Terms { jacobian, force, measures, courses, .. } = terms;
+        let courses = &courses[..];
+        let (measures, body_measures) = measures.split_at_mut(self.measures.len());
+        let out = Out { jacobian, force, measures, body_measures, ..Out::default() };
+        self.on_parts(team, out, |part, out| {
+            let supplies = self.tables.supplies(courses);
+            let Out { jacobian, force, measures, body_measures, .. } = out;
+            for (element, measure) in part.measures(&self.measures).iter().zip(measures) {
+                let mut element = *element;
+                element.place = part.place(element.place);
+                *measure = element.evaluate::<D>(&self.pool, (q, v, memory), &supplies, jacobian);
+            }
+            let n = super::finish::index(self.measures.len());
+            for element in part.body_elements(&self.body_elements) {
+                let mut element = *element;
+                element.place = part.place(element.place);
+                (element.measures.start, element.measures.end) =
+                    (element.measures.start - n, element.measures.end - n);
+                element.measures = part.body_measures(element.measures);
+                let out = (&mut jacobian[..], &mut body_measures[..]);
+                element.evaluate::<D>(&self.pool, (q, v), &supplies, out);
+            }
+            for effect in part.point_forces(&self.point_forces) {
+                let value = self.point_force(effect, q, courses[effect.course as usize]);
+                let local = part.force(effect.force).of_mut(force);
+                local.fill(T::ZERO);
+                add_terms(effect.point.of(&self.pool), &value, local);
+            }
+            for torque in part.torques(&self.torques) {
+                let local = part.force(torque.force).of_mut(force);
+                local.fill(T::ZERO);
+                let tau = courses[torque.course as usize];
+                add_torque::<T, D>(&self.pool, &torque.frame, tau, q, local);
+            }
+        });
+    }
+
+    pub(super) fn evaluate_bias_on<W: Team>(
+        &self,
+        team: &W,
+        (q, v): (&[T], &[T]),
+        terms: &mut Terms<T>,
+    ) {
+        let Terms { phi_bias, guides, .. } = terms;
+        let guides = &guides[..];
+        let out = Out { rows: phi_bias, ..Out::default() };
+        self.on_parts(team, out, |part, Out { rows: bias, .. }| {
+            let first = part.from.row;
+            for row in part.distances(&self.distances) {
+                bias[row.row as usize - first] = row.bias::<D>(v);
+            }
+            for row in part.dots(&self.dots) {
+                bias[row.row as usize - first] = row.bias::<D>(&self.pool, v);
+            }
+            for row in part.guided(&self.guided) {
+                let f = guides[row.guide as usize];
+                bias[row.row as usize - first] = row.bias::<T, D>(&self.pool, (q, v), f);
+            }
+        });
+    }
+
+    pub(super) fn multiply_jacobian_on<W: Team>(
+        &self,
+        team: &W,
+        terms: &Terms<T>,
+        x: &[T],
+        rates: &mut [T],
+    ) {
+        let out = Out { rows: rates, ..Out::default() };
+        self.on_parts(team, out, |part, Out { rows: rates, .. }| {
+            for group in part.groups(&self.groups) {
+                let first = part.from.row;
+                let rates = &mut rates[group.rows.start as usize - first..][..group.rows.len()];
+                match group.clique.len() {
+                    2 => self.multiply_sized_jacobian::<2>(group, terms, x, rates),
+                    4 => self.multiply_sized_jacobian::<4>(group, terms, x, rates),
+                    6 => self.multiply_sized_jacobian::<6>(group, terms, x, rates),
+                    9 => self.multiply_sized_jacobian::<9>(group, terms, x, rates),
+                    12 => self.multiply_sized_jacobian::<12>(group, terms, x, rates),
+                    _ => self.multiply_sized_jacobian::<0>(group, terms, x, rates),
+                }
+            }
+        });
+    }
+
+    pub(super) fn kinetic_energy_on<W: Team>(&self, team: &W, v: &[T]) -> T {
+        let twice = self.sum_of_parts(team, |part| {
+            let mut twice = T::ZERO;
+            for group in part.groups(&self.groups) {
+                let (g, slots) = (group.mass.of(&self.mass), group.slots.of(&self.slots));
+                let nb = if g.is_empty() { 0 } else { group.n_unknown as usize };
+                for i in 0..nb {
+                    let mut sum = Vector::<T, D>::zeros();
+                    for j in 0..nb {
+                        sum += g[i * nb + j].apply(&crate::algebra::load::<T, D>(v, slots[j]));
+                    }
+                    twice += sum.dot(&crate::algebra::load::<T, D>(v, slots[i]));
+                }
+            }
+            twice
+        });
+        twice * T::HALF
+    }
+
+    pub(super) fn potential_energy_on<W: Team>(&self, team: &W, q: &[T], terms: &Terms<T>) -> T {
+        let weight = &self.weight;
+        let n = weight.len().min(q.len());
+        let mut energy = -sum(team, n, |from, to| {
+            let pairs = weight[from..to].iter().zip(&q[from..to]);
+            pairs.fold(T::ZERO, |sum, (&w, &x)| sum + w * x)
+        });
+        let supplies = self.tables.supplies(&terms.courses);
+        for (element, measure) in self.measures.iter().zip(&terms.measures) {
+            energy += element.energy(measure, &supplies);
+        }
+        for element in &self.body_elements {
+            energy += element.energy(&terms.measures);
+        }
+        energy
+    }
+}
+
+/// A natural-coordinate model with its team: [`NaturalModel::with_team`].
+#[derive(Debug)]
+pub struct Teamed<'a, T: Real, const D: usize, W> {
+    model: &'a NaturalModel<T, D>,
+    team: &'a W,
+}
+
+impl<T: Real, const D: usize, W: Team> Cliques for Teamed<'_, T, D, W> {
+    fn n_unknowns(&self) -> usize {
+        self.model.n_unknowns()
+    }
+    fn n_elements(&self) -> usize {
+        self.model.n_elements()
+    }
+    #[inline(always)]
+    fn clique(&self, element: usize) -> &[u32] {
+        self.model.clique(element)
+    }
+}
+
+impl<T: Real, const D: usize, W: Team> Model<T> for Teamed<'_, T, D, W> {
+    fn team(&self) -> &impl Team {
+        self.team
+    }
+    fn n_extended(&self) -> usize {
+        self.model.n_extended()
+    }
+    fn n_constraints(&self) -> usize {
+        self.model.n_constraints()
+    }
+    fn n_memory(&self) -> usize {
+        self.model.n_memory()
+    }
+    fn has_forces(&self) -> bool {
+        self.model.has_forces()
+    }
+    fn has_guides(&self) -> bool {
+        self.model.has_guides()
+    }
+    fn terms(&self) -> Terms<T> {
+        self.model.terms()
+    }
+    fn write_reference(&self, q: &mut [T]) {
+        self.model.write_reference(q);
+    }
+    fn set_inputs(&self, t: T, terms: &mut Terms<T>) {
+        self.model.set_inputs(t, terms);
+    }
+    fn evaluate(&self, q: &[T], terms: &mut Terms<T>) {
+        self.model.evaluate_on(self.team, q, terms);
+    }
+    fn advance(&self, q: &[T], dq: &[T], phi_n: &[T], terms: &mut Terms<T>) {
+        self.model.advance_on(self.team, (q, dq), phi_n, terms);
+    }
+    fn evaluate_forces(&self, q: &[T], v: &[T], memory: &[T], terms: &mut Terms<T>) {
+        self.model.evaluate_forces_on(self.team, (q, v, memory), terms);
+    }
+    fn remember(&self, terms: &Terms<T>, memory: &mut [T]) {
+        self.model.remember(terms, memory);
+    }
+    fn evaluate_phi_t(&self, q: &[T], terms: &mut Terms<T>) {
+        self.model.evaluate_phi_t(q, terms);
+    }
+    fn evaluate_bias(&self, q: &[T], v: &[T], terms: &mut Terms<T>) {
+        self.model.evaluate_bias_on(self.team, (q, v), terms);
+    }
+    fn multiply_jacobian(&self, terms: &Terms<T>, x: &[T], rates: &mut [T]) {
+        self.model.multiply_jacobian_on(self.team, terms, x, rates);
+    }
+    fn effective_masses(&self, terms: &Terms<T>, masses: &mut [T]) {
+        self.model.effective_masses(terms, masses);
+    }
+    fn rows(&self, element: usize) -> Range<usize> {
+        self.model.rows(element)
+    }
+    fn write_jacobian(&self, terms: &Terms<T>, element: usize, rows: &mut [T]) {
+        self.model.write_jacobian(terms, element, rows);
+    }
+    #[inline]
+    fn write_block(
+        &self,
+        terms: &Terms<T>,
+        tangent: &Tangent<'_, T>,
+        element: usize,
+        block: &mut [T],
+    ) {
+        self.model.write_block(terms, tangent, element, block);
+    }
+    #[inline]
+    fn write_residual(
+        &self,
+        terms: &Terms<T>,
+        load: &Load<'_, T>,
+        element: usize,
+        residual: &mut [T],
+    ) {
+        self.model.write_residual(terms, load, element, residual);
+    }
+    fn kinetic_energy(&self, v: &[T]) -> T {
+        self.model.kinetic_energy_on(self.team, v)
+    }
+    fn potential_energy(&self, q: &[T], terms: &Terms<T>) -> T {
+        self.model.potential_energy_on(self.team, q, terms)
+    }
+    fn power(&self, q: &[T], v: &[T], lambda: &[T], terms: &Terms<T>) -> T {
+        self.model.power(q, v, lambda, terms)
+    }
+    fn opposite_guide(&self, q: &[T], terms: &Terms<T>) -> Option<usize> {
+        self.model.opposite_guide(q, terms)
+    }
+    fn owner_of_unknown(&self, unknown: usize) -> Owner {
+        self.model.owner_of_unknown(unknown)
+    }
+    fn owner_of_row(&self, row: usize) -> Owner {
+        self.model.owner_of_row(row)
+    }
+}

@@ -1,0 +1,160 @@
+//! Who shares the work of a step: [`Team`] is all that the numerics know of threads.
+//!
+//! ```text
+//! work on 0..n  =  work on 0..n/2  and  work on n/2..n,  down to stretches of a fixed length
+//! ```
+//!
+//! How work is cut never depends on the team, and sums meet in the order of the cut: a result has the same bits whoever
+//! computes it. [`Alone`] needs no operating system; teams of threads are in mbs-parallel.
+
+use crate::Real;
+
+/// Runs two pieces of work, at the same time where it has the hands.
+pub trait Team: Sync {
+    /// The results of `a` and `b`. Both have ended when it returns; a panic of one is passed on.
+    fn join<A: Send, B: Send>(
+        &self,
+        a: impl FnOnce() -> A + Send,
+        b: impl FnOnce() -> B + Send,
+    ) -> (A, B);
+
+    /// How many may work at the same time. With one, work that needs no cut for its result is not cut.
+    fn size(&self) -> usize;
+}
+
+/// One thread: the caller's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Alone;
+
+impl Team for Alone {
+    #[inline(always)]
+    fn join<A: Send, B: Send>(
+        &self,
+        a: impl FnOnce() -> A + Send,
+        b: impl FnOnce() -> B + Send,
+    ) -> (A, B) {
+        (a(), b())
+    }
+    #[inline(always)]
+    fn size(&self) -> usize {
+        1
+    }
+}
+
+impl<W: Team> Team for &W {
+    #[inline(always)]
+    fn join<A: Send, B: Send>(
+        &self,
+        a: impl FnOnce() -> A + Send,
+        b: impl FnOnce() -> B + Send,
+    ) -> (A, B) {
+        (**self).join(a, b)
+    }
+    #[inline(always)]
+    fn size(&self) -> usize {
+        (**self).size()
+    }
+}
+
+/// Numbers in one stretch of a vector that is worked on at a time: some microseconds of additions.
+pub const STRETCH: usize = 4096;
+
+/// Calls `work` with the first place and the stretch of each of `N` vectors of equal length, stretch by stretch.
+///
+/// For work on every number by itself: how it is cut shows in no bit.
+#[inline(always)]
+pub fn on_stretches<W: Team, T: Send, const N: usize>(
+    team: &W,
+    vectors: [&mut [T]; N],
+    work: impl Fn(usize, [&mut [T]; N]) + Sync,
+) {
+    if team.size() == 1 {
+        work(0, vectors);
+    } else {
+        cut(team, 0, vectors, &work);
+    }
+}
+
+fn cut<W: Team, T: Send, const N: usize>(
+    team: &W,
+    first: usize,
+    vectors: [&mut [T]; N],
+    work: &(impl Fn(usize, [&mut [T]; N]) + Sync),
+) {
+    let len = vectors.first().map_or(0, |v| v.len());
+    if len <= STRETCH {
+        return work(first, vectors);
+    }
+    let half = len / 2;
+    let mut right: [&mut [T]; N] = core::array::from_fn(|_| Default::default());
+    let mut places = right.iter_mut();
+    let left = vectors.map(|v| {
+        let (head, tail) = v.split_at_mut(half);
+        if let Some(place) = places.next() {
+            *place = tail;
+        }
+        head
+    });
+    drop(places);
+    team.join(|| cut(team, first, left, work), || cut(team, first + half, right, work));
+}
+
+/// out = base + weight x, entry by entry.
+pub fn set_sum<W: Team, T: Real>(team: &W, out: &mut [T], base: &[T], (weight, x): (&[T], &[T])) {
+    on_stretches(team, [out], |first, [out]| {
+        let n = out.len();
+        let (base, weight, x) = (&base[first..][..n], &weight[first..][..n], &x[first..][..n]);
+        for k in 0..n {
+            out[k] = base[k] + weight[k] * x[k];
+        }
+    });
+}
+
+/// out += weight x, entry by entry.
+pub fn add_product<W: Team, T: Real>(team: &W, out: &mut [T], (weight, x): (&[T], &[T])) {
+    on_stretches(team, [out], |first, [out]| {
+        let n = out.len();
+        let (weight, x) = (&weight[first..][..n], &x[first..][..n]);
+        for k in 0..n {
+            out[k] += weight[k] * x[k];
+        }
+    });
+}
+
+/// out -= x, entry by entry.
+pub fn subtract<W: Team, T: Real>(team: &W, out: &mut [T], x: &[T]) {
+    on_stretches(team, [out], |first, [out]| {
+        for (out, &x) in out.iter_mut().zip(&x[first..]) {
+            *out -= x;
+        }
+    });
+}
+
+/// The sum of `part(from, to)` over stretches of 0..`n`, added pair by pair: the same bits for every team.
+pub fn sum<W: Team, T: Real>(team: &W, n: usize, part: impl Fn(usize, usize) -> T + Sync) -> T {
+    fold(team, (0, n), &part, &|a, b| a + b)
+}
+
+/// The largest absolute value of a vector; not finite when one of its numbers is not. The same for every team.
+pub fn norm_inf<W: Team, T: Real>(team: &W, x: &[T]) -> T {
+    if team.size() == 1 {
+        return crate::algebra::norm_inf(x);
+    }
+    let larger = |a: T, b: T| crate::algebra::norm_inf(&[a, b]);
+    fold(team, (0, x.len()), &|from, to| crate::algebra::norm_inf(&x[from..to]), &larger)
+}
+
+fn fold<W: Team, T: Real>(
+    team: &W,
+    (from, to): (usize, usize),
+    part: &(impl Fn(usize, usize) -> T + Sync),
+    both: &(impl Fn(T, T) -> T + Sync),
+) -> T {
+    if to - from <= STRETCH {
+        return part(from, to);
+    }
+    let half = from + (to - from) / 2;
+    let (a, b) =
+        team.join(|| fold(team, (from, half), part, both), || fold(team, (half, to), part, both));
+    both(a, b)
+}

@@ -1,0 +1,5 @@
+#![doc = include_str!("../README.md")]
+
+pub mod team;
+
+pub use team::{Crew, Pool, Threads};

@@ -1,0 +1,305 @@
+//! What a task and those below it own, and the work on it: factorisation and the two sweeps, task by task.
+//!
+//! ```text
+//! factor:    tasks below (at the same time, each on its own part of the numbers), then the own fronts in order
+//! forward:   tasks below, then what they leave for the own rows is added in their order, then the own fronts
+//! backward:  the own fronts from the last to the first, then what tasks below need to know is handed down
+//! ```
+//!
+//! Every sum has one order, that of the plan. Parts are cut with `split_at_mut`, so two tasks cannot meet in a number.
+
+use crate::kernel::{self, BadPivot};
+use crate::multifrontal::add_part;
+use crate::options::Pivoting;
+use crate::pivoting::eliminate_largest;
+use crate::plan::{Front, Plan, column};
+use crate::sweep;
+use crate::tasks::Task;
+use mbs_core::{BlockSource, FactorError, Real, Team};
+
+/// The numbers of a factorisation that belong to neighbouring tasks with all below.
+#[derive(Debug)]
+pub(crate) struct Numbers<'a, T> {
+    pub(crate) fronts: &'a mut [T],
+    pub(crate) pivots: &'a mut [T],
+    pub(crate) order: &'a mut [u32],
+    /// As long as `order`, or empty without pivoting.
+    pub(crate) taken: &'a mut [u32],
+}
+
+impl<T: Real> Numbers<'_, T> {
+    /// Cuts off the first so many numbers and places.
+    fn split_at(&mut self, numbers: usize, places: usize) -> (Numbers<'_, T>, Numbers<'_, T>) {
+        let (fronts, fronts_right) = self.fronts.split_at_mut(numbers);
+        let (pivots, pivots_right) = self.pivots.split_at_mut(places);
+        let (order, order_right) = self.order.split_at_mut(places);
+        let (taken, taken_right) = self.taken.split_at_mut(places.min(self.taken.len()));
+        (
+            Numbers { fronts, pivots, order, taken },
+            Numbers {
+                fronts: fronts_right,
+                pivots: pivots_right,
+                order: order_right,
+                taken: taken_right,
+            },
+        )
+    }
+
+    /// Assembles and factors everything.
+    pub(crate) fn factor<W: Team, S: BlockSource<T>>(
+        self,
+        how: (&Plan, Pivoting),
+        team: &W,
+        source: &S,
+    ) -> Result<(), FactorError> {
+        let roots = &how.0.tasks.roots;
+        self.factor_all(how, team, source, roots)
+    }
+
+    /// The neighbouring tasks of a list, by halves.
+    fn factor_all<W: Team, S: BlockSource<T>>(
+        mut self,
+        how: (&Plan, Pivoting),
+        team: &W,
+        source: &S,
+        list: &[u32],
+    ) -> Result<(), FactorError> {
+        let tasks = &how.0.tasks.list;
+        match list {
+            [] => Ok(()),
+            [task] => self.factor_task(how, team, source, *task as usize),
+            _ => {
+                let (left, right) = list.split_at(list.len() / 2);
+                let (begin, cut) = (&tasks[left[0] as usize], &tasks[right[0] as usize]);
+                let numbers = cut.numbers[0] - begin.numbers[0];
+                let (a, b) = self.split_at(numbers, cut.first_place - begin.first_place);
+                let (a, b) = team.join(
+                    || a.factor_all(how, team, source, left),
+                    || b.factor_all(how, team, source, right),
+                );
+                a.and(b)
+            }
+        }
+    }
+
+    /// One task: those below, then its own fronts.
+    fn factor_task<W: Team, S: BlockSource<T>>(
+        &mut self,
+        how: (&Plan, Pivoting),
+        team: &W,
+        source: &S,
+        at: usize,
+    ) -> Result<(), FactorError> {
+        let task = &how.0.tasks.list[at];
+        let below = how.0.tasks.below(at);
+        if !below.is_empty() {
+            let places = task.places.start - task.first_place;
+            let (part, _) = self.split_at(task.numbers[1] - task.numbers[0], places);
+            part.factor_all(how, team, source, below)?;
+        }
+        let (start, end) = (task.numbers[0], task.numbers[2]);
+        let largest = how.0.largest_clique;
+        let (fronts, block) =
+            self.fronts[..end - start].split_at_mut(end - start - column(largest, largest));
+        for front in &how.0.fronts[task.fronts.clone()] {
+            assemble(how.0, front, source, (&mut *fronts, start), block);
+            let at = front.first - task.first_place;
+            let a = &mut fronts[front.offset - start..][..column(front.f, front.f)];
+            let d = &mut self.pivots[at..at + front.p];
+            let order = &mut self.order[at..at + front.p];
+            let taken = self.taken.get_mut(at..at + front.p).unwrap_or_default();
+            eliminate(how, front, (a, d), (order, taken))?;
+        }
+        Ok(())
+    }
+}
+
+/// Sums elements and updates of children into a front; `fronts` begins at place `start` of all numbers.
+#[inline(always)]
+fn assemble<T: Real, S: BlockSource<T>>(
+    plan: &Plan,
+    front: &Front,
+    source: &S,
+    (fronts, start): (&mut [T], usize),
+    block: &mut [T],
+) {
+    let f = front.f;
+    let (done, rest) = fronts.split_at_mut(front.offset - start);
+    let a = &mut rest[..column(f, f)];
+    let mut elements = &plan.elements[front.elements.clone()];
+    if front.is_first_whole {
+        source.write_block(elements[0].source, a);
+        elements = &elements[1..];
+    } else {
+        a.fill(T::ZERO);
+    }
+    for part in elements {
+        let size = part.size as usize;
+        let block = &mut block[..size * (size + 1) / 2];
+        source.write_block(part.source, block);
+        add_part(a, f, part, &plan.targets, block);
+    }
+    for part in &plan.children[front.children.clone()] {
+        let size = part.size as usize;
+        let update = &done[part.source - start..][..size * (size + 1) / 2];
+        add_part(a, f, part, &plan.targets, update);
+    }
+}
+
+/// Eliminates the pivots of one assembled front.
+#[inline(always)]
+fn eliminate<T: Real>(
+    (plan, pivoting): (&Plan, Pivoting),
+    front: &Front,
+    (a, d): (&mut [T], &mut [T]),
+    (order, taken): (&mut [u32], &mut [u32]),
+) -> Result<(), FactorError> {
+    let result = match pivoting {
+        Pivoting::None => kernel::eliminate(a, d, front.f),
+        Pivoting::Diagonal => {
+            let result = eliminate_largest(a, d, taken, front.f);
+            for (u, &row) in order.iter_mut().zip(&*taken) {
+                *u = plan.order[front.first + row as usize];
+            }
+            result
+        }
+    };
+    result.map_err(|BadPivot { column, pivot }| FactorError {
+        unknown: order[column],
+        pivot: pivot.to_f64(),
+    })
+}
+
+/// A factorisation and a right-hand side: all that the sweeps read.
+#[derive(Debug)]
+pub(crate) struct Vectors<'a, T, W> {
+    pub(crate) plan: &'a Plan,
+    pub(crate) team: &'a W,
+    pub(crate) fronts: &'a [T],
+    pub(crate) taken: &'a [u32],
+    /// Unknown at each place.
+    pub(crate) order: &'a [u32],
+    pub(crate) x: &'a [T],
+}
+
+/// The two sweeps of a solution.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Direction {
+    Forward,
+    Backward,
+}
+
+impl<T: Real, W: Team> Vectors<'_, T, W> {
+    /// Both sweeps, in the storage of all tasks.
+    pub(crate) fn solve(&self, storage: &mut [T]) {
+        let roots = &self.plan.tasks.roots;
+        self.all(roots, storage, None, Direction::Forward);
+        self.all(roots, storage, None, Direction::Backward);
+    }
+
+    /// The neighbouring tasks of a list, by halves; `above` is the own vector of the task above them.
+    fn all(&self, list: &[u32], storage: &mut [T], above: Option<&[T]>, direction: Direction) {
+        let tasks = &self.plan.tasks.list;
+        match (list, direction) {
+            ([], _) => {}
+            ([task], Direction::Forward) => self.forward(*task as usize, storage),
+            ([task], Direction::Backward) => self.backward(*task as usize, storage, above),
+            _ => {
+                let (left, right) = list.split_at(list.len() / 2);
+                let begin = tasks[left[0] as usize].vector[0];
+                let cut = tasks[right[0] as usize].vector[0] - begin;
+                let (a, b) = storage.split_at_mut(cut);
+                self.team.join(
+                    || self.all(left, a, above, direction),
+                    || self.all(right, b, above, direction),
+                );
+            }
+        }
+    }
+
+    fn forward(&self, at: usize, storage: &mut [T]) {
+        let task = &self.plan.tasks.list[at];
+        let (below, own) = storage.split_at_mut(task.vector[1] - task.vector[0]);
+        let children = self.plan.tasks.below(at);
+        self.all(children, below, None, Direction::Forward);
+        let (places, outer) = own.split_at_mut(task.places.len());
+        for (z, &u) in places.iter_mut().zip(&self.order[task.places.clone()]) {
+            *z = self.x[u as usize];
+        }
+        outer[..task.outer.len()].fill(T::ZERO);
+        for &child in children {
+            let child = &self.plan.tasks.list[child as usize];
+            let from = &below[child.outer_vector(task.vector[0])..];
+            let targets = &self.plan.tasks.targets[child.outer.clone()];
+            for (&target, &value) in targets.iter().zip(from) {
+                own[target as usize] += value;
+            }
+        }
+        for front in &self.plan.fronts[task.fronts.clone()] {
+            self.visit(task, front, own, Direction::Forward);
+        }
+    }
+
+    fn backward(&self, at: usize, storage: &mut [T], above: Option<&[T]>) {
+        let task = &self.plan.tasks.list[at];
+        let (below, own) = storage.split_at_mut(task.vector[1] - task.vector[0]);
+        if let Some(above) = above {
+            let targets = &self.plan.tasks.targets[task.outer.clone()];
+            for (z, &target) in own[task.places.len()..].iter_mut().zip(targets) {
+                *z = above[target as usize];
+            }
+        }
+        for front in self.plan.fronts[task.fronts.clone()].iter().rev() {
+            self.visit(task, front, own, Direction::Backward);
+        }
+        self.all(self.plan.tasks.below(at), below, Some(own), Direction::Backward);
+    }
+
+    /// One front of one sweep, on the own vector of its task.
+    #[inline(always)]
+    fn visit(&self, task: &Task, front: &Front, own: &mut [T], direction: Direction) {
+        let Front { p, f, offset, first, .. } = *front;
+        let a = &self.fronts[offset..offset + column(f, f)];
+        let taken = self.taken.get(first..first + p);
+        let first = first - task.places.start;
+        if taken.is_none() && front.is_consecutive {
+            let z = &mut own[first..first + f];
+            return match direction {
+                Direction::Forward => sweep::forward(a, z, p),
+                Direction::Backward => sweep::backward(a, z, p),
+            };
+        }
+        let rows = &self.plan.tasks.rows[front.rows.clone()];
+        let (y, scratch) = own.split_at_mut(task.places.len() + task.outer.len());
+        let (z1, z2) = scratch[..f].split_at_mut(p);
+        let place = |k: usize| first + taken.map_or(k, |taken| taken[k] as usize);
+        match direction {
+            Direction::Forward => (0..p).for_each(|k| z1[k] = y[place(k)]),
+            Direction::Backward => z1.copy_from_slice(&y[first..first + p]),
+        }
+        for (z, &row) in z2.iter_mut().zip(rows) {
+            *z = y[row as usize];
+        }
+        let z = &mut scratch[..f];
+        match direction {
+            Direction::Forward => {
+                sweep::forward(a, z, p);
+                y[first..first + p].copy_from_slice(&z[..p]);
+                for (&z, &row) in z[p..].iter().zip(rows) {
+                    y[row as usize] = z;
+                }
+            }
+            Direction::Backward => {
+                sweep::backward(a, z, p);
+                (0..p).for_each(|k| y[place(k)] = z[k]);
+            }
+        }
+    }
+}
+
+impl Task {
+    /// Where what it leaves for rows further up stands in a storage that begins at `start`.
+    fn outer_vector(&self, start: usize) -> usize {
+        self.vector[1] + self.places.len() - start
+    }
+}

@@ -1,0 +1,237 @@
+//! The tree of fronts cut into tasks: subtrees that threads may work on at the same time.
+//!
+//! ```text
+//! a task = neighbouring subtrees of little work, or the fronts from a fork of the tree up to the next one, with the tasks below
+//! own storage of a task:  numbers  [ its fronts | one block ]        vector  [ its places | rows further up | one front ]
+//! storage of a task with all below:  [ of its children, in order | own ]
+//! ```
+//!
+//! Where the tree is cut follows from its structure and [`Options::grain`](crate::Options::grain) alone, never from the number
+//! of threads. Children come together in their order. A plan that is one task is worked through front by front.
+
+use crate::graph::{Lists, index};
+use crate::plan::{Front, column};
+use crate::tree::NONE;
+use std::ops::Range;
+
+/// No task has more tasks above it than this: the stack of a thread is not infinite.
+const DEEPEST: usize = 100;
+
+/// A part of the tree of fronts.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Task {
+    /// The fronts it works through itself, after its children.
+    pub(crate) fronts: Range<usize>,
+    /// Places of their pivots in the order of elimination.
+    pub(crate) places: Range<usize>,
+    /// First place of the task with all below.
+    pub(crate) first_place: usize,
+    /// Rows further up that its fronts and children touch, as places, ascending: a stretch of the list of all.
+    pub(crate) outer: Range<usize>,
+    /// Storage of numbers: where that of all below begins, where its own begins, and the end.
+    pub(crate) numbers: [usize; 3],
+    /// Storage of a vector, likewise.
+    pub(crate) vector: [usize; 3],
+}
+
+/// All tasks, children before parents.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Tasks {
+    pub(crate) list: Vec<Task>,
+    /// The tasks below each task, in order.
+    pub(crate) children: Lists,
+    /// Those that are below none.
+    pub(crate) roots: Vec<u32>,
+    /// Outer rows of all tasks, as places.
+    pub(crate) outer: Vec<u32>,
+    /// Beside them, where they stand in the own vector of the task above.
+    pub(crate) targets: Vec<u32>,
+    /// Rows of all fronts, as places in the own vector of their task; beside `Plan::rows`.
+    pub(crate) rows: Vec<u32>,
+    /// For each unknown its place in the storage of a vector.
+    pub(crate) stored_at: Vec<u32>,
+    /// Numbers and places of a vector that are stored.
+    pub(crate) sizes: [usize; 2],
+}
+
+impl Tasks {
+    /// The tasks below `task`.
+    pub(crate) fn below(&self, task: usize) -> &[u32] {
+        self.children.get(task)
+    }
+}
+
+/// Cuts the tree. `work` is the time of each front [ns], `grain` what a task should take at least.
+pub(crate) fn tasks(
+    (fronts, parent): (&[Front], &[u32]),
+    all_rows: &[u32],
+    work: &[f64],
+    (grain, largest_block): (f64, usize),
+) -> Tasks {
+    let mut cutter = Cutter::new(parent, work, grain);
+    let roots: Vec<usize> = (0..parent.len()).filter(|&s| parent[s] == NONE).collect();
+    let roots = cutter.siblings(&roots, 0);
+    let mut tasks = Tasks {
+        list: cutter
+            .cut
+            .iter()
+            .map(|fronts| Task { fronts: fronts.clone(), ..Task::default() })
+            .collect(),
+        children: Lists::with_capacity(cutter.cut.len()),
+        roots,
+        ..Tasks::default()
+    };
+    for below in &cutter.below {
+        tasks.children.items.extend_from_slice(below);
+        tasks.children.close();
+    }
+    for at in 0..tasks.list.len() {
+        tasks.lay_out(at, fronts, all_rows, largest_block);
+    }
+    tasks
+}
+
+/// State of cutting a tree.
+struct Cutter<'a> {
+    children: Lists,
+    /// First front of the subtree of each front, and its work [ns].
+    first: Vec<usize>,
+    total: Vec<f64>,
+    grain: f64,
+    parent: &'a [u32],
+    cut: Vec<Range<usize>>,
+    below: Vec<Vec<u32>>,
+}
+
+impl<'a> Cutter<'a> {
+    fn new(parent: &'a [u32], work: &[f64], grain: f64) -> Self {
+        let n = parent.len();
+        let mut children = Lists::with_capacity(n);
+        let (mut first, mut total): (Vec<usize>, Vec<f64>) = ((0..n).collect(), work.to_vec());
+        for s in 0..n {
+            if parent[s] != NONE {
+                let above = parent[s] as usize;
+                first[above] = first[above].min(first[s]);
+                total[above] += total[s];
+                children.items.push(parent[s]);
+            }
+            children.close();
+        }
+        let children = children.transposed(n);
+        Self { children, first, total, grain, parent, cut: Vec::new(), below: Vec::new() }
+    }
+
+    fn push(&mut self, fronts: Range<usize>, below: Vec<u32>) -> u32 {
+        self.cut.push(fronts);
+        self.below.push(below);
+        index(self.cut.len() - 1)
+    }
+
+    /// Tasks for the subtrees of neighbouring siblings: small ones together.
+    fn siblings(&mut self, roots: &[usize], depth: usize) -> Vec<u32> {
+        let (mut made, mut from, mut gathered) = (Vec::new(), None, 0.0);
+        for (i, &root) in roots.iter().enumerate() {
+            let is_large = self.total[root] > self.grain && depth < DEEPEST;
+            if is_large {
+                let before = from.take().map(|from| self.push(from..self.first[root], Vec::new()));
+                made.extend(before);
+                made.push(self.subtree(root, depth));
+                gathered = 0.0;
+                continue;
+            }
+            from = from.or(Some(self.first[root]));
+            gathered += self.total[root];
+            if gathered > self.grain || i + 1 == roots.len() {
+                made.extend(from.take().map(|from| self.push(from..root + 1, Vec::new())));
+                gathered = 0.0;
+            }
+        }
+        made
+    }
+
+    /// The task that ends with front `root`: down to the next fork into parts that are worth it.
+    fn subtree(&mut self, root: usize, depth: usize) -> u32 {
+        let mut low = root;
+        loop {
+            let kids: Vec<usize> = self.children.get(low).iter().map(|&c| c as usize).collect();
+            let Some((&heavy, light)) = kids.split_first() else {
+                return self.push(low..root + 1, Vec::new());
+            };
+            let light: f64 = light.iter().map(|&c| self.total[c]).sum();
+            if light > self.grain && self.total[heavy] > self.grain {
+                // All fronts from `low` on are this task's own; what is below begins before it.
+                debug_assert!(kids.iter().all(|&c| self.parent[c] as usize == low));
+                let below = self.siblings(&kids, depth + 1);
+                return self.push(low..root + 1, below);
+            }
+            if self.total[heavy] <= self.grain {
+                return self.push(self.first[low]..root + 1, Vec::new());
+            }
+            low = heavy;
+        }
+    }
+}
+
+impl Tasks {
+    /// Storage and rows of task `at`, when those of its children are known.
+    fn lay_out(&mut self, at: usize, fronts: &[Front], all_rows: &[u32], largest_block: usize) {
+        let own = &fronts[self.list[at].fronts.clone()];
+        let (first, last) = (own[0].first, &own[own.len() - 1]);
+        let places = first..last.first + last.p;
+        let mut outer: Vec<u32> = own
+            .iter()
+            .flat_map(|front| all_rows[front.rows.clone()].iter())
+            .chain(
+                self.below(at)
+                    .iter()
+                    .flat_map(|&c| &self.outer[self.list[c as usize].outer.clone()]),
+            )
+            .copied()
+            .filter(|&q| q as usize >= places.end)
+            .collect();
+        outer.sort_unstable();
+        outer.dedup();
+        let local = |q: u32| {
+            let q_at = q as usize;
+            if q_at < places.end {
+                q - index(places.start)
+            } else {
+                index(places.len() + outer.partition_point(|&o| o < q))
+            }
+        };
+        for &child in self.children.get(at) {
+            let range = self.list[child as usize].outer.clone();
+            for k in range {
+                self.targets[k] = local(self.outer[k]);
+            }
+        }
+        debug_assert!(self.rows.len() <= all_rows.len());
+        self.rows.resize(all_rows.len(), 0);
+        for front in own {
+            for k in front.rows.clone() {
+                self.rows[k] = local(all_rows[k]);
+            }
+        }
+        let largest = own.iter().map(|front| front.f).max().unwrap_or(0);
+        let numbers: usize = own.iter().map(|front| column(front.f, front.f)).sum();
+        let begin = self.below(at).first().map_or(self.sizes, |&c| {
+            let child = &self.list[c as usize];
+            [child.numbers[0], child.vector[0]]
+        });
+        let first_place =
+            self.below(at).first().map_or(places.start, |&c| self.list[c as usize].first_place);
+        let start = self.outer.len();
+        self.outer.extend_from_slice(&outer);
+        self.targets.resize(self.outer.len(), 0);
+        let [number, vector] = self.sizes;
+        let ends =
+            [number + numbers + largest_block, vector + places.len() + outer.len() + largest];
+        let task = &mut self.list[at];
+        task.numbers = [begin[0], number, ends[0]];
+        task.vector = [begin[1], vector, ends[1]];
+        task.first_place = first_place;
+        task.places = places;
+        task.outer = start..self.outer.len();
+        self.sizes = ends;
+    }
+}

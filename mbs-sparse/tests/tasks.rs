@@ -1,0 +1,110 @@
+//! Trees of fronts cut into tasks: the same solution, and the same bits whoever works on them.
+
+mod common;
+
+use common::Sum;
+use mbs_sparse::{Alone, Multifrontal, Options, Pivoting, SpdSolver, Team};
+
+/// Two threads at every fork, in an order that changes from run to run.
+#[derive(Debug, Clone)]
+struct Forking;
+
+impl Team for Forking {
+    fn join<A: Send, B: Send>(
+        &self,
+        a: impl FnOnce() -> A + Send,
+        b: impl FnOnce() -> B + Send,
+    ) -> (A, B) {
+        std::thread::scope(|scope| {
+            let b = scope.spawn(b);
+            let a = a();
+            (a, b.join().expect("no panic"))
+        })
+    }
+    fn size(&self) -> usize {
+        2
+    }
+}
+
+fn sums() -> Vec<(&'static str, Sum)> {
+    vec![
+        ("chain", Sum::chain(60, 12, 6)),
+        ("chain of planar links", Sum::chain(90, 4, 2)),
+        ("star", Sum::star(8, 12)),
+        ("wide star", Sum::star(40, 3)),
+        ("grid", Sum::grid(12, 15, 3)),
+        ("tree", Sum::tree(7, 6)),
+        ("forest", Sum::forest(9, 12)),
+    ]
+}
+
+/// Residual, solution and pivots of one factorisation.
+fn solved<W: Team>(team: W, sum: &Sum, options: Options) -> (usize, [Vec<f64>; 3]) {
+    let mut solver = Multifrontal::<f64, W>::on(team, sum, options);
+    let mut f = vec![0.0; sum.n];
+    solver.assemble(sum, &mut f);
+    let mut x = f.clone();
+    solver.factor(sum).expect("positive definite");
+    let mut scratch = vec![f64::NAN; solver.n_scratch()];
+    solver.solve(&mut x, &mut scratch);
+    (solver.counters().n_tasks, [f, x, solver.pivots().to_vec()])
+}
+
+fn options() -> impl Iterator<Item = Options> {
+    let grains = [0, 300, 1_000, 5_000, u64::MAX];
+    grains.into_iter().flat_map(|grain| {
+        [Pivoting::None, Pivoting::Diagonal].map(|pivoting| Options {
+            grain,
+            pivoting,
+            ..Options::default()
+        })
+    })
+}
+
+#[test]
+fn tasks_of_any_size_give_the_solution_of_the_sum() {
+    for (name, sum) in sums() {
+        for options in options() {
+            let (n_tasks, [f, x, _]) = solved(Alone, &sum, options);
+            let is_cut = options.grain <= 300 && !name.starts_with("chain");
+            assert!(!is_cut || n_tasks > 4, "{name}: {n_tasks}");
+            assert!(options.grain < u64::MAX || n_tasks == 1, "{name}");
+            // Blocks k 1 + sum g g^T have condition numbers below a hundred.
+            let largest = f.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+            for (b, f) in sum.times(&x).iter().zip(&f) {
+                assert!((b - f).abs() < 1e-12 * largest, "{name}, {options:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_team_gives_the_bits_of_one() {
+    for (name, sum) in sums() {
+        for options in options() {
+            let (n_tasks, one) = solved(Alone, &sum, options);
+            for _ in 0..3 {
+                let (n_tasks_of_team, team) = solved(Forking, &sum, options);
+                assert_eq!(n_tasks, n_tasks_of_team);
+                let bits = |v: &[Vec<f64>; 3]| {
+                    v.clone().map(|v| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>())
+                };
+                assert!(bits(&one) == bits(&team), "{name}, {options:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn of_several_bad_pivots_the_first_of_the_plan_is_named_by_every_team() {
+    let mut sum = Sum::forest(9, 12);
+    for block in &mut sum.blocks {
+        block[0] = -1e3;
+    }
+    let options = Options { grain: 0, ..Options::default() };
+    let one = Multifrontal::<f64>::analyse(&sum, options).factor(&sum).expect_err("indefinite");
+    for _ in 0..5 {
+        let team = Multifrontal::<f64, _>::on(Forking, &sum, options).factor(&sum);
+        assert_eq!(team.expect_err("indefinite"), one);
+    }
+}
