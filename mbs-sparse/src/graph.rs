@@ -147,6 +147,11 @@ pub(crate) fn elements_by_node(cliques: &Lists, node: &[u32], n_nodes: usize) ->
 
 /// Place of each node in an elimination order of small fill.
 pub(crate) fn minimum_degree(elements: &Lists, n_nodes: usize) -> Vec<u32> {
+    ordered_by_amd(&neighbours(elements, n_nodes), n_nodes)
+}
+
+/// The nodes that each node meets in an element, ascending.
+pub(crate) fn neighbours(elements: &Lists, n_nodes: usize) -> Lists {
     let of_node = elements.transposed(n_nodes);
     let mut last_seen = vec![usize::MAX; n_nodes];
     let mut neighbours = Lists::with_capacity(n_nodes);
@@ -164,7 +169,7 @@ pub(crate) fn minimum_degree(elements: &Lists, n_nodes: usize) -> Vec<u32> {
         neighbours.items[from..].sort_unstable();
         neighbours.close();
     }
-    ordered_by_amd(&neighbours, n_nodes)
+    neighbours
 }
 
 /// Place of each node when nodes of multipliers follow right after the last of the other nodes that they meet, which have

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod dissection;
 mod graph;
 mod indefinite;
 mod kernel;
@@ -14,7 +15,7 @@ mod tree;
 
 pub use indefinite::{Delays, Indefinite};
 pub use multifrontal::Multifrontal;
-pub use options::{Counters, Options, Pivoting};
+pub use options::{Counters, Options, Ordering, Pivoting};
 
 pub use mbs_core::{
     Alone, BlockSource, Cliques, FactorError, Real, SpdSolver, SymmetricSolver, Team,

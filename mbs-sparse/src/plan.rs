@@ -7,8 +7,9 @@
 //! column j of a front starts at   j f - j (j - 1) / 2   and holds rows j, ..., f - 1
 //! ```
 
+use crate::dissection;
 use crate::graph::{self, Lists, index};
-use crate::options::{Counters, Options};
+use crate::options::{Counters, Options, Ordering};
 use crate::tasks::{Tasks, tasks};
 use crate::tree::{self, Fronts};
 use mbs_core::Cliques;
@@ -96,14 +97,51 @@ pub(crate) fn plan(cliques: &impl Cliques, options: Options) -> Plan {
             is_multiplier[v as usize] = u >= n_primal;
         }
         let elements = graph::elements_by_node(&cliques, &node, n_nodes);
-        let place = if n_primal == n {
-            graph::minimum_degree(&elements, n_nodes)
+        let fronts = if n_primal == n {
+            ordered(&elements, &weight, options)
         } else {
-            graph::minimum_degree_then_multipliers(&elements, &is_multiplier)
+            let place = graph::minimum_degree_then_multipliers(&elements, &is_multiplier);
+            tree::fronts(&elements, &place, &weight, options.grain as f64)
         };
-        (node, tree::fronts(&elements, &place, &weight, options.grain as f64))
+        (node, fronts)
     };
     Planner::new(cliques, &node, &fronts, options.grain as f64).finish(&fronts)
+}
+
+/// A chosen dissection may take this much more work than minimum degree.
+const MORE_WORK: f64 = 1.1;
+/// A tree with this much work beside its longest way has room for most machines: it is not cut.
+const ROOM: f64 = 32.0;
+/// Levels of cuts that are tried.
+const MOST_LEVELS: u32 = 6;
+
+/// Fronts in the order that the options ask for. What is chosen follows from the structure alone.
+fn ordered(elements: &Lists, weight: &[usize], options: Options) -> Fronts {
+    let grain = options.grain as f64;
+    let dissected = |depth| {
+        tree::fronts(elements, &dissection::dissected(elements, weight, depth), weight, grain)
+    };
+    if let Ordering::Dissection(depth) = options.ordering {
+        return dissected(depth);
+    }
+    let place = graph::minimum_degree(elements, weight.len());
+    let mut best = tree::fronts(elements, &place, weight, grain);
+    let work = |fronts: &Fronts| fronts.work.iter().sum::<f64>();
+    let serial = work(&best);
+    if options.ordering == Ordering::MinimumDegree || serial < 2.0 * grain {
+        return best;
+    }
+    for depth in 1..=MOST_LEVELS {
+        if parallelism(&best) >= ROOM.min(serial / grain) {
+            break;
+        }
+        let cut = dissected(depth);
+        let is_cheap = work(&cut) <= MORE_WORK * serial;
+        if is_cheap && parallelism(&cut) > parallelism(&best) * MORE_WORK {
+            best = cut;
+        }
+    }
+    best
 }
 
 /// One front for all unknowns, if there are any.

@@ -3,7 +3,7 @@
 mod common;
 
 use common::Sum;
-use mbs_sparse::{Alone, Multifrontal, Options, Pivoting, SpdSolver, Team};
+use mbs_sparse::{Alone, Multifrontal, Options, Ordering, Pivoting, SpdSolver, Team};
 
 /// Two threads at every fork, in an order that changes from run to run.
 #[derive(Debug, Clone)]
@@ -66,7 +66,8 @@ fn tasks_of_any_size_give_the_solution_of_the_sum() {
     for (name, sum) in sums() {
         for options in options() {
             let (n_tasks, [f, x, _]) = solved(Alone, &sum, options);
-            let is_cut = options.grain <= 300 && !name.starts_with("chain");
+            let is_chain = name.starts_with("chain") && options.ordering == Ordering::Chosen;
+            let is_cut = options.grain <= 300 && !is_chain;
             assert!(!is_cut || n_tasks > 4, "{name}: {n_tasks}");
             assert!(options.grain < u64::MAX || n_tasks == 1, "{name}");
             // Blocks k 1 + sum g g^T have condition numbers below a hundred.
@@ -107,4 +108,20 @@ fn of_several_bad_pivots_the_first_of_the_plan_is_named_by_every_team() {
         let team = Multifrontal::<f64, _>::on(Forking, &sum, options).factor(&sum);
         assert_eq!(team.expect_err("indefinite"), one);
     }
+}
+
+#[test]
+fn a_long_chain_is_cut_in_two_for_nothing_and_in_many_parts_for_at_most_three_times_the_work() {
+    let sum = Sum::chain(2_000, 12, 6);
+    let counters = |ordering| {
+        let options = Options { ordering, ..Options::default() };
+        Multifrontal::<f64>::analyse(&sum, options).counters()
+    };
+    let serial = counters(Ordering::MinimumDegree);
+    let chosen = counters(Ordering::Chosen);
+    assert!(chosen.parallelism > 1.9 && chosen.n_tasks >= 3, "{chosen:?}");
+    assert!(chosen.flops as f64 <= 1.01 * serial.flops as f64, "{chosen:?}, {serial:?}");
+    let parts = counters(Ordering::Dissection(5));
+    assert!(parts.parallelism > 16.0, "{parts:?}");
+    assert!(parts.flops < 3 * serial.flops, "{parts:?}, {serial:?}");
 }

@@ -1,0 +1,199 @@
+//! Nested dissection of the graph of nodes, top levels only: halves that do not meet may be eliminated at the same time.
+//!
+//! ```text
+//! part = left + separator + right,   no edge between left and right      order: left, right, separator
+//! ```
+//!
+//! Halves come from levels of breadth-first search from a node far out (George 1973); parts of the last level are ordered by
+//! minimum degree. On a chain one cut costs nothing, every further one makes fronts of three links out of fronts of two.
+
+use crate::graph::{Lists, index, minimum_degree, neighbours};
+
+/// A half has at least this share of the weight of its part, where there is such a cut.
+const LEAST_HALF: f64 = 0.3;
+
+/// Place of each node after `depth` levels of cuts.
+pub(crate) fn dissected(elements: &Lists, weight: &[usize], depth: u32) -> Vec<u32> {
+    let n = weight.len();
+    let mut cutter = Cutter {
+        neighbours: neighbours(elements, n),
+        weight,
+        level: vec![UNSEEN; n],
+        part: vec![0; n],
+        n_parts: 1,
+    };
+    let all: Vec<u32> = (0..n).map(index).collect();
+    let mut order = Vec::with_capacity(n);
+    let mut leaves = Vec::new();
+    cutter.order(all, depth, &mut order, &mut leaves);
+    order_leaves(elements, &mut order, &leaves);
+    let mut place = vec![0; n];
+    for (k, &v) in order.iter().enumerate() {
+        place[v as usize] = index(k);
+    }
+    place
+}
+
+/// A node that the search at hand has not come to.
+const UNSEEN: u32 = u32::MAX;
+
+struct Cutter<'a> {
+    neighbours: Lists,
+    weight: &'a [usize],
+    /// Level of each node in the last search of its part.
+    level: Vec<u32>,
+    /// Part that each node belongs to.
+    part: Vec<u32>,
+    n_parts: u32,
+}
+
+impl Cutter<'_> {
+    /// Appends the nodes of a part to the order; stretches that are not cut further go to `leaves`.
+    fn order(
+        &mut self,
+        part: Vec<u32>,
+        depth: u32,
+        order: &mut Vec<u32>,
+        leaves: &mut Vec<(usize, usize)>,
+    ) {
+        let halves = if depth > 0 { self.halves(&part) } else { None };
+        let Some([left, right, separator]) = halves else {
+            leaves.push((order.len(), order.len() + part.len()));
+            order.extend(part);
+            return;
+        };
+        for half in [&left, &right, &separator] {
+            for &v in half {
+                self.part[v as usize] = self.n_parts;
+            }
+            self.n_parts += 1;
+        }
+        self.order(left, depth - 1, order, leaves);
+        self.order(right, depth - 1, order, leaves);
+        leaves.push((order.len(), order.len() + separator.len()));
+        order.extend(separator);
+    }
+
+    /// Two halves and what separates them; nothing for a part that is too small or too dense to be cut.
+    fn halves(&mut self, part: &[u32]) -> Option<[Vec<u32>; 3]> {
+        let (&first, id) = (part.first()?, self.part[*part.first()? as usize]);
+        // The last node of a search is far out; twice is far enough.
+        let mut from = first;
+        for _ in 0..2 {
+            self.forget(part);
+            from = *self.search(from, id, 0).last()?;
+        }
+        self.forget(part);
+        let mut seen = self.search(from, id, 0);
+        // What does not hang together follows level by level: cuts between components are free.
+        for &v in part {
+            if self.level[v as usize] == UNSEEN {
+                let next = self.level[*seen.last()? as usize] + 2;
+                seen.extend(self.search(v, id, next));
+            }
+        }
+        let cut = self.best_level(&seen)?;
+        let (mut left, mut right, mut separator) = (Vec::new(), Vec::new(), Vec::new());
+        for &v in part {
+            let is_edge = || {
+                let beyond = self.neighbours.get(v as usize).iter();
+                let mut beyond = beyond.filter(|&&w| self.part[w as usize] == id);
+                beyond.any(|&w| self.level[w as usize] == cut + 1)
+            };
+            match self.level[v as usize].cmp(&cut) {
+                core::cmp::Ordering::Greater => right.push(v),
+                core::cmp::Ordering::Equal if is_edge() => separator.push(v),
+                _ => left.push(v),
+            }
+        }
+        (!left.is_empty() && !right.is_empty()).then_some([left, right, separator])
+    }
+
+    fn forget(&mut self, part: &[u32]) {
+        for &v in part {
+            self.level[v as usize] = UNSEEN;
+        }
+    }
+
+    /// Nodes of part `id` that hang together with `from`, breadth first, which is on `level`.
+    fn search(&mut self, from: u32, id: u32, level: u32) -> Vec<u32> {
+        let mut seen = vec![from];
+        self.level[from as usize] = level;
+        let mut at = 0;
+        while at < seen.len() {
+            let v = seen[at] as usize;
+            for &w in self.neighbours.get(v) {
+                let w_at = w as usize;
+                if self.part[w_at] == id && self.level[w_at] == UNSEEN {
+                    self.level[w_at] = self.level[v] + 1;
+                    seen.push(w);
+                }
+            }
+            at += 1;
+        }
+        seen
+    }
+
+    /// The lightest level with enough on either side, the one nearest to the middle among equals.
+    fn best_level(&self, seen: &[u32]) -> Option<u32> {
+        let mut by_level = vec![0_usize; self.level[*seen.last()? as usize] as usize + 1];
+        for &v in seen {
+            by_level[self.level[v as usize] as usize] += self.weight[v as usize];
+        }
+        let total: usize = by_level.iter().sum();
+        let mut before = 0;
+        let mut best = None;
+        for (level, &here) in by_level.iter().enumerate() {
+            let after = total - before - here;
+            let smaller = before.min(after);
+            if smaller as f64 >= LEAST_HALF * (total - here) as f64 {
+                let key = (here, before.abs_diff(after));
+                if best.is_none_or(|(least, _)| key < least) {
+                    best = Some((key, index(level)));
+                }
+            }
+            before += here;
+        }
+        best.map(|(_, level)| level)
+    }
+}
+
+/// Nodes that stand for all that is eliminated later: enough that minimum degree leaves what meets them to the end.
+const LATER: u32 = 8;
+
+/// Orders stretches of the order among themselves by minimum degree; what meets a later stretch comes late.
+fn order_leaves(elements: &Lists, order: &mut [u32], leaves: &[(usize, usize)]) {
+    let n = order.len();
+    let mut leaf = vec![0; n];
+    let mut number = vec![0; n];
+    for (l, &(from, to)) in leaves.iter().enumerate() {
+        for (k, &v) in order[from..to].iter().enumerate() {
+            (leaf[v as usize], number[v as usize]) = (l, index(k));
+        }
+    }
+    // The elements of each stretch, of which its own nodes count, and whether there are later ones.
+    let mut lists: Vec<Lists> = leaves.iter().map(|_| Lists::with_capacity(0)).collect();
+    for e in 0..elements.len() {
+        let mut owners: Vec<usize> = elements.get(e).iter().map(|&v| leaf[v as usize]).collect();
+        owners.sort_unstable();
+        owners.dedup();
+        for (i, &l) in owners.iter().enumerate() {
+            let own = elements.get(e).iter().filter(|&&v| leaf[v as usize] == l);
+            lists[l].items.extend(own.map(|&v| number[v as usize]));
+            if i + 1 < owners.len() {
+                let n_own = index(leaves[l].1 - leaves[l].0);
+                lists[l].items.extend(n_own..n_own + LATER);
+            }
+            lists[l].close();
+        }
+    }
+    for (list, &(from, to)) in lists.iter().zip(leaves) {
+        let place = minimum_degree(list, to - from + LATER as usize);
+        let mut own: Vec<(u32, u32)> =
+            place.into_iter().zip(order[from..to].iter().copied()).collect();
+        own.sort_unstable();
+        for (to, (_, v)) in order[from..to].iter_mut().zip(own) {
+            *to = v;
+        }
+    }
+}
