@@ -18,8 +18,10 @@ mod joints;
 mod memory;
 mod model;
 mod motion;
+mod near;
 mod on_body;
 mod rigid;
+mod rods;
 mod sharing;
 
 pub use affine::Affine;
