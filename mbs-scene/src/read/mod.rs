@@ -7,13 +7,14 @@ mod error;
 mod fields;
 mod joint;
 mod motion;
+mod names;
 mod nearest;
 mod output;
 mod place;
 mod road;
 #[cfg(test)]
 mod tests;
-mod tree;
+pub(crate) mod tree;
 
 pub use document::Document;
 pub use error::{ReadError, ReadFault, suggestion};
