@@ -2,4 +2,5 @@
 
 pub mod team;
 
+pub use mbs_sparse::{Multifrontal, Options as SparseOptions, Ordering};
 pub use team::{Crew, Pool, Threads};
