@@ -148,6 +148,15 @@ impl Document {
         ReadError::new(&self.file, Place::of(&self.text, span), fault)
     }
 
+    /// The tree, for paths into it.
+    pub(crate) fn root(&self) -> &[Member] {
+        &self.root
+    }
+
+    pub(crate) fn root_mut(&mut self) -> &mut [Member] {
+        &mut self.root
+    }
+
     fn top(&self, key: &str) -> Option<&Item> {
         self.root.iter().find(|member| member.key == key).map(|member| &member.item)
     }
@@ -190,7 +199,7 @@ impl Document {
         ReadError::new(&self.file, place, ReadFault::Scene(error))
     }
 
-    fn entries<'a, R>(
+    pub(crate) fn entries<'a, R>(
         &'a self,
         context: &Context<'a>,
         key: &'static str,

@@ -11,6 +11,7 @@ mod nearest;
 mod output;
 mod place;
 mod road;
+mod sweep;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -18,3 +19,4 @@ mod tree;
 pub use document::Document;
 pub use error::{ReadError, ReadFault, suggestion};
 pub use place::Place;
+pub use sweep::{Sweep, SweepFault};
