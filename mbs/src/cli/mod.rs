@@ -4,6 +4,7 @@ mod analysis;
 mod explain;
 mod files;
 mod run;
+mod sweep;
 mod table;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -22,10 +23,10 @@ const ABOUT: &str =
     "Dynamics of multibody systems: a scene file in; motion, energies and plots out.";
 const STATUS: &str = "\
 Example: mbs run scenes/double-pendulum.toml --out out
-Exit status: 0 completed, 1 scene or usage refused, 2 the run stopped early (its data are kept), or there is no
-equilibrium.";
+Exit status: 0 completed, 1 scene or usage refused, 2 the run stopped early or some of a sweep did (their data are
+kept), or there is no equilibrium.";
 /// Commands of the format's contract that are not built yet.
-const NOT_BUILT: [&str; 4] = ["compare", "doctor", "sweep", "export"];
+const NOT_BUILT: [&str; 3] = ["compare", "doctor", "export"];
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -37,6 +38,8 @@ enum Command {
     Equilibrium(analysis::Equilibrium),
     /// Linearise: eigenvalues, frequencies and damping ratios.
     Modes(analysis::Modes),
+    /// Many runs of a scene with varied numbers: one table, resumable after a kill.
+    Sweep(sweep::Arguments),
 }
 
 /// Exit status of a refusal.
@@ -62,6 +65,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Explain(arguments) => explain::main(&arguments),
         Command::Equilibrium(arguments) => analysis::equilibrium(&arguments),
         Command::Modes(arguments) => analysis::modes(&arguments),
+        Command::Sweep(arguments) => sweep::main(&arguments),
     }
 }
 
