@@ -8,6 +8,8 @@ mod member;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod table;
+#[cfg(test)]
+mod tests;
 
 pub use journal::JournalError;
 pub use member::Row;

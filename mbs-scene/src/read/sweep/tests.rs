@@ -152,12 +152,23 @@ fn what_only_a_member_can_show_is_no_refusal() {
 /// What is refused: the text of the file, the text that the place points to, and a word of message and hint.
 type Case = (String, &'static str, &'static str, &'static str);
 
+/// Reads each, and looks at place, message and hint.
+fn refuse(cases: Vec<Case>) {
+    for (text, place, message, hint) in cases {
+        let error = read(&text).expect_err(&text);
+        let at = error.place();
+        let found: String = at.text.chars().skip(at.column - 1).take(at.width).collect();
+        let told = error.render();
+        assert!(place.is_empty() || found == place, "{found}\n{told}");
+        assert!(error.to_string().contains(message), "{message}\n{told}");
+        assert!(error.hint().contains(hint), "{hint}\n{told}");
+        assert_eq!(error.file(), "sweep.toml");
+    }
+}
+
 #[test]
-fn wrong_sweeps_are_refused_with_place_and_hint() {
-    let mass = |more| vary("body.lower.mass", more);
-    let latin =
-        |head: &str, more| format!("[sweep]\ncombine = 'latin-hypercube'\n{head}\n") + &mass(more);
-    let cases: Vec<Case> = vec![
+fn wrong_paths_are_refused_with_place_and_hint() {
+    refuse(vec![
         (String::new(), "", "nothing to vary", "[[vary]]"),
         ("[swep]\n".to_owned(), "swep", "unknown key", "did you mean `sweep`"),
         (vary("bodi.lower.mass", "values = [1]"), "'bodi.lower.mass'", "no table `bodi`", "`body`"),
@@ -196,6 +207,13 @@ fn wrong_sweeps_are_refused_with_place_and_hint() {
             "no path",
             "body.crank.mass",
         ),
+    ]);
+}
+
+#[test]
+fn wrong_values_are_refused_with_place_and_hint() {
+    let mass = |more| vary("body.lower.mass", more);
+    refuse(vec![
         (mass(""), "", "nothing to vary", "`from`"),
         (mass("values = []"), "[]", "nothing to vary", "`values`"),
         (mass("values = [1, 'x']"), "'x'", "expected a number", "write a number"),
@@ -215,6 +233,15 @@ fn wrong_sweeps_are_refused_with_place_and_hint() {
         (latin("samples = 4", "from = 1\nto = 2"), "", "`seed` is missing", "add"),
         (latin("samples = 4\nseed = -1", "from = 1\nto = 2"), "-1", "no seed", "from 0"),
         (latin("samples = 4\nseed = 1", "values = [1]"), "[1]", "`values` has no meaning", "from"),
+    ]);
+}
+
+#[test]
+fn wrong_combinations_are_refused_with_place_and_hint() {
+    let mass = |more| vary("body.lower.mass", more);
+    let latin =
+        |head: &str, more| format!("[sweep]\ncombine = 'latin-hypercube'\n{head}\n") + &mass(more);
+    refuse(vec![
         (
             latin("samples = 4\nseed = 1", "from = 1\nto = 2\ncount = 3"),
             "count",
@@ -252,17 +279,7 @@ fn wrong_sweeps_are_refused_with_place_and_hint() {
         ),
         (vary("road.count", "values = [1, 2.5]"), "2.5", "does not count", "whole number"),
         (vary("road.count", "from = 1\nto = 4\ncount = 3"), "4", "refuses 2.5", "whole number"),
-    ];
-    for (text, place, message, hint) in cases {
-        let error = read(&text).expect_err(&text);
-        let at = error.place();
-        let found: String = at.text.chars().skip(at.column - 1).take(at.width).collect();
-        let told = error.render();
-        assert!(place.is_empty() || found == place, "{found}\n{told}");
-        assert!(error.to_string().contains(message), "{message}\n{told}");
-        assert!(error.hint().contains(hint), "{hint}\n{told}");
-        assert_eq!(error.file(), "sweep.toml");
-    }
+    ]);
 }
 
 #[test]
