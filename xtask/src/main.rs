@@ -9,6 +9,7 @@ mod nostd;
 mod page;
 mod pick;
 mod process;
+mod races;
 mod simulate;
 mod steps;
 mod summary;
@@ -69,6 +70,8 @@ enum Job {
     },
     /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
     Counts,
+    /// Watch the lock-free team of mbs-parallel for data races, under ThreadSanitizer
+    Races,
     /// Cross-compile the no_std crates for a microcontroller, without and with alloc
     CheckNostd,
 }
@@ -81,6 +84,7 @@ fn main() -> ExitCode {
         Job::Tables { quick, names } => tables::tables(quick, &names),
         Job::Steps { quick, names } => steps::steps(quick, &names),
         Job::Counts => counts::counts(),
+        Job::Races => races::races(),
         Job::CheckNostd => nostd::check_nostd(),
     }
 }

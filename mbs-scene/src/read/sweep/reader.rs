@@ -5,6 +5,7 @@ use super::path::{self, Address};
 use super::values::Range;
 use super::{Combine, Parameter, SweepFault};
 use crate::read::fields::{Context, Fields, Read};
+use crate::read::names::Names;
 use crate::read::tree::{Item, Node, Span};
 use crate::read::{Document, ReadFault};
 use mbs_core::scene::Dimension;
@@ -16,8 +17,9 @@ const SCALES: [&str; 2] = ["linear", "log"];
 
 /// How values are combined, and the parameters in the order of the file.
 pub(super) fn read(sweep: &Document, scene: &Document) -> Read<(Combine, Vec<Parameter>)> {
+    let none = Names::default();
     let context =
-        Context { document: sweep, dimension: Dimension::Planar, bodies: &[], joints: &[] };
+        Context { document: sweep, dimension: Dimension::Planar, bodies: &none, joints: &none };
     Fields { context, header: &(0..0), members: sweep.root() }.allow(&TABLES, &[])?;
     let header = sweep.root().iter().find(|member| member.key == "sweep");
     let (combine, seed) = match header {
