@@ -230,10 +230,12 @@ fn another_sweep_in_the_same_directory_is_refused_until_restart() {
 fn refusal(text: &str, more: &[&str]) -> String {
     let out = scratch("refusal");
     let file = out.join("sweep.toml");
-    std::fs::write(&file, text).unwrap();
+    std::fs::write(&file, text).expect("the scratch directory is ours");
     let results = out.join("results");
     let scene = scene("double-pendulum");
-    let fixed = [&scene, file.to_str().unwrap(), "--out", results.to_str().unwrap()];
+    let plain = |path: &Path| path.to_str().expect("UTF-8").to_owned();
+    let (file, directory) = (plain(&file), plain(&results));
+    let fixed = [scene.as_str(), &file, "--out", &directory];
     let output = sweep(&[&fixed, more].concat());
     let told = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(status(&output), 1, "{told}");

@@ -69,3 +69,31 @@ fn two_processes_do_not_share_a_directory() {
     assert_eq!(study.run(&out, None, false, &mut ()).expect("free again").completed, 6);
     let _ = std::fs::remove_dir_all(&out);
 }
+
+#[cfg(feature = "parquet")]
+#[test]
+fn parquet_has_the_rows_of_the_table_with_their_types() {
+    use ::parquet::file::reader::{FileReader, SerializedFileReader};
+    use ::parquet::record::Field;
+    let study = study();
+    let out = scratch("parquet");
+    let job =
+        |i| if i == 2 { Row::failed(i, vec!["3".to_owned()], "bad", "x") } else { study.member(i) };
+    let report = study.run_jobs(&out, None, false, &mut (), job).expect("the directory is ours");
+    let file = std::fs::File::open(&report.tables[1]).expect("the second table");
+    let reader = SerializedFileReader::new(file).expect("a Parquet file");
+    let rows: Vec<_> =
+        reader.get_row_iter(None).expect("rows").map(|row| row.expect("a row")).collect();
+    assert_eq!(rows.len(), 6);
+    let cells = |row: usize| -> Vec<(String, Field)> {
+        rows[row].get_column_iter().map(|(name, field)| (name.clone(), field.clone())).collect()
+    };
+    let names: Vec<String> = cells(0).into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names, study.columns().header());
+    assert_eq!(cells(1)[0].1, Field::Long(2));
+    assert_eq!(cells(1)[1].1, Field::Double(2.0));
+    assert_eq!(cells(1)[2].1, Field::Bool(true));
+    assert_eq!(cells(2)[3].1, Field::Str("bad".to_owned()));
+    assert_eq!(cells(2)[5].1, Field::Null, "what was not measured");
+    let _ = std::fs::remove_dir_all(&out);
+}

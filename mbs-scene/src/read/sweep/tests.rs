@@ -230,9 +230,6 @@ fn wrong_values_are_refused_with_place_and_hint() {
         (mass("from = 0\nto = 2\ncount = 3\nscale = 'log'"), "0", "above zero", "positive"),
         (mass("from = 1\nto = 2\ncount = 3\nscale = 'lg'"), "'lg'", "unknown scale", "`log`"),
         (mass("from = 1\nto = 2\ncount = 3\nstep = 1"), "1", "both", "keep one"),
-        (latin("samples = 4", "from = 1\nto = 2"), "", "`seed` is missing", "add"),
-        (latin("samples = 4\nseed = -1", "from = 1\nto = 2"), "-1", "no seed", "from 0"),
-        (latin("samples = 4\nseed = 1", "values = [1]"), "[1]", "`values` has no meaning", "from"),
     ]);
 }
 
@@ -242,6 +239,9 @@ fn wrong_combinations_are_refused_with_place_and_hint() {
     let latin =
         |head: &str, more| format!("[sweep]\ncombine = 'latin-hypercube'\n{head}\n") + &mass(more);
     refuse(vec![
+        (latin("samples = 4", "from = 1\nto = 2"), "", "`seed` is missing", "add"),
+        (latin("samples = 4\nseed = -1", "from = 1\nto = 2"), "-1", "no seed", "from 0"),
+        (latin("samples = 4\nseed = 1", "values = [1]"), "[1]", "`values` has no meaning", "from"),
         (
             latin("samples = 4\nseed = 1", "from = 1\nto = 2\ncount = 3"),
             "count",
