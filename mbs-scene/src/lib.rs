@@ -1,11 +1,13 @@
 #![doc = include_str!("../README.md")]
 
+mod generate;
 mod page;
 mod read;
 mod record;
 mod report;
 mod write;
 
+pub use generate::{Family, GenerateError, MOST_BODIES, generate};
 pub use page::page;
 pub use read::{Document, Place, ReadError, ReadFault, suggestion};
 pub use record::{

@@ -148,7 +148,15 @@ impl Document {
         ReadError::new(&self.file, Place::of(&self.text, span), fault)
     }
 
-    fn top(&self, key: &str) -> Option<&Item> {
+    /// Entries of a list of tables.
+    pub(crate) fn count(&self, key: &str) -> usize {
+        match self.top(key) {
+            Some(Item { node: Node::List(items), .. }) => items.len(),
+            _ => 0,
+        }
+    }
+
+    pub(crate) fn top(&self, key: &str) -> Option<&Item> {
         self.root.iter().find(|member| member.key == key).map(|member| &member.item)
     }
 

@@ -13,7 +13,7 @@ mod place;
 mod road;
 #[cfg(test)]
 mod tests;
-mod tree;
+pub(crate) mod tree;
 
 pub use document::Document;
 pub use error::{ReadError, ReadFault, suggestion};

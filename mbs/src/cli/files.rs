@@ -82,6 +82,14 @@ pub(crate) fn unwritable(out: &Path, error: &std::io::Error) -> String {
     )
 }
 
+/// The message for a file that cannot be written.
+pub(crate) fn unwritable_file(file: &Path, error: &std::io::Error) -> String {
+    let (file, error) = (file.display(), plain(error));
+    format!(
+        "error: cannot write to `{file}`: {error}\nhint: give a file in a directory that is there"
+    )
+}
+
 /// The system's words without the number of the error.
 fn plain(error: &std::io::Error) -> String {
     let text = error.to_string();

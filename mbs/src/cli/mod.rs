@@ -3,6 +3,7 @@
 mod analysis;
 mod explain;
 mod files;
+mod generate;
 mod run;
 mod table;
 
@@ -37,6 +38,8 @@ enum Command {
     Equilibrium(analysis::Equilibrium),
     /// Linearise: eigenvalues, frequencies and damping ratios.
     Modes(analysis::Modes),
+    /// Write a large scene: chain, tree, n-four-bar, net, or a convoy of a vehicle.
+    Generate(generate::Arguments),
 }
 
 /// Exit status of a refusal.
@@ -62,6 +65,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Explain(arguments) => explain::main(&arguments),
         Command::Equilibrium(arguments) => analysis::equilibrium(&arguments),
         Command::Modes(arguments) => analysis::modes(&arguments),
+        Command::Generate(arguments) => generate::main(&arguments),
     }
 }
 

@@ -1,0 +1,78 @@
+//! The binary tree of bars.
+
+use super::text::{Text, bar, vector};
+
+/// Mass and length of the trunk [kg, m], and by what factor each generation is lighter and shorter.
+const MASS: [f64; 2] = [2.0, 0.7];
+const LENGTH: [f64; 2] = [0.6, 0.8];
+/// Sideways and downward share of a branch's length.
+const SLOPE: [f64; 2] = [0.6, 0.8];
+
+const COMMENT: &str = "\
+Binary tree of bars with spatial revolute joints, hung on the ground by its trunk.
+
+A bar with the number k >= 2 hangs on the end of bar k / 2 (rounded down) and points down and to one side, to the other
+one for the next number: in x and y by turns of the generations. Its joint turns about the horizontal across it. The
+trunk is a square bar of 2 kg and 0.6 m; each generation is lighter by the factor 0.7 and shorter by 0.8. The trunk
+starts with 0.5 rad/s; the rest follows with the least kinetic energy. No loops, one freedom for each bar; the energy is
+kept.";
+
+/// Where a bar hangs, where it ends, and the direction of its joint's axis.
+struct Bar {
+    from: [f64; 3],
+    to: [f64; 3],
+    axis: [f64; 3],
+    mass: f64,
+}
+
+pub(super) fn text(bodies: usize, command: &str) -> String {
+    let mut text = Text::new(COMMENT, command);
+    text.scene(&format!("binary tree of {bodies}"), 3, 2.0);
+    let bars = bars(bodies);
+    let name = |k: usize| if k == 0 { "ground".to_owned() } else { format!("bar-{k}") };
+    for (k, Bar { from, to, mass, .. }) in (1..).zip(&bars) {
+        let center = core::array::from_fn(|i| (from[i] + to[i]) / 2.0);
+        let inertia = bar(*mass, core::array::from_fn(|i| to[i] - from[i]));
+        text.body(&name(k), *mass, center, inertia);
+    }
+    for (k, Bar { from, axis, .. }) in (1..).zip(&bars) {
+        text.joint(&format!("joint-{k}"), "revolute", [&name(k / 2), &name(k)], from);
+        text.key("axis", &vector(axis));
+    }
+    text.table("[[initial]]");
+    text.key("joint", "\"joint-1\"");
+    text.key("rate", "0.5");
+    text.step(1e-3);
+    if let (Some(first), Some(last)) = (bars.first(), bars.last()) {
+        text.position("trunk-end", &name(1), &first.to);
+        text.position("last-end", &name(bodies), &last.to);
+    }
+    text.0
+}
+
+/// All bars, the trunk first.
+fn bars(n: usize) -> Vec<Bar> {
+    let mut bars: Vec<Bar> = Vec::with_capacity(n);
+    for k in 1..=n {
+        let generation = k.ilog2();
+        let grown = |[first, factor]: [f64; 2]| first * factor.powf(f64::from(generation));
+        let (mass, length) = (grown(MASS), grown(LENGTH));
+        let bar = match bars.get((k / 2).wrapping_sub(1)) {
+            None => {
+                let (from, to) = ([0.0; 3], [0.0, 0.0, -length]);
+                Bar { from, to, axis: [0.0, 1.0, 0.0], mass }
+            }
+            Some(parent) => {
+                let (along, across) = if generation % 2 == 1 { (0, 1) } else { (1, 0) };
+                let side = if k % 2 == 0 { -length } else { length };
+                let (mut to, mut axis) = (parent.to, [0.0; 3]);
+                to[along] += side * SLOPE[0];
+                to[2] -= length * SLOPE[1];
+                axis[across] = 1.0;
+                Bar { from: parent.to, to, axis, mass }
+            }
+        };
+        bars.push(bar);
+    }
+    bars
+}

@@ -1,0 +1,141 @@
+//! `mbs generate FAMILY`.
+
+use super::{files, refuse};
+use clap::{Args, ValueEnum};
+use mbs_scene::{Document, Family, GenerateError, generate};
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Arguments of `mbs generate`.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// What to make.
+    family: Word,
+    /// How many: bodies of a chain or tree, four-bar linkages, vehicles of a convoy; of a net about as many bodies.
+    #[arg(long, value_name = "N")]
+    count: Option<usize>,
+    /// Meshes of a net from front to back, with --columns in place of --count.
+    #[arg(long, value_name = "R", requires = "columns", conflicts_with = "count")]
+    rows: Option<usize>,
+    /// Meshes of a net from left to right.
+    #[arg(long, value_name = "C", requires = "rows")]
+    columns: Option<usize>,
+    /// Scene of one vehicle of a convoy.
+    #[arg(long, value_name = "SCENE")]
+    of: Option<PathBuf>,
+    /// Distance from one vehicle of a convoy to the next [m]; else 8.
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    spacing: Option<f64>,
+    /// File to write; else standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// The families by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Word {
+    /// Spatial chain hung at one end.
+    Chain,
+    /// Binary tree of bars.
+    Tree,
+    /// Planar four-bar linkages side by side.
+    NFourBar,
+    /// Rope net hung at its corners.
+    Net,
+    /// Copies of a vehicle on one road.
+    Convoy,
+}
+
+/// Distance between vehicles that is not given [m]: twice the length of a car.
+const SPACING: f64 = 8.0;
+
+/// Runs the command.
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    let text = match text(arguments) {
+        Ok(text) => text,
+        Err(message) => return refuse(&message),
+    };
+    match &arguments.output {
+        // A reader that has gone away is no error.
+        None => drop(std::io::stdout().write_all(text.as_bytes())),
+        Some(file) => {
+            if let Err(error) = std::fs::write(file, text) {
+                return refuse(&files::unwritable_file(file, &error));
+            }
+        }
+    }
+    ExitCode::SUCCESS
+}
+
+/// The scene, or the refusal.
+fn text(arguments: &Arguments) -> Result<String, String> {
+    let command = arguments.command();
+    let make = |family: Family<'_>| generate(&family, &command).map_err(|error| refusal(&error));
+    let missing = |what: &str, hint: &str| Err(format!("error: {what}\nhint: {hint}"));
+    if let Some(option) = arguments.stranger() {
+        let family = arguments.word();
+        return missing(&format!("{option} says nothing of a {family}"), "leave it out");
+    }
+    if let (Some(rows), Some(columns)) = (arguments.rows, arguments.columns) {
+        return make(Family::Net { rows, columns });
+    }
+    let Some(count) = arguments.count else {
+        return missing("--count is missing", "say how many, such as --count 100");
+    };
+    match arguments.family {
+        Word::Chain => make(Family::Chain { bodies: count }),
+        Word::Tree => make(Family::Tree { bodies: count }),
+        Word::NFourBar => make(Family::FourBars { loops: count }),
+        Word::Net if count == 0 => make(Family::Net { rows: 0, columns: 0 }),
+        Word::Net => make(Family::net_of(count)),
+        Word::Convoy => {
+            let Some(of) = &arguments.of else {
+                let hint = "give the scene of one vehicle, such as --of scenes/iltis-stairs.toml";
+                return missing("a convoy needs --of", hint);
+            };
+            let (vehicle, _): (Document, _) = files::scene(of)?;
+            let spacing = arguments.spacing.unwrap_or(SPACING);
+            make(Family::Convoy { vehicle: &vehicle, count, spacing })
+        }
+    }
+}
+
+impl Arguments {
+    fn word(&self) -> String {
+        self.family.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
+    }
+
+    /// The first option given that the family has no use for.
+    fn stranger(&self) -> Option<&'static str> {
+        let (is_net, is_convoy) = (self.family == Word::Net, self.family == Word::Convoy);
+        let options = [
+            (self.rows.is_some() && !is_net, "--rows"),
+            (self.of.is_some() && !is_convoy, "--of"),
+            (self.spacing.is_some() && !is_convoy, "--spacing"),
+        ];
+        options.into_iter().find(|(is_strange, _)| *is_strange).map(|(_, name)| name)
+    }
+
+    /// The command line that makes the same scene again.
+    fn command(&self) -> String {
+        let options = [
+            ("count", self.count.map(|n| n.to_string())),
+            ("rows", self.rows.map(|n| n.to_string())),
+            ("columns", self.columns.map(|n| n.to_string())),
+            ("of", self.of.as_ref().map(|file| file.display().to_string())),
+            ("spacing", self.spacing.map(|x| x.to_string())),
+        ];
+        let mut command = format!("mbs generate {}", self.word());
+        for (key, value) in options {
+            if let Some(value) = value {
+                command += &format!(" --{key} {value}");
+            }
+        }
+        command
+    }
+}
+
+fn refusal(error: &GenerateError) -> String {
+    format!("error: {error}\nhint: {}", error.hint())
+}
