@@ -41,14 +41,16 @@ impl<T: Real> Clusters<T> {
             BodyRef::Body(i) => i,
         };
         for joint in scene.joints.iter().filter(|j| j.kind == JointKind::Weld) {
-            let (a, b) =
-                (root(&parent, node(joint.bodies[0])), root(&parent, node(joint.bodies[1])));
+            let (a, b) = (
+                root(&mut parent, node(joint.bodies[0])),
+                root(&mut parent, node(joint.bodies[1])),
+            );
             let (keep, drop) = if a == n || (b != n && a < b) { (a, b) } else { (b, a) };
             parent[drop] = keep;
         }
         let (mut of_body, mut members) = (vec![None; n], Vec::<Vec<usize>>::new());
         for body in 0..n {
-            let first = root(&parent, body);
+            let first = root(&mut parent, body);
             if first < body {
                 of_body[body] = of_body[first];
             } else if first == body {
@@ -72,8 +74,10 @@ impl<T: Real> Clusters<T> {
     }
 }
 
-fn root(parent: &[usize], mut i: usize) -> usize {
+/// The root of `i`; the way there is halved, so that long chains of welds stay cheap.
+pub(crate) fn root(parent: &mut [usize], mut i: usize) -> usize {
     while parent[i] != i {
+        parent[i] = parent[parent[i]];
         i = parent[i];
     }
     i

@@ -48,9 +48,8 @@ pub struct Equilibrium<T> {
     /// Directions in which forces lead away from it: |omega| above [`rate`](Self::rate), omega^2 negative. An estimate by the
     /// tangent that the effects give, which may leave parts out; the eigenvalues of a linearisation are the last word.
     pub unstable: usize,
-    /// Directions with |omega| below [`rate`](Self::rate), in which it may stand anywhere, by the same estimate; `None` where the constraints are
-    /// too many for their rank to be found.
-    pub neutral: Option<usize>,
+    /// Directions with |omega| below [`rate`](Self::rate), in which it may stand anywhere, by the same estimate.
+    pub neutral: usize,
     /// What counts as neutral [rad/s].
     pub rate: T,
 }
@@ -381,7 +380,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
             self.w.solver.inertia().negative.saturating_sub(self.w.m)
         });
         let rank = mbs_core::start::constraint_rank(self.model, &self.w.terms);
-        let neutral = rank.map(|rank| (self.w.n - rank).saturating_sub(unstable + stiff));
+        let neutral = (self.w.n - rank).saturating_sub(unstable + stiff);
         let residual = norm_inf(&self.residual);
         let change = start.q.iter().zip(&self.q).map(|(&a, &b)| (a - b).abs());
         Equilibrium {

@@ -14,7 +14,8 @@ use crate::loads::{Gauge, Load, OnBody};
 use crate::loops::index;
 use crate::rows::{Loop, Row};
 use crate::space::{Numbers, Space};
-use crate::tree::{Seat, TreeModel};
+use crate::tree::TreeModel;
+use alloc::collections::BTreeMap;
 use mbs_core::Real;
 use mbs_core::actions::{self, Action};
 use mbs_core::algebra::{Vector, norm};
@@ -86,12 +87,14 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
 
     /// Adds effects; what acts on the ground alone is nothing.
     pub(crate) fn add_loads(&mut self, list: &[(usize, Action<T>)]) {
+        let links = self.seats.iter().map(|seat| (seat.branch.joint, seat.link)).collect();
         for (_, action) in list {
-            self.add_load(action);
+            self.add_load(action, &links);
         }
     }
 
-    fn add_load(&mut self, action: &Action<T>) {
+    /// Adds a load; `links` has the link of each joint of the tree.
+    fn add_load(&mut self, action: &Action<T>, links: &BTreeMap<Option<usize>, u32>) {
         let load = match action {
             Action::Length { ends, law } => {
                 let (links, points) = self.ends(ends);
@@ -109,9 +112,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 Load::Between { links, gauge: Gauge::Twist { sides }, law: *law }
             }
             Action::Angle { joint, law } => {
-                let of_joint = |seat: &&Seat| seat.branch.joint == Some(*joint);
-                let Some(seat) = self.seats.iter().find(of_joint) else { return };
-                Load::Angle { link: seat.link, law: *law }
+                let Some(&link) = links.get(&Some(*joint)) else { return };
+                Load::Angle { link, law: *law }
             }
             Action::Constant { at, force } => {
                 let (link, point) = self.seat_point(BodyRef::Body(at.0), at.1);

@@ -13,8 +13,10 @@
 //! the heaviest one. `distance` joints are always cut, free joints between moving bodies constrain nothing.
 
 use crate::error::TreeError;
+use alloc::collections::BinaryHeap;
 use alloc::vec;
 use alloc::vec::Vec;
+use core::cmp::{Ordering, Reverse};
 use mbs_core::Real;
 use mbs_core::actions::{Action, Actions};
 use mbs_core::cluster::Clusters;
@@ -47,10 +49,15 @@ struct Edge {
     joint: usize,
     /// Clusters, the ground being the last number.
     ends: [usize; 2],
-    rank: (bool, bool, bool, usize),
+    rank: Rank,
 }
 
+/// The first four points of the order.
+type Rank = (bool, bool, bool, usize);
+
 /// Finds the spanning tree.
+///
+/// Cost: n log n in joints and bodies.
 pub(crate) fn span<T: Real>(
     scene: &Scene<T>,
     actions: &Actions<T>,
@@ -58,18 +65,20 @@ pub(crate) fn span<T: Real>(
 ) -> Result<Graph, TreeError> {
     let ground = clusters.clusters.len();
     let node = |body: BodyRef| clusters.of(body).unwrap_or(ground);
-    let edges = edges((scene, actions), clusters, node);
-    let mut depth = vec![usize::MAX; ground + 1];
-    depth[ground] = 0;
-    let mut branches = Vec::new();
+    let demands = Demands::new(scene, actions);
+    let mut growth = Growth::new(edges((scene, &demands), clusters, node), ground);
+    let mut roots = Roots::new(scene, clusters);
     let mut is_used = vec![false; scene.joints.len()];
+    growth.depth[ground] = 0;
+    growth.reach(ground);
     loop {
-        grow(&edges, ground, (&mut depth, &mut is_used), &mut branches);
+        growth.grow(&mut is_used);
         // What is left starts from a free root.
-        let Some((root, joint)) = root(scene, clusters, &depth, node) else { break };
-        depth[root] = 1;
+        let Some((root, joint)) = roots.next(scene, &growth.depth, node) else { break };
         let is_reversed = joint.is_some_and(|j| scene.joints[j].bodies[1] == BodyRef::Ground);
-        branches.push(Branch { cluster: root, parent: None, joint, is_reversed });
+        growth.branches.push(Branch { cluster: root, parent: None, joint, is_reversed });
+        growth.depth[root] = 1;
+        growth.reach(root);
     }
     let mut cuts = Vec::new();
     for (j, joint) in scene.joints.iter().enumerate() {
@@ -77,22 +86,45 @@ pub(crate) fn span<T: Real>(
         if is_used[j] {
             continue;
         }
-        if scene.guides.iter().any(|guide| guide.joint == j) {
+        if demands.is_guided[j] {
             return Err(TreeError::GuideCut { joint: j });
         }
         if is_inner || matches!(joint.kind, JointKind::Free | JointKind::Weld) {
             continue;
         }
-        if let Some(effect) = effect_of(actions, j) {
+        if let Some(effect) = demands.effect[j] {
             return Err(TreeError::EffectCut { effect, joint: j });
         }
         cuts.push(j);
     }
-    Ok(Graph { branches, cuts })
+    Ok(Graph { branches: growth.branches, cuts })
+}
+
+/// What asks for a joint's coordinate.
+struct Demands {
+    is_guided: Vec<bool>,
+    /// The first effect that acts along it.
+    effect: Vec<Option<usize>>,
+}
+
+impl Demands {
+    fn new<T: Real>(scene: &Scene<T>, actions: &Actions<T>) -> Self {
+        let n = scene.joints.len();
+        let mut new = Self { is_guided: vec![false; n], effect: vec![None; n] };
+        for guide in &scene.guides {
+            new.is_guided[guide.joint] = true;
+        }
+        for (effect, action) in &actions.list {
+            if let Action::Angle { joint, .. } = action {
+                new.effect[*joint].get_or_insert(*effect);
+            }
+        }
+        new
+    }
 }
 
 fn edges<T: Real>(
-    (scene, actions): (&Scene<T>, &Actions<T>),
+    (scene, demands): (&Scene<T>, &Demands),
     clusters: &Clusters<T>,
     node: impl Fn(BodyRef) -> usize,
 ) -> Vec<Edge> {
@@ -104,13 +136,12 @@ fn edges<T: Real>(
         if ends[0] == ends[1] || !carries {
             continue;
         }
-        let is_free_of_guides = scene.guides.iter().all(|guide| guide.joint != j);
         let is_massive = ends
             .iter()
             .all(|&c| clusters.clusters.get(c).is_none_or(|cluster| cluster.mass > T::ZERO));
         let rank = (
-            is_free_of_guides,
-            effect_of(actions, j).is_none(),
+            !demands.is_guided[j],
+            demands.effect[j].is_none(),
             is_massive,
             joint.kind.n_coordinates(scene.dimension),
         );
@@ -119,63 +150,93 @@ fn edges<T: Real>(
     edges
 }
 
-/// The first effect that acts along a joint's coordinate.
-fn effect_of<T: Real>(actions: &Actions<T>, joint: usize) -> Option<usize> {
-    let acts = |action: &Action<T>| matches!(action, Action::Angle { joint: j, .. } if *j == joint);
-    actions.list.iter().find(|(_, action)| acts(action)).map(|(effect, _)| *effect)
-}
-
-/// Adds branches until no edge leads out of the tree.
-fn grow(
-    edges: &[Edge],
+/// A tree that grows.
+struct Growth {
+    edges: Vec<Edge>,
+    /// Edges at each node.
+    at_node: Vec<Vec<usize>>,
     ground: usize,
-    (depth, is_used): (&mut [usize], &mut [bool]),
-    branches: &mut Vec<Branch>,
-) {
-    loop {
-        let next = edges.iter().enumerate().filter_map(|(e, edge)| {
-            let [a, b] = edge.ends.map(|c| depth[c]);
-            let leads_out = (a == usize::MAX) != (b == usize::MAX);
-            leads_out.then(|| (edge.rank, a.min(b), e))
-        });
-        let Some((_, parent_depth, e)) = next.min() else { return };
-        let edge = &edges[e];
-        let is_reversed = depth[edge.ends[0]] == usize::MAX;
-        let [parent, child] = if is_reversed { [edge.ends[1], edge.ends[0]] } else { edge.ends };
-        depth[child] = parent_depth + 1;
-        is_used[edge.joint] = true;
-        branches.push(Branch {
-            cluster: child,
-            parent: (parent != ground).then_some(parent),
-            joint: Some(edge.joint),
-            is_reversed,
-        });
+    depth: Vec<usize>,
+    /// Edges that led out of the tree when they were reached: rank, depth in the tree, number.
+    open: BinaryHeap<Reverse<(Rank, usize, usize)>>,
+    branches: Vec<Branch>,
+}
+
+impl Growth {
+    fn new(edges: Vec<Edge>, ground: usize) -> Self {
+        let mut at_node = vec![Vec::new(); ground + 1];
+        for (e, edge) in edges.iter().enumerate() {
+            edge.ends.into_iter().for_each(|end| at_node[end].push(e));
+        }
+        let depth = vec![usize::MAX; ground + 1];
+        Self { edges, at_node, ground, depth, open: BinaryHeap::new(), branches: Vec::new() }
+    }
+
+    /// Opens the edges that lead out of the tree at a node that is new in it.
+    fn reach(&mut self, node: usize) {
+        for &e in &self.at_node[node] {
+            let [a, b] = self.edges[e].ends;
+            if self.depth[a] == usize::MAX || self.depth[b] == usize::MAX {
+                self.open.push(Reverse((self.edges[e].rank, self.depth[node], e)));
+            }
+        }
+    }
+
+    /// Adds branches until no edge leads out of the tree.
+    fn grow(&mut self, is_used: &mut [bool]) {
+        while let Some(Reverse((_, parent_depth, e))) = self.open.pop() {
+            let Edge { joint, ends, .. } = self.edges[e];
+            let is_reversed = self.depth[ends[0]] == usize::MAX;
+            let [parent, child] = if is_reversed { [ends[1], ends[0]] } else { ends };
+            if self.depth[child] != usize::MAX {
+                continue;
+            }
+            self.depth[child] = parent_depth + 1;
+            is_used[joint] = true;
+            self.branches.push(Branch {
+                cluster: child,
+                parent: (parent != self.ground).then_some(parent),
+                joint: Some(joint),
+                is_reversed,
+            });
+            self.reach(child);
+        }
     }
 }
 
-/// The root of what the tree does not reach yet, with its free joint to the ground if it has one.
-fn root<T: Real>(
-    scene: &Scene<T>,
-    clusters: &Clusters<T>,
-    depth: &[usize],
-    node: impl Fn(BodyRef) -> usize,
-) -> Option<(usize, Option<usize>)> {
-    let ground = clusters.clusters.len();
-    for (j, joint) in scene.joints.iter().enumerate() {
-        let [a, b] = joint.bodies.map(&node);
-        let other = if a == ground { b } else { a };
-        if joint.kind == JointKind::Free
-            && (a == ground) != (b == ground)
-            && depth[other] == usize::MAX
-        {
-            return Some((other, Some(j)));
-        }
+/// Where what the ground does not reach may start, best first.
+struct Roots {
+    /// Free joints, in file order.
+    free: vec::IntoIter<usize>,
+    /// Clusters, the heaviest first, equal ones in order.
+    heavy: vec::IntoIter<usize>,
+}
+
+impl Roots {
+    fn new<T: Real>(scene: &Scene<T>, clusters: &Clusters<T>) -> Self {
+        let is_free = |j: &usize| scene.joints[*j].kind == JointKind::Free;
+        let free: Vec<usize> = (0..scene.joints.len()).filter(is_free).collect();
+        let mass = |c: usize| clusters.clusters[c].mass;
+        let mut heavy: Vec<usize> = (0..clusters.clusters.len()).collect();
+        heavy.sort_by(|&a, &b| mass(b).partial_cmp(&mass(a)).unwrap_or(Ordering::Equal));
+        Self { free: free.into_iter(), heavy: heavy.into_iter() }
     }
-    let mut best: Option<usize> = None;
-    for c in (0..ground).filter(|&c| depth[c] == usize::MAX) {
-        if best.is_none_or(|b| clusters.clusters[c].mass > clusters.clusters[b].mass) {
-            best = Some(c);
-        }
+
+    /// The root of what the tree does not reach yet, with its free joint to the ground if it has one.
+    fn next<T: Real>(
+        &mut self,
+        scene: &Scene<T>,
+        depth: &[usize],
+        node: impl Fn(BodyRef) -> usize,
+    ) -> Option<(usize, Option<usize>)> {
+        let ground = depth.len() - 1;
+        // What is reached stays reached: no candidate is looked at twice.
+        let with_joint = self.free.find_map(|j| {
+            let [a, b] = scene.joints[j].bodies.map(&node);
+            let other = if a == ground { b } else { a };
+            let is_root = (a == ground) != (b == ground) && depth[other] == usize::MAX;
+            is_root.then_some((other, Some(j)))
+        });
+        with_joint.or_else(|| self.heavy.find(|&c| depth[c] == usize::MAX).map(|root| (root, None)))
     }
-    best.map(|c| (c, None))
 }

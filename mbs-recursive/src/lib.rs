@@ -34,6 +34,8 @@ pub mod space;
 mod start;
 #[cfg(feature = "alloc")]
 mod state;
+#[cfg(feature = "alloc")]
+mod told;
 pub mod trapezoidal;
 #[cfg(feature = "alloc")]
 mod tree;

@@ -199,18 +199,21 @@ fn eliminate<T: Real, S: Space<T>>(
     loops: &[Loop<T, S>],
     mut meets: Vec<BTreeSet<usize>>,
 ) -> (Vec<usize>, Vec<Vec<usize>>) {
-    let mut waiting: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); n_links];
-    for (l, lap) in loops.iter().enumerate() {
-        waiting[lap.ancestor as usize].insert(l);
+    // Loops that end at each link, those with the fewest couplings first.
+    let mut waiting: Vec<BTreeSet<(usize, usize)>> = vec![BTreeSet::new(); n_links];
+    let end = |l: usize| loops[l].ancestor as usize;
+    for l in 0..loops.len() {
+        waiting[end(l)].insert((meets[l].len(), l));
     }
     let (mut sequence, mut later) = (Vec::new(), vec![Vec::new(); loops.len()]);
-    for here in waiting.iter_mut().rev() {
-        while let Some(k) = here.iter().copied().min_by_key(|&k| (meets[k].len(), k)) {
-            here.remove(&k);
+    for here in (0..n_links).rev() {
+        while let Some((_, k)) = waiting[here].pop_first() {
             let others = core::mem::take(&mut meets[k]);
             for &x in &others {
+                waiting[end(x)].remove(&(meets[x].len(), x));
                 meets[x].remove(&k);
                 meets[x].extend(others.iter().copied().filter(|&y| y != x));
+                waiting[end(x)].insert((meets[x].len(), x));
             }
             sequence.push(k);
             later[k] = others.into_iter().collect();

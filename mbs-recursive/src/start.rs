@@ -88,8 +88,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     ) -> Result<TreeState<T>, StartError> {
         let mut state = TreeState::at_rest(self);
         state.t = t;
+        let starts = start_values(scene);
         for seat in &self.seats {
-            self.read_seat(scene, seat, motions, &mut state);
+            let values = seat.branch.joint.map_or(&[][..], |joint| &starts[joint]);
+            self.read_seat((scene, values), seat, motions, &mut state);
         }
         self.settle(&mut state, &mut Workspace::new(self))?;
         Ok(state)
@@ -126,7 +128,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Coordinates and velocities of a cluster's joint.
     fn read_seat(
         &self,
-        scene: &Scene<T>,
+        (scene, values): (&Scene<T>, &[T]),
         seat: &Seat,
         motions: &[RigidMotion<T>],
         state: &mut TreeState<T>,
@@ -139,7 +141,6 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let [position, velocity, _] = child.point(origin);
         let link = &self.links[seat.link as usize];
         let (z, v) = (&mut state.z[link.z as usize..], &mut state.v[link.v as usize..]);
-        let values = seat.branch.joint.map_or_else(Vec::new, |joint| start_values(scene, joint));
         match link.kind {
             Kind::Free => {
                 let rotation = S::rotation_from(&child.rotation);
@@ -165,7 +166,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 let is_guided = link.kind.is_guided();
                 let chain = parts(scene, &seat.branch, is_guided);
                 if !is_guided {
-                    self.read_chain(seat, &chain, (&parent, &child, gap), &values, state);
+                    self.read_chain(seat, &chain, (&parent, &child, gap), values, state);
                 }
             }
         }

@@ -11,11 +11,12 @@ use crate::passes::{self, Fault};
 use crate::plan::Plan;
 use crate::rows::{Loop, Row};
 use crate::space::{Numbers, Space};
+use crate::told::Told;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::actions::{Actions, Tables};
-use mbs_core::algebra::{Matrix, Vector, cross, norm};
+use mbs_core::algebra::{Matrix, Vector, cross};
 use mbs_core::cluster::{Cluster, Clusters, scene_length};
 use mbs_core::inputs::Prescribed;
 use mbs_core::model::Owner;
@@ -74,7 +75,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// A thin rod in space that is held at points of its line by balls and distances alone gets the inertia of a sphere: starting
     /// without spin about itself, as it does, it keeps none, and moves as the rod would.
     ///
-    /// Cost: joints times bodies for the spanning tree, and the elimination order of the loops.
+    /// Cost: n log n in bodies and joints, and the elimination order of the loops.
     ///
     /// # Errors
     /// [`TreeError`] names the body or joint.
@@ -86,9 +87,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let actions = Actions::new(scene)?;
         let graph = span(scene, &actions, &clusters)?;
         let Actions { list, prescribed, tables } = actions;
+        let told = Told::new(scene, &clusters);
         let mut tree = Self::ground(scene, clusters, (prescribed, tables));
         for branch in &graph.branches {
-            tree.add_branch(scene, *branch);
+            tree.add_branch((scene, &told), *branch);
         }
         tree.check_ends()?;
         tree.check_inertia()?;
@@ -160,9 +162,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 
     /// Adds the links of a branch.
-    fn add_branch(&mut self, scene: &Scene<T>, branch: Branch) {
+    fn add_branch(&mut self, (scene, told): (&Scene<T>, &Told), branch: Branch) {
         let cluster = self.clusters.clusters[branch.cluster].clone();
-        let guide = scene.guides.iter().position(|g| Some(g.joint) == branch.joint);
+        let guide = branch.joint.and_then(|joint| told.guide[joint]);
         let parts = parts(scene, &branch, guide.is_some());
         let joint = branch.joint.map(|j| &scene.joints[j]);
         let is_free = parts[0].kind == Kind::Free;
@@ -176,7 +178,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         for (k, part) in parts.iter().enumerate() {
             let is_last = k + 1 == parts.len();
             let (mass, center, inertia) = if is_last {
-                (cluster.mass, cluster.center - place, self.tensor(scene, &cluster, &place))
+                let is_idle = S::DIMENSION == 3 && told.is_idle[branch.cluster];
+                (cluster.mass, cluster.center - place, tensor(&cluster, is_idle, &place))
             } else {
                 (T::ZERO, Vector::zeros(), Matrix::zeros())
             };
@@ -202,18 +205,6 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             self.link_of_body[body] = parent;
         }
         self.seats.push(Seat { branch, link: parent, first });
-    }
-
-    /// Inertia of a cluster about a point.
-    fn tensor(&self, scene: &Scene<T>, cluster: &Cluster<T>, at: &Vector<T, 3>) -> Matrix<T, 3> {
-        let mut inertia = cluster.inertia;
-        if S::DIMENSION == 3 && has_idle_spin(scene, cluster) {
-            let i = &cluster.inertia;
-            let transverse = (i[(0, 0)] + i[(1, 1)] + i[(2, 2)]) * T::HALF;
-            inertia = Matrix::<T, 3>::identity() * transverse;
-        }
-        let d = cluster.center - at;
-        inertia + (Matrix::<T, 3>::identity() * d.dot(&d) - d * d.transpose()) * cluster.mass
     }
 
     /// No branch may end without mass.
@@ -391,6 +382,18 @@ impl<T: Real, S: Space<T>> Inputs<T> for TreeModel<T, S> {
     }
 }
 
+/// Inertia of a cluster about a point.
+fn tensor<T: Real>(cluster: &Cluster<T>, is_idle: bool, at: &Vector<T, 3>) -> Matrix<T, 3> {
+    let mut inertia = cluster.inertia;
+    if is_idle {
+        let i = &cluster.inertia;
+        let transverse = (i[(0, 0)] + i[(1, 1)] + i[(2, 2)]) * T::HALF;
+        inertia = Matrix::<T, 3>::identity() * transverse;
+    }
+    let d = cluster.center - at;
+    inertia + (Matrix::<T, 3>::identity() * d.dot(&d) - d * d.transpose()) * cluster.mass
+}
+
 /// The parts of a branch's joint from the parent to the child.
 pub(crate) fn parts<T: Real>(scene: &Scene<T>, branch: &Branch, is_guided: bool) -> Vec<Part<T>> {
     let zero = Vector::<T, 3>::zeros();
@@ -422,20 +425,4 @@ pub(crate) fn parts<T: Real>(scene: &Scene<T>, branch: &Branch, is_guided: bool)
         }
     }
     parts
-}
-
-/// Is it a thin rod that nothing can turn about itself?
-fn has_idle_spin<T: Real>(scene: &Scene<T>, cluster: &Cluster<T>) -> bool {
-    let Some([from, to]) = cluster.rod else { return false };
-    let along = to - from;
-    let off = T::EPSILON.sqrt() * along.dot(&along);
-    let is_on_line = |p: [T; 3]| norm(&cross(&(Vector::from(p) - from), &along)) <= off;
-    scene.joints.iter().all(|joint| {
-        (0..2).all(|i| {
-            joint.bodies[i] != BodyRef::Body(cluster.bodies[0])
-                || (matches!(joint.kind, JointKind::Spherical | JointKind::Distance)
-                    && is_on_line(joint.points[i])
-                    && !(i == 0 && joint.kind == JointKind::Distance && joint.axes[0].is_some()))
-        })
-    })
 }

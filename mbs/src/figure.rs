@@ -7,6 +7,8 @@ use mbs_scene::{Animation, Polyline, Trace};
 
 /// Pictures kept of a run at most.
 const MOST_FRAMES: f64 = 600.0;
+/// Numbers in all pictures at most, about: eighty megabytes. Scenes of some thousand bodies get fewer pictures.
+const MOST_NUMBERS: f64 = 1e7;
 
 /// Points of the figure, and the animation they fill.
 #[derive(Debug)]
@@ -21,7 +23,7 @@ pub(crate) struct Figure<T: Real, const D: usize> {
 impl<T: Real, const D: usize> Figure<T, D> {
     /// Lays out the figure of a run of the given duration [s].
     pub(crate) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, duration: f64) -> Self {
-        let mut layout = Layout { scene, model, points: Vec::new() };
+        let mut layout = Layout { scene, model, points: Vec::new(), used: used(scene) };
         let bodies = (0..scene.bodies.len()).map(|b| layout.body(b)).collect();
         let traces = layout.traces();
         let up = scene.gravity.map_or([0.0; 3], |g| g.map(|x| -x.to_f64()));
@@ -39,7 +41,10 @@ impl<T: Real, const D: usize> Figure<T, D> {
             rails: rails(scene),
             ..Animation::default()
         };
-        Self { points: layout.points, animation, every: duration / MOST_FRAMES, next: 0.0 }
+        let points = layout.points;
+        #[allow(clippy::cast_precision_loss, reason = "numbers of points are far below 2^53")]
+        let frames = (MOST_NUMBERS / (points.len() * D).max(1) as f64).clamp(1.0, MOST_FRAMES);
+        Self { points, animation, every: duration / frames, next: 0.0 }
     }
 
     /// Takes a picture where one is due.
@@ -74,6 +79,26 @@ struct Layout<'a, T: Real, const D: usize> {
     scene: &'a Scene<T>,
     model: &'a NaturalModel<T, D>,
     points: Vec<Affine<T, D>>,
+    /// Places of joints, then of outputs, on each body.
+    used: Vec<Vec<[T; 3]>>,
+}
+
+/// Places of joints, then of outputs, on each body, each in file order.
+fn used<T: Real>(scene: &Scene<T>) -> Vec<Vec<[T; 3]>> {
+    let mut used = vec![Vec::new(); scene.bodies.len()];
+    for joint in &scene.joints {
+        for (body, point) in joint.bodies.iter().zip(joint.points) {
+            if let BodyRef::Body(b) = *body {
+                used[b].push(point);
+            }
+        }
+    }
+    for output in &scene.outputs {
+        if let Quantity::Position { body, at } = output.quantity {
+            used[body].push(at.map(T::from_f64));
+        }
+    }
+    used
 }
 
 impl<T: Real, const D: usize> Layout<'_, T, D> {
@@ -84,7 +109,6 @@ impl<T: Real, const D: usize> Layout<'_, T, D> {
 
     /// Places worth drawing on a body: joints, rod ends, springs, outputs; the centre where there are fewer than two.
     fn places(&self, body: usize) -> Vec<[T; 3]> {
-        let me = BodyRef::Body(body);
         let mut places: Vec<[T; 3]> = Vec::new();
         let mut visit = |p: [T; 3]| {
             if !places.contains(&p) {
@@ -95,16 +119,7 @@ impl<T: Real, const D: usize> Layout<'_, T, D> {
             visit(from);
             visit(to);
         }
-        for joint in &self.scene.joints {
-            (0..2).filter(|&k| joint.bodies[k] == me).for_each(|k| visit(joint.points[k]));
-        }
-        for output in &self.scene.outputs {
-            if let Quantity::Position { body: b, at } = output.quantity
-                && b == body
-            {
-                visit(at.map(T::from_f64));
-            }
-        }
+        self.used[body].iter().for_each(|place| visit(*place));
         if places.len() < 2 {
             let center = self.scene.bodies[body].center;
             if !places.contains(&center) {

@@ -211,10 +211,10 @@ fn weight<T: Real>(scene: &Scene<T>) -> f64 {
     mass * f64::sqrt(squares)
 }
 
-/// Rank of the constraints at a state; the number of rows where it cannot be told.
+/// Rank of the constraints at a state.
 pub(crate) fn rank<T: Real, const D: usize>(model: &NaturalModel<T, D>, state: &State<T>) -> usize {
     let mut terms = model.terms();
     model.set_inputs(state.t, &mut terms);
     model.evaluate(&state.q, &mut terms);
-    mbs_core::start::constraint_rank(model, &terms).unwrap_or_else(|| model.n_constraints())
+    mbs_core::start::constraint_rank(model, &terms)
 }

@@ -168,9 +168,8 @@ pub(crate) fn notes<T: Real>(
             readable(settings.duration)
         ));
     }
-    for (i, body) in scene.bodies.iter().enumerate() {
-        let me = BodyRef::Body(i);
-        if !scene.joints.iter().any(|j| j.bodies.contains(&me)) {
+    for (body, is_held) in scene.bodies.iter().zip(held(scene)) {
+        if !is_held {
             notes.push(format!("body `{}` has no joint: it moves freely", body.name));
         }
     }
@@ -184,6 +183,17 @@ pub(crate) fn notes<T: Real>(
         notes.push(not_unique(joint));
     }
     notes
+}
+
+/// Which bodies are named in a joint.
+fn held<T>(scene: &Scene<T>) -> Vec<bool> {
+    let mut held = vec![false; scene.bodies.len()];
+    for body in scene.joints.iter().flat_map(|joint| joint.bodies) {
+        if let BodyRef::Body(b) = body {
+            held[b] = true;
+        }
+    }
+    held
 }
 
 /// Of a joint whose reaction the motion does not determine.

@@ -1,18 +1,19 @@
 //! From a scene to a [`NaturalModel`]: sharing, bases, rigid-body rows, joint rows, effects.
 
 use super::basis::{Basis, Combination};
-use super::draft::{GroupDraft, RowDraft, constant_entity};
+use super::draft::{Constants, GroupDraft, RowDraft};
 use super::error::ModelError;
 use super::finish::finish;
 use super::model::NaturalModel;
 use super::rigid::rigid_rows;
+use super::rods::Rods;
 use super::sharing::{Entity, EntityKind, Sharing};
 use crate::Real;
-use crate::actions::{Action, Actions};
-use crate::algebra::{Vector, norm};
+use crate::actions::Actions;
+use crate::algebra::Vector;
 use crate::cluster::{Clusters, scene_length};
 use crate::model::Owner;
-use crate::scene::{BodyRef, Dimension, InitialTarget, JointKind, Quantity, Scene};
+use crate::scene::{BodyRef, Dimension, Scene};
 use alloc::vec::Vec;
 
 /// Dependent entities that share an element with their body; each further one is an element of its own.
@@ -45,6 +46,7 @@ pub(super) struct Builder<'a, T: Real> {
     pub(super) length: T,
     pub(super) clusters: Clusters<T>,
     pub(super) entities: Vec<Entity<T>>,
+    constants: Constants,
     pub(super) bases: Vec<Basis<T>>,
     pub(super) shared: Vec<Vec<usize>>,
     pub(super) groups: Vec<GroupDraft<T>>,
@@ -57,16 +59,13 @@ impl<'a, T: Real> Builder<'a, T> {
         let length = scene_length(scene);
         let clusters = Clusters::new(scene);
         let Sharing { mut entities, of_cluster: shared } = Sharing::new(scene, &clusters, length);
+        let rods = Rods::new((scene, actions), &clusters, length);
         let mut bases = Vec::with_capacity(shared.len());
         for (c, cluster) in clusters.clusters.iter().enumerate() {
-            let basis = match (scene.dimension, &cluster.rod) {
+            let basis = match (scene.dimension, rods.of_cluster(cluster)) {
                 (Dimension::Planar, _) => Basis::planar(cluster, &shared[c], &mut entities),
-                (Dimension::Spatial, Some(ends))
-                    if stays_rod((scene, actions), cluster.bodies[0], ends, length) =>
-                {
-                    Basis::rod(ends, &shared[c], &mut entities)
-                }
-                (Dimension::Spatial, _) => Basis::spatial(cluster, &shared[c], &mut entities)
+                (Dimension::Spatial, Some(ends)) => Basis::rod(ends, &shared[c], &mut entities),
+                (Dimension::Spatial, None) => Basis::spatial(cluster, &shared[c], &mut entities)
                     .ok_or(ModelError::Basis { body: cluster.bodies[0] })?,
             };
             bases.push(basis);
@@ -75,6 +74,7 @@ impl<'a, T: Real> Builder<'a, T> {
             scene,
             length,
             clusters,
+            constants: Constants::new(&entities),
             entities,
             bases,
             shared,
@@ -101,13 +101,13 @@ impl<'a, T: Real> Builder<'a, T> {
     }
 
     fn constant(&mut self, at: Vector<T, 3>, kind: EntityKind) -> Combination<T> {
-        let e = constant_entity(at, kind, &mut self.entities);
+        let e = self.constants.entity(at, kind, &mut self.entities);
         alloc::vec![(e, crate::algebra::Coef::one())]
     }
 
     /// One group for each cluster: mass, gravity, rigid-body rows, dependent points.
     fn add_bodies(&mut self) {
-        let zero = constant_entity(Vector::zeros(), EntityKind::Direction, &mut self.entities);
+        let zero = self.constant(Vector::zeros(), EntityKind::Direction)[0].0;
         let rigid = rigid_rows((&self.bases, &self.shared), &self.entities, zero);
         for (c, rows) in rigid.into_iter().enumerate() {
             let cluster = &self.clusters.clusters[c];
@@ -156,53 +156,4 @@ impl<'a, T: Real> Builder<'a, T> {
         };
         &mut self.groups[index]
     }
-}
-
-/// May a spatial rod stay two points? Only balls hold it, every point used lies on it, nothing needs its spin.
-fn stays_rod<T: Real>(
-    (scene, actions): (&Scene<T>, &Actions<T>),
-    body: usize,
-    ends: &[Vector<T, 3>; 2],
-    length: T,
-) -> bool {
-    let me = BodyRef::Body(body);
-    let along = ends[1] - ends[0];
-    let on_line = |p: &[T; 3]| {
-        let r = Vector::<T, 3>::from(*p) - ends[0];
-        let off = r - along * (r.dot(&along) / along.dot(&along));
-        norm(&off)
-            <= length * T::from_f64(super::sharing::TOLERANCE).max(T::EPSILON * T::from_f64(64.0))
-    };
-    let joints_allow = scene.joints.iter().all(|j| {
-        let side = j.bodies.iter().position(|b| *b == me);
-        side.is_none_or(|side| {
-            let is_ball = j.kind == JointKind::Spherical
-                || (j.kind == JointKind::Distance && (j.axes[0].is_none() || side == 1));
-            is_ball && on_line(&j.points[side])
-        })
-    });
-    let initials_allow = scene.initials.iter().all(|i| match &i.target {
-        InitialTarget::Body { body: b, velocity, angular_velocity } => {
-            *b != body
-                || (angular_velocity.is_none() && velocity.as_ref().is_none_or(|(p, _)| on_line(p)))
-        }
-        InitialTarget::Joint { joint, .. } => !scene.joints[*joint].bodies.contains(&me),
-    });
-    let effects_allow = actions.list.iter().all(|(_, action)| match action {
-        Action::Length { ends, .. } => ends.iter().all(|(b, p)| *b != me || on_line(p)),
-        Action::Along { ends, .. } => ends[0].0 != me && (ends[1].0 != me || on_line(&ends[1].1)),
-        Action::Twist { bodies, .. } => !bodies.contains(&me),
-        Action::Constant { at, .. } => at.0 != body || on_line(&at.1),
-        Action::Force { at, turns, .. } => at.0 != body || (on_line(&at.1) && !turns),
-        Action::Torque { body: b, .. } => *b != body,
-        Action::OnBody { at, law, .. } => at.0 != body || (on_line(&at.1) && !law.needs_rotation()),
-        Action::Angle { joint, .. } => !scene.joints[*joint].bodies.contains(&me),
-    });
-    let outputs_allow = scene.outputs.iter().all(|o| match &o.quantity {
-        Quantity::Position { body: b, at }
-        | Quantity::Velocity { body: b, at }
-        | Quantity::Acceleration { body: b, at } => *b != body || on_line(&at.map(T::from_f64)),
-        _ => true,
-    });
-    joints_allow && initials_allow && effects_allow && outputs_allow
 }

@@ -7,6 +7,7 @@ use crate::algebra::{Coef, Vector};
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
 use crate::model::Owner;
+use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
 /// A constraint row (or D of them) in terms of entities.
@@ -135,17 +136,44 @@ impl<T: Real> GroupDraft<T> {
     }
 }
 
-/// The entity that is constant with value `at`, added if there is none.
-pub(crate) fn constant_entity<T: Real>(
-    at: Vector<T, 3>,
-    kind: EntityKind,
-    entities: &mut Vec<Entity<T>>,
-) -> usize {
-    let same = |e: &Entity<T>| e.is_constant && e.kind == kind && e.at == at;
-    entities.iter().position(same).unwrap_or_else(|| {
+/// The constant entities by value, so that a scene with many places on the ground finds each at once.
+#[derive(Debug, Default)]
+pub(crate) struct Constants {
+    of_value: BTreeMap<(bool, [u64; 3]), Vec<usize>>,
+}
+
+impl Constants {
+    /// Those among `entities`.
+    pub(crate) fn new<T: Real>(entities: &[Entity<T>]) -> Self {
+        let mut new = Self::default();
+        for (e, entity) in entities.iter().enumerate().filter(|(_, entity)| entity.is_constant) {
+            new.of_value.entry(key(&entity.at, entity.kind)).or_default().push(e);
+        }
+        new
+    }
+
+    /// The first entity that is constant with value `at`, added if there is none.
+    pub(crate) fn entity<T: Real>(
+        &mut self,
+        at: Vector<T, 3>,
+        kind: EntityKind,
+        entities: &mut Vec<Entity<T>>,
+    ) -> usize {
+        let candidates = self.of_value.entry(key(&at, kind)).or_default();
+        // A precision beyond f64 may have several values under one key.
+        if let Some(&found) = candidates.iter().find(|&&e| entities[e].at == at) {
+            return found;
+        }
         entities.push(Entity { kind, at, is_constant: true });
+        candidates.push(entities.len() - 1);
         entities.len() - 1
-    })
+    }
+}
+
+/// Equal values have equal keys: both zeros are one.
+fn key<T: Real>(at: &Vector<T, 3>, kind: EntityKind) -> (bool, [u64; 3]) {
+    let bits = |i: usize| (at[i].to_f64() + 0.0).to_bits();
+    (kind == EntityKind::Point, [bits(0), bits(1), bits(2)])
 }
 
 /// a - b, entities merged, zero coefficients dropped.

@@ -10,7 +10,10 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// its turns; `None` when it measures none.
     #[must_use]
     pub fn memory_of_effect(&self, effect: usize) -> Option<usize> {
-        let group = self.groups.iter().find(|group| group.owner == Owner::Effect(effect))?;
+        // Groups of effects stand last, in the order of the effects.
+        let is_before = |owner| !matches!(owner, Owner::Effect(e) if e >= effect);
+        let first = self.groups.partition_point(|group| is_before(group.owner));
+        let group = self.groups.get(first).filter(|group| group.owner == Owner::Effect(effect))?;
         let measures = self.measures.get(group.measures.range())?;
         measures.iter().find_map(|measure| match measure.gauge {
             Gauge::Angle { memory, .. } => Some(memory as usize),

@@ -18,9 +18,11 @@ mod joints;
 mod memory;
 mod model;
 mod motion;
+mod near;
 mod on_body;
 mod parts;
 mod rigid;
+mod rods;
 mod sharing;
 mod teamed;
 

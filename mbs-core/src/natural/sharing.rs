@@ -4,10 +4,12 @@
 //! same place (parallel, either sign) within [`TOLERANCE`] of the scene's length is the same feature. Features joined by
 //! any chain of joints are one *entity*. An entity that the ground has is a constant.
 
+use super::near::Near;
 use crate::Real;
 use crate::algebra::{Vector, cross, norm};
-use crate::cluster::Clusters;
+use crate::cluster::{Clusters, root};
 use crate::scene::{Dimension, Joint, JointKind, Scene};
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 /// Features closer than this, relative to the scene's length (points) or as an angle (directions), are one.
@@ -35,7 +37,6 @@ struct Feature<T: Real> {
     owner: Option<usize>,
     kind: EntityKind,
     at: Vector<T, 3>,
-    parent: usize,
 }
 
 /// The shared entities and who has them.
@@ -52,10 +53,13 @@ impl<T: Real> Sharing<T> {
     pub(crate) fn new(scene: &Scene<T>, clusters: &Clusters<T>, length: T) -> Self {
         let mut table = Table {
             features: Vec::new(),
+            parent: Vec::new(),
             by_owner: Vec::new(),
             tolerance: length * tolerance::<T>(),
         };
-        table.by_owner.resize_with(clusters.clusters.len() + 1, Vec::new);
+        table.by_owner.resize_with(clusters.clusters.len() + 1, || {
+            [Near::new(table.tolerance), Near::new(tolerance::<T>())]
+        });
         for joint in &scene.joints {
             let owners = joint.bodies.map(|b| clusters.of(b));
             if owners[0] != owners[1] {
@@ -93,51 +97,55 @@ fn common<T: Real>(
 
 struct Table<T: Real> {
     features: Vec<Feature<T>>,
-    /// Features of each cluster; the ground's last.
-    by_owner: Vec<Vec<usize>>,
+    /// The feature that each one hangs from; itself: the root of its class.
+    parent: Vec<usize>,
+    /// Points and directions of each cluster; the ground's last.
+    by_owner: Vec<[Near; 2]>,
     tolerance: T,
 }
 
 impl<T: Real> Table<T> {
     fn share(&mut self, owners: [Option<usize>; 2], kind: EntityKind, at: Vector<T, 3>) {
         let [a, b] = owners.map(|owner| self.feature(owner, kind, at));
-        let (a, b) = (self.root(a), self.root(b));
+        let (a, b) = (root(&mut self.parent, a), root(&mut self.parent, b));
         let (keep, drop) = if a < b { (a, b) } else { (b, a) };
-        self.features[drop].parent = keep;
+        self.parent[drop] = keep;
     }
 
     fn feature(&mut self, owner: Option<usize>, kind: EntityKind, at: Vector<T, 3>) -> usize {
         let list = owner.unwrap_or(self.by_owner.len() - 1);
-        let same = |f: &Feature<T>| {
-            f.kind == kind
-                && match kind {
-                    EntityKind::Point => norm(&(f.at - at)) <= self.tolerance,
-                    EntityKind::Direction => norm(&cross(&f.at, &at)) <= tolerance::<T>(),
-                }
+        let (features, tolerance) = (&self.features, self.tolerance);
+        let [points, directions] = &mut self.by_owner[list];
+        let place = |f: usize| features[f].at;
+        let (near, found) = match kind {
+            EntityKind::Point => {
+                let same = |f: usize| norm(&(features[f].at - at)) <= tolerance;
+                let found = points.first(&[at], same, place);
+                (points, found)
+            }
+            EntityKind::Direction => {
+                let same = |f: usize| norm(&cross(&features[f].at, &at)) <= self::tolerance::<T>();
+                let found = directions.first(&[at, -at], same, place);
+                (directions, found)
+            }
         };
-        if let Some(&found) = self.by_owner[list].iter().find(|&&f| same(&self.features[f])) {
-            return found;
-        }
-        let index = self.features.len();
-        self.features.push(Feature { owner, kind, at, parent: index });
-        self.by_owner[list].push(index);
-        index
-    }
-
-    fn root(&self, mut i: usize) -> usize {
-        while self.features[i].parent != i {
-            i = self.features[i].parent;
-        }
-        i
+        found.unwrap_or_else(|| {
+            let index = self.features.len();
+            near.push(index, &at);
+            self.features.push(Feature { owner, kind, at });
+            self.parent.push(index);
+            index
+        })
     }
 
     /// One entity for each class; the ground's value where it is among the owners.
-    fn collect(self, n_clusters: usize) -> Sharing<T> {
+    fn collect(mut self, n_clusters: usize) -> Sharing<T> {
         let mut entities: Vec<Entity<T>> = Vec::new();
         let mut of_root = alloc::vec![usize::MAX; self.features.len()];
         let mut of_cluster = alloc::vec![Vec::new(); n_clusters];
+        let mut seen = BTreeSet::new();
         for i in 0..self.features.len() {
-            let (root, f) = (self.root(i), &self.features[i]);
+            let (root, f) = (root(&mut self.parent, i), &self.features[i]);
             if of_root[root] == usize::MAX {
                 of_root[root] = entities.len();
                 entities.push(Entity { kind: f.kind, at: f.at, is_constant: false });
@@ -148,7 +156,7 @@ impl<T: Real> Table<T> {
                     entities[e].is_constant = true;
                     entities[e].at = f.at;
                 }
-                Some(c) if !of_cluster[c].contains(&e) => of_cluster[c].push(e),
+                Some(c) if seen.insert((c, e)) => of_cluster[c].push(e),
                 Some(_) => {}
             }
         }

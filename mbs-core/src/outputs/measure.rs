@@ -5,7 +5,7 @@ use crate::Real;
 use crate::inputs::GuideInput;
 use crate::model::State;
 use crate::natural::{Affine, ModelError, NaturalModel};
-use crate::scene::{BodyRef, InitialTarget, Quantity, Scene};
+use crate::scene::{BodyRef, InitialTarget, Joint, Quantity, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -43,20 +43,26 @@ impl<T: Real, const D: usize> Measures<T, D> {
             return Err(ModelError::Dimension);
         }
         let mut measures = Self { channels: Vec::new(), memory: Vec::new(), n_components: 0 };
+        let starts = start_values(scene);
         if scene.outputs.is_empty() {
             for joint in 0..scene.joints.len() {
                 if scene.joints[joint].kind.n_coordinates(scene.dimension) > 0 {
-                    measures.add(scene, model, &Quantity::JointValue { joint });
+                    measures.add((scene, &starts), model, &Quantity::JointValue { joint });
                 }
             }
         }
         for output in &scene.outputs {
-            measures.add(scene, model, &output.quantity);
+            measures.add((scene, &starts), model, &output.quantity);
         }
         Ok(measures)
     }
 
-    fn add(&mut self, scene: &Scene<T>, model: &NaturalModel<T, D>, quantity: &Quantity) {
+    fn add(
+        &mut self,
+        (scene, starts): (&Scene<T>, &[Vec<T>]),
+        model: &NaturalModel<T, D>,
+        quantity: &Quantity,
+    ) {
         let point = |body, at: [f64; 3]| model.point(BodyRef::Body(body), at.map(T::from_f64));
         let coordinates = |joint: usize| Coordinate::of_joint(scene, model, &scene.joints[joint]);
         let channel = match *quantity {
@@ -65,7 +71,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
             Quantity::Acceleration { body, at } => Channel::Acceleration(point(body, at)),
             Quantity::JointValue { joint } => {
                 let start = self.memory.len();
-                self.memory.extend(start_values(scene, joint));
+                self.memory.extend_from_slice(&starts[joint]);
                 Channel::Value(coordinates(joint), start)
             }
             Quantity::JointRate { joint } => Channel::Rate(coordinates(joint)),
@@ -162,17 +168,21 @@ fn copy<T: Real>(from: &[T], to: &mut [f64]) {
     }
 }
 
-/// What a joint's coordinates are at time zero as far as the scene says it (initial values, guides); zero elsewhere.
+/// What the coordinates of each joint are at time zero as far as the scene says it (initial values, guides); zero elsewhere.
+///
+/// Cost: one pass over joints, guides and initial values.
 #[must_use]
-pub fn start_values<T: Real>(scene: &Scene<T>, joint: usize) -> Vec<T> {
-    let mut values = vec![T::ZERO; scene.joints[joint].kind.n_coordinates(scene.dimension)];
-    for guide in scene.guides.iter().filter(|guide| guide.joint == joint) {
-        let [value, ..] = GuideInput::new(&guide.law).at(T::ZERO);
-        values.fill(value);
+pub fn start_values<T: Real>(scene: &Scene<T>) -> Vec<Vec<T>> {
+    let zeros = |joint: &Joint<T>| vec![T::ZERO; joint.kind.n_coordinates(scene.dimension)];
+    let mut values: Vec<Vec<T>> = scene.joints.iter().map(zeros).collect();
+    for guide in &scene.guides {
+        if let Some(values) = values.get_mut(guide.joint) {
+            values.fill(GuideInput::new(&guide.law).at(T::ZERO)[0]);
+        }
     }
     for initial in &scene.initials {
-        if let InitialTarget::Joint { joint: j, value: Some(value), .. } = &initial.target
-            && *j == joint
+        if let InitialTarget::Joint { joint, value: Some(value), .. } = &initial.target
+            && let Some(values) = values.get_mut(*joint)
         {
             values.iter_mut().zip(value).for_each(|(to, from)| *to = *from);
         }

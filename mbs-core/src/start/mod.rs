@@ -14,6 +14,7 @@ mod error;
 mod hold;
 mod problem;
 mod rank;
+mod sparse_rank;
 
 pub use assemble::{Assembled, accelerations, assemble, restart};
 pub use error::AssemblyError;

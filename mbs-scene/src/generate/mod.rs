@@ -71,9 +71,10 @@ impl Family<'_> {
         match *self {
             Self::Chain { bodies } | Self::Tree { bodies } => bodies,
             Self::FourBars { loops } => loops.saturating_mul(2).saturating_add(1),
-            Self::Net { rows, columns } => {
-                rows.saturating_mul(columns).saturating_mul(2).saturating_add(rows + columns)
-            }
+            Self::Net { rows, columns } => rows
+                .saturating_mul(columns)
+                .saturating_mul(2)
+                .saturating_add(rows.saturating_add(columns)),
             Self::Convoy { vehicle, count, .. } => vehicle.count("body").saturating_mul(count),
         }
     }

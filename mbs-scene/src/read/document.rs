@@ -1,6 +1,7 @@
 //! A scene file as read, before the precision of the run is known.
 
 use crate::read::fields::{Context, Fields, Read};
+use crate::read::names::Names;
 use crate::read::tree::{self, Item, Member, Node, Span};
 use crate::read::{Place, ReadError, ReadFault, body, effect, joint, motion, output, road};
 use mbs_core::Real;
@@ -60,8 +61,8 @@ impl Document {
         let dimension = Dimension::Planar;
         let context = Context { document: self, dimension, bodies: &bodies, joints: &joints };
         self.check_tables(&context)?;
-        self.refuse_duplicates(&bodies, Entry::Body)?;
-        self.refuse_duplicates(&joints, Entry::Joint)?;
+        self.refuse_duplicates(bodies.list(), Entry::Body)?;
+        self.refuse_duplicates(joints.list(), Entry::Joint)?;
         let Some(item) = self.top("scene") else {
             return context.fault(&(0..0), ReadFault::Missing { key: "[scene]" });
         };
@@ -161,15 +162,17 @@ impl Document {
     }
 
     /// Names of bodies or joints as far as they are texts; the rest is refused when the entry is read.
-    fn names(&self, key: &str) -> Vec<String> {
-        let Some(Item { node: Node::List(items), .. }) = self.top(key) else { return Vec::new() };
+    fn names(&self, key: &str) -> Names {
+        let Some(Item { node: Node::List(items), .. }) = self.top(key) else {
+            return Names::default();
+        };
         let name = |item: &Item| match &item.node {
             Node::Table(members) => members.iter().find(|m| m.key == "name").and_then(|m| {
                 if let Node::Text(text) = &m.item.node { Some(text.clone()) } else { None }
             }),
             _ => None,
         };
-        items.iter().map(|item| name(item).unwrap_or_default()).collect()
+        Names::new(items.iter().map(|item| name(item).unwrap_or_default()).collect())
     }
 
     /// Names are told apart before they are referred to: else a repeated name reads as an unknown one.

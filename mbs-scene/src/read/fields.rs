@@ -1,5 +1,6 @@
 //! Typed access to the keys of one table.
 
+use crate::read::names::Names;
 use crate::read::tree::{Item, Member, Node, Span};
 use crate::read::{Document, ReadError, ReadFault};
 use mbs_core::Real;
@@ -10,8 +11,8 @@ use mbs_core::scene::{BodyRef, Dimension};
 pub(crate) struct Context<'a> {
     pub(crate) document: &'a Document,
     pub(crate) dimension: Dimension,
-    pub(crate) bodies: &'a [String],
-    pub(crate) joints: &'a [String],
+    pub(crate) bodies: &'a Names,
+    pub(crate) joints: &'a Names,
 }
 
 /// One table of the file.
@@ -129,11 +130,11 @@ impl<'a> Context<'a> {
         if name == "ground" {
             return Ok(BodyRef::Ground);
         }
-        match self.bodies.iter().position(|body| body == name) {
+        match self.bodies.place(name) {
             Some(i) => Ok(BodyRef::Body(i)),
             None => {
                 let mut known = vec!["ground".to_owned()];
-                known.extend_from_slice(self.bodies);
+                known.extend_from_slice(self.bodies.list());
                 self.fault(&item.span, ReadFault::UnknownBody { name: name.to_owned(), known })
             }
         }
@@ -148,10 +149,10 @@ impl<'a> Context<'a> {
 
     pub(crate) fn joint(&self, item: &'a Item) -> Read<usize> {
         let name = self.text(item)?;
-        match self.joints.iter().position(|joint| joint == name) {
+        match self.joints.place(name) {
             Some(i) => Ok(i),
             None => {
-                let (name, known) = (name.to_owned(), self.joints.to_vec());
+                let (name, known) = (name.to_owned(), self.joints.list().to_vec());
                 self.fault(&item.span, ReadFault::UnknownJoint { name, known })
             }
         }

@@ -7,6 +7,7 @@ mod error;
 mod fields;
 mod joint;
 mod motion;
+mod names;
 mod nearest;
 mod output;
 mod place;

@@ -89,7 +89,13 @@ pub(super) fn check_initials<T: Real>(scene: &Scene<T>) -> Result<(), SceneError
         value: vec![None; scene.joints.len()],
         rate: vec![None; scene.joints.len()],
         spin: vec![None; scene.bodies.len()],
+        guide: vec![None; scene.joints.len()],
     };
+    for guide in &scene.guides {
+        if let Some(slot) = seen.guide.get_mut(guide.joint) {
+            *slot = Some(guide);
+        }
+    }
     for (i, initial) in scene.initials.iter().enumerate() {
         check_initial(scene, i, initial, &mut seen)?;
     }
@@ -97,17 +103,19 @@ pub(super) fn check_initials<T: Real>(scene: &Scene<T>) -> Result<(), SceneError
 }
 
 /// Which initial entry prescribed what, by joint or body.
-struct Seen {
+struct Seen<'a, T> {
     value: Vec<Option<usize>>,
     rate: Vec<Option<usize>>,
     spin: Vec<Option<usize>>,
+    /// The guide of each joint.
+    guide: Vec<Option<&'a Guide<T>>>,
 }
 
 fn check_initial<T: Real>(
     scene: &Scene<T>,
     i: usize,
     initial: &Initial<T>,
-    seen: &mut Seen,
+    seen: &mut Seen<'_, T>,
 ) -> Result<(), SceneError> {
     let place = scene.place(Entry::Initial(i));
     match &initial.target {
@@ -115,7 +123,7 @@ fn check_initial<T: Real>(
             if *joint >= scene.joints.len() {
                 return place.fault("joint", SceneFault::UnknownReference);
             }
-            let guide = scene.guides.iter().find(|guide| guide.joint == *joint);
+            let guide = seen.guide[*joint];
             if value.is_none() && rate.is_none() {
                 return place.fault("value", SceneFault::Missing);
             }

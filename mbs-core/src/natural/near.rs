@@ -1,0 +1,105 @@
+//! The first of many places that is nearly a given one, without a look at all of them.
+
+use crate::Real;
+use crate::algebra::Vector;
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
+
+/// Places that are looked at one by one; beyond, they are sorted into cells.
+const FEW: usize = 16;
+
+/// Numbers of places that the caller knows, by where they are.
+#[derive(Debug, Clone)]
+pub(super) struct Near {
+    /// The first [`FEW`], in order.
+    few: Vec<usize>,
+    /// All of them by cell, each in order, once there are more.
+    cells: BTreeMap<[i64; 3], Vec<usize>>,
+    /// Edge of a cell: four times the distance that counts as near, so that eight cells hold all that is near.
+    edge: f64,
+}
+
+impl Near {
+    /// For places that are one when no component differs by more than `tolerance`.
+    pub(super) fn new<T: Real>(tolerance: T) -> Self {
+        Self { few: Vec::new(), cells: BTreeMap::new(), edge: tolerance.to_f64() * 4.0 }
+    }
+
+    /// The smallest number that is `same`, of those near one of `around`. `place` tells where a number is.
+    pub(super) fn first<T: Real>(
+        &mut self,
+        around: &[Vector<T, 3>],
+        same: impl Fn(usize) -> bool,
+        place: impl Fn(usize) -> Vector<T, 3>,
+    ) -> Option<usize> {
+        if self.few.len() < FEW {
+            return self.few.iter().copied().find(|&i| same(i));
+        }
+        if self.cells.is_empty() {
+            for i in self.few.clone() {
+                self.sort_in(i, &place(i));
+            }
+        }
+        let mut best: Option<usize> = None;
+        for at in around {
+            // Half an edge to each side is more than what counts as near, rounding included.
+            let [low, high] = [-0.5, 0.5].map(|side| self.cell(at, side));
+            for x in [low[0], high[0]] {
+                for y in [low[1], high[1]] {
+                    for z in [low[2], high[2]] {
+                        let cell = self.cells.get(&[x, y, z]).map_or(&[][..], Vec::as_slice);
+                        let found = cell.iter().copied().find(|&i| same(i));
+                        best = [best, found].into_iter().flatten().min();
+                    }
+                }
+            }
+        }
+        best
+    }
+
+    /// Adds a number, larger than those before, and its place.
+    pub(super) fn push<T: Real>(&mut self, i: usize, at: &Vector<T, 3>) {
+        if self.few.len() < FEW {
+            self.few.push(i);
+        } else {
+            self.sort_in(i, at);
+        }
+    }
+
+    fn sort_in<T: Real>(&mut self, i: usize, at: &Vector<T, 3>) {
+        self.cells.entry(self.cell(at, 0.0)).or_default().push(i);
+    }
+
+    /// The cell of a place moved by so many edges along each axis. What is too far for whole numbers shares the last cell.
+    #[allow(clippy::cast_possible_truncation, reason = "floats saturate when they are cast")]
+    fn cell<T: Real>(&self, at: &Vector<T, 3>, side: f64) -> [i64; 3] {
+        core::array::from_fn(|i| libm::floor(at[i].to_f64() / self.edge + side) as i64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TOLERANCE: f64 = 1e-9;
+
+    #[test]
+    fn what_is_near_is_found_whatever_the_number_of_places_and_the_side_of_a_cell() {
+        let mut near = Near::new(TOLERANCE);
+        let mut places: Vec<Vector<f64, 3>> = Vec::new();
+        for i in 0..100_usize {
+            let at = Vector::<f64, 3>::new(i as f64 * 0.1, -(i as f64), 4e-9 * i as f64);
+            for shift in [0.0, 0.9 * TOLERANCE, -0.9 * TOLERANCE] {
+                let moved = at + Vector::<f64, 3>::new(shift, 0.0, 0.0);
+                let same = |k: usize| (places[k] - moved).norm() <= TOLERANCE;
+                let found = near.first(&[moved], same, |k| places[k]);
+                assert_eq!(found, places.iter().position(|p| (p - moved).norm() <= TOLERANCE));
+                if found.is_none() {
+                    near.push(places.len(), &moved);
+                    places.push(moved);
+                }
+            }
+        }
+        assert_eq!(places.len(), 100);
+    }
+}

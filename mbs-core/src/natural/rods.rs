@@ -1,0 +1,136 @@
+//! Which spatial rods may stay two points: only balls hold them, every point used lies on them, nothing needs their spin.
+
+use crate::Real;
+use crate::actions::{Action, Actions};
+use crate::algebra::{Vector, norm};
+use crate::cluster::{Cluster, Clusters};
+use crate::scene::{BodyRef, InitialTarget, JointKind, Quantity, Scene};
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// The rods of a scene that nothing has asked for more than two points. One pass over the scene asks for all.
+#[derive(Debug)]
+pub(super) struct Rods<T: Real> {
+    /// Ends of each body that is such a rod.
+    ends: Vec<Option<[Vector<T, 3>; 2]>>,
+    /// Distance from the line that counts as on it [m].
+    tolerance: T,
+}
+
+impl<T: Real> Rods<T> {
+    pub(super) fn new(
+        (scene, actions): (&Scene<T>, &Actions<T>),
+        clusters: &Clusters<T>,
+        length: T,
+    ) -> Self {
+        let relative = T::from_f64(super::sharing::TOLERANCE).max(T::EPSILON * T::from_f64(64.0));
+        let mut ends = vec![None; scene.bodies.len()];
+        for cluster in &clusters.clusters {
+            if let (Some(rod), Some(&body)) = (cluster.rod, cluster.bodies.first()) {
+                ends[body] = Some(rod);
+            }
+        }
+        let mut rods = Self { ends, tolerance: length * relative };
+        rods.ask_joints(scene);
+        rods.ask_initials(scene);
+        actions.list.iter().for_each(|(_, action)| rods.ask_action(scene, action));
+        for output in &scene.outputs {
+            if let Quantity::Position { body, at }
+            | Quantity::Velocity { body, at }
+            | Quantity::Acceleration { body, at } = &output.quantity
+            {
+                rods.point(BodyRef::Body(*body), &at.map(T::from_f64));
+            }
+        }
+        rods
+    }
+
+    /// Ends of a cluster that stays two points.
+    pub(super) fn of_cluster(&self, cluster: &Cluster<T>) -> Option<&[Vector<T, 3>; 2]> {
+        let body = cluster.bodies.first()?;
+        self.ends.get(*body)?.as_ref()
+    }
+
+    /// A point of a body is used: it must lie on the line.
+    fn point(&mut self, body: BodyRef, at: &[T; 3]) {
+        let BodyRef::Body(b) = body else { return };
+        let Some(ends) = &self.ends[b] else { return };
+        let along = ends[1] - ends[0];
+        let r = Vector::<T, 3>::from(*at) - ends[0];
+        let off = r - along * (r.dot(&along) / along.dot(&along));
+        if !(norm(&off) <= self.tolerance) {
+            self.ends[b] = None;
+        }
+    }
+
+    /// The whole rotation of a body is used.
+    fn rotation(&mut self, body: BodyRef) {
+        if let BodyRef::Body(b) = body {
+            self.ends[b] = None;
+        }
+    }
+
+    fn ask_joints(&mut self, scene: &Scene<T>) {
+        for joint in &scene.joints {
+            for (side, body) in joint.bodies.into_iter().enumerate() {
+                let is_ball = joint.kind == JointKind::Spherical
+                    || (joint.kind == JointKind::Distance
+                        && (joint.axes[0].is_none() || side == 1));
+                if is_ball {
+                    self.point(body, &joint.points[side]);
+                } else {
+                    self.rotation(body);
+                }
+            }
+        }
+    }
+
+    fn ask_initials(&mut self, scene: &Scene<T>) {
+        for initial in &scene.initials {
+            match &initial.target {
+                InitialTarget::Body { body, velocity, angular_velocity } => {
+                    let me = BodyRef::Body(*body);
+                    if angular_velocity.is_some() {
+                        self.rotation(me);
+                    } else if let Some((at, _)) = velocity {
+                        self.point(me, at);
+                    }
+                }
+                InitialTarget::Joint { joint, .. } => {
+                    scene.joints[*joint].bodies.into_iter().for_each(|body| self.rotation(body));
+                }
+            }
+        }
+    }
+
+    fn ask_action(&mut self, scene: &Scene<T>, action: &Action<T>) {
+        match action {
+            Action::Length { ends, .. } => ends.iter().for_each(|(b, p)| self.point(*b, p)),
+            Action::Along { ends, .. } => {
+                self.rotation(ends[0].0);
+                self.point(ends[1].0, &ends[1].1);
+            }
+            Action::Twist { bodies, .. } => bodies.iter().for_each(|b| self.rotation(*b)),
+            Action::Constant { at: (body, at), .. } => self.point(BodyRef::Body(*body), at),
+            Action::Torque { body, .. } => self.rotation(BodyRef::Body(*body)),
+            Action::Angle { joint, .. } => {
+                scene.joints[*joint].bodies.into_iter().for_each(|body| self.rotation(body));
+            }
+            Action::Force { at: (body, at), turns, .. } => {
+                self.point_turning(*body, at, *turns);
+            }
+            Action::OnBody { at: (body, at), law, .. } => {
+                self.point_turning(*body, at, law.needs_rotation());
+            }
+        }
+    }
+
+    fn point_turning(&mut self, body: usize, at: &[T; 3], turns: bool) {
+        let me = BodyRef::Body(body);
+        if turns {
+            self.rotation(me);
+        } else {
+            self.point(me, at);
+        }
+    }
+}

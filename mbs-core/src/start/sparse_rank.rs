@@ -1,0 +1,177 @@
+//! The rank of a sparse matrix with short rows, by elimination of their products.
+//!
+//! ```text
+//! S = J J^T, rows of J of unit length        s_kk: square of the distance of row k from those eliminated before it
+//! S <- S - s_k s_k^T / s_kk                  large distances first, of these the rows with the fewest products
+//! ```
+//!
+//! S is positive semidefinite, and so is what is left of it: nothing grows, whatever the order, and a row that repeats others is
+//! left with rounding on its diagonal. Distances below some 5e-7 count as none (in double precision).
+
+use crate::Real;
+use alloc::collections::BinaryHeap;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::cmp::Reverse;
+
+/// Pivots at most this many roundings large are nothing: far above what some dozen updates of a diagonal leave, and far below
+/// the squared distances in chains of a million rows.
+const ROUNDINGS: f64 = 1000.0;
+
+/// Rows whose diagonals lie within so many powers of ten are equally good: a small pivot magnifies the rounding of what follows.
+const DECADES: f64 = 2.0;
+
+/// Entries of a row by ascending column.
+type Row<T> = Vec<(u32, T)>;
+
+/// Number of rows that are independent: columns are below `n`, distinct within a row.
+pub(super) fn sparse_rank<T: Real>(rows: Vec<Row<T>>, n: usize) -> usize {
+    let mut left = products(rows, n);
+    let mut turns: BinaryHeap<Reverse<Turn>> =
+        left.iter().enumerate().filter_map(|(k, row)| turn(row, k)).map(Reverse).collect();
+    let (mut rank, mut scratch) = (0, Vec::new());
+    while let Some(Reverse(now)) = turns.pop() {
+        let k = now.2;
+        // A row that has changed since has a turn of its own.
+        if turn(&left[k], k) != Some(now) {
+            continue;
+        }
+        let used = core::mem::take(&mut left[k]);
+        let pivot = entry(&used, k);
+        for &(other, x) in used.iter().filter(|(other, _)| *other as usize != k) {
+            let row = &mut left[other as usize];
+            subtract(row, (&used, k), x / pivot, &mut scratch);
+            turns.extend(turn(row, other as usize).map(Reverse));
+        }
+        rank += 1;
+    }
+    rank
+}
+
+/// How small the diagonal of a row is, its length, and its number.
+type Turn = (u32, usize, usize);
+
+/// The turn of a row; `None` when nothing but rounding is left of its diagonal.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small number")]
+fn turn<T: Real>(row: &Row<T>, k: usize) -> Option<Turn> {
+    let square = entry(row, k);
+    let class = (-libm::log10(square.to_f64()) / DECADES).max(0.0);
+    (square > T::EPSILON * T::from_f64(ROUNDINGS)).then(|| (class as u32, row.len(), k))
+}
+
+/// S = J J^T with the rows of J scaled to unit length; rows of zeros stay empty.
+fn products<T: Real>(mut rows: Vec<Row<T>>, n: usize) -> Vec<Row<T>> {
+    let mut columns = vec![Vec::new(); n];
+    for (k, row) in rows.iter_mut().enumerate() {
+        let length = row.iter().fold(T::ZERO, |sum, (_, x)| sum + *x * *x).sqrt();
+        for (column, x) in row {
+            *x /= length;
+            columns[*column as usize].push((crate::natural::index(k), *x));
+        }
+    }
+    let (mut sum, mut is_met) = (vec![T::ZERO; rows.len()], vec![false; rows.len()]);
+    let mut met: Vec<u32> = Vec::new();
+    let product = |row: &Row<T>| {
+        for (column, x) in row {
+            for (other, y) in &columns[*column as usize] {
+                let o = *other as usize;
+                if !core::mem::replace(&mut is_met[o], true) {
+                    met.push(*other);
+                }
+                sum[o] += *x * *y;
+            }
+        }
+        met.sort_unstable();
+        let take = |other: u32| {
+            is_met[other as usize] = false;
+            (other, core::mem::replace(&mut sum[other as usize], T::ZERO))
+        };
+        met.drain(..).map(take).collect()
+    };
+    rows.iter().map(product).collect()
+}
+
+/// The entry of a row in a column; zero where there is none.
+fn entry<T: Real>(row: &Row<T>, column: usize) -> T {
+    let place = row.binary_search_by_key(&column, |(c, _)| *c as usize);
+    place.map_or(T::ZERO, |place| row[place].1)
+}
+
+/// row <- row - factor used, without the column of the row that was used.
+fn subtract<T: Real>(
+    row: &mut Row<T>,
+    (used, pivot): (&Row<T>, usize),
+    factor: T,
+    merged: &mut Row<T>,
+) {
+    merged.clear();
+    let (mut a, mut b) = (row.iter().copied().peekable(), used.iter().copied().peekable());
+    loop {
+        let column = match (a.peek(), b.peek()) {
+            (Some((x, _)), Some((y, _))) => *x.min(y),
+            (Some((x, _)), None) | (None, Some((x, _))) => *x,
+            (None, None) => break,
+        };
+        let mine = a.next_if(|(c, _)| *c == column).map_or(T::ZERO, |(_, x)| x);
+        let theirs = b.next_if(|(c, _)| *c == column).map_or(T::ZERO, |(_, x)| x);
+        if column as usize != pivot {
+            merged.push((column, mine - factor * theirs));
+        }
+    }
+    // The old row's store is the next one's scratch.
+    core::mem::swap(row, merged);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::start::rank::pivoted_rank;
+
+    /// The same numbers in (-1/2, 1/2) on every machine.
+    fn random(state: &mut u32) -> f64 {
+        *state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(*state) / f64::from(u32::MAX) - 0.5
+    }
+
+    /// Rows of a few entries near the diagonal, every `repeat`-th the sum of multiples of two before it.
+    fn rows(m: usize, n: usize, repeat: usize, state: &mut u32) -> Vec<Vec<(u32, f64)>> {
+        let mut rows: Vec<Vec<(u32, f64)>> = Vec::new();
+        for r in 0..m {
+            let mut dense = vec![0.0; n];
+            if r % repeat == repeat - 1 {
+                for before in [r - 1, r - 2] {
+                    let factor = random(state) * 4.0;
+                    rows[before].iter().for_each(|(c, x)| dense[*c as usize] += factor * x);
+                }
+            } else {
+                for k in 0..4 {
+                    dense[(r + 5 * k) % n] = random(state);
+                }
+            }
+            let entries = (0..).zip(dense).filter(|(_, x)| *x != 0.0);
+            rows.push(entries.collect());
+        }
+        rows
+    }
+
+    #[test]
+    fn sparse_and_dense_elimination_count_the_same_rank() {
+        let mut state = 7;
+        for (m, n, repeat) in [(30, 40, 100), (60, 50, 3), (80, 60, 4), (40, 40, 5), (90, 30, 7)] {
+            let rows = rows(m, n, repeat, &mut state);
+            let mut dense = vec![0.0; n * m];
+            for (r, row) in rows.iter().enumerate() {
+                let length = row.iter().map(|(_, x)| x * x).sum::<f64>().sqrt();
+                row.iter().for_each(|(c, x)| dense[r * n + *c as usize] = x / length);
+            }
+            let expected = pivoted_rank(dense, n, m);
+            assert_eq!(sparse_rank(rows, n), expected, "{m} by {n}");
+        }
+    }
+
+    #[test]
+    fn rows_without_entries_and_no_rows_have_no_rank() {
+        assert_eq!(sparse_rank::<f64>(Vec::new(), 3), 0);
+        assert_eq!(sparse_rank::<f64>(vec![Vec::new(), vec![(1, 2.0)], vec![(1, -1.0)]], 3), 1);
+    }
+}

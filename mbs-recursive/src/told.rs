@@ -1,0 +1,43 @@
+//! What a scene says of each joint and each body, gathered in one pass.
+
+use alloc::vec;
+use alloc::vec::Vec;
+use mbs_core::Real;
+use mbs_core::algebra::{Vector, cross, norm};
+use mbs_core::cluster::Clusters;
+use mbs_core::scene::{BodyRef, JointKind, Scene};
+
+/// Guides by joint, and thin rods without spin by cluster.
+pub(crate) struct Told {
+    /// The guide of each joint.
+    pub(crate) guide: Vec<Option<usize>>,
+    /// Is the cluster a thin rod that nothing can turn about itself?
+    pub(crate) is_idle: Vec<bool>,
+}
+
+impl Told {
+    pub(crate) fn new<T: Real>(scene: &Scene<T>, clusters: &Clusters<T>) -> Self {
+        let mut guide = vec![None; scene.joints.len()];
+        for (g, law) in scene.guides.iter().enumerate() {
+            guide[law.joint].get_or_insert(g);
+        }
+        let mut is_idle: Vec<bool> = clusters.clusters.iter().map(|c| c.rod.is_some()).collect();
+        for joint in &scene.joints {
+            for (i, &body) in joint.bodies.iter().enumerate() {
+                let Some(c) = clusters.of(body) else { continue };
+                let cluster = &clusters.clusters[c];
+                let (Some([from, to]), BodyRef::Body(b)) = (cluster.rod, body) else { continue };
+                let along = to - from;
+                let off = T::EPSILON.sqrt() * along.dot(&along);
+                let p = Vector::from(joint.points[i]);
+                is_idle[c] &= b != cluster.bodies[0]
+                    || (matches!(joint.kind, JointKind::Spherical | JointKind::Distance)
+                        && norm(&cross(&(p - from), &along)) <= off
+                        && !(i == 0
+                            && joint.kind == JointKind::Distance
+                            && joint.axes[0].is_some()));
+            }
+        }
+        Self { guide, is_idle }
+    }
+}

@@ -1,0 +1,195 @@
+//! Generated scenes: as many bodies and joints as said, consistent at the start, and sound in motion.
+
+use mbs::scene_file::{Document, Family, GenerateError, generate};
+use mbs::{Outcome, Overrides, Settings};
+use mbs_core::scene::{Dimension, Scene};
+use std::process::Command;
+
+const COMMAND: &str = "mbs generate";
+
+/// Position violation of index-3 after its projections: rounding of lengths of some metres.
+const VIOLATION: f64 = 1e-10;
+/// Share of the energy turned over by which the trapezoidal rule may be off over the first hundred steps of 1 ms: it is of
+/// second order and these motions take seconds.
+const DRIFT: f64 = 1e-3;
+
+fn scene(family: &Family<'_>) -> Scene<f64> {
+    let text = generate(family, COMMAND).expect("a scene");
+    assert!(text.starts_with("# ") && text.contains("# Made by `mbs generate`."));
+    Document::parse(&text, "generated.toml").and_then(|d| d.scene()).expect("can be read")
+}
+
+/// Bodies, joints, outputs.
+fn counts(scene: &Scene<f64>) -> [usize; 3] {
+    [scene.bodies.len(), scene.joints.len(), scene.outputs.len()]
+}
+
+fn vehicle(name: &str) -> Document {
+    let file = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&file).expect("a scene of this repository");
+    Document::parse(&text, &file).expect("TOML")
+}
+
+/// Runs the first tenth of a second in index-3 and asserts that nothing drifts.
+fn run(scene: &Scene<f64>) -> Outcome {
+    let overrides = Overrides {
+        formulation: Some("index-3".to_owned()),
+        step: Some(1e-3),
+        duration: Some(0.1),
+        ..Overrides::default()
+    };
+    let settings = Settings::new(scene, &overrides).expect("settings");
+    let outcome = match scene.dimension {
+        Dimension::Planar => mbs::run::<f64, 2>(scene, &settings, &mut ()),
+        Dimension::Spatial => mbs::run::<f64, 3>(scene, &settings, &mut ()),
+    };
+    let summary = &outcome.summary;
+    assert!(summary.completed, "{}: {:?}", summary.scene, summary.error);
+    let position = summary.violation.position;
+    assert!(position < VIOLATION, "{}: {position} m", summary.scene);
+    let (error, turned) = (summary.energy.max_error, summary.energy.turned_over);
+    assert!(error < DRIFT * turned, "{}: {error} J of {turned} J", summary.scene);
+    outcome
+}
+
+#[test]
+fn a_chain_has_a_joint_for_each_link_and_keeps_its_energy() {
+    for n in [1, 2, 7, 40] {
+        let scene = scene(&Family::Chain { bodies: n });
+        assert_eq!(counts(&scene), [n, n, 2]);
+        run(&scene);
+    }
+    // Freedoms of four joints by turns: 1 + 2 + 1 + 3.
+    assert_eq!(run(&scene(&Family::Chain { bodies: 40 })).summary.dof, 70);
+}
+
+#[test]
+fn a_tree_has_one_freedom_for_each_bar_and_keeps_its_energy() {
+    for n in [1, 2, 63] {
+        let scene = scene(&Family::Tree { bodies: n });
+        assert_eq!(counts(&scene), [n, n, 2]);
+        assert_eq!(run(&scene).summary.dof, n);
+    }
+}
+
+#[test]
+fn forty_four_bars_are_the_scene_of_that_name() {
+    let generated = scene(&Family::FourBars { loops: 40 });
+    let written = vehicle("n-four-bar-40").scene::<f64>().expect("a scene");
+    assert_eq!(generated, written);
+    let scene = scene(&Family::FourBars { loops: 5 });
+    assert_eq!(counts(&scene), [11, 16, 2]);
+    assert_eq!(run(&scene).summary.dof, 1);
+}
+
+#[test]
+fn a_net_has_a_freedom_less_for_each_rod_and_keeps_its_energy() {
+    for [rows, columns] in [[2, 2], [3, 5]] {
+        let scene = scene(&Family::Net { rows, columns });
+        let rods = rows * (columns + 1) + columns * (rows + 1);
+        let knots = (rows + 1) * (columns + 1);
+        // Each rod beyond the first at a knot has a joint there, and each corner one with the ground.
+        assert_eq!(counts(&scene), [rods, 2 * rods - knots + 4, 2]);
+        let summary = run(&scene).summary;
+        assert_eq!(summary.dof, 3 * (knots - 4) - rods);
+        assert_eq!(summary.constraints, rods, "a rod stays two points");
+    }
+    for bodies in [1, 12, 100, 2000] {
+        let Family::Net { rows, columns } = Family::net_of(bodies) else { panic!("a net") };
+        let size = |n: usize| 2 * n * (n + 1);
+        let off = size(rows).abs_diff(bodies);
+        assert!(rows == columns && off <= size(rows + 1).abs_diff(bodies));
+        assert!(rows == 2 || off <= size(rows - 1).abs_diff(bodies));
+    }
+}
+
+#[test]
+fn a_convoy_is_the_vehicle_many_times_over_on_one_road() {
+    let document = vehicle("iltis-stairs");
+    let one = document.scene::<f64>().expect("a scene");
+    let convoy = |count| scene(&Family::Convoy { vehicle: &document, count, spacing: 8.0 });
+    let (three, [bodies, joints, outputs]) = (convoy(3), counts(&one));
+    assert_eq!(counts(&three), [3 * bodies, 3 * joints, 2 * outputs]);
+    assert_eq!(three.effects.len(), 3 * one.effects.len());
+    assert_eq!(three.road, one.road);
+    let [first, last] = [0, 2].map(|k| three.bodies[k * bodies].center);
+    assert_eq!((first, last), (one.bodies[0].center, [-16.0, 0.0, 0.57]));
+    let outcome = run(&convoy(2));
+    // The road is level at first: both start and drive alike, 8 m apart, but for the rounding of places.
+    let (_, row) = outcome.rows().last().expect("the end");
+    let half = row.len() / 2;
+    assert!((row[0] - row[half] - 8.0).abs() < 1e-6 && (row[2] - row[half + 2]).abs() < 1e-6);
+    assert_eq!(counts(&convoy(1)), [bodies, joints, outputs]);
+}
+
+#[test]
+fn what_cannot_be_made_is_refused_with_a_hint() {
+    let document = vehicle("iltis-stairs");
+    let pendulum = vehicle("double-pendulum");
+    let convoy = |vehicle, count, spacing| Family::Convoy { vehicle, count, spacing };
+    let faults = [
+        (Family::Chain { bodies: 0 }, GenerateError::TooFew { given: 0, least: 1 }),
+        (Family::Tree { bodies: 0 }, GenerateError::TooFew { given: 0, least: 1 }),
+        (Family::FourBars { loops: 0 }, GenerateError::TooFew { given: 0, least: 1 }),
+        (Family::Net { rows: 5, columns: 1 }, GenerateError::TooFew { given: 1, least: 2 }),
+        (convoy(&document, 0, 8.0), GenerateError::TooFew { given: 0, least: 1 }),
+        (convoy(&document, 2, -1.0), GenerateError::Spacing(-1.0)),
+        (convoy(&pendulum, 2, 8.0), GenerateError::NoTires),
+    ];
+    for (family, expected) in faults {
+        let error = generate(&family, COMMAND).expect_err("refused");
+        assert_eq!(error, expected);
+        assert!(!error.hint().is_empty());
+    }
+    for family in [
+        Family::Chain { bodies: usize::MAX },
+        Family::FourBars { loops: usize::MAX },
+        Family::Net { rows: usize::MAX, columns: usize::MAX },
+        convoy(&document, usize::MAX, 8.0),
+    ] {
+        assert!(matches!(generate(&family, COMMAND), Err(GenerateError::TooMany { .. })));
+    }
+    let broken = Document::parse("[scene]\n", "broken.toml").expect("TOML");
+    assert_eq!(generate(&convoy(&broken, 2, 8.0), COMMAND), Err(GenerateError::NoScene));
+}
+
+/// `mbs generate` with arguments: exit status, standard output, standard error.
+fn command(arguments: &[&str]) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
+    let output = command.arg("generate").args(arguments).output().expect("the command is built");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (output.status.code().expect("an exit"), text(&output.stdout), text(&output.stderr))
+}
+
+#[test]
+fn the_command_writes_to_standard_output_or_to_a_file_and_names_itself() {
+    let (status, text, _) = command(&["net", "--rows", "2", "--columns", "3"]);
+    assert_eq!(status, 0);
+    assert!(text.contains("# Made by `mbs generate net --rows 2 --columns 3`."), "{text}");
+    let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("generated-chain.toml");
+    let path = file.to_str().expect("a path of letters");
+    let (status, text, _) = command(&["chain", "--count", "3", "-o", path]);
+    assert_eq!((status, text.as_str()), (0, ""));
+    let written = std::fs::read_to_string(&file).expect("it was written");
+    let expected = generate(&Family::Chain { bodies: 3 }, "mbs generate chain --count 3");
+    assert_eq!(Ok(written), expected);
+}
+
+#[test]
+fn the_command_refuses_with_status_1_and_a_hint() {
+    let pendulum = format!("{}/../scenes/double-pendulum.toml", env!("CARGO_MANIFEST_DIR"));
+    for (arguments, word) in [
+        (&["chain"][..], "--count is missing"),
+        (&["chain", "--count", "0"], "at least 1"),
+        (&["net", "--count", "0"], "at least 2"),
+        (&["convoy", "--count", "3"], "needs --of"),
+        (&["convoy", "--count", "3", "--of", &pendulum], "no tire"),
+        (&["convoy", "--count", "3", "--of", "nowhere.toml"], "cannot read"),
+        (&["tree", "--count", "3", "--spacing", "8"], "--spacing says nothing of a tree"),
+        (&["chain", "--count", "3", "-o", "/no/such/directory/x.toml"], "cannot write"),
+    ] {
+        let (status, text, error) = command(arguments);
+        assert_eq!((status, text.as_str()), (1, ""), "{arguments:?}");
+        assert!(error.contains(word) && error.contains("hint: "), "{arguments:?}: {error}");
+    }
+}
