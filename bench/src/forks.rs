@@ -1,7 +1,7 @@
 //! The time of a fork: two pieces of no work, joined.
 
 use crate::augmented::merge;
-use crate::race::{Runner, Work, race};
+use crate::race::{Runner, Timing, Work, race, timed};
 use crate::{Request, say};
 use mbs_core::team::{Alone, Team};
 use mbs_parallel::{Crew, Pool};
@@ -11,9 +11,12 @@ use serde_json::json;
 struct Inside<'a>(&'a Pool);
 
 impl Runner for Inside<'_> {
-    fn run(&mut self, n: u32) -> Result<(), String> {
-        self.0.enter(|| (0..n).for_each(|_| fork(self.0)));
-        Ok(())
+    fn run(&mut self, n: u32) -> Result<f64, String> {
+        let forks = || {
+            (0..n).for_each(|_| fork(self.0));
+            Ok(())
+        };
+        self.0.enter(|| timed(forks))
     }
 }
 
@@ -38,7 +41,7 @@ pub(crate) fn measure(request: &Request) -> Result<(), String> {
     Ok(())
 }
 
-fn tell(team: &str, threads: usize, timings: Vec<Result<crate::race::Timing, String>>) {
+fn tell(team: &str, threads: usize, timings: Vec<Result<Timing, String>>) {
     for timing in timings.into_iter().flatten() {
         let mut line = json!({ "kind": "fork", "team": team, "threads": threads });
         merge(&mut line, [timing.told()]);

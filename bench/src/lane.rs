@@ -1,7 +1,7 @@
 //! Steps of one scene in one way: formulation, solver, team, with or without a clock.
 
 use crate::clocked::{Clock, ClockedModel, ClockedSolver, watched};
-use crate::race::Runner;
+use crate::race::{Runner, timed};
 use crate::scenes::Prepared;
 use mbs_augmented::{IndexChange, Options, Workspace, index1, index3};
 use mbs_core::SpdSolver;
@@ -129,11 +129,13 @@ impl<'a> Lane<'a> {
 }
 
 impl Runner for Lane<'_> {
-    fn run(&mut self, n: u32) -> Result<(), String> {
+    fn run(&mut self, n: u32) -> Result<f64, String> {
         let (steps, sums) = (&mut self.steps, &mut self.sums);
+        let mut run = || timed(|| steps(n, sums));
         match self.pool {
-            Some(pool) => pool.enter(|| steps(n, sums)),
-            None => steps(n, sums),
+            // What it takes to enter the pool is not the step's.
+            Some(pool) => pool.enter(run),
+            None => run(),
         }
     }
 

@@ -2,13 +2,12 @@
 
 use crate::augmented::merge;
 use crate::lane::Sums;
-use crate::race::{Runner, race};
+use crate::race::{Runner, Timing, race, timed};
 use crate::scenes::steps;
 use crate::{Request, say};
 use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
 use mbs_core::scene::Scene;
 use serde_json::json;
-use std::time::Instant;
 
 /// A step that takes longer is not measured further [s].
 const LONGEST: f64 = 2.0;
@@ -27,13 +26,15 @@ impl<const D: usize> Runner for Steps<D>
 where
     Plane<D>: InSpace<f64>,
 {
-    fn run(&mut self, n: u32) -> Result<(), String> {
-        for _ in 0..n {
-            let step = self.simulation.advance(self.dt);
-            let step = step.map_err(|e| self.simulation.explain(e).to_string())?;
-            self.sums.add(&step.attempt.report);
-        }
-        Ok(())
+    fn run(&mut self, n: u32) -> Result<f64, String> {
+        timed(|| {
+            for _ in 0..n {
+                let step = self.simulation.advance(self.dt);
+                let step = step.map_err(|e| self.simulation.explain(e).to_string())?;
+                self.sums.add(&step.attempt.report);
+            }
+            Ok(())
+        })
     }
 
     fn reset(&mut self) {
@@ -54,7 +55,7 @@ where
         "kind": "lane", "formulation": formulation, "team": "alone", "threads": 1, "order": "chosen",
         "clocked": false,
     });
-    let told = match timed::<D>(scene, formulation, request) {
+    let told = match raced::<D>(scene, formulation, request) {
         Ok((timing, sums)) => [timing.told(), json!({ "work": sums.told() })],
         Err(why) => [json!({ "reason": why }), json!({})],
     };
@@ -63,11 +64,11 @@ where
     Ok(())
 }
 
-fn timed<const D: usize>(
+fn raced<const D: usize>(
     scene: &Scene<f64>,
     formulation: &str,
     request: &Request,
-) -> Result<(crate::race::Timing, Sums), String>
+) -> Result<(Timing, Sums), String>
 where
     Plane<D>: InSpace<f64>,
 {
@@ -76,9 +77,7 @@ where
     let simulation = Simulation::<f64, D>::new(scene, &settings).map_err(|e| e.to_string())?;
     let (dt, _) = steps(scene);
     let mut steps = Steps { simulation, dt, sums: Sums::default() };
-    let clock = Instant::now();
-    steps.run(1)?;
-    let pilot = clock.elapsed().as_secs_f64();
+    let pilot = steps.run(1)?;
     if pilot > LONGEST {
         return Err(format!("one step takes {pilot:.1} s: not measured further"));
     }

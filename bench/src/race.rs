@@ -5,11 +5,11 @@ use std::time::Instant;
 
 /// What is measured: it does its work so many times.
 pub(crate) trait Runner {
-    /// Works `n` times.
+    /// Works `n` times, and says how long that took [s].
     ///
     /// # Errors
     /// Why it cannot go on.
-    fn run(&mut self, n: u32) -> Result<(), String>;
+    fn run(&mut self, n: u32) -> Result<f64, String>;
     /// Called when what was done before is to count no more.
     fn reset(&mut self) {}
 }
@@ -48,18 +48,19 @@ pub(crate) fn quantile(sorted: &[f64], share: f64) -> f64 {
     sorted[below] + (place - place.floor()) * (sorted[above] - sorted[below])
 }
 
-/// Shortest measurement [s], unless one piece of work is longer.
-const SHORTEST: f64 = 2e-3;
+/// Shortest measurement [s], unless one piece of work is longer: much shorter than what a busy system gives a process at a
+/// time, so that most measurements are not interrupted and the median is one of them.
+const SHORTEST: f64 = 2e-4;
 /// Measurements of each at least, and at most.
-const ROUNDS: [f64; 2] = [7.0, 61.0];
+const ROUNDS: [f64; 2] = [7.0, 301.0];
 
 /// Measures all runners by turns for about `seconds`, after they have warmed up. One that fails has its reason.
 pub(crate) fn race(runners: &mut [&mut dyn Runner], seconds: f64) -> Vec<Result<Timing, String>> {
     let mut pilot = |runner: &mut &mut dyn Runner| -> Result<f64, String> {
         runner.run(2)?;
-        let once = timed(*runner, 1)?;
+        let once = runner.run(1)?;
         // Short work is told from a clock's reading by its repetition.
-        if once < SHORTEST { Ok(timed(*runner, 20)? / 20.0) } else { Ok(once) }
+        if once < SHORTEST { Ok(runner.run(20)? / 20.0) } else { Ok(once) }
     };
     let pilots: Vec<_> = runners.iter_mut().map(&mut pilot).collect();
     let good = || pilots.iter().filter_map(|pilot| pilot.as_ref().ok().copied());
@@ -77,7 +78,7 @@ pub(crate) fn race(runners: &mut [&mut dyn Runner], seconds: f64) -> Vec<Result<
         // Another one begins each time.
         for i in (0..n).map(|i| (i + round) % n) {
             let Ok(list) = &mut samples[i] else { continue };
-            match timed(runners[i], batch) {
+            match runners[i].run(batch) {
                 Ok(time) => list.push(time / f64::from(batch)),
                 Err(why) => samples[i] = Err(why),
             }
@@ -86,9 +87,10 @@ pub(crate) fn race(runners: &mut [&mut dyn Runner], seconds: f64) -> Vec<Result<
     samples.into_iter().map(|list| list.map(|list| Timing::of(list, batch))).collect()
 }
 
-fn timed(runner: &mut dyn Runner, n: u32) -> Result<f64, String> {
+/// The time of some work [s].
+pub(crate) fn timed<R>(work: impl FnOnce() -> Result<R, String>) -> Result<f64, String> {
     let clock = Instant::now();
-    runner.run(n)?;
+    work()?;
     Ok(clock.elapsed().as_secs_f64())
 }
 
@@ -96,9 +98,11 @@ fn timed(runner: &mut dyn Runner, n: u32) -> Result<f64, String> {
 pub(crate) struct Work<F>(pub(crate) F);
 
 impl<F: FnMut()> Runner for Work<F> {
-    fn run(&mut self, n: u32) -> Result<(), String> {
-        (0..n).for_each(|_| (self.0)());
-        Ok(())
+    fn run(&mut self, n: u32) -> Result<f64, String> {
+        timed(|| {
+            (0..n).for_each(|_| (self.0)());
+            Ok(())
+        })
     }
 }
 
@@ -120,9 +124,9 @@ mod tests {
     fn runners_take_turns_and_failures_keep_their_reason() {
         struct Failing(u32);
         impl Runner for Failing {
-            fn run(&mut self, n: u32) -> Result<(), String> {
+            fn run(&mut self, n: u32) -> Result<f64, String> {
                 self.0 += n;
-                if self.0 > 40 { Err("no more".to_owned()) } else { Ok(()) }
+                if self.0 > 40 { Err("no more".to_owned()) } else { Ok(1e-3) }
             }
         }
         let mut n = 0;
