@@ -119,7 +119,7 @@ mod tests {
             "1.60",
             "0.50",
             "22.7",
-            "gains nothing",
+            "times as fast at best",
             "Table IV",
             "Table V",
         ] {
@@ -128,6 +128,17 @@ mod tests {
         assert!(!text.contains("NaN") && !html.contains("{{"));
         assert!(!html.contains("No drawing"), "every drawing has its points");
         assert!(html.matches("<table>").count() >= sections.len());
+    }
+
+    #[test]
+    fn a_vehicle_that_gains_nothing_is_told() {
+        let mut measured = sample();
+        for lane in measured.scenes[0].lanes.iter_mut().filter(|lane| lane.threads > 1) {
+            lane.seconds = Some(6e-4);
+        }
+        let text: String = sections(&measured).iter().map(Section::text).collect();
+        let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains("The whole vehicle gains nothing from threads"), "{text}");
     }
 
     #[test]
