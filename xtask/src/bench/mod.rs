@@ -87,7 +87,9 @@ fn run(asked: &Asked) -> Result<(), String> {
     process::progress("");
 
     let sections = tables::sections(&measured);
-    println!("{}", tables::remark(&measured));
+    let mut remark = String::new();
+    crate::tell::paragraph(&mut remark, 0, &tables::remark(&measured));
+    println!("{remark}");
     for section in &sections {
         println!("{}", section.text());
     }

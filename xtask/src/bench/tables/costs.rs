@@ -100,7 +100,7 @@ fn chart(measured: &Measured) -> Chart {
         let point = |scene: &&Scene| Some([scene.size("unknowns")?, scene.serial(name)?.seconds?]);
         let scenes = by_size(measured);
         let points = scenes.iter().filter_map(point).collect();
-        Series { name: (*name).to_owned(), style, look: Look::Marks, points }
+        Series { name: (*name).to_owned(), style, look: Look::Dots, points }
     });
     let x = Axis::new("unknowns", Kind::Log);
     Chart::new(x, Axis::new("time of a step [s]", Kind::Log), series.collect())

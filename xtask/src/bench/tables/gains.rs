@@ -94,12 +94,19 @@ fn verdict(measured: &Measured, formulation: &str, several: &[usize]) -> String 
         }
     }
     let (most, what) = best.unwrap_or_default();
-    let mut text = format!(
-        "Most is gained in {what}: {most:.2} times as fast as the best serial step. Threads gain nothing in {n_without} of {n_scenes} scenes."
-    );
+    let mut text = if most < SEEN {
+        format!(
+            "No scene gains from threads: {most:.2} times as fast as the best serial step at best ({what})."
+        )
+    } else {
+        format!(
+            "Most is gained in {what}: {most:.2} times as fast as the best serial step. Threads gain nothing in {n_without} of \
+             {n_scenes} scenes."
+        )
+    };
     text.push_str(&match of_vehicle {
         Some(most) if most < SEEN => format!(
-            " The whole vehicle gains nothing from threads ({most:.2} at best): its step is too short to be shared."
+            " The whole vehicle gains nothing from threads ({most:.2} at best): nothing of its step is worth cutting."
         ),
         Some(most) => format!(" The whole vehicle is {most:.2} times as fast at best."),
         None => String::new(),
@@ -117,7 +124,7 @@ fn chart(measured: &Measured, several: &[usize]) -> Chart {
             Some([scene.size("unknowns")?, gain])
         };
         let points = by_size(measured).iter().filter_map(point).collect();
-        Series { name: format!("{n} threads"), style, look: Look::Both, points }
+        Series { name: format!("{n} threads"), style, look: Look::Dots, points }
     });
     let x = Axis::new("unknowns", Kind::Log);
     Chart::new(x, Axis::new("speed-up", Kind::FromZero), series.collect())
@@ -138,9 +145,8 @@ pub(super) fn forks(measured: &Measured) -> Section {
     });
     section.table(&["team, threads", "median", "quartiles"], rows.collect());
     section.words(
-        "Two pieces of no work, joined: what a team asks for each cut. A pool's thread takes its own piece back where nobody wants it; a \
-         crew's threads wait awake, so that work changes hands sooner and an empty fork costs more. Work that is cut takes some ten \
-         microseconds at least.",
+        "Two pieces of no work, joined: what a team asks for each cut where nobody takes the other piece. A task of a factorisation is \
+         some hundred times as long at least; what handing a piece over costs shows in the steps above.",
     );
     section
 }
