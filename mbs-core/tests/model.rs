@@ -301,6 +301,34 @@ fn planar_and_spatial_four_bars_have_one_freedom_however_redundant() {
     }
 }
 
+/// So many copies of a scene, at the same places and free of each other.
+fn copies(one: &Scene<f64>, n: usize) -> Scene<f64> {
+    let mut many = one.clone();
+    for k in 1..n {
+        let shift = |body| match body {
+            BodyRef::Ground => BodyRef::Ground,
+            BodyRef::Body(b) => BodyRef::Body(b + k * one.bodies.len()),
+        };
+        many.bodies.extend(one.bodies.iter().cloned());
+        many.joints.extend(one.joints.iter().cloned().map(|mut joint| {
+            joint.bodies = joint.bodies.map(shift);
+            joint
+        }));
+    }
+    many
+}
+
+#[test]
+fn the_rank_of_many_redundant_loops_is_that_of_one_as_often() {
+    let mut one = scene(include_str!("../../scenes/spatial-four-bar.toml"));
+    one.initials.clear();
+    one.outputs.clear();
+    let (n, m, r) = rank::<3>(&one);
+    assert!(r < m);
+    // Sixty have a Jacobian that is no longer eliminated densely.
+    assert_eq!(rank::<3>(&copies(&one, 60)), (60 * n, 60 * m, 60 * r));
+}
+
 #[test]
 fn degrees_of_freedom_are_those_of_the_joints() {
     let kinds = [

@@ -9,7 +9,7 @@ mod write;
 
 pub use generate::{Family, GenerateError, MOST_BODIES, generate};
 pub use page::page;
-pub use read::{Document, Place, ReadError, ReadFault, suggestion};
+pub use read::{Document, Place, ReadError, ReadFault, Sweep, SweepFault, suggestion};
 pub use record::{
     Animation, Channel, ChannelSeries, Component, EnergySeries, IterationSeries, Polyline,
     Provenance, RunRecord, StepRow, StepSeries, Trace, ViolationSeries,
@@ -18,5 +18,6 @@ pub use report::{Report, Section};
 pub use write::{
     Absence, Change, Chosen, Contact, ControlSummary, CsvWriter, EffectEntry, EnergySummary,
     Explanation, GuideEntry, JointGroup, LargestStep, Outputs, Price, Prices, Relative, Rod,
-    RunError, RunSummary, SearchEnd, Simulated, Sizes, ViolationSummary, readable, write_steps,
+    RunError, RunSummary, SearchEnd, Simulated, Sizes, ViolationSummary, readable, shortest,
+    write_steps,
 };

@@ -13,6 +13,7 @@ mod settings;
 mod simulation;
 mod statics;
 mod stop;
+pub mod sweep;
 mod tree;
 pub mod words;
 
@@ -20,6 +21,7 @@ pub use mbs_augmented as augmented;
 pub use mbs_classical as classical;
 pub use mbs_core as core;
 pub use mbs_linear as linear;
+pub use mbs_parallel as parallel;
 pub use mbs_recursive as recursive;
 pub use mbs_scene as scene_file;
 pub use mbs_sparse as sparse;

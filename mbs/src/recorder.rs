@@ -41,12 +41,24 @@ pub(crate) struct Recorder {
     max_violation: [f64; 3],
     /// Largest values since the last row, so that thinning hides no peak.
     recent: StepMark,
+    keep: Keep,
+    /// Least and largest value of each component over the rows, kept or not.
+    ranges: Vec<[f64; 2]>,
+}
+
+/// Which rows of a run stay in memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Keep {
+    /// All: for files and pages.
+    Rows,
+    /// The last: for a row in a table of many runs.
+    Last,
 }
 
 impl Recorder {
     /// For a run of `n_steps`, as far as that is known, from the invariant at the start.
-    pub(crate) fn new(channels: Vec<Channel>, n_steps: u64, initial: f64) -> Self {
-        let n_columns = channels.iter().map(|c| c.components.len()).sum();
+    pub(crate) fn new(channels: Vec<Channel>, n_steps: u64, initial: f64, keep: Keep) -> Self {
+        let n_columns: usize = channels.iter().map(|c| c.components.len()).sum();
         Self {
             channels,
             marks: Vec::new(),
@@ -56,6 +68,8 @@ impl Recorder {
             initial,
             max_violation: [0.0; 3],
             recent: StepMark::default(),
+            keep,
+            ranges: vec![[f64::INFINITY, f64::NEG_INFINITY]; n_columns],
         }
     }
 
@@ -81,6 +95,13 @@ impl Recorder {
     pub(crate) fn keep(&mut self, step: &StepMark, values: &[f64]) {
         // A step that was marked is among the recent ones; a start and a stop are not.
         let is_marked = self.recent.step.length > 0.0 && self.recent.t >= step.t;
+        if self.keep == Keep::Last {
+            self.marks.clear();
+            self.rows.clear();
+        }
+        for ([least, most], &value) in self.ranges.iter_mut().zip(values) {
+            (*least, *most) = (least.min(value), most.max(value));
+        }
         self.marks.push(if is_marked { self.recent.clone() } else { step.after(&self.recent) });
         self.rows.extend_from_slice(values);
         self.recent = StepMark::default();
@@ -111,6 +132,16 @@ impl Recorder {
     pub(crate) fn violation_summary(&self) -> ViolationSummary {
         let [position, velocity, acceleration] = self.max_violation;
         ViolationSummary { position, velocity, acceleration }
+    }
+
+    /// Do all rows stay in memory?
+    pub(crate) fn keeps_all(&self) -> bool {
+        self.keep == Keep::Rows
+    }
+
+    /// Least and largest value of each component over the rows.
+    pub(crate) fn ranges(&self) -> &[[f64; 2]] {
+        &self.ranges
     }
 
     /// The last row by channels.

@@ -2,7 +2,7 @@
 
 use crate::channels::Channels;
 use crate::figure::Figure;
-use crate::recorder::{Recorder, StepMark};
+use crate::recorder::{Keep, Recorder, StepMark};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::{Names, StopError};
@@ -48,6 +48,7 @@ pub struct Outcome {
     record: RunRecord,
     channels: Vec<Channel>,
     table: Vec<(f64, Vec<f64>)>,
+    ranges: Vec<[f64; 2]>,
     steps: StepSeries,
 }
 
@@ -91,6 +92,12 @@ impl Outcome {
         &self.table
     }
 
+    /// Least and largest value of each component of each channel, over the rows; empty when the run did not start.
+    #[must_use]
+    pub fn ranges(&self) -> &[[f64; 2]] {
+        &self.ranges
+    }
+
     /// What the user should know.
     #[must_use]
     pub fn notes(&self) -> &[String] {
@@ -103,6 +110,19 @@ pub fn run<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
     progress: &mut impl Progress,
+) -> Outcome
+where
+    Plane<D>: InSpace<T>,
+{
+    run_keeping(scene, settings, progress, Keep::Rows)
+}
+
+/// [`run`], with all rows and pictures, or with the last row and no picture.
+pub(crate) fn run_keeping<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    progress: &mut impl Progress,
+    keep: Keep,
 ) -> Outcome
 where
     Plane<D>: InSpace<T>,
@@ -120,7 +140,7 @@ where
         Err(error) => return not_started(scene, settings, &channels, &names, error),
     };
     let n_steps = settings.n_steps();
-    let recorder = Recorder::new(channels, n_steps, simulation.invariant().initial());
+    let recorder = Recorder::new(channels, n_steps, simulation.invariant().initial(), keep);
     let figure = Figure::new(scene, simulation.model(), settings.duration);
     let mut run = Run {
         scene,
@@ -196,7 +216,9 @@ where
     fn row(&mut self, mark: &StepMark, is_last: bool) {
         let state = self.simulation.state();
         self.measures.write(state, &mut self.values);
-        self.figure.offer(mark.t, &state.q, is_last);
+        if self.recorder.keeps_all() {
+            self.figure.offer(mark.t, &state.q, is_last);
+        }
         self.recorder.keep(mark, &self.values);
     }
 
@@ -378,7 +400,8 @@ where
         };
         let table = self.recorder.table().map(|(t, row)| (t, row.to_vec())).collect();
         let channels = self.recorder.channels.clone();
-        Outcome { summary, error, record, channels, table, steps }
+        let ranges = self.recorder.ranges().to_vec();
+        Outcome { summary, error, record, channels, table, ranges, steps }
     }
 }
 
@@ -439,6 +462,7 @@ fn not_started<T: Real>(
         record,
         channels: channels.to_vec(),
         table: Vec::new(),
+        ranges: Vec::new(),
         steps: StepSeries::default(),
     }
 }

@@ -10,6 +10,7 @@ mod nostd;
 mod page;
 mod pick;
 mod process;
+mod races;
 mod simulate;
 mod steps;
 mod summary;
@@ -82,6 +83,8 @@ enum Job {
     },
     /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
     Counts,
+    /// Watch the lock-free team of mbs-parallel for data races, under ThreadSanitizer
+    Races,
     /// Cross-compile the no_std crates for a microcontroller, without and with alloc
     CheckNostd,
 }
@@ -97,6 +100,7 @@ fn main() -> ExitCode {
             bench::bench(&bench::Asked { threads, quick, scenes })
         }
         Job::Counts => counts::counts(),
+        Job::Races => races::races(),
         Job::CheckNostd => nostd::check_nostd(),
     }
 }

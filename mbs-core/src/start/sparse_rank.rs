@@ -55,8 +55,11 @@ type Turn = (u32, usize, usize);
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small number")]
 fn turn<T: Real>(row: &Row<T>, k: usize) -> Option<Turn> {
     let square = entry(row, k);
+    if !(square > T::EPSILON * T::from_f64(ROUNDINGS)) {
+        return None;
+    }
     let class = (-libm::log10(square.to_f64()) / DECADES).max(0.0);
-    (square > T::EPSILON * T::from_f64(ROUNDINGS)).then(|| (class as u32, row.len(), k))
+    Some((class as u32, row.len(), k))
 }
 
 /// S = J J^T with the rows of J scaled to unit length; rows of zeros stay empty.

@@ -23,11 +23,11 @@ at one end and let go from the horizontal.
 Each link is a uniform square bar of 1 kg, 0.2 m long and 0.04 m wide. Four links make a turn of a coil along x: a straight
 chain would pull at all its links at once, a coil gives way, so that its length is no matter. It starts at rest but for the
 second joint, which turns with 0.5 rad/s about z; the others follow with the least kinetic energy. No loops; the energy is
-kept.";
+kept. After half a second the first turns are pulled straight and whip: that takes shorter steps.";
 
 pub(super) fn text(bodies: usize, command: &str) -> String {
     let mut text = Text::new(COMMENT, command);
-    text.scene(&format!("spatial chain of {bodies}"), 3, 2.0);
+    text.scene(&format!("spatial chain of {bodies}"), 3, 0.5);
     let link = |k: usize| if k == 0 { "ground".to_owned() } else { format!("link-{k}") };
     for k in 1..=bodies {
         let (from, to) = (place(k - 1), place(k));

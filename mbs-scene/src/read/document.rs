@@ -157,6 +157,15 @@ impl Document {
         }
     }
 
+    /// The tree, for paths into it.
+    pub(crate) fn root(&self) -> &[Member] {
+        &self.root
+    }
+
+    pub(crate) fn root_mut(&mut self) -> &mut [Member] {
+        &mut self.root
+    }
+
     pub(crate) fn top(&self, key: &str) -> Option<&Item> {
         self.root.iter().find(|member| member.key == key).map(|member| &member.item)
     }
@@ -201,7 +210,7 @@ impl Document {
         ReadError::new(&self.file, place, ReadFault::Scene(error))
     }
 
-    fn entries<'a, R>(
+    pub(crate) fn entries<'a, R>(
         &'a self,
         context: &Context<'a>,
         key: &'static str,

@@ -1,7 +1,7 @@
 //! What can be wrong with a scene file.
 
-use crate::read::Place;
 use crate::read::nearest::nearest;
+use crate::read::{Place, SweepFault};
 use core::fmt::{self, Display, Formatter, Write};
 use mbs_core::scene::{Entry, SceneError, SceneFault};
 
@@ -101,6 +101,8 @@ pub enum ReadFault {
     },
     /// The scene is read, but cannot be meant.
     Scene(SceneError),
+    /// A sweep that does not fit its scene, or cannot be meant.
+    Sweep(SweepFault),
 }
 
 impl ReadError {
@@ -174,6 +176,7 @@ impl Display for ReadFault {
                 write!(f, "`{field}` is already prescribed by {}", numbered(*entry, *first))
             }
             Self::Scene(error) => write!(f, "`{}` {:#}", error.field, error.fault),
+            Self::Sweep(fault) => write!(f, "{fault}"),
         }
     }
 }
@@ -208,6 +211,7 @@ impl ReadFault {
             Self::Missing { key } => format!("add `{key}`"),
             Self::Both { .. } => "keep one of the two".to_owned(),
             Self::Scene(error) => error.fault.advice().to_owned(),
+            Self::Sweep(fault) => fault.hint(),
         }
     }
 }

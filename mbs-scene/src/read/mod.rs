@@ -12,6 +12,7 @@ mod nearest;
 mod output;
 mod place;
 mod road;
+mod sweep;
 #[cfg(test)]
 mod tests;
 pub(crate) mod tree;
@@ -19,3 +20,4 @@ pub(crate) mod tree;
 pub use document::Document;
 pub use error::{ReadError, ReadFault, suggestion};
 pub use place::Place;
+pub use sweep::{Sweep, SweepFault};

@@ -99,7 +99,8 @@ pub fn write_steps(sink: impl Write, steps: &StepSeries) -> io::Result<()> {
 }
 
 /// The shortest decimal text that reads back as the same number; exponents where they are shorter.
-fn shortest(x: f64) -> String {
+#[must_use]
+pub fn shortest(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 || !x.is_finite() || (1.0e-4..1.0e15).contains(&size) {
         format!("{x}")

@@ -7,11 +7,16 @@ use std::path::Path;
 
 /// Reads a scene file and its scene; else the refusal.
 pub(crate) fn scene(path: &Path) -> Result<(Document, Scene<f64>), String> {
-    let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
-    let document = Document::from_bytes(&bytes, &path.display().to_string());
-    let document = document.map_err(|error| error.render())?;
+    let document = document(path, "scene file")?;
     let scene = document.scene::<f64>().map_err(|error| error.render())?;
     Ok((document, scene))
+}
+
+/// Reads a file of a kind that is called `what`; else the refusal.
+pub(crate) fn document(path: &Path, what: &str) -> Result<Document, String> {
+    let bytes = std::fs::read(path).map_err(|error| unreadable(path, what, &error))?;
+    let document = Document::from_bytes(&bytes, &path.display().to_string());
+    document.map_err(|error| error.render())
 }
 
 /// A refusal of settings, with its place when the scene asks for them.
@@ -61,17 +66,17 @@ fn processor() -> String {
     line.and_then(|l| l.split_once(':')).map(|(_, name)| name.trim().to_owned()).unwrap_or_default()
 }
 
-/// The message for a scene file that cannot be read.
-fn unreadable(scene: &Path, error: &std::io::Error) -> String {
-    let with_ending = scene.with_extension("toml");
-    let hint = if scene.is_dir() {
-        "that is a directory; give a scene file in it".to_owned()
+/// The message for a file that cannot be read.
+fn unreadable(path: &Path, what: &str, error: &std::io::Error) -> String {
+    let with_ending = path.with_extension("toml");
+    let hint = if path.is_dir() {
+        format!("that is a directory; give a {what} in it")
     } else if with_ending.is_file() {
         format!("did you mean `{}`?", with_ending.display())
     } else {
-        "give the path of a scene file; it ends with .toml".to_owned()
+        format!("give the path of a {what}; it ends with .toml")
     };
-    format!("error: cannot read `{}`: {}\nhint: {hint}", scene.display(), plain(error))
+    format!("error: cannot read `{}`: {}\nhint: {hint}", path.display(), plain(error))
 }
 
 /// The message for a directory that cannot be written.

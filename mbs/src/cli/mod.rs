@@ -5,6 +5,7 @@ mod explain;
 mod files;
 mod generate;
 mod run;
+mod sweep;
 mod table;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -23,10 +24,10 @@ const ABOUT: &str =
     "Dynamics of multibody systems: a scene file in; motion, energies and plots out.";
 const STATUS: &str = "\
 Example: mbs run scenes/double-pendulum.toml --out out
-Exit status: 0 completed, 1 scene or usage refused, 2 the run stopped early (its data are kept), or there is no
-equilibrium.";
+Exit status: 0 completed, 1 scene or usage refused, 2 the run stopped early or some of a sweep did (their data are
+kept), or there is no equilibrium.";
 /// Commands of the format's contract that are not built yet.
-const NOT_BUILT: [&str; 4] = ["compare", "doctor", "sweep", "export"];
+const NOT_BUILT: [&str; 3] = ["compare", "doctor", "export"];
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -40,6 +41,8 @@ enum Command {
     Modes(analysis::Modes),
     /// Write a large scene: chain, tree, n-four-bar, net, or a convoy of a vehicle.
     Generate(generate::Arguments),
+    /// Many runs of a scene with varied numbers: one table, resumable after a kill.
+    Sweep(sweep::Arguments),
 }
 
 /// Exit status of a refusal.
@@ -66,6 +69,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Equilibrium(arguments) => analysis::equilibrium(&arguments),
         Command::Modes(arguments) => analysis::modes(&arguments),
         Command::Generate(arguments) => generate::main(&arguments),
+        Command::Sweep(arguments) => sweep::main(&arguments),
     }
 }
 

@@ -1,0 +1,129 @@
+//! Ensembles: independent jobs over threads, results to one sink.
+
+#[cfg(test)]
+mod tests;
+
+use core::any::Any;
+use core::fmt::{self, Display, Formatter};
+use core::num::NonZeroUsize;
+use core::ops::ControlFlow;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+
+/// A pool of threads for ensembles; its own, never rayon's global one.
+#[derive(Debug)]
+pub struct Ensemble {
+    pool: ThreadPool,
+    threads: NonZeroUsize,
+}
+
+/// The system gave no threads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum EnsembleError {
+    /// So many threads could not be started.
+    Threads(NonZeroUsize),
+}
+
+/// What a job that panicked said.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Panicked(String);
+
+impl Ensemble {
+    /// Starts `threads` threads, or as many as there are processors for this process. One thread takes the same path as many.
+    ///
+    /// Cost: the threads stand by until the ensemble is dropped, without load.
+    ///
+    /// # Errors
+    /// [`EnsembleError::Threads`] when the system gives fewer.
+    pub fn new(threads: Option<NonZeroUsize>) -> Result<Self, EnsembleError> {
+        let threads = threads.unwrap_or_else(available);
+        let builder = ThreadPoolBuilder::new().num_threads(threads.get());
+        let pool = builder.thread_name(|i| format!("ensemble-{i}")).build();
+        let pool = pool.map_err(|_| EnsembleError::Threads(threads))?;
+        Ok(Self { pool, threads })
+    }
+
+    /// Threads that jobs run on.
+    #[must_use]
+    pub fn threads(&self) -> NonZeroUsize {
+        self.threads
+    }
+
+    /// Runs `job(i)` for every `i` in `jobs`, and hands each result to `sink` in the order of completion.
+    ///
+    /// Jobs begin in the order of the list: each thread takes the next one when it has finished its last. `sink` is called on
+    /// the calling thread, which runs no job. When it breaks, no further job begins, and the results of those under way are
+    /// dropped. A job that panics is a result too; whatever it left behind must not be seen by others, so jobs should share
+    /// only what they do not change.
+    ///
+    /// Cost: one atomic addition and one message for each job.
+    pub fn run<R: Send>(
+        &self,
+        jobs: &[usize],
+        job: impl Fn(usize) -> R + Sync,
+        mut sink: impl FnMut(usize, Result<R, Panicked>) -> ControlFlow<()>,
+    ) {
+        let next = AtomicUsize::new(0);
+        let (sender, receiver) = mpsc::channel();
+        self.pool.in_place_scope(|scope| {
+            let (next, job) = (&next, &job);
+            scope.spawn_broadcast(move |_, _| {
+                while let Some(&i) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let result = catch_unwind(AssertUnwindSafe(|| job(i)));
+                    if sender.send((i, result.map_err(Panicked::new))).is_err() {
+                        break;
+                    }
+                }
+            });
+            // ends when every thread has dropped its sender
+            for (i, result) in receiver {
+                if sink(i, result).is_break() {
+                    next.store(jobs.len(), Ordering::Relaxed);
+                    break;
+                }
+            }
+        });
+    }
+}
+
+/// Processors that this process may use; one where the system does not say.
+#[must_use]
+pub fn available() -> NonZeroUsize {
+    std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
+}
+
+impl Panicked {
+    /// Takes the words of a panic; those of [`panic!`] are texts.
+    fn new(payload: Box<dyn Any + Send>) -> Self {
+        let text = payload.downcast_ref::<&str>().map(|text| (*text).to_owned());
+        let text = text.or_else(|| payload.downcast_ref::<String>().cloned());
+        Self(text.unwrap_or_else(|| "no message".to_owned()))
+    }
+
+    /// The message.
+    #[must_use]
+    pub fn message(&self) -> &str {
+        &self.0
+    }
+}
+
+impl Display for Panicked {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "panicked: {}", self.0)
+    }
+}
+
+impl core::error::Error for Panicked {}
+
+impl Display for EnsembleError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Threads(n) => write!(f, "{n} threads could not be started: try fewer"),
+        }
+    }
+}
+
+impl core::error::Error for EnsembleError {}

@@ -1,0 +1,176 @@
+//! Teams: every piece of work is done once, panics come through, and nothing is left behind.
+
+use mbs_core::team::{self, Alone, Team};
+use mbs_parallel::{Crew, Pool, Threads};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+fn teams() -> Vec<Threads> {
+    let crews = [2, 3, 8].map(|n| Threads::Crew(Crew::new(n).expect("threads")));
+    let mut teams: Vec<Threads> = [Threads::One].into_iter().chain(crews).collect();
+    // Rayon's locks are in the standard library, which `cargo xtask races` cannot watch.
+    if option_env!("MBS_SANITIZED").is_none() {
+        teams.extend([1, 2, 3].map(|n| Threads::Pool(Pool::new(n).expect("threads"))));
+    }
+    teams
+}
+
+/// A binary tree of forks of so many levels; the leaves are counted and their numbers summed.
+fn forks(team: &Threads, level: u32, number: u64, leaves: &AtomicUsize) -> u64 {
+    if level == 0 {
+        leaves.fetch_add(1, Ordering::Relaxed);
+        return number;
+    }
+    let (a, b) = team.join(
+        || forks(team, level - 1, 2 * number, leaves),
+        || forks(team, level - 1, 2 * number + 1, leaves),
+    );
+    a + b
+}
+
+#[test]
+fn every_leaf_of_nested_forks_is_run_once() {
+    // More forks than the queue of a crew has places. Leaves are numbered 2^12 .. 2^13.
+    for team in teams() {
+        for _ in 0..20 {
+            let leaves = AtomicUsize::new(0);
+            let sum = forks(&team, 12, 1, &leaves);
+            assert_eq!(leaves.into_inner(), 4096, "{team:?}");
+            assert_eq!(sum, (4096..8192).sum::<u64>(), "{team:?}");
+        }
+    }
+}
+
+#[test]
+fn the_two_sides_of_a_fork_may_borrow_and_give_values() {
+    for team in teams() {
+        let mut numbers = vec![1_u64; 1000];
+        let (left, right) = numbers.split_at_mut(300);
+        let (a, b) = team.join(
+            || {
+                left.fill(2);
+                left.iter().sum::<u64>()
+            },
+            || {
+                right.fill(3);
+                format!("{}", right.len())
+            },
+        );
+        assert_eq!((a, b.as_str()), (600, "700"));
+        assert_eq!(numbers.iter().sum::<u64>(), 600 + 2100);
+    }
+}
+
+#[test]
+fn a_panic_on_either_side_reaches_the_caller_and_the_team_works_on() {
+    for team in teams() {
+        for side in [0, 1, 2] {
+            let done = AtomicUsize::new(0);
+            let act = |me: usize| {
+                if side == me || side == 2 {
+                    panic!("on purpose");
+                }
+                done.fetch_add(1, Ordering::Relaxed);
+            };
+            let result = catch_unwind(AssertUnwindSafe(|| team.join(|| act(0), || act(1))));
+            assert!(result.is_err(), "{team:?}");
+            // A side that does not panic may or may not have begun; it never runs after the caller went on.
+            let before = done.load(Ordering::Relaxed);
+            let leaves = AtomicUsize::new(0);
+            assert_eq!(forks(&team, 6, 1, &leaves), (64..128).sum::<u64>());
+            assert_eq!(done.load(Ordering::Relaxed), before);
+        }
+    }
+}
+
+#[test]
+fn values_of_a_fork_are_dropped_once() {
+    struct Counted<'a>(&'a AtomicUsize);
+    impl Drop for Counted<'_> {
+        fn drop(&mut self) {
+            self.0.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+    for team in teams() {
+        let drops = AtomicUsize::new(0);
+        let (captured, in_panic) = (Counted(&drops), Counted(&drops));
+        let (a, b) = team.join(
+            || Counted(&drops),
+            || {
+                let _captured = captured;
+                Counted(&drops)
+            },
+        );
+        assert_eq!(drops.load(Ordering::Relaxed), 1, "{team:?}");
+        drop((a, b));
+        let result = catch_unwind(AssertUnwindSafe(|| {
+            team.join(
+                || (),
+                || {
+                    let _in_panic = in_panic;
+                    panic!("on purpose");
+                },
+            )
+        }));
+        assert!(result.is_err());
+        assert_eq!(drops.load(Ordering::Relaxed), 4, "{team:?}");
+    }
+}
+
+#[test]
+fn a_crew_may_be_called_by_several_threads_and_dropped_by_any() {
+    let crew = Crew::new(3).expect("threads");
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            let team = Threads::Crew(crew.clone());
+            scope.spawn(move || {
+                let leaves = AtomicUsize::new(0);
+                for _ in 0..50 {
+                    assert_eq!(forks(&team, 8, 1, &leaves), (256..512).sum::<u64>());
+                }
+            });
+        }
+    });
+    drop(crew);
+}
+
+#[test]
+fn a_crew_that_fell_asleep_works_on() {
+    let team = Threads::Crew(Crew::new(3).expect("threads"));
+    for _ in 0..3 {
+        std::thread::sleep(std::time::Duration::from_millis(40));
+        let leaves = AtomicUsize::new(0);
+        assert_eq!(forks(&team, 8, 1, &leaves), (256..512).sum::<u64>());
+    }
+}
+
+#[test]
+fn vectors_and_sums_have_the_bits_of_one_thread() {
+    let x: Vec<f64> = (0..100_003).map(|i| f64::from(i).sin() * 1e3).collect();
+    let dot = |team: &Threads| {
+        team::sum(team, x.len(), |from, to| x[from..to].iter().fold(0.0, |sum, x| sum + x * x))
+    };
+    let expected = dot(&Threads::One);
+    // Against the sum in order: rounding of 1e5 additions of up to 1e6.
+    let plain: f64 = x.iter().map(|x| x * x).sum();
+    assert!((expected - plain).abs() < 1e-12 * plain);
+    for team in teams() {
+        assert_eq!(dot(&team).to_bits(), expected.to_bits(), "{team:?}");
+        let largest = team::norm_inf(&team, &x);
+        assert_eq!(largest.to_bits(), team::norm_inf(&Alone, &x).to_bits());
+        let (mut y, mut z) = (x.clone(), vec![0.0; x.len()]);
+        team::on_stretches(&team, [&mut y, &mut z], |first, [y, z]| {
+            for (k, (y, z)) in y.iter_mut().zip(z).enumerate() {
+                *y += x[first + k];
+                *z = *y;
+            }
+        });
+        assert!(y.iter().zip(&x).all(|(y, x)| y.to_bits() == (x + x).to_bits()), "{team:?}");
+        assert!(y.iter().zip(&z).all(|(y, z)| y.to_bits() == z.to_bits()), "{team:?}");
+    }
+    let mut broken = x;
+    broken[70_000] = f64::NAN;
+    for team in teams() {
+        assert!(!team::norm_inf(&team, &broken).is_finite(), "{team:?}");
+    }
+}

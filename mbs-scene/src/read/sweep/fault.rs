@@ -1,0 +1,194 @@
+//! What can be wrong with a sweep, beside what can be wrong with any file.
+
+use crate::read::error::suggestion;
+use crate::write::readable;
+use core::fmt::{self, Display, Formatter};
+
+/// The faults of a sweep file.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum SweepFault {
+    /// A path that cannot be read; what is wrong with it.
+    PathSyntax(&'static str),
+    /// A table of the scene without this key.
+    NoKey {
+        /// The table, as the path names it; empty for the file itself.
+        at: String,
+        /// The key.
+        key: String,
+        /// The keys that are written there.
+        known: Vec<String>,
+    },
+    /// A list of tables without an entry of this name.
+    NoEntry {
+        /// The list, such as `body`.
+        table: String,
+        /// The name.
+        name: String,
+        /// The names that are there.
+        known: Vec<String>,
+    },
+    /// A name that several entries have.
+    Ambiguous {
+        /// The list, such as `initial`.
+        table: String,
+        /// Positions of the entries, from 0.
+        entries: Vec<usize>,
+    },
+    /// An index beyond the end of a list.
+    NoIndex {
+        /// The list, as the path names it.
+        at: String,
+        /// The index, from 0.
+        index: usize,
+        /// Entries there.
+        count: usize,
+    },
+    /// A path that ends at something else than a number, or goes on where it should end.
+    NotANumber {
+        /// The place, as the path names it.
+        at: String,
+        /// What is there.
+        found: &'static str,
+        /// What to do.
+        advice: String,
+    },
+    /// A number that makes another scene of it.
+    Fixed,
+    /// A place that two parameters set.
+    SetTwice {
+        /// The parameter that sets it already.
+        by: String,
+    },
+    /// A column name that is taken.
+    NameTaken(String),
+    /// No `[[vary]]`, or one without values.
+    NoValues,
+    /// A seed that is none.
+    NotASeed(String),
+    /// A range whose ends are equal.
+    NoRange,
+    /// A logarithmic range that reaches zero or less.
+    NotLogarithmic,
+    /// A step that leads away from the end, or over it.
+    Step {
+        /// First value.
+        from: f64,
+        /// End of the range.
+        to: f64,
+    },
+    /// Members beyond what a sweep may have; as many as can be told.
+    TooMany(f64),
+    /// Values that pair off with none of the others.
+    ZipCount {
+        /// The first parameter.
+        first: String,
+        /// Its values.
+        needed: usize,
+        /// The values here.
+        found: usize,
+    },
+    /// A value that the scene refuses.
+    Refused {
+        /// The value.
+        value: String,
+        /// The parameter.
+        name: String,
+        /// What the scene says.
+        problem: String,
+        /// What to do.
+        advice: String,
+    },
+}
+
+/// Members of a sweep at most.
+pub(super) const MOST_MEMBERS: u32 = 1_000_000;
+
+impl Display for SweepFault {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::PathSyntax(problem) => write!(f, "this is no path: {problem}"),
+            Self::NoKey { at, key, .. } if at.is_empty() => {
+                write!(f, "the scene has no table `{key}`")
+            }
+            Self::NoKey { at, key, .. } => write!(f, "`{at}` has no key `{key}` in the scene"),
+            Self::NoEntry { table, name, .. } => {
+                write!(f, "the scene has no [[{table}]] called `{name}`")
+            }
+            Self::Ambiguous { table, entries } => {
+                write!(f, "{} entries [[{table}]] of the scene go by this name", entries.len())
+            }
+            Self::NoIndex { at, index, count } => {
+                write!(f, "`{at}` has {count} entries in the scene, none is number [{index}]")
+            }
+            Self::NotANumber { at, found, .. } => {
+                write!(f, "only numbers are varied, and `{at}` is {found} in the scene")
+            }
+            Self::Fixed => write!(f, "the dimension cannot be varied"),
+            Self::SetTwice { by } => write!(f, "this place is already set by `{by}`"),
+            Self::NameTaken(name) => write!(f, "the table has another column `{name}`"),
+            Self::NoValues => write!(f, "there is nothing to vary"),
+            Self::NotASeed(text) => write!(f, "`{text}` is no seed"),
+            Self::NoRange => write!(f, "the range ends where it begins"),
+            Self::NotLogarithmic => write!(f, "a logarithmic range must stay above zero"),
+            Self::Step { from, to } => write!(
+                f,
+                "no step of this length leads from {} towards {}",
+                readable(*from),
+                readable(*to)
+            ),
+            Self::TooMany(n) => write!(f, "{n} members are more than {MOST_MEMBERS}"),
+            Self::ZipCount { first, needed, found } => write!(
+                f,
+                "zip pairs values one to one, but here are {found} and `{first}` has {needed}"
+            ),
+            Self::Refused { value, name, problem, .. } => {
+                write!(f, "the scene refuses {value} as `{name}`: {problem}")
+            }
+        }
+    }
+}
+
+impl SweepFault {
+    /// What to do about it.
+    pub(crate) fn hint(&self) -> String {
+        match self {
+            Self::PathSyntax(_) => {
+                "write table, name, key and index, such as body.crank.mass, joint.\"front left\".at[0]"
+                    .to_owned()
+            }
+            Self::NoKey { at, key, known } if at.is_empty() => suggestion(key, known, "tables"),
+            Self::NoKey { key, known, .. } => {
+                let advice = suggestion(key, known, "keys");
+                format!("{advice}; a key left out in the scene is varied once it is written there")
+            }
+            Self::NoEntry { name, known, .. } => suggestion(name, known, "names"),
+            Self::Ambiguous { table, entries } => {
+                let paths: Vec<_> = entries.iter().map(|i| format!("{table}[{i}]")).collect();
+                format!("write {}", paths.join(" or "))
+            }
+            Self::NoIndex { count: 0, .. } => "name another place".to_owned(),
+            Self::NoIndex { count, .. } => format!("count from [0] to [{}]", count - 1),
+            Self::NotANumber { advice, .. } | Self::Refused { advice, .. } => advice.clone(),
+            Self::Fixed => "write a scene for each dimension".to_owned(),
+            Self::SetTwice { .. } => "leave one out, or let one of them `shift` it".to_owned(),
+            Self::NameTaken(_) => "give the parameter a `name` of its own".to_owned(),
+            Self::NoValues => {
+                "add [[vary]] with `path` and `values`, or with `from`, `to` and `count`".to_owned()
+            }
+            Self::NotASeed(_) => "write a whole number from 0".to_owned(),
+            Self::NoRange => "write two different ends, or `values = [..]`".to_owned(),
+            Self::NotLogarithmic => {
+                "write two positive ends, or leave `scale = \"log\"` out".to_owned()
+            }
+            Self::Step { .. } => {
+                "give it the sign that leads from `from` to `to`, and at most their distance"
+                    .to_owned()
+            }
+            Self::TooMany(_) => "write fewer values, or sample a Latin hypercube".to_owned(),
+            Self::ZipCount { .. } => {
+                "write as many values for each, or `combine = \"grid\"`".to_owned()
+            }
+        }
+    }
+}

@@ -1,0 +1,282 @@
+//! Sweep files: which numbers of a scene are varied, and how.
+
+mod fault;
+mod path;
+mod reader;
+#[cfg(test)]
+mod tests;
+mod values;
+
+pub use fault::SweepFault;
+
+use crate::read::fields::Read;
+use crate::read::tree::Span;
+use crate::read::{Document, ReadError, ReadFault};
+use crate::write::rounded;
+use fault::MOST_MEMBERS;
+use mbs_core::scene::{Scene, SceneFault};
+use path::Address;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A sweep: parameters with their values, and the members that these make. Numbers are decimal text, as in a scene.
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    document: Document,
+    combine: Combine,
+    parameters: Vec<Parameter>,
+    places: Vec<PlaceOfScene>,
+    n_members: usize,
+}
+
+/// How values of several parameters are combined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Combine {
+    /// Each with each; the last parameter changes fastest.
+    Grid,
+    /// One to one.
+    Zip,
+    /// So many samples.
+    Latin(u32),
+}
+
+/// What `[[vary]]` says.
+#[derive(Debug, Clone)]
+struct Parameter {
+    name: String,
+    /// Of the name, or of the path where there is none.
+    span: Span,
+    /// Places that take the value, that of `path` first.
+    sets: Vec<(Address, Span)>,
+    /// Places that move by as much as `path` does.
+    shifts: Vec<(Address, Span)>,
+    texts: Vec<String>,
+    /// Of each value, or one for all.
+    value_spans: Vec<Span>,
+    /// Of a range, tried beside its values.
+    ends: Vec<(String, Span)>,
+}
+
+/// A number of the scene that members replace.
+#[derive(Debug, Clone)]
+struct PlaceOfScene {
+    address: Address,
+    /// What the scene says.
+    base: f64,
+    set_by: Option<usize>,
+    /// Parameters that shift it, with what the scene says at their paths.
+    shifts: Vec<(usize, f64)>,
+}
+
+/// Digits that a sum of decimals keeps.
+const DIGITS: usize = 15;
+
+impl Sweep {
+    /// Reads a sweep of a scene. `columns` are the names that parameters must not have.
+    ///
+    /// # Errors
+    /// What is unknown, missing, or cannot be meant in the sweep file, with its place there.
+    pub fn read(sweep: &Document, scene: &Document, columns: &[String]) -> Result<Self, ReadError> {
+        let (combine, parameters) = reader::read(sweep, scene)?;
+        let mut sweep =
+            Self { document: sweep.clone(), combine, parameters, places: Vec::new(), n_members: 0 };
+        sweep.check_names(columns)?;
+        sweep.places = sweep.lay_out(scene)?;
+        sweep.n_members = sweep.count()?;
+        Ok(sweep)
+    }
+
+    /// Number of members.
+    #[must_use]
+    pub fn n_members(&self) -> usize {
+        self.n_members
+    }
+
+    /// The names of the parameters, in the order of the file.
+    pub fn names(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.parameters.iter().map(|parameter| parameter.name.as_str())
+    }
+
+    /// The decimal texts of a member's values, in the order of the parameters; members count from 0.
+    pub fn values(&self, member: usize) -> impl ExactSizeIterator<Item = &str> {
+        let choice = self.choice(member);
+        self.parameters.iter().zip(choice).map(|(p, i)| p.texts[i].as_str())
+    }
+
+    /// The scene of a member. Places in messages are those of the scene's file.
+    ///
+    /// Cost: a copy of the document; nothing is read or parsed again.
+    #[must_use]
+    pub fn member(&self, scene: &Document, member: usize) -> Document {
+        let values: Vec<&str> = self.values(member).collect();
+        self.replaced(scene, |p| Some(values[p]))
+    }
+
+    /// Tries the values one by one in the scene as it is otherwise, those of a list all and those of a range at its ends, and
+    /// refuses one that no other value could mend: a negative mass, a count with decimals. `also` may refuse a scene with a
+    /// problem and an advice.
+    ///
+    /// Cost: each trial reads the scene.
+    ///
+    /// # Errors
+    /// [`SweepFault::Refused`] at the place of the value.
+    pub fn check(
+        &self,
+        scene: &Document,
+        also: impl Fn(&Scene<f64>) -> Result<(), (String, String)>,
+    ) -> Result<(), ReadError> {
+        for (p, parameter) in self.parameters.iter().enumerate() {
+            let texts = parameter.texts.iter().enumerate();
+            let is_list = parameter.ends.is_empty();
+            // of a range, two values show whether it gives whole numbers
+            let texts = texts.take(if is_list { parameter.texts.len() } else { 2 });
+            let own = texts.map(|(i, text)| {
+                (text, parameter.value_spans.get(i).unwrap_or(&parameter.value_spans[0]))
+            });
+            for (text, span) in parameter.ends.iter().map(|(text, span)| (text, span)).chain(own) {
+                let trial = self.replaced(scene, |q| (q == p).then_some(text.as_str()));
+                let refused = match trial.scene::<f64>() {
+                    Ok(scene) => also(&scene).err(),
+                    Err(error) if is_final(error.fault()) => {
+                        Some((error.fault().to_string(), error.hint()))
+                    }
+                    Err(_) => None,
+                };
+                if let Some((problem, advice)) = refused {
+                    let (value, name) = (text.clone(), parameter.name.clone());
+                    let fault = SweepFault::Refused { value, name, problem, advice };
+                    return self.fault(span, fault);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Is a number of the scene varied, given the path that names it?
+    #[must_use]
+    pub fn varies(&self, scene: &Document, path: &str) -> bool {
+        let address = path::address(scene.root(), path);
+        address.is_ok_and(|address| self.places.iter().any(|place| place.address == address))
+    }
+
+    fn fault<R>(&self, span: &Span, fault: SweepFault) -> Read<R> {
+        Err(self.document.error(span, ReadFault::Sweep(fault)))
+    }
+
+    /// The values of a member, by index.
+    fn choice(&self, member: usize) -> Vec<usize> {
+        let mut choice = vec![member; self.parameters.len()];
+        if self.combine == Combine::Grid {
+            let mut rest = member;
+            for (i, parameter) in choice.iter_mut().zip(&self.parameters).rev() {
+                *i = rest % parameter.texts.len();
+                rest /= parameter.texts.len();
+            }
+        }
+        choice
+    }
+
+    /// The scene with some parameters at given values.
+    fn replaced<'a>(&self, scene: &Document, text: impl Fn(usize) -> Option<&'a str>) -> Document {
+        let mut document = scene.clone();
+        for place in &self.places {
+            let set = place.set_by.and_then(&text);
+            let number = |text: &str| text.parse::<f64>().ok();
+            let shifts =
+                place.shifts.iter().filter_map(|(p, from)| Some(number(text(*p)?)? - from));
+            let shift = shifts.reduce(|a, b| a + b);
+            let base = set.and_then(number).unwrap_or(place.base);
+            let new = match (set, shift) {
+                (_, Some(shift)) => rounded(base + shift, DIGITS).to_string(),
+                (Some(set), None) => set.to_owned(),
+                (None, None) => continue,
+            };
+            path::replace(document.root_mut(), &place.address, new);
+        }
+        document
+    }
+
+    fn check_names(&self, columns: &[String]) -> Read<()> {
+        let mut taken: BTreeSet<&str> = columns.iter().map(String::as_str).collect();
+        for parameter in &self.parameters {
+            let name = &parameter.name;
+            if name.is_empty() || !taken.insert(name) {
+                return self.fault(&parameter.span, SweepFault::NameTaken(name.clone()));
+            }
+        }
+        Ok(())
+    }
+
+    /// The places of the scene, each with the parameters that change it.
+    fn lay_out(&self, scene: &Document) -> Read<Vec<PlaceOfScene>> {
+        let mut places: BTreeMap<&Address, PlaceOfScene> = BTreeMap::new();
+        let base = |address: &Address| {
+            let text = path::number(scene.root(), address).unwrap_or_default();
+            text.parse::<f64>().unwrap_or_default()
+        };
+        let blank = |address: &Address| PlaceOfScene {
+            address: address.clone(),
+            base: base(address),
+            set_by: None,
+            shifts: Vec::new(),
+        };
+        for (p, parameter) in self.parameters.iter().enumerate() {
+            for (address, span) in &parameter.sets {
+                let place = places.entry(address).or_insert_with(|| blank(address));
+                if let Some(first) = place.set_by.replace(p) {
+                    let by = self.parameters[first].name.clone();
+                    return self.fault(span, SweepFault::SetTwice { by });
+                }
+            }
+            for (address, span) in &parameter.shifts {
+                let place = places.entry(address).or_insert_with(|| blank(address));
+                if parameter.sets.iter().any(|(set, _)| set == address) {
+                    let by = parameter.name.clone();
+                    return self.fault(span, SweepFault::SetTwice { by });
+                }
+                place.shifts.push((p, base(&parameter.sets[0].0)));
+            }
+        }
+        Ok(places.into_values().collect())
+    }
+
+    fn count(&self) -> Read<usize> {
+        let counts = self.parameters.iter().map(|p| p.texts.len());
+        match self.combine {
+            Combine::Latin(n) => Ok(n as usize),
+            Combine::Grid => {
+                #[allow(clippy::cast_precision_loss, reason = "sizes of lists")]
+                let product: f64 = counts.clone().map(|n| n as f64).product();
+                if product > f64::from(MOST_MEMBERS) {
+                    let last = self.parameters.last().map_or(&(0..0), |p| &p.span);
+                    return self.fault(last, SweepFault::TooMany(product));
+                }
+                Ok(counts.product())
+            }
+            Combine::Zip => {
+                let first = &self.parameters[0];
+                let needed = first.texts.len();
+                for parameter in &self.parameters {
+                    let found = parameter.texts.len();
+                    if found != needed {
+                        let first = first.name.clone();
+                        let fault = SweepFault::ZipCount { first, needed, found };
+                        return self.fault(&parameter.span, fault);
+                    }
+                }
+                Ok(needed)
+            }
+        }
+    }
+}
+
+/// Is this the fault of one number, whatever the others are?
+fn is_final(fault: &ReadFault) -> bool {
+    match fault {
+        ReadFault::NotFinite { .. } | ReadFault::NotACount { .. } => true,
+        ReadFault::Scene(error) => matches!(
+            error.fault,
+            SceneFault::NotFinite | SceneFault::NotPositive(_) | SceneFault::Negative(_)
+        ),
+        _ => false,
+    }
+}

@@ -1,0 +1,231 @@
+//! Paths to numbers of a scene: `table`, name or index of the entry, keys and indices.
+//!
+//! ```text
+//! scene.gravity[1]                          a table, a key, an index from 0
+//! body.crank.mass                           an entry by its name
+//! effect."front left spring".stiffness      in quotes where a name has other characters than letters, digits, - and _
+//! initial.pivot.rate                        [[initial]] and [[guide]] by the name of their joint or body
+//! effect[2].points[0][1]                    an entry by its place in the file, from 0
+//! ```
+
+use super::SweepFault;
+use crate::read::tree::{Item, Member, Node};
+
+/// Where a number stands in the tree: child by child.
+pub(super) type Address = Vec<usize>;
+
+/// A part of a path.
+#[derive(Debug, Clone, PartialEq)]
+enum Part {
+    Key(String),
+    Index(usize),
+}
+
+/// The address of the number that a path names.
+pub(super) fn address(root: &[Member], path: &str) -> Result<Address, SweepFault> {
+    let parts = parse(path).map_err(SweepFault::PathSyntax)?;
+    let mut walk = Walk { address: Vec::new(), at: String::new() };
+    let mut parts = parts.iter();
+    let Some(Part::Key(table)) = parts.next() else {
+        return Err(SweepFault::PathSyntax("it begins with the name of a table"));
+    };
+    let mut item = walk.key(root, table)?;
+    let mut is_entry = matches!(item.node, Node::List(_));
+    for part in parts {
+        item = match (&item.node, part) {
+            (Node::List(items), Part::Key(name)) if is_entry => walk.entry(items, table, name)?,
+            (Node::List(items), Part::Index(i)) => walk.index(items, *i)?,
+            (Node::Table(members), Part::Key(key)) => walk.key(members, key)?,
+            _ => return Err(walk.not_a_number(item)),
+        };
+        is_entry = false;
+    }
+    match &item.node {
+        Node::Number(_) if walk.at == "scene.dimension" => Err(SweepFault::Fixed),
+        Node::Number(_) => Ok(walk.address),
+        _ => Err(walk.not_a_number(item)),
+    }
+}
+
+/// The text of the number at an address.
+pub(super) fn number<'a>(root: &'a [Member], address: &[usize]) -> Option<&'a str> {
+    let (first, rest) = address.split_first()?;
+    let mut item = &root.get(*first)?.item;
+    for &i in rest {
+        item = match &item.node {
+            Node::List(items) => items.get(i)?,
+            Node::Table(members) => &members.get(i)?.item,
+            _ => return None,
+        };
+    }
+    if let Node::Number(text) = &item.node { Some(text) } else { None }
+}
+
+/// Replaces the text of the number at an address.
+pub(super) fn replace(root: &mut [Member], address: &[usize], number: String) {
+    let Some((first, rest)) = address.split_first() else { return };
+    let Some(mut item) = root.get_mut(*first).map(|member| &mut member.item) else { return };
+    for &i in rest {
+        let child = match &mut item.node {
+            Node::List(items) => items.get_mut(i),
+            Node::Table(members) => members.get_mut(i).map(|member| &mut member.item),
+            _ => None,
+        };
+        let Some(child) = child else { return };
+        item = child;
+    }
+    item.node = Node::Number(number);
+}
+
+/// The parts of a path, or what is wrong with it.
+fn parse(path: &str) -> Result<Vec<Part>, &'static str> {
+    let mut parts = Vec::new();
+    let mut rest = path.trim();
+    loop {
+        let (key, after) = word(rest)?;
+        parts.push(Part::Key(key));
+        rest = after;
+        while let Some(inside) = rest.strip_prefix('[') {
+            let (digits, after) = inside.split_once(']').ok_or("a bracket is not closed")?;
+            let index = digits.trim().parse().map_err(|_| "a bracket holds an index from 0")?;
+            parts.push(Part::Index(index));
+            rest = after;
+        }
+        match rest.strip_prefix('.') {
+            Some(after) => rest = after,
+            None if rest.is_empty() => return Ok(parts),
+            None => return Err("a dot or a bracket is missing"),
+        }
+    }
+}
+
+/// A bare or quoted word, and what follows.
+fn word(text: &str) -> Result<(String, &str), &'static str> {
+    for quote in ['"', '\''] {
+        if let Some(inside) = text.strip_prefix(quote) {
+            let (word, rest) = inside.split_once(quote).ok_or("a quote is not closed")?;
+            return Ok((word.to_owned(), rest));
+        }
+    }
+    let is_bare = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_');
+    let end = text.find(|c| !is_bare(c)).unwrap_or(text.len());
+    match end {
+        0 => Err("a word is missing; names with other characters stand in quotes"),
+        _ => Ok((text[..end].to_owned(), &text[end..])),
+    }
+}
+
+/// The way so far.
+struct Walk {
+    address: Address,
+    at: String,
+}
+
+impl Walk {
+    fn key<'a>(&mut self, members: &'a [Member], key: &str) -> Result<&'a Item, SweepFault> {
+        let Some(i) = members.iter().position(|member| member.key == key) else {
+            let known = members.iter().map(|member| member.key.clone()).collect();
+            return Err(SweepFault::NoKey { at: self.at.clone(), key: key.to_owned(), known });
+        };
+        self.address.push(i);
+        let dot = if self.at.is_empty() { "" } else { "." };
+        self.at += &format!("{dot}{key}");
+        Ok(&members[i].item)
+    }
+
+    fn index<'a>(&mut self, items: &'a [Item], index: usize) -> Result<&'a Item, SweepFault> {
+        let Some(item) = items.get(index) else {
+            return Err(SweepFault::NoIndex { at: self.at.clone(), index, count: items.len() });
+        };
+        self.address.push(index);
+        self.at += &format!("[{index}]");
+        Ok(item)
+    }
+
+    fn entry<'a>(
+        &mut self,
+        items: &'a [Item],
+        table: &str,
+        name: &str,
+    ) -> Result<&'a Item, SweepFault> {
+        let names: Vec<String> =
+            items.iter().enumerate().map(|(i, e)| called(e, table, i)).collect();
+        let entries: Vec<usize> = (0..items.len()).filter(|&i| names[i] == name).collect();
+        let table = table.to_owned();
+        match entries[..] {
+            [i] => {
+                self.address.push(i);
+                self.at += &format!(".{name}");
+                Ok(&items[i])
+            }
+            [] => Err(SweepFault::NoEntry { table, name: name.to_owned(), known: names }),
+            _ => Err(SweepFault::Ambiguous { table, entries }),
+        }
+    }
+
+    /// Something that is no number, and how the path should go on.
+    fn not_a_number(&self, item: &Item) -> SweepFault {
+        let at = &self.at;
+        let advice = match &item.node {
+            Node::List(items) => match items.len() {
+                0 => "name another place".to_owned(),
+                n => format!("add an index, from {at}[0] to {at}[{}]", n - 1),
+            },
+            Node::Table(members) => match members.first() {
+                Some(member) => format!("add a key, such as {at}.{}", member.key),
+                None => "name another place".to_owned(),
+            },
+            Node::Number(_) => format!("end the path at {at}"),
+            _ => "name a number".to_owned(),
+        };
+        SweepFault::NotANumber { at: at.clone(), found: item.node.description(), advice }
+    }
+}
+
+/// What an entry goes by: its name, else its joint or body; an effect without name as in the scene's outputs.
+fn called(item: &Item, table: &str, index: usize) -> String {
+    let text = |key: &str| match &item.node {
+        Node::Table(members) => members.iter().find(|m| m.key == key).and_then(|m| {
+            if let Node::Text(text) = &m.item.node { Some(text.clone()) } else { None }
+        }),
+        _ => None,
+    };
+    let keys: &[&str] =
+        if matches!(table, "initial" | "guide") { &["joint", "body"] } else { &["name"] };
+    let name = keys.iter().find_map(|key| text(key));
+    name.unwrap_or_else(|| format!("{table}-{}", index + 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_read_part_by_part() {
+        let key = |text: &str| Part::Key(text.to_owned());
+        assert_eq!(parse("solver.step"), Ok(vec![key("solver"), key("step")]));
+        let parts =
+            vec![key("effect"), key("front left"), key("points"), Part::Index(1), Part::Index(0)];
+        assert_eq!(parse("effect.\"front left\".points[1][0]"), Ok(parts.clone()));
+        assert_eq!(parse("effect.'front left'.points[1][0]"), Ok(parts));
+        assert_eq!(parse("body[2].mass"), Ok(vec![key("body"), Part::Index(2), key("mass")]));
+    }
+
+    #[test]
+    fn what_is_no_path_is_told_apart() {
+        for text in [
+            "",
+            ".",
+            "body.",
+            "body..mass",
+            "body.a mass",
+            "body[",
+            "body[-1].mass",
+            "body[x]",
+            "a.\"b",
+            "a]",
+        ] {
+            assert!(parse(text).is_err(), "{text}");
+        }
+    }
+}

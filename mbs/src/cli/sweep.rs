@@ -1,0 +1,189 @@
+//! `mbs sweep SCENE SWEEP`.
+
+use super::{STOPPED, files, refuse, table};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mbs::sweep::{Report, Study, StudyError, SweepError, Watch};
+use mbs::{Overrides, words};
+use mbs_scene::Document;
+use serde_json::json;
+use std::io::{IsTerminal, Write as _};
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Arguments of `mbs sweep`.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Scene file (TOML).
+    scene: PathBuf,
+    /// Sweep file (TOML): which numbers of the scene are varied, and how; docs/SWEEPS.md has its keys.
+    sweep: PathBuf,
+    /// Runs at the same time; left out: one for each processor.
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// Directory for the table and for the journal that a later start goes on from; left out: called as the sweep file,
+    /// without its ending, in the current directory.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Throw away what an earlier start left in the directory.
+    #[arg(long)]
+    restart: bool,
+    /// One JSON object on standard output and nothing else.
+    #[arg(long)]
+    json: bool,
+    /// Formulation; like the options below as in `mbs run`, the same for all members.
+    #[arg(long, value_name = "F")]
+    formulation: Option<String>,
+    /// Integrator.
+    #[arg(long, value_name = "I")]
+    integrator: Option<String>,
+    /// f32, f64; left out: f64.
+    #[arg(long, value_name = "P")]
+    precision: Option<String>,
+    /// Step [s].
+    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    step: Option<f64>,
+    /// Error of a step by its estimate, in lengths of the scene.
+    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    error_tolerance: Option<f64>,
+    /// Duration [s].
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    duration: Option<f64>,
+}
+
+impl Arguments {
+    fn overrides(&self) -> Overrides {
+        Overrides {
+            formulation: self.formulation.clone(),
+            integrator: self.integrator.clone(),
+            precision: self.precision.clone(),
+            step: self.step,
+            error_tolerance: self.error_tolerance,
+            duration: self.duration,
+            ..Overrides::default()
+        }
+    }
+
+    /// Where the results go.
+    fn out(&self) -> PathBuf {
+        let of_sweep = || PathBuf::from(self.sweep.file_stem().unwrap_or("sweep".as_ref()));
+        self.out.clone().unwrap_or_else(of_sweep)
+    }
+}
+
+/// Runs the command.
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    match run(arguments) {
+        Ok((report, out)) => tell(&report, &out, arguments),
+        Err(refusal) => refuse(&refusal),
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<(Report, PathBuf), String> {
+    let (document, _) = files::scene(&arguments.scene)?;
+    let sweep = files::document(&arguments.sweep, "sweep file")?;
+    let overrides = arguments.overrides();
+    let study = Study::new(document.clone(), &sweep, &overrides);
+    let study = study.map_err(|error| refused(&error, &document))?;
+    let out = arguments.out();
+    let mut bar = Bar::new(study.n_members(), arguments.json);
+    let report = study.run(&out, arguments.threads, arguments.restart, &mut bar);
+    bar.0.finish_and_clear();
+    Ok((report.map_err(|error| not_run(&error, &out))?, out))
+}
+
+fn refused(error: &StudyError, scene: &Document) -> String {
+    match error {
+        StudyError::Read(error) => error.render(),
+        StudyError::Settings(error) => files::refusal(error, scene),
+        other => format!("error: {other}\nhint: leave the option out, or do not vary the number"),
+    }
+}
+
+fn not_run(error: &SweepError, out: &Path) -> String {
+    let place = out.display();
+    match error {
+        SweepError::Write(error) => files::unwritable(out, error),
+        SweepError::Journal(error) => format!("error: `{place}`: {error}\nhint: {}", error.hint()),
+        other => format!("error: {other}"),
+    }
+}
+
+/// JSON or text; the exit status says whether all members were completed.
+fn tell(report: &Report, out: &Path, arguments: &Arguments) -> ExitCode {
+    let text = if arguments.json { json(report, arguments) } else { text(report, out) };
+    // A reader that has gone away is no error of the sweep.
+    let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
+    if report.failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) }
+}
+
+fn json(report: &Report, arguments: &Arguments) -> String {
+    let failures = report.failures.iter();
+    let failed: serde_json::Map<_, _> =
+        failures.map(|(code, (count, ..))| (code.clone(), json!(count))).collect();
+    let tables: Vec<_> = report.tables.iter().map(|path| path.display().to_string()).collect();
+    json!({
+        "scene": arguments.scene.display().to_string(),
+        "sweep": arguments.sweep.display().to_string(),
+        "members": report.members,
+        "completed": report.completed,
+        "failed": failed,
+        "resumed": report.resumed,
+        "threads": report.threads,
+        "wall_seconds": report.wall_seconds,
+        "cpu_seconds": report.cpu_seconds,
+        "table": tables.first(),
+        "tables": tables,
+    })
+    .to_string()
+}
+
+fn text(report: &Report, out: &Path) -> String {
+    let n = |n: usize, what: &str| table::counted(n as u64, what);
+    let mut text = format!("{} of {} completed\n", report.completed, n(report.members, "member"));
+    if report.resumed > 0 {
+        text += &format!("  {} finished by an earlier start\n", n(report.resumed, "member"));
+    }
+    for (code, (count, first, message)) in &report.failures {
+        text += &format!("  {} ended in {code}, first {first}: {message}\n", n(*count, "member"));
+    }
+    if report.resumed < report.members {
+        let (wall, cpu) = (report.wall_seconds, report.cpu_seconds);
+        let share = if wall > 0.0 { cpu / wall } else { 0.0 };
+        text += &format!(
+            "  {} in all, {} of CPU time on {}: {share:.2} at a time\n",
+            words::duration(wall),
+            words::duration(cpu),
+            n(report.threads, "thread"),
+        );
+    }
+    let names: Vec<_> =
+        report.tables.iter().filter_map(|path| path.file_name()?.to_str()).collect();
+    text + &format!("wrote {} to {}\n", names.join(" and "), out.display())
+}
+
+/// A progress bar on a terminal, nothing elsewhere.
+struct Bar(ProgressBar);
+
+impl Bar {
+    fn new(members: usize, quiet: bool) -> Self {
+        let target = if quiet || !std::io::stderr().is_terminal() {
+            ProgressDrawTarget::hidden()
+        } else {
+            ProgressDrawTarget::stderr()
+        };
+        let bar = ProgressBar::with_draw_target(Some(members as u64), target);
+        let style = ProgressStyle::with_template("{wide_bar} {pos} of {len}{msg}  {eta} left");
+        Self(style.map_or(bar.clone(), |style| bar.with_style(style)))
+    }
+}
+
+impl Watch for Bar {
+    fn finished(&mut self, done: usize, failed: usize, _: usize) {
+        self.0.set_position(done as u64);
+        if failed > 0 {
+            self.0.set_message(format!(", {failed} failed"));
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! One member of a sweep: from the varied scene to its row.
+
+use crate::Plane;
+use crate::recorder::Keep;
+use crate::run::{Outcome, run_keeping};
+use crate::settings::{Overrides, Settings};
+use core::time::Duration;
+use cpu_time::ThreadTime;
+use mbs_core::Real;
+use mbs_core::scene::Dimension;
+use mbs_scene::{Document, Sweep};
+
+/// What a member leaves behind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// The member, from 0.
+    pub member: usize,
+    /// Decimal texts of the varied numbers.
+    pub values: Vec<String>,
+    /// Code and message of a run that was not completed.
+    pub failure: Option<(String, String)>,
+    /// What was measured; nothing where the run did not start.
+    pub measured: Option<Measured>,
+    /// CPU time of the whole member, reading to the last step [s].
+    pub cpu_seconds: f64,
+}
+
+/// Numbers of a run that started.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// Time reached [s].
+    pub end_time: f64,
+    /// Steps.
+    pub steps: u64,
+    /// Largest error of the energy invariant [J].
+    pub energy: f64,
+    /// Largest violation of the constraints: positions, velocities, accelerations.
+    pub violation: [f64; 3],
+    /// Each component of each channel at the end, and its least and largest value over the rows of the run.
+    pub outputs: Vec<[f64; 3]>,
+}
+
+impl Row {
+    /// Of a member that did not start.
+    pub(super) fn failed(member: usize, values: Vec<String>, code: &str, message: &str) -> Self {
+        let failure = Some((code.to_owned(), message.to_owned()));
+        Self { member, values, failure, measured: None, cpu_seconds: 0.0 }
+    }
+}
+
+/// Runs a member.
+pub(super) fn run(scene: &Document, sweep: &Sweep, overrides: &Overrides, member: usize) -> Row {
+    let cpu = ThreadTime::try_now();
+    let document = sweep.member(scene, member);
+    let values = sweep.values(member).map(str::to_owned).collect();
+    let row = match overrides.precision.as_deref() {
+        Some("f32") => run_in::<f32>(&document, overrides, member, values),
+        _ => run_in::<f64>(&document, overrides, member, values),
+    };
+    let cpu = cpu.and_then(|cpu| cpu.try_elapsed()).unwrap_or(Duration::ZERO);
+    Row { cpu_seconds: cpu.as_secs_f64(), ..row }
+}
+
+fn run_in<T: Real>(
+    document: &Document,
+    overrides: &Overrides,
+    member: usize,
+    values: Vec<String>,
+) -> Row
+where
+    Plane<2>: crate::InSpace<T>,
+    Plane<3>: crate::InSpace<T>,
+{
+    let scene = match document.scene::<T>() {
+        Ok(scene) => scene,
+        Err(error) => return Row::failed(member, values, "scene-refused", &error.to_string()),
+    };
+    let settings = match Settings::new(&scene, overrides) {
+        Ok(settings) => settings,
+        Err(error) => return Row::failed(member, values, "settings-refused", &error.to_string()),
+    };
+    let outcome = match scene.dimension {
+        Dimension::Planar => run_keeping::<T, 2>(&scene, &settings, &mut (), Keep::Last),
+        Dimension::Spatial => run_keeping::<T, 3>(&scene, &settings, &mut (), Keep::Last),
+    };
+    let summary = &outcome.summary;
+    let failure = summary.error.as_ref().map(|error| (error.code.clone(), error.message.clone()));
+    let measured = measured(&outcome);
+    Row { member, values, failure, measured, cpu_seconds: 0.0 }
+}
+
+fn measured(outcome: &Outcome) -> Option<Measured> {
+    let summary = &outcome.summary;
+    let (_, last) = outcome.rows().last()?;
+    let ranges = outcome.ranges().iter();
+    let violation = &summary.violation;
+    Some(Measured {
+        end_time: summary.end_time,
+        steps: summary.steps,
+        energy: summary.energy.max_error,
+        violation: [violation.position, violation.velocity, violation.acceleration],
+        outputs: last.iter().zip(ranges).map(|(&x, &[least, most])| [x, least, most]).collect(),
+    })
+}

@@ -1,0 +1,289 @@
+//! Sweeps: many runs of one scene with varied numbers, over threads, with one table that outlives a kill.
+//!
+//! A [`Study`] is a scene with its sweep, checked; [`Study::run`] runs the members that the journal of a directory lacks, and
+//! writes the table when all are there.
+
+mod journal;
+mod member;
+#[cfg(feature = "parquet")]
+mod parquet;
+mod table;
+#[cfg(test)]
+mod tests;
+
+pub use journal::JournalError;
+pub use member::Row;
+pub use table::{Columns, Failures};
+
+use crate::settings::{Overrides, Settings, SettingsError};
+use core::fmt::{self, Display, Formatter};
+use core::num::NonZeroUsize;
+use core::ops::ControlFlow;
+use journal::{Head, Journal};
+use mbs_parallel::ensemble::{Ensemble, EnsembleError, Panicked, available};
+use mbs_scene::{Channel, Document, ReadError, Sweep};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// A scene with its sweep, checked and ready to run.
+#[derive(Debug)]
+pub struct Study {
+    scene: Document,
+    sweep: Sweep,
+    overrides: Overrides,
+    settings: Settings,
+    columns: Columns,
+    head: Head,
+}
+
+/// A study that is refused.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// By the scene or the sweep, with the place in the file.
+    Read(ReadError),
+    /// By the settings.
+    Settings(SettingsError),
+    /// An override of a number that the sweep varies; the path of the number.
+    Varied(&'static str),
+}
+
+/// Why the members could not be run, or their table not be written.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum SweepError {
+    /// No threads.
+    Threads(EnsembleError),
+    /// The journal cannot be used.
+    Journal(JournalError),
+    /// The directory cannot be written.
+    Write(std::io::Error),
+}
+
+/// How a sweep went.
+#[derive(Debug)]
+pub struct Report {
+    /// Members of the sweep.
+    pub members: usize,
+    /// Members whose run was completed.
+    pub completed: usize,
+    /// Members that an earlier start of the same sweep had finished.
+    pub resumed: usize,
+    /// The others, by code.
+    pub failures: Failures,
+    /// Threads that ran members.
+    pub threads: usize,
+    /// Time from the first member to the table [s].
+    pub wall_seconds: f64,
+    /// CPU time of the members that ran now [s].
+    pub cpu_seconds: f64,
+    /// The tables written.
+    pub tables: Vec<PathBuf>,
+}
+
+/// Called as members finish; does nothing by default.
+pub trait Watch {
+    /// `done` of `members` are finished, `failed` of them failed.
+    fn finished(&mut self, done: usize, failed: usize, members: usize) {
+        let _ = (done, failed, members);
+    }
+}
+
+impl Watch for () {}
+
+/// Numbers that callers may override, with their paths in a scene.
+type Given = (&'static str, fn(&Overrides) -> bool);
+const GIVEN: [Given; 7] = [
+    ("solver.step", |o| o.step.is_some()),
+    ("solver.step_max", |o| o.step_max.is_some()),
+    ("solver.tolerance", |o| o.tolerance.is_some()),
+    ("solver.penalty", |o| o.penalty.is_some()),
+    ("solver.error_tolerance", |o| o.error_tolerance.is_some()),
+    ("solver.energy_alarm", |o| o.energy_alarm.is_some()),
+    ("scene.duration", |o| o.duration.is_some()),
+];
+
+impl Study {
+    /// Reads a sweep of a scene and tries its values.
+    ///
+    /// Cost: the scene is read once for each value of a list, and a few times for each range.
+    ///
+    /// # Errors
+    /// What the scene, the sweep or the settings refuse. What shows only when values meet is left to the members.
+    pub fn new(
+        scene: Document,
+        sweep: &Document,
+        overrides: &Overrides,
+    ) -> Result<Self, StudyError> {
+        let data = scene.scene::<f64>().map_err(StudyError::Read)?;
+        let settings = Settings::new(&data, overrides).map_err(StudyError::Settings)?;
+        let columns = Columns::new(&Channel::of_scene(&data));
+        let head = Head::new(scene.text(), sweep.text(), overrides);
+        let sweep = Sweep::read(sweep, &scene, columns.taken()).map_err(StudyError::Read)?;
+        let varied = |path: &str| sweep.varies(&scene, path);
+        if let Some((path, _)) = GIVEN.into_iter().find(|(p, is)| is(overrides) && varied(p)) {
+            return Err(StudyError::Varied(path));
+        }
+        let check = sweep.check(&scene, |scene| match Settings::new(scene, overrides) {
+            Err(error @ SettingsError::NotPositive { .. }) => {
+                Err((error.to_string(), error.hint()))
+            }
+            _ => Ok(()),
+        });
+        check.map_err(StudyError::Read)?;
+        let columns = columns.with_parameters(sweep.names());
+        Ok(Self { scene, sweep, overrides: overrides.clone(), settings, columns, head })
+    }
+
+    /// Number of members.
+    #[must_use]
+    pub fn n_members(&self) -> usize {
+        self.sweep.n_members()
+    }
+
+    /// The columns of the table.
+    #[must_use]
+    pub fn columns(&self) -> &Columns {
+        &self.columns
+    }
+
+    /// The settings of the scene as it is written.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Runs one member, from 0, on this thread.
+    #[must_use]
+    pub fn member(&self, index: usize) -> Row {
+        member::run(&self.scene, &self.sweep, &self.overrides, index)
+    }
+
+    /// Runs the members that are not in the journal of `out` over threads (left out: all processors), and writes the table.
+    /// With `anew` an earlier journal is thrown away, whatever its sweep.
+    ///
+    /// Rows do not depend on the number of threads, but for their CPU time. A finished member is in the journal before the
+    /// next result is looked at: killing the process loses the members under way.
+    ///
+    /// # Errors
+    /// No threads; a journal of another scene, sweep or version, or in use; a directory that cannot be written.
+    pub fn run(
+        &self,
+        out: &Path,
+        threads: Option<NonZeroUsize>,
+        anew: bool,
+        watch: &mut impl Watch,
+    ) -> Result<Report, SweepError> {
+        self.run_jobs(out, threads, anew, watch, |i| self.member(i))
+    }
+
+    /// [`Self::run`] with what a member is.
+    fn run_jobs(
+        &self,
+        out: &Path,
+        threads: Option<NonZeroUsize>,
+        anew: bool,
+        watch: &mut impl Watch,
+        job: impl Fn(usize) -> Row + Sync,
+    ) -> Result<Report, SweepError> {
+        let clock = Instant::now();
+        std::fs::create_dir_all(out).map_err(SweepError::Write)?;
+        let shape = (self.columns.len(), self.n_members());
+        let (mut journal, mut rows) = Journal::open(out, &self.head, shape, anew)?;
+        let resumed = rows.len();
+        let todo: Vec<usize> = (0..self.n_members()).filter(|i| !rows.contains_key(i)).collect();
+        let most = NonZeroUsize::new(todo.len()).unwrap_or(NonZeroUsize::MIN);
+        let threads = threads.unwrap_or_else(available).min(most);
+        let ensemble = Ensemble::new(Some(threads)).map_err(SweepError::Threads)?;
+        let mut failed = rows.values().filter(|row| !self.columns.is_completed(row)).count();
+        let mut cpu_seconds = 0.0;
+        let mut written = Ok(());
+        watch.finished(rows.len(), failed, self.n_members());
+        ensemble.run(&todo, job, |i, row: Result<Row, Panicked>| {
+            let row = row.unwrap_or_else(|panic| self.panicked(i, &panic));
+            cpu_seconds += row.cpu_seconds;
+            let cells = self.columns.cells(&row);
+            written = journal.append(&cells);
+            if written.is_err() {
+                return ControlFlow::Break(());
+            }
+            failed += usize::from(row.failure.is_some());
+            rows.insert(i, cells);
+            watch.finished(rows.len(), failed, self.n_members());
+            ControlFlow::Continue(())
+        });
+        written.map_err(SweepError::Write)?;
+        let tables = self.write(out, &rows).map_err(SweepError::Write)?;
+        Ok(Report {
+            members: rows.len(),
+            completed: rows.len() - failed,
+            resumed,
+            failures: self.columns.failures(rows.values()),
+            threads: threads.get(),
+            wall_seconds: clock.elapsed().as_secs_f64(),
+            cpu_seconds,
+            tables,
+        })
+    }
+
+    /// The row of a member that panicked.
+    fn panicked(&self, index: usize, panic: &Panicked) -> Row {
+        let values = self.sweep.values(index).map(str::to_owned).collect();
+        Row::failed(index, values, "panicked", &panic.to_string())
+    }
+
+    /// Writes the tables: beside their place first, so that what stands there is always whole.
+    fn write(
+        &self,
+        out: &Path,
+        rows: &BTreeMap<usize, Vec<String>>,
+    ) -> std::io::Result<Vec<PathBuf>> {
+        let csv = out.join("table.csv");
+        let unfinished = out.join("table.csv.part");
+        self.columns.write_csv(std::fs::File::create(&unfinished)?, rows.values())?;
+        std::fs::rename(&unfinished, &csv)?;
+        #[allow(unused_mut, reason = "with the feature `parquet` there are two")]
+        let mut tables = vec![csv];
+        #[cfg(feature = "parquet")]
+        {
+            let unfinished = out.join("table.parquet.part");
+            parquet::write(std::fs::File::create(&unfinished)?, &self.columns, rows)?;
+            tables.push(out.join("table.parquet"));
+            std::fs::rename(&unfinished, &tables[1])?;
+        }
+        Ok(tables)
+    }
+}
+
+impl From<JournalError> for SweepError {
+    fn from(error: JournalError) -> Self {
+        match error {
+            JournalError::Io(error) => Self::Write(error),
+            other => Self::Journal(other),
+        }
+    }
+}
+
+impl Display for StudyError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Read(error) => write!(f, "{error}"),
+            Self::Settings(error) => write!(f, "{error}"),
+            Self::Varied(path) => write!(f, "the sweep varies `{path}`, which is given as well"),
+        }
+    }
+}
+
+impl Display for SweepError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Threads(error) => write!(f, "{error}"),
+            Self::Journal(error) => write!(f, "{error}"),
+            Self::Write(error) => write!(f, "the results cannot be written: {error}"),
+        }
+    }
+}
+
+impl core::error::Error for StudyError {}
+impl core::error::Error for SweepError {}

@@ -1,0 +1,58 @@
+//! `cargo xtask races`: the teams of mbs-parallel under ThreadSanitizer.
+
+use crate::process::{self, cargo, output, run};
+use std::process::{Command, ExitCode};
+
+/// Stack of a thread: instrumented frames are large [bytes].
+const STACK: &str = "67108864";
+
+/// Runs the tests of the crew, which has the lock-free part, with every access watched.
+pub(crate) fn races() -> ExitCode {
+    match watched() {
+        Ok(()) => {
+            eprintln!("races holds: no data race in the tests of the crew");
+            ExitCode::SUCCESS
+        }
+        Err(why) => {
+            eprintln!("races failed: {why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The run. Sanitizers are an unstable option of the compiler, which `RUSTC_BOOTSTRAP` lets a stable one have.
+fn watched() -> Result<(), String> {
+    let version = output(Command::new("rustc").arg("-vV")).ok_or("cannot ask `rustc -vV`")?;
+    let host = host(&version).ok_or("`rustc -vV` names no host")?;
+    let suppressions = process::root().join("mbs-parallel/tests/races.supp");
+    let options = format!("suppressions={} halt_on_error=1", suppressions.display());
+    let mut command = cargo();
+    command.args(["test", "--package", "mbs-parallel", "--test", "team", "--target", host]);
+    command
+        .current_dir(process::root())
+        .env("CARGO_TARGET_DIR", process::target_dir().join("races"))
+        .env("RUSTC_BOOTSTRAP", "1")
+        .env("RUSTFLAGS", "-Zsanitizer=thread -Cunsafe-allow-abi-mismatch=sanitizer")
+        .env("MBS_SANITIZED", "1")
+        .env("TSAN_OPTIONS", options)
+        .env("RUST_MIN_STACK", STACK)
+        .env("RUST_TEST_THREADS", "1");
+    run(&mut command)
+}
+
+/// The host of `rustc -vV`.
+fn host(version: &str) -> Option<&str> {
+    version.lines().find_map(|line| line.strip_prefix("host: "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_host_is_found_in_the_compilers_version() {
+        let text = "rustc 1.95.0\nbinary: rustc\nhost: x86_64-unknown-linux-gnu\nrelease: 1.95.0";
+        assert_eq!(host(text), Some("x86_64-unknown-linux-gnu"));
+        assert_eq!(host("rustc 1.95.0"), None);
+    }
+}
