@@ -41,7 +41,7 @@ impl Machine {
         let load = self.load.map(|x| x.map_or("?".to_owned(), |x| format!("{x:.1}")));
         let busy = match self.is_busy() {
             Some(true) => {
-                "it was busy with other work, so that teams waited for cores that others had, and times are upper bounds"
+                "it was busy with other work, so that times are upper bounds, and teams waited for cores that others had"
             }
             Some(false) => "it was idle",
             None => "it does not tell whether it was busy",

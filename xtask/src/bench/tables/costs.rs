@@ -47,7 +47,7 @@ pub(super) fn steps(measured: &Measured) -> Section {
     );
     if !refused.is_empty() {
         section.heading("What was not measured");
-        section.table(&["scene, formulation", "why"], refused);
+        section.table(&["scene, formulation", "why", ""], refused);
         section.words("A dash above has its reason here: the formulation refuses the scene, or takes too long for it.");
     }
     section
@@ -115,26 +115,26 @@ pub(super) fn counts(measured: &Measured) -> Section {
         "unknowns",
         "rows",
         "elements",
-        "fronts",
-        "largest front",
-        "flops",
-        "entries",
-        "tasks",
-        "parallelism",
         "iterations",
-        "factor.",
+        "factorisations",
+        "solves",
     ];
+    let rows = by_size(measured).into_iter().map(|scene| {
+        let mut row = vec![scene.name.clone()];
+        row.extend(["bodies", "unknowns", "rows", "elements"].map(|key| count(scene.size(key))));
+        let work = |key: &str| average(scene.serial("index-3").and_then(|lane| lane.work(key)));
+        row.extend(["iterations", "factorizations", "solves"].map(work));
+        row
+    });
+    section.table(&head, rows.collect());
+    section.words("Sizes in natural coordinates, and the work of one step on the mean over the steps that were measured.");
+    let head = ["scene", "fronts", "largest front", "flops", "entries", "tasks", "parallelism"];
     let rows = by_size(measured).into_iter().map(|scene| {
         let of_order = |key: &str| scene.order("chosen").and_then(|order| number(order, key));
         let mut row = vec![scene.name.clone()];
-        row.extend(["bodies", "unknowns", "rows", "elements"].map(|key| count(scene.size(key))));
-        row.extend(
-            ["fronts", "largest_front", "flops", "entries", "tasks"]
-                .map(|key| count(of_order(key))),
-        );
+        let keys = ["fronts", "largest_front", "flops", "entries", "tasks"];
+        row.extend(keys.map(|key| count(of_order(key))));
         row.push(average(of_order("parallelism")));
-        let work = |key: &str| average(scene.serial("index-3").and_then(|lane| lane.work(key)));
-        row.extend([work("iterations"), work("factorizations")]);
         row
     });
     section.table(&head, rows.collect());
@@ -175,7 +175,8 @@ pub(super) fn phases(measured: &Measured) -> Section {
             let Some(lane) = scene.clocked("index-3", threads) else { continue };
             let Some(step) = number(&lane.line, "step").filter(|x| *x > 0.0) else { continue };
             let share = |key: &str| lane.line["phases"][key].as_f64().unwrap_or(0.0) / step;
-            let overhead = overhead(scene, lane);
+            // Of a team it drowns in what a team scatters by.
+            let overhead = overhead(scene, lane).filter(|_| threads == 1);
             let late = number(&lane.line, "after_evaluation").unwrap_or(0.0) / step;
             if threads == 1 {
                 n_serial += 1;

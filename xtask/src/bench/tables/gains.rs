@@ -112,7 +112,7 @@ fn verdict(measured: &Measured, formulation: &str, several: &[usize]) -> String 
         None => String::new(),
     });
     if measured.machine.is_busy() == Some(true) {
-        text.push_str(" The machine was busy: others had the cores that a team asks for, so gains are lower bounds.");
+        text.push_str(" The machine was busy: others had the cores that a team asks for, so gains are not those of a free machine.");
     }
     text
 }

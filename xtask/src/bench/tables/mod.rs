@@ -72,7 +72,8 @@ fn ratio(x: Option<f64>) -> String {
 
 /// A share.
 fn percent(x: f64) -> String {
-    format!("{:.0} %", x * 100.0)
+    // Without a minus on zero.
+    format!("{:.0} %", (x * 100.0).round() + 0.0)
 }
 
 /// Least and largest of some numbers.
@@ -103,6 +104,7 @@ mod tests {
             ["1.50 ns", "23.4 µs", "456 ms", "12.0 s"]
         );
         assert_eq!([Some(1.0), Some(1234567.0), None].map(count), ["1", "1,234,567", ""]);
+        assert_eq!([0.254, -0.004].map(percent), ["25 %", "0 %"]);
         assert_eq!(span([3.0, 1.0, 2.0].into_iter()), Some([1.0, 3.0]));
         assert_eq!(span([].into_iter()), None);
     }
