@@ -138,7 +138,9 @@ mod tests {
             Lane::shared(&prepared, method, solver.clone(), (&crew, None)),
             Lane::shared(&prepared, method, solver.clone(), (&pool, None)),
         ];
-        lanes.iter_mut().for_each(|lane| lane.run(3).unwrap());
+        for lane in &mut lanes {
+            lane.run(3).unwrap();
+        }
         assert_eq!(lanes[0].sums.steps, 3);
         assert!(lanes.iter().all(|lane| lane.sums == lanes[0].sums));
         let told = clock.told(3);

@@ -14,6 +14,7 @@ use serde_json::{Value, json};
 
 /// Which of the augmented Lagrangian formulations is stepped, at a fixed length.
 #[derive(Debug, Clone, Copy)]
+#[allow(clippy::large_enum_variant, reason = "there is one in each lane")]
 pub(crate) enum Method {
     One,
     Three,
