@@ -1,5 +1,6 @@
 //! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates, regenerate tables.
 
+mod bench;
 mod chart;
 mod check;
 mod counts;
@@ -68,6 +69,18 @@ enum Job {
         #[arg(value_name = "EXPERIMENT")]
         names: Vec<String>,
     },
+    /// Time a step in each formulation and scene, its phases, faer beside it, and what threads gain: text, JSON and HTML under target/bench
+    Bench {
+        /// Sizes of teams: 4, 1-4, or 1-N for as many as there are cores; left out: 1-N
+        #[arg(long, value_name = "1-N")]
+        threads: Option<bench::Threads>,
+        /// Leave out the largest scenes, and measure for less time
+        #[arg(long)]
+        quick: bool,
+        /// These scenes alone: those of scenes/, or chain-N, tree-N, n-four-bar-N, net-N, convoy-N
+        #[arg(value_name = "SCENE")]
+        scenes: Vec<String>,
+    },
     /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
     Counts,
     /// Watch the lock-free team of mbs-parallel for data races, under ThreadSanitizer
@@ -83,6 +96,9 @@ fn main() -> ExitCode {
         Job::Pick => pick::pick(),
         Job::Tables { quick, names } => tables::tables(quick, &names),
         Job::Steps { quick, names } => steps::steps(quick, &names),
+        Job::Bench { threads, quick, scenes } => {
+            bench::bench(&bench::Asked { threads, quick, scenes })
+        }
         Job::Counts => counts::counts(),
         Job::Races => races::races(),
         Job::CheckNostd => nostd::check_nostd(),

@@ -1,4 +1,4 @@
-//! faer's simplicial sparse Cholesky on the same sum of blocks: the measured rival.
+//! faer's sparse Cholesky on the same sum of blocks: the measured rival, entry by entry or by supernodes.
 //!
 //! ```text
 //! upper triangle in compressed columns; slot[t] = place of packed entry t of all blocks in turn
@@ -25,8 +25,15 @@ pub(crate) struct Rival {
 }
 
 impl Rival {
+    /// Entry by entry: the faster way for the small fronts of mechanisms.
+    #[allow(dead_code, reason = "one of the programs names the way itself")]
     pub(crate) fn analyse(sum: &impl Cliques) -> Self {
+        Self::analyse_by(sum, SupernodalThreshold::FORCE_SIMPLICIAL)
+    }
+
+    pub(crate) fn analyse_by(sum: &impl Cliques, threshold: SupernodalThreshold) -> Self {
         let n = sum.n_unknowns();
+        let longest = (0..sum.n_elements()).map(|e| sum.clique(e).len()).max().unwrap_or(0);
         let mut entries: Vec<(usize, usize)> = Vec::new();
         for e in 0..sum.n_elements() {
             let clique = sum.clique(e);
@@ -48,7 +55,7 @@ impl Rival {
         let rows = distinct.iter().map(|&(_, row)| row).collect();
         let pattern = SymbolicSparseColMat::new_checked(n, n, start, None, rows);
         let params = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SIMPLICIAL,
+            supernodal_flop_ratio_threshold: threshold,
             ..CholeskySymbolicParams::default()
         };
         let amd = SymmetricOrdering::Amd;
@@ -62,7 +69,7 @@ impl Rival {
             values: vec![0.0; distinct.len()],
             pattern,
             slots,
-            block: vec![0.0; 1000],
+            block: vec![0.0; longest * (longest + 1) / 2],
             factor: vec![0.0; symbolic.len_val()],
             symbolic,
             memory: MemBuffer::new(scratch),
@@ -83,7 +90,7 @@ impl Rival {
     }
 
     /// Stored entries of the factor.
-    #[allow(dead_code, reason = "only one of the benchmarks prints it")]
+    #[allow(dead_code, reason = "not every program prints it")]
     pub(crate) fn n_entries(&self) -> usize {
         self.factor.len()
     }

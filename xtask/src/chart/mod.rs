@@ -63,6 +63,8 @@ pub(crate) enum Look {
     Marks,
     /// As a line with a mark at each point.
     Both,
+    /// As marks of that size, without a line.
+    Dots,
 }
 
 /// Room for a drawing.
@@ -117,7 +119,7 @@ impl Series {
             points.filter(|[x, y]| chart.x.shows(*x) && chart.y.shows(*y)).collect();
         match self.look {
             Look::Line => thin::extremes(&shown),
-            Look::Both => shown.into_iter().map(|[x, y]| (x, y)).collect(),
+            Look::Both | Look::Dots => shown.into_iter().map(|[x, y]| (x, y)).collect(),
             Look::Marks => thin::cells(&shown, scales),
         }
     }
@@ -180,14 +182,14 @@ impl Chart {
         for series in &self.series {
             let style = Style::of(series.style);
             let points = series.visible(self, (&x, &y));
-            if series.look != Look::Marks {
+            if matches!(series.look, Look::Line | Look::Both) {
                 let line = points.iter().copied();
                 chart.draw_series(LineSeries::new(line, style.color.stroke_width(2)))?;
             }
             let radius = match series.look {
                 Look::Line => continue,
                 Look::Marks => 2,
-                Look::Both => 4,
+                Look::Both | Look::Dots => 4,
             };
             let mark = style.mark(radius);
             chart.draw_series(points.into_iter().map(|point| {

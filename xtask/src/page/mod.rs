@@ -36,7 +36,8 @@ pub(crate) fn figure(chart: &Chart, caption: &str) -> Result<String, String> {
 /// The names of the series, each behind a piece of it.
 fn legend(series: &[Series]) -> String {
     let entry = |s: &Series| {
-        let sample = Style::of(s.style).sample(s.look != Look::Marks, s.look != Look::Line);
+        let sample = Style::of(s.style)
+            .sample(matches!(s.look, Look::Line | Look::Both), s.look != Look::Line);
         format!("<li>{sample} {}</li>", words(&s.name))
     };
     let named = series.iter().filter(|s| !s.name.is_empty() && !s.points.is_empty());

@@ -13,7 +13,7 @@ mod pendulum;
 mod record;
 mod reference;
 mod rows;
-mod section;
+pub(crate) mod section;
 mod sight;
 mod suspension;
 mod tolerance;

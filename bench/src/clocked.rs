@@ -1,0 +1,294 @@
+//! A model and a solver that delegate and read the clock: the very step is timed, and the library has no clock.
+
+use mbs_core::model::{Load, Model, Owner, Tangent, Terms};
+use mbs_core::team::Team;
+use mbs_core::{BlockSource, Cliques, FactorError, SpdSolver};
+use serde_json::{Map, Value, json};
+use std::ops::Range;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
+use std::time::Instant;
+
+/// What a step does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    Evaluation,
+    Forces,
+    Bias,
+    Residuals,
+    Factorisation,
+    Solves,
+    Products,
+}
+
+/// Their names, in that order.
+const NAMES: [&str; 7] =
+    ["evaluation", "forces", "bias", "residuals", "factorisation", "solves", "products"];
+
+/// Time of each phase, of whole steps, and of what comes after the iteration's last evaluation [ns].
+#[derive(Debug)]
+pub(crate) struct Clock {
+    origin: Instant,
+    phases: [AtomicU64; NAMES.len()],
+    step: AtomicU64,
+    after: AtomicU64,
+    readings: AtomicU64,
+    began: AtomicU64,
+    evaluated: AtomicU64,
+    /// The bias has not been asked for in this step: it may still iterate.
+    is_iterating: AtomicBool,
+}
+
+impl Clock {
+    pub(crate) fn new() -> Self {
+        Self {
+            origin: Instant::now(),
+            phases: Default::default(),
+            step: AtomicU64::new(0),
+            after: AtomicU64::new(0),
+            readings: AtomicU64::new(0),
+            began: AtomicU64::new(0),
+            evaluated: AtomicU64::new(0),
+            is_iterating: AtomicBool::new(false),
+        }
+    }
+
+    /// Forgets what it has read.
+    pub(crate) fn reset(&self) {
+        let sums = [&self.step, &self.after, &self.readings];
+        self.phases.iter().chain(sums).for_each(|sum| sum.store(0, Relaxed));
+    }
+
+    fn now(&self) -> u64 {
+        u64::try_from(self.origin.elapsed().as_nanos()).unwrap_or(u64::MAX)
+    }
+
+    pub(crate) fn begin(&self) {
+        let now = self.now();
+        self.began.store(now, Relaxed);
+        self.evaluated.store(now, Relaxed);
+        self.is_iterating.store(true, Relaxed);
+    }
+
+    pub(crate) fn end(&self) {
+        let now = self.now();
+        self.step.fetch_add(now - self.began.load(Relaxed), Relaxed);
+        self.after.fetch_add(now - self.evaluated.load(Relaxed), Relaxed);
+    }
+
+    fn read<R>(&self, phase: Phase, work: impl FnOnce() -> R) -> R {
+        let start = self.now();
+        let result = work();
+        let end = self.now();
+        self.phases[phase as usize].fetch_add(end - start, Relaxed);
+        self.readings.fetch_add(2, Relaxed);
+        match phase {
+            Phase::Evaluation | Phase::Forces if self.is_iterating.load(Relaxed) => {
+                self.evaluated.store(end, Relaxed);
+            }
+            Phase::Bias => self.is_iterating.store(false, Relaxed),
+            _ => {}
+        }
+        result
+    }
+
+    /// Seconds of each phase in one of `steps` steps, with what is left of the step, and what comes after the last evaluation.
+    pub(crate) fn told(&self, steps: u64) -> Value {
+        #[allow(clippy::cast_precision_loss, reason = "nanoseconds of minutes")]
+        let each = |sum: &AtomicU64| sum.load(Relaxed) as f64 / steps.max(1) as f64;
+        let mut phases = Map::new();
+        let mut rest = each(&self.step);
+        for (name, sum) in NAMES.iter().zip(&self.phases) {
+            phases.insert((*name).to_owned(), json!(each(sum) * 1e-9));
+            rest -= each(sum);
+        }
+        phases.insert("rest".to_owned(), json!(rest * 1e-9));
+        json!({
+            "phases": phases, "step": each(&self.step) * 1e-9,
+            "after_evaluation": each(&self.after) * 1e-9, "readings": each(&self.readings),
+        })
+    }
+}
+
+/// A solver whose calls are timed.
+#[derive(Debug)]
+pub(crate) struct ClockedSolver<'a, S> {
+    pub(crate) solver: S,
+    pub(crate) clock: &'a Clock,
+}
+
+impl<S: SpdSolver<f64>> SpdSolver<f64> for ClockedSolver<'_, S> {
+    fn factor<B: BlockSource<f64>>(&mut self, source: &B) -> Result<(), FactorError> {
+        self.clock.read(Phase::Factorisation, || self.solver.factor(source))
+    }
+    fn solve(&self, x: &mut [f64], scratch: &mut [f64]) {
+        self.clock.read(Phase::Solves, || self.solver.solve(x, scratch));
+    }
+    fn n_scratch(&self) -> usize {
+        self.solver.n_scratch()
+    }
+    fn assemble<B: BlockSource<f64>>(&mut self, source: &B, f: &mut [f64]) {
+        self.clock.read(Phase::Residuals, || self.solver.assemble(source, f));
+    }
+    fn pivots(&self) -> &[f64] {
+        self.solver.pivots()
+    }
+    fn elimination_order(&self) -> &[u32] {
+        self.solver.elimination_order()
+    }
+}
+
+/// A model whose evaluations and products are timed; blocks and residuals of elements are in the solver's time.
+#[derive(Debug)]
+pub(crate) struct ClockedModel<'a, M> {
+    pub(crate) model: M,
+    pub(crate) clock: &'a Clock,
+}
+
+impl<M: Cliques> Cliques for ClockedModel<'_, M> {
+    fn n_unknowns(&self) -> usize {
+        self.model.n_unknowns()
+    }
+    fn n_elements(&self) -> usize {
+        self.model.n_elements()
+    }
+    #[inline(always)]
+    fn clique(&self, element: usize) -> &[u32] {
+        self.model.clique(element)
+    }
+    fn n_primal(&self) -> usize {
+        self.model.n_primal()
+    }
+}
+
+impl<M: Model<f64>> Model<f64> for ClockedModel<'_, M> {
+    fn team(&self) -> &impl Team {
+        self.model.team()
+    }
+    fn n_extended(&self) -> usize {
+        self.model.n_extended()
+    }
+    fn n_constraints(&self) -> usize {
+        self.model.n_constraints()
+    }
+    fn n_memory(&self) -> usize {
+        self.model.n_memory()
+    }
+    fn has_forces(&self) -> bool {
+        self.model.has_forces()
+    }
+    fn has_guides(&self) -> bool {
+        self.model.has_guides()
+    }
+    fn terms(&self) -> Terms<f64> {
+        self.model.terms()
+    }
+    fn write_reference(&self, q: &mut [f64]) {
+        self.model.write_reference(q);
+    }
+    fn set_inputs(&self, t: f64, terms: &mut Terms<f64>) {
+        self.model.set_inputs(t, terms);
+    }
+    fn evaluate(&self, q: &[f64], terms: &mut Terms<f64>) {
+        self.clock.read(Phase::Evaluation, || self.model.evaluate(q, terms));
+    }
+    fn advance(&self, q: &[f64], dq: &[f64], phi_n: &[f64], terms: &mut Terms<f64>) {
+        self.clock.read(Phase::Evaluation, || self.model.advance(q, dq, phi_n, terms));
+    }
+    fn evaluate_forces(&self, q: &[f64], v: &[f64], memory: &[f64], terms: &mut Terms<f64>) {
+        self.clock.read(Phase::Forces, || self.model.evaluate_forces(q, v, memory, terms));
+    }
+    fn remember(&self, terms: &Terms<f64>, memory: &mut [f64]) {
+        self.model.remember(terms, memory);
+    }
+    fn evaluate_phi_t(&self, q: &[f64], terms: &mut Terms<f64>) {
+        self.model.evaluate_phi_t(q, terms);
+    }
+    fn evaluate_bias(&self, q: &[f64], v: &[f64], terms: &mut Terms<f64>) {
+        self.clock.read(Phase::Bias, || self.model.evaluate_bias(q, v, terms));
+    }
+    fn multiply_jacobian(&self, terms: &Terms<f64>, x: &[f64], rates: &mut [f64]) {
+        self.clock.read(Phase::Products, || self.model.multiply_jacobian(terms, x, rates));
+    }
+    fn effective_masses(&self, terms: &Terms<f64>, masses: &mut [f64]) {
+        self.model.effective_masses(terms, masses);
+    }
+    fn rows(&self, element: usize) -> Range<usize> {
+        self.model.rows(element)
+    }
+    fn write_jacobian(&self, terms: &Terms<f64>, element: usize, rows: &mut [f64]) {
+        self.model.write_jacobian(terms, element, rows);
+    }
+    #[inline]
+    fn write_block(
+        &self,
+        terms: &Terms<f64>,
+        tangent: &Tangent<'_, f64>,
+        element: usize,
+        block: &mut [f64],
+    ) {
+        self.model.write_block(terms, tangent, element, block);
+    }
+    #[inline]
+    fn write_residual(
+        &self,
+        terms: &Terms<f64>,
+        load: &Load<'_, f64>,
+        element: usize,
+        residual: &mut [f64],
+    ) {
+        self.model.write_residual(terms, load, element, residual);
+    }
+    fn kinetic_energy(&self, v: &[f64]) -> f64 {
+        self.model.kinetic_energy(v)
+    }
+    fn potential_energy(&self, q: &[f64], terms: &Terms<f64>) -> f64 {
+        self.model.potential_energy(q, terms)
+    }
+    fn power(&self, q: &[f64], v: &[f64], lambda: &[f64], terms: &Terms<f64>) -> f64 {
+        self.model.power(q, v, lambda, terms)
+    }
+    fn opposite_guide(&self, q: &[f64], terms: &Terms<f64>) -> Option<usize> {
+        self.model.opposite_guide(q, terms)
+    }
+    fn owner_of_unknown(&self, unknown: usize) -> Owner {
+        self.model.owner_of_unknown(unknown)
+    }
+    fn owner_of_row(&self, row: usize) -> Owner {
+        self.model.owner_of_row(row)
+    }
+}
+
+/// A step between two readings of a clock, where there is one.
+pub(crate) fn watched<R>(clock: Option<&Clock>, step: impl FnOnce() -> R) -> R {
+    let Some(clock) = clock else { return step() };
+    clock.begin();
+    let result = step();
+    clock.end();
+    result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn phases_and_rest_make_up_the_step() {
+        let clock = Clock::new();
+        clock.begin();
+        let work = || std::thread::sleep(std::time::Duration::from_micros(50));
+        clock.read(Phase::Evaluation, work);
+        clock.read(Phase::Solves, work);
+        clock.read(Phase::Bias, work);
+        clock.read(Phase::Forces, work);
+        clock.end();
+        let told = clock.told(1);
+        let number = |value: &Value| value.as_f64().unwrap();
+        let sum: f64 = told["phases"].as_object().unwrap().values().map(number).sum();
+        assert!((sum - number(&told["step"])).abs() < 1e-12);
+        let [after, evaluation] = [&told["after_evaluation"], &told["phases"]["evaluation"]];
+        assert!(number(after) < number(&told["step"]) - number(evaluation) + 1e-12);
+        assert!((number(&told["readings"]) - 8.0).abs() < 1e-12);
+        clock.reset();
+        assert!(number(&clock.told(1)["step"]).abs() < 1e-12);
+    }
+}

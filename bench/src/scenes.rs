@@ -1,0 +1,134 @@
+//! Scenes by name: those in `scenes/`, and large ones made by rule.
+
+use mbs_core::Cliques;
+use mbs_core::integrator::Integrator;
+use mbs_core::model::{Model, State};
+use mbs_core::natural::NaturalModel;
+use mbs_core::scene::{Scene, Start};
+use mbs_core::start::assemble;
+use mbs_scene::{Document, Family, generate};
+use mbs_sparse::{Multifrontal, Options};
+use serde_json::{Value, json};
+use std::time::Instant;
+
+/// Distance between the vehicles of a convoy [m].
+const SPACING: f64 = 8.0;
+/// The vehicle of a convoy.
+const VEHICLE: &str = "iltis-stairs";
+/// Step of a scene that names none [s].
+const STEP: f64 = 1e-3;
+
+/// A scene by its name: a file in `scenes/`, or FAMILY-N.
+pub(crate) fn read(name: &str) -> Result<Scene<f64>, String> {
+    let document = match file(name) {
+        Ok(document) => document,
+        Err(missing) => {
+            let Some((family, n)) = family(name) else { return Err(missing) };
+            Document::parse(&made(family, n)?, name).map_err(|e| e.render())?
+        }
+    };
+    document.scene::<f64>().map_err(|e| e.render())
+}
+
+/// A family of scenes with its size.
+fn family(name: &str) -> Option<(&str, usize)> {
+    let (family, n) = name.rsplit_once('-')?;
+    let known = ["chain", "tree", "n-four-bar", "net", "convoy"];
+    Some((known.into_iter().find(|known| *known == family)?, n.parse().ok()?))
+}
+
+/// The text of a scene made by rule.
+fn made(family: &str, n: usize) -> Result<String, String> {
+    let vehicle = file(VEHICLE);
+    let family = match family {
+        "chain" => Family::Chain { bodies: n },
+        "tree" => Family::Tree { bodies: n },
+        "n-four-bar" => Family::FourBars { loops: n },
+        "net" => Family::net_of(n),
+        _ => Family::Convoy { vehicle: vehicle.as_ref()?, count: n, spacing: SPACING },
+    };
+    generate(&family, "cargo xtask bench").map_err(|e| e.to_string())
+}
+
+/// A file in `scenes/`.
+fn file(name: &str) -> Result<Document, String> {
+    let path = format!("scenes/{name}.toml");
+    let bytes = std::fs::read(&path).map_err(|e| format!("no scene `{name}`: {path}: {e}"))?;
+    Document::from_bytes(&bytes, &path).map_err(|e| e.render())
+}
+
+/// A scene's model at its assembled start.
+#[derive(Debug)]
+pub(crate) struct Prepared<const D: usize> {
+    pub(crate) scene: Scene<f64>,
+    pub(crate) model: NaturalModel<f64, D>,
+    pub(crate) start: State<f64>,
+    /// Step of the scene [s], and how many make its run.
+    pub(crate) dt: f64,
+    pub(crate) n_steps: u32,
+    /// What model and start took [s].
+    seconds: f64,
+}
+
+impl<const D: usize> Prepared<D> {
+    /// Builds the model and assembles it.
+    pub(crate) fn new(scene: Scene<f64>) -> Result<Self, String> {
+        let clock = Instant::now();
+        let model = NaturalModel::<f64, D>::new(&scene).map_err(|e| e.to_string())?;
+        let analyse = Options::default();
+        let mut solver = Multifrontal::analyse(&model, analyse);
+        let mut start =
+            assemble(&scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver)
+                .map_err(|e| e.to_string())?;
+        if scene.start == Start::Equilibrium {
+            mbs::equilibrium_start(&scene, &model, &mut solver, &mut start)
+                .map_err(|e| e.to_string())?;
+        }
+        let (dt, n_steps) = steps(&scene);
+        let seconds = clock.elapsed().as_secs_f64();
+        Ok(Self { scene, model, start: start.state, dt, n_steps, seconds })
+    }
+
+    /// Sizes as a line.
+    pub(crate) fn told(&self) -> Value {
+        let scene = &self.scene;
+        json!({
+            "kind": "scene", "title": scene.name, "bodies": scene.bodies.len(),
+            "joints": scene.joints.len(), "step": self.dt, "duration": scene.duration,
+            "unknowns": self.model.n_unknowns(), "rows": self.model.n_constraints(),
+            "elements": self.model.n_elements(), "prepared_in": self.seconds,
+        })
+    }
+
+    /// Coefficients of the scene's steps.
+    pub(crate) fn rule(&self) -> mbs_core::integrator::Rule<f64> {
+        Integrator::trapezoidal().rule(self.dt)
+    }
+}
+
+/// Step of a scene [s], and how many make its run.
+pub(crate) fn steps(scene: &Scene<f64>) -> (f64, u32) {
+    let dt = scene.solver.step.unwrap_or(STEP);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of steps")]
+    let n = (scene.duration / dt).round().clamp(1.0, 1e9) as u32;
+    (dt, n)
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// A chain of so many links.
+    pub(crate) fn chain(n: usize) -> Scene<f64> {
+        let text = made("chain", n).unwrap();
+        Document::parse(&text, "chain").unwrap().scene().unwrap()
+    }
+
+    #[test]
+    fn names_of_large_scenes_end_with_their_size() {
+        assert_eq!(family("chain-1000"), Some(("chain", 1000)));
+        assert_eq!(family("n-four-bar-40"), Some(("n-four-bar", 40)));
+        assert_eq!([family("andrews"), family("chain-x"), family("ring-3")], [None; 3]);
+        assert_eq!(Prepared::<3>::new(chain(12)).unwrap().n_steps, 2000);
+    }
+}

@@ -1,0 +1,146 @@
+//! `cargo xtask bench`: what a step costs in each formulation and scene, and what threads gain.
+
+mod child;
+mod machine;
+mod measured;
+mod papers;
+mod rows;
+mod tables;
+mod threads;
+
+use crate::page;
+use crate::process;
+use machine::Machine;
+use measured::{Measured, Scene};
+use std::process::ExitCode;
+use std::time::Duration;
+pub(crate) use threads::Threads;
+
+/// The scenes that are measured: those of this repository, then larger and larger ones made by rule.
+const SCENES: [&str; 14] = [
+    "double-pendulum",
+    "andrews",
+    "spatial-chain-20",
+    "tree-30",
+    "iltis-stairs",
+    "iltis-jump",
+    "chain-100",
+    "net-100",
+    "chain-1000",
+    "n-four-bar-1000",
+    "net-1000",
+    "convoy-100",
+    "tree-4095",
+    "chain-10000",
+];
+/// The largest ones, which `--quick` leaves out.
+const LARGEST: [&str; 4] = ["net-1000", "convoy-100", "tree-4095", "chain-10000"];
+
+/// Formulations that teams share the steps of, and those that have none.
+const SHARED: &str = "index-3,index-1,multi-index";
+const OTHERS: [&str; 3] = ["classical", "state-space", "recursive"];
+
+/// What is asked for.
+#[derive(Debug, Clone)]
+pub(crate) struct Asked {
+    /// Sizes of teams; left out, one to as many as there are cores.
+    pub(crate) threads: Option<Threads>,
+    /// Without the largest scenes, and with less time for each.
+    pub(crate) quick: bool,
+    /// These scenes alone.
+    pub(crate) scenes: Vec<String>,
+}
+
+/// Measures the scenes, or those named, and writes text, JSON and HTML; exit status 1 where something cannot be run.
+pub(crate) fn bench(asked: &Asked) -> ExitCode {
+    match run(asked) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(why) => {
+            eprintln!("cargo xtask bench: {why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Builds the program, measures one scene after the other, and writes the files under `target/bench`.
+#[allow(clippy::print_stdout, reason = "the tables are what is asked for")]
+fn run(asked: &Asked) -> Result<(), String> {
+    // The load before anything of this job runs is that of others.
+    let machine = Machine::now();
+    let threads = asked.threads.clone().unwrap_or_else(|| Threads::up_to(machine.cores));
+    let mut build = process::cargo();
+    build.args(["build", "--quiet", "--release", "--package", "bench"]);
+    process::run(build.current_dir(process::root()))?;
+    let program = child::Program {
+        path: process::target_dir().join("release").join("bench"),
+        threads: threads.listed(),
+        seconds: if asked.quick { "0.5" } else { "2" },
+    };
+
+    let forks = program.run(&["forks"], Duration::from_secs(60))?;
+    let mut measured =
+        Measured { machine, threads: threads.sizes().to_vec(), forks, scenes: Vec::new() };
+    for name in wanted(asked) {
+        measured.scenes.push(scene(&program, &name)?);
+    }
+    measured.machine.end();
+    process::progress("");
+
+    let sections = tables::sections(&measured);
+    let mut remark = String::new();
+    crate::tell::paragraph(&mut remark, 0, &tables::remark(&measured));
+    println!("{remark}");
+    for section in &sections {
+        println!("{}", section.text());
+    }
+    let folder = process::target_dir().join("bench");
+    let json = format!("{:#}\n", rows::json(&measured));
+    process::write(&folder.join("bench.json"), json.as_bytes())?;
+    let content: String = sections.iter().map(|section| section.html()).collect();
+    let page = page::page(
+        "What a step costs, and what threads gain",
+        &tables::remark(&measured),
+        &content,
+    );
+    process::write(&folder.join("bench.html"), page.as_bytes())
+}
+
+/// The scenes that are asked for; a name that is not in the list is the program's to judge.
+fn wanted(asked: &Asked) -> Vec<String> {
+    if !asked.scenes.is_empty() {
+        return asked.scenes.clone();
+    }
+    let is_wanted = |name: &&str| !asked.quick || !LARGEST.contains(name);
+    SCENES.into_iter().filter(is_wanted).map(str::to_owned).collect()
+}
+
+/// Measures one scene in all formulations, each in a process of its own where it may take too long.
+fn scene(program: &child::Program, name: &str) -> Result<Scene, String> {
+    process::progress(&format!("{name} {SHARED}"));
+    let mut scene = Scene::new(name);
+    scene.read(&program.run(&[name, SHARED], Duration::from_secs(300))?)?;
+    for formulation in OTHERS {
+        process::progress(&format!("{name} {formulation}"));
+        match program.run(&[name, formulation], Duration::from_secs(30)) {
+            Ok(lines) => scene.read(&lines)?,
+            Err(why) => scene.refuse(formulation, &why),
+        }
+    }
+    Ok(scene)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quick_leaves_out_the_largest_scenes() {
+        let asked = |quick, scenes: &[&str]| {
+            let scenes = scenes.iter().map(|&name| name.to_owned()).collect();
+            wanted(&Asked { threads: None, quick, scenes })
+        };
+        assert_eq!(asked(false, &[]).len(), SCENES.len());
+        assert!(LARGEST.iter().all(|name| !asked(true, &[]).contains(&(*name).to_owned())));
+        assert_eq!(asked(true, &["chain-300"]), ["chain-300"]);
+    }
+}

@@ -1,0 +1,155 @@
+//! The tables and drawings, for a terminal and for a page; under each a sentence that says what it shows.
+
+mod compared;
+mod costs;
+mod gains;
+
+use super::measured::{Measured, Scene};
+use crate::steps::section::Section;
+
+/// Formulations in the order in which they are shown.
+const FORMULATIONS: [&str; 6] =
+    ["index-3", "index-1", "multi-index", "classical", "state-space", "recursive"];
+
+/// What holds for all of them.
+pub(crate) fn remark(measured: &Measured) -> String {
+    format!(
+        "{} Times are medians of repeated measurements, taken by turns in one process, with their quartiles; steps go on from the \
+         scene's start at its own step. Nothing here is a test.",
+        measured.machine.told()
+    )
+}
+
+/// All sections.
+pub(crate) fn sections(measured: &Measured) -> Vec<Section> {
+    vec![
+        costs::steps(measured),
+        costs::counts(measured),
+        costs::phases(measured),
+        compared::faer(measured),
+        gains::threads(measured),
+        gains::forks(measured),
+        compared::orders(measured),
+        compared::report(measured),
+    ]
+}
+
+/// A time with three digits and its unit.
+fn time(seconds: f64) -> String {
+    let (number, unit) = match seconds {
+        x if x < 1e-6 => (x * 1e9, "ns"),
+        x if x < 1e-3 => (x * 1e6, "µs"),
+        x if x < 1.0 => (x * 1e3, "ms"),
+        x => (x, "s"),
+    };
+    let digits = if number < 10.0 { 2 } else { usize::from(number < 100.0) };
+    format!("{number:.digits$} {unit}")
+}
+
+/// A count with its thousands apart.
+fn count(x: Option<f64>) -> String {
+    let Some(x) = x else { return String::new() };
+    let digits = format!("{x:.0}");
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// A number with one digit behind the point, as counts of one step are; empty where there is none.
+fn average(x: Option<f64>) -> String {
+    x.map(|x| format!("{x:.1}")).unwrap_or_default()
+}
+
+/// A ratio; empty where there is none.
+fn ratio(x: Option<f64>) -> String {
+    x.map(|x| format!("{x:.2}")).unwrap_or_default()
+}
+
+/// A share.
+fn percent(x: f64) -> String {
+    // Without a minus on zero.
+    format!("{:.0} %", (x * 100.0).round() + 0.0)
+}
+
+/// Least and largest of some numbers.
+fn span(numbers: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    numbers.fold(None, |span, x| {
+        let [low, high] = span.unwrap_or([x, x]);
+        Some([low.min(x), high.max(x)])
+    })
+}
+
+/// Scenes in the order of their unknowns.
+fn by_size(measured: &Measured) -> Vec<&Scene> {
+    let mut scenes: Vec<_> = measured.scenes.iter().collect();
+    let size = |scene: &Scene| scene.size("unknowns").unwrap_or(0.0);
+    scenes.sort_by(|a, b| size(a).total_cmp(&size(b)));
+    scenes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::measured::tests::sample;
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(
+            [1.5e-9, 2.34e-5, 0.456, 12.0].map(time),
+            ["1.50 ns", "23.4 µs", "456 ms", "12.0 s"]
+        );
+        assert_eq!([Some(1.0), Some(1234567.0), None].map(count), ["1", "1,234,567", ""]);
+        assert_eq!([0.254, -0.004].map(percent), ["25 %", "0 %"]);
+        assert_eq!(span([3.0, 1.0, 2.0].into_iter()), Some([1.0, 3.0]));
+        assert_eq!(span([].into_iter()), None);
+    }
+
+    #[test]
+    fn every_table_has_its_sentence() {
+        let sections = sections(&sample());
+        let text: String = sections.iter().map(Section::text).collect();
+        let html: String = sections.iter().map(Section::html).collect();
+        for word in [
+            "iltis-stairs",
+            "400 µs",
+            "not measured further",
+            "1.60",
+            "0.50",
+            "22.7",
+            "times as fast at best",
+            "Table IV",
+            "Table V",
+        ] {
+            assert!(text.contains(word), "{word}: {text}");
+        }
+        assert!(!text.contains("NaN") && !html.contains("{{"));
+        assert!(!html.contains("No drawing"), "every drawing has its points");
+        assert!(html.matches("<table>").count() >= sections.len());
+    }
+
+    #[test]
+    fn a_vehicle_that_gains_nothing_is_told() {
+        let mut measured = sample();
+        for lane in measured.scenes[0].lanes.iter_mut().filter(|lane| lane.threads > 1) {
+            lane.seconds = Some(6e-4);
+        }
+        let text: String = sections(&measured).iter().map(Section::text).collect();
+        let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(words.contains("The whole vehicle gains nothing from threads"), "{text}");
+    }
+
+    #[test]
+    fn a_run_without_teams_has_no_gains_and_says_so() {
+        let mut measured = sample();
+        measured.threads = vec![1];
+        measured.scenes[0].lanes.retain(|lane| lane.threads == 1);
+        measured.forks.truncate(1);
+        let text: String = sections(&measured).iter().map(Section::text).collect();
+        assert!(text.contains("No teams were measured"), "{text}");
+    }
+}
