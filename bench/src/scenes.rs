@@ -129,6 +129,6 @@ pub(crate) mod tests {
         assert_eq!(family("chain-1000"), Some(("chain", 1000)));
         assert_eq!(family("n-four-bar-40"), Some(("n-four-bar", 40)));
         assert_eq!([family("andrews"), family("chain-x"), family("ring-3")], [None; 3]);
-        assert_eq!(Prepared::<3>::new(chain(12)).unwrap().n_steps, 2000);
+        assert_eq!(Prepared::<3>::new(chain(12)).unwrap().n_steps, 500);
     }
 }

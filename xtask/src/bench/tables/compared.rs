@@ -5,6 +5,7 @@ use super::super::papers;
 use super::costs::over;
 use super::{average, by_size, count, span, time};
 use crate::steps::section::Section;
+use serde_json::Value;
 
 /// Assemble, factor and solve: ours and faer's.
 pub(super) fn faer(measured: &Measured) -> Section {
@@ -56,16 +57,16 @@ pub(super) fn orders(measured: &Measured) -> Section {
     let (mut rows, mut dearest) = (Vec::new(), None::<(f64, String)>);
     for scene in by_size(measured) {
         let best = scene.serial("index-3").and_then(|lane| lane.seconds);
+        let least = scene.order("minimum-degree").and_then(|order| order["flops"].as_u64());
+        let is_other = |order: &Value| order["flops"].as_u64() != least;
+        if !scene.orders.iter().any(is_other) {
+            continue;
+        }
         for order in &scene.orders {
             let name = order["order"].as_str().unwrap_or_default();
             let mut lanes = scene.lanes.iter().filter(|lane| !lane.clocked && lane.threads == 1);
             let lane = lanes.find(|lane| lane.formulation == "index-3" && lane.order == name);
             let seconds = lane.and_then(|lane| lane.seconds);
-            let least = scene.order("minimum-degree").and_then(|order| number(order, "flops"));
-            let is_same = least == number(order, "flops") && name != "minimum-degree";
-            if is_same && scene.orders.len() == 2 || scene.orders.len() < 2 {
-                continue;
-            }
             if name != "minimum-degree"
                 && let Some(price) = seconds.zip(best).map(|(seconds, best)| seconds / best)
                 && dearest.as_ref().is_none_or(|(most, _)| price > *most)
@@ -87,7 +88,7 @@ pub(super) fn orders(measured: &Measured) -> Section {
         None => "No other order was measured.".to_owned(),
         Some((price, what)) => format!(
             "Orders that leave work for many cost more with one thread: {price:.2} times the best serial step at most ({what}). A run \
-             chooses one that costs at most a tenth more than minimum degree; scenes where both are the same are shown by one row."
+             chooses one that costs at most a tenth more than minimum degree; scenes where both are the same are left out."
         ),
     });
     section
