@@ -24,7 +24,7 @@ enum Phase {
 const NAMES: [&str; 7] =
     ["evaluation", "forces", "bias", "residuals", "factorisation", "solves", "products"];
 
-/// Time of each phase, of whole steps, and of what comes after the iteration's last evaluation [ns].
+/// Time of each phase, of whole steps, and of what comes after the iteration's last evaluation, in nanoseconds.
 #[derive(Debug)]
 pub(crate) struct Clock {
     origin: Instant,

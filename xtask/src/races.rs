@@ -3,7 +3,7 @@
 use crate::process::{self, cargo, output, run};
 use std::process::{Command, ExitCode};
 
-/// Stack of a thread: instrumented frames are large [bytes].
+/// Stack of a thread: instrumented frames are large. In bytes.
 const STACK: &str = "67108864";
 
 /// Runs the tests of the crew, which has the lock-free part, with every access watched.
