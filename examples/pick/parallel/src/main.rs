@@ -55,9 +55,9 @@ fn run<W: Team + Clone>(
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = many();
     let model = NaturalModel::<f64, 2>::new(&scene)?;
-    let solver = |p: &_| Multifrontal::analyse(p, SparseOptions::default());
-    let mut of_model = Multifrontal::analyse(&model, SparseOptions::default());
-    let start = assemble(&scene, &model, solver, &mut of_model)?.state;
+    let options = SparseOptions::default();
+    let mut solver = Multifrontal::analyse(&model, options);
+    let start = assemble(&scene, &model, |p| Multifrontal::analyse(p, options), &mut solver)?.state;
 
     let alone = run(&model, &start, Alone)?;
     let shared = run(&model, &start, Crew::new(2)?)?;
