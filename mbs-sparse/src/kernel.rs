@@ -6,6 +6,7 @@
 //!                                                                   U    = A_22 - L_21 D L_21^T
 //! ```
 //!
+//! No closures over arrays here: whether they are inlined is up to the number of codegen units of whoever builds.
 //! The triangle that remains is a packed front itself, so the next block starts from there. Block sizes are known to
 //! the compiler; the diagonal of L_11 holds 1 / d.
 
@@ -75,56 +76,59 @@ fn block_sized<T: Real, const P: usize>(
 ) -> Result<(), BadPivot<T>> {
     let (panel, update) = a.split_at_mut(column(f, P));
     let d = &mut d[..P];
-    let mut rest = panel;
-    let mut columns: [&mut [T]; P] = std::array::from_fn(|k| {
-        let (column, tail) = std::mem::take(&mut rest).split_at_mut(f - k);
-        rest = tail;
-        column
-    });
 
     // A_11 = L_11 D L_11^T
-    let l = factor_diagonal_block(&mut columns, d)?;
+    let l = factor_diagonal_block::<T, P>(panel, f, d)?;
     let r = f - P;
     if r == 0 {
         return Ok(());
     }
 
     // L_21 = A_21 L_11^-T D^-1
-    let mut k = 0;
-    let mut below: [&mut [T]; P] = columns.map(|column| {
-        k += 1;
-        &mut column[P + 1 - k..][..r]
-    });
+    let mut starts = [0; P];
+    for k in 0..P {
+        starts[k] = column(f, k) + P - k;
+    }
     let mut i = 0;
     while i + 2 <= r {
-        divide_rows::<T, P, 2>(&mut below, &l, i);
+        divide_rows::<T, P, 2>(panel, &starts, &l, i);
         i += 2;
     }
     if i < r {
-        divide_rows::<T, P, 1>(&mut below, &l, i);
+        divide_rows::<T, P, 1>(panel, &starts, &l, i);
     }
 
     // U = A_22 - L_21 D L_21^T
-    let below: [&[T]; P] = below.map(|column| &*column);
+    let panel = &*panel;
+    let mut below: [&[T]; P] = [&panel[..0]; P];
+    for k in 0..P {
+        below[k] = &panel[starts[k]..starts[k] + r];
+    }
     let mut rest = update;
     for j in 0..r {
         let (target, tail) = rest.split_at_mut(r - j);
         rest = tail;
-        let columns = below.map(|column| &column[j..r]);
-        subtract(target, columns, std::array::from_fn(|m| columns[m][0] * d[m]));
+        let (mut columns, mut w) = (below, [T::ZERO; P]);
+        for m in 0..P {
+            columns[m] = &below[m][j..r];
+            w[m] = columns[m][0] * d[m];
+        }
+        subtract(target, columns, w);
     }
     Ok(())
 }
 
-/// Factors the first `P` rows of the columns; the result holds L_11, `l[column][row]`, and 1 / d on its diagonal.
+/// Factors the first `P` rows of the columns of a front of `f` unknowns; the result holds L_11, `l[column][row]`, and 1 / d on
+/// its diagonal.
 #[inline(always)]
 fn factor_diagonal_block<T: Real, const P: usize>(
-    columns: &mut [&mut [T]; P],
+    panel: &mut [T],
+    f: usize,
     d: &mut [T],
 ) -> Result<[[T; P]; P], BadPivot<T>> {
     let mut l = [[T::ZERO; P]; P];
     for k in 0..P {
-        l[k][k..].copy_from_slice(&columns[k][..P - k]);
+        l[k][k..].copy_from_slice(&panel[column(f, k)..][..P - k]);
     }
     for k in 0..P {
         let pivot = l[k][k];
@@ -142,21 +146,22 @@ fn factor_diagonal_block<T: Real, const P: usize>(
         }
     }
     for k in 0..P {
-        columns[k][..P - k].copy_from_slice(&l[k][k..]);
+        panel[column(f, k)..][..P - k].copy_from_slice(&l[k][k..]);
     }
     Ok(l)
 }
 
-/// Turns rows `i`, ..., `i + R - 1` of A_21 into rows of L_21.
+/// Turns rows `i`, ..., `i + R - 1` of A_21, whose columns begin at `starts`, into rows of L_21.
 #[inline(always)]
 fn divide_rows<T: Real, const P: usize, const R: usize>(
-    below: &mut [&mut [T]; P],
+    panel: &mut [T],
+    starts: &[usize; P],
     l: &[[T; P]; P],
     i: usize,
 ) {
     let mut v = [[T::ZERO; R]; P];
     for k in 0..P {
-        v[k].copy_from_slice(&below[k][i..i + R]);
+        v[k].copy_from_slice(&panel[starts[k] + i..][..R]);
     }
     for k in 0..P {
         for m in 0..k {
@@ -167,17 +172,24 @@ fn divide_rows<T: Real, const P: usize, const R: usize>(
         }
     }
     for k in 0..P {
+        let row = &mut panel[starts[k] + i..][..R];
         for lane in 0..R {
-            below[k][i + lane] = v[k][lane] * l[k][k];
+            row[lane] = v[k][lane] * l[k][k];
         }
     }
 }
 
 /// target_i <- target_i - sum_m w_m column_m,i
 #[inline(always)]
-pub(crate) fn subtract<T: Real, const M: usize>(target: &mut [T], columns: [&[T]; M], w: [T; M]) {
+pub(crate) fn subtract<T: Real, const M: usize>(
+    target: &mut [T],
+    mut columns: [&[T]; M],
+    w: [T; M],
+) {
     let len = target.len();
-    let columns = columns.map(|c| &c[..len]);
+    for c in &mut columns {
+        *c = &c[..len];
+    }
     for i in 0..len {
         let mut sum = columns[0][i] * w[0];
         for m in 1..M {

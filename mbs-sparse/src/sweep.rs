@@ -70,7 +70,8 @@ pub(crate) fn solve_small<T: Real>(a: &[T], y: &mut [T]) -> bool {
 fn solve_block<T: Real, const P: usize>(a: &[T], y: &mut [T]) {
     let columns: [&[T]; P] = columns(&a[..column(P, P)], P);
     let y = &mut y[..P];
-    let mut v: [T; P] = std::array::from_fn(|k| y[k]);
+    let mut v = [T::ZERO; P];
+    v.copy_from_slice(y);
     for k in 0..P {
         for i in k + 1..P {
             let product = columns[k][i - k] * v[k];
@@ -92,11 +93,11 @@ fn solve_block<T: Real, const P: usize>(a: &[T], y: &mut [T]) {
 /// The first `P` columns of a packed triangle of `f` unknowns.
 #[inline(always)]
 fn columns<T, const P: usize>(mut a: &[T], f: usize) -> [&[T]; P] {
-    std::array::from_fn(|k| {
-        let (column, tail) = a.split_at(f - k);
-        a = tail;
-        column
-    })
+    let mut columns: [&[T]; P] = [&a[..0]; P];
+    for k in 0..P {
+        (columns[k], a) = a.split_at(f - k);
+    }
+    columns
 }
 
 /// Forward sweep through one block.
@@ -104,7 +105,8 @@ fn columns<T, const P: usize>(mut a: &[T], f: usize) -> [&[T]; P] {
 fn forward_block<T: Real, const P: usize>(a: &[T], y: &mut [T]) {
     let columns: [&[T]; P] = columns(a, y.len());
     let (y1, y2) = y.split_at_mut(P);
-    let mut v: [T; P] = std::array::from_fn(|k| y1[k]);
+    let mut v = [T::ZERO; P];
+    v.copy_from_slice(y1);
     for k in 0..P {
         for i in k + 1..P {
             let product = columns[k][i - k] * v[k];
@@ -113,7 +115,11 @@ fn forward_block<T: Real, const P: usize>(a: &[T], y: &mut [T]) {
     }
     y1.copy_from_slice(&v);
     if !y2.is_empty() {
-        subtract(y2, std::array::from_fn(|k| &columns[k][P - k..]), v);
+        let mut below = columns;
+        for k in 0..P {
+            below[k] = &columns[k][P - k..];
+        }
+        subtract(y2, below, v);
     }
 }
 
@@ -122,8 +128,11 @@ fn forward_block<T: Real, const P: usize>(a: &[T], y: &mut [T]) {
 fn backward_block<T: Real, const P: usize>(a: &[T], y: &mut [T]) {
     let columns: [&[T]; P] = columns(a, y.len());
     let (y1, y2) = y.split_at_mut(P);
-    let mut v: [T; P] = std::array::from_fn(|k| y1[k] * columns[k][0]);
-    let below: [&[T]; P] = std::array::from_fn(|k| &columns[k][P - k..][..y2.len()]);
+    let (mut v, mut below) = ([T::ZERO; P], columns);
+    for k in 0..P {
+        v[k] = y1[k] * columns[k][0];
+        below[k] = &columns[k][P - k..][..y2.len()];
+    }
     for i in 0..y2.len() {
         for k in 0..P {
             v[k] -= below[k][i] * y2[i];

@@ -158,7 +158,7 @@ impl<'a> Cutter<'a> {
                 return self.push(low..root + 1, Vec::new());
             };
             let light: f64 = light.iter().map(|&c| self.total[c]).sum();
-            if light > self.grain && self.total[heavy] > self.grain {
+            if light > self.grain {
                 // All fronts from `low` on are this task's own; what is below begins before it.
                 debug_assert!(kids.iter().all(|&c| self.parent[c] as usize == low));
                 let below = self.siblings(&kids, depth + 1);

@@ -125,3 +125,9 @@ fn a_long_chain_is_cut_in_two_for_nothing_and_in_many_parts_for_at_most_three_ti
     assert!(parts.parallelism > 16.0, "{parts:?}");
     assert!(parts.flops < 3 * serial.flops, "{parts:?}, {serial:?}");
 }
+
+#[test]
+fn many_branches_of_little_work_are_gathered_into_tasks() {
+    let counters = Multifrontal::<f64>::analyse(&Sum::star(100, 27), Options::default()).counters();
+    assert!(counters.n_tasks > 8 && counters.n_tasks < 100, "{counters:?}");
+}

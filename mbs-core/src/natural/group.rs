@@ -81,13 +81,20 @@ pub(crate) fn add_squares<T: Real, const R: usize>(
     g: [&[T]; R],
     w: [T; R],
 ) {
-    let g = g.map(|g| &g[..k]);
+    // No closures over arrays: whether they are inlined is up to the number of codegen units of whoever builds.
+    let mut g = g;
+    for g in &mut g {
+        *g = &g[..k];
+    }
     let mut rest = block;
     for c in 0..k {
         let (column, next) = rest.split_at_mut(k - c);
         rest = next;
-        let g = g.map(|g| &g[c..]);
-        let t: [T; R] = core::array::from_fn(|r| g[r][0] * w[r]);
+        let (mut g, mut t) = (g, w);
+        for r in 0..R {
+            g[r] = &g[r][c..];
+            t[r] = g[r][0] * w[r];
+        }
         for i in 0..k - c {
             let mut sum = column[i];
             for r in 0..R {
@@ -101,7 +108,10 @@ pub(crate) fn add_squares<T: Real, const R: usize>(
 /// y += sum_r w_r g_r over the first k entries of each g_r.
 #[inline(always)]
 pub(crate) fn add_multiples<T: Real, const R: usize>(y: &mut [T], g: [&[T]; R], w: [T; R]) {
-    let g = g.map(|g| &g[..y.len()]);
+    let mut g = g;
+    for g in &mut g {
+        *g = &g[..y.len()];
+    }
     for i in 0..y.len() {
         let mut sum = y[i];
         for r in 0..R {
