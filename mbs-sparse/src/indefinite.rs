@@ -13,8 +13,8 @@
 //! Multipliers ([`Cliques::n_primal`]) are placed right after the last coordinate of their elements. Then no pivot is delayed
 //! as long as the coordinates have mass, apart from threshold tests that fail by the numbers.
 
-use crate::multifrontal::add_part;
 use crate::options::{Counters, Options};
+use crate::part;
 use crate::plan::{Front, Plan, column, plan};
 use mbs_core::blocks::{Inertia, Weakest};
 use mbs_core::dense::front::{self, Places, Tally, Thresholds};
@@ -198,7 +198,7 @@ impl<T: Real> Indefinite<T> {
             let part = self.plan.elements[at];
             let len = self.scale_block(part.source);
             let a = &mut self.factors.fronts[tail..end.0];
-            add_part(a, planned, &part, &self.plan.targets, &self.block[..len]);
+            part::add(a, planned, &part, &self.plan.targets, &self.block[..len]);
         }
         let mut place = 0;
         for c in children {
@@ -246,7 +246,7 @@ impl<T: Real> Indefinite<T> {
         let from = &done[child.offset..child.offset + column(child.f, child.f)];
         let tail = column(f, delayed);
         let update = &from[column(child.f, child.f - r)..];
-        add_part(&mut a[tail..], f - delayed, part, &self.plan.targets, update);
+        part::add(&mut a[tail..], f - delayed, part, &self.plan.targets, update);
         let map = &self.maps[self.map_starts[c]..self.map_starts[c + 1]];
         for i in 0..n {
             let column_of_child = &from[column(child.f, child.n_pivots + i)..];

@@ -24,7 +24,7 @@ pub(crate) struct BadPivot<T> {
 }
 
 /// Eliminates the first `d.len()` unknowns of the packed front `a` of `f` unknowns; `d` receives the pivots.
-#[inline(always)]
+#[inline(never)]
 pub(crate) fn eliminate<T: Real>(
     mut a: &mut [T],
     d: &mut [T],
@@ -54,17 +54,29 @@ pub(crate) fn eliminate<T: Real>(
     }
 }
 
-/// Eliminates the first `P` unknowns of a packed front; without further rows, and with as many again (a link of a chain),
-/// the compiler knows all sizes.
+/// Eliminates the first `P` unknowns of a packed front: with as many further rows as bodies of two or three coordinates a
+/// point leave most often, the compiler knows all sizes.
 #[inline(always)]
 fn block<T: Real, const P: usize>(a: &mut [T], d: &mut [T], f: usize) -> Result<(), BadPivot<T>> {
-    if f == P {
-        block_sized::<T, P>(&mut a[..column(P, P)], d, P)
-    } else if P >= 3 && f == 2 * P {
-        block_sized::<T, P>(&mut a[..column(2 * P, 2 * P)], d, 2 * P)
-    } else {
-        block_sized::<T, P>(a, d, f)
+    match f - P {
+        0 => fixed::<T, P, 0>(a, d),
+        2 if P % 2 == 0 => fixed::<T, P, 2>(a, d),
+        3 if P % 3 == 0 => fixed::<T, P, 3>(a, d),
+        4 if P % 2 == 0 => fixed::<T, P, 4>(a, d),
+        6 if P > 1 => fixed::<T, P, 6>(a, d),
+        9 if P % 3 == 0 => fixed::<T, P, 9>(a, d),
+        12 if P % 3 == 0 => fixed::<T, P, 12>(a, d),
+        _ => block_sized::<T, P>(a, d, f),
     }
+}
+
+/// Eliminates the first `P` unknowns of a packed front of `P + R` unknowns.
+#[inline(never)]
+fn fixed<T: Real, const P: usize, const R: usize>(
+    a: &mut [T],
+    d: &mut [T],
+) -> Result<(), BadPivot<T>> {
+    block_sized::<T, P>(&mut a[..column(P + R, P + R)], d, P + R)
 }
 
 /// Eliminates the first `P` unknowns of the packed front `a` of `f` unknowns.
@@ -196,14 +208,6 @@ pub(crate) fn subtract<T: Real, const M: usize>(
             sum += columns[m][i] * w[m];
         }
         target[i] -= sum;
-    }
-}
-
-/// Adds `from` to `to`, entry by entry.
-#[inline(always)]
-pub(crate) fn add<T: Real>(to: &mut [T], from: &[T]) {
-    for (to, &from) in to.iter_mut().zip(from) {
-        *to += from;
     }
 }
 

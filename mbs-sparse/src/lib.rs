@@ -6,6 +6,7 @@ mod indefinite;
 mod kernel;
 mod multifrontal;
 mod options;
+mod part;
 mod pivoting;
 mod plan;
 mod share;

@@ -7,9 +7,8 @@
 //! ```
 
 use crate::graph::Lists;
-use crate::kernel;
 use crate::options::{Counters, Options, Pivoting};
-use crate::plan::{Part, Place, Plan, column, plan};
+use crate::plan::{Plan, plan};
 use crate::share::{Numbers, Vectors};
 use crate::sweep;
 use mbs_core::team::{Alone, Team, on_stretches};
@@ -107,30 +106,6 @@ impl<T: Real, W: Team> Multifrontal<T, W> {
 fn by_unknown(cliques: &Lists, n: usize) -> Lists {
     let single = Lists { start: (0..=cliques.items.len()).collect(), items: cliques.items.clone() };
     single.transposed(n)
-}
-
-/// Adds the packed triangle `from` of a part into the packed front `a` of `f` unknowns.
-#[inline(always)]
-pub(crate) fn add_part<T: Real>(a: &mut [T], f: usize, part: &Part, targets: &[u32], from: &[T]) {
-    match part.place {
-        Place::Tail(offset) => kernel::add(&mut a[offset as usize..], from),
-        Place::Shifted(first) => {
-            let (first, size) = (first as usize, part.size as usize);
-            let mut from = from;
-            for j in 0..size {
-                let (head, rest) = from.split_at(size - j);
-                let at = column(f, first + j);
-                kernel::add(&mut a[at..at + size - j], head);
-                from = rest;
-            }
-        }
-        Place::Scattered(start) => {
-            let targets = &targets[start as usize..][..from.len()];
-            for (&target, &value) in targets.iter().zip(from) {
-                a[target as usize] += value;
-            }
-        }
-    }
 }
 
 impl<T: Real, W: Team> SpdSolver<T> for Multifrontal<T, W> {

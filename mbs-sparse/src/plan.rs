@@ -10,32 +10,22 @@
 use crate::dissection;
 use crate::graph::{self, Lists, index};
 use crate::options::{Counters, Options, Ordering};
+use crate::part::{Part, Place, place_of};
 use crate::tasks::{Tasks, tasks};
 use crate::tree::{self, Fronts};
 use mbs_core::Cliques;
 pub(crate) use mbs_core::dense::front::column;
 use std::ops::Range;
 
-/// Where a packed triangle of k unknowns lands in a packed front of f unknowns.
+/// What a front holds before anything is added to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Place {
-    /// Unknown i at row `f - k + i`: one stretch, from this offset to the end of the front.
-    Tail(u32),
-    /// Unknown i at row `first + i`: one stretch for every column.
-    Shifted(u32),
-    /// Entry t at `targets[start + t]`.
-    Scattered(u32),
-}
-
-/// One element or one child update that is added into a front.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Part {
-    /// The element; of a child, where its update starts in the array of all fronts.
-    pub(crate) source: usize,
-    /// Unknowns of the part.
-    pub(crate) size: u32,
-    /// Where they are in the front.
-    pub(crate) place: Place,
+pub(crate) enum Opening {
+    /// Zeros.
+    Zeros,
+    /// The block of its first element, which has all its unknowns in its order.
+    Written,
+    /// The block of its first element, which has all its unknowns in another order.
+    Permuted,
 }
 
 /// One dense step of the elimination.
@@ -49,12 +39,10 @@ pub(crate) struct Front {
     pub(crate) offset: usize,
     /// Place of the first pivot in the elimination order.
     pub(crate) first: usize,
-    /// Whether its unknowns stand together in the vector of its task.
-    pub(crate) is_consecutive: bool,
     /// Places of the remaining rows in the list of all rows.
     pub(crate) rows: Range<usize>,
-    /// Whether the first element writes every number of the front.
-    pub(crate) is_first_whole: bool,
+    /// How its first numbers come.
+    pub(crate) opening: Opening,
     /// Its elements in the list of all elements.
     pub(crate) elements: Range<usize>,
     /// Its children in the list of all children.
@@ -199,9 +187,8 @@ impl Planner {
                 f: 0,
                 offset: 0,
                 first,
-                is_consecutive: false,
                 rows: 0..0,
-                is_first_whole: false,
+                opening: Opening::Zeros,
                 elements: 0..0,
                 children: 0..0,
             });
@@ -249,7 +236,7 @@ impl Planner {
         plan
     }
 
-    /// Appends the elements of front `s`; one that covers the whole front comes first, and is written, not added.
+    /// Appends the elements of front `s`; one that has all its unknowns comes first, and is written, not added.
     fn add_elements(&mut self, s: usize, f: usize) {
         let from = self.plan.elements.len();
         for &e in self.elements_of.get(s) {
@@ -260,12 +247,17 @@ impl Planner {
             self.plan.elements.push(Part { source: e as usize, size: index(map.len()), place });
         }
         let elements = &mut self.plan.elements[from..];
-        let whole = elements.iter().position(|part| part.place == Place::Tail(0));
+        let straight = elements.iter().position(|part| part.place == Place::Tail(0));
+        let whole = straight.or_else(|| elements.iter().position(|part| part.size as usize == f));
         if let Some(whole) = whole {
             elements[..=whole].rotate_right(1);
         }
         let front = &mut self.plan.fronts[s];
-        front.is_first_whole = whole.is_some();
+        front.opening = match (straight, whole) {
+            (Some(_), _) => Opening::Written,
+            (None, Some(_)) => Opening::Permuted,
+            (None, None) => Opening::Zeros,
+        };
         front.elements = from..self.plan.elements.len();
     }
 
@@ -285,6 +277,14 @@ impl Planner {
 }
 
 impl Plan {
+    /// Where the entries of a scattered part go; of any other part nothing.
+    pub(crate) fn targets_of(&self, part: &Part) -> &[u32] {
+        match part.place {
+            Place::Scattered(start) => &self.targets[start as usize..][..part.len()],
+            Place::Tail(_) | Place::Shifted(_) => &[],
+        }
+    }
+
     /// Where fronts and unknowns are stored, task by task.
     fn place_fronts(&mut self, place: &[u32]) {
         let mut stored_at_place = vec![0; place.len()];
@@ -293,10 +293,6 @@ impl Plan {
             for front in &mut self.fronts[task.fronts.clone()] {
                 front.offset = offset;
                 offset += column(front.f, front.f);
-                let rows = &self.tasks.rows[front.rows.clone()];
-                let next = front.first - task.places.start + front.p;
-                front.is_consecutive =
-                    rows.iter().enumerate().all(|(k, &q)| q as usize == next + k);
             }
             for (k, q) in task.places.clone().enumerate() {
                 stored_at_place[q] = index(task.vector[1] + k);
@@ -341,24 +337,4 @@ fn children(parent: &[u32]) -> Lists {
         lists.close();
     }
     lists.transposed(parent.len())
-}
-
-/// Finds the cheapest description of the map `map` into a front of `f` unknowns.
-fn place_of(map: &[u32], f: usize, targets: &mut Vec<u32>) -> Place {
-    let first = map[0] as usize;
-    if map.iter().enumerate().all(|(i, &row)| row as usize == first + i) {
-        return if first + map.len() == f {
-            Place::Tail(index(column(f, first)))
-        } else {
-            Place::Shifted(index(first))
-        };
-    }
-    let start = targets.len();
-    for (j, &a) in map.iter().enumerate() {
-        for &b in &map[j..] {
-            let (col, row) = (a.min(b) as usize, a.max(b) as usize);
-            targets.push(index(column(f, col) + row - col));
-        }
-    }
-    Place::Scattered(index(start))
 }

@@ -9,10 +9,10 @@
 //! Every sum has one order, that of the plan. Parts are cut with `split_at_mut`, so two tasks cannot meet in a number.
 
 use crate::kernel::{self, BadPivot};
-use crate::multifrontal::add_part;
 use crate::options::Pivoting;
+use crate::part;
 use crate::pivoting::eliminate_largest;
-use crate::plan::{Front, Plan, column};
+use crate::plan::{Front, Opening, Plan, column};
 use crate::sweep;
 use crate::tasks::Task;
 use mbs_core::{BlockSource, FactorError, Real, Team};
@@ -127,22 +127,27 @@ fn assemble<T: Real, S: BlockSource<T>>(
     let (done, rest) = fronts.split_at_mut(front.offset - start);
     let a = &mut rest[..column(f, f)];
     let mut elements = &plan.elements[front.elements.clone()];
-    if front.is_first_whole {
-        source.write_block(elements[0].source, a);
-        elements = &elements[1..];
-    } else {
-        a.fill(T::ZERO);
+    match (front.opening, elements) {
+        (Opening::Written, [whole, others @ ..]) => {
+            source.write_block(whole.source, a);
+            elements = others;
+        }
+        (Opening::Permuted, [whole, others @ ..]) => {
+            let block = &mut block[..a.len()];
+            source.write_block(whole.source, block);
+            part::permute(a, plan.targets_of(whole), block);
+            elements = others;
+        }
+        _ => a.fill(T::ZERO),
     }
-    for part in elements {
-        let size = part.size as usize;
-        let block = &mut block[..size * (size + 1) / 2];
-        source.write_block(part.source, block);
-        add_part(a, f, part, &plan.targets, block);
+    for element in elements {
+        let block = &mut block[..element.len()];
+        source.write_block(element.source, block);
+        part::add(a, f, element, &plan.targets, block);
     }
-    for part in &plan.children[front.children.clone()] {
-        let size = part.size as usize;
-        let update = &done[part.source - start..][..size * (size + 1) / 2];
-        add_part(a, f, part, &plan.targets, update);
+    for child in &plan.children[front.children.clone()] {
+        let update = &done[child.source - start..][..child.len()];
+        part::add(a, f, child, &plan.targets, update);
     }
 }
 
@@ -260,38 +265,33 @@ impl<T: Real, W: Team> Vectors<'_, T, W> {
     fn visit(&self, task: &Task, front: &Front, own: &mut [T], direction: Direction) {
         let Front { p, f, offset, first, .. } = *front;
         let a = &self.fronts[offset..offset + column(f, f)];
-        let taken = self.taken.get(first..first + p);
-        let first = first - task.places.start;
-        if taken.is_none() && front.is_consecutive {
-            let z = &mut own[first..first + f];
-            return match direction {
-                Direction::Forward => sweep::forward(a, z, p),
-                Direction::Backward => sweep::backward(a, z, p),
-            };
-        }
         let rows = &self.plan.tasks.rows[front.rows.clone()];
-        let (y, scratch) = own.split_at_mut(task.places.len() + task.outer.len());
-        let (z1, z2) = scratch[..f].split_at_mut(p);
-        let place = |k: usize| first + taken.map_or(k, |taken| taken[k] as usize);
-        match direction {
-            Direction::Forward => (0..p).for_each(|k| z1[k] = y[place(k)]),
-            Direction::Backward => z1.copy_from_slice(&y[first..first + p]),
-        }
-        for (z, &row) in z2.iter_mut().zip(rows) {
-            *z = y[row as usize];
-        }
-        let z = &mut scratch[..f];
+        let at = first - task.places.start;
+        let Some(taken) = self.taken.get(first..first + p) else {
+            return match direction {
+                Direction::Forward => sweep::forward(a, own, (at, p), rows),
+                Direction::Backward => sweep::backward(a, own, (at, p), rows),
+            };
+        };
+        // The pivots were swapped: they stand in the order of the analysis above and below the front alone.
         match direction {
             Direction::Forward => {
-                sweep::forward(a, z, p);
-                y[first..first + p].copy_from_slice(&z[..p]);
-                for (&z, &row) in z[p..].iter().zip(rows) {
-                    y[row as usize] = z;
+                let (own, scratch) = own.split_at_mut(own.len() - p);
+                let pivots = &mut own[at..at + p];
+                scratch.copy_from_slice(pivots);
+                for (z, &row) in pivots.iter_mut().zip(taken) {
+                    *z = scratch[row as usize];
                 }
+                sweep::forward(a, own, (at, p), rows);
             }
             Direction::Backward => {
-                sweep::backward(a, z, p);
-                (0..p).for_each(|k| y[place(k)] = z[k]);
+                sweep::backward(a, own, (at, p), rows);
+                let (own, scratch) = own.split_at_mut(own.len() - p);
+                let pivots = &mut own[at..at + p];
+                scratch.copy_from_slice(pivots);
+                for (&z, &row) in scratch.iter().zip(taken) {
+                    pivots[row as usize] = z;
+                }
             }
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! a task = neighbouring subtrees of little work, or the fronts from a fork of the tree up to the next one, with the tasks below
-//! own storage of a task:  numbers  [ its fronts | one block ]        vector  [ its places | rows further up | one front ]
+//! own storage of a task:  numbers  [ its fronts | one block ]        vector  [ its places | rows further up | pivots of one ]
 //! storage of a task with all below:  [ of its children, in order | own ]
 //! ```
 //!
@@ -212,7 +212,7 @@ impl Tasks {
                 self.rows[k] = local(all_rows[k]);
             }
         }
-        let largest = own.iter().map(|front| front.f).max().unwrap_or(0);
+        let largest = own.iter().map(|front| front.p).max().unwrap_or(0);
         let numbers: usize = own.iter().map(|front| column(front.f, front.f)).sum();
         let begin = self.below(at).first().map_or(self.sizes, |&c| {
             let child = &self.list[c as usize];
