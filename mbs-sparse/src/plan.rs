@@ -10,7 +10,7 @@
 use crate::dissection;
 use crate::graph::{self, Lists, index};
 use crate::options::{Counters, Options, Ordering};
-use crate::part::{Part, Place, place_of};
+use crate::part::{self, Part, Place, place_of, triangle};
 use crate::tasks::{Tasks, tasks};
 use crate::tree::{self, Fronts};
 use mbs_core::Cliques;
@@ -26,6 +26,8 @@ pub(crate) enum Opening {
     Written,
     /// The block of its first element, which has all its unknowns in another order.
     Permuted,
+    /// Zeros, for elements that are all small: they are added together.
+    Gathered,
 }
 
 /// One dense step of the elimination.
@@ -67,6 +69,8 @@ pub(crate) struct Plan {
     pub(crate) is_natural: bool,
     pub(crate) cliques: Lists,
     pub(crate) largest_clique: usize,
+    /// Numbers of the largest block, or of small ones that are added together.
+    pub(crate) n_block: usize,
     pub(crate) counters: Counters,
 }
 
@@ -205,11 +209,11 @@ impl Planner {
         }
         plan.largest_clique =
             (0..plan.cliques.len()).map(|e| plan.cliques.get(e).len()).max().unwrap_or(0);
-        let largest_block = column(plan.largest_clique, plan.largest_clique);
-        let tree = (&plan.fronts[..], &fronts.parent[..]);
-        plan.tasks = tasks(tree, &plan.rows, &fronts.work, (grain, largest_block));
-        plan.place_fronts(&place);
         let elements_of = elements_by_front(&plan.cliques, &place, &front_of_place, n_fronts);
+        plan.n_block = plan.largest_blocks(&elements_of);
+        let tree = (&plan.fronts[..], &fronts.parent[..]);
+        plan.tasks = tasks(tree, &plan.rows, &fronts.work, (grain, plan.n_block));
+        plan.place_fronts(&place);
         Self { plan, row: vec![0; n], place, elements_of }
     }
 
@@ -253,9 +257,13 @@ impl Planner {
             elements[..=whole].rotate_right(1);
         }
         let front = &mut self.plan.fronts[s];
+        let is_small = |part: &Part| part.size as usize <= part::SMALL;
         front.opening = match (straight, whole) {
             (Some(_), _) => Opening::Written,
             (None, Some(_)) => Opening::Permuted,
+            (None, None) if elements.len() > 1 && elements.iter().all(is_small) => {
+                Opening::Gathered
+            }
             (None, None) => Opening::Zeros,
         };
         front.elements = from..self.plan.elements.len();
@@ -277,12 +285,13 @@ impl Planner {
 }
 
 impl Plan {
-    /// Where the entries of a scattered part go; of any other part nothing.
-    pub(crate) fn targets_of(&self, part: &Part) -> &[u32] {
-        match part.place {
-            Place::Scattered(start) => &self.targets[start as usize..][..part.len()],
-            Place::Tail(_) | Place::Shifted(_) => &[],
-        }
+    /// Numbers of the largest block, or of the small ones of one front.
+    fn largest_blocks(&self, elements_of: &Lists) -> usize {
+        let sizes =
+            |s: usize| elements_of.get(s).iter().map(|&e| self.cliques.get(e as usize).len());
+        let small = |s: usize| sizes(s).filter(|&k| k <= part::SMALL).map(triangle).sum();
+        let gathered = (0..elements_of.len()).map(small).max().unwrap_or(0);
+        gathered.max(triangle(self.largest_clique))
     }
 
     /// Where fronts and unknowns are stored, task by task.

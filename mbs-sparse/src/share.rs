@@ -98,9 +98,7 @@ impl<T: Real> Numbers<'_, T> {
             part.factor_all(how, team, source, below)?;
         }
         let (start, end) = (task.numbers[0], task.numbers[2]);
-        let largest = how.0.largest_clique;
-        let (fronts, block) =
-            self.fronts[..end - start].split_at_mut(end - start - column(largest, largest));
+        let (fronts, block) = self.fronts[..end - start].split_at_mut(end - start - how.0.n_block);
         for front in &how.0.fronts[task.fronts.clone()] {
             assemble(how.0, front, source, (&mut *fronts, start), block);
             let at = front.first - task.first_place;
@@ -135,8 +133,18 @@ fn assemble<T: Real, S: BlockSource<T>>(
         (Opening::Permuted, [whole, others @ ..]) => {
             let block = &mut block[..a.len()];
             source.write_block(whole.source, block);
-            part::permute(a, plan.targets_of(whole), block);
+            part::permute(a, whole.targets(&plan.targets), block);
             elements = others;
+        }
+        (Opening::Gathered, [first, ..]) => {
+            a.fill(T::ZERO);
+            let mut n = 0;
+            for element in elements {
+                source.write_block(element.source, &mut block[n..n + element.len()]);
+                n += element.len();
+            }
+            part::scatter(a, first.targets(&plan.targets), &block[..n]);
+            elements = &[];
         }
         _ => a.fill(T::ZERO),
     }

@@ -12,12 +12,7 @@ use crate::plan::column;
 use mbs_core::Real;
 
 /// Forward sweep through the packed front `a` that eliminates `p` unknowns, from place `first` of `y` on.
-pub(crate) fn forward<T: Real>(
-    mut a: &[T],
-    y: &mut [T],
-    (first, p): (usize, usize),
-    rows: &[u32],
-) {
+pub(crate) fn forward<T: Real>(mut a: &[T], y: &mut [T], (first, p): (usize, usize), rows: &[u32]) {
     let (mut at, mut more) = (first, p);
     while more > BLOCK {
         more -= BLOCK;

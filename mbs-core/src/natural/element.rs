@@ -4,6 +4,7 @@
 use super::forces::Gauge;
 use super::group::{Group, add_curvature, add_mass_product, add_multiples, add_squares};
 use super::model::NaturalModel;
+use super::reach::add_rows;
 use crate::Real;
 use crate::algebra::{Vector, cross, raised};
 use crate::elements::combine;
@@ -78,20 +79,15 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
         let width = group.width as usize;
         let mut jacobian = &terms.jacobian[group.jacobian as usize..];
-        let mut penalty: &[T] = &[];
         if tangent.penalty.is_empty() {
             jacobian = &jacobian[width * group.rows.len()..];
         } else {
-            penalty = group.rows.of(tangent.penalty);
-        }
-        while let [w1, w2, w3, rest @ ..] = penalty {
-            let g = [jacobian, &jacobian[width..], &jacobian[2 * width..]];
-            add_squares(block, k, g, [*w1, *w2, *w3]);
-            (jacobian, penalty) = (&jacobian[3 * width..], rest);
-        }
-        for &w in penalty {
-            add_squares(block, k, [jacobian], [w]);
-            jacobian = &jacobian[width..];
+            let penalty = group.rows.of(tangent.penalty);
+            // In a group of two entities every row touches all.
+            let is_small = K > 0 && K <= 2 * D;
+            let reach = if is_small { &[][..] } else { group.rows.of(&self.reach) };
+            add_rows::<T, D>(block, k, (jacobian, width), (penalty, reach));
+            jacobian = &jacobian[width * penalty.len()..];
         }
         if !group.measures.is_empty() {
             for measure in group.measures.of(&terms.measures) {

@@ -8,6 +8,7 @@ use super::group::{Group, packed};
 use super::model::NaturalModel;
 use super::motion::carriers;
 use super::on_body::BodyElement;
+use super::reach::Reach;
 use super::sharing::Entity;
 use crate::Real;
 use crate::actions::Actions;
@@ -124,6 +125,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             point_forces: Vec::new(),
             torques: Vec::new(),
             row_owner: Vec::new(),
+            reach: Vec::new(),
             unknown_owner,
             clusters,
             bases: Vec::new(),
@@ -223,6 +225,10 @@ impl<T: Real, const D: usize> Layout<T, D> {
     fn add_row(&mut self, draft: &RowDraft<T>, columns: &Columns<'_>, group: &mut Group) {
         let n = if matches!(draft, RowDraft::Linear { .. }) { D } else { 1 };
         let (row, place) = self.claim(n, group);
+        let n_unknown = group.n_unknown as usize;
+        let touched = draft.entities().into_iter().map(|e| columns.of(e));
+        let reach = Reach::of(touched.filter(|&at| at < n_unknown), n_unknown, D);
+        self.model.reach.extend(core::iter::repeat_n(reach, n));
         match draft {
             RowDraft::Distance { ends, length } => {
                 let at = |e: usize| place.start + index(columns.of(e) * D);

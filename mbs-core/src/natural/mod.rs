@@ -21,6 +21,7 @@ mod motion;
 mod near;
 mod on_body;
 mod parts;
+mod reach;
 mod rigid;
 mod rods;
 mod sharing;

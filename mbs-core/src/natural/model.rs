@@ -6,6 +6,7 @@ use super::group::Group;
 use super::motion::Carried;
 use super::on_body::BodyElement;
 use super::parts::Mark;
+use super::reach::Reach;
 use crate::Real;
 use crate::actions::Tables;
 use crate::algebra::Coef;
@@ -50,6 +51,8 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) point_forces: Vec<PointForce>,
     pub(super) torques: Vec<BodyTorque>,
     pub(super) row_owner: Vec<Owner>,
+    /// The entities that each row touches.
+    pub(super) reach: Vec<Reach>,
     pub(super) unknown_owner: Vec<Owner>,
     pub(super) clusters: Clusters<T>,
     pub(super) bases: Vec<Basis<T>>,
