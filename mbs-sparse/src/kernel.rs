@@ -60,12 +60,12 @@ pub(crate) fn eliminate<T: Real>(
 fn block<T: Real, const P: usize>(a: &mut [T], d: &mut [T], f: usize) -> Result<(), BadPivot<T>> {
     match f - P {
         0 => fixed::<T, P, 0>(a, d),
-        2 if P % 2 == 0 => fixed::<T, P, 2>(a, d),
-        3 if P % 3 == 0 => fixed::<T, P, 3>(a, d),
-        4 if P % 2 == 0 => fixed::<T, P, 4>(a, d),
+        2 if P.is_multiple_of(2) => fixed::<T, P, 2>(a, d),
+        3 if P.is_multiple_of(3) => fixed::<T, P, 3>(a, d),
+        4 if P.is_multiple_of(2) => fixed::<T, P, 4>(a, d),
         6 if P > 1 => fixed::<T, P, 6>(a, d),
-        9 if P % 3 == 0 => fixed::<T, P, 9>(a, d),
-        12 if P % 3 == 0 => fixed::<T, P, 12>(a, d),
+        9 if P.is_multiple_of(3) => fixed::<T, P, 9>(a, d),
+        12 if P.is_multiple_of(3) => fixed::<T, P, 12>(a, d),
         _ => block_sized::<T, P>(a, d, f),
     }
 }

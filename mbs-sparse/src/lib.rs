@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod ascent;
 mod dissection;
 mod graph;
 mod indefinite;

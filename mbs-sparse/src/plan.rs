@@ -11,7 +11,7 @@ use crate::dissection;
 use crate::graph::{self, Lists, index};
 use crate::options::{Counters, Options, Ordering};
 use crate::part::{self, Part, Place, place_of, triangle};
-use crate::tasks::{Tasks, tasks};
+use crate::tasks::{Largest, Tasks, tasks};
 use crate::tree::{self, Fronts};
 use mbs_core::Cliques;
 pub(crate) use mbs_core::dense::front::column;
@@ -45,8 +45,12 @@ pub(crate) struct Front {
     pub(crate) rows: Range<usize>,
     /// How its first numbers come.
     pub(crate) opening: Opening,
+    /// Place of the first pivot in the own vector of its task.
+    pub(crate) at: usize,
     /// Its elements in the list of all elements.
     pub(crate) elements: Range<usize>,
+    /// Where their unknowns begin in the list of all.
+    pub(crate) element_rows: usize,
     /// Its children in the list of all children.
     pub(crate) children: Range<usize>,
 }
@@ -59,6 +63,8 @@ pub(crate) struct Plan {
     pub(crate) children: Vec<Part>,
     /// Targets of scattered parts, as offsets in their front.
     pub(crate) targets: Vec<u32>,
+    /// Places of the unknowns of all elements in the own vector of their task, front by front.
+    pub(crate) element_rows: Vec<u32>,
     /// Elimination places of the remaining rows of all fronts.
     pub(crate) rows: Vec<u32>,
     /// What may be done at the same time.
@@ -193,7 +199,9 @@ impl Planner {
                 first,
                 rows: 0..0,
                 opening: Opening::Zeros,
+                at: 0,
                 elements: 0..0,
+                element_rows: 0,
                 children: 0..0,
             });
         }
@@ -211,8 +219,9 @@ impl Planner {
             (0..plan.cliques.len()).map(|e| plan.cliques.get(e).len()).max().unwrap_or(0);
         let elements_of = elements_by_front(&plan.cliques, &place, &front_of_place, n_fronts);
         plan.n_block = plan.largest_blocks(&elements_of);
+        let largest = Largest { block: plan.n_block, clique: plan.largest_clique };
         let tree = (&plan.fronts[..], &fronts.parent[..]);
-        plan.tasks = tasks(tree, &plan.rows, &fronts.work, (grain, plan.n_block));
+        plan.tasks = tasks(tree, &plan.rows, &fronts.work, grain, largest);
         plan.place_fronts(&place);
         Self { plan, row: vec![0; n], place, elements_of }
     }
@@ -256,8 +265,12 @@ impl Planner {
         if let Some(whole) = whole {
             elements[..=whole].rotate_right(1);
         }
+        let element_rows = self.plan.element_rows.len();
+        self.add_element_rows(s, from);
+        let elements = &self.plan.elements[from..];
         let front = &mut self.plan.fronts[s];
         let is_small = |part: &Part| part.size as usize <= part::SMALL;
+        front.element_rows = element_rows;
         front.opening = match (straight, whole) {
             (Some(_), _) => Opening::Written,
             (None, Some(_)) => Opening::Permuted,
@@ -267,6 +280,20 @@ impl Planner {
             (None, None) => Opening::Zeros,
         };
         front.elements = from..self.plan.elements.len();
+    }
+
+    /// Appends the places of the unknowns of the elements of front `s`, which begin with element `from`.
+    fn add_element_rows(&mut self, s: usize, from: usize) {
+        let Plan { fronts, elements, cliques, tasks, element_rows, .. } = &mut self.plan;
+        let front = &fronts[s];
+        for element in &elements[from..] {
+            for &u in cliques.get(element.source) {
+                let row = self.row[self.place[u as usize] as usize];
+                let beyond = (row as usize).checked_sub(front.p);
+                let place = beyond.map(|k| tasks.rows[front.rows.start + k]);
+                element_rows.push(place.unwrap_or(index(front.at) + row));
+            }
+        }
     }
 
     /// Appends the updates that front `s` receives.
@@ -300,6 +327,7 @@ impl Plan {
         for task in &self.tasks.list {
             let mut offset = task.numbers[1];
             for front in &mut self.fronts[task.fronts.clone()] {
+                front.at = front.first - task.places.start;
                 front.offset = offset;
                 offset += column(front.f, front.f);
             }

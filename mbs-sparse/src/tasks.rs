@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! a task = neighbouring subtrees of little work, or the fronts from a fork of the tree up to the next one, with the tasks below
-//! own storage of a task:  numbers  [ its fronts | one block ]        vector  [ its places | rows further up | pivots of one ]
+//! own storage of a task:  numbers  [ its fronts | one block ]        vector  [ its places | rows further up | one element, or the pivots of one front ]
 //! storage of a task with all below:  [ of its children, in order | own ]
 //! ```
 //!
@@ -32,6 +32,8 @@ pub(crate) struct Task {
     pub(crate) numbers: [usize; 3],
     /// Storage of a vector, likewise.
     pub(crate) vector: [usize; 3],
+    /// Time of a factorisation of the task with all below, as estimated [ns].
+    pub(crate) total: f64,
 }
 
 /// All tasks, children before parents.
@@ -59,6 +61,30 @@ impl Tasks {
     pub(crate) fn below(&self, task: usize) -> &[u32] {
         self.children.get(task)
     }
+
+    /// Cuts a list of neighbouring tasks, two or more, where each side has about half of the work.
+    pub(crate) fn halves<'a>(&self, list: &'a [u32]) -> (&'a [u32], &'a [u32]) {
+        let total = |&t: &u32| self.list[t as usize].total;
+        let half = 0.5 * list.iter().map(total).sum::<f64>();
+        let (mut before, mut cut) = (0.0, 0);
+        for task in list {
+            let with = before + total(task);
+            if with - half > half - before {
+                break;
+            }
+            (before, cut) = (with, cut + 1);
+        }
+        list.split_at(cut.clamp(1, list.len() - 1))
+    }
+}
+
+/// Room beside the numbers and the vector of each task.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Largest {
+    /// Numbers of the largest block.
+    pub(crate) block: usize,
+    /// Unknowns of the largest element.
+    pub(crate) clique: usize,
 }
 
 /// Cuts the tree. `work` is the time of each front [ns], `grain` what a task should take at least.
@@ -66,7 +92,8 @@ pub(crate) fn tasks(
     (fronts, parent): (&[Front], &[u32]),
     all_rows: &[u32],
     work: &[f64],
-    (grain, largest_block): (f64, usize),
+    grain: f64,
+    largest: Largest,
 ) -> Tasks {
     let mut cutter = Cutter::new(parent, work, grain);
     let roots: Vec<usize> = (0..parent.len()).filter(|&s| parent[s] == NONE).collect();
@@ -86,7 +113,10 @@ pub(crate) fn tasks(
         tasks.children.close();
     }
     for at in 0..tasks.list.len() {
-        tasks.lay_out(at, fronts, all_rows, largest_block);
+        tasks.lay_out(at, fronts, all_rows, largest);
+        let below: f64 = tasks.below(at).iter().map(|&c| tasks.list[c as usize].total).sum();
+        let task = &mut tasks.list[at];
+        task.total = below + work[task.fronts.clone()].iter().sum::<f64>();
     }
     tasks
 }
@@ -174,7 +204,7 @@ impl<'a> Cutter<'a> {
 
 impl Tasks {
     /// Storage and rows of task `at`, when those of its children are known.
-    fn lay_out(&mut self, at: usize, fronts: &[Front], all_rows: &[u32], largest_block: usize) {
+    fn lay_out(&mut self, at: usize, fronts: &[Front], all_rows: &[u32], largest: Largest) {
         let own = &fronts[self.list[at].fronts.clone()];
         let (first, last) = (own[0].first, &own[own.len() - 1]);
         let places = first..last.first + last.p;
@@ -212,7 +242,7 @@ impl Tasks {
                 self.rows[k] = local(all_rows[k]);
             }
         }
-        let largest = own.iter().map(|front| front.p).max().unwrap_or(0);
+        let most = own.iter().map(|front| front.p).max().unwrap_or(0).max(largest.clique);
         let numbers: usize = own.iter().map(|front| column(front.f, front.f)).sum();
         let begin = self.below(at).first().map_or(self.sizes, |&c| {
             let child = &self.list[c as usize];
@@ -224,8 +254,7 @@ impl Tasks {
         self.outer.extend_from_slice(&outer);
         self.targets.resize(self.outer.len(), 0);
         let [number, vector] = self.sizes;
-        let ends =
-            [number + numbers + largest_block, vector + places.len() + outer.len() + largest];
+        let ends = [number + numbers + largest.block, vector + places.len() + outer.len() + most];
         let task = &mut self.list[at];
         task.numbers = [begin[0], number, ends[0]];
         task.vector = [begin[1], vector, ends[1]];
