@@ -50,7 +50,7 @@ pub trait SpdSolver<T: Real> {
     /// Places that `solve` needs in `scratch`.
     fn n_scratch(&self) -> usize;
 
-    /// Sums the residuals of the elements of `source` into `f` (n places, overwritten), always in the same order.
+    /// Sums the residuals of the elements of `source` into `f` (n places, overwritten), in the order of the elements.
     fn assemble<S: BlockSource<T>>(&mut self, source: &S, f: &mut [T]);
 
     /// The pivots of the last successful factorisation (D of L D L^T), in the order of elimination.

@@ -1,6 +1,5 @@
 #![doc = include_str!("../README.md")]
 
-mod ascent;
 mod dissection;
 mod graph;
 mod indefinite;
@@ -10,6 +9,7 @@ mod options;
 mod part;
 mod pivoting;
 mod plan;
+mod scatter;
 mod share;
 mod sweep;
 mod tasks;

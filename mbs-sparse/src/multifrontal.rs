@@ -6,10 +6,10 @@
 //!           [ L_21  I ] [     U  ] [         I      ]          U: update for the parent
 //! ```
 
-use crate::ascent::ascend;
 use crate::options::{Counters, Options, Pivoting};
 use crate::plan::{Plan, plan};
-use crate::share::{Numbers, Residuals, Vectors};
+use crate::scatter::{Cuts, Shared, scatter};
+use crate::share::{Numbers, Vectors};
 use crate::sweep;
 use mbs_core::team::{Alone, Team, on_stretches};
 use mbs_core::{BlockSource, Cliques, FactorError, Real, SpdSolver};
@@ -29,8 +29,9 @@ pub struct Multifrontal<T: Real, W: Team = Alone> {
     is_one_block: bool,
     /// For each pivot its row in its front before the swaps of [`Pivoting::Diagonal`].
     taken: Vec<u32>,
-    /// A vector in the storage of all tasks.
+    /// Room for sums of residuals, and how they are cut for a team.
     residuals: Vec<T>,
+    cuts: Cuts,
 }
 
 impl<T: Real> Multifrontal<T> {
@@ -63,6 +64,14 @@ impl<T: Real, W: Team> Multifrontal<T, W> {
 
     fn planned(team: W, plan: Plan, pivoting: Pivoting) -> Self {
         let n_taken = if pivoting == Pivoting::Diagonal { plan.order.len() } else { 0 };
+        let largest = plan.largest_clique;
+        let (cuts, n_residuals) = if team.size() > 1 {
+            let cuts = Cuts::new(&plan.cliques, plan.order.len());
+            let n = Shared::<()>::n_storage(&cuts, largest);
+            (cuts, n)
+        } else {
+            (Cuts::default(), largest)
+        };
         Self {
             pivoting,
             team,
@@ -71,7 +80,8 @@ impl<T: Real, W: Team> Multifrontal<T, W> {
             pivots: vec![T::ZERO; plan.order.len()],
             order: plan.order.clone(),
             taken: vec![0; n_taken],
-            residuals: vec![T::ZERO; plan.tasks.sizes[1]],
+            residuals: vec![T::ZERO; n_residuals],
+            cuts,
             plan,
         }
     }
@@ -134,10 +144,12 @@ impl<T: Real, W: Team> SpdSolver<T> for Multifrontal<T, W> {
 
     fn assemble<S: BlockSource<T>>(&mut self, source: &S, f: &mut [T]) {
         assert_eq!(f.len(), self.plan.order.len(), "assemble needs one place for each unknown");
-        let residuals = Residuals { plan: &self.plan, source };
-        let roots = &self.plan.tasks.roots;
-        ascend((&self.plan, &self.team), roots, &mut self.residuals, &residuals);
-        self.gather(&self.residuals, f);
+        let Plan { cliques, largest_clique: largest, .. } = &self.plan;
+        if self.team.size() == 1 {
+            return scatter(source, cliques, &mut self.residuals, f);
+        }
+        let shared = Shared { source, cliques, cuts: &self.cuts, largest: *largest };
+        shared.sum(&self.team, &mut self.residuals, f);
     }
 
     fn pivots(&self) -> &[T] {

@@ -11,10 +11,11 @@ use crate::dissection;
 use crate::graph::{self, Lists, index};
 use crate::options::{Counters, Options, Ordering};
 use crate::part::{self, Part, Place, place_of, triangle};
-use crate::tasks::{Largest, Tasks, tasks};
+use crate::tasks::{Tasks, tasks};
 use crate::tree::{self, Fronts};
 use mbs_core::Cliques;
 pub(crate) use mbs_core::dense::front::column;
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// What a front holds before anything is added to it.
@@ -49,8 +50,6 @@ pub(crate) struct Front {
     pub(crate) at: usize,
     /// Its elements in the list of all elements.
     pub(crate) elements: Range<usize>,
-    /// Where their unknowns begin in the list of all.
-    pub(crate) element_rows: usize,
     /// Its children in the list of all children.
     pub(crate) children: Range<usize>,
 }
@@ -63,8 +62,6 @@ pub(crate) struct Plan {
     pub(crate) children: Vec<Part>,
     /// Targets of scattered parts, as offsets in their front.
     pub(crate) targets: Vec<u32>,
-    /// Places of the unknowns of all elements in the own vector of their task, front by front.
-    pub(crate) element_rows: Vec<u32>,
     /// Elimination places of the remaining rows of all fronts.
     pub(crate) rows: Vec<u32>,
     /// What may be done at the same time.
@@ -169,6 +166,8 @@ struct Planner {
     row: Vec<u32>,
     /// The elements of each front.
     elements_of: Lists,
+    /// Where targets that occur again stand: most fronts of a mechanism are like another one.
+    known: HashMap<Vec<u32>, usize>,
 }
 
 impl Planner {
@@ -201,7 +200,6 @@ impl Planner {
                 opening: Opening::Zeros,
                 at: 0,
                 elements: 0..0,
-                element_rows: 0,
                 children: 0..0,
             });
         }
@@ -219,11 +217,10 @@ impl Planner {
             (0..plan.cliques.len()).map(|e| plan.cliques.get(e).len()).max().unwrap_or(0);
         let elements_of = elements_by_front(&plan.cliques, &place, &front_of_place, n_fronts);
         plan.n_block = plan.largest_blocks(&elements_of);
-        let largest = Largest { block: plan.n_block, clique: plan.largest_clique };
         let tree = (&plan.fronts[..], &fronts.parent[..]);
-        plan.tasks = tasks(tree, &plan.rows, &fronts.work, grain, largest);
+        plan.tasks = tasks(tree, &plan.rows, &fronts.work, (grain, plan.n_block));
         plan.place_fronts(&place);
-        Self { plan, row: vec![0; n], place, elements_of }
+        Self { plan, row: vec![0; n], place, elements_of, known: HashMap::new() }
     }
 
     /// Makes the maps of elements and children, front by front.
@@ -251,7 +248,7 @@ impl Planner {
 
     /// Appends the elements of front `s`; one that has all its unknowns comes first, and is written, not added.
     fn add_elements(&mut self, s: usize, f: usize) {
-        let from = self.plan.elements.len();
+        let (from, targets) = (self.plan.elements.len(), self.plan.targets.len());
         for &e in self.elements_of.get(s) {
             let clique = self.plan.cliques.get(e as usize);
             let map: Vec<u32> =
@@ -259,18 +256,15 @@ impl Planner {
             let place = place_of(&map, f, &mut self.plan.targets);
             self.plan.elements.push(Part { source: e as usize, size: index(map.len()), place });
         }
+        share(&mut self.known, targets, &mut self.plan.targets, &mut self.plan.elements[from..]);
         let elements = &mut self.plan.elements[from..];
         let straight = elements.iter().position(|part| part.place == Place::Tail(0));
         let whole = straight.or_else(|| elements.iter().position(|part| part.size as usize == f));
         if let Some(whole) = whole {
             elements[..=whole].rotate_right(1);
         }
-        let element_rows = self.plan.element_rows.len();
-        self.add_element_rows(s, from);
-        let elements = &self.plan.elements[from..];
         let front = &mut self.plan.fronts[s];
         let is_small = |part: &Part| part.size as usize <= part::SMALL;
-        front.element_rows = element_rows;
         front.opening = match (straight, whole) {
             (Some(_), _) => Opening::Written,
             (None, Some(_)) => Opening::Permuted,
@@ -282,23 +276,9 @@ impl Planner {
         front.elements = from..self.plan.elements.len();
     }
 
-    /// Appends the places of the unknowns of the elements of front `s`, which begin with element `from`.
-    fn add_element_rows(&mut self, s: usize, from: usize) {
-        let Plan { fronts, elements, cliques, tasks, element_rows, .. } = &mut self.plan;
-        let front = &fronts[s];
-        for element in &elements[from..] {
-            for &u in cliques.get(element.source) {
-                let row = self.row[self.place[u as usize] as usize];
-                let beyond = (row as usize).checked_sub(front.p);
-                let place = beyond.map(|k| tasks.rows[front.rows.start + k]);
-                element_rows.push(place.unwrap_or(index(front.at) + row));
-            }
-        }
-    }
-
     /// Appends the updates that front `s` receives.
     fn add_children(&mut self, s: usize, f: usize, children: &[u32]) {
-        let from = self.plan.children.len();
+        let (from, targets) = (self.plan.children.len(), self.plan.targets.len());
         for &c in children {
             let child = &self.plan.fronts[c as usize];
             let map: Vec<u32> =
@@ -307,6 +287,7 @@ impl Planner {
             let place = place_of(&map, f, &mut self.plan.targets);
             self.plan.children.push(Part { source, size: index(map.len()), place });
         }
+        share(&mut self.known, targets, &mut self.plan.targets, &mut self.plan.children[from..]);
         self.plan.fronts[s].children = from..self.plan.children.len();
     }
 }
@@ -336,6 +317,28 @@ impl Plan {
             }
         }
         self.tasks.stored_at = place.iter().map(|&q| stored_at_place[q as usize]).collect();
+    }
+}
+
+/// Lets parts whose targets begin with place `from` have those of earlier ones, where they are the same.
+fn share(
+    known: &mut HashMap<Vec<u32>, usize>,
+    from: usize,
+    targets: &mut Vec<u32>,
+    parts: &mut [Part],
+) {
+    if targets.len() == from {
+        return;
+    }
+    let Some(&first) = known.get(&targets[from..]) else {
+        known.insert(targets[from..].to_vec(), from);
+        return;
+    };
+    targets.truncate(from);
+    for part in parts {
+        if let Place::Scattered(start) = &mut part.place {
+            *start -= index(from - first);
+        }
     }
 }
 

@@ -8,7 +8,6 @@
 //!
 //! Every sum has one order, that of the plan. Parts are cut with `split_at_mut`, so two tasks cannot meet in a number.
 
-use crate::ascent::{Ascent, ascend};
 use crate::kernel::{self, BadPivot};
 use crate::options::Pivoting;
 use crate::part;
@@ -203,40 +202,55 @@ enum Direction {
     Backward,
 }
 
-impl<T: Real, W: Team> Ascent<T> for Vectors<'_, T, W> {
-    #[inline(always)]
-    fn begin(&self, task: &Task, places: &mut [T]) {
-        for (z, &u) in places.iter_mut().zip(&self.order[task.places.clone()]) {
-            *z = self.x[u as usize];
-        }
-    }
-    #[inline(always)]
-    fn work(&self, task: &Task, own: &mut [T]) {
-        for front in &self.plan.fronts[task.fronts.clone()] {
-            self.visit(front, own, Direction::Forward);
-        }
-    }
-}
-
 impl<T: Real, W: Team> Vectors<'_, T, W> {
     /// Both sweeps, in the storage of all tasks.
     pub(crate) fn solve(&self, storage: &mut [T]) {
         let roots = &self.plan.tasks.roots;
-        ascend((self.plan, self.team), roots, storage, self);
-        self.descend(roots, storage, None);
+        self.all(roots, storage, None, Direction::Forward);
+        self.all(roots, storage, None, Direction::Backward);
     }
 
-    /// The neighbouring tasks of a list and all below, by halves; `above` is the own vector of the task above them.
-    fn descend(&self, list: &[u32], storage: &mut [T], above: Option<&[T]>) {
-        let tasks = &self.plan.tasks;
-        let (left, right) = match list {
-            [] => return,
-            [task] => return self.backward(*task as usize, storage, above),
-            _ => tasks.halves(list),
-        };
-        let begin = tasks.list[left[0] as usize].vector[0];
-        let (a, b) = storage.split_at_mut(tasks.list[right[0] as usize].vector[0] - begin);
-        self.team.join(|| self.descend(left, a, above), || self.descend(right, b, above));
+    /// The neighbouring tasks of a list, by halves; `above` is the own vector of the task above them.
+    fn all(&self, list: &[u32], storage: &mut [T], above: Option<&[T]>, direction: Direction) {
+        let tasks = &self.plan.tasks.list;
+        match (list, direction) {
+            ([], _) => {}
+            ([task], Direction::Forward) => self.forward(*task as usize, storage),
+            ([task], Direction::Backward) => self.backward(*task as usize, storage, above),
+            _ => {
+                let (left, right) = self.plan.tasks.halves(list);
+                let begin = tasks[left[0] as usize].vector[0];
+                let cut = tasks[right[0] as usize].vector[0] - begin;
+                let (a, b) = storage.split_at_mut(cut);
+                self.team.join(
+                    || self.all(left, a, above, direction),
+                    || self.all(right, b, above, direction),
+                );
+            }
+        }
+    }
+
+    fn forward(&self, at: usize, storage: &mut [T]) {
+        let task = &self.plan.tasks.list[at];
+        let (below, own) = storage.split_at_mut(task.vector[1] - task.vector[0]);
+        let children = self.plan.tasks.below(at);
+        self.all(children, below, None, Direction::Forward);
+        let (places, outer) = own.split_at_mut(task.places.len());
+        for (z, &u) in places.iter_mut().zip(&self.order[task.places.clone()]) {
+            *z = self.x[u as usize];
+        }
+        outer[..task.outer.len()].fill(T::ZERO);
+        for &child in children {
+            let child = &self.plan.tasks.list[child as usize];
+            let from = &below[child.outer_vector(task.vector[0])..];
+            let targets = &self.plan.tasks.targets[child.outer.clone()];
+            for (&target, &value) in targets.iter().zip(from) {
+                own[target as usize] += value;
+            }
+        }
+        for front in &self.plan.fronts[task.fronts.clone()] {
+            self.visit(front, own, Direction::Forward);
+        }
     }
 
     fn backward(&self, at: usize, storage: &mut [T], above: Option<&[T]>) {
@@ -251,7 +265,7 @@ impl<T: Real, W: Team> Vectors<'_, T, W> {
         for front in self.plan.fronts[task.fronts.clone()].iter().rev() {
             self.visit(front, own, Direction::Backward);
         }
-        self.descend(self.plan.tasks.below(at), below, Some(own));
+        self.all(self.plan.tasks.below(at), below, Some(own), Direction::Backward);
     }
 
     /// One front of one sweep, on the own vector of its task.
@@ -292,37 +306,7 @@ impl<T: Real, W: Team> Vectors<'_, T, W> {
 
 impl Task {
     /// Where what it leaves for rows further up stands in a storage that begins at `start`.
-    pub(crate) fn outer_vector(&self, start: usize) -> usize {
+    fn outer_vector(&self, start: usize) -> usize {
         self.vector[1] + self.places.len() - start
-    }
-}
-
-/// The sum of the residuals of all elements of a source.
-#[derive(Debug)]
-pub(crate) struct Residuals<'a, S> {
-    pub(crate) plan: &'a Plan,
-    pub(crate) source: &'a S,
-}
-
-impl<T: Real, S: BlockSource<T>> Ascent<T> for Residuals<'_, S> {
-    #[inline(always)]
-    fn begin(&self, _: &Task, places: &mut [T]) {
-        places.fill(T::ZERO);
-    }
-    #[inline(always)]
-    fn work(&self, task: &Task, own: &mut [T]) {
-        let (own, scratch) = own.split_at_mut(task.places.len() + task.outer.len());
-        for front in &self.plan.fronts[task.fronts.clone()] {
-            let mut rows = &self.plan.element_rows[front.element_rows..];
-            for element in &self.plan.elements[front.elements.clone()] {
-                let (places, others) = rows.split_at(element.size as usize);
-                let residual = &mut scratch[..places.len()];
-                self.source.write_residual(element.source, residual);
-                for (&place, &value) in places.iter().zip(&*residual) {
-                    own[place as usize] += value;
-                }
-                rows = others;
-            }
-        }
     }
 }

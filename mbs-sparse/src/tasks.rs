@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! a task = neighbouring subtrees of little work, or the fronts from a fork of the tree up to the next one, with the tasks below
-//! own storage of a task:  numbers  [ its fronts | one block ]        vector  [ its places | rows further up | one element, or the pivots of one front ]
+//! own storage of a task:  numbers  [ its fronts | one block ]        vector  [ its places | rows further up | pivots of one front ]
 //! storage of a task with all below:  [ of its children, in order | own ]
 //! ```
 //!
@@ -78,22 +78,12 @@ impl Tasks {
     }
 }
 
-/// Room beside the numbers and the vector of each task.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Largest {
-    /// Numbers of the largest block.
-    pub(crate) block: usize,
-    /// Unknowns of the largest element.
-    pub(crate) clique: usize,
-}
-
 /// Cuts the tree. `work` is the time of each front [ns], `grain` what a task should take at least.
 pub(crate) fn tasks(
     (fronts, parent): (&[Front], &[u32]),
     all_rows: &[u32],
     work: &[f64],
-    grain: f64,
-    largest: Largest,
+    (grain, largest_block): (f64, usize),
 ) -> Tasks {
     let mut cutter = Cutter::new(parent, work, grain);
     let roots: Vec<usize> = (0..parent.len()).filter(|&s| parent[s] == NONE).collect();
@@ -113,7 +103,7 @@ pub(crate) fn tasks(
         tasks.children.close();
     }
     for at in 0..tasks.list.len() {
-        tasks.lay_out(at, fronts, all_rows, largest);
+        tasks.lay_out(at, fronts, all_rows, largest_block);
         let below: f64 = tasks.below(at).iter().map(|&c| tasks.list[c as usize].total).sum();
         let task = &mut tasks.list[at];
         task.total = below + work[task.fronts.clone()].iter().sum::<f64>();
@@ -204,7 +194,7 @@ impl<'a> Cutter<'a> {
 
 impl Tasks {
     /// Storage and rows of task `at`, when those of its children are known.
-    fn lay_out(&mut self, at: usize, fronts: &[Front], all_rows: &[u32], largest: Largest) {
+    fn lay_out(&mut self, at: usize, fronts: &[Front], all_rows: &[u32], largest_block: usize) {
         let own = &fronts[self.list[at].fronts.clone()];
         let (first, last) = (own[0].first, &own[own.len() - 1]);
         let places = first..last.first + last.p;
@@ -242,7 +232,7 @@ impl Tasks {
                 self.rows[k] = local(all_rows[k]);
             }
         }
-        let most = own.iter().map(|front| front.p).max().unwrap_or(0).max(largest.clique);
+        let most = own.iter().map(|front| front.p).max().unwrap_or(0);
         let numbers: usize = own.iter().map(|front| column(front.f, front.f)).sum();
         let begin = self.below(at).first().map_or(self.sizes, |&c| {
             let child = &self.list[c as usize];
@@ -254,7 +244,7 @@ impl Tasks {
         self.outer.extend_from_slice(&outer);
         self.targets.resize(self.outer.len(), 0);
         let [number, vector] = self.sizes;
-        let ends = [number + numbers + largest.block, vector + places.len() + outer.len() + most];
+        let ends = [number + numbers + largest_block, vector + places.len() + outer.len() + most];
         let task = &mut self.list[at];
         task.numbers = [begin[0], number, ends[0]];
         task.vector = [begin[1], vector, ends[1]];

@@ -54,7 +54,12 @@ pub(super) fn finish<T: Real, const D: usize>(
 struct Layout<T: Real, const D: usize> {
     model: NaturalModel<T, D>,
     entities: Vec<Entity<T>>,
+    /// The different masses and blocks so far.
+    masses: Vec<(Span, Span)>,
 }
+
+/// Bodies alike share their mass with one of so many different ones before: what a chain reads stays in the cache.
+const RECENT: usize = 16;
 
 /// Where a combination's columns are in the group at hand.
 struct Columns<'a> {
@@ -134,7 +139,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             length,
             marks: Vec::new(),
         };
-        Self { model, entities }
+        Self { model, entities, masses: Vec::new() }
     }
 
     fn add(&mut self, draft: &GroupDraft<T>) {
@@ -285,8 +290,18 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 }
             }
         }
-        group.mass = extend(&mut self.model.mass, coefs.into_iter());
-        group.block = extend(&mut self.model.blocks, block.into_iter());
+        let m = &mut self.model;
+        let is_like = |other: &&(Span, Span)| {
+            other.0.of(&m.mass) == coefs.as_slice() && other.1.of(&m.blocks) == block.as_slice()
+        };
+        let like = self.masses.iter().rev().take(RECENT).find(is_like).copied();
+        (group.mass, group.block) = like.unwrap_or_else(|| {
+            let mass = extend(&mut m.mass, coefs.into_iter());
+            (mass, extend(&mut m.blocks, block.into_iter()))
+        });
+        if like.is_none() {
+            self.masses.push((group.mass, group.block));
+        }
     }
 
     fn add_forces(
