@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod delayed;
 mod dissection;
 mod graph;
 mod indefinite;
@@ -8,12 +9,14 @@ mod multifrontal;
 mod options;
 mod pivoting;
 mod plan;
+mod scatter;
 mod share;
 mod sweep;
 mod tasks;
 mod tree;
 
-pub use indefinite::{Delays, Indefinite};
+pub use delayed::Delays;
+pub use indefinite::Indefinite;
 pub use multifrontal::Multifrontal;
 pub use options::{Counters, Options, Ordering, Pivoting};
 

@@ -6,11 +6,11 @@
 //!           [ L_21  I ] [     U  ] [         I      ]          U: update for the parent
 //! ```
 
-use crate::graph::Lists;
 use crate::kernel;
 use crate::options::{Counters, Options, Pivoting};
 use crate::plan::{Part, Place, Plan, column, plan};
-use crate::share::{Numbers, Vectors};
+use crate::scatter::Scatter;
+use crate::share::{Factor, Numbers, Vectors};
 use crate::sweep;
 use mbs_core::team::{Alone, Team, on_stretches};
 use mbs_core::{BlockSource, Cliques, FactorError, Real, SpdSolver};
@@ -30,10 +30,7 @@ pub struct Multifrontal<T: Real, W: Team = Alone> {
     is_one_block: bool,
     /// For each pivot its row in its front before the swaps of [`Pivoting::Diagonal`].
     taken: Vec<u32>,
-    /// Residuals of all elements; of one where the team is one.
-    residuals: Vec<T>,
-    /// For each unknown where it stands in `residuals`, in the order of the elements; empty where the team is one.
-    parts: Lists,
+    residuals: Scatter<T>,
 }
 
 impl<T: Real> Multifrontal<T> {
@@ -66,20 +63,15 @@ impl<T: Real, W: Team> Multifrontal<T, W> {
 
     fn planned(team: W, plan: Plan, pivoting: Pivoting) -> Self {
         let n_taken = if pivoting == Pivoting::Diagonal { plan.order.len() } else { 0 };
-        let is_shared = team.size() > 1;
-        let parts =
-            if is_shared { by_unknown(&plan.cliques, plan.order.len()) } else { Lists::default() };
-        let n_residuals = if is_shared { plan.cliques.items.len() } else { plan.largest_clique };
         Self {
             pivoting,
+            residuals: Scatter::new(&team, &plan),
             team,
             is_one_block: plan.fronts.len() == 1 && plan.is_natural && n_taken == 0,
             fronts: vec![T::ZERO; plan.tasks.sizes[0]],
             pivots: vec![T::ZERO; plan.order.len()],
             order: plan.order.clone(),
             taken: vec![0; n_taken],
-            residuals: vec![T::ZERO; n_residuals],
-            parts,
             plan,
         }
     }
@@ -91,22 +83,10 @@ impl<T: Real, W: Team> Multifrontal<T, W> {
 
     /// Both sweeps on a vector in the storage of the tasks, of which `x` is the right-hand side.
     fn sweep(&self, x: &[T], storage: &mut [T]) {
-        let vectors = Vectors {
-            plan: &self.plan,
-            team: &self.team,
-            fronts: &self.fronts,
-            taken: &self.taken,
-            order: &self.plan.order,
-            x,
-        };
-        vectors.solve(storage);
+        let fronts = Factor { plan: &self.plan, fronts: &self.fronts, taken: &self.taken };
+        let vectors = Vectors { plan: &self.plan, team: &self.team, fronts };
+        vectors.solve(x, storage);
     }
-}
-
-/// For each unknown its places in the list of all cliques.
-fn by_unknown(cliques: &Lists, n: usize) -> Lists {
-    let single = Lists { start: (0..=cliques.items.len()).collect(), items: cliques.items.clone() };
-    single.transposed(n)
 }
 
 /// Adds the packed triangle `from` of a part into the packed front `a` of `f` unknowns.
@@ -168,28 +148,7 @@ impl<T: Real, W: Team> SpdSolver<T> for Multifrontal<T, W> {
 
     fn assemble<S: BlockSource<T>>(&mut self, source: &S, f: &mut [T]) {
         assert_eq!(f.len(), self.plan.order.len(), "assemble needs one place for each unknown");
-        let cliques = &self.plan.cliques;
-        if self.team.size() == 1 {
-            f.fill(T::ZERO);
-            for e in 0..cliques.len() {
-                let clique = cliques.get(e);
-                let residual = &mut self.residuals[..clique.len()];
-                source.write_residual(e, residual);
-                for (&u, &value) in clique.iter().zip(&*residual) {
-                    f[u as usize] += value;
-                }
-            }
-            return;
-        }
-        write_residuals(&self.team, source, cliques, (0, cliques.len()), &mut self.residuals);
-        let (residuals, parts) = (&self.residuals, &self.parts);
-        on_stretches(&self.team, [f], |first, [f]| {
-            for (u, f) in f.iter_mut().enumerate() {
-                // In the order of the elements: the same bits as above.
-                let places = parts.get(first + u).iter();
-                *f = places.fold(T::ZERO, |sum, &at| sum + residuals[at as usize]);
-            }
-        });
+        self.residuals.sum(&self.team, &self.plan.cliques, source, f);
     }
 
     fn pivots(&self) -> &[T] {
@@ -198,33 +157,5 @@ impl<T: Real, W: Team> SpdSolver<T> for Multifrontal<T, W> {
 
     fn elimination_order(&self) -> &[u32] {
         &self.order
-    }
-}
-
-/// Elements whose residuals one thread writes at a time.
-const ELEMENTS: usize = 128;
-
-/// Writes the residuals of elements `from..to` one after the other.
-fn write_residuals<T: Real, W: Team, S: BlockSource<T>>(
-    team: &W,
-    source: &S,
-    cliques: &Lists,
-    (from, to): (usize, usize),
-    residuals: &mut [T],
-) {
-    if to - from > ELEMENTS {
-        let half = from + (to - from) / 2;
-        let (left, right) = residuals.split_at_mut(cliques.start[half] - cliques.start[from]);
-        team.join(
-            || write_residuals(team, source, cliques, (from, half), left),
-            || write_residuals(team, source, cliques, (half, to), right),
-        );
-        return;
-    }
-    let mut rest = residuals;
-    for e in from..to {
-        let (residual, tail) = rest.split_at_mut(cliques.get(e).len());
-        source.write_residual(e, residual);
-        rest = tail;
     }
 }
