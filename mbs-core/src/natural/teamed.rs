@@ -83,12 +83,9 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 element.place = part.place(element.place);
                 *measure = element.evaluate::<D>(&self.pool, (q, v, memory), &supplies, jacobian);
             }
-            let n = super::finish::index(self.measures.len());
             for element in part.body_elements(&self.body_elements) {
                 let mut element = *element;
                 element.place = part.place(element.place);
-                (element.measures.start, element.measures.end) =
-                    (element.measures.start - n, element.measures.end - n);
                 element.measures = part.body_measures(element.measures);
                 let out = (&mut jacobian[..], &mut body_measures[..]);
                 element.evaluate::<D>(&self.pool, (q, v), &supplies, out);
