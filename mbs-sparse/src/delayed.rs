@@ -112,6 +112,8 @@ struct Stretch {
 pub struct Delays {
     /// Unknowns that a front passed on to its parent, counted once for every front.
     pub delayed: usize,
+    /// Those of them that one task passed on to another.
+    pub between_tasks: usize,
     /// Unknowns of the largest front.
     pub largest_front: usize,
     /// Numbers stored for all fronts.
@@ -123,6 +125,7 @@ impl Delays {
     pub(crate) fn with(self, other: Self) -> Self {
         Self {
             delayed: self.delayed + other.delayed,
+            between_tasks: self.between_tasks + other.between_tasks,
             largest_front: self.largest_front.max(other.largest_front),
             stored: self.stored + other.stored,
         }
@@ -301,7 +304,11 @@ impl<T: Real> Share<T> {
                     &below[child_task - task.first_task];
                 Done { stretches, numbers, order, size }
             };
-            place = done.add(job.layout, (c, local), (delayed, place), (a, order, size));
+            let next = done.add(job.layout, (c, local), (delayed, place), (a, order, size));
+            if child_task != at {
+                self.delays.between_tasks += next - place;
+            }
+            place = next;
         }
         let names = &mut order[delayed..];
         let own = task.vector[1];
