@@ -1,10 +1,9 @@
 //! A model and a solver that delegate and read the clock: the very step is timed, and the library has no clock.
 
-use mbs_core::model::{Load, Model, Owner, Tangent, Terms};
+use mbs_core::model::{Model, Terms};
 use mbs_core::team::Team;
 use mbs_core::{BlockSource, Cliques, FactorError, SpdSolver};
 use serde_json::{Map, Value, json};
-use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use std::time::Instant;
 
@@ -145,48 +144,13 @@ pub(crate) struct ClockedModel<'a, M> {
 }
 
 impl<M: Cliques> Cliques for ClockedModel<'_, M> {
-    fn n_unknowns(&self) -> usize {
-        self.model.n_unknowns()
-    }
-    fn n_elements(&self) -> usize {
-        self.model.n_elements()
-    }
-    #[inline(always)]
-    fn clique(&self, element: usize) -> &[u32] {
-        self.model.clique(element)
-    }
-    fn n_primal(&self) -> usize {
-        self.model.n_primal()
-    }
+    mbs_core::forward_cliques!(model);
 }
 
 impl<M: Model<f64>> Model<f64> for ClockedModel<'_, M> {
+    mbs_core::forward_model!(f64, model);
     fn team(&self) -> &impl Team {
         self.model.team()
-    }
-    fn n_extended(&self) -> usize {
-        self.model.n_extended()
-    }
-    fn n_constraints(&self) -> usize {
-        self.model.n_constraints()
-    }
-    fn n_memory(&self) -> usize {
-        self.model.n_memory()
-    }
-    fn has_forces(&self) -> bool {
-        self.model.has_forces()
-    }
-    fn has_guides(&self) -> bool {
-        self.model.has_guides()
-    }
-    fn terms(&self) -> Terms<f64> {
-        self.model.terms()
-    }
-    fn write_reference(&self, q: &mut [f64]) {
-        self.model.write_reference(q);
-    }
-    fn set_inputs(&self, t: f64, terms: &mut Terms<f64>) {
-        self.model.set_inputs(t, terms);
     }
     fn evaluate(&self, q: &[f64], terms: &mut Terms<f64>) {
         self.clock.read(Phase::Evaluation, || self.model.evaluate(q, terms));
@@ -197,64 +161,17 @@ impl<M: Model<f64>> Model<f64> for ClockedModel<'_, M> {
     fn evaluate_forces(&self, q: &[f64], v: &[f64], memory: &[f64], terms: &mut Terms<f64>) {
         self.clock.read(Phase::Forces, || self.model.evaluate_forces(q, v, memory, terms));
     }
-    fn remember(&self, terms: &Terms<f64>, memory: &mut [f64]) {
-        self.model.remember(terms, memory);
-    }
-    fn evaluate_phi_t(&self, q: &[f64], terms: &mut Terms<f64>) {
-        self.model.evaluate_phi_t(q, terms);
-    }
     fn evaluate_bias(&self, q: &[f64], v: &[f64], terms: &mut Terms<f64>) {
         self.clock.read(Phase::Bias, || self.model.evaluate_bias(q, v, terms));
     }
     fn multiply_jacobian(&self, terms: &Terms<f64>, x: &[f64], rates: &mut [f64]) {
         self.clock.read(Phase::Products, || self.model.multiply_jacobian(terms, x, rates));
     }
-    fn effective_masses(&self, terms: &Terms<f64>, masses: &mut [f64]) {
-        self.model.effective_masses(terms, masses);
-    }
-    fn rows(&self, element: usize) -> Range<usize> {
-        self.model.rows(element)
-    }
-    fn write_jacobian(&self, terms: &Terms<f64>, element: usize, rows: &mut [f64]) {
-        self.model.write_jacobian(terms, element, rows);
-    }
-    #[inline]
-    fn write_block(
-        &self,
-        terms: &Terms<f64>,
-        tangent: &Tangent<'_, f64>,
-        element: usize,
-        block: &mut [f64],
-    ) {
-        self.model.write_block(terms, tangent, element, block);
-    }
-    #[inline]
-    fn write_residual(
-        &self,
-        terms: &Terms<f64>,
-        load: &Load<'_, f64>,
-        element: usize,
-        residual: &mut [f64],
-    ) {
-        self.model.write_residual(terms, load, element, residual);
-    }
     fn kinetic_energy(&self, v: &[f64]) -> f64 {
         self.model.kinetic_energy(v)
     }
     fn potential_energy(&self, q: &[f64], terms: &Terms<f64>) -> f64 {
         self.model.potential_energy(q, terms)
-    }
-    fn power(&self, q: &[f64], v: &[f64], lambda: &[f64], terms: &Terms<f64>) -> f64 {
-        self.model.power(q, v, lambda, terms)
-    }
-    fn opposite_guide(&self, q: &[f64], terms: &Terms<f64>) -> Option<usize> {
-        self.model.opposite_guide(q, terms)
-    }
-    fn owner_of_unknown(&self, unknown: usize) -> Owner {
-        self.model.owner_of_unknown(unknown)
-    }
-    fn owner_of_row(&self, row: usize) -> Owner {
-        self.model.owner_of_row(row)
     }
 }
 

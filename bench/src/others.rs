@@ -1,13 +1,13 @@
-//! The formulations that have no team: one row each, as `mbs run` steps them.
+//! Formulations as `mbs run` steps them: classical alone and with a crew, by turns; those without teams in one row each.
 
 use crate::augmented::merge;
 use crate::lane::Sums;
 use crate::race::{Runner, Timing, race, timed};
 use crate::scenes::steps;
 use crate::{Request, say};
-use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
+use mbs::{Formulation, InSpace, Overrides, Plane, Settings, Simulation};
 use mbs_core::scene::Scene;
-use serde_json::json;
+use serde_json::{Value, json};
 
 /// A step that takes longer is not measured further [s].
 const LONGEST: f64 = 2.0;
@@ -51,37 +51,68 @@ pub(crate) fn measure<const D: usize>(
 where
     Plane<D>: InSpace<f64>,
 {
-    let mut line = json!({
-        "kind": "lane", "formulation": formulation, "team": "alone", "threads": 1, "order": "chosen",
-        "clocked": false,
-    });
-    let told = match raced::<D>(scene, formulation, request) {
-        Ok((timing, sums)) => [timing.told(), json!({ "work": sums.told() })],
-        Err(why) => [json!({ "reason": why }), json!({})],
+    let tell = |threads: usize, told: [Value; 2]| {
+        let team = if threads == 1 { "alone" } else { "crew" };
+        let mut line = json!({
+            "kind": "lane", "formulation": formulation, "team": team, "threads": threads, "order": "chosen",
+            "clocked": false,
+        });
+        merge(&mut line, told);
+        say(&line);
     };
-    merge(&mut line, told);
-    say(&line);
+    let (lanes, timings) = match raced::<D>(scene, formulation, request) {
+        Ok(raced) => raced,
+        Err(why) => {
+            tell(1, [json!({ "reason": why }), json!({})]);
+            return Ok(());
+        }
+    };
+    for ((threads, lane), timing) in lanes.iter().zip(timings) {
+        tell(
+            *threads,
+            match timing {
+                Ok(timing) => [timing.told(), json!({ "work": lane.sums.told() })],
+                Err(why) => [json!({ "reason": why }), json!({})],
+            },
+        );
+    }
     Ok(())
 }
+
+/// Simulations with their numbers of threads, and their times.
+type Raced<const D: usize> = (Vec<(usize, Steps<D>)>, Vec<Result<Timing, String>>);
 
 fn raced<const D: usize>(
     scene: &Scene<f64>,
     formulation: &str,
     request: &Request,
-) -> Result<(Timing, Sums), String>
+) -> Result<Raced<D>, String>
 where
     Plane<D>: InSpace<f64>,
 {
-    let asked = Overrides { formulation: Some(formulation.to_owned()), ..Overrides::default() };
-    let settings = Settings::new(scene, &asked).map_err(|e| e.to_string())?;
-    let simulation = Simulation::<f64, D>::new(scene, &settings).map_err(|e| e.to_string())?;
     let (dt, _) = steps(scene);
-    let mut steps = Steps { simulation, dt, sums: Sums::default() };
-    let pilot = steps.run(1)?;
+    let simulated = |threads: usize| {
+        let asked = Overrides {
+            formulation: Some(formulation.to_owned()),
+            threads: Some(threads),
+            ..Overrides::default()
+        };
+        let settings = Settings::new(scene, &asked).map_err(|e| e.to_string())?;
+        let simulation = Simulation::<f64, D>::new(scene, &settings).map_err(|e| e.to_string())?;
+        Ok::<_, String>((threads, Steps { simulation, dt, sums: Sums::default() }))
+    };
+    let mut lanes = vec![simulated(1)?];
+    let pilot = lanes[0].1.run(1)?;
     if pilot > LONGEST {
         return Err(format!("one step takes {pilot:.1} s: not measured further"));
     }
-    let mut timings = race(&mut [&mut steps], request.seconds);
-    let timing = timings.pop().unwrap_or_else(|| Err("not measured".to_owned()))?;
-    Ok((timing, steps.sums))
+    if Formulation::ALL.iter().any(|f| f.name() == formulation && f.takes_threads()) {
+        for &threads in request.threads.iter().filter(|&&n| n > 1) {
+            lanes.push(simulated(threads)?);
+        }
+    }
+    let mut runners: Vec<&mut dyn Runner> =
+        lanes.iter_mut().map(|(_, lane)| lane as &mut dyn Runner).collect();
+    let timings = race(&mut runners, request.seconds);
+    Ok((lanes, timings))
 }

@@ -256,8 +256,9 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
         subtract(model.team(), &mut w.change[..n], &w.f);
         move_to(model, options, s, w);
         add_product(model.team(), &mut w.sigma, (&w.penalty, &w.terms.phi));
-        let contraction = norm_inf(model.team(), &w.terms.phi) / violation;
-        violation = norm_inf(model.team(), &w.terms.phi);
+        let left = norm_inf(model.team(), &w.terms.phi);
+        let contraction = left / violation;
+        violation = left;
         let is_raised = contraction > T::from_f64(0.1) && w.raise_penalties(contraction);
         if contraction > T::from_f64(0.9) && !is_raised {
             break;

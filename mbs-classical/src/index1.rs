@@ -18,13 +18,13 @@
 use crate::options::{Options, Stabilisation};
 use crate::projection::Level;
 use crate::workspace::{Mass, Workspace};
-use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
     StepError, StepReport, Stop, Yardstick, check_guides, largest, largest_or_nan, step_scale,
     stopping,
 };
+use mbs_core::team::{norm_inf, on_stretches};
 use mbs_core::{Real, SymmetricSolver};
 
 /// Position violation that is accepted when no sweep lowers it further, relative to the scene's length.
@@ -58,7 +58,7 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         let velocity = w.violation(model, Level::Velocity);
         model.evaluate_bias(&w.q, &w.v, &mut w.terms);
         let acceleration = w.violation(model, Level::Acceleration);
-        [norm_inf(&w.terms.phi), velocity, acceleration]
+        [norm_inf(model.team(), &w.terms.phi), velocity, acceleration]
     };
     w.commit(model, &rule, options.compensated, T::ONE, s);
     Ok(StepReport::of_newton(newton, w.counts, violation))
@@ -72,9 +72,7 @@ fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     s: &State<T>,
     w: &mut Workspace<T, S>,
 ) {
-    for i in 0..w.n {
-        (w.dq[i], w.v[i], w.a[i]) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
-    }
+    w.predict(model, (rule, T::ONE), s);
     w.lambda.copy_from_slice(&s.lambda);
     model.set_inputs(s.t + rule.dt, &mut w.terms);
     evaluate(model, options, s, w);
@@ -124,7 +122,8 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<(u32, T, Stop), StepError> {
     let inverse = T::ONE / rule.acceleration;
-    let scale = step_scale(model.team(), rule.dt, &s.a).max(norm_inf(&s.v) * rule.dt * T::EPSILON);
+    let scale = step_scale(model.team(), rule.dt, &s.a)
+        .max(norm_inf(model.team(), &s.v) * rule.dt * T::EPSILON);
     let mut last = T::ZERO;
     for iterations in 1..=options.max_iterations {
         factor(model, rule, options, w)?;
@@ -132,21 +131,14 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         w.mu.copy_from_slice(&w.lambda);
         w.assemble(model, Mass::Acceleration, T::ONE, true);
         w.solve();
-        for i in 0..w.n {
-            let d = w.f[i];
-            w.a[i] -= d;
-            w.dq[i] -= d * inverse;
-            w.v[i] -= rule.velocity * inverse * d;
-        }
-        for k in 0..w.lambda.len() {
-            w.lambda[k] -= w.f[w.n + k];
-        }
-        let correction = norm_inf(&w.f[..w.n]) * inverse;
+        w.correct(model, (inverse, rule.velocity * inverse));
+        let correction = norm_inf(model.team(), &w.f[..w.n]) * inverse;
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f[..w.n]) });
         }
         evaluate(model, options, s, w);
-        let noise = norm_inf(&w.dq).max(length * rule.dt) * T::EPSILON * T::from_f64(64.0);
+        let noise =
+            norm_inf(model.team(), &w.dq).max(length * rule.dt) * T::EPSILON * T::from_f64(64.0);
         let yardstick = Yardstick { scale, goal: scale * options.tolerance, noise };
         if let Some(stop) = stopping(iterations, correction, last, &yardstick) {
             return Ok((iterations, correction, stop));
@@ -170,7 +162,7 @@ fn positions<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     let limit = length * T::from_f64(LIMIT).max(T::EPSILON * T::from_f64(256.0));
     w.sigma.fill(T::ZERO);
     w.change.fill(T::ZERO);
-    let mut violation = norm_inf(&w.terms.phi);
+    let mut violation = norm_inf(model.team(), &w.terms.phi);
     for sweeps in 0..options.max_sweeps {
         factor(model, rule, options, w)?;
         if violation <= goal {
@@ -179,13 +171,17 @@ fn positions<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         w.rates.copy_from_slice(&w.terms.phi);
         w.sweep(model, sweeps > 0);
         w.check_branch(model, length)?;
-        for i in 0..w.n {
-            w.dq[i] -= w.f[i];
-            w.v[i] -= rule.velocity * w.f[i];
-        }
+        let (n, d) = (w.n, &w.f);
+        on_stretches(model.team(), [&mut w.dq[..n], &mut w.v[..n]], |first, [dq, v]| {
+            for ((dq, v), &d) in dq.iter_mut().zip(v).zip(&d[first..]) {
+                *dq -= d;
+                *v -= rule.velocity * d;
+            }
+        });
         w.evaluate(model, options.compensated, s);
-        let contraction = norm_inf(&w.terms.phi) / violation;
-        violation = norm_inf(&w.terms.phi);
+        let left = norm_inf(model.team(), &w.terms.phi);
+        let contraction = left / violation;
+        violation = left;
         if contraction > T::from_f64(0.9) {
             break;
         }

@@ -15,12 +15,12 @@
 
 use crate::options::Options;
 use crate::workspace::{Mass, Workspace};
-use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
     StepError, StepReport, Stop, Yardstick, largest_or_nan, step_scale, stopping,
 };
+use mbs_core::team::{norm_inf, on_stretches};
 use mbs_core::{Real, SymmetricSolver};
 
 /// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
@@ -44,9 +44,9 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     let newton = iterate(model, &rule, length, options, s, w)?;
 
     // The accelerations leave the scaling of the iteration.
-    for a in &mut w.a {
-        *a *= rule.acceleration;
-    }
+    on_stretches(model.team(), [&mut w.a], |_, [a]| {
+        a.iter_mut().for_each(|a| *a *= rule.acceleration);
+    });
     // The factor belongs to the configuration before the last correction: near enough when that was small.
     if newton.1 > length * T::from_f64(1e-7) {
         factor(model, &rule, options, w)?;
@@ -65,15 +65,14 @@ fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     w: &mut Workspace<T, S>,
 ) {
     let inverse = T::ONE / rule.acceleration;
-    for i in 0..w.n {
-        let (dq, v, a) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
-        (w.dq[i], w.v[i], w.a[i]) = (dq, v, a * inverse);
-    }
+    w.predict(model, (rule, inverse), s);
     // lambda = 2 lambda_n - lambda_(n-1)   [P3 (3)]
-    let lambda = s.extrapolated(rule.dt);
-    for k in 0..w.lambda.len() {
-        w.lambda[k] = lambda(k) * inverse;
-    }
+    let expected = s.extrapolated(rule.dt);
+    on_stretches(model.team(), [&mut w.lambda], |first, [lambda]| {
+        for (k, lambda) in lambda.iter_mut().enumerate() {
+            *lambda = expected(first + k) * inverse;
+        }
+    });
     model.set_inputs(s.t + rule.dt, &mut w.terms);
     w.evaluate(model, options.compensated, s);
 }
@@ -103,25 +102,17 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
 
         // q += d,   v += v' d,   a += a' d,   lambda += d_lambda   [P3 (20), (4), (5)]
         w.solve();
-        for i in 0..w.n {
-            let d = w.f[i];
-            w.dq[i] -= d;
-            w.v[i] -= rule.velocity * d;
-            w.a[i] -= d;
-        }
-        for k in 0..w.lambda.len() {
-            w.lambda[k] -= w.f[w.n + k];
-        }
+        w.correct(model, (T::ONE, rule.velocity));
         w.evaluate(model, options.compensated, s);
 
-        let correction = norm_inf(&w.f[..w.n]);
+        let correction = norm_inf(model.team(), &w.f[..w.n]);
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f[..w.n]) });
         }
         if iterations == 1 {
             w.check_branch(model, length)?;
         }
-        let moved = options.compensated.then(|| norm_inf(&w.dq));
+        let moved = options.compensated.then(|| norm_inf(model.team(), &w.dq));
         let measures = (scale, options.tolerance);
         let yardstick = Yardstick::of_coordinates(iterations, measures, length, moved);
         if let Some(stop) = stopping(iterations, correction, last, &yardstick) {

@@ -10,9 +10,9 @@
 //! what a factor of a near configuration or delta left.
 
 use crate::workspace::{Mass, Workspace};
-use mbs_core::algebra::norm_inf;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{StepError, check_guides, largest};
+use mbs_core::team::{norm_inf, on_stretches, subtract};
 use mbs_core::{Real, SymmetricSolver};
 
 /// Violation of a level that is accepted when no sweep lowers it further, relative to the size of the level.
@@ -39,11 +39,13 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         };
         model.multiply_jacobian(&self.terms, x, &mut self.rates);
         if level == Level::Acceleration || model.has_guides() {
-            for (r, &b) in self.rates.iter_mut().zip(b) {
-                *r += b;
-            }
+            on_stretches(model.team(), [&mut self.rates], |first, [rates]| {
+                for (r, &b) in rates.iter_mut().zip(&b[first..]) {
+                    *r += b;
+                }
+            });
         }
-        norm_inf(&self.rates)
+        norm_inf(model.team(), &self.rates)
     }
 
     /// Projects v, then a (unscaled), and balances the multipliers `unit` lambda with a; they are left in `mu`. Returns the
@@ -61,18 +63,19 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         }
         let rounding = T::EPSILON * T::from_f64(1024.0);
         let limit = T::from_f64(LIMIT).max(rounding);
-        let speed = norm_inf(&self.v);
+        let speed = norm_inf(model.team(), &self.v);
         let goal = (speed * T::EPSILON * T::from_f64(16.0), (length + speed) * limit);
         let velocity = self.project(model, Level::Velocity, goal, max_sweeps)?;
 
         model.evaluate_bias(&self.q, &self.v, &mut self.terms);
-        let size = norm_inf(&self.a).max(norm_inf(&self.terms.phi_bias));
+        let size =
+            norm_inf(model.team(), &self.a).max(norm_inf(model.team(), &self.terms.phi_bias));
         let goal = (size * rounding, (T::ONE + size) * limit);
         let acceleration = self.project(model, Level::Acceleration, goal, max_sweeps)?;
 
         self.evaluate_forces(model, s);
         self.balance(model, unit);
-        Ok([norm_inf(&self.terms.phi), velocity, acceleration])
+        Ok([norm_inf(model.team(), &self.terms.phi), velocity, acceleration])
     }
 
     /// Projects v or a; the multipliers are left in `sigma`. Returns the violation left.
@@ -99,13 +102,11 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
                 Level::Velocity => &mut self.v,
                 Level::Acceleration => &mut self.a,
             };
-            for (x, &d) in x.iter_mut().zip(&self.f[..self.n]) {
-                *x -= d;
-            }
+            subtract(model.team(), &mut x[..self.n], &self.f);
             let left = self.violation(model, level);
             let is_level = left <= goal || (left > violation * T::HALF && left <= limit);
             violation = left;
-            let correction = norm_inf(&self.f[..self.n]);
+            let correction = norm_inf(model.team(), &self.f[..self.n]);
             let is_orthogonal = correction <= first * T::from_f64(ORTHOGONAL);
             if is_level && sweeps > 0 && (is_orthogonal || correction > last * T::HALF) {
                 return Ok(violation);
@@ -130,12 +131,8 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         self.assemble(model, if is_changed { Mass::Change } else { Mass::None }, T::ZERO, true);
         self.solve();
         let (d, d_sigma) = self.f.split_at(self.n);
-        for (x, &d) in self.change.iter_mut().zip(d) {
-            *x -= d;
-        }
-        for (sigma, &d) in self.sigma.iter_mut().zip(d_sigma) {
-            *sigma -= d;
-        }
+        subtract(model.team(), &mut self.change[..self.n], d);
+        subtract(model.team(), &mut self.sigma, d_sigma);
     }
 
     /// mu = the multipliers for which M a + J^T mu - Q is smallest (in the metric W^-1): one solution from those at hand.
@@ -145,13 +142,14 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
     /// [ J  -delta ] ( e ) =   ( 0                ),     mu -= e
     /// ```
     fn balance<M: Model<T>>(&mut self, model: &M, unit: T) {
-        for k in 0..self.mu.len() {
-            self.mu[k] = self.lambda[k] * unit + self.sigma[k];
-        }
+        let (lambda, sigma) = (&self.lambda, &self.sigma);
+        on_stretches(model.team(), [&mut self.mu], |first, [mu]| {
+            for (k, mu) in mu.iter_mut().enumerate() {
+                *mu = lambda[first + k] * unit + sigma[first + k];
+            }
+        });
         self.assemble(model, Mass::Acceleration, T::ONE, false);
         self.solve();
-        for (mu, &e) in self.mu.iter_mut().zip(&self.f[self.n..]) {
-            *mu -= e;
-        }
+        subtract(model.team(), &mut self.mu, &self.f[self.n..]);
     }
 }

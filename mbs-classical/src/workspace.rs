@@ -2,11 +2,11 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
-use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Load, Model, Owner, State, Tangent, Terms};
 use mbs_core::saddle::{Saddle, SaddleSystem};
 use mbs_core::step::{Counts, StepError, Stop, add_work, largest, take_coordinates};
+use mbs_core::team::{norm_inf, on_elements, on_stretches, subtract};
 use mbs_core::{FactorError, Real, SymmetricSolver};
 
 /// Scratch of the classical steps over a solver `S`. Nothing is allocated after [`Workspace::new`], but for what the solver
@@ -122,11 +122,48 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         }
     }
 
+    /// dq, v and a at the end of the step by extrapolation, a times `weight`.
+    pub(crate) fn predict<M: Model<T>>(
+        &mut self,
+        model: &M,
+        (rule, weight): (&Rule<T>, T),
+        s: &State<T>,
+    ) {
+        let n = self.n;
+        let vectors = [&mut self.dq[..n], &mut self.v[..n], &mut self.a[..n]];
+        on_stretches(model.team(), vectors, |first, [dq, v, a]| {
+            for k in 0..dq.len() {
+                let i = first + k;
+                let predicted = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
+                (dq[k], v[k], a[k]) = (predicted.0, predicted.1, predicted.2 * weight);
+            }
+        });
+    }
+
+    /// q += x d,   v += y d,   a += d,   lambda += d_lambda   with (d, d_lambda) = -f
+    pub(crate) fn correct<M: Model<T>>(&mut self, model: &M, (x, y): (T, T)) {
+        let n = self.n;
+        let (d, d_lambda) = self.f.split_at(n);
+        let vectors = [&mut self.dq[..n], &mut self.v[..n], &mut self.a[..n]];
+        on_stretches(model.team(), vectors, |first, [dq, v, a]| {
+            let d = &d[first..][..dq.len()];
+            for k in 0..dq.len() {
+                dq[k] -= x * d[k];
+                v[k] -= y * d[k];
+                a[k] -= d[k];
+            }
+        });
+        subtract(model.team(), &mut self.lambda, d_lambda);
+    }
+
     /// phi and J at the current q, and forces at the current q, v.
     pub(crate) fn evaluate<M: Model<T>>(&mut self, model: &M, compensated: bool, s: &State<T>) {
-        for i in 0..self.n {
-            self.q[i] = s.q[i] + self.dq[i];
-        }
+        let (n, dq) = (self.n, &self.dq);
+        on_stretches(model.team(), [&mut self.q[..n]], |first, [q]| {
+            for ((q, &q_n), &dq) in q.iter_mut().zip(&s.q[first..]).zip(&dq[first..]) {
+                *q = q_n + dq;
+            }
+        });
         if compensated {
             model.advance(&s.q, &self.dq, &s.phi, &mut self.terms);
         } else {
@@ -151,9 +188,10 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         rank: T,
     ) -> Result<(), StepError> {
         self.counts.factorizations += 1;
-        for e in 0..model.n_elements() {
-            model.write_jacobian(&self.terms, e, &mut self.jacobian[self.saddle.jacobian(e)]);
-        }
+        let (terms, starts) = (&self.terms, self.saddle.jacobian_starts());
+        on_elements(model.team(), starts, &mut self.jacobian, |e, rows| {
+            model.write_jacobian(terms, e, rows);
+        });
         let geometric = geometric.then_some(&self.lambda[..]);
         let system = SaddleSystem {
             model,
@@ -194,7 +232,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         }
         self.solver.null_vector(&mut self.null, &mut self.scratch);
         let rows = &self.null[self.n..];
-        let most = norm_inf(rows);
+        let most = norm_inf(model.team(), rows);
         if (error.unknown as usize) < self.n && !(most > T::EPSILON.sqrt()) {
             return StepError::Singular(error);
         }
@@ -234,7 +272,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             along += x * d;
             square += x * x;
         }
-        let part = along.abs() * norm_inf(x) / square * T::from_f64(4.0) / length;
+        let part = along.abs() * norm_inf(model.team(), x) / square * T::from_f64(4.0) / length;
         if square > T::ZERO && part * part > ratio {
             let error = FactorError { unknown: weakest.unknown, pivot: weakest.ratio };
             return Err(self.diagnose(model, error));
@@ -341,12 +379,19 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             s,
             (&self.dq, &self.v, &self.a),
         );
-        for k in 0..self.lambda.len() {
-            s.lambda_previous[k] = s.lambda[k];
-            s.lambda[k] = self.lambda[k] * unit;
-            s.reaction[k] = self.mu[k];
-            s.phi[k] = self.terms.phi[k];
-        }
+        let m = self.lambda.len();
+        let (lambda_new, mu, phi_new) = (&self.lambda, &self.mu, &self.terms.phi);
+        let State { lambda_previous, lambda, reaction, phi, .. } = s;
+        let vectors =
+            [&mut lambda_previous[..m], &mut lambda[..m], &mut reaction[..m], &mut phi[..m]];
+        on_stretches(model.team(), vectors, |first, [previous, lambda, reaction, phi]| {
+            for k in 0..lambda.len() {
+                previous[k] = lambda[k];
+                lambda[k] = lambda_new[first + k] * unit;
+                reaction[k] = mu[first + k];
+                phi[k] = phi_new[first + k];
+            }
+        });
         s.t += rule.dt;
         add_work(model, rule.dt, s, &mut self.terms);
     }

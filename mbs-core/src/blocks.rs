@@ -35,6 +35,27 @@ pub trait BlockSource<T: Real>: Sync {
     fn write_residual(&self, element: usize, residual: &mut [T]);
 }
 
+/// out[u] = `start` joined with what every element writes for u, in the order of the elements.
+///
+/// `write` has one place in a stretch of `values` for each unknown of the element's clique.
+#[inline(always)]
+pub fn combine<'a, T: Copy>(
+    cliques: impl Iterator<Item = &'a [u32]>,
+    (values, out): (&mut [T], &mut [T]),
+    start: T,
+    write: impl Fn(usize, &mut [T]),
+    join: impl Fn(T, T) -> T,
+) {
+    out.fill(start);
+    for (e, clique) in cliques.enumerate() {
+        let values = &mut values[..clique.len()];
+        write(e, values);
+        for (&u, &value) in clique.iter().zip(&*values) {
+            out[u as usize] = join(out[u as usize], value);
+        }
+    }
+}
+
 /// A solver for the symmetric positive definite matrix of a sum of elements. Analysis has been done when the
 /// solver exists; no method allocates.
 pub trait SpdSolver<T: Real> {

@@ -14,6 +14,7 @@ pub mod control;
 #[cfg(feature = "alloc")]
 pub mod dense;
 pub mod elements;
+mod forward;
 #[cfg(feature = "alloc")]
 pub mod inputs;
 pub mod integrator;

@@ -57,6 +57,12 @@ impl Saddle {
         self.jacobian[self.starts.len() - 1]
     }
 
+    /// Where those of each element begin, and the end of all.
+    #[must_use]
+    pub fn jacobian_starts(&self) -> &[usize] {
+        &self.jacobian
+    }
+
     /// Where the rows of `element` are among them.
     #[must_use]
     pub fn jacobian(&self, element: usize) -> Range<usize> {

@@ -99,6 +99,43 @@ fn cut<W: Team, T: Send, const N: usize>(
     team.join(|| cut(team, first, left, work), || cut(team, first + half, right, work));
 }
 
+/// Elements whose numbers one thread writes at a time.
+const ELEMENTS: usize = 128;
+
+/// Calls `write` with each element and its stretch of `out`: element e has places `starts[e]..starts[e + 1]`.
+pub fn on_elements<W: Team, T: Send>(
+    team: &W,
+    starts: &[usize],
+    out: &mut [T],
+    write: impl Fn(usize, &mut [T]) + Sync,
+) {
+    let n = starts.len().saturating_sub(1);
+    write_elements(team, (starts, 0, n), out, &write);
+}
+
+fn write_elements<W: Team, T: Send>(
+    team: &W,
+    (starts, from, to): (&[usize], usize, usize),
+    out: &mut [T],
+    write: &(impl Fn(usize, &mut [T]) + Sync),
+) {
+    if to - from > ELEMENTS && team.size() > 1 {
+        let half = from + (to - from) / 2;
+        let (left, right) = out.split_at_mut(starts[half] - starts[from]);
+        team.join(
+            || write_elements(team, (starts, from, half), left, write),
+            || write_elements(team, (starts, half, to), right, write),
+        );
+        return;
+    }
+    let mut rest = out;
+    for e in from..to {
+        let (own, tail) = rest.split_at_mut(starts[e + 1] - starts[e]);
+        write(e, own);
+        rest = tail;
+    }
+}
+
 /// out = base + weight x, entry by entry.
 pub fn set_sum<W: Team, T: Real>(team: &W, out: &mut [T], base: &[T], (weight, x): (&[T], &[T])) {
     on_stretches(team, [out], |first, [out]| {

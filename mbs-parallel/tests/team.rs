@@ -5,18 +5,45 @@ use mbs_parallel::{Crew, Pool, Threads};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-fn teams() -> Vec<Threads> {
+/// Any of the teams.
+#[derive(Debug)]
+enum Any {
+    Threads(Threads),
+    Pool(Pool),
+}
+
+impl Team for Any {
+    fn join<A: Send, B: Send>(
+        &self,
+        a: impl FnOnce() -> A + Send,
+        b: impl FnOnce() -> B + Send,
+    ) -> (A, B) {
+        match self {
+            Self::Threads(threads) => threads.join(a, b),
+            Self::Pool(pool) => pool.join(a, b),
+        }
+    }
+    fn size(&self) -> usize {
+        match self {
+            Self::Threads(threads) => threads.size(),
+            Self::Pool(pool) => pool.size(),
+        }
+    }
+}
+
+fn teams() -> Vec<Any> {
     let crews = [2, 3, 8].map(|n| Threads::Crew(Crew::new(n).expect("threads")));
-    let mut teams: Vec<Threads> = [Threads::One].into_iter().chain(crews).collect();
+    let threads = [Threads::One].into_iter().chain(crews);
+    let mut teams: Vec<Any> = threads.map(Any::Threads).collect();
     // Rayon's locks are in the standard library, which `cargo xtask races` cannot watch.
     if option_env!("MBS_SANITIZED").is_none() {
-        teams.extend([1, 2, 3].map(|n| Threads::Pool(Pool::new(n).expect("threads"))));
+        teams.extend([1, 2, 3].map(|n| Any::Pool(Pool::new(n).expect("threads"))));
     }
     teams
 }
 
 /// A binary tree of forks of so many levels; the leaves are counted and their numbers summed.
-fn forks(team: &Threads, level: u32, number: u64, leaves: &AtomicUsize) -> u64 {
+fn forks(team: &impl Team, level: u32, number: u64, leaves: &AtomicUsize) -> u64 {
     if level == 0 {
         leaves.fetch_add(1, Ordering::Relaxed);
         return number;
@@ -147,10 +174,10 @@ fn a_crew_that_fell_asleep_works_on() {
 #[test]
 fn vectors_and_sums_have_the_bits_of_one_thread() {
     let x: Vec<f64> = (0..100_003).map(|i| f64::from(i).sin() * 1e3).collect();
-    let dot = |team: &Threads| {
+    let dot = |team: &Any| {
         team::sum(team, x.len(), |from, to| x[from..to].iter().fold(0.0, |sum, x| sum + x * x))
     };
-    let expected = dot(&Threads::One);
+    let expected = dot(&Any::Threads(Threads::One));
     // Against the sum in order: rounding of 1e5 additions of up to 1e6.
     let plain: f64 = x.iter().map(|x| x * x).sum();
     assert!((expected - plain).abs() < 1e-12 * plain);

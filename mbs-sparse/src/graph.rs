@@ -172,18 +172,23 @@ pub(crate) fn neighbours(elements: &Lists, n_nodes: usize) -> Lists {
     neighbours
 }
 
-/// Place of each node when nodes of multipliers follow right after the last of the other nodes that they meet, which have
-/// an order of small fill. A pivot that multipliers before them leave is then never lost for want of a coordinate.
-pub(crate) fn minimum_degree_then_multipliers(
+/// Place of each node when nodes of multipliers follow right after the last of the other nodes that they meet; those are placed
+/// by `order`, which is given their elements and weights. A pivot that multipliers before them leave is then never lost for
+/// want of a coordinate.
+pub(crate) fn multipliers_after(
     elements: &Lists,
-    is_multiplier: &[bool],
+    (weight, is_multiplier): (&[usize], &[bool]),
+    order: impl Fn(&Lists, &[usize]) -> Vec<u32>,
 ) -> Vec<u32> {
+    if !is_multiplier.contains(&true) {
+        return order(elements, weight);
+    }
     let n_nodes = is_multiplier.len();
     let mut number = vec![0; n_nodes];
-    let mut n_primal = 0;
+    let mut primal_weight = Vec::new();
     for v in (0..n_nodes).filter(|&v| !is_multiplier[v]) {
-        number[v] = index(n_primal);
-        n_primal += 1;
+        number[v] = index(primal_weight.len());
+        primal_weight.push(weight[v]);
     }
     let mut primal = Lists::with_capacity(elements.len());
     for e in 0..elements.len() {
@@ -191,7 +196,7 @@ pub(crate) fn minimum_degree_then_multipliers(
         primal.items.extend(nodes.map(|&v| number[v as usize]));
         primal.close();
     }
-    let place = minimum_degree(&primal, n_primal);
+    let place = order(&primal, &primal_weight);
     let mut last = vec![0; n_nodes];
     for e in 0..elements.len() {
         let latest = primal.get(e).iter().map(|&v| place[v as usize] + 1).max().unwrap_or(0);

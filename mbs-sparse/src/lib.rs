@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod delayed;
 mod dissection;
 mod graph;
 mod indefinite;
@@ -15,7 +16,8 @@ mod sweep;
 mod tasks;
 mod tree;
 
-pub use indefinite::{Delays, Indefinite};
+pub use delayed::Delays;
+pub use indefinite::Indefinite;
 pub use multifrontal::Multifrontal;
 pub use options::{Counters, Options, Ordering, Pivoting};
 

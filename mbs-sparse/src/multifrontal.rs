@@ -8,8 +8,8 @@
 
 use crate::options::{Counters, Options, Pivoting};
 use crate::plan::{Plan, plan};
-use crate::scatter::{Cuts, Shared, scatter};
-use crate::share::{Numbers, Vectors};
+use crate::scatter::Scatter;
+use crate::share::{Factor, Numbers, Vectors};
 use crate::sweep;
 use mbs_core::team::{Alone, Team, on_stretches};
 use mbs_core::{BlockSource, Cliques, FactorError, Real, SpdSolver};
@@ -29,9 +29,7 @@ pub struct Multifrontal<T: Real, W: Team = Alone> {
     is_one_block: bool,
     /// For each pivot its row in its front before the swaps of [`Pivoting::Diagonal`].
     taken: Vec<u32>,
-    /// Room for sums of residuals, and how they are cut for a team.
-    residuals: Vec<T>,
-    cuts: Cuts,
+    residuals: Scatter<T>,
 }
 
 impl<T: Real> Multifrontal<T> {
@@ -64,24 +62,15 @@ impl<T: Real, W: Team> Multifrontal<T, W> {
 
     fn planned(team: W, plan: Plan, pivoting: Pivoting) -> Self {
         let n_taken = if pivoting == Pivoting::Diagonal { plan.order.len() } else { 0 };
-        let largest = plan.largest_clique;
-        let (cuts, n_residuals) = if team.size() > 1 {
-            let cuts = Cuts::new(&plan.cliques, plan.order.len());
-            let n = Shared::<()>::n_storage(&cuts, largest);
-            (cuts, n)
-        } else {
-            (Cuts::default(), largest)
-        };
         Self {
             pivoting,
+            residuals: Scatter::new(&team, &plan),
             team,
             is_one_block: plan.fronts.len() == 1 && plan.is_natural && n_taken == 0,
             fronts: vec![T::ZERO; plan.tasks.sizes[0]],
             pivots: vec![T::ZERO; plan.order.len()],
             order: plan.order.clone(),
             taken: vec![0; n_taken],
-            residuals: vec![T::ZERO; n_residuals],
-            cuts,
             plan,
         }
     }
@@ -93,15 +82,9 @@ impl<T: Real, W: Team> Multifrontal<T, W> {
 
     /// Both sweeps on a vector in the storage of the tasks, of which `x` is the right-hand side.
     fn sweep(&self, x: &[T], storage: &mut [T]) {
-        let vectors = Vectors {
-            plan: &self.plan,
-            team: &self.team,
-            fronts: &self.fronts,
-            taken: &self.taken,
-            order: &self.plan.order,
-            x,
-        };
-        vectors.solve(storage);
+        let fronts = Factor { plan: &self.plan, fronts: &self.fronts, taken: &self.taken };
+        let vectors = Vectors { plan: &self.plan, team: &self.team, fronts };
+        vectors.solve(x, storage);
     }
 
     /// A vector in the order of the unknowns from the storage of the tasks.
@@ -144,12 +127,7 @@ impl<T: Real, W: Team> SpdSolver<T> for Multifrontal<T, W> {
 
     fn assemble<S: BlockSource<T>>(&mut self, source: &S, f: &mut [T]) {
         assert_eq!(f.len(), self.plan.order.len(), "assemble needs one place for each unknown");
-        let Plan { cliques, largest_clique: largest, .. } = &self.plan;
-        if self.team.size() == 1 {
-            return scatter(source, cliques, &mut self.residuals, f);
-        }
-        let shared = Shared { source, cliques, cuts: &self.cuts, largest: *largest };
-        shared.sum(&self.team, &mut self.residuals, f);
+        self.residuals.sum(&self.team, &self.plan.cliques, source, f);
     }
 
     fn pivots(&self) -> &[T] {

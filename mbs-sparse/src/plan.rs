@@ -92,12 +92,7 @@ pub(crate) fn plan(cliques: &impl Cliques, options: Options) -> Plan {
             is_multiplier[v as usize] = u >= n_primal;
         }
         let elements = graph::elements_by_node(&cliques, &node, n_nodes);
-        let fronts = if n_primal == n {
-            ordered(&elements, &weight, options)
-        } else {
-            let place = graph::minimum_degree_then_multipliers(&elements, &is_multiplier);
-            tree::fronts(&elements, &place, &weight, options.grain as f64)
-        };
+        let fronts = ordered(&elements, (&weight, &is_multiplier), options);
         (node, fronts)
     };
     Planner::new(cliques, &node, &fronts, options.grain as f64).finish(&fronts)
@@ -111,16 +106,25 @@ const ROOM: f64 = 32.0;
 const MOST_LEVELS: u32 = 6;
 
 /// Fronts in the order that the options ask for. What is chosen follows from the structure alone.
-fn ordered(elements: &Lists, weight: &[usize], options: Options) -> Fronts {
+fn ordered(
+    elements: &Lists,
+    (weight, is_multiplier): (&[usize], &[bool]),
+    options: Options,
+) -> Fronts {
     let grain = options.grain as f64;
+    // No cut: minimum degree.
     let dissected = |depth| {
-        tree::fronts(elements, &dissection::dissected(elements, weight, depth), weight, grain)
+        let order = |elements: &Lists, weight: &[usize]| match depth {
+            0 => graph::minimum_degree(elements, weight.len()),
+            _ => dissection::dissected(elements, weight, depth),
+        };
+        let place = graph::multipliers_after(elements, (weight, is_multiplier), order);
+        tree::fronts(elements, &place, weight, grain)
     };
     if let Ordering::Dissection(depth) = options.ordering {
         return dissected(depth);
     }
-    let place = graph::minimum_degree(elements, weight.len());
-    let mut best = tree::fronts(elements, &place, weight, grain);
+    let mut best = dissected(0);
     let work = |fronts: &Fronts| fronts.work.iter().sum::<f64>();
     let serial = work(&best);
     if options.ordering == Ordering::MinimumDegree || serial < 2.0 * grain {

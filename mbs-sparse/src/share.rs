@@ -14,8 +14,9 @@ use crate::part;
 use crate::pivoting::eliminate_largest;
 use crate::plan::{Front, Opening, Plan, column};
 use crate::sweep;
-use crate::tasks::Task;
+use crate::tasks::{Owned, Storage, Task};
 use mbs_core::{BlockSource, FactorError, Real, Team};
+use std::convert::Infallible;
 
 /// The numbers of a factorisation that belong to neighbouring tasks with all below.
 #[derive(Debug)]
@@ -27,9 +28,9 @@ pub(crate) struct Numbers<'a, T> {
     pub(crate) taken: &'a mut [u32],
 }
 
-impl<T: Real> Numbers<'_, T> {
-    /// Cuts off the first so many numbers and places.
-    fn split_at(&mut self, numbers: usize, places: usize) -> (Numbers<'_, T>, Numbers<'_, T>) {
+impl<'a, T: Real> Numbers<'a, T> {
+    /// Cuts after the first so many numbers and places.
+    fn split_at(self, numbers: usize, places: usize) -> (Self, Self) {
         let (fronts, fronts_right) = self.fronts.split_at_mut(numbers);
         let (pivots, pivots_right) = self.pivots.split_at_mut(places);
         let (order, order_right) = self.order.split_at_mut(places);
@@ -45,6 +46,12 @@ impl<T: Real> Numbers<'_, T> {
         )
     }
 
+    /// The same numbers for a while.
+    fn lent(&mut self) -> Numbers<'_, T> {
+        let Numbers { fronts, pivots, order, taken } = self;
+        Numbers { fronts, pivots, order, taken }
+    }
+
     /// Assembles and factors everything.
     pub(crate) fn factor<W: Team, S: BlockSource<T>>(
         self,
@@ -52,39 +59,15 @@ impl<T: Real> Numbers<'_, T> {
         team: &W,
         source: &S,
     ) -> Result<(), FactorError> {
-        let roots = &how.0.tasks.roots;
-        self.factor_all(how, team, source, roots)
-    }
-
-    /// The neighbouring tasks of a list, by halves.
-    fn factor_all<W: Team, S: BlockSource<T>>(
-        mut self,
-        how: (&Plan, Pivoting),
-        team: &W,
-        source: &S,
-        list: &[u32],
-    ) -> Result<(), FactorError> {
-        let tasks = &how.0.tasks.list;
-        match list {
-            [] => Ok(()),
-            [task] => self.factor_task(how, team, source, *task as usize),
-            _ => {
-                let (left, right) = how.0.tasks.halves(list);
-                let (begin, cut) = (&tasks[left[0] as usize], &tasks[right[0] as usize]);
-                let numbers = cut.numbers[0] - begin.numbers[0];
-                let (a, b) = self.split_at(numbers, cut.first_place - begin.first_place);
-                let (a, b) = team.join(
-                    || a.factor_all(how, team, source, left),
-                    || b.factor_all(how, team, source, right),
-                );
-                a.and(b)
-            }
-        }
+        let tasks = &how.0.tasks;
+        tasks.each(team, &tasks.roots, self, &|at, own: Numbers<'a, T>| {
+            own.factor_task(how, team, source, at)
+        })
     }
 
     /// One task: those below, then its own fronts.
     fn factor_task<W: Team, S: BlockSource<T>>(
-        &mut self,
+        mut self,
         how: (&Plan, Pivoting),
         team: &W,
         source: &S,
@@ -94,8 +77,10 @@ impl<T: Real> Numbers<'_, T> {
         let below = how.0.tasks.below(at);
         if !below.is_empty() {
             let places = task.places.start - task.first_place;
-            let (part, _) = self.split_at(task.numbers[1] - task.numbers[0], places);
-            part.factor_all(how, team, source, below)?;
+            let (part, _) = self.lent().split_at(task.numbers[1] - task.numbers[0], places);
+            how.0.tasks.each(team, below, part, &|at, own: Numbers<'_, T>| {
+                own.factor_task(how, team, source, at)
+            })?;
         }
         let (start, end) = (task.numbers[0], task.numbers[2]);
         let (fronts, block) = self.fronts[..end - start].split_at_mut(end - start - how.0.n_block);
@@ -109,6 +94,13 @@ impl<T: Real> Numbers<'_, T> {
             eliminate(how, front, (a, d), (order, taken))?;
         }
         Ok(())
+    }
+}
+
+impl<T: Real> Owned for Numbers<'_, T> {
+    fn cut(self, begin: &Task, cut: &Task) -> (Self, Self) {
+        let numbers = cut.numbers[0] - begin.numbers[0];
+        self.split_at(numbers, cut.first_place - begin.first_place)
     }
 }
 
@@ -183,61 +175,72 @@ fn eliminate<T: Real>(
     })
 }
 
-/// A factorisation and a right-hand side: all that the sweeps read.
+/// The fronts of a factorisation, as the sweeps of a solution go through them.
+pub(crate) trait Sweep<T>: Sync {
+    /// Front `s` of a task in one of the sweeps, in the storage of the task with all below.
+    fn visit(&self, s: usize, task: &Task, storage: &mut [T], direction: Direction);
+}
+
+/// A factorisation and who solves with it.
 #[derive(Debug)]
-pub(crate) struct Vectors<'a, T, W> {
+pub(crate) struct Vectors<'a, W, F> {
     pub(crate) plan: &'a Plan,
     pub(crate) team: &'a W,
-    pub(crate) fronts: &'a [T],
-    pub(crate) taken: &'a [u32],
-    /// Unknown at each place.
-    pub(crate) order: &'a [u32],
-    pub(crate) x: &'a [T],
+    pub(crate) fronts: F,
 }
 
 /// The two sweeps of a solution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Direction {
+pub(crate) enum Direction {
     Forward,
     Backward,
 }
 
-impl<T: Real, W: Team> Vectors<'_, T, W> {
-    /// Both sweeps, in the storage of all tasks.
-    pub(crate) fn solve(&self, storage: &mut [T]) {
-        let roots = &self.plan.tasks.roots;
-        self.all(roots, storage, None, Direction::Forward);
-        self.all(roots, storage, None, Direction::Backward);
+impl<W: Team, F> Vectors<'_, W, F> {
+    /// Both sweeps on the right-hand side `x`, in the storage of all tasks.
+    pub(crate) fn solve<T: Real>(&self, x: &[T], storage: &mut [T])
+    where
+        F: Sweep<T>,
+    {
+        self.forward_all(&self.plan.tasks.roots, x, storage);
+        self.backward_all(&self.plan.tasks.roots, storage, None);
     }
 
-    /// The neighbouring tasks of a list, by halves; `above` is the own vector of the task above them.
-    fn all(&self, list: &[u32], storage: &mut [T], above: Option<&[T]>, direction: Direction) {
-        let tasks = &self.plan.tasks.list;
-        match (list, direction) {
-            ([], _) => {}
-            ([task], Direction::Forward) => self.forward(*task as usize, storage),
-            ([task], Direction::Backward) => self.backward(*task as usize, storage, above),
-            _ => {
-                let (left, right) = self.plan.tasks.halves(list);
-                let begin = tasks[left[0] as usize].vector[0];
-                let cut = tasks[right[0] as usize].vector[0] - begin;
-                let (a, b) = storage.split_at_mut(cut);
-                self.team.join(
-                    || self.all(left, a, above, direction),
-                    || self.all(right, b, above, direction),
-                );
-            }
-        }
+    /// The neighbouring tasks of a list.
+    fn forward_all<T: Real>(&self, list: &[u32], x: &[T], storage: &mut [T])
+    where
+        F: Sweep<T>,
+    {
+        let work = |at, Storage(own): Storage<'_, T>| {
+            self.forward(at, x, own);
+            Ok::<(), Infallible>(())
+        };
+        let Ok(()) = self.plan.tasks.each(self.team, list, Storage(storage), &work);
     }
 
-    fn forward(&self, at: usize, storage: &mut [T]) {
+    /// The neighbouring tasks of a list; `above` is the own vector of the task above them.
+    pub(crate) fn backward_all<T: Real>(&self, list: &[u32], storage: &mut [T], above: Option<&[T]>)
+    where
+        F: Sweep<T>,
+    {
+        let work = |at, Storage(own): Storage<'_, T>| {
+            self.backward(at, own, above);
+            Ok::<(), Infallible>(())
+        };
+        let Ok(()) = self.plan.tasks.each(self.team, list, Storage(storage), &work);
+    }
+
+    fn forward<T: Real>(&self, at: usize, x: &[T], storage: &mut [T])
+    where
+        F: Sweep<T>,
+    {
         let task = &self.plan.tasks.list[at];
         let (below, own) = storage.split_at_mut(task.vector[1] - task.vector[0]);
         let children = self.plan.tasks.below(at);
-        self.all(children, below, None, Direction::Forward);
+        self.forward_all(children, x, below);
         let (places, outer) = own.split_at_mut(task.places.len());
-        for (z, &u) in places.iter_mut().zip(&self.order[task.places.clone()]) {
-            *z = self.x[u as usize];
+        for (z, &u) in places.iter_mut().zip(&self.plan.order[task.places.clone()]) {
+            *z = x[u as usize];
         }
         outer[..task.outer.len()].fill(T::ZERO);
         for &child in children {
@@ -248,29 +251,43 @@ impl<T: Real, W: Team> Vectors<'_, T, W> {
                 own[target as usize] += value;
             }
         }
-        for front in &self.plan.fronts[task.fronts.clone()] {
-            self.visit(front, own, Direction::Forward);
+        for s in task.fronts.clone() {
+            self.fronts.visit(s, task, storage, Direction::Forward);
         }
     }
 
-    fn backward(&self, at: usize, storage: &mut [T], above: Option<&[T]>) {
+    fn backward<T: Real>(&self, at: usize, storage: &mut [T], above: Option<&[T]>)
+    where
+        F: Sweep<T>,
+    {
         let task = &self.plan.tasks.list[at];
-        let (below, own) = storage.split_at_mut(task.vector[1] - task.vector[0]);
+        let begin = task.vector[1] - task.vector[0];
         if let Some(above) = above {
             let targets = &self.plan.tasks.targets[task.outer.clone()];
-            for (z, &target) in own[task.places.len()..].iter_mut().zip(targets) {
+            for (z, &target) in storage[begin + task.places.len()..].iter_mut().zip(targets) {
                 *z = above[target as usize];
             }
         }
-        for front in self.plan.fronts[task.fronts.clone()].iter().rev() {
-            self.visit(front, own, Direction::Backward);
+        for s in task.fronts.clone().rev() {
+            self.fronts.visit(s, task, storage, Direction::Backward);
         }
-        self.all(self.plan.tasks.below(at), below, Some(own), Direction::Backward);
+        let (below, own) = storage.split_at_mut(begin);
+        self.backward_all(self.plan.tasks.below(at), below, Some(own));
     }
+}
 
-    /// One front of one sweep, on the own vector of its task.
+/// The numbers of a factorisation that the sweeps read.
+#[derive(Debug)]
+pub(crate) struct Factor<'a, T> {
+    pub(crate) plan: &'a Plan,
+    pub(crate) fronts: &'a [T],
+    pub(crate) taken: &'a [u32],
+}
+
+impl<T: Real> Sweep<T> for Factor<'_, T> {
     #[inline(always)]
-    fn visit(&self, front: &Front, own: &mut [T], direction: Direction) {
+    fn visit(&self, s: usize, task: &Task, storage: &mut [T], direction: Direction) {
+        let (front, own) = (&self.plan.fronts[s], &mut storage[task.vector[1] - task.vector[0]..]);
         let Front { p, f, offset, first, at, .. } = *front;
         let a = &self.fronts[offset..offset + column(f, f)];
         let rows = &self.plan.tasks.rows[front.rows.clone()];

@@ -12,6 +12,7 @@
 use crate::graph::{Lists, index};
 use crate::plan::{Front, column};
 use crate::tree::NONE;
+use mbs_core::Team;
 use std::ops::Range;
 
 /// No task has more tasks above it than this: the stack of a thread is not infinite.
@@ -24,8 +25,9 @@ pub(crate) struct Task {
     pub(crate) fronts: Range<usize>,
     /// Places of their pivots in the order of elimination.
     pub(crate) places: Range<usize>,
-    /// First place of the task with all below.
+    /// First place of the task with all below, and the first of those tasks.
     pub(crate) first_place: usize,
+    pub(crate) first_task: usize,
     /// Rows further up that its fronts and children touch, as places, ascending: a stretch of the list of all.
     pub(crate) outer: Range<usize>,
     /// Storage of numbers: where that of all below begins, where its own begins, and the end.
@@ -56,6 +58,22 @@ pub(crate) struct Tasks {
     pub(crate) sizes: [usize; 2],
 }
 
+/// What belongs to neighbouring tasks with all below them.
+pub(crate) trait Owned: Send + Sized {
+    /// What belongs to tasks before `cut`, and the rest; the first of all is `begin`.
+    fn cut(self, begin: &Task, cut: &Task) -> (Self, Self);
+}
+
+/// Part of the storage of a vector.
+pub(crate) struct Storage<'a, T>(pub(crate) &'a mut [T]);
+
+impl<T: Send> Owned for Storage<'_, T> {
+    fn cut(self, begin: &Task, cut: &Task) -> (Self, Self) {
+        let (left, right) = self.0.split_at_mut(cut.vector[0] - begin.vector[0]);
+        (Self(left), Self(right))
+    }
+}
+
 impl Tasks {
     /// The tasks below `task`.
     pub(crate) fn below(&self, task: usize) -> &[u32] {
@@ -75,6 +93,50 @@ impl Tasks {
             (before, cut) = (with, cut + 1);
         }
         list.split_at(cut.clamp(1, list.len() - 1))
+    }
+
+    /// Does `work` for neighbouring tasks, each with what it owns of `all`, by halves of the list.
+    ///
+    /// # Errors
+    /// The first in the order of the list.
+    pub(crate) fn each<W: Team, P: Owned, E: Send>(
+        &self,
+        team: &W,
+        list: &[u32],
+        all: P,
+        work: &(impl Fn(usize, P) -> Result<(), E> + Sync),
+    ) -> Result<(), E> {
+        match list {
+            [] => Ok(()),
+            [task] => work(*task as usize, all),
+            _ => {
+                let (left, right) = self.halves(list);
+                let first = |list: &[u32]| &self.list[list[0] as usize];
+                let (a, b) = all.cut(first(left), first(right));
+                let (a, b) = team
+                    .join(|| self.each(team, left, a, work), || self.each(team, right, b, work));
+                a.and(b)
+            }
+        }
+    }
+
+    /// Gives every task room for a front of all its unknowns: as many as delayed pivots can make of one. `order` has the unknown
+    /// at each place.
+    pub(crate) fn widen(&mut self, order: &[u32]) {
+        let mut end = 0;
+        for at in 0..self.list.len() {
+            let below = self.below(at).first();
+            let begin = below.map_or(end, |&c| self.list[c as usize].vector[0]);
+            let task = &mut self.list[at];
+            let longest = task.places.end - task.first_place + task.outer.len();
+            let start = end;
+            end += task.places.len() + task.outer.len() + longest;
+            task.vector = [begin, start, end];
+            for (k, &u) in order[task.places.clone()].iter().enumerate() {
+                self.stored_at[u as usize] = index(start + k);
+            }
+        }
+        self.sizes[1] = end;
     }
 }
 
@@ -240,6 +302,7 @@ impl Tasks {
         });
         let first_place =
             self.below(at).first().map_or(places.start, |&c| self.list[c as usize].first_place);
+        let first_task = self.below(at).first().map_or(at, |&c| self.list[c as usize].first_task);
         let start = self.outer.len();
         self.outer.extend_from_slice(&outer);
         self.targets.resize(self.outer.len(), 0);
@@ -249,6 +312,7 @@ impl Tasks {
         task.numbers = [begin[0], number, ends[0]];
         task.vector = [begin[1], vector, ends[1]];
         task.first_place = first_place;
+        task.first_task = first_task;
         task.places = places;
         task.outer = start..self.outer.len();
         self.sizes = ends;

@@ -54,15 +54,19 @@ pub(crate) fn fronts(elements: &Lists, place: &[u32], weight: &[usize], grain: f
     let above: Vec<u32> = (0..n)
         .map(|v| if parent[v] == NONE { NONE } else { representative[parent[v] as usize] })
         .collect();
-    let mut total = vec![0.0; n];
-    for v in (0..n).filter(|&v| representative[v] as usize == v) {
-        total[v] += work[v];
-        if above[v] != NONE {
-            total[above[v] as usize] += total[v];
+    let survivors = || (0..n).filter(|&v| representative[v] as usize == v);
+    let all: f64 = survivors().map(|v| work[v]).sum();
+    let total = (all > grain).then(|| {
+        let mut total = vec![0.0; n];
+        for v in survivors() {
+            total[v] += work[v];
+            if above[v] != NONE {
+                total[above[v] as usize] += total[v];
+            }
         }
-    }
-    let all: f64 = (0..n).filter(|&v| representative[v] as usize == v).map(|v| work[v]).sum();
-    let order = postorder(&representative, &above, (all > grain).then_some(&total));
+        total
+    });
+    let order = postorder(&representative, &above, total.as_ref());
 
     let mut number = vec![NONE; n];
     for (s, &v) in order.iter().enumerate() {

@@ -63,6 +63,12 @@ impl Formulation {
         matches!(self, Self::Index1 | Self::Index3 | Self::MultiIndex)
     }
 
+    /// Do threads share the work of its steps?
+    #[must_use]
+    pub fn takes_threads(self) -> bool {
+        self.is_augmented() || self == Self::Classical
+    }
+
     /// Does it run with this integrator?
     #[must_use]
     pub fn runs_with(self, integrator: IntegratorKind) -> bool {

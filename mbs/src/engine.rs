@@ -36,7 +36,9 @@ where
         /// Its options.
         options: classical::Options<T>,
         /// Its scratch.
-        workspace: Box<classical::Workspace<T, Indefinite<T>>>,
+        workspace: Box<classical::Workspace<T, Indefinite<T, Threads>>>,
+        /// Who shares the work of its steps.
+        team: Threads,
     },
     /// State space.
     StateSpace {
@@ -96,18 +98,17 @@ where
                     Formulation::Index3 => Index::Three(three),
                     _ => Index::Both(IndexChange::new(one, three)),
                 };
-                let n = settings.threads;
-                let team = Threads::new(n).map_err(|_| StopError::NoThreads(n))?;
+                let team = team(settings)?;
                 let solver = solver.with_team(team.clone());
                 let workspace = Box::new(mbs_augmented::Workspace::new(model, solver));
                 Ok(Self::Augmented { index, workspace, team })
             }
             Formulation::Classical => {
                 let options = classical_options(settings);
-                let saddle = classical::Saddle::new(model);
-                let solver = Indefinite::analyse(&saddle, mbs_sparse::Options::default());
+                let (team, saddle) = (team(settings)?, classical::Saddle::new(model));
+                let solver = Indefinite::on(team.clone(), &saddle, mbs_sparse::Options::default());
                 let workspace = Box::new(classical::Workspace::new(model, solver));
-                Ok(Self::Classical { options, workspace })
+                Ok(Self::Classical { options, workspace, team })
             }
             Formulation::StateSpace => {
                 let mut options = statespace::Options {
@@ -142,8 +143,11 @@ where
             Self::Augmented { index, workspace, team } => {
                 index.step(&model.with_team(team), step, state, workspace)
             }
-            Self::Classical { options, workspace } => {
+            Self::Classical { options, workspace, team: Threads::One } => {
                 classical::index3::step(model, step, options, state, workspace)
+            }
+            Self::Classical { options, workspace, team } => {
+                classical::index3::step(&model.with_team(team), step, options, state, workspace)
             }
             Self::StateSpace { options, workspace } => {
                 statespace::step(model, step, options, state, workspace)
@@ -247,7 +251,7 @@ where
             let [kinetic, potential] = self.start_energies(model, s);
             return [kinetic, potential, work];
         };
-        if let Self::Augmented { team, .. } = self {
+        if let Self::Augmented { team, .. } | Self::Classical { team, .. } = self {
             let model = model.with_team(team);
             let potential = model.potential_energy(&s.q, terms);
             return [model.kinetic_energy(&s.v).to_f64(), potential.to_f64(), work];
@@ -293,6 +297,12 @@ where
             _ => model.owner_of_row(row),
         }
     }
+}
+
+/// The threads that are asked for.
+fn team(settings: &Settings) -> Result<Threads, StopError> {
+    let n = settings.threads;
+    Threads::new(n).map_err(|_| StopError::NoThreads(n))
 }
 
 /// Options of index-1 and index-3.

@@ -144,7 +144,7 @@ impl SettingsError {
                     .to_owned()
             }
             Self::NotTogether { option, .. } if option == "threads" => {
-                "threads share the steps of index-3, index-1 and multi-index".to_owned()
+                "threads share the steps of index-3, index-1, multi-index and classical".to_owned()
             }
             Self::NotTogether { option, .. } if option == "penalty" => {
                 "leave the penalty out".to_owned()
@@ -206,7 +206,7 @@ impl Settings {
         if threads == 0 {
             return Err(SettingsError::NotPositive { key: "threads", value: 0.0 });
         }
-        if threads > 1 && !formulation.is_augmented() {
+        if threads > 1 && !formulation.takes_threads() {
             let option = "threads".to_owned();
             return Err(SettingsError::NotTogether { formulation, option });
         }

@@ -67,7 +67,7 @@ fn assert_same(name: &str, scene: &Scene<f64>, formulation: &str, steps: usize) 
 fn scenes_of_the_repository_have_the_same_bits_for_1_2_3_and_8_threads() {
     for name in SCENES.iter().chain(&OTHERS) {
         let scene = scene(name);
-        for formulation in ["index-3", "index-1", "multi-index"] {
+        for formulation in ["index-3", "index-1", "multi-index", "classical"] {
             assert_same(name, &scene, formulation, 20);
         }
     }
@@ -85,6 +85,9 @@ fn large_scenes_that_are_cut_have_the_same_bits_for_1_2_3_and_8_threads() {
         (Family::FourBars { loops: 150 }, "index-3"),
         (Family::Net { rows: 12, columns: 12 }, "index-3"),
         (Family::Net { rows: 8, columns: 8 }, "index-1"),
+        (Family::Chain { bodies: 300 }, "classical"),
+        (Family::Tree { bodies: 255 }, "classical"),
+        (Family::Convoy { vehicle: &vehicle, count: 4, spacing: 10.0 }, "classical"),
         (Family::Convoy { vehicle: &vehicle, count: 6, spacing: 10.0 }, "index-3"),
         (Family::Convoy { vehicle: &vehicle, count: 4, spacing: 10.0 }, "multi-index"),
     ] {

@@ -7,12 +7,16 @@
 //! l = a B^-1,   a_ij <- a_ij - l_i B l_j^T
 //! ```
 //!
+//! Pivots of one unknown that pass the test where they stand are applied to the columns after them some at a time; a column
+//! is brought up to date before it is tested.
+//!
 //! Only the first `p` unknowns may become pivots. Those for which no test holds stay, for a front where more is known of
 //! them. A pivot that is rounding beside what it was the sum of is never taken: the sizes of those sums are carried along.
 //!
 //! A front of f unknowns is a lower triangle packed by columns; column j starts at [`column()`] of (f, j) with its diagonal.
 //! Afterwards the columns of L stand below D^-1; a pair has its B^-1 in the triangle of its two columns.
 
+use super::panel::Panel;
 use crate::Real;
 use crate::blocks::{FactorError, Inertia, Weakest};
 
@@ -65,6 +69,16 @@ impl Tally {
         }
     }
 
+    /// Counts what another part of the factorisation has counted, later in its order.
+    pub fn add(&mut self, other: &Self) {
+        self.inertia.positive += other.inertia.positive;
+        self.inertia.negative += other.inertia.negative;
+        self.inertia.zero += other.inertia.zero;
+        if other.weakest.unknown != u32::MAX && !(other.weakest.ratio >= self.weakest.ratio) {
+            self.weakest = other.weakest;
+        }
+    }
+
     /// # Errors
     /// The weakest unknown, when there were zero pivots.
     pub fn verdict(&self) -> Result<(), FactorError> {
@@ -82,8 +96,7 @@ impl Tally {
                 let x = a[at(f, i.max(c), i.min(c))].abs();
                 if m >= x { m } else { x }
             });
-            let size = size[order[c] as usize];
-            self.note(order[c], if size > T::ZERO { largest / size } else { largest });
+            self.note(order[c], if size[c] > T::ZERO { largest / size[c] } else { largest });
             self.inertia.zero += 1;
         }
     }
@@ -98,12 +111,19 @@ fn at(f: usize, row: usize, col: usize) -> usize {
 /// The unknowns of a front while it is factored.
 #[derive(Debug)]
 pub struct Places<'a, T> {
-    /// The unknown at each place of the front; permuted with the pivots.
+    /// The unknown at each place of the front; permuted with the pivots, as `size`.
     pub order: &'a mut [u32],
     /// Whether the pivot at a place is the first of a pair, f places.
     pub pairs: &'a mut [bool],
-    /// For each unknown of the whole matrix the sum of the absolute values that its diagonal is made of.
+    /// For the unknown at each place the sum of the absolute values that its diagonal is made of, f places.
     pub size: &'a mut [T],
+}
+
+impl<T> Places<'_, T> {
+    fn swap(&mut self, k: usize, q: usize) {
+        self.order.swap(k, q);
+        self.size.swap(k, q);
+    }
 }
 
 /// Eliminates as many as possible of the first `p` unknowns of the packed front `a`; returns how many.
@@ -120,27 +140,42 @@ pub fn eliminate<T: Real>(
 ) -> usize {
     let f = places.order.len();
     let a = &mut a[..column(f, f)];
-    let mut k = 0;
+    let (mut k, mut panel) = (0, Panel::default());
     while k < p {
+        if panel.is_full() {
+            panel.apply(a, f, k..f);
+            panel = Panel::starting_at(k);
+        }
+        panel.apply(a, f, k..k + 1);
+        if let Some(ratio) = test_single(&a[column(f, k)..][..f - k], places.size[k], thresholds) {
+            tally.note(places.order[k], ratio);
+            panel.push(eliminate_single(a, f, k, places, &mut tally.inertia));
+            k += 1;
+            continue;
+        }
+        // A pair or another candidate: all columns are looked at.
+        panel.apply(a, f, k + 1..f);
+        panel = Panel::starting_at(k);
         let found = (k..p).find_map(|c| test(a, f, (k, p, c), places, thresholds));
         let Some(Pivot { first, second, ratio }) = found else { break };
         swap(a, f, k, first);
-        places.order.swap(k, first);
+        places.swap(k, first);
         tally.note(places.order[k], ratio);
-        places.pairs[k] = second.is_some();
         if let Some(second) = second {
             // The first of the pair may just have displaced the second.
             let second = if second == k { first } else { second };
             swap(a, f, k + 1, second);
-            places.order.swap(k + 1, second);
-            places.pairs[k + 1] = false;
+            places.swap(k + 1, second);
+            (places.pairs[k], places.pairs[k + 1]) = (true, false);
             eliminate_pair(a, f, k, places, &mut tally.inertia);
             k += 2;
+            panel = Panel::starting_at(k);
         } else {
-            eliminate_single(a, f, k, places, &mut tally.inertia);
+            panel.push(eliminate_single(a, f, k, places, &mut tally.inertia));
             k += 1;
         }
     }
+    panel.apply(a, f, k..f);
     k
 }
 
@@ -170,6 +205,26 @@ fn largest<T: Real>(a: &[T], f: usize, k: usize, (c, not): (usize, usize)) -> (T
     (size, row)
 }
 
+/// What is left of the diagonal of a column beside what it was the sum of, if it is a pivot of one unknown.
+#[inline(always)]
+fn test_single<T: Real>(column: &[T], size: T, thresholds: &Thresholds<T>) -> Option<T> {
+    /// Comparisons side by side.
+    const LANES: usize = 4;
+    let d = column[0].abs();
+    let mut most = [T::ZERO; LANES];
+    let (fours, rest) = column[1..].as_chunks::<LANES>();
+    for four in fours {
+        for lane in 0..LANES {
+            let x = four[lane].abs();
+            most[lane] = if x > most[lane] { x } else { most[lane] };
+        }
+    }
+    let larger = |m: T, &x: &T| if x.abs() > m { x.abs() } else { m };
+    let all = rest.iter().chain(&most).fold(T::ZERO, larger);
+    let is_good = d >= thresholds.growth * all && d > thresholds.zero * size && d.is_finite();
+    is_good.then(|| d / size)
+}
+
 /// Is there a pivot with candidate `c` of `k..p`?
 #[inline(always)]
 fn test<T: Real>(
@@ -179,7 +234,7 @@ fn test<T: Real>(
     places: &Places<'_, T>,
     thresholds: &Thresholds<T>,
 ) -> Option<Pivot<T>> {
-    let size = |i: usize| places.size[places.order[i] as usize];
+    let size = |i: usize| places.size[i];
     let d = a[at(f, c, c)];
     let (all, row) = largest(a, f, k, (c, c));
     if d.abs() >= thresholds.growth * all && d.abs() > thresholds.zero * size(c) && d.is_finite() {
@@ -214,7 +269,7 @@ fn largest_candidate<T: Real>(a: &[T], f: usize, (k, p): (usize, usize), c: usiz
     row
 }
 
-/// Eliminates the unknown at place `k`.
+/// Makes the column at place `k` one of L; returns its pivot, for the columns after it.
 #[inline(always)]
 fn eliminate_single<T: Real>(
     a: &mut [T],
@@ -222,28 +277,23 @@ fn eliminate_single<T: Real>(
     k: usize,
     places: &mut Places<'_, T>,
     inertia: &mut Inertia,
-) {
-    let (head, mut rest) = a.split_at_mut(column(f, k + 1));
-    let (diagonal, below) = head[column(f, k)..].split_at_mut(1);
-    let inverse = T::ONE / diagonal[0];
-    for j in 0..below.len() {
-        let (target, next) = rest.split_at_mut(below.len() - j);
-        rest = next;
-        let l = below[j] * inverse;
-        places.size[places.order[k + 1 + j] as usize] += (l * below[j]).abs();
-        for (target, &a) in target.iter_mut().zip(&below[j..]) {
-            *target -= l * a;
-        }
+) -> T {
+    let (diagonal, below) = a[column(f, k)..][..f - k].split_at_mut(1);
+    let d = diagonal[0];
+    let inverse = T::ONE / d;
+    for (a, size) in below.iter_mut().zip(&mut places.size[k + 1..f]) {
+        let l = *a * inverse;
+        *size += (l * *a).abs();
+        *a = l;
     }
     if inverse > T::ZERO {
         inertia.positive += 1;
     } else {
         inertia.negative += 1;
     }
+    places.pairs[k] = false;
     diagonal[0] = inverse;
-    for l in below {
-        *l *= inverse;
-    }
+    d
 }
 
 /// Eliminates the unknowns at places `k` and `k + 1` together.
@@ -266,7 +316,7 @@ fn eliminate_pair<T: Real>(
         rest = next;
         let (s, t) = (first_below[j], second_below[j]);
         let (l, m) = (x * s + y * t, y * s + z * t);
-        places.size[places.order[k + 2 + j] as usize] += (l * s).abs() + (m * t).abs();
+        places.size[k + 2 + j] += (l * s).abs() + (m * t).abs();
         for (i, target) in target.iter_mut().enumerate() {
             *target -= l * first_below[j + i] + m * second_below[j + i];
         }

@@ -7,12 +7,14 @@
 //! ```
 
 pub mod front;
+mod panel;
 pub mod scaling;
 
 use crate::Real;
 use crate::blocks::{
-    BlockSource, Cliques, FactorError, Inertia, SpdSolver, SymmetricSolver, Weakest,
+    BlockSource, Cliques, FactorError, Inertia, SpdSolver, SymmetricSolver, Weakest, combine,
 };
+use crate::team::Alone;
 use alloc::vec;
 use alloc::vec::Vec;
 use front::{Places, Tally, Thresholds, column};
@@ -94,15 +96,9 @@ impl<T: Real> Dense<T> {
     }
 
     fn gather_residuals<S: BlockSource<T>>(&mut self, source: &S, f: &mut [T]) {
-        f.fill(T::ZERO);
-        for e in 0..self.starts.len() - 1 {
-            let clique = &self.cliques[self.starts[e]..self.starts[e + 1]];
-            let residual = &mut self.block[..clique.len()];
-            source.write_residual(e, residual);
-            for (&u, &r) in clique.iter().zip(&*residual) {
-                f[u as usize] += r;
-            }
-        }
+        let cliques = self.starts.windows(2).map(|ends| &self.cliques[ends[0]..ends[1]]);
+        let write = |e: usize, residual: &mut [T]| source.write_residual(e, residual);
+        combine(cliques, (&mut self.block, f), T::ZERO, write, |sum, x| sum + x);
     }
 
     /// x <- S P^T (L D L^T)^-1 P S x.
@@ -172,16 +168,16 @@ impl<T: Real> SymmetricSolver<T> for Dense<T> {
     fn factor<S: BlockSource<T>>(&mut self, source: &S) -> Result<(), FactorError> {
         self.gather(source);
         let n = self.natural.len();
-        let whole = core::iter::once((&self.natural[..], &self.matrix[..]));
-        scaling::equilibrate(whole, &mut self.scale, &mut self.size);
-        self.size.fill(T::ZERO);
+        let (natural, matrix) = (&self.natural, &self.matrix);
+        let measure = |scale: &[T], rows: &mut [T]| {
+            scaling::measure_rows(natural, matrix, scale, rows);
+        };
+        scaling::equilibrate(&Alone, (&mut self.scale, &mut self.size), measure);
+        measure(&self.scale, &mut self.size);
         for j in 0..n {
             let range = column(n, j)..column(n, j + 1);
             for (i, at) in (j..n).zip(range) {
-                let x = self.matrix[at] * self.scale[i] * self.scale[j];
-                self.factor[at] = x;
-                self.size[i] = self.size[i].max(x.abs());
-                self.size[j] = self.size[j].max(x.abs());
+                self.factor[at] = self.matrix[at] * self.scale[i] * self.scale[j];
             }
         }
         self.order.copy_from_slice(&self.natural);

@@ -5,40 +5,55 @@
 //! ```
 
 use crate::Real;
+use crate::team::{Team, on_stretches};
 
 /// Rounds of the scaling; each takes the square root of what is left of the spread.
 const ROUNDS: u32 = 3;
 
-/// Finds `scale` (n places) for the sum of packed `blocks`, each with its clique; `rows` (n places) is scratch.
+/// Finds `scale` (n places); `rows` (n places) is scratch. `measure` is given a scale, and writes the largest entry of every row
+/// of the scaled matrix.
 ///
-/// Entries of different blocks are taken one by one, not summed. Cost: three passes over all blocks.
-pub fn equilibrate<'a, T: Real>(
-    blocks: impl Iterator<Item = (&'a [u32], &'a [T])> + Clone,
-    scale: &mut [T],
-    rows: &mut [T],
+/// Cost: three measures, and as many roots of n numbers.
+pub fn equilibrate<W: Team, T: Real>(
+    team: &W,
+    (scale, rows): (&mut [T], &mut [T]),
+    mut measure: impl FnMut(&[T], &mut [T]),
 ) {
     scale.fill(T::ONE);
     for _ in 0..ROUNDS {
-        rows.fill(T::ZERO);
-        for (clique, block) in blocks.clone() {
-            let mut rest = block;
-            for (j, &v) in clique.iter().enumerate() {
-                let (column, next) = rest.split_at(clique.len() - j);
-                rest = next;
-                let (s, mut most) = (scale[v as usize], rows[v as usize]);
-                for (&u, &x) in clique[j..].iter().zip(column) {
-                    let x = (x * s * scale[u as usize]).abs();
-                    most = most.max(x);
-                    rows[u as usize] = rows[u as usize].max(x);
+        measure(scale, rows);
+        let rows = &*rows;
+        on_stretches(team, [&mut *scale], |first, [scale]| {
+            for (s, &r) in scale.iter_mut().zip(&rows[first..]) {
+                if r > T::ZERO && r.is_finite() {
+                    *s /= r.sqrt();
                 }
-                rows[v as usize] = most;
             }
+        });
+    }
+}
+
+/// The larger of two numbers; what is not a number counts for nothing.
+#[inline(always)]
+pub fn larger<T: Real>(a: T, b: T) -> T {
+    if b > a { b } else { a }
+}
+
+/// rows_j = max_i |s_i a_ij s_j| of one packed block, in the order of its clique.
+#[inline(always)]
+pub fn measure_rows<T: Real>(clique: &[u32], block: &[T], scale: &[T], rows: &mut [T]) {
+    rows.fill(T::ZERO);
+    let mut rest = block;
+    for (j, &v) in clique.iter().enumerate() {
+        let (column, next) = rest.split_at(clique.len() - j);
+        rest = next;
+        let (s, mut most) = (scale[v as usize], rows[j]);
+        for ((&u, &x), row) in clique[j..].iter().zip(column).zip(&mut rows[j..]) {
+            let x = (x * s * scale[u as usize]).abs();
+            most = larger(most, x);
+            *row = larger(*row, x);
         }
-        for (s, &r) in scale.iter_mut().zip(&*rows) {
-            if r > T::ZERO && r.is_finite() {
-                *s /= r.sqrt();
-            }
-        }
+        rows[j] = most;
     }
 }
 

@@ -194,7 +194,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             guided: self.guided.len(),
             measure: self.measures.len(),
             body_element: self.body_elements.len(),
-            body_measure: self.n_measures - self.measures.len(),
+            body_measure: self.n_measures,
             point_force: self.point_forces.len(),
             torque: self.torques.len(),
         });
@@ -206,7 +206,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         let body_element = self.body_elements.partition_point(|e| e.place.start < jacobian);
         let body_measure = self.body_elements[..body_element]
             .last()
-            .map_or(0, |element| element.measures.end as usize - self.measures.len());
+            .map_or(self.measures.len(), |element| element.measures.end as usize);
         Mark {
             group: g,
             row: row as usize,

@@ -6,9 +6,8 @@ use super::parts::Out;
 use crate::Real;
 use crate::algebra::Vector;
 use crate::blocks::Cliques;
-use crate::model::{Load, Model, Owner, Tangent, Terms};
+use crate::model::{Model, Terms};
 use crate::team::{Team, sum};
-use core::ops::Range;
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// This model with a team that its evaluation, and the vectors of a step, are shared among. Same bits for every team.
@@ -83,12 +82,9 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 element.place = part.place(element.place);
                 *measure = element.evaluate::<D>(&self.pool, (q, v, memory), &supplies, jacobian);
             }
-            let n = super::finish::index(self.measures.len());
             for element in part.body_elements(&self.body_elements) {
                 let mut element = *element;
                 element.place = part.place(element.place);
-                (element.measures.start, element.measures.end) =
-                    (element.measures.start - n, element.measures.end - n);
                 element.measures = part.body_measures(element.measures);
                 let out = (&mut jacobian[..], &mut body_measures[..]);
                 element.evaluate::<D>(&self.pool, (q, v), &supplies, out);
@@ -201,45 +197,13 @@ pub struct Teamed<'a, T: Real, const D: usize, W> {
 }
 
 impl<T: Real, const D: usize, W: Team> Cliques for Teamed<'_, T, D, W> {
-    fn n_unknowns(&self) -> usize {
-        self.model.n_unknowns()
-    }
-    fn n_elements(&self) -> usize {
-        self.model.n_elements()
-    }
-    #[inline(always)]
-    fn clique(&self, element: usize) -> &[u32] {
-        self.model.clique(element)
-    }
+    crate::forward_cliques!(model);
 }
 
 impl<T: Real, const D: usize, W: Team> Model<T> for Teamed<'_, T, D, W> {
+    crate::forward_model!(T, model);
     fn team(&self) -> &impl Team {
         self.team
-    }
-    fn n_extended(&self) -> usize {
-        self.model.n_extended()
-    }
-    fn n_constraints(&self) -> usize {
-        self.model.n_constraints()
-    }
-    fn n_memory(&self) -> usize {
-        self.model.n_memory()
-    }
-    fn has_forces(&self) -> bool {
-        self.model.has_forces()
-    }
-    fn has_guides(&self) -> bool {
-        self.model.has_guides()
-    }
-    fn terms(&self) -> Terms<T> {
-        self.model.terms()
-    }
-    fn write_reference(&self, q: &mut [T]) {
-        self.model.write_reference(q);
-    }
-    fn set_inputs(&self, t: T, terms: &mut Terms<T>) {
-        self.model.set_inputs(t, terms);
     }
     fn evaluate(&self, q: &[T], terms: &mut Terms<T>) {
         self.model.evaluate_on(self.team, q, terms);
@@ -250,63 +214,16 @@ impl<T: Real, const D: usize, W: Team> Model<T> for Teamed<'_, T, D, W> {
     fn evaluate_forces(&self, q: &[T], v: &[T], memory: &[T], terms: &mut Terms<T>) {
         self.model.evaluate_forces_on(self.team, (q, v, memory), terms);
     }
-    fn remember(&self, terms: &Terms<T>, memory: &mut [T]) {
-        self.model.remember(terms, memory);
-    }
-    fn evaluate_phi_t(&self, q: &[T], terms: &mut Terms<T>) {
-        self.model.evaluate_phi_t(q, terms);
-    }
     fn evaluate_bias(&self, q: &[T], v: &[T], terms: &mut Terms<T>) {
         self.model.evaluate_bias_on(self.team, (q, v), terms);
     }
     fn multiply_jacobian(&self, terms: &Terms<T>, x: &[T], rates: &mut [T]) {
         self.model.multiply_jacobian_on(self.team, terms, x, rates);
     }
-    fn effective_masses(&self, terms: &Terms<T>, masses: &mut [T]) {
-        self.model.effective_masses(terms, masses);
-    }
-    fn rows(&self, element: usize) -> Range<usize> {
-        self.model.rows(element)
-    }
-    fn write_jacobian(&self, terms: &Terms<T>, element: usize, rows: &mut [T]) {
-        self.model.write_jacobian(terms, element, rows);
-    }
-    #[inline]
-    fn write_block(
-        &self,
-        terms: &Terms<T>,
-        tangent: &Tangent<'_, T>,
-        element: usize,
-        block: &mut [T],
-    ) {
-        self.model.write_block(terms, tangent, element, block);
-    }
-    #[inline]
-    fn write_residual(
-        &self,
-        terms: &Terms<T>,
-        load: &Load<'_, T>,
-        element: usize,
-        residual: &mut [T],
-    ) {
-        self.model.write_residual(terms, load, element, residual);
-    }
     fn kinetic_energy(&self, v: &[T]) -> T {
         self.model.kinetic_energy_on(self.team, v)
     }
     fn potential_energy(&self, q: &[T], terms: &Terms<T>) -> T {
         self.model.potential_energy_on(self.team, q, terms)
-    }
-    fn power(&self, q: &[T], v: &[T], lambda: &[T], terms: &Terms<T>) -> T {
-        self.model.power(q, v, lambda, terms)
-    }
-    fn opposite_guide(&self, q: &[T], terms: &Terms<T>) -> Option<usize> {
-        self.model.opposite_guide(q, terms)
-    }
-    fn owner_of_unknown(&self, unknown: usize) -> Owner {
-        self.model.owner_of_unknown(unknown)
-    }
-    fn owner_of_row(&self, row: usize) -> Owner {
-        self.model.owner_of_row(row)
     }
 }

@@ -1,5 +1,5 @@
-//! Teams of threads for the work of one step: [`Pool`] on rayon, [`Crew`] with a queue of crossbeam, and [`Threads`], the choice
-//! of one at run time.
+//! Teams of threads for the work of one step: [`Pool`] on rayon, [`Crew`] with a queue of crossbeam, and [`Threads`], a crew
+//! or none, chosen at run time.
 //!
 //! All of them give the same bits: how work is cut is none of their business ([`mbs_core::team`]).
 
@@ -20,8 +20,6 @@ pub enum Threads {
     One,
     /// Threads that wait for work awake.
     Crew(Crew),
-    /// Threads of rayon.
-    Pool(Pool),
 }
 
 impl Threads {
@@ -44,7 +42,6 @@ impl Team for Threads {
         match self {
             Self::One => Alone.join(a, b),
             Self::Crew(crew) => crew.join(a, b),
-            Self::Pool(pool) => pool.join(a, b),
         }
     }
 
@@ -53,7 +50,6 @@ impl Team for Threads {
         match self {
             Self::One => 1,
             Self::Crew(crew) => crew.size(),
-            Self::Pool(pool) => pool.size(),
         }
     }
 }

@@ -53,8 +53,8 @@ pub(crate) struct Arguments {
     /// error of a step, else 1e-8.
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
     tolerance: Option<f64>,
-    /// Threads that share the work of a step in index-3, index-1 and multi-index; worth it above some hundred bodies. The results
-    /// are the same to the last bit.
+    /// Threads that share the work of a step in index-3, index-1, multi-index and classical; worth it above some hundred bodies.
+    /// The results are the same to the last bit.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
     /// Directory for run.csv, steps.csv, run.json and run.html; made if missing.

@@ -36,7 +36,7 @@ const SCENES: [&str; 14] = [
 /// The largest ones, which `--quick` leaves out.
 const LARGEST: [&str; 4] = ["net-1000", "convoy-100", "tree-4095", "chain-10000"];
 
-/// Formulations that teams share the steps of, and those that have none.
+/// Formulations whose solver and clocks are the bench's own, and those that are stepped as `mbs run` does.
 const SHARED: &str = "index-3,index-1,multi-index";
 const OTHERS: [&str; 3] = ["classical", "state-space", "recursive"];
 

@@ -6,7 +6,7 @@ use crate::chart::{Axis, Chart, Kind, Look, Series};
 use crate::steps::section::Section;
 
 /// The formulations that teams share the steps of.
-const SHARED: [&str; 3] = ["index-3", "index-1", "multi-index"];
+const SHARED: [&str; 4] = ["index-3", "index-1", "multi-index", "classical"];
 /// A gain below this is none.
 const SEEN: f64 = 1.05;
 /// The whole vehicle, of 168 coordinates in the report.

@@ -1,0 +1,85 @@
+//! Pivots that some columns of a front do not know of yet.
+//!
+//! ```text
+//! a_j <- a_j - sum_m  d_m l_jm l_m          pivots m of the panel, together: each column is read and written once
+//! ```
+
+use super::front::column;
+use crate::Real;
+use core::ops::Range;
+
+/// Most pivots in a panel.
+const MOST: usize = 6;
+
+/// Neighbouring pivots of one unknown each.
+#[derive(Debug)]
+pub(super) struct Panel<T> {
+    /// Place of the first.
+    start: usize,
+    pivots: [T; MOST],
+    len: usize,
+}
+
+impl<T: Real> Default for Panel<T> {
+    fn default() -> Self {
+        Self::starting_at(0)
+    }
+}
+
+impl<T: Real> Panel<T> {
+    /// No pivots; the first will be at place `start`.
+    pub(super) fn starting_at(start: usize) -> Self {
+        Self { start, pivots: [T::ZERO; MOST], len: 0 }
+    }
+
+    /// The pivot at the next place.
+    pub(super) fn push(&mut self, pivot: T) {
+        self.pivots[self.len] = pivot;
+        self.len += 1;
+    }
+
+    pub(super) fn is_full(&self) -> bool {
+        self.len == MOST
+    }
+
+    /// Tells `columns`, all after the panel, of its pivots.
+    #[inline(always)]
+    pub(super) fn apply(&self, a: &mut [T], f: usize, columns: Range<usize>) {
+        match self.len {
+            0 => {}
+            1 => self.apply_sized::<1>(a, f, columns),
+            2 => self.apply_sized::<2>(a, f, columns),
+            3 => self.apply_sized::<3>(a, f, columns),
+            4 => self.apply_sized::<4>(a, f, columns),
+            5 => self.apply_sized::<5>(a, f, columns),
+            _ => self.apply_sized::<MOST>(a, f, columns),
+        }
+    }
+
+    #[inline(always)]
+    fn apply_sized<const P: usize>(&self, a: &mut [T], f: usize, columns: Range<usize>) {
+        let first = columns.start;
+        let (done, mut rest) = a.split_at_mut(column(f, first));
+        let mut known: [&[T]; P] = [&done[..0]; P];
+        for m in 0..P {
+            let k = self.start + m;
+            known[m] = &done[column(f, k) + first - k..][..f - first];
+        }
+        for j in 0..columns.len() {
+            let (target, next) = rest.split_at_mut(f - first - j);
+            rest = next;
+            let (mut below, mut w) = (known, [T::ZERO; P]);
+            for m in 0..P {
+                below[m] = &known[m][j..][..target.len()];
+                w[m] = below[m][0] * self.pivots[m];
+            }
+            for i in 0..target.len() {
+                let mut sum = below[0][i] * w[0];
+                for m in 1..P {
+                    sum += below[m][i] * w[m];
+                }
+                target[i] -= sum;
+            }
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! Models made of another: what they leave as it is, they pass on.
+
+/// The methods of [`Cliques`](crate::Cliques) by those of the field `$model`.
+#[macro_export]
+macro_rules! forward_cliques {
+    ($model:ident) => {
+        fn n_unknowns(&self) -> usize {
+            self.$model.n_unknowns()
+        }
+        fn n_elements(&self) -> usize {
+            self.$model.n_elements()
+        }
+        #[inline(always)]
+        fn clique(&self, element: usize) -> &[u32] {
+            self.$model.clique(element)
+        }
+        fn n_primal(&self) -> usize {
+            self.$model.n_primal()
+        }
+    };
+}
+
+/// The methods of [`Model`](crate::model::Model) over numbers `$T` by those of the field `$model`: all but `team` and those that
+/// work on the whole model in every step, which are evaluations, products and energies.
+#[macro_export]
+macro_rules! forward_model {
+    ($T:ty, $model:ident) => {
+        fn n_extended(&self) -> usize {
+            self.$model.n_extended()
+        }
+        fn n_constraints(&self) -> usize {
+            self.$model.n_constraints()
+        }
+        fn n_memory(&self) -> usize {
+            self.$model.n_memory()
+        }
+        fn has_forces(&self) -> bool {
+            self.$model.has_forces()
+        }
+        fn has_guides(&self) -> bool {
+            self.$model.has_guides()
+        }
+        fn terms(&self) -> $crate::model::Terms<$T> {
+            self.$model.terms()
+        }
+        fn write_reference(&self, q: &mut [$T]) {
+            self.$model.write_reference(q);
+        }
+        fn set_inputs(&self, t: $T, terms: &mut $crate::model::Terms<$T>) {
+            self.$model.set_inputs(t, terms);
+        }
+        fn remember(&self, terms: &$crate::model::Terms<$T>, memory: &mut [$T]) {
+            self.$model.remember(terms, memory);
+        }
+        fn evaluate_phi_t(&self, q: &[$T], terms: &mut $crate::model::Terms<$T>) {
+            self.$model.evaluate_phi_t(q, terms);
+        }
+        fn effective_masses(&self, terms: &$crate::model::Terms<$T>, masses: &mut [$T]) {
+            self.$model.effective_masses(terms, masses);
+        }
+        fn rows(&self, element: usize) -> core::ops::Range<usize> {
+            self.$model.rows(element)
+        }
+        fn write_jacobian(
+            &self,
+            terms: &$crate::model::Terms<$T>,
+            element: usize,
+            rows: &mut [$T],
+        ) {
+            self.$model.write_jacobian(terms, element, rows);
+        }
+        #[inline]
+        fn write_block(
+            &self,
+            terms: &$crate::model::Terms<$T>,
+            tangent: &$crate::model::Tangent<'_, $T>,
+            element: usize,
+            block: &mut [$T],
+        ) {
+            self.$model.write_block(terms, tangent, element, block);
+        }
+        #[inline]
+        fn write_residual(
+            &self,
+            terms: &$crate::model::Terms<$T>,
+            load: &$crate::model::Load<'_, $T>,
+            element: usize,
+            residual: &mut [$T],
+        ) {
+            self.$model.write_residual(terms, load, element, residual);
+        }
+        fn power(&self, q: &[$T], v: &[$T], lambda: &[$T], terms: &$crate::model::Terms<$T>) -> $T {
+            self.$model.power(q, v, lambda, terms)
+        }
+        fn opposite_guide(&self, q: &[$T], terms: &$crate::model::Terms<$T>) -> Option<usize> {
+            self.$model.opposite_guide(q, terms)
+        }
+        fn owner_of_unknown(&self, unknown: usize) -> $crate::model::Owner {
+            self.$model.owner_of_unknown(unknown)
+        }
+        fn owner_of_row(&self, row: usize) -> $crate::model::Owner {
+            self.$model.owner_of_row(row)
+        }
+    };
+}
