@@ -42,6 +42,7 @@ pub struct Indefinite<T: Real, W: Team = Alone> {
     /// S, and the largest entry of each row of S T S, by unknown.
     scale: Vec<T>,
     rows: Vec<T>,
+    diagonal: Vec<T>,
     scatter: Scatter<T>,
     /// What each task has factored.
     shares: Vec<Share<T>>,
@@ -82,6 +83,7 @@ impl<T: Real, W: Team> Indefinite<T, W> {
             blocks: vec![T::ZERO; n_blocks],
             scale: vec![T::ONE; n],
             rows: vec![T::ZERO; n],
+            diagonal: vec![T::ZERO; n],
             scatter: Scatter::new(&team, &layout.plan),
             shares: layout.shares(),
             tally: Tally::default(),
@@ -113,13 +115,18 @@ impl<T: Real, W: Team> Indefinite<T, W> {
         let starts = &self.layout.block_starts;
         on_elements(team, starts, &mut self.blocks, |e, block| source.write_block(e, block));
         let (blocks, scatter) = (&self.blocks, &mut self.scatter);
+        let write = |e: usize, diagonal: &mut [T]| {
+            scaling::write_diagonal(&blocks[starts[e]..starts[e + 1]], diagonal);
+        };
+        scatter.combine(team, cliques, &mut self.diagonal, write, |sum, d| sum + d);
         let mut measure = |scale: &[T], rows: &mut [T]| {
             let write = |e: usize, rows: &mut [T]| {
                 measure_rows(cliques.get(e), &blocks[starts[e]..starts[e + 1]], scale, rows);
             };
             scatter.combine(team, cliques, rows, write, larger);
         };
-        scaling::equilibrate(team, (&mut self.scale, &mut self.rows), &mut measure);
+        let out = (&mut self.scale[..], &mut self.rows[..]);
+        scaling::equilibrate(team, out, &self.diagonal, &mut measure);
         measure(&self.scale, &mut self.rows);
     }
 

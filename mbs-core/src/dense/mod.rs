@@ -32,6 +32,7 @@ pub struct Dense<T> {
     /// The matrix, packed lower triangle, and its factor.
     matrix: Vec<T>,
     factor: Vec<T>,
+    diagonal: Vec<T>,
     scale: Vec<T>,
     size: Vec<T>,
     order: Vec<u32>,
@@ -66,6 +67,7 @@ impl<T: Real> Dense<T> {
             natural,
             matrix: vec![T::ZERO; column(n, n)],
             factor: vec![T::ZERO; column(n, n)],
+            diagonal: vec![T::ZERO; n],
             scale: vec![T::ONE; n],
             size: vec![T::ZERO; n],
             pairs: vec![false; n],
@@ -172,7 +174,9 @@ impl<T: Real> SymmetricSolver<T> for Dense<T> {
         let measure = |scale: &[T], rows: &mut [T]| {
             scaling::measure_rows(natural, matrix, scale, rows);
         };
-        scaling::equilibrate(&Alone, (&mut self.scale, &mut self.size), measure);
+        scaling::write_diagonal(matrix, &mut self.diagonal);
+        let out = (&mut self.scale[..], &mut self.size[..]);
+        scaling::equilibrate(&Alone, out, &self.diagonal, measure);
         measure(&self.scale, &mut self.size);
         for j in 0..n {
             let range = column(n, j)..column(n, j + 1);

@@ -1,8 +1,12 @@
 //! Symmetric equilibration of a sum of blocks, and its products.
 //!
 //! ```text
-//! r_i = max_j |s_i a_ij s_j|,   s_i <- s_i / sqrt(r_i)        (Ruiz, 2001): every row of S A S tends to a largest entry of 1
+//! a_ii > 0:   s_i = 1 / sqrt(a_ii)                                  coordinates in units of their inertia
+//! else:       r_i = max_j |s_i a_ij s_j|,   s_i <- s_i / sqrt(r_i)  (Ruiz, 2001): tends to a largest entry of 1
 //! ```
+//!
+//! In a saddle system a row and its multiplier can be scaled at will, so the diagonal sets the scale: pivots of one unknown then
+//! hold for coordinates that are light beside the entries of their rows, which would else be taken in pairs or delayed.
 
 use crate::Real;
 use crate::team::{Team, on_stretches};
@@ -10,26 +14,47 @@ use crate::team::{Team, on_stretches};
 /// Rounds of the scaling; each takes the square root of what is left of the spread.
 const ROUNDS: u32 = 3;
 
-/// Finds `scale` (n places); `rows` (n places) is scratch. `measure` is given a scale, and writes the largest entry of every row
-/// of the scaled matrix.
+/// Finds `scale` (n places) for a matrix with this `diagonal`; `rows` (n places) is scratch. `measure` is given a scale, and writes
+/// the largest entry of every row of the scaled matrix.
 ///
-/// Cost: three measures, and as many roots of n numbers.
+/// Cost: three measures, and at most as many roots of n numbers.
 pub fn equilibrate<W: Team, T: Real>(
     team: &W,
     (scale, rows): (&mut [T], &mut [T]),
+    diagonal: &[T],
     mut measure: impl FnMut(&[T], &mut [T]),
 ) {
-    scale.fill(T::ONE);
+    on_stretches(team, [&mut *scale], |first, [scale]| {
+        for (s, &d) in scale.iter_mut().zip(&diagonal[first..]) {
+            *s = if is_unit(d) { T::ONE / d.sqrt() } else { T::ONE };
+        }
+    });
     for _ in 0..ROUNDS {
         measure(scale, rows);
         let rows = &*rows;
         on_stretches(team, [&mut *scale], |first, [scale]| {
-            for (s, &r) in scale.iter_mut().zip(&rows[first..]) {
-                if r > T::ZERO && r.is_finite() {
+            for ((s, &r), &d) in scale.iter_mut().zip(&rows[first..]).zip(&diagonal[first..]) {
+                if !is_unit(d) && r > T::ZERO && r.is_finite() {
                     *s /= r.sqrt();
                 }
             }
         });
+    }
+}
+
+/// Can a diagonal entry be scaled to one?
+#[inline(always)]
+fn is_unit<T: Real>(d: T) -> bool {
+    d > T::ZERO && d.is_finite() && (T::ONE / d).is_finite()
+}
+
+/// The diagonal of one packed block of `diagonal.len()` unknowns.
+#[inline(always)]
+pub fn write_diagonal<T: Real>(block: &[T], diagonal: &mut [T]) {
+    let (k, mut at) = (diagonal.len(), 0);
+    for (j, d) in diagonal.iter_mut().enumerate() {
+        *d = block[at];
+        at += k - j;
     }
 }
 
