@@ -8,6 +8,8 @@ extern crate alloc;
 mod cut;
 #[cfg(feature = "alloc")]
 mod error;
+mod at;
+pub mod bounded;
 mod evaluate;
 pub mod explicit;
 #[cfg(feature = "alloc")]
@@ -42,10 +44,11 @@ mod tree;
 
 #[cfg(feature = "alloc")]
 pub use error::{LoopError, TreeError};
+pub use at::Outside;
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use options::{Closure, Options};
 #[cfg(feature = "alloc")]
-pub use run::{rk4_step, rk54_step, step};
+pub use run::{bounded_step, rk4_step, rk54_step, step};
 pub use space::{Planar, Spatial};
 #[cfg(feature = "alloc")]
 pub use start::StartError;

@@ -67,7 +67,7 @@ pub struct Supplies<'a, T> {
 impl<'a, T: Real> Supplies<'a, T> {
     /// Courses alone.
     #[must_use]
-    pub fn courses(courses: &'a [[T; 3]]) -> Self {
+    pub const fn courses(courses: &'a [[T; 3]]) -> Self {
         Self {
             courses,
             #[cfg(feature = "polynomial")]
