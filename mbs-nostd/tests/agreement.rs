@@ -62,7 +62,7 @@ fn scratch() {
                 step(&tree, 1e-3, &options, &mut exact, &mut other).unwrap();
                 for (x, y) in state.z.iter().zip(&exact.z) { z_worst = z_worst.max((x - y).abs()); }
             }
-            println!("{name} {evaluations}: {:?} worst {worst:.1e?} z {z_worst:.2e} links {} nv {} rows {}", stopped, tree.n_links(), tree.n_freedoms(), tree.n_rows());
+            println!("{name} {evaluations}: {:?} worst {worst:?} z {z_worst:.2e} links {} nv {} rows {}", stopped, tree.n_links(), tree.n_freedoms(), tree.n_rows());
         }
     }
 }

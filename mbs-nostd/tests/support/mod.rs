@@ -13,7 +13,7 @@ use mbs_sparse::Multifrontal;
 pub fn file(name: &str) -> Scene<f64> {
     let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).expect("the scene is there");
-    let document = mbs_scene::Document::parse(name, &text).unwrap_or_else(|e| panic!("{}", e.render()));
+    let document = mbs_scene::Document::parse(&text, name).unwrap_or_else(|e| panic!("{}", e.render()));
     document.scene::<f64>().unwrap_or_else(|e| panic!("{}", e.render()))
 }
 
