@@ -4,6 +4,7 @@
 #[cfg(feature = "export")]
 extern crate alloc;
 
+pub mod bound;
 mod check;
 #[cfg(feature = "export")]
 pub mod export;

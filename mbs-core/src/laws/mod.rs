@@ -65,6 +65,13 @@ pub struct Supplies<'a, T> {
 }
 
 impl<'a, T: Real> Supplies<'a, T> {
+    /// The vector of a course; zero where there is none.
+    #[inline(always)]
+    #[must_use]
+    pub fn course(&self, course: u32) -> [T; 3] {
+        self.courses.get(course as usize).copied().unwrap_or([T::ZERO; 3])
+    }
+
     /// Courses alone.
     #[must_use]
     pub const fn courses(courses: &'a [[T; 3]]) -> Self {
