@@ -20,7 +20,7 @@ fn a_solver_of_fixed_capacity_gives_the_bits_of_the_recursion() {
     for name in ["iltis-slalom", "iltis-jump", "iltis-suspension", "spatial-four-bar"] {
         let (tree, begin) = vehicle(name);
         let gathered = Gathered::new(&tree, &begin, &[]);
-        let text = bytes(&gathered.model()).expect("a scene without own laws");
+        let text = bytes(&gathered.model(), false).expect("a scene without own laws");
         let tables = RoomTables::read(&text).unwrap_or_else(|e| panic!("{name}: {e}"));
         let flash = Checked::new(&gathered.model()).unwrap_or_else(|e| panic!("{name}: {e}"));
         let read = tables.model();
@@ -42,7 +42,14 @@ fn a_solver_of_fixed_capacity_gives_the_bits_of_the_recursion() {
 
 #[test]
 fn scratch() {
-    for name in ["iltis-slalom", "iltis-jump", "iltis-stairs", "iltis-stairs-stiff", "iltis-suspension", "iltis-bump-5"] {
+    for name in [
+        "iltis-slalom",
+        "iltis-jump",
+        "iltis-stairs",
+        "iltis-stairs-stiff",
+        "iltis-suspension",
+        "iltis-bump-5",
+    ] {
         for evaluations in [1, 2, 3] {
             let (tree, begin) = vehicle(name);
             let (mut state, mut workspace) = (begin.clone(), Workspace::new(&tree));
@@ -55,14 +62,32 @@ fn scratch() {
             for i in 0..10_000 {
                 match bounded_step(&tree, (1e-3, &options, bounds), &mut state, &mut workspace) {
                     Ok(r) => {
-                        for (w, x) in worst.iter_mut().zip([r.correction, r.violation[0], r.violation[1], r.violation[2]]) { *w = w.max(x); }
+                        for (w, x) in worst.iter_mut().zip([
+                            r.correction,
+                            r.violation[0],
+                            r.violation[1],
+                            r.violation[2],
+                        ]) {
+                            *w = w.max(x);
+                        }
                     }
-                    Err(e) => { stopped = Some((i, e)); break; }
+                    Err(e) => {
+                        stopped = Some((i, e));
+                        break;
+                    }
                 }
                 step(&tree, 1e-3, &options, &mut exact, &mut other).unwrap();
-                for (x, y) in state.z.iter().zip(&exact.z) { z_worst = z_worst.max((x - y).abs()); }
+                for (x, y) in state.z.iter().zip(&exact.z) {
+                    z_worst = z_worst.max((x - y).abs());
+                }
             }
-            println!("{name} {evaluations}: {:?} worst {worst:?} z {z_worst:.2e} links {} nv {} rows {}", stopped, tree.n_links(), tree.n_freedoms(), tree.n_rows());
+            println!(
+                "{name} {evaluations}: {:?} worst {worst:?} z {z_worst:.2e} links {} nv {} rows {}",
+                stopped,
+                tree.n_links(),
+                tree.n_freedoms(),
+                tree.n_rows()
+            );
         }
     }
 }

@@ -1,8 +1,8 @@
 //! The bound, by a number that counts what is done with it.
 
-mod support;
 #[path = "support/counted.rs"]
 mod counted;
+mod support;
 
 use counted::{Counted, done};
 use mbs_nostd::bound::{self, Operations};
@@ -24,7 +24,7 @@ where
 {
     let (tree, begin) = start::<S, D>(&file(name));
     let gathered = Gathered::new(&tree, &begin, &[]);
-    let text = bytes(&gathered.model()).expect("a scene without own laws");
+    let text = bytes(&gathered.model(), false).expect("a scene without own laws");
     // The same numbers again, as counting ones.
     let tables = Box::new(RoomTables::<S>::read(&text).unwrap_or_else(|e| panic!("{name}: {e}")));
     let model = tables.model();
@@ -80,7 +80,9 @@ fn is_bound(name: &str) {
 
 #[test]
 fn effects_that_branch_stay_below_the_bound() {
-    for name in ["iltis-slalom", "iltis-ramp-steer-30", "iltis-suspension", "iltis-stairs", "quarter-car"] {
+    for name in
+        ["iltis-slalom", "iltis-ramp-steer-30", "iltis-suspension", "iltis-stairs", "quarter-car"]
+    {
         if name != "quarter-car" {
             is_bound(name);
         }

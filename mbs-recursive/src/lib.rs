@@ -4,12 +4,12 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+mod at;
+pub mod bounded;
 #[cfg(feature = "alloc")]
 mod cut;
 #[cfg(feature = "alloc")]
 mod error;
-mod at;
-pub mod bounded;
 mod evaluate;
 pub mod explicit;
 #[cfg(feature = "alloc")]
@@ -42,9 +42,9 @@ pub mod trapezoidal;
 #[cfg(feature = "alloc")]
 mod tree;
 
+pub use at::Outside;
 #[cfg(feature = "alloc")]
 pub use error::{LoopError, TreeError};
-pub use at::Outside;
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use options::{Closure, Options};
 #[cfg(feature = "alloc")]

@@ -295,7 +295,8 @@ pub(crate) fn close_again<T: Real, S: Space<T>>(
         let (first, n) = (lap.first as usize, lap.n as usize);
         for r in 0..n {
             let factor = part(st.blocks, lap.block as usize + r * n, n)?;
-            let (before, here) = part_mut(st.l, first, n)?.split_at_mut_checked(r).ok_or(Outside)?;
+            let (before, here) =
+                part_mut(st.l, first, n)?.split_at_mut_checked(r).ok_or(Outside)?;
             let l = at_mut(here, 0)?;
             for (&x, &y) in factor.iter().zip(before.iter()) {
                 *l -= x * y;

@@ -107,10 +107,8 @@ impl<T: Real, S: Space<T>> Loop<T, S> {
     ) -> Result<(), Outside> {
         let [first, second] = self.links;
         let (a, b) = (at(placed, first as usize)?, at(placed, second as usize)?);
-        let arms = [
-            S::rotate(&a.rotation, &self.points[0]),
-            S::rotate(&b.rotation, &self.points[1]),
-        ];
+        let arms =
+            [S::rotate(&a.rotation, &self.points[0]), S::rotate(&b.rotation, &self.points[1])];
         let spins = [S::spin(&a.velocity), S::spin(&b.velocity)];
         let gap = (b.position + arms[1]) - (a.position + arms[0]);
         let gap_rate = (S::point(&b.velocity) + S::cross(&spins[1], &arms[1]))

@@ -80,7 +80,9 @@ impl Bench {
     }
 
     fn forces(&mut self, z: &[f64; 3], v: &[f64; 3]) -> [f64; 3] {
-        self.along((z, v), |load, at, condensed| load.apply(at, condensed).expect("tables that fit"))
+        self.along((z, v), |load, at, condensed| {
+            load.apply(at, condensed).expect("tables that fit")
+        })
     }
 
     /// What the forces lose for accelerations `x`, by the tangents at (z, v).
@@ -123,8 +125,7 @@ const REACH: Reach<f64> = Reach { place: 0.01, speed: 0.1 };
 fn slack(first: &str, second: &str, points: [[f64; 2]; 2]) -> String {
     let mut bench = Bench::new(&spring(first, second, points, 0.0));
     let m = bench.model.mechanism();
-    passes::kinematics(m.links, (&Z, &[0.0; 3], &[]), &mut bench.placed)
-        .expect("tables that fit");
+    passes::kinematics(m.links, (&Z, &[0.0; 3], &[]), &mut bench.placed).expect("tables that fit");
     let at = Instant {
         links: m.links,
         placed: &bench.placed,

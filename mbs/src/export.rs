@@ -1,13 +1,12 @@
 //! Scenes as tables for controllers: `mbs export`.
 
-use crate::simulation::Simulation;
 use crate::settings::Settings;
+use crate::simulation::Simulation;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
-use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_nostd::export::{Gathered, bytes, source};
-use mbs_nostd::record::{Axes, Record};
+use mbs_nostd::record::Axes;
 use mbs_recursive::{StartError, TreeModel};
 use serde_json::Value;
 
@@ -49,20 +48,21 @@ impl From<StopError> for ExportError {
     }
 }
 
-/// Writes a scene as tables, in the precision of the scene. `ladder` has indices of effects, the one to be dropped first in front.
+/// Writes a scene as tables in single or double precision; start and tables are made in double. `ladder` has indices of effects,
+/// the one to be dropped first in front.
 ///
 /// # Errors
 /// [`ExportError`].
-pub fn export<T: Real + Record, const D: usize>(
-    scene: &Scene<T>,
+pub fn export<const D: usize>(
+    scene: &Scene<f64>,
     settings: &Settings,
-    ladder: &[usize],
+    (ladder, is_single): (&[usize], bool),
 ) -> Result<Exported, ExportError>
 where
-    Plane<D>: InSpace<T, Space: Axes<T>>,
+    Plane<D>: InSpace<f64, Space: Axes<f64>>,
 {
-    let simulation = Simulation::<T, D>::new(scene, settings)?;
-    let tree = TreeModel::<T, <Plane<D> as InSpace<T>>::Space>::new(scene);
+    let simulation = Simulation::<f64, D>::new(scene, settings)?;
+    let tree = TreeModel::<f64, <Plane<D> as InSpace<f64>>::Space>::new(scene);
     let tree = tree.map_err(StopError::tree)?;
     let start = tree.start(scene, simulation.model(), simulation.state());
     let start = start.map_err(|error| match error {
@@ -74,9 +74,9 @@ where
     })?;
     let gathered = Gathered::new(&tree, &start, ladder);
     let model = gathered.model();
-    let bytes = bytes(&model).ok_or(ExportError::Effect)?;
-    let rust = source(&model, &format!("The scene \"{}\"", scene.name.escape_default()))
-        .map_err(|_| ExportError::Effect)?;
+    let bytes = bytes(&model, is_single).ok_or(ExportError::Effect)?;
+    let title = format!("The scene \"{}\"", scene.name.escape_default());
+    let rust = source(&model, (&title, is_single)).map_err(|_| ExportError::Effect)?;
     Ok(Exported { rust, bytes })
 }
 

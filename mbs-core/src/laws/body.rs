@@ -67,12 +67,7 @@ pub enum BodyLaw<T> {
 
 /// Writes an action to its place, where there is one.
 #[inline(always)]
-#[cfg(any(
-    feature = "drag",
-    feature = "speed-hold",
-    feature = "tire",
-    feature = "own-laws"
-))]
+#[cfg(any(feature = "drag", feature = "speed-hold", feature = "tire", feature = "own-laws"))]
 pub(super) fn put<T>(out: &mut [Action<T>], place: usize, action: Action<T>) {
     if let Some(to) = out.get_mut(place) {
         *to = action;

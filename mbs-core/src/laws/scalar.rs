@@ -94,9 +94,7 @@ impl<T: Real> Law<T> {
     pub fn evaluate(&self, value: T, rate: T, supplies: &Supplies<'_, T>) -> Measure<T> {
         let plain = Measure { value, rate, ..Measure::default() };
         match self {
-            Self::Torque { course } => {
-                Measure { tension: -supplies.course(*course)[0], ..plain }
-            }
+            Self::Torque { course } => Measure { tension: -supplies.course(*course)[0], ..plain },
             Self::SpringDamper { stiffness, damping, free } => Measure {
                 tension: *stiffness * (value - *free) + *damping * rate,
                 stiffness: *stiffness,

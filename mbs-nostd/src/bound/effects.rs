@@ -81,10 +81,7 @@ impl Parts {
 }
 
 /// An effect in an evaluation, ahead.
-pub(super) fn load<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
-    load: &Load<T, S>,
-) -> Operations {
+pub(super) fn load<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, load: &Load<T, S>) -> Operations {
     let parts = Parts::of::<T, S>();
     // κ, and what it adds to a joint.
     let across = ops(3, 3);
@@ -131,7 +128,11 @@ fn measured<T: Real, S: Space<T>>(gauge: &Gauge<T, S>, parts: &Parts) -> Operati
             between + parts.points + unit + parts.wrench * 2 + rate
         }
         Gauge::Along { .. } => {
-            between + parts.turned + parts.wrench * 2 + ops(0, parts.point) + parts.points
+            between
+                + parts.turned
+                + parts.wrench * 2
+                + ops(0, parts.point)
+                + parts.points
                 + ops(0, 1)
                 + rate
         }
@@ -165,10 +166,7 @@ const CONTACT: Operations = ops(14, 6);
 
 /// A law on a body, and how many actions it has.
 #[allow(unreachable_patterns, unused_variables, reason = "some effects may be left out")]
-fn on_body<T: Real, S: Space<T>>(
-    m: &Mechanism<'_, T, S>,
-    law: &BodyLaw<T>,
-) -> (Operations, u64) {
+fn on_body<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, law: &BodyLaw<T>) -> (Operations, u64) {
     match law {
         #[cfg(feature = "drag")]
         BodyLaw::Drag { .. } => (ops(12, 2).and(1, 1, 0), 1),

@@ -34,18 +34,18 @@ pub(super) fn residual<T: Real, S: Space<T>>(rows: u64) -> Operations {
 /// Values, rates, gradients and biases of all rows.
 pub(super) fn rows<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operations {
     let is_spatial = S::DIMENSION == 3;
-    let ends = if is_spatial { ops(54, 51) } else { ops(20, 24) };
+    let ends = if is_spatial { ops(54, 51) } else { ops(20, 18) };
     let mut sum = ends * count(m.loops.loops.len());
     for row in m.loops.rows {
         sum += match (row, is_spatial) {
             (Row::Coincidence { .. }, true) => ops(24, 17),
             (Row::Coincidence { .. }, false) => ops(10, 7),
-            (Row::Gap { .. }, true) => ops(61, 44),
-            (Row::Gap { .. }, false) => ops(26, 19),
-            (Row::Dot { .. }, true) => ops(76, 50),
-            (Row::Dot { .. }, false) => ops(33, 19),
-            (Row::Length { .. }, true) => ops(37, 23).and(1, 0, 0),
-            (Row::Length { .. }, false) => ops(20, 12).and(1, 0, 0),
+            (Row::Gap { .. }, true) => ops(64, 46),
+            (Row::Gap { .. }, false) => ops(29, 18),
+            (Row::Dot { .. }, true) => ops(85, 55),
+            (Row::Dot { .. }, false) => ops(37, 17),
+            (Row::Length { .. }, true) => ops(40, 25).and(1, 0, 0),
+            (Row::Length { .. }, false) => ops(22, 12).and(1, 0, 0),
         };
     }
     sum

@@ -8,8 +8,7 @@
 //! projection   Σ links place + Σ loops rows + 2 response + move
 //! ```
 //!
-//! Counts are exact for mechanisms without effects, and with springs and dampers: no branch of the kernels depends on numbers but
-//! one quotient of a ball or free body that does not turn. Of other effects the branch that costs most is counted, and on roads
+//! Counts are exact for mechanisms without effects, and with springs and dampers: no branch of the kernels depends on numbers. Of other effects the branch that costs most is counted, and on roads
 //! that are not level the longest search for the nearest point: there the count is a bound.
 //!
 //! Products, sums and differences, quotients, roots, and calls of sine with cosine or of the arc tangent are counted; changes of
@@ -61,12 +60,12 @@ impl Operations {
         self.products + self.sums + self.quotients + self.roots + self.turns
     }
 
-    /// The bound of instructions of a Cortex-M whose arithmetic unit has the precision: 7/2 for each product and sum with its
+    /// The bound of instructions of a Cortex-M7 whose arithmetic unit has both precisions: 3 for each product and sum with its
     /// loads, stores and part of the loops, 16 for a quotient; roots and turns are functions of libm in software.
     #[must_use]
     pub const fn instructions(&self, is_double: bool) -> u64 {
         let (root, turn) = if is_double { (420, 560) } else { (220, 330) };
-        (self.products + self.sums) * 7 / 2
+        (self.products + self.sums) * 3
             + self.quotients * 16
             + self.roots * root
             + self.turns * turn
@@ -169,9 +168,7 @@ fn moves<T: Real, S: Space<T>>(links: &[Link<T, S>]) -> Operations {
 }
 
 /// A response to rows alone.
-fn response<T: Real, S: Space<T>>(
-    m: &mbs_recursive::mechanism::Mechanism<'_, T, S>,
-) -> Operations {
+fn response<T: Real, S: Space<T>>(m: &mbs_recursive::mechanism::Mechanism<'_, T, S>) -> Operations {
     let mut sum = loops::response(m);
     for link in skip_ground(m.links) {
         sum += joints::response::<T, S>(link);

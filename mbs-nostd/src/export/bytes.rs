@@ -8,12 +8,25 @@ use mbs_core::Real;
 
 /// Bytes being written.
 #[derive(Debug, Clone, Default)]
-pub struct Bytes(Vec<u8>);
+pub struct Bytes {
+    bytes: Vec<u8>,
+    is_single: bool,
+}
 
 impl Bytes {
     /// Adds some.
     pub(crate) fn put(&mut self, bytes: &[u8]) {
-        self.0.extend_from_slice(bytes);
+        self.bytes.extend_from_slice(bytes);
+    }
+
+    /// Adds a real number, in the precision of the text.
+    #[allow(clippy::cast_possible_truncation, reason = "the nearest number of this precision")]
+    pub(crate) fn put_real(&mut self, x: f64) {
+        if self.is_single {
+            self.put(&(x as f32).to_le_bytes());
+        } else {
+            self.put(&x.to_le_bytes());
+        }
     }
 
     /// A list with its length first; false if an entry cannot be written.
@@ -22,13 +35,16 @@ impl Bytes {
     }
 }
 
-/// The bytes of a model; `None` if it has an effect that cannot be written, as a law of a user's own.
+/// The bytes of a model, in single or double precision; `None` if it has an effect that cannot be written, as a law of a user's own.
 #[must_use]
-pub fn bytes<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>) -> Option<Vec<u8>> {
+pub fn bytes<T: Real + Record, S: Axes<T>>(
+    model: &Model<'_, T, S>,
+    is_single: bool,
+) -> Option<Vec<u8>> {
     let m = &model.mechanism;
     let (plan, laws, begin) = (&m.loops.plan, &model.prescriptions, &model.beginning);
-    let to = &mut Bytes::default();
-    let width = size_of::<T>();
+    let to = &mut Bytes { bytes: Vec::new(), is_single };
+    let width = if is_single { 4 } else { 8 };
     let done = HEAD.write(to)
         && [S::DIMENSION, width].write(to)
         && to.list(m.links)
@@ -57,7 +73,7 @@ pub fn bytes<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>) -> Option<Ve
         && m.length.write(to)
         && [m.n_coordinates, m.n_freedoms].write(to)
         && begin.t.write(to);
-    done.then(|| core::mem::take(&mut to.0))
+    done.then(|| core::mem::take(&mut to.bytes))
 }
 
 /// The tables of laws; empty lists where an effect is left out.

@@ -66,17 +66,18 @@ fn value<X: Record>(x: &X) -> String {
     text
 }
 
-/// The source of a model, to be included as a module of a crate that depends on mbs-nostd. `title` says what it is of.
+/// The source of a model in single or double precision, to be included as a module of a crate that depends on mbs-nostd. `title`
+/// says what it is of. Decimal texts keep the precision of the model, and are rounded once, by the compiler.
 ///
 /// # Errors
 /// What [`Checked::new`] says; a law of a user's own is left as a word that does not compile.
 pub fn source<T: Real + Record, S: Axes<T>>(
     model: &Model<'_, T, S>,
-    title: &str,
+    (title, is_single): (&str, bool),
 ) -> Result<String, LoadError> {
     let sizes = Checked::new(model)?.sizes();
     let m = &model.mechanism;
-    let scalar = if size_of::<T>() == 4 { "f32" } else { "f64" };
+    let scalar = if is_single { "f32" } else { "f64" };
     let space = if S::DIMENSION == 3 { "Spatial" } else { "Planar" };
     let features = needs(model).join(", ");
     let features = if features.is_empty() { "none".into() } else { features };
@@ -179,10 +180,7 @@ fn lists<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>, to: &mut String)
 }
 
 /// The tables of laws that are not empty, and the expression that holds them.
-fn supplies<T: Real + Record>(
-    tables: mbs_core::laws::Supplies<'_, T>,
-    to: &mut String,
-) -> String {
+fn supplies<T: Real + Record>(tables: mbs_core::laws::Supplies<'_, T>, to: &mut String) -> String {
     #[allow(unused_mut, reason = "some effects have tables")]
     let mut sets = String::new();
     #[cfg(feature = "polynomial")]

@@ -81,7 +81,7 @@ macro_rules! real {
             }
             #[cfg(feature = "export")]
             fn write(&self, to: &mut Bytes) -> bool {
-                to.put(&self.to_le_bytes());
+                to.put_real(self.to_f64());
                 true
             }
             #[cfg(feature = "export")]

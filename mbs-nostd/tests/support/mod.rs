@@ -13,7 +13,8 @@ use mbs_sparse::Multifrontal;
 pub fn file(name: &str) -> Scene<f64> {
     let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).expect("the scene is there");
-    let document = mbs_scene::Document::parse(&text, name).unwrap_or_else(|e| panic!("{}", e.render()));
+    let document =
+        mbs_scene::Document::parse(&text, name).unwrap_or_else(|e| panic!("{}", e.render()));
     document.scene::<f64>().unwrap_or_else(|e| panic!("{}", e.render()))
 }
 
@@ -28,8 +29,7 @@ pub fn start<S: Space<f64>, const D: usize>(
     let start = assemble(scene, &natural, |p| Multifrontal::analyse(p, analyse), &mut solver)
         .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     let tree = TreeModel::new(scene).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
-    let state = tree
-        .start(scene, &natural, &start.state)
-        .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+    let state =
+        tree.start(scene, &natural, &start.state).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     (tree, state)
 }

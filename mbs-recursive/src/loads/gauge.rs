@@ -79,7 +79,6 @@ fn between<T: Real, S: Space<T>>(
     points: &[S::Point; 2],
 ) -> Result<([S::Point; 2], S::Point), Outside> {
     let arms = [at.arm(links[0], &points[0])?, at.arm(links[1], &points[1])?];
-    let (p, q) =
-        (at.placed(links[0])?.position + arms[0], at.placed(links[1])?.position + arms[1]);
+    let (p, q) = (at.placed(links[0])?.position + arms[0], at.placed(links[1])?.position + arms[1]);
     Ok((arms, q - p))
 }

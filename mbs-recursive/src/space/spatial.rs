@@ -239,7 +239,8 @@ impl<T: Real> Space<T> for Spatial {
         let angle = norm(&d);
         // exp(δ) = (cos |δ|/2, sin(|δ|/2) δ/|δ|); the quotient tends to 1/2
         let (s, c) = (angle * T::HALF).sin_cos();
-        let share = if angle > T::EPSILON { s / angle } else { T::HALF };
+        let quotient = s / angle;
+        let share = if angle > T::EPSILON { quotient } else { T::HALF };
         let q = product(quaternion(z), [c, d[0] * share, d[1] * share, d[2] * share]);
         set_quaternion(z, unit(q));
     }

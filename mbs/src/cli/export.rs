@@ -2,11 +2,9 @@
 
 use super::{files, refuse};
 use clap::Args;
-use mbs::export::{ExportError, Exported, export, ladder};
+use mbs::export::{ExportError, export, ladder};
 use mbs::{Overrides, Precision, Settings};
-use mbs_core::Real;
-use mbs_core::scene::{Dimension, Scene};
-use mbs_nostd::record::Record;
+use mbs_core::scene::Dimension;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -55,13 +53,12 @@ fn written(arguments: &Arguments) -> Result<(), String> {
             ladder(&text, &scene).map_err(|error| refusal(&error))?
         }
     };
-    let exported = match settings.precision {
-        Precision::F64 => dispatch(&scene, &settings, &rungs)?,
-        Precision::F32 => {
-            let scene = document.scene::<f32>().map_err(|error| error.render())?;
-            dispatch(&scene, &settings, &rungs)?
-        }
+    let form = (&rungs[..], settings.precision == Precision::F32);
+    let exported = match scene.dimension {
+        Dimension::Planar => export::<2>(&scene, &settings, form),
+        Dimension::Spatial => export::<3>(&scene, &settings, form),
     };
+    let exported = exported.map_err(|error| refusal(&error))?;
     for (path, bytes) in
         [(&arguments.rust, exported.rust.as_bytes()), (&arguments.binary, &exported.bytes)]
     {
@@ -70,18 +67,6 @@ fn written(arguments: &Arguments) -> Result<(), String> {
         }
     }
     Ok(())
-}
-
-fn dispatch<T: Real + Record>(
-    scene: &Scene<T>,
-    settings: &Settings,
-    rungs: &[usize],
-) -> Result<Exported, String> {
-    match scene.dimension {
-        Dimension::Planar => export::<T, 2>(scene, settings, rungs),
-        Dimension::Spatial => export::<T, 3>(scene, settings, rungs),
-    }
-    .map_err(|error| refusal(&error))
 }
 
 fn refusal(error: &ExportError) -> String {
