@@ -10,7 +10,8 @@ mod model;
 mod run;
 
 use core::ffi::{c_int, c_void};
-use core::fmt;
+use core::fmt::{self, Write};
+use mbs_nostd::{Bounds, bound};
 
 #[link(name = "c")]
 unsafe extern "C" {
@@ -32,7 +33,10 @@ impl fmt::Write for Out {
 /// What the C library starts.
 #[unsafe(no_mangle)]
 pub extern "C" fn main() -> c_int {
-    c_int::from(run::run(&mut Out, || 0).is_none())
+    let bound = bound::step(&model::MODEL, Bounds::default());
+    let is_double = size_of::<model::Scalar>() == 8;
+    let is_told = writeln!(Out, "b {}", bound.instructions(is_double)).is_ok();
+    c_int::from(!is_told || run::run(&mut Out, || 0).is_none())
 }
 
 #[panic_handler]
