@@ -1,6 +1,7 @@
 //! The firmware example on emulated boards: built, run, disassembled, and compared with the same run on the host.
 
 use super::image::{Image, reachable};
+use super::in_c;
 use super::table::Build;
 use super::told::Told;
 use super::toolchain::Toolchain;
@@ -70,6 +71,7 @@ pub(super) fn check(toolchain: Toolchain, lld: Option<&Path>) -> Result<Vec<Stri
         eprintln!("   {}", lines[lines.len() - 1]);
     }
     lines.push(smaller_without_tires(toolchain, lld, &models)?);
+    lines.push(in_c::check(&models)?);
     Ok(lines)
 }
 
@@ -123,12 +125,13 @@ impl Case {
 }
 
 /// Writes a scene as a table of Rust; where.
-fn export(scene: &str, precision: &str, models: &Path) -> Result<PathBuf, String> {
+pub(super) fn export(scene: &str, precision: &str, models: &Path) -> Result<PathBuf, String> {
     let file = models.join(format!("{scene}-{precision}.rs"));
     let mut command = cargo();
     command.args(["run", "--quiet", "--package", "mbs", "--", "export"]);
     command.arg(format!("scenes/{scene}.toml")).args(["--precision", precision, "--rust"]);
-    run(command.arg(&file).current_dir(process::root()))?;
+    command.arg(&file).arg("--binary").arg(file.with_extension("mbs"));
+    run(command.current_dir(process::root()))?;
     Ok(file)
 }
 
@@ -181,7 +184,7 @@ fn emulate(board: &Board, elf: &Path) -> Result<String, String> {
 }
 
 /// The same run on the host, in a program without the standard library.
-fn on_host(model: &Path, features: &str) -> Result<String, String> {
+pub(super) fn on_host(model: &Path, features: &str) -> Result<String, String> {
     let folder = process::target_dir().join("firmware/host");
     let mut command = cargo();
     command.args(["build", "--release", "--quiet", "--locked", "--features", features]);

@@ -4,13 +4,15 @@
 //! 1. Every crate and feature set of the table builds for every target.
 //! 2. Nothing that panics or allocates can be reached from a step, in the disassembled images.
 //! 3. The images run under QEMU, within their bounds, and end where the host does.
-//! 4. The host's run links with a panic handler of its own, which a standard library that sneaks in would contradict.
+//! 4. A program in C, linked with the static library, gives the bits of the host's run; that one links with a panic handler of
+//!    its own, which a standard library that sneaks in would contradict.
 //!
 //! A host build cannot show that a crate works without the standard library: the library is there, and a
 //! dependency that asks for it goes unnoticed. The target has none.
 
 mod firmware;
 mod image;
+mod in_c;
 mod table;
 mod told;
 mod toolchain;
