@@ -122,15 +122,18 @@ impl Sizes {
         for (i, station) in plan.stations.iter().enumerate() {
             let freedoms = m.links.get(i).map_or(0, |link| link.kind.n_freedoms::<T, S>());
             for pass in plan.passes.get(station.passes.range()).unwrap_or(&[]) {
-                gains = gains.max(pass.gain as usize + n(pass.lap) * freedoms);
+                let own = n(pass.lap).saturating_mul(freedoms);
+                gains = gains.max((pass.gain as usize).saturating_add(own));
             }
         }
         for lap in m.loops.loops {
-            blocks = blocks.max(lap.block as usize + (lap.n * lap.n) as usize);
+            let own = (lap.n as usize).saturating_mul(lap.n as usize);
+            blocks = blocks.max((lap.block as usize).saturating_add(own));
         }
         for end in plan.ends {
             for coupling in plan.couplings.get(end.couplings.range()).unwrap_or(&[]) {
-                blocks = blocks.max(coupling.block as usize + n(coupling.lap) * n(end.lap));
+                let own = n(coupling.lap).saturating_mul(n(end.lap));
+                blocks = blocks.max((coupling.block as usize).saturating_add(own));
             }
         }
         Self {

@@ -44,7 +44,8 @@ impl Part {
     /// The entries; none where the table is too short.
     #[inline(always)]
     pub fn of<X>(self, table: &[X]) -> &[X] {
-        table.get(self.first as usize..(self.first + self.n) as usize).unwrap_or(&[])
+        let first = self.first as usize;
+        table.get(first..first.saturating_add(self.n as usize)).unwrap_or(&[])
     }
 }
 

@@ -13,7 +13,7 @@ thread_local! {
 }
 
 /// What was done since the last call.
-pub fn done() -> Operations {
+pub(crate) fn done() -> Operations {
     DONE.replace(Operations::NONE)
 }
 
@@ -26,7 +26,7 @@ fn note(change: impl Fn(&mut Operations)) {
 /// A double that counts products, sums and differences, quotients, roots, and calls of sine and cosine or of the arc tangent.
 /// Changes of sign and comparisons are not counted.
 #[derive(Clone, Copy, PartialEq, PartialOrd, Default)]
-pub struct Counted(pub f64);
+pub(crate) struct Counted(pub(crate) f64);
 
 macro_rules! operation {
     ($trait:ident $of:ident, $assign:ident $assigned:ident, $count:ident, $sign:tt) => {
