@@ -225,7 +225,7 @@ fn disassembler() -> Option<PathBuf> {
     // The newest knows most.
     found.sort_by_key(|path| {
         let name = path.to_string_lossy().into_owned();
-        name.rsplit('-').next().and_then(|n| n.parse::<u32>().ok()).unwrap_or(u32::MAX)
+        name.rsplit('-').next().and_then(|n| n.parse::<u32>().ok()).unwrap_or(0)
     });
     found.pop()
 }
