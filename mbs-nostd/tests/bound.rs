@@ -15,13 +15,10 @@ type Room<S> = Solver<Counted, S, 64, 80, 48, 160, 4096, 4096, 2, 8>;
 type RoomTables<S> = Tables<Counted, S, 64, 48, 160, 512, 64, 64, 8, 80>;
 
 /// Counts each of some steps of a scene beside the bound.
-fn counted<S: Axes<Counted> + mbs_recursive::space::Space<f64>, const D: usize>(
+fn counted<S: Axes<Counted> + Axes<f64>, const D: usize>(
     name: &str,
     bounds: Bounds,
-) -> (Operations, Vec<Operations>)
-where
-    S: Axes<f64>,
-{
+) -> (Operations, Vec<Operations>) {
     let (tree, begin) = start::<S, D>(&file(name));
     let gathered = Gathered::new(&tree, &begin, &[]);
     let text = bytes(&gathered.model(), false).expect("a scene without own laws");

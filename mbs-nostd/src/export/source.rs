@@ -108,6 +108,17 @@ pub fn source<T: Real + Record, S: Axes<T>>(
     );
     lists(model, &mut to);
     let supplies = supplies(m.tables, &mut to);
+    constant(model, &supplies, &mut to);
+    Ok(to)
+}
+
+/// The constant that holds all tables.
+fn constant<T: Real + Record, S: Axes<T>>(
+    model: &Model<'_, T, S>,
+    supplies: &str,
+    to: &mut String,
+) {
+    let m = &model.mechanism;
     to.push_str(&format!(
         "/// The model.\n\
          pub static MODEL: Model<'static, Scalar, Axes> = Model {{\n\
@@ -151,7 +162,6 @@ pub fn source<T: Real + Record, S: Axes<T>>(
         m.n_freedoms,
         value(&model.beginning.t),
     ));
-    Ok(to)
 }
 
 /// All tables but those of laws.

@@ -30,6 +30,7 @@ pub(crate) struct Counted(pub(crate) f64);
 
 macro_rules! operation {
     ($trait:ident $of:ident, $assign:ident $assigned:ident, $count:ident, $sign:tt) => {
+        #[allow(clippy::suspicious_arithmetic_impl, reason = "what is added up is the count")]
         impl $trait for Counted {
             type Output = Self;
             fn $of(self, other: Self) -> Self {
