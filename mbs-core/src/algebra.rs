@@ -17,6 +17,12 @@ pub type Vector<T, const D: usize> = SVector<T, D>;
 /// A D x D matrix.
 pub type Matrix<T, const D: usize> = SMatrix<T, D, D>;
 
+/// A column of given numbers, also where a constant is asked for.
+#[must_use]
+pub const fn vector<T, const D: usize>(numbers: [T; D]) -> Vector<T, D> {
+    Vector::from_array_storage(nalgebra::ArrayStorage([numbers]))
+}
+
 /// alpha + beta J in the plane, alpha in space (beta unused and zero).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Coef<T> {

@@ -27,6 +27,18 @@ impl<T: Real> Prescribed<T> {
         self.courses.len() - 1
     }
 
+    /// The guides, in the order of the scene.
+    #[must_use]
+    pub fn guides(&self) -> &[GuideInput<T>] {
+        &self.guides
+    }
+
+    /// The courses by number, each with the effect that asked for it.
+    #[must_use]
+    pub fn courses(&self) -> &[(usize, CourseInput<T>)] {
+        &self.courses
+    }
+
     /// Number of guides.
     #[must_use]
     pub fn n_guides(&self) -> usize {
@@ -83,6 +95,18 @@ impl<T: Real> GuideInput<T> {
         Self { law: law.clone(), curvature }
     }
 
+    /// The law.
+    #[must_use]
+    pub fn law(&self) -> &GuideLaw<T> {
+        &self.law
+    }
+
+    /// Second derivatives at the knots of a table; none for other laws.
+    #[must_use]
+    pub fn curvature(&self) -> &[T] {
+        &self.curvature
+    }
+
     /// Value, rate, acceleration at time `t`. Cost: one law; no allocation.
     pub fn at(&self, t: T) -> [T; 3] {
         let m = match &self.law {
@@ -125,6 +149,18 @@ impl<T: Real> CourseInput<T> {
     #[must_use]
     pub fn travel(speed: T) -> Self {
         Self { course: Course::Constant([T::ZERO; 3]), travel: Some(speed) }
+    }
+
+    /// The course; of a road that moves a constant that is not read.
+    #[must_use]
+    pub fn course(&self) -> &Course<T> {
+        &self.course
+    }
+
+    /// The speed of a road that moves [m/s].
+    #[must_use]
+    pub fn speed(&self) -> Option<T> {
+        self.travel
     }
 
     /// Sets the value from now on; says whether the course is an input.

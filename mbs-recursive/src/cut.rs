@@ -88,8 +88,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Adds effects; what acts on the ground alone is nothing.
     pub(crate) fn add_loads(&mut self, list: &[(usize, Action<T>)]) {
         let links = self.seats.iter().map(|seat| (seat.branch.joint, seat.link)).collect();
-        for (_, action) in list {
+        for (effect, action) in list {
             self.add_load(action, &links);
+            // One load at most.
+            self.effects.resize(self.loads.len(), *effect);
         }
     }
 

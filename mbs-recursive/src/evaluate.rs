@@ -10,6 +10,7 @@
 //! The report's own closure is an option: λ = α (Φ̈ + 2 μ Ω Φ̇ + Ω² Φ)   [P3 (39)–(41)], which is the same elimination with
 //! ε = 1/α, bias + 2 μ Ω Φ̇ + Ω² Φ in place of the bias, and one sweep.
 
+use crate::at::{Outside, at, at_mut, copy};
 use crate::inverse;
 use crate::link::Condensed;
 use crate::loads::Reach;
@@ -32,6 +33,8 @@ pub(crate) enum Level {
     Coarse,
     /// To rounding.
     Fine,
+    /// So many sweeps after the first one, whatever is left.
+    Fixed(u32),
 }
 
 /// Evaluates the accelerations `s.zdd` at (`s.z`, `s.v`, `s.guides`, `s.courses`); returns the largest |Φ̈| left.
@@ -41,9 +44,9 @@ pub(crate) fn accelerations<T: Real, S: Space<T>>(
     level: Level,
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Fault<T>> {
-    let mut condensed = begin(m, s);
+    let mut condensed = begin(m, s)?;
     for load in m.loads {
-        load.apply(&s.instant(m), condensed);
+        load.apply(&s.instant(m), condensed)?;
     }
     core::mem::swap(&mut s.condensed, &mut condensed);
     finish(m, options, level, s)
@@ -60,11 +63,11 @@ pub(crate) fn accelerations_ahead<T: Real, S: Space<T>>(
     (level, reach): (Level, Reach<T>),
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Fault<T>> {
-    let mut condensed = begin(m, s);
-    s.a[0] = S::motion(S::Spin::zero(), -m.gravity);
-    inverse::spread(m.links, s.placed, s.zdd, s.a);
+    let mut condensed = begin(m, s)?;
+    *at_mut(s.a, 0)? = S::motion(S::Spin::zero(), -m.gravity);
+    inverse::spread(m.links, s.placed, s.zdd, s.a)?;
     for load in m.loads {
-        load.apply_ahead(&s.instant(m), (reach, s.zdd, s.a), condensed);
+        load.apply_ahead(&s.instant(m), (reach, s.zdd, s.a), condensed)?;
     }
     core::mem::swap(&mut s.condensed, &mut condensed);
     finish(m, options, level, s)
@@ -74,11 +77,11 @@ pub(crate) fn accelerations_ahead<T: Real, S: Space<T>>(
 fn begin<'b, T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     s: &mut Store<'b, T, S>,
-) -> &'b mut [Condensed<T, S>] {
+) -> Result<&'b mut [Condensed<T, S>], Outside> {
     s.counts.condensations += 1;
-    passes::kinematics(m.links, (s.z, s.v, s.guides), s.placed);
+    passes::kinematics(m.links, (s.z, s.v, s.guides), s.placed)?;
     passes::inertias(m.links, s.placed, s.condensed);
-    core::mem::take(&mut s.condensed)
+    Ok(core::mem::take(&mut s.condensed))
 }
 
 /// Second and third pass, and the sweeps.
@@ -89,8 +92,8 @@ fn finish<T: Real, S: Space<T>>(
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Fault<T>> {
     let ground = S::motion(S::Spin::zero(), -m.gravity);
-    s.a[0] = ground;
-    let regularisation = begin_loops(m, options, s);
+    *at_mut(s.a, 0)? = ground;
+    let regularisation = begin_loops(m, options, s)?;
     passes::condense(
         m.links,
         s.placed,
@@ -99,14 +102,14 @@ fn finish<T: Real, S: Space<T>>(
         &mut s.loops,
     )?;
     let parts = (&*s.placed, &*s.condensed);
-    passes::accelerate(m.links, parts, (&m.loops, true), &mut s.loops, (s.zdd, s.a));
+    passes::accelerate(m.links, parts, (&m.loops, true), &mut s.loops, (s.zdd, s.a))?;
     if m.loops.loops.is_empty() {
         return Ok(T::ZERO);
     }
-    s.lambda.copy_from_slice(s.loops.lambda);
+    copy(s.loops.lambda, s.lambda)?;
     match options.closure {
         Closure::Constraints => sweep(m, level, s),
-        Closure::Report { .. } => Ok(residual(m, s).0),
+        Closure::Report { .. } => Ok(residual(m, s)?.0),
     }
 }
 
@@ -115,20 +118,22 @@ fn begin_loops<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     options: &Options<T>,
     s: &mut Store<'_, T, S>,
-) -> Regularisation<T> {
+) -> Result<Regularisation<T>, Outside> {
     let n = m.loops.rows.len();
     for lap in m.loops.loops {
         lap.evaluate(m.loops.rows, s.placed, |k, row| {
-            (s.gradient[k], s.gradient[n + k]) = (row.gradient[0], row.gradient[1]);
-            s.rows[k] = [row.value, row.rate, row.bias];
-        });
+            let [first, second] = row.gradient;
+            *at_mut(s.gradient, k)? = first;
+            *at_mut(s.gradient, n + k)? = second;
+            *at_mut(s.rows, k)? = [row.value, row.rate, row.bias];
+            Ok(())
+        })?;
     }
-    s.loops.k.copy_from_slice(s.gradient);
+    copy(s.gradient, s.loops.k)?;
     s.loops.blocks.fill(T::ZERO);
     s.loops.scales.fill(T::ZERO);
-    for k in 0..n {
-        let [phi, phi_d, bias] = s.rows[k];
-        s.loops.l[k] = match options.closure {
+    for (l, &[phi, phi_d, bias]) in s.loops.l.iter_mut().zip(&*s.rows) {
+        *l = match options.closure {
             Closure::Constraints => bias,
             // γ = Φ̇_Z Z + 2 μ Ω Φ̇ + Ω² Φ   [P3 (41)]
             Closure::Report { omega, mu, .. } => {
@@ -136,30 +141,34 @@ fn begin_loops<T: Real, S: Space<T>>(
             }
         };
     }
-    match options.closure {
+    Ok(match options.closure {
         Closure::Constraints => Regularisation::Scaled(options.regularisation),
         Closure::Report { alpha, .. } => Regularisation::Fixed(T::ONE / alpha),
-    }
+    })
 }
 
 /// J a + bias into l; the largest, the row that has it, and the scale of its parts.
-fn residual<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, s: &mut Store<'_, T, S>) -> (T, u32, T) {
+fn residual<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    s: &mut Store<'_, T, S>,
+) -> Result<(T, u32, T), Outside> {
     let n = m.loops.rows.len();
     let (mut worst, mut row, mut scale) = (T::ZERO, 0, T::ZERO);
     for lap in m.loops.loops {
-        let [a, b] = lap.links.map(|i| &s.a[i as usize]);
-        for k in lap.first as usize..(lap.first + lap.n) as usize {
-            let (first, second) = (s.gradient[k].dot(a), s.gradient[n + k].dot(b));
-            let left = first + second + s.rows[k][2];
-            let parts = s.gradient[k].parts(a) + s.gradient[n + k].parts(b);
-            scale = scale.max(parts + s.rows[k][2].abs());
-            s.loops.l[k] = left;
+        let [a, b] = lap.links;
+        let (a, b) = (at(s.a, a as usize)?, at(s.a, b as usize)?);
+        for k in lap.range() {
+            let (first, second) = (at(s.gradient, k)?, at(s.gradient, n + k)?);
+            let bias = at(s.rows, k)?[2];
+            let left = first.dot(a) + second.dot(b) + bias;
+            scale = scale.max(first.parts(a) + second.parts(b) + bias.abs());
+            *at_mut(s.loops.l, k)? = left;
             if !(left.abs() <= worst) {
                 (worst, row) = (left.abs(), index(k));
             }
         }
     }
-    (worst, row, scale)
+    Ok((worst, row, scale))
 }
 
 /// Does the last factorisation stand near a singular position: have fewer rows an effect than at other times?
@@ -184,7 +193,14 @@ fn sweep<T: Real, S: Space<T>>(
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Fault<T>> {
     let share = match level {
-        Level::Once => return Ok(residual(m, s).0),
+        Level::Once => return Ok(residual(m, s)?.0),
+        Level::Fixed(sweeps) => {
+            for _ in 0..sweeps {
+                residual(m, s)?;
+                improve(m, s)?;
+            }
+            return Ok(residual(m, s)?.0);
+        }
         Level::Coarse => T::EPSILON.sqrt() * T::from_f64(0.01),
         Level::Fine => T::EPSILON * T::from_f64(256.0),
     };
@@ -192,7 +208,7 @@ fn sweep<T: Real, S: Space<T>>(
     let enough = if note_rank(s) { T::from_f64(1e-3) } else { T::EPSILON.sqrt() };
     let mut last: Option<T> = None;
     for _ in 0..MAX_SWEEPS {
-        let (worst, row, scale) = residual(m, s);
+        let (worst, row, scale) = residual(m, s)?;
         let is_stuck = last.is_some_and(|last| !(worst < last * T::HALF));
         if worst <= share * scale || (is_stuck && worst <= enough * scale) {
             return Ok(worst);
@@ -201,18 +217,9 @@ fn sweep<T: Real, S: Space<T>>(
             return Err(Fault::Unreached { level: 2, row, violation: worst });
         }
         last = Some(worst);
-        respond(m, s);
-        for (a, response) in s.a.iter_mut().zip(&*s.a_response) {
-            *a += *response;
-        }
-        for (x, &response) in s.zdd.iter_mut().zip(&*s.v_response) {
-            *x += response;
-        }
-        for (x, &response) in s.lambda.iter_mut().zip(&*s.loops.lambda) {
-            *x += response;
-        }
+        improve(m, s)?;
     }
-    let (worst, row, scale) = residual(m, s);
+    let (worst, row, scale) = residual(m, s)?;
     if worst <= enough * scale {
         Ok(worst)
     } else {
@@ -220,15 +227,36 @@ fn sweep<T: Real, S: Space<T>>(
     }
 }
 
+/// Adds the response to l = J a + bias to accelerations and multipliers.
+fn improve<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    s: &mut Store<'_, T, S>,
+) -> Result<(), Outside> {
+    respond(m, s)?;
+    for (a, response) in s.a.iter_mut().zip(&*s.a_response) {
+        *a += *response;
+    }
+    for (x, &response) in s.zdd.iter_mut().zip(&*s.v_response) {
+        *x += response;
+    }
+    for (x, &response) in s.lambda.iter_mut().zip(&*s.loops.lambda) {
+        *x += response;
+    }
+    Ok(())
+}
+
 /// The smallest mass-weighted change of motion x with J x = −l, as far as one sweep gives it: `s.v_response`, `s.a_response`.
-pub(crate) fn respond<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, s: &mut Store<'_, T, S>) {
+pub(crate) fn respond<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    s: &mut Store<'_, T, S>,
+) -> Result<(), Outside> {
     s.counts.responses += 1;
     for c in s.condensed.iter_mut() {
         (c.force, c.effort) = (S::Motion::zero(), T::ZERO);
     }
-    passes::condense_again(m.links, s.placed, &m.loops, s.condensed, &mut s.loops);
-    s.a_response[0] = S::Motion::zero();
+    passes::condense_again(m.links, s.placed, &m.loops, s.condensed, &mut s.loops)?;
+    *at_mut(s.a_response, 0)? = S::Motion::zero();
     let parts = (&*s.placed, &*s.condensed);
     let out = (&mut *s.v_response, &mut *s.a_response);
-    passes::accelerate(m.links, parts, (&m.loops, false), &mut s.loops, out);
+    passes::accelerate(m.links, parts, (&m.loops, false), &mut s.loops, out)
 }

@@ -112,7 +112,8 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         }
         coordinate_rates(self.m.links, self.s.z, self.s.v, &mut dy[..nz]);
         dy[nz..nz + nv].copy_from_slice(self.s.zdd);
-        dy[nz + nv] = ledger::power(self.m, self.s);
+        dy[nz + nv] =
+            ledger::power(self.m, self.s).map_err(|outside| failure(self.m, outside.into()))?;
         Ok(())
     }
 }

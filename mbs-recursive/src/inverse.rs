@@ -6,6 +6,7 @@
 //! mass      M_z: composite inertias, columns b along the path to the ground
 //! ```
 
+use crate::at::{Outside, at, at_mut};
 use crate::joint::{read, write};
 use crate::link::{Condensed, Kind, Link, Placed};
 use crate::mechanism::{Mechanism, Store};
@@ -14,62 +15,72 @@ use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
 /// Accelerations of the links for given joint accelerations; `a[0]` is given.
+///
+/// # Errors
+/// [`Outside`] if the tables do not fit each other.
 pub fn spread<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
     placed: &[Placed<T, S>],
     zdd: &[T],
     a: &mut [S::Motion],
-) {
+) -> Result<(), Outside> {
+    let ground = *at(a, 0)?;
     for (i, link) in links.iter().enumerate().skip(1) {
-        let (p, at) = (&placed[i], link.v as usize);
+        let (p, first) = (at(placed, i)?, link.v as usize);
         // Ż = Żₚ + b z̈ + d   [P3 (27)]
         let carried = match link.kind {
-            Kind::Free => a[0],
-            _ => S::carried(&a[link.parent as usize], &p.arm),
+            Kind::Free => ground,
+            _ => S::carried(at(a, link.parent as usize)?, &p.arm),
         } + p.bias;
-        a[i] = carried
-            + match link.kind {
-                Kind::Revolute | Kind::Prismatic => p.freedom * zdd[at],
-                Kind::Ball => {
-                    S::motion(S::rotate_spin(&p.rotation, &read(&zdd[at..])), S::Point::zero())
-                }
-                Kind::Free => S::motion(
-                    S::rotate_spin(&p.rotation, &read(&zdd[at..])),
-                    read(&zdd[at + S::Spin::N..]),
-                ),
-                Kind::GuidedRevolute | Kind::GuidedPrismatic => S::Motion::zero(),
-            };
+        let own = match link.kind {
+            Kind::Revolute | Kind::Prismatic => p.freedom * *at(zdd, first)?,
+            Kind::Ball => {
+                S::motion(S::rotate_spin(&p.rotation, &read(zdd, first)?), S::Point::zero())
+            }
+            Kind::Free => S::motion(
+                S::rotate_spin(&p.rotation, &read(zdd, first)?),
+                read(zdd, first + S::Spin::N)?,
+            ),
+            Kind::GuidedRevolute | Kind::GuidedPrismatic => S::Motion::zero(),
+        };
+        *at_mut(a, i)? = carried + own;
     }
+    Ok(())
 }
 
 /// The force through every joint, on the link about its origin, for the accelerations and multipliers of the store: into the
 /// links' `force`. Effects along the joint are part of it.
-pub(crate) fn forces<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, s: &mut Store<'_, T, S>) {
+pub(crate) fn forces<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    s: &mut Store<'_, T, S>,
+) -> Result<(), Outside> {
     passes::inertias(m.links, s.placed, s.condensed);
     let mut condensed = core::mem::take(&mut s.condensed);
     for load in m.loads {
-        load.apply(&s.instant(m), condensed);
+        load.apply(&s.instant(m), condensed)?;
     }
     core::mem::swap(&mut s.condensed, &mut condensed);
     let n = m.loops.rows.len();
     for lap in m.loops.loops {
-        for k in lap.first as usize..(lap.first + lap.n) as usize {
+        for k in lap.range() {
             // p += Kᵀ λ
-            for side in 0..2 {
-                let push = s.gradient[side * n + k] * s.lambda[k];
-                s.condensed[lap.links[side] as usize].force += push;
+            for (side, &link) in lap.links.iter().enumerate() {
+                let push = *at(s.gradient, side * n + k)? * *at(s.lambda, k)?;
+                at_mut(s.condensed, link as usize)?.force += push;
             }
         }
     }
-    for i in (1..m.links.len()).rev() {
-        let own = S::times(&s.condensed[i].inertia, &s.a[i]);
-        s.condensed[i].force += own;
-        let force = s.condensed[i].force;
-        let parent = m.links[i].parent as usize;
-        if parent > 0 {
-            s.condensed[parent].force += S::gathered(&force, &s.placed[i].arm);
+    for (i, link) in m.links.iter().enumerate().skip(1).rev() {
+        let c = at_mut(s.condensed, i)?;
+        let own = S::times(&c.inertia, at(s.a, i)?);
+        c.force += own;
+        let force = c.force;
+        if link.parent > 0 {
+            let arm = &at(s.placed, i)?.arm;
+            at_mut(s.condensed, link.parent as usize)?.force += S::gathered(&force, arm);
         }
     }
+    Ok(())
 }
 
 /// bᵀ f of a link's joint, less what effects apply along it: the effort that the joint itself must give.
@@ -78,15 +89,16 @@ pub(crate) fn effort<T: Real, S: Space<T>>(
     p: &Placed<T, S>,
     c: &Condensed<T, S>,
     out: &mut [T],
-) {
+) -> Result<(), Outside> {
     match link.kind {
         Kind::Revolute | Kind::Prismatic | Kind::GuidedRevolute | Kind::GuidedPrismatic => {
-            out[0] = p.freedom.dot(&c.force) - c.effort;
+            *at_mut(out, 0)? = p.freedom.dot(&c.force) - c.effort;
+            Ok(())
         }
-        Kind::Ball => write(&S::unrotate_spin(&p.rotation, &S::spin(&c.force)), out),
+        Kind::Ball => write(&S::unrotate_spin(&p.rotation, &S::spin(&c.force)), out, 0),
         Kind::Free => {
-            write(&S::unrotate_spin(&p.rotation, &S::spin(&c.force)), out);
-            write(&S::point(&c.force), &mut out[S::Spin::N..]);
+            write(&S::unrotate_spin(&p.rotation, &S::spin(&c.force)), out, 0)?;
+            write(&S::point(&c.force), out, S::Spin::N)
         }
     }
 }

@@ -7,6 +7,7 @@
 //! pass       rows K of loops: K ← K − (K b) D⁻¹ Uᵀ
 //! ```
 
+use crate::at::{Outside, at, at_mut, part, part_mut};
 use crate::link::{Condensed, Kind, Link, Placed};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
@@ -28,7 +29,7 @@ pub(crate) fn place<T: Real, S: Space<T>>(
     z: &[T],
     v: &[T],
     guides: &[[T; 3]],
-) -> Placed<T, S> {
+) -> Result<Placed<T, S>, Outside> {
     let (zi, vi) = (link.z as usize, link.v as usize);
     let still = |freedom, rotation, arm| {
         let velocity = S::carried(&parent.velocity, &arm);
@@ -38,10 +39,13 @@ pub(crate) fn place<T: Real, S: Space<T>>(
         let position = parent.position + arm;
         Placed { rotation, position, arm, freedom, velocity, bias, center }
     };
-    match link.kind {
+    Ok(match link.kind {
         Kind::Revolute | Kind::GuidedRevolute => {
-            let [angle, rate, second] =
-                if link.kind == Kind::Revolute { [z[zi], v[vi], T::ZERO] } else { guides[vi] };
+            let [angle, rate, second] = if link.kind == Kind::Revolute {
+                [*at(z, zi)?, *at(v, vi)?, T::ZERO]
+            } else {
+                *at(guides, vi)?
+            };
             // ω = ω_p + n z',   d = (ω_p × n z', ω_p × (ω_p × r))
             let axis = S::rotate_spin(&parent.rotation, &link.axis);
             let rotation = S::turned(&parent.rotation, &link.axis, angle);
@@ -53,8 +57,11 @@ pub(crate) fn place<T: Real, S: Space<T>>(
             p
         }
         Kind::Prismatic | Kind::GuidedPrismatic => {
-            let [slide, rate, second] =
-                if link.kind == Kind::Prismatic { [z[zi], v[vi], T::ZERO] } else { guides[vi] };
+            let [slide, rate, second] = if link.kind == Kind::Prismatic {
+                [*at(z, zi)?, *at(v, vi)?, T::ZERO]
+            } else {
+                *at(guides, vi)?
+            };
             // v = v_p + ω_p × r + e z',   d = (0, ω_p × (ω_p × r) + 2 ω_p × e z')
             let along = S::rotate(&parent.rotation, &link.direction);
             let arm = S::rotate(&parent.rotation, &link.offset) + along * slide;
@@ -67,40 +74,47 @@ pub(crate) fn place<T: Real, S: Space<T>>(
         Kind::Ball => {
             // ω = ω_p + w, w = R v,   d = (ω_p × w, ω_p × (ω_p × r))
             let arm = S::rotate(&parent.rotation, &link.offset);
-            let rotation = S::turned_by(&parent.rotation, &z[zi..]);
-            let w = S::rotate_spin(&rotation, &read(&v[vi..]));
+            let turn = part(z, zi, S::FREE - S::Point::N)?;
+            let rotation = S::turned_by(&parent.rotation, turn);
+            let w = S::rotate_spin(&rotation, &read(v, vi)?);
             let mut p = still(S::Motion::zero(), rotation, arm);
             p.velocity += S::motion(w, S::Point::zero());
             p.bias += S::motion(S::cross_spin(&S::spin(&parent.velocity), &w), S::Point::zero());
             p
         }
         Kind::Free => {
-            let rotation = S::turned_by(&S::identity(), &z[zi..]);
-            let position: S::Point = read(&z[zi + S::FREE - S::Point::N..]);
-            let w = S::rotate_spin(&rotation, &read(&v[vi..]));
+            let turn = part(z, zi, S::FREE - S::Point::N)?;
+            let rotation = S::turned_by(&S::identity(), turn);
+            let position: S::Point = read(z, zi + S::FREE - S::Point::N)?;
+            let w = S::rotate_spin(&rotation, &read(v, vi)?);
             let mut p = still(S::Motion::zero(), rotation, position);
-            p.velocity = S::motion(w, read(&v[vi + S::Spin::N..]));
+            p.velocity = S::motion(w, read(v, vi + S::Spin::N)?);
             p
         }
-    }
+    })
 }
 
-/// The first numbers of a slice.
+/// The numbers of a slice from `first`.
 #[inline(always)]
-pub(crate) fn read<T: Real, X: Numbers<T>>(from: &[T]) -> X {
+pub(crate) fn read<T: Real, X: Numbers<T>>(from: &[T], first: usize) -> Result<X, Outside> {
     let mut x = X::zero();
-    for i in 0..X::N {
-        x[i] = from[i];
+    for (i, &from) in part(from, first, X::N)?.iter().enumerate() {
+        x[i] = from;
     }
-    x
+    Ok(x)
 }
 
-/// Writes numbers at the start of a slice.
+/// Writes numbers into a slice from `first`.
 #[inline(always)]
-pub(crate) fn write<T: Real, X: Numbers<T>>(x: &X, to: &mut [T]) {
-    for i in 0..X::N {
-        to[i] = x[i];
+pub(crate) fn write<T: Real, X: Numbers<T>>(
+    x: &X,
+    to: &mut [T],
+    first: usize,
+) -> Result<(), Outside> {
+    for (i, to) in part_mut(to, first, X::N)?.iter_mut().enumerate() {
+        *to = x[i];
     }
+    Ok(())
 }
 
 /// Eliminates the joint: its inertia is factored, and what the parent feels is returned: (I^a, p^a).
@@ -191,33 +205,33 @@ pub(crate) fn advance<T: Real, S: Space<T>>(
     c: &Condensed<T, S>,
     (carried, held): (S::Motion, &S::Motion),
     zdd: &mut [T],
-) -> S::Motion {
-    let at = link.v as usize;
-    match link.kind {
+) -> Result<S::Motion, Outside> {
+    let first = link.v as usize;
+    Ok(match link.kind {
         Kind::Revolute | Kind::Prismatic => {
             let x = c.inverse * (c.drive[0] - c.column.dot(&carried)) - held[0];
-            zdd[at] = x;
+            *at_mut(zdd, first)? = x;
             carried + p.freedom * x
         }
         Kind::Ball => {
             // A⁻¹ (u − A ω'' − H a)
             let rest = S::spin(&c.drive) - S::ball_row(&c.inertia, &S::point(&carried));
             let turn = S::ball_solve(&c.inertia, &rest) - S::spin(&carried) - S::spin(held);
-            write(&S::unrotate_spin(&p.rotation, &turn), &mut zdd[at..]);
+            write(&S::unrotate_spin(&p.rotation, &turn), zdd, first)?;
             carried + S::motion(turn, S::Point::zero())
         }
         Kind::Free => {
             let a = S::solve(&c.inertia, &c.drive) - *held;
             let x = a - carried;
-            write(&S::unrotate_spin(&p.rotation, &S::spin(&x)), &mut zdd[at..]);
-            write(&S::point(&x), &mut zdd[at + S::Spin::N..]);
+            write(&S::unrotate_spin(&p.rotation, &S::spin(&x)), zdd, first)?;
+            write(&S::point(&x), zdd, first + S::Spin::N)?;
             a
         }
         Kind::GuidedRevolute | Kind::GuidedPrismatic => carried,
-    }
+    })
 }
 
-/// The row k of a loop before the joint: h = bᵀ k, g = D⁻¹ h, and k − U g behind it.
+/// The row k of a loop before the joint: h = bᵀ k, g = D⁻¹ h, each as long as the joint has freedoms, and k − U g behind it.
 #[inline(always)]
 pub(crate) fn pass<T: Real, S: Space<T>>(
     kind: Kind,
@@ -225,29 +239,30 @@ pub(crate) fn pass<T: Real, S: Space<T>>(
     c: &Condensed<T, S>,
     k: &S::Motion,
     (h, g): (&mut [T], &mut [T]),
-) -> S::Motion {
-    match kind {
+) -> Result<S::Motion, Outside> {
+    Ok(match kind {
         Kind::Revolute | Kind::Prismatic => {
-            h[0] = if kind == Kind::Revolute {
+            let head = if kind == Kind::Revolute {
                 S::spin(&p.freedom).dot(&S::spin(k))
             } else {
                 S::point(&p.freedom).dot(&S::point(k))
             };
-            g[0] = c.inverse * h[0];
-            *k - c.column * g[0]
+            let gain = c.inverse * head;
+            (*at_mut(h, 0)?, *at_mut(g, 0)?) = (head, gain);
+            *k - c.column * gain
         }
         Kind::Ball => {
             let spin = S::spin(k);
             let turn = S::ball_solve(&c.inertia, &spin);
-            write(&spin, h);
-            write(&turn, g);
+            write(&spin, h, 0)?;
+            write(&turn, g, 0)?;
             S::motion(S::Spin::zero(), S::point(k) - S::ball_column(&c.inertia, &turn))
         }
         Kind::Free => {
-            write(k, h);
-            write(&S::solve(&c.inertia, k), g);
+            write(k, h, 0)?;
+            write(&S::solve(&c.inertia, k), g, 0)?;
             S::Motion::zero()
         }
         Kind::GuidedRevolute | Kind::GuidedPrismatic => *k,
-    }
+    })
 }

@@ -1,5 +1,6 @@
 //! Energies, and the power that enters through dampers, courses and guides.
 
+use crate::at::{Outside, at};
 use crate::inverse;
 use crate::link::{Link, Placed};
 use crate::loads::Instant;
@@ -18,32 +19,44 @@ pub fn kinetic<T: Real, S: Space<T>>(links: &[Link<T, S>], placed: &[Placed<T, S
 }
 
 /// Potential energy of gravity, springs and constant forces [J].
-pub fn potential<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, at: &Instant<'_, T, S>) -> T {
+///
+/// # Errors
+/// [`Outside`] if the tables do not fit each other.
+pub fn potential<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    at: &Instant<'_, T, S>,
+) -> Result<T, Outside> {
     let mut energy = T::ZERO;
     for (link, p) in m.links.iter().zip(at.placed).skip(1) {
         energy -= m.gravity.dot(&(p.position + p.center + m.base)) * link.mass;
     }
     for load in m.loads {
-        energy += load.potential(at);
+        energy += load.potential(at)?;
     }
-    energy
+    Ok(energy)
 }
 
 /// Power that enters [W], at the place, accelerations and multipliers of the store.
-pub fn power<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, s: &mut Store<'_, T, S>) -> T {
+///
+/// # Errors
+/// [`Outside`] if the tables do not fit each other.
+pub fn power<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    s: &mut Store<'_, T, S>,
+) -> Result<T, Outside> {
     let mut power = T::ZERO;
     for load in m.loads {
-        power += load.power(&s.instant(m));
+        power += load.power(&s.instant(m))?;
     }
     if m.links.iter().skip(1).any(|link| link.kind.is_guided()) {
-        inverse::forces(m, s);
+        inverse::forces(m, s)?;
         for (i, link) in m.links.iter().enumerate().skip(1) {
             if link.kind.is_guided() {
                 let mut effort = [T::ZERO];
-                inverse::effort(link, &s.placed[i], &s.condensed[i], &mut effort);
-                power += effort[0] * s.guides[link.v as usize][1];
+                inverse::effort(link, at(s.placed, i)?, at(s.condensed, i)?, &mut effort)?;
+                power += effort[0] * at(s.guides, link.v as usize)?[1];
             }
         }
     }
-    power
+    Ok(power)
 }

@@ -4,6 +4,8 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+mod at;
+pub mod bounded;
 #[cfg(feature = "alloc")]
 mod cut;
 #[cfg(feature = "alloc")]
@@ -40,12 +42,13 @@ pub mod trapezoidal;
 #[cfg(feature = "alloc")]
 mod tree;
 
+pub use at::Outside;
 #[cfg(feature = "alloc")]
 pub use error::{LoopError, TreeError};
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use options::{Closure, Options};
 #[cfg(feature = "alloc")]
-pub use run::{rk4_step, rk54_step, step};
+pub use run::{bounded_step, rk4_step, rk54_step, step};
 pub use space::{Planar, Spatial};
 #[cfg(feature = "alloc")]
 pub use start::StartError;

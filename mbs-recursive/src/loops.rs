@@ -9,8 +9,10 @@
 //!
 //! K b D⁻¹ is kept for each joint on the way (`gains`). Λ is regularised by ε times its rows' own scale.
 
+use crate::at::{Outside, at, at_mut, part, part_mut, range};
 use crate::joint;
 use crate::link::{Condensed, Kind, Placed};
+use crate::passes::Fault;
 use crate::plan::{End, Pass, Plan};
 use crate::rows::{Loop, Row};
 use crate::space::{Numbers, Space};
@@ -76,36 +78,40 @@ pub(crate) fn pass<T: Real, S: Space<T>>(
     kind: Kind,
     (p, c): (&Placed<T, S>, &Condensed<T, S>),
     st: &mut LoopStore<'_, T, S>,
-) {
-    let station = m.plan.stations[i];
+) -> Result<(), Outside> {
+    let station = at(m.plan.stations, i)?;
     let n_rows = m.rows.len();
     let freedoms = kind.n_freedoms::<T, S>();
-    for pass in &m.plan.passes[station.passes.range()] {
-        let lap = &m.loops[pass.lap as usize];
-        let mut at = pass.gain as usize;
-        for row in lap.first as usize..(lap.first + lap.n) as usize {
-            let place = pass.side as usize * n_rows + row;
-            let (h, g) = (&mut st.heads[at..at + freedoms], &mut st.gains[at..at + freedoms]);
-            let k = joint::pass(kind, p, c, &st.k[place], (h, g));
-            st.l[row] += k.dot(&p.bias) + driven(&c.drive, g);
-            st.k[place] = S::gathered(&k, &p.arm);
-            st.scales[row] += inner(h, g);
-            at += freedoms;
+    for pass in range(m.plan.passes, station.passes.range())? {
+        let lap = at(m.loops, pass.lap as usize)?;
+        let mut gain = pass.gain as usize;
+        for row in lap.range() {
+            let h = part_mut(st.heads, gain, freedoms)?;
+            let g = part_mut(st.gains, gain, freedoms)?;
+            let k = at_mut(st.k, pass.side as usize * n_rows + row)?;
+            let passed = joint::pass(kind, p, c, k, (h, g))?;
+            *at_mut(st.l, row)? += passed.dot(&p.bias) + driven(&c.drive, g);
+            *k = S::gathered(&passed, &p.arm);
+            *at_mut(st.scales, row)? += inner(h, g);
+            gain += freedoms;
         }
     }
-    for pair in &m.plan.pairs[station.pairs.range()] {
-        let [x, y] = [pair.row, pair.column].map(|j| m.plan.passes[j as usize]);
-        let [rows, columns] = [x, y].map(|q| m.loops[q.lap as usize].n as usize);
-        let mut at = pair.block as usize;
+    for pair in range(m.plan.pairs, station.pairs.range())? {
+        let x = at(m.plan.passes, pair.row as usize)?;
+        let y = at(m.plan.passes, pair.column as usize)?;
+        let rows = at(m.loops, x.lap as usize)?.n as usize;
+        let columns = at(m.loops, y.lap as usize)?.n as usize;
+        let block = part_mut(st.blocks, pair.block as usize, rows * columns)?;
+        let mut numbers = block.iter_mut();
         for r in 0..rows {
-            let head = &st.heads[x.gain as usize + r * freedoms..][..freedoms];
-            for c in 0..columns {
-                let gain = &st.gains[y.gain as usize + c * freedoms..][..freedoms];
-                st.blocks[at] += inner(head, gain);
-                at += 1;
+            let head = part(st.heads, x.gain as usize + r * freedoms, freedoms)?;
+            for (c, number) in numbers.by_ref().take(columns).enumerate() {
+                let gain = part(st.gains, y.gain as usize + c * freedoms, freedoms)?;
+                *number += inner(head, gain);
             }
         }
     }
+    Ok(())
 }
 
 /// Carries l alone over the joint of link `i`, whose drive changed.
@@ -116,16 +122,17 @@ pub(crate) fn pass_again<T: Real, S: Space<T>>(
     kind: Kind,
     c: &Condensed<T, S>,
     st: &mut LoopStore<'_, T, S>,
-) {
+) -> Result<(), Outside> {
     let freedoms = kind.n_freedoms::<T, S>();
-    for pass in &m.plan.passes[m.plan.stations[i].passes.range()] {
-        let lap = &m.loops[pass.lap as usize];
-        let mut at = pass.gain as usize;
-        for row in lap.first as usize..(lap.first + lap.n) as usize {
-            st.l[row] += driven(&c.drive, &st.gains[at..at + freedoms]);
-            at += freedoms;
+    for pass in range(m.plan.passes, at(m.plan.stations, i)?.passes.range())? {
+        let lap = at(m.loops, pass.lap as usize)?;
+        let mut gain = pass.gain as usize;
+        for row in lap.range() {
+            *at_mut(st.l, row)? += driven(&c.drive, part(st.gains, gain, freedoms)?);
+            gain += freedoms;
         }
     }
+    Ok(())
 }
 
 /// Eliminates the loops that end at link `i`; `a_ground` is the acceleration of the ground.
@@ -135,42 +142,45 @@ pub(crate) fn close<T: Real, S: Space<T>>(
     (i, regularisation, a_ground): (usize, Regularisation<T>, &S::Motion),
     c: &mut Condensed<T, S>,
     st: &mut LoopStore<'_, T, S>,
-) -> Result<(), RankLost<T>> {
-    let ends = &m.plan.ends[m.plan.stations[i].ends.range()];
+) -> Result<(), Fault<T>> {
+    let ends = range(m.plan.ends, at(m.plan.stations, i)?.ends.range())?;
     let n_rows = m.rows.len();
     for end in ends {
-        let lap = &m.loops[end.lap as usize];
-        for row in lap.first as usize..(lap.first + lap.n) as usize {
+        for row in at(m.loops, end.lap as usize)?.range() {
             // Both branches meet.
-            let both = st.k[row] + st.k[n_rows + row];
-            st.k[row] = both;
+            let second = *at(st.k, n_rows + row)?;
+            let both = at_mut(st.k, row)?;
+            *both += second;
             if i == 0 {
-                st.l[row] += both.dot(a_ground);
+                *at_mut(st.l, row)? += both.dot(a_ground);
             }
         }
     }
     for end in ends {
-        let lap = &m.loops[end.lap as usize];
+        let lap = at(m.loops, end.lap as usize)?;
         let (first, n) = (lap.first as usize, lap.n as usize);
         regularise(m, lap, regularisation, st)?;
         // K̃ = C⁻¹ K,   l̃ = C⁻¹ l
-        let block = &st.blocks[lap.block as usize..];
+        let (k, l) = (part_mut(st.k, first, n)?, part_mut(st.l, first, n)?);
         for r in 0..n {
-            for s in 0..r {
-                let (k_s, l_s) = (st.k[first + s], st.l[first + s]);
-                st.k[first + r] -= k_s * block[r * n + s];
-                st.l[first + r] -= l_s * block[r * n + s];
+            let factor = part(st.blocks, lap.block as usize + r * n, n)?;
+            let (k_before, k_here) = k.split_at_mut_checked(r).ok_or(Outside)?;
+            let (l_before, l_here) = l.split_at_mut_checked(r).ok_or(Outside)?;
+            let (k_r, l_r) = (at_mut(k_here, 0)?, at_mut(l_here, 0)?);
+            for ((k_s, l_s), &x) in k_before.iter().zip(l_before.iter()).zip(factor) {
+                *k_r -= *k_s * x;
+                *l_r -= *l_s * x;
             }
-            let inverse = T::ONE / block[r * n + r];
-            st.k[first + r] = st.k[first + r] * inverse;
-            st.l[first + r] *= inverse;
+            let inverse = T::ONE / *at(factor, r)?;
+            *k_r = *k_r * inverse;
+            *l_r *= inverse;
             if i > 0 {
                 // I += K̃ᵀ K̃,   p += K̃ᵀ l̃
-                S::add_square(&mut c.inertia, &st.k[first + r]);
-                c.force += st.k[first + r] * st.l[first + r];
+                S::add_square(&mut c.inertia, k_r);
+                c.force += *k_r * *l_r;
             }
         }
-        couple(m, end, i > 0, st);
+        couple(m, end, i > 0, st)?;
     }
     Ok(())
 }
@@ -181,36 +191,43 @@ fn regularise<T: Real, S: Space<T>>(
     lap: &Loop<T, S>,
     regularisation: Regularisation<T>,
     st: &mut LoopStore<'_, T, S>,
-) -> Result<(), RankLost<T>> {
+) -> Result<(), Fault<T>> {
     let (first, n) = (lap.first as usize, lap.n as usize);
-    let block = &mut st.blocks[lap.block as usize..][..n * n];
+    let block = part_mut(st.blocks, lap.block as usize, n * n)?;
+    let (rows, scales) = (part(m.rows, first, n)?, part(st.scales, first, n)?);
     let mut scale = m.floor;
-    for r in 0..n {
-        let of = usize::from(m.rows[first + r].is_angle());
-        scale[of] = scale[of].max(st.scales[first + r]);
+    for (row, &own) in rows.iter().zip(scales) {
+        let of = at_mut(&mut scale, usize::from(row.is_angle()))?;
+        *of = of.max(own);
     }
-    for r in 0..n {
-        let scale = scale[usize::from(m.rows[first + r].is_angle())];
+    for (r, row) in rows.iter().enumerate() {
+        let scale = *at(&scale, usize::from(row.is_angle()))?;
+        let (above, here) = block.split_at_mut_checked(r * n).ok_or(Outside)?;
+        let here = part_mut(here, 0, r + 1)?;
         for s in 0..r {
-            let mut x = block[r * n + s];
-            for t in 0..s {
-                x -= block[r * n + t] * block[s * n + t];
+            let other = part(above, s * n, n)?;
+            let mut x = *at(here, s)?;
+            for (&a, &b) in part(here, 0, s)?.iter().zip(other) {
+                x -= a * b;
             }
-            block[r * n + s] = x / block[s * n + s];
+            *at_mut(here, s)? = x / *at(other, s)?;
         }
         let added = match regularisation {
             Regularisation::Scaled(share) => share * scale,
             Regularisation::Fixed(added) => added,
         };
-        let mut pivot = block[r * n + r] + added;
-        for t in 0..r {
-            pivot -= block[r * n + t] * block[r * n + t];
+        let (left, own) = here.split_at_mut_checked(r).ok_or(Outside)?;
+        let own = at_mut(own, 0)?;
+        let mut pivot = *own + added;
+        for &x in left.iter() {
+            pivot -= x * x;
         }
-        st.pivots[first + r] = pivot / scale;
+        *at_mut(st.pivots, first + r)? = pivot / scale;
         if !(pivot > T::ZERO) {
-            return Err(RankLost { row: lap.first + index(r), pivot: pivot / scale });
+            let row = lap.first + index(r);
+            return Err(Fault::RankLost(RankLost { row, pivot: pivot / scale }));
         }
-        block[r * n + r] = pivot.sqrt();
+        *own = pivot.sqrt();
     }
     Ok(())
 }
@@ -221,43 +238,48 @@ fn couple<T: Real, S: Space<T>>(
     end: &End,
     has_rows: bool,
     st: &mut LoopStore<'_, T, S>,
-) {
-    let lap = &m.loops[end.lap as usize];
+) -> Result<(), Outside> {
+    let lap = at(m.loops, end.lap as usize)?;
     let (first, n, own) = (lap.first as usize, lap.n as usize, lap.block as usize);
     let n_rows = m.rows.len();
-    for coupling in &m.plan.couplings[end.couplings.range()] {
-        let later = &m.loops[coupling.lap as usize];
-        for r in 0..later.n as usize {
-            let (row, at) = (later.first as usize + r, coupling.block as usize + r * n);
+    for coupling in range(m.plan.couplings, end.couplings.range())? {
+        let later = at(m.loops, coupling.lap as usize)?;
+        for (r, row) in later.range().enumerate() {
+            let block = coupling.block as usize + r * n;
             let place = coupling.side as usize * n_rows + row;
             for s in 0..n {
-                let mut x = st.blocks[at + s];
+                let mut x = *at(st.blocks, block + s)?;
                 for t in 0..s {
-                    x -= st.blocks[at + t] * st.blocks[own + s * n + t];
+                    x -= *at(st.blocks, block + t)? * *at(st.blocks, own + s * n + t)?;
                 }
-                let w = x / st.blocks[own + s * n + s];
-                st.blocks[at + s] = w;
+                let w = x / *at(st.blocks, own + s * n + s)?;
+                *at_mut(st.blocks, block + s)? = w;
                 if has_rows {
-                    let k = st.k[first + s];
-                    st.k[place] -= k * w;
+                    let k = *at(st.k, first + s)?;
+                    *at_mut(st.k, place)? -= k * w;
                 }
-                st.l[row] -= w * st.l[first + s];
+                let l = *at(st.l, first + s)?;
+                *at_mut(st.l, row)? -= w * l;
             }
         }
     }
-    for update in &m.plan.updates[end.updates.range()] {
-        let [x, y] = [update.row, update.column].map(|j| m.plan.couplings[j as usize]);
-        let [rows, columns] = [x, y].map(|q| m.loops[q.lap as usize].n as usize);
-        let mut at = update.block as usize;
+    for update in range(m.plan.updates, end.updates.range())? {
+        let x = at(m.plan.couplings, update.row as usize)?;
+        let y = at(m.plan.couplings, update.column as usize)?;
+        let rows = at(m.loops, x.lap as usize)?.n as usize;
+        let columns = at(m.loops, y.lap as usize)?.n as usize;
+        let mut number = update.block as usize;
         for r in 0..rows {
             for s in 0..columns {
-                let [w, v] = [x.block as usize + r * n, y.block as usize + s * n];
-                let change = inner(&st.blocks[w..w + n], &st.blocks[v..v + n]);
-                st.blocks[at] -= change;
-                at += 1;
+                let w = part(st.blocks, x.block as usize + r * n, n)?;
+                let v = part(st.blocks, y.block as usize + s * n, n)?;
+                let change = inner(w, v);
+                *at_mut(st.blocks, number)? -= change;
+                number += 1;
             }
         }
     }
+    Ok(())
 }
 
 /// The same elimination for l alone.
@@ -267,29 +289,32 @@ pub(crate) fn close_again<T: Real, S: Space<T>>(
     i: usize,
     c: &mut Condensed<T, S>,
     st: &mut LoopStore<'_, T, S>,
-) {
-    for end in &m.plan.ends[m.plan.stations[i].ends.range()] {
-        let lap = &m.loops[end.lap as usize];
+) -> Result<(), Outside> {
+    for end in range(m.plan.ends, at(m.plan.stations, i)?.ends.range())? {
+        let lap = at(m.loops, end.lap as usize)?;
         let (first, n) = (lap.first as usize, lap.n as usize);
         for r in 0..n {
-            let at = lap.block as usize + r * n;
-            for s in 0..r {
-                st.l[first + r] -= st.blocks[at + s] * st.l[first + s];
+            let factor = part(st.blocks, lap.block as usize + r * n, n)?;
+            let (before, here) =
+                part_mut(st.l, first, n)?.split_at_mut_checked(r).ok_or(Outside)?;
+            let l = at_mut(here, 0)?;
+            for (&x, &y) in factor.iter().zip(before.iter()) {
+                *l -= x * y;
             }
-            st.l[first + r] /= st.blocks[at + r];
+            *l /= *at(factor, r)?;
             if i > 0 {
-                c.force += st.k[first + r] * st.l[first + r];
+                c.force += *at(st.k, first + r)? * *l;
             }
         }
-        for coupling in &m.plan.couplings[end.couplings.range()] {
-            let later = &m.loops[coupling.lap as usize];
-            for r in 0..later.n as usize {
-                let w = &st.blocks[coupling.block as usize + r * n..][..n];
-                let change = inner(w, &st.l[first..first + n]);
-                st.l[later.first as usize + r] -= change;
+        for coupling in range(m.plan.couplings, end.couplings.range())? {
+            for (r, row) in at(m.loops, coupling.lap as usize)?.range().enumerate() {
+                let w = part(st.blocks, coupling.block as usize + r * n, n)?;
+                let change = inner(w, part(st.l, first, n)?);
+                *at_mut(st.l, row)? -= change;
             }
         }
     }
+    Ok(())
 }
 
 /// λ of the loops that end at link `i`, whose acceleration is `a` (`None` for the ground, where it is in l already).
@@ -299,31 +324,37 @@ pub(crate) fn open<T: Real, S: Space<T>>(
     i: usize,
     a: Option<&S::Motion>,
     st: &mut LoopStore<'_, T, S>,
-) {
-    for end in m.plan.ends[m.plan.stations[i].ends.range()].iter().rev() {
-        let lap = &m.loops[end.lap as usize];
+) -> Result<(), Outside> {
+    for end in range(m.plan.ends, at(m.plan.stations, i)?.ends.range())?.iter().rev() {
+        let lap = at(m.loops, end.lap as usize)?;
         let (first, n) = (lap.first as usize, lap.n as usize);
-        for r in 0..n {
-            let known = a.map_or(T::ZERO, |a| st.k[first + r].dot(a));
-            st.lambda[first + r] = known + st.l[first + r];
+        for row in lap.range() {
+            let known = match a {
+                Some(a) => at(st.k, row)?.dot(a),
+                None => T::ZERO,
+            };
+            *at_mut(st.lambda, row)? = known + *at(st.l, row)?;
         }
-        for coupling in &m.plan.couplings[end.couplings.range()] {
-            let later = &m.loops[coupling.lap as usize];
-            for r in 0..later.n as usize {
-                let x = st.lambda[later.first as usize + r];
-                for s in 0..n {
-                    st.lambda[first + s] -= st.blocks[coupling.block as usize + r * n + s] * x;
+        for coupling in range(m.plan.couplings, end.couplings.range())? {
+            for (r, row) in at(m.loops, coupling.lap as usize)?.range().enumerate() {
+                let x = *at(st.lambda, row)?;
+                let w = part(st.blocks, coupling.block as usize + r * n, n)?;
+                for (lambda, &w) in part_mut(st.lambda, first, n)?.iter_mut().zip(w) {
+                    *lambda -= w * x;
                 }
             }
         }
+        let factor = part(st.blocks, lap.block as usize, n * n)?;
+        let lambda = part_mut(st.lambda, first, n)?;
         for r in (0..n).rev() {
-            let mut x = st.lambda[first + r];
+            let mut x = *at(lambda, r)?;
             for s in r + 1..n {
-                x -= st.blocks[lap.block as usize + s * n + r] * st.lambda[first + s];
+                x -= *at(factor, s * n + r)? * *at(lambda, s)?;
             }
-            st.lambda[first + r] = x / st.blocks[lap.block as usize + r * n + r];
+            *at_mut(lambda, r)? = x / *at(factor, r * n + r)?;
         }
     }
+    Ok(())
 }
 
 /// D⁻¹ (K b)ᵀ λ at the joint of link `i`.
@@ -333,27 +364,27 @@ pub(crate) fn held<T: Real, S: Space<T>>(
     i: usize,
     kind: Kind,
     st: &LoopStore<'_, T, S>,
-) -> S::Motion {
+) -> Result<S::Motion, Outside> {
     let freedoms = kind.n_freedoms::<T, S>();
     let mut held = S::Motion::zero();
-    for &Pass { lap, gain, .. } in &m.plan.passes[m.plan.stations[i].passes.range()] {
-        let lap = &m.loops[lap as usize];
-        let mut at = gain as usize;
-        for row in lap.first as usize..(lap.first + lap.n) as usize {
-            for f in 0..freedoms {
-                held[f] += st.gains[at + f] * st.lambda[row];
+    for &Pass { lap, gain, .. } in range(m.plan.passes, at(m.plan.stations, i)?.passes.range())? {
+        let mut gain = gain as usize;
+        for row in at(m.loops, lap as usize)?.range() {
+            let lambda = *at(st.lambda, row)?;
+            for (f, &g) in part(st.gains, gain, freedoms)?.iter().take(S::Motion::N).enumerate() {
+                held[f] += g * lambda;
             }
-            at += freedoms;
+            gain += freedoms;
         }
     }
-    held
+    Ok(held)
 }
 
 /// g·u over the joint's freedoms.
 #[inline(always)]
 fn driven<T: Real, M: Numbers<T>>(drive: &M, gain: &[T]) -> T {
     let mut sum = T::ZERO;
-    for (f, &g) in gain.iter().enumerate() {
+    for (f, &g) in gain.iter().take(M::N).enumerate() {
         sum += g * drive[f];
     }
     sum

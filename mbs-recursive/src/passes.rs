@@ -10,8 +10,9 @@
 //! inertias and forces are shifted to the parent's origin on the way in. p = −Q̂. Loops join in at their common ancestors
 //! (`loops`), where the source has one derivation by hand for each mechanism.
 
+use crate::at::{Outside, at, at_mut};
 use crate::joint::{self, NoInertia};
-use crate::link::{Condensed, Link, Placed};
+use crate::link::{Condensed, Kind, Link, Placed};
 use crate::loops::{self, LoopStore, Loops, RankLost, Regularisation, index};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
@@ -19,6 +20,8 @@ use mbs_core::Real;
 /// What stops a pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fault<T> {
+    /// The tables do not fit each other.
+    Outside,
     /// A joint meets no inertia.
     NoInertia(NoInertia<T>),
     /// The regularised rows of loops cannot be factored.
@@ -34,19 +37,31 @@ pub enum Fault<T> {
     },
 }
 
+impl<T> From<Outside> for Fault<T> {
+    #[inline(always)]
+    fn from(_: Outside) -> Self {
+        Self::Outside
+    }
+}
+
 /// First pass, outward: places, velocities and velocity products.
 ///
 /// Cost: about 50 multiplications for each planar link and 150 for each spatial one, and a sine and cosine.
+///
+/// # Errors
+/// [`Outside`] if the tables do not fit each other.
 #[inline]
 pub fn kinematics<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
     (z, v, guides): (&[T], &[T], &[[T; 3]]),
     placed: &mut [Placed<T, S>],
-) {
+) -> Result<(), Outside> {
     for (i, link) in links.iter().enumerate().skip(1) {
         // Zᵢ = Zₚ + bᵢ żᵢ   [P3 (26)]
-        placed[i] = joint::place(link, &placed[link.parent as usize], z, v, guides);
+        let here = joint::place(link, at(placed, link.parent as usize)?, z, v, guides)?;
+        *at_mut(placed, i)? = here;
     }
+    Ok(())
 }
 
 /// Each body's own inertia and velocity forces: M and −Q without effects [P3 (24)–(25)].
@@ -80,27 +95,26 @@ pub fn condense<T: Real, S: Space<T>>(
 ) -> Result<(), Fault<T>> {
     let has_loops = !m.loops.is_empty();
     for i in (1..links.len()).rev() {
-        let (link, p) = (&links[i], &placed[i]);
-        let (before, from) = condensed.split_at_mut(i);
-        let c = &mut from[0];
+        let (link, p) = (at(links, i)?, at(placed, i)?);
+        let (before, from) = condensed.split_at_mut_checked(i).ok_or(Outside)?;
+        let c = at_mut(from, 0)?;
         if has_loops {
-            loops::close(m, (i, regularisation, a_ground), c, st).map_err(Fault::RankLost)?;
+            loops::close(m, (i, regularisation, a_ground), c, st)?;
         }
         // M̂ₚ += K M̂,   Q̂ₚ += K (Q̂ − M̂ d)   [P3 (37)–(38)]
         let (inertia, force) = joint::eliminate(link.kind, p, c)
             .map_err(|pivot| Fault::NoInertia(NoInertia { link: index(i), pivot }))?;
         if has_loops {
-            loops::pass(m, i, link.kind, (p, c), st);
+            loops::pass(m, i, link.kind, (p, c), st)?;
         }
         if link.parent > 0 {
-            let parent = &mut before[link.parent as usize];
+            let parent = at_mut(before, link.parent as usize)?;
             S::add_shifted(&mut parent.inertia, &inertia, &p.arm);
             parent.force += S::gathered(&force, &p.arm);
         }
     }
     if has_loops {
-        loops::close(m, (0, regularisation, a_ground), &mut condensed[0], st)
-            .map_err(Fault::RankLost)?;
+        loops::close(m, (0, regularisation, a_ground), at_mut(condensed, 0)?, st)?;
     }
     Ok(())
 }
@@ -108,6 +122,9 @@ pub fn condense<T: Real, S: Space<T>>(
 /// The second pass again with the inertias as factored, for other forces and rows l: no velocity products, ground at rest.
 ///
 /// Cost: about a fifth of [`condense`].
+///
+/// # Errors
+/// [`Outside`] if the tables do not fit each other.
 #[inline]
 pub fn condense_again<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
@@ -115,19 +132,19 @@ pub fn condense_again<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
     condensed: &mut [Condensed<T, S>],
     st: &mut LoopStore<'_, T, S>,
-) {
+) -> Result<(), Outside> {
     for i in (1..links.len()).rev() {
-        let (link, p) = (&links[i], &placed[i]);
-        let (before, from) = condensed.split_at_mut(i);
-        let c = &mut from[0];
-        loops::close_again(m, i, c, st);
+        let (link, p) = (at(links, i)?, at(placed, i)?);
+        let (before, from) = condensed.split_at_mut_checked(i).ok_or(Outside)?;
+        let c = at_mut(from, 0)?;
+        loops::close_again(m, i, c, st)?;
         let force = joint::impulse(link.kind, p, c);
-        loops::pass_again(m, i, link.kind, c, st);
+        loops::pass_again(m, i, link.kind, c, st)?;
         if link.parent > 0 {
-            before[link.parent as usize].force += S::gathered(&force, &p.arm);
+            at_mut(before, link.parent as usize)?.force += S::gathered(&force, &p.arm);
         }
     }
-    loops::close_again(m, 0, &mut condensed[0], st);
+    loops::close_again(m, 0, at_mut(condensed, 0)?, st)
 }
 
 /// What the first two passes leave of each link.
@@ -135,6 +152,9 @@ pub type Factors<'a, T, S> = (&'a [Placed<T, S>], &'a [Condensed<T, S>]);
 
 /// Third pass, outward: joint accelerations, links' accelerations, λ. `a[0]` is given: minus gravity, or zero for a response
 /// (`has_bias` false), which has no velocity products.
+///
+/// # Errors
+/// [`Outside`] if the tables do not fit each other.
 #[inline]
 pub fn accelerate<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
@@ -142,25 +162,28 @@ pub fn accelerate<T: Real, S: Space<T>>(
     (m, has_bias): (&Loops<'_, T, S>, bool),
     st: &mut LoopStore<'_, T, S>,
     (zdd, a): (&mut [T], &mut [S::Motion]),
-) {
+) -> Result<(), Outside> {
     let has_loops = !m.loops.is_empty();
     if has_loops {
-        loops::open(m, 0, None, st);
+        loops::open(m, 0, None, st)?;
     }
+    let ground = *at(a, 0)?;
     for (i, link) in links.iter().enumerate().skip(1) {
-        let (p, c) = (&placed[i], &condensed[i]);
-        let held = if has_loops { loops::held(m, i, link.kind, st) } else { S::Motion::zero() };
+        let (p, c) = (at(placed, i)?, at(condensed, i)?);
+        let held = if has_loops { loops::held(m, i, link.kind, st)? } else { S::Motion::zero() };
         // Ż = Żₚ + b z̈ + d   [P3 (27)],   z̈ as in [P3 (35)]
         let mut carried = match link.kind {
-            crate::link::Kind::Free => a[0],
-            _ => S::carried(&a[link.parent as usize], &p.arm),
+            Kind::Free => ground,
+            _ => S::carried(at(a, link.parent as usize)?, &p.arm),
         };
         if has_bias {
             carried += p.bias;
         }
-        a[i] = joint::advance(link, p, c, (carried, &held), zdd);
+        let here = joint::advance(link, p, c, (carried, &held), zdd)?;
+        *at_mut(a, i)? = here;
         if has_loops {
-            loops::open(m, i, Some(&a[i]), st);
+            loops::open(m, i, Some(&here), st)?;
         }
     }
+    Ok(())
 }

@@ -9,6 +9,7 @@
 //! new state. Inertias are then those of the last iteration: with effects their resistance to accelerations within the step is part of
 //! the weight, so that stiff springs are spared. Cost: an evaluation of the rows and about a fifth of a condensation for each sweep.
 
+use crate::at::{Outside, at, at_mut, part, part_mut};
 use crate::evaluate::{note_rank, respond};
 use crate::link::{Kind, Link};
 use crate::loops::index;
@@ -19,22 +20,33 @@ use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
 /// Moves coordinates along freedoms: z ← z ⊕ δ.
-pub(crate) fn advance<T: Real, S: Space<T>>(links: &[Link<T, S>], delta: &[T], z: &mut [T]) {
+pub(crate) fn advance<T: Real, S: Space<T>>(
+    links: &[Link<T, S>],
+    delta: &[T],
+    z: &mut [T],
+) -> Result<(), Outside> {
+    let turn = S::FREE - S::Point::N;
     for link in links.iter().skip(1) {
-        let (at, from) = (link.z as usize, link.v as usize);
+        let (first, from) = (link.z as usize, link.v as usize);
         match link.kind {
-            Kind::Revolute | Kind::Prismatic => z[at] += delta[from],
-            Kind::Ball => S::advance_rotation(&mut z[at..], &delta[from..]),
+            Kind::Revolute | Kind::Prismatic => *at_mut(z, first)? += *at(delta, from)?,
+            Kind::Ball => {
+                let delta = part(delta, from, S::Spin::N)?;
+                S::advance_rotation(part_mut(z, first, turn)?, delta);
+            }
             Kind::Free => {
-                S::advance_rotation(&mut z[at..], &delta[from..]);
-                let place = at + S::FREE - S::Point::N;
-                for i in 0..S::Point::N {
-                    z[place + i] += delta[from + S::Spin::N + i];
+                let angles = part(delta, from, S::Spin::N)?;
+                S::advance_rotation(part_mut(z, first, turn)?, angles);
+                let place = part_mut(z, first + turn, S::Point::N)?;
+                let way = part(delta, from + S::Spin::N, S::Point::N)?;
+                for (z, &way) in place.iter_mut().zip(way) {
+                    *z += way;
                 }
             }
             Kind::GuidedRevolute | Kind::GuidedPrismatic => {}
         }
     }
+    Ok(())
 }
 
 /// Projects the positions and velocities of the store; returns the largest |Φ| and |Φ̇| left.
@@ -64,8 +76,8 @@ fn settle<T: Real, S: Space<T>>(
     let enough = T::EPSILON.sqrt() * leave;
     let mut last: Option<T> = None;
     for _ in 0..=options.max_sweeps {
-        kinematics(m.links, (s.z, s.v, s.guides), s.trial);
-        let (worst, row, scale) = violation(m, level, s);
+        kinematics(m.links, (s.z, s.v, s.guides), s.trial)?;
+        let (worst, row, scale) = violation(m, level, s)?;
         let is_stuck = last.is_some_and(|last| !(worst < last * T::HALF));
         if worst <= share * scale || (is_stuck && worst <= enough * scale) {
             return Ok(worst);
@@ -75,16 +87,16 @@ fn settle<T: Real, S: Space<T>>(
             return Err(Fault::Unreached { level, row, violation: worst });
         }
         last = Some(worst);
-        respond(m, s);
+        respond(m, s)?;
         if level == 0 {
-            advance(m.links, s.v_response, s.z);
+            advance(m.links, s.v_response, s.z)?;
         } else {
             for (v, &response) in s.v.iter_mut().zip(&*s.v_response) {
                 *v += response;
             }
         }
     }
-    let (worst, row, scale) = violation(m, level, s);
+    let (worst, row, scale) = violation(m, level, s)?;
     if worst <= enough * scale {
         Ok(worst)
     } else {
@@ -97,23 +109,25 @@ fn violation<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     level: u8,
     s: &mut Store<'_, T, S>,
-) -> (T, u32, T) {
+) -> Result<(T, u32, T), Outside> {
     let (mut worst, mut row) = (T::ZERO, 0);
     // Speeds of a rounding of the length each second are rest.
     let mut scale = if level == 0 { m.length } else { m.length * T::EPSILON };
     for lap in m.loops.loops {
-        let speeds = lap.links.map(|i| &s.trial[i as usize].velocity);
+        let [a, b] = lap.links;
+        let speeds = [at(s.trial, a as usize)?.velocity, at(s.trial, b as usize)?.velocity];
         lap.evaluate(m.loops.rows, s.trial, |k, values| {
             let x = if level == 0 { values.value } else { values.rate };
             if level > 0 {
-                let parts = [0, 1].map(|i| values.gradient[i].parts(speeds[i]));
-                scale = scale.max(parts[0] + parts[1]);
+                let [first, second] = &values.gradient;
+                scale = scale.max(first.parts(&speeds[0]) + second.parts(&speeds[1]));
             }
-            s.loops.l[k] = x;
+            *at_mut(s.loops.l, k)? = x;
             if !(x.abs() <= worst) {
                 (worst, row) = (x.abs(), index(k));
             }
-        });
+            Ok(())
+        })?;
     }
-    (worst, row, scale)
+    Ok((worst, row, scale))
 }

@@ -10,6 +10,7 @@
 //! length        (g·g − L²)/(2L)                   K₂ = (s₂ × g, g)/L,  K₁ = −(s₁ × g, g)/L
 //! ```
 
+use crate::at::{Outside, at, part};
 use crate::link::Placed;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
@@ -86,28 +87,41 @@ pub struct RowValue<T: Real, S: Space<T>> {
 }
 
 impl<T: Real, S: Space<T>> Loop<T, S> {
+    /// The numbers of its rows.
+    #[inline(always)]
+    #[must_use]
+    pub fn range(&self) -> core::ops::Range<usize> {
+        self.first as usize..self.first as usize + self.n as usize
+    }
+
     /// Evaluates the loop's rows and hands them out in order.
+    ///
+    /// # Errors
+    /// [`Outside`] if the tables do not fit each other, or what `take` says.
     #[inline(always)]
     pub fn evaluate(
         &self,
         rows: &[Row<T, S>],
         placed: &[Placed<T, S>],
-        mut take: impl FnMut(usize, RowValue<T, S>),
-    ) {
-        let bodies = self.links.map(|i| &placed[i as usize]);
-        let [a, b] = bodies;
-        let arms = [0, 1].map(|i| S::rotate(&bodies[i].rotation, &self.points[i]));
-        let spins = bodies.map(|p| S::spin(&p.velocity));
-        let speed = |i: usize| S::point(&bodies[i].velocity) + S::cross(&spins[i], &arms[i]);
-        let pull = |i: usize| S::centrifugal(&spins[i], &arms[i]);
+        mut take: impl FnMut(usize, RowValue<T, S>) -> Result<(), Outside>,
+    ) -> Result<(), Outside> {
+        let [first, second] = self.links;
+        let (a, b) = (at(placed, first as usize)?, at(placed, second as usize)?);
+        let arms =
+            [S::rotate(&a.rotation, &self.points[0]), S::rotate(&b.rotation, &self.points[1])];
+        let spins = [S::spin(&a.velocity), S::spin(&b.velocity)];
         let gap = (b.position + arms[1]) - (a.position + arms[0]);
-        let gap_rate = speed(1) - speed(0);
-        let gap_bias = pull(1) - pull(0);
-        let first = self.first as usize;
-        for k in first..first + self.n as usize {
-            let (value, bias, gradient) = match &rows[k] {
+        let gap_rate = (S::point(&b.velocity) + S::cross(&spins[1], &arms[1]))
+            - (S::point(&a.velocity) + S::cross(&spins[0], &arms[0]));
+        let gap_bias = S::centrifugal(&spins[1], &arms[1]) - S::centrifugal(&spins[0], &arms[0]);
+        let own = part(rows, self.first as usize, self.n as usize)?;
+        for (k, row) in self.range().zip(own) {
+            let (value, bias, gradient) = match row {
                 Row::Coincidence { axis } => {
                     let axis = *axis as usize;
+                    if axis >= S::Point::N {
+                        return Err(Outside);
+                    }
                     let mut e = S::Point::zero();
                     e[axis] = T::ONE;
                     let gradient = [-S::wrench(&arms[0], &e), S::wrench(&arms[1], &e)];
@@ -141,7 +155,8 @@ impl<T: Real, S: Space<T>> Loop<T, S> {
                 }
             };
             let rate = gradient[0].dot(&a.velocity) + gradient[1].dot(&b.velocity);
-            take(k, RowValue { gradient, value, rate, bias });
+            take(k, RowValue { gradient, value, rate, bias })?;
         }
+        Ok(())
     }
 }

@@ -1,5 +1,7 @@
 //! What a caller asks of a tree: steps, energies, efforts, mass matrix, reactions.
 
+use crate::at::own;
+use crate::bounded::{self, BoundedReport, Bounds, Unwatched};
 use crate::error::LoopError;
 use crate::evaluate::{Level, accelerations};
 use crate::explicit;
@@ -37,9 +39,32 @@ pub fn step<T: Real, S: Space<T>>(
     let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
     let report = trapezoidal::step(&m, model, (dt, options), start, &mut s)?;
     // Work by the trapezoidal rule in time.
-    let power = ledger::power(&m, &mut s);
+    let power = own(ledger::power(&m, &mut s));
     state.work += (state.power + power) * dt * T::HALF;
     take(dt, power, &s, state);
+    Ok(report)
+}
+
+/// Advances `state` by one step of length `dt` [s] of bounded work: what a controller does, here on the host.
+///
+/// The ledger of work is not kept.
+///
+/// Cost: see [`bounded::step`]; no allocation.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn bounded_step<T: Real, S: Space<T>>(
+    model: &TreeModel<T, S>,
+    (dt, options, bounds): (T, &Options<T>, Bounds),
+    state: &mut TreeState<T>,
+    workspace: &mut Workspace<T, S>,
+) -> Result<BoundedReport<T>, StepError> {
+    let m = model.mechanism();
+    let mut s = workspace.store();
+    let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
+    let start = (start, &mut Unwatched);
+    let report = bounded::step(&m, model, (dt, options, bounds), start, &mut s)?;
+    take(dt, state.power, &s, state);
     Ok(report)
 }
 
@@ -62,7 +87,7 @@ pub fn rk4_step<T: Real, S: Space<T>>(
     let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
     let report = explicit::rk4(&m, model, (dt, options), memory, &mut s)?;
     state.work += work(scratch);
-    let power = ledger::power(&m, &mut s);
+    let power = own(ledger::power(&m, &mut s));
     take(dt, power, &s, state);
     Ok(report)
 }
@@ -95,7 +120,7 @@ pub fn rk54_step<T: Real, S: Space<T>>(
     let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
     let report = explicit::rk54(&m, model, (dt, options, driver), memory, &mut s)?;
     state.work += work(scratch);
-    let power = ledger::power(&m, &mut s);
+    let power = own(ledger::power(&m, &mut s));
     take(dt, power, &s, state);
     Ok(report)
 }
@@ -146,7 +171,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let m = self.mechanism();
         let mut s = workspace.store();
         self.place(state, &mut s);
-        [ledger::kinetic(m.links, s.placed), ledger::potential(&m, &s.instant(&m))]
+        [ledger::kinetic(m.links, s.placed), own(ledger::potential(&m, &s.instant(&m)))]
     }
 
     /// Puts a state into the scratch.
@@ -155,7 +180,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         s.v.copy_from_slice(&state.v);
         s.lambda.copy_from_slice(&state.lambda);
         self.evaluate(state.t, s.guides, s.courses);
-        kinematics(&self.links, (s.z, s.v, s.guides), s.placed);
+        own(kinematics(&self.links, (s.z, s.v, s.guides), s.placed));
     }
 
     /// Puts a state with its accelerations into the scratch and finds the forces through all joints.
@@ -163,14 +188,15 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let m = self.mechanism();
         self.place(state, s);
         s.a[0] = S::motion(S::Spin::zero(), -m.gravity);
-        inverse::spread(m.links, s.placed, &state.a, s.a);
+        own(inverse::spread(m.links, s.placed, &state.a, s.a));
         let n = m.loops.rows.len();
         for lap in m.loops.loops {
-            lap.evaluate(m.loops.rows, s.placed, |k, row| {
+            own(lap.evaluate(m.loops.rows, s.placed, |k, row| {
                 (s.gradient[k], s.gradient[n + k]) = (row.gradient[0], row.gradient[1]);
-            });
+                Ok(())
+            }));
         }
-        inverse::forces(&m, s);
+        own(inverse::forces(&m, s));
     }
 
     /// The efforts along all freedoms that make a state's accelerations, beyond effects and gravity: zero at the accelerations of
@@ -194,7 +220,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         for (i, link) in self.links.iter().enumerate().skip(1) {
             if !link.kind.is_guided() {
                 let out = &mut efforts[link.v as usize..];
-                inverse::effort(link, &s.placed[i], &s.condensed[i], out);
+                own(inverse::effort(link, &s.placed[i], &s.condensed[i], out));
             }
         }
         Ok(())

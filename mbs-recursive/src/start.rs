@@ -1,8 +1,10 @@
 //! Joint coordinates read from the motions of the bodies, and the motions written from them.
 
+use crate::at::own;
 use crate::error::TreeError;
 use crate::evaluate::{Level, accelerations};
 use crate::inverse;
+use crate::joint::write;
 use crate::link::{Kind, Placed};
 use crate::mechanism::Inputs;
 use crate::options::{Closure, Options};
@@ -117,7 +119,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             project(&m, &options, &mut s).map_err(fault)?;
         }
         accelerations(&m, &options, Level::Fine, &mut s).map_err(fault)?;
-        state.power = crate::ledger::power(&m, &mut s);
+        state.power = own(crate::ledger::power(&m, &mut s));
         state.z.copy_from_slice(s.z);
         state.v.copy_from_slice(s.v);
         state.a.copy_from_slice(s.zdd);
@@ -149,16 +151,16 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                     z[0] = unwrap(z[0], values.last().copied().unwrap_or(T::ZERO));
                 }
                 let spin = S::spin_from(&child.omega);
-                crate::joint::write(&S::unrotate_spin(&rotation, &spin), v);
+                own(write(&S::unrotate_spin(&rotation, &spin), v, 0));
                 let place = S::FREE - S::Point::N;
-                crate::joint::write(&S::point_from(&(position - self.base)), &mut z[place..]);
-                crate::joint::write(&S::point_from(&velocity), &mut v[S::Spin::N..]);
+                own(write(&S::point_from(&(position - self.base)), z, place));
+                own(write(&S::point_from(&velocity), v, S::Spin::N));
             }
             Kind::Ball => {
                 let relative = parent.rotation.transpose() * child.rotation;
                 S::write_rotation(&S::rotation_from(&relative), z);
                 let spin = child.rotation.transpose() * (child.omega - parent.omega);
-                crate::joint::write(&S::spin_from(&spin), v);
+                own(write(&S::spin_from(&spin), v, 0));
             }
             _ => {
                 let [hold, hold_rate, _] = parent.point(origin);
@@ -240,9 +242,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     ) {
         let s = workspace.store();
         self.evaluate(state.t, s.guides, s.courses);
-        kinematics(&self.links, (&state.z, &state.v, s.guides), s.placed);
+        own(kinematics(&self.links, (&state.z, &state.v, s.guides), s.placed));
         s.a[0] = S::Motion::zero();
-        inverse::spread(&self.links, s.placed, &state.a, s.a);
+        own(inverse::spread(&self.links, s.placed, &state.a, s.a));
         for (to, &link) in motions.iter_mut().zip(&self.link_of_body) {
             let link = link as usize;
             let (p, a): (&Placed<T, S>, _) = (&s.placed[link], &s.a[link]);

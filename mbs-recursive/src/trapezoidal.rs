@@ -12,6 +12,7 @@
 //! Differs from the source: increments in place of hats, which round less; rotations are quaternions, q exp(δ); positions and
 //! velocities are projected on the loops afterwards, and the accelerations are those of the projected state.
 
+use crate::at::{Outside, at, at_mut, copy};
 use crate::evaluate::{Level, accelerations, accelerations_ahead, is_redundant, note_rank};
 use crate::loads::Reach;
 use crate::mechanism::{Inputs, Mechanism, Store};
@@ -98,7 +99,7 @@ fn iterate<T: Real, S: Space<T>>(
     let mut mixing = Mixing::default();
     let (mut last, mut is_slow) = (T::ZERO, projects);
     for iterations in 1..=options.max_iterations {
-        reach_end(m, (dt, options), &start, s);
+        reach_end(m, (dt, options), &start, s).map_err(|f| failure(m, f.into()))?;
         s.scratch.copy_from_slice(s.zdd);
         if is_slow {
             project(m, options, s).map_err(|f| failure(m, f))?;
@@ -158,21 +159,21 @@ fn iterate<T: Real, S: Space<T>>(
 
 /// zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁; increments are left in the scratch.
 #[inline]
-fn reach_end<T: Real, S: Space<T>>(
+pub(crate) fn reach_end<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     (dt, options): (T, &Options<T>),
     start: &Start<'_, T>,
     s: &mut Store<'_, T, S>,
-) {
+) -> Result<(), Outside> {
     let (beta, gamma) = (options.integrator.beta, options.integrator.gamma);
-    for i in 0..start.v.len() {
+    for (i, (&v, &a)) in start.v.iter().zip(start.a).enumerate() {
         // [P3 (43)-(44)]
-        let (v, a, next) = (start.v[i], start.a[i], s.zdd[i]);
-        s.v[i] = v + dt * ((T::ONE - gamma) * a + gamma * next);
-        s.scratch[i] = dt * (v + dt * ((T::HALF - beta) * a + beta * next));
+        let next = *at(s.zdd, i)?;
+        *at_mut(s.v, i)? = v + dt * ((T::ONE - gamma) * a + gamma * next);
+        *at_mut(s.scratch, i)? = dt * (v + dt * ((T::HALF - beta) * a + beta * next));
     }
-    s.z.copy_from_slice(start.z);
-    advance(m.links, s.scratch, s.z);
+    copy(start.z, s.z)?;
+    advance(m.links, s.scratch, s.z)
 }
 
 /// |Φ|, |Φ̇| and |Φ̈| as last evaluated.
@@ -198,14 +199,16 @@ pub(crate) fn violations<T: Real, S: Space<T>>(
 
 /// The fault of a pass as the error of a step.
 pub(crate) fn failure<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, fault: Fault<T>) -> StepError {
+    let freedom = |link: u32| m.links.get(link as usize).map_or(u32::MAX, |link| link.v);
     match fault {
+        Fault::Outside => StepError::Tables,
         Fault::NoInertia(fault) if fault.pivot.is_finite() => {
             StepError::Singular(mbs_core::FactorError {
-                unknown: m.links[fault.link as usize].v,
+                unknown: freedom(fault.link),
                 pivot: fault.pivot.to_f64(),
             })
         }
-        Fault::NoInertia(fault) => StepError::NotFinite { unknown: m.links[fault.link as usize].v },
+        Fault::NoInertia(fault) => StepError::NotFinite { unknown: freedom(fault.link) },
         Fault::RankLost(fault) => {
             StepError::RankLost { row: fault.row, pivot: fault.pivot.to_f64() }
         }

@@ -1,5 +1,6 @@
 //! [`TreeModel`]: a scene as a tree of links with cut joints. Built once; constant from then on.
 
+use crate::at::own;
 use crate::error::TreeError;
 use crate::graph::{Branch, span};
 use crate::link::{Condensed, Kind, Link, Placed};
@@ -51,6 +52,8 @@ pub struct TreeModel<T: Real, S: Space<T>> {
     pub(crate) rows: Vec<Row<T, S>>,
     pub(crate) order: Order,
     pub(crate) loads: Vec<Load<T, S>>,
+    /// The effect of the scene that each load comes from.
+    pub(crate) effects: Vec<usize>,
     pub(crate) prescribed: Prescribed<T>,
     pub(crate) tables: Tables<T>,
     pub(crate) gravity: S::Point,
@@ -139,6 +142,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             rows: Vec::new(),
             order: Order::default(),
             loads: Vec::new(),
+            effects: Vec::new(),
             prescribed,
             tables,
             gravity: scene.gravity.map_or_else(S::Point::zero, |g| S::point_from(&Vector::from(g))),
@@ -238,7 +242,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let guides = vec![[T::ZERO; 3]; self.prescribed.n_guides()];
         let mut placed = vec![Placed::<T, S>::ground(); n];
         let mut condensed = vec![Condensed::<T, S>::empty(); n];
-        passes::kinematics(&self.links, (&z, &v, &guides), &mut placed);
+        own(passes::kinematics(&self.links, (&z, &v, &guides), &mut placed));
         passes::inertias(&self.links, &placed, &mut condensed);
         let plan = Plan {
             stations: &[],
@@ -277,7 +281,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             }
             if link.kind == Kind::Free {
                 let at = link.z as usize + S::FREE - S::Point::N;
-                crate::joint::write(&S::point_from(&(origin - self.base)), &mut z[at..]);
+                own(crate::joint::write(&S::point_from(&(origin - self.base)), z, at));
             }
         }
     }
@@ -315,6 +319,18 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             n_coordinates: self.n_coordinates,
             n_freedoms: self.n_freedoms,
         }
+    }
+
+    /// The index of the scene's effect that each load of the mechanism comes from.
+    #[must_use]
+    pub fn effect_of_load(&self) -> &[usize] {
+        &self.effects
+    }
+
+    /// Guides and courses.
+    #[must_use]
+    pub fn prescribed(&self) -> &Prescribed<T> {
+        &self.prescribed
     }
 
     /// Sets the input of `scene.effects[effect]` between two steps; it holds until it is set again. Returns whether the effect has

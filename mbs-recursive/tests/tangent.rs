@@ -60,7 +60,7 @@ impl Bench {
         fill: impl Fn(&Load<f64, Planar>, &Instant<'_, f64, Planar>, &mut [Condensed<f64, Planar>]),
     ) -> [f64; 3] {
         let m = self.model.mechanism();
-        passes::kinematics(m.links, (z, v, &[]), &mut self.placed);
+        passes::kinematics(m.links, (z, v, &[]), &mut self.placed).expect("tables that fit");
         let mut condensed = [Condensed::<f64, Planar>::empty(); 4];
         let at = Instant {
             links: m.links,
@@ -80,13 +80,16 @@ impl Bench {
     }
 
     fn forces(&mut self, z: &[f64; 3], v: &[f64; 3]) -> [f64; 3] {
-        self.along((z, v), |load, at, condensed| load.apply(at, condensed))
+        self.along((z, v), |load, at, condensed| {
+            load.apply(at, condensed).expect("tables that fit")
+        })
     }
 
     /// What the forces lose for accelerations `x`, by the tangents at (z, v).
     fn resistance(&mut self, reach: Reach<f64>, v: &[f64; 3], x: &[f64; 3]) -> [f64; 3] {
         self.along((&Z, v), |load, at, condensed| {
-            load.apply_ahead(at, (reach, &[0.0; 3], &[Motion::zeros(); 4]), condensed);
+            load.apply_ahead(at, (reach, &[0.0; 3], &[Motion::zeros(); 4]), condensed)
+                .expect("tables that fit");
             let mut a = [Motion::zeros(); 4];
             for i in 1..4 {
                 let p = &at.placed[i];
@@ -122,7 +125,7 @@ const REACH: Reach<f64> = Reach { place: 0.01, speed: 0.1 };
 fn slack(first: &str, second: &str, points: [[f64; 2]; 2]) -> String {
     let mut bench = Bench::new(&spring(first, second, points, 0.0));
     let m = bench.model.mechanism();
-    passes::kinematics(m.links, (&Z, &[0.0; 3], &[]), &mut bench.placed);
+    passes::kinematics(m.links, (&Z, &[0.0; 3], &[]), &mut bench.placed).expect("tables that fit");
     let at = Instant {
         links: m.links,
         placed: &bench.placed,
@@ -131,7 +134,7 @@ fn slack(first: &str, second: &str, points: [[f64; 2]; 2]) -> String {
         base: m.base,
     };
     // V = k L² / 2 without free length.
-    let length = (2.0 * m.loads[0].potential(&at) / 70.0).sqrt();
+    let length = (2.0 * m.loads[0].potential(&at).expect("tables that fit") / 70.0).sqrt();
     spring(first, second, points, length)
 }
 

@@ -16,8 +16,8 @@ pub use record::{
 };
 pub use report::{Report, Section};
 pub use write::{
-    Absence, Change, Chosen, Contact, ControlSummary, CsvWriter, EffectEntry, EnergySummary,
-    Explanation, GuideEntry, JointGroup, LargestStep, Outputs, Price, Prices, Relative, Rod,
-    RunError, RunSummary, SearchEnd, Simulated, Sizes, ViolationSummary, readable, shortest,
-    write_steps,
+    Absence, Change, Chosen, Contact, ControlSummary, ControllerStep, CsvWriter, EffectEntry,
+    EnergySummary, Explanation, GuideEntry, JointGroup, LargestStep, Outputs, Price, Prices,
+    Relative, Rod, RunError, RunSummary, SearchEnd, Simulated, Sizes, ViolationSummary, readable,
+    shortest, write_steps,
 };

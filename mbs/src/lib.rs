@@ -5,6 +5,7 @@ mod choice;
 mod control;
 mod engine;
 pub mod explain;
+pub mod export;
 mod figure;
 mod modes;
 mod recorder;

@@ -9,7 +9,7 @@ use crate::summary::{LeftOut, Outcome, Summary};
 use std::process::{Command, ExitCode};
 
 /// Crates with features, and the sets of them that must build on the host.
-const FEATURES: [(&str, &[&str]); 2] = [
+const FEATURES: [(&str, &[&str]); 3] = [
     // Of the effects: laws with tables, laws that share a file, laws of both kinds, and all without scenes.
     (
         "mbs-core",
@@ -26,6 +26,7 @@ const FEATURES: [(&str, &[&str]); 2] = [
         ],
     ),
     ("mbs-recursive", &["", "alloc", "alloc,tire", "alloc,effects"]),
+    ("mbs-nostd", &["", "tire", "polynomial,speed-hold", "effects", "export", "export,effects"]),
 ];
 
 /// Runs every check and prints the summary; exit status 1 at the first failure.

@@ -65,6 +65,15 @@ pub enum BodyLaw<T> {
     },
 }
 
+/// Writes an action to its place, where there is one.
+#[inline(always)]
+#[cfg(any(feature = "drag", feature = "speed-hold", feature = "tire", feature = "own-laws"))]
+pub(super) fn put<T>(out: &mut [Action<T>], place: usize, action: Action<T>) {
+    if let Some(to) = out.get_mut(place) {
+        *to = action;
+    }
+}
+
 /// Actions that one law has at most.
 pub const MOST: usize = 4;
 
@@ -108,15 +117,15 @@ impl<T: Real> BodyLaw<T> {
             Self::Never(never, _) => match *never {},
             #[cfg(feature = "drag")]
             Self::Drag { area_coefficient, density } => {
-                out[0] = super::drag::action(*area_coefficient, *density, motion);
+                put(out, 0, super::drag::action(*area_coefficient, *density, motion));
             }
             #[cfg(feature = "speed-hold")]
-            Self::SpeedHold(hold) => out[0] = hold.action(motion),
+            Self::SpeedHold(hold) => put(out, 0, hold.action(motion)),
             #[cfg(feature = "tire")]
             Self::Tire(tire) => tire.evaluate(motion, supplies, out),
             #[cfg(feature = "own-laws")]
             Self::Own { law, course } => {
-                out[0] = law.action(motion, supplies.courses[*course as usize]);
+                put(out, 0, law.action(motion, supplies.course(*course)));
             }
         }
     }

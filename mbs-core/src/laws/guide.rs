@@ -69,14 +69,10 @@ pub fn spline_curvatures<T: Real>(table: &[[T; 2]], curvature: &mut [T], scratch
 }
 
 /// Evaluates the natural cubic spline at `t`; before the first and after the last row the end value is held
-/// at rest. An empty table is zero.
+/// at rest. An empty table is zero; a curvature that is not there is zero too.
 ///
 /// Cost: one binary search; no allocation.
-///
-/// # Panics
-/// If `curvature` is not as long as `table`.
 pub fn spline<T: Real>(table: &[[T; 2]], curvature: &[T], t: T) -> Motion<T> {
-    assert_eq!(curvature.len(), table.len(), "one curvature per row");
     let held = |value| Motion { value, rate: T::ZERO, acceleration: T::ZERO };
     let (Some(first), Some(last)) = (table.first(), table.last()) else { return held(T::ZERO) };
     if t < first[0] || table.len() == 1 {
@@ -85,9 +81,13 @@ pub fn spline<T: Real>(table: &[[T; 2]], curvature: &[T], t: T) -> Motion<T> {
     if t > last[0] {
         return held(last[1]);
     }
-    let i = table.partition_point(|row| row[0] <= t).clamp(1, table.len() - 1) - 1;
-    let ([t0, g0], [t1, g1]) = (table[i], table[i + 1]);
-    let (c0, c1, h) = (curvature[i], curvature[i + 1], t1 - t0);
+    let i = table.partition_point(|row| row[0] <= t).saturating_sub(1).min(table.len() - 2);
+    let next = i + 1;
+    let (Some(&[t0, g0]), Some(&[t1, g1])) = (table.get(i), table.get(next)) else {
+        return held(last[1]);
+    };
+    let bend = |i: usize| curvature.get(i).copied().unwrap_or(T::ZERO);
+    let (c0, c1, h) = (bend(i), bend(next), t1 - t0);
     let (a, b) = ((t1 - t) / h, (t - t0) / h);
     let sixth = T::ONE / T::from_f64(6.0);
     let three = T::from_f64(3.0);

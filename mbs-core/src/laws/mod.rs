@@ -44,7 +44,8 @@ impl Part {
     /// The entries; none where the table is too short.
     #[inline(always)]
     pub fn of<X>(self, table: &[X]) -> &[X] {
-        table.get(self.first as usize..(self.first + self.n) as usize).unwrap_or(&[])
+        let first = self.first as usize;
+        table.get(first..first.saturating_add(self.n as usize)).unwrap_or(&[])
     }
 }
 
@@ -65,9 +66,16 @@ pub struct Supplies<'a, T> {
 }
 
 impl<'a, T: Real> Supplies<'a, T> {
+    /// The vector of a course; zero where there is none.
+    #[inline(always)]
+    #[must_use]
+    pub fn course(&self, course: u32) -> [T; 3] {
+        self.courses.get(course as usize).copied().unwrap_or([T::ZERO; 3])
+    }
+
     /// Courses alone.
     #[must_use]
-    pub fn courses(courses: &'a [[T; 3]]) -> Self {
+    pub const fn courses(courses: &'a [[T; 3]]) -> Self {
         Self {
             courses,
             #[cfg(feature = "polynomial")]

@@ -94,9 +94,7 @@ impl<T: Real> Law<T> {
     pub fn evaluate(&self, value: T, rate: T, supplies: &Supplies<'_, T>) -> Measure<T> {
         let plain = Measure { value, rate, ..Measure::default() };
         match self {
-            Self::Torque { course } => {
-                Measure { tension: -supplies.courses[*course as usize][0], ..plain }
-            }
+            Self::Torque { course } => Measure { tension: -supplies.course(*course)[0], ..plain },
             Self::SpringDamper { stiffness, damping, free } => Measure {
                 tension: *stiffness * (value - *free) + *damping * rate,
                 stiffness: *stiffness,
@@ -141,7 +139,7 @@ impl<T: Real> Law<T> {
             }
             #[cfg(feature = "own-laws")]
             Self::Own { law, course } => {
-                let told = (law.evaluate)(value, rate, supplies.courses[*course as usize]);
+                let told = (law.evaluate)(value, rate, supplies.course(*course));
                 Measure { value, rate, transverse: T::ZERO, drift: T::ZERO, ..told }
             }
         }
@@ -164,7 +162,7 @@ impl<T: Real> Law<T> {
             #[cfg(feature = "limit")]
             Self::Limit(limit) => limit.energy(value),
             #[cfg(feature = "own-laws")]
-            Self::Own { law, course } => (law.energy)(value, supplies.courses[*course as usize]),
+            Self::Own { law, course } => (law.energy)(value, supplies.course(*course)),
             #[cfg(feature = "polynomial")]
             Self::Polynomial { .. } => T::ZERO,
             #[cfg(feature = "friction")]
@@ -190,7 +188,7 @@ impl<T: Real> Law<T> {
                 limit.stiffness * (above - (limit.lower - value).max(T::ZERO))
             }
             #[cfg(feature = "own-laws")]
-            Self::Own { law, course } => (law.elastic)(value, supplies.courses[*course as usize]),
+            Self::Own { law, course } => (law.elastic)(value, supplies.course(*course)),
             #[cfg(feature = "polynomial")]
             Self::Polynomial { .. } => T::ZERO,
             #[cfg(feature = "friction")]

@@ -27,7 +27,7 @@
 //! camber out of the deflection, so that its radial force has no potential, and takes v_y at the centre; with either, its ramp
 //! steers at 10, 20 and 30 m/s end within 0.04 % of the way across.
 
-use super::body::{Action, BodyMotion};
+use super::body::{Action, BodyMotion, put};
 use super::bumper;
 use super::calspan::{self, Coefficients};
 use super::foot::{Foot, foot};
@@ -128,7 +128,7 @@ impl<T: Real> Tire<T> {
         let Stand { stance, velocity, ground, depth, rate, .. } = self.stand(motion, supplies);
         let [force, moment] = &stance.row;
         let contact = bumper::contact(self.radial, depth, -rate);
-        out[RADIAL] = Action {
+        let radial = Action {
             force: (*force).into(),
             moment: (*moment).into(),
             measure: Measure {
@@ -141,6 +141,7 @@ impl<T: Real> Tire<T> {
                 ..Measure::default()
             },
         };
+        put(out, RADIAL, radial);
         let load = contact.force * stance.stretch;
         if load > T::ZERO && out.len() > 1 {
             self.roll((load, &stance), (motion, &velocity, &ground), out);
@@ -150,17 +151,17 @@ impl<T: Real> Tire<T> {
     /// How far it is pressed in, and where it is over its road. Cost: that of the nearest point, and no force.
     pub fn touch(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>) -> Touch<T> {
         let Stand { place, velocity, depth, rate, .. } = self.stand(motion, supplies);
-        Touch { deflection: [depth, rate], place, speed: [velocity[0], velocity[self.up]] }
+        Touch { deflection: [depth, rate], place, speed: [velocity[0], self.along_up(&velocity)] }
     }
 
     #[inline]
     fn stand(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>) -> Stand<T> {
         let [way, speed] = self.travel.map_or([T::ZERO; 2], |course| {
-            let [way, speed, _] = supplies.courses[course as usize];
+            let [way, speed, _] = supplies.course(course);
             [way, speed]
         });
         let center = Vector::<T, 3>::from(motion.position);
-        let place = [center[0] + way, center[self.up]];
+        let place = [center[0] + way, self.along_up(&center)];
         let foot = foot(self.road, supplies, place);
         let stance = self.stance(&Vector::from(motion.axis), &foot);
         let depth = self.radius - stance.reach;
@@ -230,13 +231,14 @@ impl<T: Real> Tire<T> {
                 measure: Measure { rate, tension, damping, drift, ..Measure::default() },
             }
         };
-        out[ROLLING] = line(
+        let rolling = line(
             along,
             Vector::zeros(),
             resistance * forward,
             resistance * slow * slow / (effective * effective),
             forward,
         );
+        put(out, ROLLING, rolling);
         let Some(coefficients) = &self.side else { return };
         // -e: down in the wheel's plane.
         let down = (axis * lean - normal) * (T::ONE / width);
@@ -246,19 +248,28 @@ impl<T: Real> Tire<T> {
         let slip = sideways.atan2(effective);
         let side = calspan::side(coefficients, load, slip, lean.atan2(width));
         let by_speed = effective / (effective * effective + sideways * sideways);
-        out[SIDE] = line(across, arm, -side.force, side.stiffness * by_speed, sideways);
+        let sideways_force = line(across, arm, -side.force, side.stiffness * by_speed, sideways);
+        put(out, SIDE, sideways_force);
         let torque = side.torque * forward / effective;
-        out[ALIGNING] = Action {
+        let aligning = Action {
             force: [T::ZERO; 3],
             moment: (*normal).into(),
             measure: Measure { rate: normal.dot(&spin), tension: -torque, ..Measure::default() },
         };
+        put(out, ALIGNING, aligning);
     }
 
     fn vector(&self, [x, up]: [T; 2]) -> Vector<T, 3> {
-        let mut v = Vector::<T, 3>::zeros();
-        (v[0], v[self.up]) = (x, up);
-        v
+        if self.up == 1 {
+            Vector::<T, 3>::new(x, up, T::ZERO)
+        } else {
+            Vector::<T, 3>::new(x, T::ZERO, up)
+        }
+    }
+
+    /// What of a vector points up.
+    fn along_up(&self, v: &Vector<T, 3>) -> T {
+        if self.up == 1 { v[1] } else { v[2] }
     }
 
     /// Stored energy of an action [J].

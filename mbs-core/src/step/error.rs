@@ -43,6 +43,8 @@ pub enum StepError {
         /// The row that is violated most.
         row: u32,
     },
+    /// Numbers in a model's tables point outside of them, or a scratch is not the model's.
+    Tables,
     /// A guided angle ended at the false root, half a turn from its guide.
     OppositeBranch {
         /// The row of the guide.
@@ -79,6 +81,9 @@ impl core::fmt::Display for StepError {
                     f,
                     "the projection left a {name} violation of {violation:.1e}: the mechanism may stand in a singular position or lock; try a smaller step or another penalty"
                 )
+            }
+            Self::Tables => {
+                write!(f, "the tables of the model do not fit each other: load it again")
             }
             Self::OppositeBranch { .. } => {
                 write!(

@@ -10,10 +10,10 @@ pub fn step_scale<T: Real, W: Team>(team: &W, dt: T, a: &[T]) -> T {
 
 /// Index of the entry largest in absolute value.
 pub fn largest<T: Real>(x: &[T]) -> u32 {
-    let mut best = 0;
-    for i in 1..x.len() {
-        if x[i].abs() > x[best].abs() {
-            best = i;
+    let (mut best, mut size) = (0, T::ZERO);
+    for (i, x) in x.iter().enumerate() {
+        if i == 0 || x.abs() > size {
+            (best, size) = (i, x.abs());
         }
     }
     u32::try_from(best).unwrap_or(u32::MAX)

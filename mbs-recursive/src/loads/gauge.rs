@@ -7,6 +7,7 @@
 //! ```
 
 use super::Instant;
+use crate::at::Outside;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::laws::scalar::{Law, Measure};
@@ -42,32 +43,32 @@ impl<T: Real, S: Space<T>> Gauge<T, S> {
         at: &Instant<'_, T, S>,
         links: [u32; 2],
         law: &Law<T>,
-    ) -> (Measure<T>, [S::Motion; 2]) {
+    ) -> Result<(Measure<T>, [S::Motion; 2]), Outside> {
         let (value, gradient) = match self {
             Self::Length { points } => {
-                let (arms, gap) = between(at, links, points);
+                let (arms, gap) = between(at, links, points)?;
                 let value = gap.dot(&gap).sqrt();
                 // At length zero the line has no direction.
                 let n = if value > T::ZERO { gap * (T::ONE / value) } else { S::Point::zero() };
                 (value, [-S::wrench(&arms[0], &n), S::wrench(&arms[1], &n)])
             }
             Self::Along { points, direction, offset } => {
-                let (arms, gap) = between(at, links, points);
-                let d = at.arm(links[0], direction);
+                let (arms, gap) = between(at, links, points)?;
+                let d = at.arm(links[0], direction)?;
                 let gradient = [-S::wrench(&(arms[0] + gap), &d), S::wrench(&arms[1], &d)];
                 (gap.dot(&d) - *offset, gradient)
             }
             Self::Twist { sides } => {
-                let [a1, b1] = [0, 1].map(|i| at.arm(links[0], &sides[i]));
-                let [a2, b2] = [0, 1].map(|i| at.arm(links[1], &sides[i]));
+                let (a1, b1) = (at.arm(links[0], &sides[0])?, at.arm(links[0], &sides[1])?);
+                let (a2, b2) = (at.arm(links[1], &sides[0])?, at.arm(links[1], &sides[1])?);
                 let moment = (S::moment(&a2, &b1) - S::moment(&b2, &a1)) * T::HALF;
                 let g = S::motion(moment, S::Point::zero());
                 ((b1.dot(&a2) - a1.dot(&b2)) * T::HALF, [-g, g])
             }
         };
-        let velocity = links.map(|link| &at.placed[link as usize].velocity);
-        let rate = gradient[0].dot(velocity[0]) + gradient[1].dot(velocity[1]);
-        (law.evaluate(value, rate, &at.supplies), gradient)
+        let rate = gradient[0].dot(&at.placed(links[0])?.velocity)
+            + gradient[1].dot(&at.placed(links[1])?.velocity);
+        Ok((law.evaluate(value, rate, &at.supplies), gradient))
     }
 }
 
@@ -76,8 +77,8 @@ fn between<T: Real, S: Space<T>>(
     at: &Instant<'_, T, S>,
     links: [u32; 2],
     points: &[S::Point; 2],
-) -> ([S::Point; 2], S::Point) {
-    let arms = [0, 1].map(|i| at.arm(links[i], &points[i]));
-    let [p, q] = [0, 1].map(|i| at.placed[links[i] as usize].position + arms[i]);
-    (arms, q - p)
+) -> Result<([S::Point; 2], S::Point), Outside> {
+    let arms = [at.arm(links[0], &points[0])?, at.arm(links[1], &points[1])?];
+    let (p, q) = (at.placed(links[0])?.position + arms[0], at.placed(links[1])?.position + arms[1]);
+    Ok((arms, q - p))
 }

@@ -1,5 +1,6 @@
 //! What loads are evaluated from: places, velocities and inputs of one instant.
 
+use crate::at::{Outside, at};
 use crate::link::{Kind, Link, Placed};
 use crate::space::Space;
 use mbs_core::Real;
@@ -23,42 +24,49 @@ pub struct Instant<'a, T: Real, S: Space<T>> {
 
 impl<T: Real, S: Space<T>> Instant<'_, T, S> {
     /// Angle or slide of a joint with one coordinate, and its rate.
-    pub(crate) fn coordinate(&self, link: u32) -> [T; 2] {
-        let (link, (z, v, guides)) = (&self.links[link as usize], self.coordinates);
-        match link.kind {
+    pub(crate) fn coordinate(&self, link: u32) -> Result<[T; 2], Outside> {
+        let (link, (z, v, guides)) = (at(self.links, link as usize)?, self.coordinates);
+        Ok(match link.kind {
             Kind::GuidedRevolute | Kind::GuidedPrismatic => {
-                let [value, rate, _] = guides[link.v as usize];
+                let [value, rate, _] = *at(guides, link.v as usize)?;
                 [value, rate]
             }
-            _ => [z[link.z as usize], v[link.v as usize]],
-        }
+            _ => [*at(z, link.z as usize)?, *at(v, link.v as usize)?],
+        })
+    }
+
+    /// A link's place.
+    #[inline(always)]
+    pub(super) fn placed(&self, link: u32) -> Result<&Placed<T, S>, Outside> {
+        at(self.placed, link as usize)
     }
 
     /// From a link's origin to one of its points, world axes [m].
-    pub(super) fn arm(&self, link: u32, point: &S::Point) -> S::Point {
-        S::rotate(&self.placed[link as usize].rotation, point)
+    pub(super) fn arm(&self, link: u32, point: &S::Point) -> Result<S::Point, Outside> {
+        Ok(S::rotate(&self.placed(link)?.rotation, point))
     }
 
     /// Where a link's point is [m].
-    pub(super) fn place(&self, link: u32, point: &S::Point) -> S::Point {
-        self.placed[link as usize].position + self.arm(link, point) + self.base
+    pub(super) fn place(&self, link: u32, point: &S::Point) -> Result<S::Point, Outside> {
+        Ok(self.placed(link)?.position + self.arm(link, point)? + self.base)
     }
 
     /// Velocity of the point at an arm [m/s].
-    pub(super) fn speed(&self, link: u32, arm: &S::Point) -> S::Point {
-        S::point(&S::carried(&self.placed[link as usize].velocity, arm))
+    pub(super) fn speed(&self, link: u32, arm: &S::Point) -> Result<S::Point, Outside> {
+        Ok(S::point(&S::carried(&self.placed(link)?.velocity, arm)))
     }
 
     /// A force of a course, world axes [N].
-    pub(super) fn force(&self, link: u32, course: u32, turns: bool) -> S::Point {
-        let f = S::point_from(&Vector::from(self.supplies.courses[course as usize]));
-        if turns { S::rotate(&self.placed[link as usize].rotation, &f) } else { f }
+    pub(super) fn force(&self, link: u32, course: u32, turns: bool) -> Result<S::Point, Outside> {
+        let course = *at(self.supplies.courses, course as usize)?;
+        let f = S::point_from(&Vector::from(course));
+        Ok(if turns { S::rotate(&self.placed(link)?.rotation, &f) } else { f })
     }
 
     /// A torque of a course, world axes [N m].
-    pub(super) fn torque(&self, course: u32) -> S::Spin {
-        let c = self.supplies.courses[course as usize];
+    pub(super) fn torque(&self, course: u32) -> Result<S::Spin, Outside> {
+        let c = *at(self.supplies.courses, course as usize)?;
         let c = if S::DIMENSION == 2 { [T::ZERO, T::ZERO, c[0]] } else { c };
-        S::spin_from(&Vector::from(c))
+        Ok(S::spin_from(&Vector::from(c)))
     }
 }

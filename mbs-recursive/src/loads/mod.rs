@@ -16,6 +16,7 @@ pub use instant::Instant;
 pub use on_body::OnBody;
 pub use tangent::Reach;
 
+use crate::at::{Outside, at_mut};
 use crate::link::Condensed;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
@@ -86,68 +87,83 @@ impl<T: Real, S: Space<T>> Load<T, S> {
     }
 
     /// Adds the load's forces: p −= (τ, f).
+    ///
+    /// # Errors
+    /// [`Outside`] if the tables do not fit each other.
     #[inline]
-    pub fn apply(&self, at: &Instant<'_, T, S>, condensed: &mut [Condensed<T, S>]) {
+    pub fn apply(
+        &self,
+        at: &Instant<'_, T, S>,
+        condensed: &mut [Condensed<T, S>],
+    ) -> Result<(), Outside> {
+        let mut push = |link: u32, force: S::Motion| {
+            at_mut(condensed, link as usize)?.force -= force;
+            Ok(())
+        };
         match self {
             Self::Between { links, gauge, law } => {
-                let (measure, gradient) = gauge.evaluate(at, *links, law);
-                for (&link, g) in links.iter().zip(gradient) {
-                    condensed[link as usize].force += g * measure.tension;
-                }
+                let (measure, [first, second]) = gauge.evaluate(at, *links, law)?;
+                push(links[0], first * -measure.tension)?;
+                push(links[1], second * -measure.tension)
             }
             Self::Angle { link, law } => {
-                let [value, rate] = at.coordinate(*link);
+                let [value, rate] = at.coordinate(*link)?;
                 let measure = law.evaluate(value, rate, &at.supplies);
-                condensed[*link as usize].effort -= measure.tension;
+                at_mut(condensed, *link as usize)?.effort -= measure.tension;
+                Ok(())
             }
             Self::Constant { link, point, force } => {
-                let arm = at.arm(*link, point);
-                condensed[*link as usize].force -= S::wrench(&arm, force);
+                push(*link, S::wrench(&at.arm(*link, point)?, force))
             }
             Self::Force { link, point, course, turns } => {
-                let arm = at.arm(*link, point);
-                let force = at.force(*link, *course, *turns);
-                condensed[*link as usize].force -= S::wrench(&arm, &force);
+                let arm = at.arm(*link, point)?;
+                push(*link, S::wrench(&arm, &at.force(*link, *course, *turns)?))
             }
             Self::Torque { link, course } => {
-                condensed[*link as usize].force -= S::motion(at.torque(*course), S::Point::zero());
+                push(*link, S::motion(at.torque(*course)?, S::Point::zero()))
             }
-            Self::OnBody(load) => condensed[load.link as usize].force -= load.wrench(at),
+            Self::OnBody(load) => push(load.link, load.wrench(at)?),
         }
     }
 
     /// Stored energy [J].
-    pub fn potential(&self, at: &Instant<'_, T, S>) -> T {
-        match self {
+    ///
+    /// # Errors
+    /// [`Outside`] if the tables do not fit each other.
+    pub fn potential(&self, at: &Instant<'_, T, S>) -> Result<T, Outside> {
+        Ok(match self {
             Self::Between { links, gauge, law } => {
-                law.energy(gauge.evaluate(at, *links, law).0.value, &at.supplies)
+                law.energy(gauge.evaluate(at, *links, law)?.0.value, &at.supplies)
             }
-            Self::Angle { link, law } => law.energy(at.coordinate(*link)[0], &at.supplies),
-            Self::Constant { link, point, force } => -force.dot(&at.place(*link, point)),
+            Self::Angle { link, law } => law.energy(at.coordinate(*link)?[0], &at.supplies),
+            Self::Constant { link, point, force } => -force.dot(&at.place(*link, point)?),
             Self::Force { .. } | Self::Torque { .. } => T::ZERO,
-            Self::OnBody(load) => load.potential(at),
-        }
+            Self::OnBody(load) => load.potential(at)?,
+        })
     }
 
     /// Power that is not stored [W].
-    pub fn power(&self, at: &Instant<'_, T, S>) -> T {
-        match self {
+    ///
+    /// # Errors
+    /// [`Outside`] if the tables do not fit each other.
+    pub fn power(&self, at: &Instant<'_, T, S>) -> Result<T, Outside> {
+        Ok(match self {
             Self::Between { links, gauge, law } => {
-                law.power(&gauge.evaluate(at, *links, law).0, &at.supplies)
+                law.power(&gauge.evaluate(at, *links, law)?.0, &at.supplies)
             }
             Self::Angle { link, law } => {
-                let [value, rate] = at.coordinate(*link);
+                let [value, rate] = at.coordinate(*link)?;
                 law.power(&law.evaluate(value, rate, &at.supplies), &at.supplies)
             }
             Self::Constant { .. } => T::ZERO,
             Self::Force { link, point, course, turns } => {
-                let speed = at.speed(*link, &at.arm(*link, point));
-                at.force(*link, *course, *turns).dot(&speed)
+                let speed = at.speed(*link, &at.arm(*link, point)?)?;
+                at.force(*link, *course, *turns)?.dot(&speed)
             }
             Self::Torque { link, course } => {
-                at.torque(*course).dot(&S::spin(&at.placed[*link as usize].velocity))
+                at.torque(*course)?.dot(&S::spin(&at.placed(*link)?.velocity))
             }
-            Self::OnBody(load) => load.power(at),
-        }
+            Self::OnBody(load) => load.power(at)?,
+        })
     }
 }

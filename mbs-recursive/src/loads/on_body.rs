@@ -5,6 +5,7 @@
 //! ```
 
 use super::{Instant, Reach};
+use crate::at::{Outside, part_mut};
 use crate::link::Condensed;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
@@ -25,9 +26,9 @@ pub struct OnBody<T: Real, S: Space<T>> {
 }
 
 impl<T: Real, S: Space<T>> OnBody<T, S> {
-    fn evaluate(&self, at: &Instant<'_, T, S>, out: &mut [Action<T>]) {
-        let placed = &at.placed[self.link as usize];
-        let speed = at.speed(self.link, &at.arm(self.link, &self.point));
+    fn evaluate(&self, at: &Instant<'_, T, S>, out: &mut [Action<T>]) -> Result<(), Outside> {
+        let placed = at.placed(self.link)?;
+        let speed = at.speed(self.link, &at.arm(self.link, &self.point)?)?;
         let along = S::rotate(&placed.rotation, &S::point_from(&Vector::from(self.axis)));
         let mut axis = S::point_into(&along);
         // In the plane the third direction stays.
@@ -35,33 +36,39 @@ impl<T: Real, S: Space<T>> OnBody<T, S> {
             axis[2] = self.axis[2];
         }
         let motion = BodyMotion {
-            position: S::point_into(&at.place(self.link, &self.point)).into(),
+            position: S::point_into(&at.place(self.link, &self.point)?).into(),
             velocity: S::point_into(&speed).into(),
             axis: axis.into(),
             spin: S::spin_into(&S::spin(&placed.velocity)).into(),
         };
         self.law.evaluate(&motion, &at.supplies, out);
+        Ok(())
     }
 
     /// Sums something over the law's actions.
-    fn sum(&self, at: &Instant<'_, T, S>, of: impl Fn(usize, &Action<T>) -> T) -> T {
+    fn sum(
+        &self,
+        at: &Instant<'_, T, S>,
+        of: impl Fn(usize, &Action<T>) -> T,
+    ) -> Result<T, Outside> {
         let mut actions = [Action::default(); MOST];
-        let actions = &mut actions[..self.law.n_actions()];
-        self.evaluate(at, actions);
-        actions.iter().enumerate().fold(T::ZERO, |sum, (k, action)| sum + of(k, action))
+        let actions = part_mut(&mut actions, 0, self.law.n_actions())?;
+        self.evaluate(at, actions)?;
+        Ok(actions.iter().enumerate().fold(T::ZERO, |sum, (k, action)| sum + of(k, action)))
     }
 
     /// What the law does to its link, about the link's origin.
-    pub(super) fn wrench(&self, at: &Instant<'_, T, S>) -> S::Motion {
+    pub(super) fn wrench(&self, at: &Instant<'_, T, S>) -> Result<S::Motion, Outside> {
         let mut actions = [Action::default(); MOST];
-        let actions = &mut actions[..self.law.n_actions()];
-        self.evaluate(at, actions);
+        let actions = part_mut(&mut actions, 0, self.law.n_actions())?;
+        self.evaluate(at, actions)?;
         let (mut force, mut moment) = (S::Point::zero(), S::Spin::zero());
         for Action { force: d, moment: m, measure } in actions.iter() {
             force -= S::point_from(&Vector::from(*d)) * measure.tension;
             moment -= S::spin_from(&Vector::from(*m)) * measure.tension;
         }
-        S::wrench(&at.arm(self.link, &self.point), &force) + S::motion(moment, S::Point::zero())
+        let arm = at.arm(self.link, &self.point)?;
+        Ok(S::wrench(&arm, &force) + S::motion(moment, S::Point::zero()))
     }
 
     /// The same where the accelerations `a` of the links are replaced by unknown ones, with what the law adds to the link's inertia.
@@ -70,26 +77,27 @@ impl<T: Real, S: Space<T>> OnBody<T, S> {
         at: &Instant<'_, T, S>,
         (reach, a): (Reach<T>, &S::Motion),
         c: &mut Condensed<T, S>,
-    ) {
+    ) -> Result<(), Outside> {
         let mut actions = [Action::default(); MOST];
-        let actions = &mut actions[..self.law.n_actions()];
-        self.evaluate(at, actions);
-        let arm = at.arm(self.link, &self.point);
+        let actions = part_mut(&mut actions, 0, self.law.n_actions())?;
+        self.evaluate(at, actions)?;
+        let arm = at.arm(self.link, &self.point)?;
         for Action { force, moment, measure } in actions.iter() {
             let moment = S::spin_from(&Vector::from(*moment));
             let w = S::wrench(&arm, &S::point_from(&Vector::from(*force)))
                 + S::motion(moment, S::Point::zero());
             reach.resist(c, (&w, a), measure);
         }
+        Ok(())
     }
 
     /// Stored energy [J].
-    pub(super) fn potential(&self, at: &Instant<'_, T, S>) -> T {
+    pub(super) fn potential(&self, at: &Instant<'_, T, S>) -> Result<T, Outside> {
         self.sum(at, |k, action| self.law.energy(k, &action.measure))
     }
 
     /// Power that is not stored [W].
-    pub(super) fn power(&self, at: &Instant<'_, T, S>) -> T {
+    pub(super) fn power(&self, at: &Instant<'_, T, S>) -> Result<T, Outside> {
         self.sum(at, |k, action| self.law.power(k, &action.measure))
     }
 }

@@ -14,6 +14,7 @@
 //! Accelerations that no longer change feel none of this: only the way there depends on κ.
 
 use super::{Instant, Load};
+use crate::at::{Outside, at, at_mut};
 use crate::link::{Condensed, Kind};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
@@ -54,41 +55,44 @@ impl<T: Real> Reach<T> {
 impl<T: Real, S: Space<T>> Load<T, S> {
     /// Adds the load's forces as [`apply`](Self::apply) does, and how they answer to accelerations that differ from `zdd` of the
     /// freedoms and `a` of the links.
+    ///
+    /// # Errors
+    /// [`Outside`] if the tables do not fit each other.
     pub fn apply_ahead(
         &self,
-        at: &Instant<'_, T, S>,
+        here: &Instant<'_, T, S>,
         (reach, zdd, a): (Reach<T>, &[T], &[S::Motion]),
         condensed: &mut [Condensed<T, S>],
-    ) {
+    ) -> Result<(), Outside> {
         match self {
             Self::Between { links, gauge, law } => {
-                let (measure, gradient) = gauge.evaluate(at, *links, law);
-                let Some(end) = outer(at, *links) else {
+                let (measure, gradient) = gauge.evaluate(here, *links, law)?;
+                let Some((end, gradient_end)) = outer(here, *links, &gradient)? else {
                     for (&link, w) in links.iter().zip(gradient).filter(|(link, _)| **link > 0) {
                         let link = link as usize;
-                        reach.resist(&mut condensed[link], (&w, &a[link]), &measure);
+                        reach.resist(at_mut(condensed, link)?, (&w, at(a, link)?), &measure);
                     }
-                    return;
+                    return Ok(());
                 };
                 for (&link, g) in links.iter().zip(gradient) {
-                    condensed[link as usize].force += g * measure.tension;
+                    at_mut(condensed, link as usize)?.force += g * measure.tension;
                 }
-                let arm = gradient[end].dot(&at.placed[links[end] as usize].freedom);
+                let arm = gradient_end.dot(&here.placed(end)?.freedom);
                 let weight = reach.weight(&measure) * arm * arm;
-                resist_joint(at, links[end], (weight, zdd), condensed);
+                resist_joint(here, end, (weight, zdd), condensed)
             }
             Self::Angle { link, law } => {
-                let [value, rate] = at.coordinate(*link);
-                let measure = law.evaluate(value, rate, &at.supplies);
-                condensed[*link as usize].effort -= measure.tension;
-                resist_joint(at, *link, (reach.weight(&measure), zdd), condensed);
+                let [value, rate] = here.coordinate(*link)?;
+                let measure = law.evaluate(value, rate, &here.supplies);
+                at_mut(condensed, *link as usize)?.effort -= measure.tension;
+                resist_joint(here, *link, (reach.weight(&measure), zdd), condensed)
             }
             Self::OnBody(load) => {
                 let link = load.link as usize;
-                load.apply_ahead(at, (reach, &a[link]), &mut condensed[link]);
+                load.apply_ahead(here, (reach, at(a, link)?), at_mut(condensed, link)?)
             }
             Self::Constant { .. } | Self::Force { .. } | Self::Torque { .. } => {
-                self.apply(at, condensed);
+                self.apply(here, condensed)
             }
         }
     }
@@ -96,23 +100,35 @@ impl<T: Real, S: Space<T>> Load<T, S> {
 
 /// Resists the acceleration of a joint of one freedom; a guided one has none.
 fn resist_joint<T: Real, S: Space<T>>(
-    at: &Instant<'_, T, S>,
+    here: &Instant<'_, T, S>,
     link: u32,
     (weight, zdd): (T, &[T]),
     condensed: &mut [Condensed<T, S>],
-) {
-    let joint = &at.links[link as usize];
+) -> Result<(), Outside> {
+    let joint = at(here.links, link as usize)?;
     if matches!(joint.kind, Kind::Revolute | Kind::Prismatic) {
-        let c = &mut condensed[link as usize];
+        let c = at_mut(condensed, link as usize)?;
         c.resistance += weight;
-        c.effort += weight * zdd[joint.v as usize];
+        c.effort += weight * *at(zdd, joint.v as usize)?;
     }
+    Ok(())
 }
 
-/// Which of two links hangs from the other by one joint of at most one freedom.
-fn outer<T: Real, S: Space<T>>(at: &Instant<'_, T, S>, links: [u32; 2]) -> Option<usize> {
-    (0..2).find(|&i| {
-        let link = &at.links[links[i] as usize];
-        links[i] > 0 && link.parent == links[1 - i] && link.kind.n_freedoms::<T, S>() <= 1
+/// Which of two links hangs from the other by one joint of at most one freedom, with its wrench.
+fn outer<T: Real, S: Space<T>>(
+    here: &Instant<'_, T, S>,
+    [first, second]: [u32; 2],
+    gradient: &[S::Motion; 2],
+) -> Result<Option<(u32, S::Motion)>, Outside> {
+    let hangs = |link: u32, other: u32| {
+        let own = at(here.links, link as usize)?;
+        Ok(link > 0 && own.parent == other && own.kind.n_freedoms::<T, S>() <= 1)
+    };
+    Ok(if hangs(first, second)? {
+        Some((first, gradient[0]))
+    } else if hangs(second, first)? {
+        Some((second, gradient[1]))
+    } else {
+        None
     })
 }

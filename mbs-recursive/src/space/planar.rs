@@ -82,19 +82,25 @@ impl<T: Real> Space<T> for Planar {
         [r[0] * c - r[1] * s, r[1] * c + r[0] * s]
     }
     fn turned_by(r: &Self::Rotation, z: &[T]) -> Self::Rotation {
-        Self::turned(r, &Vector::<T, 1>::new(T::ONE), z[0])
+        Self::turned(r, &Vector::<T, 1>::new(T::ONE), z.first().copied().unwrap_or(T::ZERO))
     }
     fn write_rotation(r: &Self::Rotation, z: &mut [T]) {
-        z[0] = r[1].atan2(r[0]);
+        if let Some(z) = z.first_mut() {
+            *z = r[1].atan2(r[0]);
+        }
     }
     fn relative(r: &Self::Rotation, s: &Self::Rotation) -> Self::Rotation {
         [r[0] * s[0] + r[1] * s[1], r[0] * s[1] - r[1] * s[0]]
     }
     fn advance_rotation(z: &mut [T], delta: &[T]) {
-        z[0] += delta[0];
+        if let (Some(z), Some(&delta)) = (z.first_mut(), delta.first()) {
+            *z += delta;
+        }
     }
     fn rotation_rate(_: &[T], spin: &[T], rate: &mut [T]) {
-        rate[0] = spin[0];
+        if let (Some(rate), Some(&spin)) = (rate.first_mut(), spin.first()) {
+            *rate = spin;
+        }
     }
     fn normalise_rotation(_: &mut [T]) {}
 

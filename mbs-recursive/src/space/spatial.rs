@@ -57,9 +57,30 @@ fn backward<T: Real>(h: &[T; 9], x: &Vector<T, 3>) -> Vector<T, 3> {
     )
 }
 
+/// The quaternion in joint coordinates; no rotation where they are too few.
+#[inline(always)]
+fn quaternion<T: Real>(z: &[T]) -> [T; 4] {
+    z.first_chunk().copied().unwrap_or([T::ONE, T::ZERO, T::ZERO, T::ZERO])
+}
+
+/// Writes a quaternion into joint coordinates.
+#[inline(always)]
+fn set_quaternion<T: Real>(z: &mut [T], q: [T; 4]) {
+    if let Some(z) = z.first_chunk_mut() {
+        *z = q;
+    }
+}
+
+/// A quaternion made unit.
+#[inline(always)]
+fn unit<T: Real>(q: [T; 4]) -> [T; 4] {
+    let square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    let scale = T::ONE / square.sqrt();
+    [q[0] * scale, q[1] * scale, q[2] * scale, q[3] * scale]
+}
+
 /// Rotation matrix of a quaternion (w, x, y, z), of any length near one.
-fn of_quaternion<T: Real>(q: &[T]) -> Matrix<T, 3> {
-    let [w, x, y, z] = [q[0], q[1], q[2], q[3]];
+fn of_quaternion<T: Real>([w, x, y, z]: [T; 4]) -> Matrix<T, 3> {
     let s = T::TWO / (w * w + x * x + y * y + z * z);
     let one = T::ONE;
     Matrix::<T, 3>::new(
@@ -184,7 +205,7 @@ impl<T: Real> Space<T> for Spatial {
         times(r, &turn)
     }
     fn turned_by(r: &Self::Rotation, z: &[T]) -> Self::Rotation {
-        times(r, &of_quaternion(z))
+        times(r, &of_quaternion(quaternion(z)))
     }
     fn write_rotation(r: &Self::Rotation, z: &mut [T]) {
         // The largest of the four squares decides the branch, so that no digits are lost.
@@ -205,38 +226,31 @@ impl<T: Real> Space<T> for Spatial {
             2 => [b, d, g, f],
             _ => [c, e, f, g],
         };
-        z[..4].copy_from_slice(&q);
-        <Self as Space<T>>::normalise_rotation(z);
-        if z[0] < T::ZERO {
-            for x in &mut z[..4] {
-                *x = -*x;
-            }
-        }
+        let q = unit(q);
+        let q = if q[0] < T::ZERO { [-q[0], -q[1], -q[2], -q[3]] } else { q };
+        set_quaternion(z, q);
     }
     fn relative(r: &Self::Rotation, s: &Self::Rotation) -> Self::Rotation {
         times(&r.transpose(), s)
     }
     fn advance_rotation(z: &mut [T], delta: &[T]) {
-        let d = v3(delta[0], delta[1], delta[2]);
+        let Some(&[x, y, w]) = delta.first_chunk() else { return };
+        let d = v3(x, y, w);
         let angle = norm(&d);
         // exp(δ) = (cos |δ|/2, sin(|δ|/2) δ/|δ|); the quotient tends to 1/2
         let (s, c) = (angle * T::HALF).sin_cos();
-        let share = if angle > T::EPSILON { s / angle } else { T::HALF };
-        let q = product([z[0], z[1], z[2], z[3]], [c, d[0] * share, d[1] * share, d[2] * share]);
-        z[..4].copy_from_slice(&q);
-        <Self as Space<T>>::normalise_rotation(z);
+        let quotient = s / angle;
+        let share = if angle > T::EPSILON { quotient } else { T::HALF };
+        let q = product(quaternion(z), [c, d[0] * share, d[1] * share, d[2] * share]);
+        set_quaternion(z, unit(q));
     }
     fn rotation_rate(z: &[T], spin: &[T], rate: &mut [T]) {
-        let h = T::HALF;
-        let half = [T::ZERO, spin[0] * h, spin[1] * h, spin[2] * h];
-        rate[..4].copy_from_slice(&product([z[0], z[1], z[2], z[3]], half));
+        let Some(&[x, y, w]) = spin.first_chunk() else { return };
+        let half = [T::ZERO, x * T::HALF, y * T::HALF, w * T::HALF];
+        set_quaternion(rate, product(quaternion(z), half));
     }
     fn normalise_rotation(z: &mut [T]) {
-        let square = z[0] * z[0] + z[1] * z[1] + z[2] * z[2] + z[3] * z[3];
-        let scale = T::ONE / square.sqrt();
-        for x in &mut z[..4] {
-            *x *= scale;
-        }
+        set_quaternion(z, unit(quaternion(z)));
     }
 
     fn no_inertia() -> Self::Inertia {

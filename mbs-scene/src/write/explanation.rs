@@ -112,6 +112,25 @@ pub struct Relative {
     pub loops: usize,
     /// Names of the joints that are cut.
     pub cut_joints: Vec<String>,
+    /// One step on a controller.
+    pub controller: ControllerStep,
+}
+
+/// The bound of one step of bounded work: operations, by a closed formula in the structure of the model.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct ControllerStep {
+    /// Products.
+    pub products: u64,
+    /// Sums and differences.
+    pub sums: u64,
+    /// Quotients.
+    pub quotients: u64,
+    /// Square roots.
+    pub roots: u64,
+    /// Sines with cosines, and arc tangents.
+    pub turns: u64,
+    /// Instructions in single and in double precision, at most.
+    pub instructions: [u64; 2],
 }
 
 /// A thin rod in space, which has no inertia about itself.

@@ -9,8 +9,8 @@ mod tests;
 
 pub use csv::{CsvWriter, shortest, write_steps};
 pub use explanation::{
-    Absence, Change, EffectEntry, Explanation, GuideEntry, JointGroup, LargestStep, Price, Prices,
-    Relative, Rod, SearchEnd, Simulated, Sizes,
+    Absence, Change, ControllerStep, EffectEntry, Explanation, GuideEntry, JointGroup, LargestStep,
+    Price, Prices, Relative, Rod, SearchEnd, Simulated, Sizes,
 };
 pub use json::{
     Chosen, Contact, ControlSummary, EnergySummary, Outputs, RunError, RunSummary, ViolationSummary,

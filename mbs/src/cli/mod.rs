@@ -2,6 +2,7 @@
 
 mod analysis;
 mod explain;
+mod export;
 mod files;
 mod generate;
 mod run;
@@ -27,7 +28,7 @@ Example: mbs run scenes/double-pendulum.toml --out out
 Exit status: 0 completed, 1 scene or usage refused, 2 the run stopped early or some of a sweep did (their data are
 kept), or there is no equilibrium.";
 /// Commands of the format's contract that are not built yet.
-const NOT_BUILT: [&str; 3] = ["compare", "doctor", "export"];
+const NOT_BUILT: [&str; 2] = ["compare", "doctor"];
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -35,6 +36,8 @@ enum Command {
     Run(run::Arguments),
     /// What a scene simulates, what it does not, and the measured price of each effect.
     Explain(explain::Arguments),
+    /// Write a scene as constant tables for a controller: Rust, or bytes.
+    Export(export::Arguments),
     /// Static equilibrium: joint coordinates, reactions and outputs, and whether it is stable.
     Equilibrium(analysis::Equilibrium),
     /// Linearise: eigenvalues, frequencies and damping ratios.
@@ -66,6 +69,7 @@ pub(crate) fn main() -> ExitCode {
     match cli.command {
         Command::Run(arguments) => run::main(&arguments),
         Command::Explain(arguments) => explain::main(&arguments),
+        Command::Export(arguments) => export::main(&arguments),
         Command::Equilibrium(arguments) => analysis::equilibrium(&arguments),
         Command::Modes(arguments) => analysis::modes(&arguments),
         Command::Generate(arguments) => generate::main(&arguments),

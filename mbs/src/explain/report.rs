@@ -2,8 +2,8 @@
 
 use crate::words::{duration, few, stop_text};
 use mbs_scene::{
-    Explanation, LargestStep, Price, Prices, Provenance, Relative, Report, SearchEnd, Section,
-    Sizes, readable,
+    ControllerStep, Explanation, LargestStep, Price, Prices, Provenance, Relative, Report,
+    SearchEnd, Section, Sizes, readable,
 };
 
 /// The tables of an explanation.
@@ -51,6 +51,9 @@ fn simulated(e: &Explanation) -> Section {
         (None, None) => "no model".to_owned(),
     };
     rows.push(row("relative coordinates", relative));
+    if let Some(relative) = &s.relative {
+        rows.push(row("a step on a controller", on_controller(&relative.controller)));
+    }
     for rod in &s.rods {
         let says = if rod.idle_spin_carried {
             "its idle spin is a coordinate"
@@ -92,6 +95,15 @@ fn loops(relative: &Relative) -> String {
     format!(
         "{coordinates}; {} {are} {joints}; {constraints} equations of rank {constraint_rank}{redundant}",
         relative.loops
+    )
+}
+
+fn on_controller(bound: &ControllerStep) -> String {
+    let ControllerStep { products, sums, quotients, roots, turns, instructions: [single, double] } =
+        *bound;
+    format!(
+        "at most {products} products, {sums} sums, {quotients} quotients, {roots} roots, {turns} sines or arc tangents: \
+         {single} instructions in f32, {double} in f64"
     )
 }
 

@@ -8,8 +8,10 @@ use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{BodyRef, Dimension, GuideLaw, Inertia, JointKind, Scene};
-use mbs_recursive::TreeModel;
-use mbs_scene::{GuideEntry, JointGroup, Relative, Rod, Simulated, Sizes};
+use mbs_nostd::export::Gathered;
+use mbs_nostd::{Bounds, bound};
+use mbs_recursive::{TreeModel, TreeState};
+use mbs_scene::{ControllerStep, GuideEntry, JointGroup, Relative, Rod, Simulated, Sizes};
 
 /// Takes stock of a scene.
 pub(super) fn simulated<T: Real, const D: usize>(scene: &Scene<T>, settings: &Settings) -> Simulated
@@ -52,7 +54,18 @@ where
     let tree = tree.map_err(StopError::tree)?;
     let cut_joints: Vec<_> =
         tree.cut_joints().map(|joint| scene.joints[joint].name.clone()).collect();
-    Ok(Relative { sizes, loops: cut_joints.len(), cut_joints })
+    let rest = TreeState::at_rest(&tree);
+    let gathered = Gathered::new(&tree, &rest, &[]);
+    let bound = bound::step(&gathered.model(), Bounds::default());
+    let controller = ControllerStep {
+        products: bound.products,
+        sums: bound.sums,
+        quotients: bound.quotients,
+        roots: bound.roots,
+        turns: bound.turns,
+        instructions: [false, true].map(|is_double| bound.instructions(is_double)),
+    };
+    Ok(Relative { sizes, loops: cut_joints.len(), cut_joints, controller })
 }
 
 fn joints<T>(scene: &Scene<T>) -> Vec<JointGroup> {

@@ -23,7 +23,15 @@ pub(crate) const BUILDS: &[Build] = &[
     Build { package: "mbs-recursive", features: &[], is_alloc: false },
     Build { package: "mbs-recursive", features: &["alloc"], is_alloc: true },
     Build { package: "mbs-linear", features: &[], is_alloc: true },
+    Build { package: "mbs-nostd", features: &[], is_alloc: false },
+    Build {
+        package: "mbs-nostd",
+        features: &["polynomial", "speed-hold", "tire"],
+        is_alloc: false,
+    },
+    Build { package: "mbs-nostd", features: &["effects"], is_alloc: false },
 ];
 
-/// The targets: Cortex-M4F and Cortex-M7 with hardware floating point.
-pub(crate) const TARGETS: &[&str] = &["thumbv7em-none-eabihf"];
+/// The targets: Cortex-M4F and Cortex-M7 with hardware floating point; Cortex-M0 without; RISC-V without.
+pub(crate) const TARGETS: &[&str] =
+    &["thumbv7em-none-eabihf", "thumbv6m-none-eabi", "riscv32imac-unknown-none-elf"];

@@ -4,11 +4,14 @@
 use super::table::Build;
 use crate::process::{cargo, output, run};
 use crate::summary::LeftOut;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Debian's Rust for building browsers, kept current in stable releases.
 const DEBIAN_PACKAGES: [&str; 3] = ["rustc-web", "cargo-web", "rust-web-src"];
+
+/// The emulator, and Debian's package of it.
+const EMULATOR: &str = "qemu-system-arm";
 
 /// The system's compiler and cargo, by path: proxies of rustup come earlier in `PATH`.
 const SYSTEM_RUSTC: &str = "/usr/bin/rustc";
@@ -74,7 +77,7 @@ pub(crate) fn find(target: &str) -> Result<Toolchain, LeftOut> {
         return Ok(Toolchain::Installed);
     }
     let Err(missing) = system_rust() else { return Ok(Toolchain::System) };
-    let why = match install() {
+    let why = match install(&DEBIAN_PACKAGES) {
         Ok(()) => match system_rust() {
             Ok(()) => return Ok(Toolchain::System),
             Err(still) => format!("after installing packages, {still}"),
@@ -88,6 +91,41 @@ pub(crate) fn find(target: &str) -> Result<Toolchain, LeftOut> {
              `apt-get install --no-install-recommends {}`; then run `cargo xtask check-nostd`.",
             DEBIAN_PACKAGES.join(" ")
         ),
+    })
+}
+
+/// What the firmware example asks for beside a toolchain: an emulator, installed where that is possible, and for the system's Rust
+/// the linker, that of the Rust which runs this job or one in the path.
+///
+/// # Errors
+///
+/// What is missing, and how to get it.
+pub(crate) fn for_images(toolchain: Toolchain) -> Result<Option<PathBuf>, LeftOut> {
+    let has_emulator = || output(Command::new(EMULATOR).arg("--version")).is_some();
+    if !has_emulator() {
+        let refusal = install(&[EMULATOR]).err();
+        if !has_emulator() {
+            let refusal = refusal.map_or(String::new(), |refusal| format!("; {refusal}"));
+            return Err(LeftOut {
+                why: format!("{EMULATOR} is not installed{refusal}"),
+                remedy: format!("On Debian, as root: `apt-get install {EMULATOR}`."),
+            });
+        }
+    }
+    if toolchain == Toolchain::Installed {
+        return Ok(None);
+    }
+    let own = output(Command::new("rustc").args(["--print", "target-libdir"]));
+    let own = own.and_then(|lib| Some(Path::new(&lib).parent()?.join("bin/rust-lld")));
+    let candidates = own.into_iter().chain(["rust-lld", "ld.lld"].map(PathBuf::from));
+    let works = |linker: &PathBuf| {
+        output(Command::new(linker).args(["-flavor", "gnu", "--version"])).is_some()
+            || output(Command::new(linker).arg("--version")).is_some()
+    };
+    let mut candidates = candidates.filter(works);
+    candidates.next().map(Some).ok_or_else(|| LeftOut {
+        why: "there is no rust-lld that works".to_owned(),
+        remedy: "On Debian, as root: `apt-get install lld`.".to_owned(),
     })
 }
 
@@ -134,20 +172,20 @@ fn release(version: &str) -> Option<(u32, u32)> {
 }
 
 /// Installs Debian's packages, as root on a system that has `apt-get`.
-fn install() -> Result<(), String> {
+fn install(packages: &[&str]) -> Result<(), String> {
     if output(Command::new("id").arg("-u")).as_deref() != Some("0") {
         return Err("packages can be installed as root only".to_owned());
     }
     if output(Command::new("apt-get").arg("--version")).is_none() {
         return Err("this system has no apt-get".to_owned());
     }
-    eprintln!("   installing {} with apt-get", DEBIAN_PACKAGES.join(", "));
+    eprintln!("   installing {} with apt-get", packages.join(", "));
     let apt = |args: &[&str]| {
         run(Command::new("apt-get").args(args).env("DEBIAN_FRONTEND", "noninteractive"))
     };
     apt(&["update", "--quiet=2"])?;
     let mut args = vec!["install", "--yes", "--quiet=2", "--no-install-recommends"];
-    args.extend(DEBIAN_PACKAGES);
+    args.extend(packages);
     apt(&args)
 }
 

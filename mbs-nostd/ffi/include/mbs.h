@@ -1,0 +1,72 @@
+/* mbs-nostd for programs in C: multibody dynamics of a model that `mbs export SCENE --binary FILE` wrote.
+ *
+ * No allocation, no globals: a solver lives in memory of the caller's, and any number of them may run at once.
+ * Functions return 0, or one of the codes below. SI units; angles in rad. */
+#ifndef MBS_H
+#define MBS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Define MBS_SINGLE where the library was built with the feature `single`. */
+#ifdef MBS_SINGLE
+typedef float mbs_real;
+#else
+typedef double mbs_real;
+#endif
+
+enum mbs_status {
+    MBS_OK = 0,
+    MBS_NULL = 1,      /* a pointer is null */
+    MBS_MEMORY = 2,    /* the memory is too small or not aligned */
+    MBS_MODEL = 3,     /* the bytes are no model, or one that is too large or has an effect that is left out */
+    MBS_NO_INPUT = 4,  /* there is no such guide or course */
+    MBS_STOPPED = 5    /* the step could not be made; the state is as before */
+};
+
+typedef struct mbs_solver mbs_solver;
+
+/* What a step did, and what it left over. */
+typedef struct mbs_report {
+    uint32_t evaluations;
+    uint32_t projections;
+    mbs_real correction;   /* last change of a coordinate [m or rad] */
+    mbs_real violation[3]; /* of the loops: positions, velocities, accelerations */
+    uint32_t is_cut_short; /* time ran out */
+} mbs_report;
+
+/* Is there time for more? Asked within a step; null: there always is. */
+typedef int (*mbs_watch)(void *context);
+
+/* Bytes that a solver needs, and their alignment. */
+size_t mbs_size(void);
+size_t mbs_align(void);
+
+/* Reads a model into `memory`; afterwards the bytes of the model are not needed. */
+int mbs_init(void *memory, size_t size, const uint8_t *model, size_t n, mbs_solver **solver);
+
+/* Inputs, between steps: a guide's value, rate and acceleration at the end of the next step; a course's vector. */
+int mbs_set_guide(mbs_solver *solver, size_t guide, const mbs_real motion[3]);
+int mbs_set_course(mbs_solver *solver, size_t course, const mbs_real value[3]);
+
+/* Work of a step: evaluations (at least one), further sweeps, projections. */
+int mbs_set_bounds(mbs_solver *solver, uint32_t evaluations, uint32_t sweeps, uint32_t projections);
+
+/* One step of `dt` seconds. `report` and `watch` may be null. */
+int mbs_step(mbs_solver *solver, mbs_real dt, mbs_watch watch, void *context, mbs_report *report);
+
+/* Copies at most `n` numbers; returns how many there are. */
+size_t mbs_coordinates(const mbs_solver *solver, mbs_real *to, size_t n);
+size_t mbs_velocities(const mbs_solver *solver, mbs_real *to, size_t n);
+size_t mbs_accelerations(const mbs_solver *solver, mbs_real *to, size_t n);
+mbs_real mbs_time(const mbs_solver *solver);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,250 @@
+//! mbs-nostd for programs in C; `include/mbs.h` says what each function does.
+//!
+//! This is the file that handles pointers. What callers promise, by the header: a solver pointer is one that `mbs_init` gave and
+//! whose memory is still there, and no two calls use it at once; arrays are as long as they say. Null is looked for.
+
+#![no_std]
+
+use core::ffi::{c_int, c_void};
+use mbs_nostd::{Bounds, Solver, Spatial, Tables, Unwatched};
+
+#[cfg(feature = "single")]
+type Scalar = f32;
+#[cfg(not(feature = "single"))]
+type Scalar = f64;
+
+/// Room for a vehicle of about twenty bodies: change the numbers to fit a model, and build again.
+type Model = Tables<Scalar, Spatial, 24, 16, 40, 96, 40, 64, 8, 96>;
+type Room = Solver<Scalar, Spatial, 24, 96, 72, 40, 1024, 1024, 8, 8>;
+
+const OK: c_int = 0;
+const NULL: c_int = 1;
+const MEMORY: c_int = 2;
+const MODEL: c_int = 3;
+const NO_INPUT: c_int = 4;
+const STOPPED: c_int = 5;
+
+/// What lives in the caller's memory.
+#[allow(non_camel_case_types, reason = "the name in C")]
+#[derive(Debug)]
+pub struct mbs_solver {
+    model: Model,
+    solver: Room,
+}
+
+/// `mbs_report` of the header.
+#[allow(non_camel_case_types, reason = "the name in C")]
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct mbs_report {
+    evaluations: u32,
+    projections: u32,
+    correction: Scalar,
+    violation: [Scalar; 3],
+    is_cut_short: u32,
+}
+
+/// Says whether there is time for more.
+type Watch = Option<unsafe extern "C" fn(*mut c_void) -> c_int>;
+
+/// Bytes of a solver.
+#[unsafe(no_mangle)]
+pub extern "C" fn mbs_size() -> usize {
+    size_of::<mbs_solver>()
+}
+
+/// Alignment of a solver.
+#[unsafe(no_mangle)]
+pub extern "C" fn mbs_align() -> usize {
+    align_of::<mbs_solver>()
+}
+
+/// Reads a model into memory.
+///
+/// # Safety
+/// `memory` has `size` bytes, `model` has `n`; nobody else uses `memory` while the solver is used.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mbs_init(
+    memory: *mut c_void,
+    size: usize,
+    model: *const u8,
+    n: usize,
+    solver: *mut *mut mbs_solver,
+) -> c_int {
+    if memory.is_null() || model.is_null() || solver.is_null() {
+        return NULL;
+    }
+    let place: *mut mbs_solver = memory.cast();
+    if size < mbs_size() || !place.is_aligned() {
+        return MEMORY;
+    }
+    // SAFETY: the caller gave `n` bytes, and not null.
+    let bytes = unsafe { core::slice::from_raw_parts(model, n) };
+    let Ok(model) = Model::read(bytes) else { return MODEL };
+    let Ok(room) = Room::new(&model.model()) else { return MODEL };
+    // SAFETY: `place` is aligned and has room; `solver` is a place for a pointer.
+    unsafe {
+        place.write(mbs_solver { model, solver: room });
+        solver.write(place);
+    }
+    OK
+}
+
+/// Writes a guide's motion.
+///
+/// # Safety
+/// `solver` is one that `mbs_init` gave; `motion` has three numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mbs_set_guide(
+    solver: *mut mbs_solver,
+    guide: usize,
+    motion: *const [Scalar; 3],
+) -> c_int {
+    // SAFETY: null is looked for; else as the caller promises.
+    let (Some(own), Some(motion)) = (unsafe { solver.as_mut() }, unsafe { motion.as_ref() }) else {
+        return NULL;
+    };
+    if own.solver.set_guide(guide, *motion) { OK } else { NO_INPUT }
+}
+
+/// Writes a course's vector.
+///
+/// # Safety
+/// As for [`mbs_set_guide`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mbs_set_course(
+    solver: *mut mbs_solver,
+    course: usize,
+    value: *const [Scalar; 3],
+) -> c_int {
+    // SAFETY: null is looked for; else as the caller promises.
+    let (Some(own), Some(value)) = (unsafe { solver.as_mut() }, unsafe { value.as_ref() }) else {
+        return NULL;
+    };
+    if own.solver.set_course(course, *value) { OK } else { NO_INPUT }
+}
+
+/// Says how much work a step may be.
+///
+/// # Safety
+/// `solver` is one that `mbs_init` gave.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mbs_set_bounds(
+    solver: *mut mbs_solver,
+    evaluations: u32,
+    sweeps: u32,
+    projections: u32,
+) -> c_int {
+    // SAFETY: null is looked for; else as the caller promises.
+    let Some(own) = (unsafe { solver.as_mut() }) else { return NULL };
+    own.solver.bounds = Bounds { evaluations, sweeps, projections };
+    OK
+}
+
+/// Makes a step.
+///
+/// # Safety
+/// `solver` is one that `mbs_init` gave; `report` is null or a place for one; `watch` may be called with `context`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mbs_step(
+    solver: *mut mbs_solver,
+    dt: Scalar,
+    watch: Watch,
+    context: *mut c_void,
+    report: *mut mbs_report,
+) -> c_int {
+    // SAFETY: null is looked for; else as the caller promises.
+    let Some(own) = (unsafe { solver.as_mut() }) else { return NULL };
+    let model = own.model.model();
+    let done = match watch {
+        None => own.solver.step(&model, dt, &mut Unwatched),
+        Some(watch) => {
+            // SAFETY: the caller lets it be called.
+            let mut has_time = || unsafe { watch(context) } != 0;
+            own.solver.step(&model, dt, &mut has_time)
+        }
+    };
+    let Ok(done) = done else { return STOPPED };
+    // SAFETY: null is looked for; else a place for a report.
+    if let Some(report) = unsafe { report.as_mut() } {
+        *report = mbs_report {
+            evaluations: done.evaluations,
+            projections: done.projections,
+            correction: done.correction,
+            violation: done.violation,
+            is_cut_short: u32::from(done.is_cut_short),
+        };
+    }
+    OK
+}
+
+/// Copies numbers out.
+///
+/// # Safety
+/// `to` is null or has `n` places.
+unsafe fn copy(from: &[Scalar], to: *mut Scalar, n: usize) -> usize {
+    if !to.is_null() {
+        for (i, x) in from.iter().take(n).enumerate() {
+            // SAFETY: `i < n`.
+            unsafe { to.add(i).write(*x) };
+        }
+    }
+    from.len()
+}
+
+/// Copies the coordinates.
+///
+/// # Safety
+/// `solver` is one that `mbs_init` gave; `to` is null or has `n` places.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mbs_coordinates(
+    solver: *const mbs_solver,
+    to: *mut Scalar,
+    n: usize,
+) -> usize {
+    // SAFETY: null is looked for; else as the caller promises.
+    unsafe { solver.as_ref().map_or(0, |own| copy(own.solver.coordinates(), to, n)) }
+}
+
+/// Copies the velocities.
+///
+/// # Safety
+/// As for [`mbs_coordinates`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mbs_velocities(
+    solver: *const mbs_solver,
+    to: *mut Scalar,
+    n: usize,
+) -> usize {
+    // SAFETY: null is looked for; else as the caller promises.
+    unsafe { solver.as_ref().map_or(0, |own| copy(own.solver.velocities(), to, n)) }
+}
+
+/// Copies the accelerations.
+///
+/// # Safety
+/// As for [`mbs_coordinates`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mbs_accelerations(
+    solver: *const mbs_solver,
+    to: *mut Scalar,
+    n: usize,
+) -> usize {
+    // SAFETY: null is looked for; else as the caller promises.
+    unsafe { solver.as_ref().map_or(0, |own| copy(own.solver.accelerations(), to, n)) }
+}
+
+/// The time [s].
+///
+/// # Safety
+/// `solver` is null or one that `mbs_init` gave.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mbs_time(solver: *const mbs_solver) -> Scalar {
+    // SAFETY: null is looked for; else as the caller promises.
+    unsafe { solver.as_ref() }.map_or(0.0, |own| own.solver.time())
+}
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+    loop {}
+}

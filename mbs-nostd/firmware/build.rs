@@ -1,0 +1,16 @@
+//! Puts the memory map where the linker finds it, and asks for the model that is to be built in.
+
+use std::path::PathBuf;
+use std::{env, fs};
+
+fn main() {
+    let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    fs::write(out.join("memory.x"), include_bytes!("memory.x")).expect("OUT_DIR is writable");
+    println!("cargo:rustc-link-search={}", out.display());
+    println!("cargo:rerun-if-changed=memory.x");
+    println!("cargo:rerun-if-env-changed=MBS_MODEL");
+    let model = env::var("MBS_MODEL")
+        .expect("MBS_MODEL names a file that `mbs export SCENE --rust FILE` wrote");
+    println!("cargo:rerun-if-changed={model}");
+    println!("cargo:rustc-env=MBS_MODEL={model}");
+}

@@ -1,0 +1,46 @@
+//! The run of the firmware on the host, with a panic handler of its own: a second one, of a standard library that sneaked in,
+//! would not compile.
+
+#![no_std]
+#![no_main]
+
+#[path = "../../src/model.rs"]
+mod model;
+#[path = "../../src/run.rs"]
+mod run;
+
+use core::ffi::{c_int, c_void};
+use core::fmt::{self, Write};
+use mbs_nostd::{Bounds, bound};
+
+#[link(name = "c")]
+unsafe extern "C" {
+    fn write(file: c_int, bytes: *const c_void, n: usize) -> isize;
+    fn abort() -> !;
+}
+
+/// Standard output.
+struct Out;
+
+impl fmt::Write for Out {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        // SAFETY: `write` of the C library reads `n` bytes, which the text has.
+        let n = unsafe { write(1, text.as_ptr().cast(), text.len()) };
+        if usize::try_from(n) == Ok(text.len()) { Ok(()) } else { Err(fmt::Error) }
+    }
+}
+
+/// What the C library starts.
+#[unsafe(no_mangle)]
+pub extern "C" fn main() -> c_int {
+    let bound = bound::step(&model::MODEL, Bounds::default());
+    let is_double = size_of::<model::Scalar>() == 8;
+    let is_told = writeln!(Out, "b {}", bound.instructions(is_double)).is_ok();
+    c_int::from(!is_told || run::run(&mut Out, || 0).is_none())
+}
+
+#[panic_handler]
+fn panic(_: &core::panic::PanicInfo<'_>) -> ! {
+    // SAFETY: `abort` asks for nothing.
+    unsafe { abort() }
+}

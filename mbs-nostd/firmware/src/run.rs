@@ -1,0 +1,84 @@
+//! Steps the model at 1 kHz of its own time and tells how it went; the same on the controller and on the host.
+//!
+//! ```text
+//! s STEP COORDINATES      every so many steps, as hexadecimal bits
+//! v STEP VELOCITIES
+//! r POSITION VELOCITY ACCELERATION     the largest residuals of the steps, as bits
+//! n LEAST MEAN MOST       what a step took, by the clock that is given
+//! ```
+
+use crate::model::{Axes, MODEL, ModelSolver, Scalar};
+use core::fmt::Write;
+use mbs_nostd::{BoundedReport, Checked, StepError, Unwatched};
+
+/// Steps of 1 ms.
+const STEPS: u32 = 10_000;
+/// Steps between two that are told.
+const TOLD: u32 = 100;
+
+/// One step: what is proved to have no path to a panic.
+#[unsafe(no_mangle)]
+#[inline(never)]
+pub fn mbs_step(
+    solver: &mut ModelSolver,
+    model: &Checked<'_, Scalar, Axes>,
+) -> Result<BoundedReport<Scalar>, StepError> {
+    solver.step(model, 1e-3, &mut Unwatched)
+}
+
+/// The run; `None` when something went wrong, which was told. `clock` gives what was spent since the last call.
+pub fn run(out: &mut impl Write, mut clock: impl FnMut() -> u32) -> Option<()> {
+    let Ok(model) = Checked::new(&MODEL) else {
+        writeln!(out, "the model does not pass its check").ok()?;
+        return None;
+    };
+    let Ok(mut solver) = ModelSolver::new(&model) else {
+        writeln!(out, "the model does not fit its solver").ok()?;
+        return None;
+    };
+    let (mut least, mut most, mut sum) = (u32::MAX, 0, 0_u64);
+    let mut residuals: [Scalar; 3] = [0.0; 3];
+    for step in 1..=STEPS {
+        clock();
+        let done = mbs_step(&mut solver, &model);
+        let spent = clock();
+        (least, most, sum) = (least.min(spent), most.max(spent), sum + u64::from(spent));
+        let report = match done {
+            Ok(report) => report,
+            Err(error) => {
+                writeln!(out, "step {step}: {}", what(&error)).ok()?;
+                return None;
+            }
+        };
+        for (largest, x) in residuals.iter_mut().zip(report.violation) {
+            *largest = if x > *largest { x } else { *largest };
+        }
+        if step % TOLD == 0 {
+            tell(out, format_args!("s {step}"), solver.coordinates())?;
+            tell(out, format_args!("v {step}"), solver.velocities())?;
+        }
+    }
+    tell(out, format_args!("r"), &residuals)?;
+    writeln!(out, "n {least} {} {most}", sum / u64::from(STEPS)).ok()?;
+    writeln!(out, "z {}", size_of::<ModelSolver>()).ok()
+}
+
+/// A line of numbers, as bits.
+fn tell(out: &mut impl Write, what: core::fmt::Arguments<'_>, numbers: &[Scalar]) -> Option<()> {
+    write!(out, "{what}").ok()?;
+    for x in numbers {
+        write!(out, " {:x}", x.to_bits()).ok()?;
+    }
+    writeln!(out).ok()
+}
+
+/// What stopped a step, in a word: names and numbers are for the host.
+fn what(error: &StepError) -> &'static str {
+    match error {
+        StepError::NotFinite { .. } => "not finite",
+        StepError::Singular(_) => "singular",
+        StepError::RankLost { .. } => "rank lost",
+        StepError::Tables => "tables",
+        _ => "stopped",
+    }
+}

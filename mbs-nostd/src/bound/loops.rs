@@ -1,0 +1,146 @@
+//! Operations of closed loops: m rows of a loop, f freedoms of a joint on its way, N numbers of a motion.
+//!
+//! ```text
+//! passing a joint     m (pass + N·N + shift + 2 f),   pairs m m' f
+//! at the ancestor     m³/6 for Λ, m²/2 rows of N + 1 numbers, m (N + 1) and a square of N numbers each, couplings m m' (m/2 + N + 1)
+//! ```
+
+use super::{Operations, count, joints};
+use mbs_core::Real;
+use mbs_recursive::mechanism::Mechanism;
+use mbs_recursive::rows::Row;
+use mbs_recursive::space::{Numbers, Space};
+
+const fn ops(products: u64, sums: u64) -> Operations {
+    Operations::new(products, sums)
+}
+
+/// Numbers of a motion.
+const fn motion<T: Real, S: Space<T>>() -> u64 {
+    count(S::Motion::N)
+}
+
+/// 1 + 2 + ... + (n − 1).
+const fn below(n: u64) -> u64 {
+    n * n.saturating_sub(1) / 2
+}
+
+/// J a + bias of so many rows, with the scale of its parts.
+pub(super) fn residual<T: Real, S: Space<T>>(rows: u64) -> Operations {
+    let n = motion::<T, S>();
+    ops(4 * n, 2 * (n - 1) + 2 + 2 * n + 2) * rows
+}
+
+/// Values, rates, gradients and biases of all rows.
+pub(super) fn rows<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operations {
+    let is_spatial = S::DIMENSION == 3;
+    let ends = if is_spatial { ops(54, 51) } else { ops(20, 18) };
+    let mut sum = ends * count(m.loops.loops.len());
+    for row in m.loops.rows {
+        sum += match (row, is_spatial) {
+            (Row::Coincidence { .. }, true) => ops(24, 17),
+            (Row::Coincidence { .. }, false) => ops(10, 7),
+            (Row::Gap { .. }, true) => ops(64, 46),
+            (Row::Gap { .. }, false) => ops(29, 18),
+            (Row::Dot { .. }, true) => ops(85, 55),
+            (Row::Dot { .. }, false) => ops(37, 17),
+            (Row::Length { .. }, true) => ops(40, 25).and(1, 0, 0),
+            (Row::Length { .. }, false) => ops(22, 12).and(1, 0, 0),
+        };
+    }
+    sum
+}
+
+/// Passing all joints, elimination at the ancestors, and opening.
+pub(super) fn evaluation<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operations {
+    let n = motion::<T, S>();
+    let gathered = if S::DIMENSION == 3 { ops(6, 6) } else { ops(2, 2) };
+    let square = if S::DIMENSION == 3 { ops(27, 21) } else { ops(9, 6) };
+    let lap_rows = |lap: u32| m.loops.loops.get(lap as usize).map_or(0, |lap| u64::from(lap.n));
+    let plan = &m.loops.plan;
+    let mut sum = opening(m);
+    for (station, link) in plan.stations.iter().zip(m.links) {
+        let f = count(link.kind.n_freedoms::<T, S>());
+        for pass in plan.passes.get(station.passes.range()).unwrap_or(&[]) {
+            let row = joints::pass::<T, S>(link.kind) + ops(n, n + 1) + gathered;
+            sum += (row + ops(2 * f, 2 * f + 1)) * lap_rows(pass.lap);
+        }
+        for pair in plan.pairs.get(station.pairs.range()).unwrap_or(&[]) {
+            let rows = |pass: u32| plan.passes.get(pass as usize).map_or(0, |p| lap_rows(p.lap));
+            sum += ops(f, f + 1) * (rows(pair.row) * rows(pair.column));
+        }
+    }
+    for (i, station) in plan.stations.iter().enumerate() {
+        for end in plan.ends.get(station.ends.range()).unwrap_or(&[]) {
+            let rows = lap_rows(end.lap);
+            let pairs = below(rows);
+            sum += ops(0, n) * rows;
+            // Λ = C Cᵀ: 1 + ... of the inner products, pivots, quotients.
+            let inner = rows * (rows + 1) * rows.saturating_sub(1) / 6;
+            sum += ops(inner + rows, inner + rows).and(pairs + rows, rows, 0);
+            sum += ops(n + 1, n + 1) * pairs + ops(n + 1, 0).and(1, 0, 0) * rows;
+            sum += if i == 0 { ops(n, n) * rows } else { (square + ops(n, n)) * rows };
+            for coupling in plan.couplings.get(end.couplings.range()).unwrap_or(&[]) {
+                let later = lap_rows(coupling.lap);
+                let carried = if i == 0 { Operations::NONE } else { ops(n, n) };
+                sum += ops(pairs, pairs) * later;
+                sum += (carried + ops(1, 1).and(1, 0, 0)) * (later * rows);
+            }
+            for update in plan.updates.get(end.updates.range()).unwrap_or(&[]) {
+                let of = |coupling: u32| {
+                    plan.couplings.get(coupling as usize).map_or(0, |c| lap_rows(c.lap))
+                };
+                sum += ops(rows, rows + 1) * (of(update.row) * of(update.column));
+            }
+        }
+    }
+    sum
+}
+
+/// Passing and elimination of l alone, and opening.
+pub(super) fn response<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operations {
+    let n = motion::<T, S>();
+    let lap_rows = |lap: u32| m.loops.loops.get(lap as usize).map_or(0, |lap| u64::from(lap.n));
+    let plan = &m.loops.plan;
+    let mut sum = opening(m);
+    for (i, (station, link)) in plan.stations.iter().zip(m.links).enumerate() {
+        let f = count(link.kind.n_freedoms::<T, S>());
+        for pass in plan.passes.get(station.passes.range()).unwrap_or(&[]) {
+            sum += ops(f, f + 1) * lap_rows(pass.lap);
+        }
+        for end in plan.ends.get(station.ends.range()).unwrap_or(&[]) {
+            let rows = lap_rows(end.lap);
+            sum += ops(below(rows), below(rows)).and(rows, 0, 0);
+            if i > 0 {
+                sum += ops(n, n) * rows;
+            }
+            for coupling in plan.couplings.get(end.couplings.range()).unwrap_or(&[]) {
+                sum += ops(rows, rows + 1) * lap_rows(coupling.lap);
+            }
+        }
+    }
+    sum
+}
+
+/// λ of all loops, and what joints are held back by.
+fn opening<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operations {
+    let n = motion::<T, S>();
+    let lap_rows = |lap: u32| m.loops.loops.get(lap as usize).map_or(0, |lap| u64::from(lap.n));
+    let plan = &m.loops.plan;
+    let mut sum = Operations::NONE;
+    for (i, (station, link)) in plan.stations.iter().zip(m.links).enumerate() {
+        let f = count(link.kind.n_freedoms::<T, S>());
+        for pass in plan.passes.get(station.passes.range()).unwrap_or(&[]) {
+            sum += ops(f, f) * lap_rows(pass.lap);
+        }
+        for end in plan.ends.get(station.ends.range()).unwrap_or(&[]) {
+            let rows = lap_rows(end.lap);
+            sum += if i == 0 { ops(0, 1) } else { ops(n, n) } * rows;
+            sum += ops(below(rows), below(rows)).and(rows, 0, 0);
+            for coupling in plan.couplings.get(end.couplings.range()).unwrap_or(&[]) {
+                sum += ops(1, 1) * (rows * lap_rows(coupling.lap));
+            }
+        }
+    }
+    sum
+}

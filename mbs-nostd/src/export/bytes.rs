@@ -1,0 +1,92 @@
+//! A model as bytes, as `Tables::read` reads them.
+
+use crate::model::Model;
+use crate::record::{Axes, Record};
+use crate::tables::HEAD;
+use alloc::vec::Vec;
+use mbs_core::Real;
+
+/// Bytes being written.
+#[derive(Debug, Clone, Default)]
+pub struct Bytes {
+    bytes: Vec<u8>,
+    is_single: bool,
+}
+
+impl Bytes {
+    /// Adds some.
+    pub(crate) fn put(&mut self, bytes: &[u8]) {
+        self.bytes.extend_from_slice(bytes);
+    }
+
+    /// Adds a real number, in the precision of the text.
+    #[allow(clippy::cast_possible_truncation, reason = "the nearest number of this precision")]
+    pub(crate) fn put_real(&mut self, x: f64) {
+        if self.is_single {
+            self.put(&(x as f32).to_le_bytes());
+        } else {
+            self.put(&x.to_le_bytes());
+        }
+    }
+
+    /// A list with its length first; false if an entry cannot be written.
+    fn list<X: Record>(&mut self, list: &[X]) -> bool {
+        list.len().write(self) && list.iter().all(|entry| entry.write(self))
+    }
+}
+
+/// The bytes of a model, in single or double precision; `None` if it has an effect that cannot be written, as a law of a user's own.
+#[must_use]
+pub fn bytes<T: Real + Record, S: Axes<T>>(
+    model: &Model<'_, T, S>,
+    is_single: bool,
+) -> Option<Vec<u8>> {
+    let m = &model.mechanism;
+    let (plan, laws, begin) = (&m.loops.plan, &model.prescriptions, &model.beginning);
+    let to = &mut Bytes { bytes: Vec::new(), is_single };
+    let width = if is_single { 4 } else { 8 };
+    let done = HEAD.write(to)
+        && [S::DIMENSION, width].write(to)
+        && to.list(m.links)
+        && to.list(plan.stations)
+        && to.list(m.loops.loops)
+        && to.list(m.loops.rows)
+        && to.list(plan.passes)
+        && to.list(plan.pairs)
+        && to.list(plan.ends)
+        && to.list(plan.couplings)
+        && to.list(plan.updates)
+        && to.list(m.loads)
+        && law_tables(m.tables, to)
+        && to.list(laws.guides)
+        && to.list(laws.courses)
+        && to.list(laws.knots.0)
+        && to.list(laws.knots.1)
+        && to.list(laws.rows)
+        && to.list(model.rungs)
+        && to.list(begin.z)
+        && to.list(begin.v)
+        && to.list(begin.a)
+        && m.loops.floor.write(to)
+        && m.gravity.write(to)
+        && m.base.write(to)
+        && m.length.write(to)
+        && [m.n_coordinates, m.n_freedoms].write(to)
+        && begin.t.write(to);
+    done.then(|| core::mem::take(&mut to.bytes))
+}
+
+/// The tables of laws; empty lists where an effect is left out.
+fn law_tables<T: Real + Record>(tables: mbs_core::laws::Supplies<'_, T>, to: &mut Bytes) -> bool {
+    #[cfg(not(any(feature = "polynomial", feature = "tire")))]
+    let _ = tables;
+    #[cfg(feature = "polynomial")]
+    let pieces = to.list(tables.pieces);
+    #[cfg(not(feature = "polynomial"))]
+    let pieces = to.list::<u32>(&[]);
+    #[cfg(feature = "tire")]
+    let roads = to.list(tables.features) && to.list(tables.knots.0) && to.list(tables.knots.1);
+    #[cfg(not(feature = "tire"))]
+    let roads = (0..3).all(|_| to.list::<u32>(&[]));
+    pieces && roads
+}

@@ -1,0 +1,169 @@
+//! A tree's tables in the order in which its effects may be dropped.
+
+use crate::inputs::{CourseLaw, GuideLaw, Prescriptions};
+use crate::model::{Beginning, Model};
+use alloc::vec::Vec;
+use mbs_core::Real;
+use mbs_core::inputs::Prescribed;
+use mbs_core::laws::Part;
+use mbs_core::laws::body::BodyLaw;
+use mbs_core::laws::scalar::Law;
+use mbs_core::scene::{Course, GuideLaw as SceneLaw};
+use mbs_recursive::loads::Load;
+use mbs_recursive::mechanism::Mechanism;
+use mbs_recursive::space::Space;
+use mbs_recursive::{TreeModel, TreeState};
+
+/// A model whose tables are partly those of a tree, partly its own.
+#[derive(Debug, Clone)]
+pub struct Gathered<'a, T: Real, S: Space<T>> {
+    mechanism: Mechanism<'a, T, S>,
+    loads: Vec<Load<T, S>>,
+    state: &'a TreeState<T>,
+    guides: Vec<GuideLaw<T>>,
+    courses: Vec<CourseLaw<T>>,
+    knots: Vec<[T; 2]>,
+    curvatures: Vec<T>,
+    rows: Vec<[T; 4]>,
+    rungs: Vec<u32>,
+}
+
+fn index(i: usize) -> u32 {
+    u32::try_from(i).unwrap_or(u32::MAX)
+}
+
+impl<'a, T: Real, S: Space<T>> Gathered<'a, T, S> {
+    /// Gathers a tree's tables and a state to begin from. `ladder` names effects of the scene by index, the one to be dropped first
+    /// in front; each has a rung.
+    #[must_use]
+    pub fn new(tree: &'a TreeModel<T, S>, state: &'a TreeState<T>, ladder: &[usize]) -> Self {
+        let mechanism = tree.mechanism();
+        let mut model = Self {
+            mechanism,
+            loads: Vec::new(),
+            state,
+            guides: Vec::new(),
+            courses: Vec::new(),
+            knots: Vec::new(),
+            curvatures: Vec::new(),
+            rows: Vec::new(),
+            rungs: Vec::new(),
+        };
+        model.order(tree.effect_of_load(), ladder);
+        model.prescribe(tree.prescribed());
+        model
+    }
+
+    /// The effects that stay, in the order of the scene; behind them those of the ladder, the first to be dropped last.
+    fn order(&mut self, effects: &[usize], ladder: &[usize]) {
+        let loads = self.mechanism.loads;
+        let with = |wanted: &dyn Fn(usize) -> bool| -> Vec<Load<T, S>> {
+            let both = loads.iter().zip(effects);
+            both.filter(|(_, effect)| wanted(**effect)).map(|(load, _)| *load).collect()
+        };
+        self.loads = with(&|effect| !ladder.contains(&effect));
+        for &dropped in ladder.iter().rev() {
+            self.rungs.push(index(self.loads.len()));
+            self.loads.extend(with(&|effect| effect == dropped));
+        }
+        self.rungs.reverse();
+    }
+
+    fn prescribe(&mut self, prescribed: &Prescribed<T>) {
+        for guide in prescribed.guides() {
+            let law = match guide.law() {
+                SceneLaw::Input(motion) => GuideLaw::Input(*motion),
+                SceneLaw::Sine { amplitude, frequency, phase } => {
+                    GuideLaw::Sine { amplitude: *amplitude, frequency: *frequency, phase: *phase }
+                }
+                SceneLaw::Ramp { rate } => GuideLaw::Ramp { rate: *rate },
+                SceneLaw::Table(table) => {
+                    let first = index(self.knots.len());
+                    self.knots.extend_from_slice(table);
+                    self.curvatures.extend_from_slice(guide.curvature());
+                    GuideLaw::Table(Part { first, n: index(table.len()) })
+                }
+            };
+            self.guides.push(law);
+        }
+        for (_, course) in prescribed.courses() {
+            let law = match (course.speed(), course.course()) {
+                (Some(speed), _) => CourseLaw::Travel(speed),
+                (None, Course::Constant(value)) => CourseLaw::Constant(*value),
+                (None, Course::Input(value)) => CourseLaw::Input(*value),
+                (None, Course::Table(table)) => {
+                    let first = index(self.rows.len());
+                    self.rows.extend(table.iter().map(|&(t, [x, y, z])| [t, x, y, z]));
+                    CourseLaw::Table(Part { first, n: index(table.len()) })
+                }
+            };
+            self.courses.push(law);
+        }
+    }
+
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> Model<'_, T, S> {
+        Model {
+            mechanism: Mechanism { loads: &self.loads, ..self.mechanism },
+            prescriptions: Prescriptions {
+                guides: &self.guides,
+                courses: &self.courses,
+                knots: (&self.knots, &self.curvatures),
+                rows: &self.rows,
+            },
+            beginning: Beginning {
+                t: self.state.t,
+                z: &self.state.z,
+                v: &self.state.v,
+                a: &self.state.a,
+            },
+            rungs: &self.rungs,
+        }
+    }
+}
+
+/// The features that the effects of a model need.
+#[must_use]
+pub fn needs<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> Vec<&'static str> {
+    let mut needed = Vec::new();
+    for load in model.mechanism.loads {
+        let feature = match load {
+            Load::Between { law, .. } | Load::Angle { law, .. } => of_law(law),
+            Load::OnBody(load) => of_body_law(&load.law),
+            _ => None,
+        };
+        needed.extend(feature);
+    }
+    needed.sort_unstable();
+    needed.dedup();
+    needed
+}
+
+#[allow(unreachable_patterns, reason = "some effects may be left out")]
+fn of_law<T: Real>(law: &Law<T>) -> Option<&'static str> {
+    match law {
+        #[cfg(feature = "polynomial")]
+        Law::Polynomial { .. } => Some("polynomial"),
+        #[cfg(feature = "bumper")]
+        Law::Bumper { .. } => Some("bumper"),
+        #[cfg(feature = "limit")]
+        Law::Limit(_) => Some("limit"),
+        #[cfg(feature = "friction")]
+        Law::Friction(_) => Some("friction"),
+        _ => None,
+    }
+}
+
+#[allow(unreachable_patterns, reason = "some effects may be left out")]
+fn of_body_law<T: Real>(law: &BodyLaw<T>) -> Option<&'static str> {
+    match law {
+        #[cfg(feature = "drag")]
+        BodyLaw::Drag { .. } => Some("drag"),
+        #[cfg(feature = "speed-hold")]
+        BodyLaw::SpeedHold(_) => Some("speed-hold"),
+        #[cfg(feature = "tire")]
+        BodyLaw::Tire(_) => Some("tire"),
+        _ => None,
+    }
+}

@@ -1,0 +1,216 @@
+//! A model as a file of Rust: constant tables, and a solver of just their size.
+
+use super::gather::needs;
+use crate::check::{Checked, LoadError};
+use crate::model::Model;
+use crate::record::{Axes, Record};
+use alloc::format;
+use alloc::string::String;
+use mbs_core::Real;
+
+/// Begins an expression of a struct.
+pub(crate) fn open(name: &str, to: &mut String) {
+    to.push_str(name);
+    to.push('\u{1}');
+}
+
+/// Begins a field: by name, or by its place in a tuple.
+pub(crate) fn name(field: &str, to: &mut String) {
+    let is_tuple = field.starts_with(|c: char| c.is_ascii_digit());
+    let opens = to.ends_with('\u{1}');
+    if opens {
+        to.pop();
+    }
+    match (opens, is_tuple) {
+        (true, true) => to.push_str("(\u{2}"),
+        (true, false) => to.push_str(" { \u{3}"),
+        (false, _) => to.push_str(", "),
+    }
+    if !is_tuple {
+        to.push_str(field);
+        to.push_str(": ");
+    }
+}
+
+/// Ends an expression of a struct.
+pub(crate) fn close(to: &mut String) {
+    if to.ends_with('\u{1}') {
+        to.pop();
+        return;
+    }
+    // The innermost expression that is still open says how it ends.
+    let tuple = to.rfind('\u{2}');
+    let named = to.rfind('\u{3}');
+    let (at, end) = if tuple > named { (tuple, ")") } else { (named, " }") };
+    if let Some(at) = at {
+        to.remove(at);
+        to.push_str(end);
+    }
+}
+
+/// A constant table.
+fn table<X: Record>(name: &str, of: &str, list: &[X], to: &mut String) {
+    to.push_str(&format!("static {name}: [{of}; {}] = [", list.len()));
+    for entry in list {
+        to.push_str("\n    ");
+        entry.source(to);
+        to.push(',');
+    }
+    to.push_str(if list.is_empty() { "];\n" } else { "\n];\n" });
+}
+
+/// The value of a field.
+fn value<X: Record>(x: &X) -> String {
+    let mut text = String::new();
+    x.source(&mut text);
+    text
+}
+
+/// The source of a model in single or double precision, to be included as a module of a crate that depends on mbs-nostd. `title`
+/// says what it is of. Decimal texts keep the precision of the model, and are rounded once, by the compiler.
+///
+/// # Errors
+/// What [`Checked::new`] says; a law of a user's own is left as a word that does not compile.
+pub fn source<T: Real + Record, S: Axes<T>>(
+    model: &Model<'_, T, S>,
+    (title, is_single): (&str, bool),
+) -> Result<String, LoadError> {
+    let sizes = Checked::new(model)?.sizes();
+    let m = &model.mechanism;
+    let scalar = if is_single { "f32" } else { "f64" };
+    let space = if S::DIMENSION == 3 { "Spatial" } else { "Planar" };
+    let features = needs(model).join(", ");
+    let features = if features.is_empty() { "none".into() } else { features };
+    let mut to = format!(
+        "// {title}, as constant tables for mbs-nostd; written by `mbs export`, not by hand.\n\
+         // Features of mbs-nostd that its effects need: {features}.\n\
+         \n\
+         use mbs_nostd::table::*;\n\
+         \n\
+         /// Precision of the tables.\n\
+         pub type Scalar = {scalar};\n\
+         /// Plane or space.\n\
+         pub type Axes = {space};\n\
+         /// A solver of just the size of [`MODEL`]: {} links with the ground, {} coordinates, {} freedoms, {} rows of loops.\n\
+         pub type ModelSolver = Solver<Scalar, Axes, {}, {}, {}, {}, {}, {}, {}, {}>;\n\n",
+        sizes.links,
+        sizes.coordinates,
+        sizes.freedoms,
+        sizes.rows,
+        sizes.links,
+        sizes.coordinates,
+        sizes.freedoms,
+        sizes.rows,
+        sizes.blocks,
+        sizes.gains,
+        sizes.guides,
+        sizes.courses
+    );
+    lists(model, &mut to);
+    let supplies = supplies(m.tables, &mut to);
+    constant(model, &supplies, &mut to);
+    Ok(to)
+}
+
+/// The constant that holds all tables.
+fn constant<T: Real + Record, S: Axes<T>>(
+    model: &Model<'_, T, S>,
+    supplies: &str,
+    to: &mut String,
+) {
+    let m = &model.mechanism;
+    to.push_str(&format!(
+        "/// The model.\n\
+         pub static MODEL: Model<'static, Scalar, Axes> = Model {{\n\
+         \x20   mechanism: Mechanism {{\n\
+         \x20       links: &LINKS,\n\
+         \x20       loops: Loops {{\n\
+         \x20           loops: &LOOPS,\n\
+         \x20           rows: &ROWS,\n\
+         \x20           plan: Plan {{\n\
+         \x20               stations: &STATIONS,\n\
+         \x20               passes: &PASSES,\n\
+         \x20               pairs: &PAIRS,\n\
+         \x20               ends: &ENDS,\n\
+         \x20               couplings: &COUPLINGS,\n\
+         \x20               updates: &UPDATES,\n\
+         \x20           }},\n\
+         \x20           floor: {},\n\
+         \x20       }},\n\
+         \x20       loads: &LOADS,\n\
+         \x20       tables: {supplies},\n\
+         \x20       gravity: {},\n\
+         \x20       base: {},\n\
+         \x20       length: {},\n\
+         \x20       n_coordinates: {},\n\
+         \x20       n_freedoms: {},\n\
+         \x20   }},\n\
+         \x20   prescriptions: Prescriptions {{\n\
+         \x20       guides: &GUIDES,\n\
+         \x20       courses: &COURSES,\n\
+         \x20       knots: (&KNOTS, &CURVATURES),\n\
+         \x20       rows: &COURSE_ROWS,\n\
+         \x20   }},\n\
+         \x20   beginning: Beginning {{ t: {}, z: &Z, v: &V, a: &A }},\n\
+         \x20   rungs: &RUNGS,\n\
+         }};\n",
+        value(&m.loops.floor),
+        value(&m.gravity),
+        value(&m.base),
+        value(&m.length),
+        m.n_coordinates,
+        m.n_freedoms,
+        value(&model.beginning.t),
+    ));
+}
+
+/// All tables but those of laws.
+fn lists<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>, to: &mut String) {
+    let m = &model.mechanism;
+    let (plan, laws, begin) = (&m.loops.plan, &model.prescriptions, &model.beginning);
+    table("LINKS", "Link<Scalar, Axes>", m.links, to);
+    table("LOOPS", "Loop<Scalar, Axes>", m.loops.loops, to);
+    table("ROWS", "Row<Scalar, Axes>", m.loops.rows, to);
+    table("STATIONS", "Station", plan.stations, to);
+    table("PASSES", "Pass", plan.passes, to);
+    table("PAIRS", "Pair", plan.pairs, to);
+    table("ENDS", "End", plan.ends, to);
+    table("COUPLINGS", "Coupling", plan.couplings, to);
+    table("UPDATES", "Update", plan.updates, to);
+    table("LOADS", "Load<Scalar, Axes>", m.loads, to);
+    table("GUIDES", "GuideLaw<Scalar>", laws.guides, to);
+    table("COURSES", "CourseLaw<Scalar>", laws.courses, to);
+    table("KNOTS", "[Scalar; 2]", laws.knots.0, to);
+    table("CURVATURES", "Scalar", laws.knots.1, to);
+    table("COURSE_ROWS", "[Scalar; 4]", laws.rows, to);
+    table("RUNGS", "u32", model.rungs, to);
+    table("Z", "Scalar", begin.z, to);
+    table("V", "Scalar", begin.v, to);
+    table("A", "Scalar", begin.a, to);
+}
+
+/// The tables of laws that are not empty, and the expression that holds them.
+fn supplies<T: Real + Record>(tables: mbs_core::laws::Supplies<'_, T>, to: &mut String) -> String {
+    #[allow(unused_mut, reason = "some effects have tables")]
+    let mut sets = String::new();
+    #[cfg(feature = "polynomial")]
+    if !tables.pieces.is_empty() {
+        table("PIECES", "Piece<Scalar>", tables.pieces, to);
+        sets.push_str("tables.pieces = &PIECES; ");
+    }
+    #[cfg(feature = "tire")]
+    if !tables.features.is_empty() {
+        table("FEATURES", "Feature<Scalar>", tables.features, to);
+        table("ROAD_KNOTS", "[Scalar; 2]", tables.knots.0, to);
+        table("ROAD_CURVATURES", "Scalar", tables.knots.1, to);
+        sets.push_str(
+            "tables.features = &FEATURES; tables.knots = (&ROAD_KNOTS, &ROAD_CURVATURES); ",
+        );
+    }
+    let _ = (tables, to);
+    if sets.is_empty() {
+        "Supplies::courses(&[])".into()
+    } else {
+        format!("{{ let mut tables = Supplies::courses(&[]); {sets}tables }}")
+    }
+}

@@ -1,0 +1,138 @@
+//! Guides and courses: functions of time from tables, or values written between steps.
+
+use mbs_core::Real;
+use mbs_core::laws::{Part, guide};
+use mbs_recursive::mechanism::Inputs;
+
+/// A guide as a function of time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum GuideLaw<T> {
+    /// Value, rate and acceleration written between steps; these at the start.
+    Input([T; 3]),
+    /// amplitude sin(2 pi frequency t + phase).
+    Sine {
+        /// [rad or m].
+        amplitude: T,
+        /// [Hz].
+        frequency: T,
+        /// [rad].
+        phase: T,
+    },
+    /// rate t.
+    Ramp {
+        /// [rad/s or m/s].
+        rate: T,
+    },
+    /// Natural cubic spline through a part of the knots.
+    Table(Part),
+}
+
+/// The vector of an effect as a function of time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CourseLaw<T> {
+    /// Written between steps; this at the start.
+    Input([T; 3]),
+    /// Always the same.
+    Constant([T; 3]),
+    /// Way and speed of a road that moves: (speed t, speed, 0) [m/s].
+    Travel(T),
+    /// A part of the rows, linear between them.
+    Table(Part),
+}
+
+/// All guides and courses of a model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prescriptions<'a, T> {
+    /// The guides.
+    pub guides: &'a [GuideLaw<T>],
+    /// The courses.
+    pub courses: &'a [CourseLaw<T>],
+    /// Knots (time, value) of the guides, and the second derivatives there.
+    pub knots: (&'a [[T; 2]], &'a [T]),
+    /// Rows (time, vector) of the courses.
+    pub rows: &'a [[T; 4]],
+}
+
+/// What was written between steps: a place for each guide and each course, read where it is an input.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Values<const G: usize, const C: usize, T> {
+    pub(crate) guides: [[T; 3]; G],
+    pub(crate) courses: [[T; 3]; C],
+}
+
+impl<T: Real, const G: usize, const C: usize> Values<G, C, T> {
+    /// The inputs at the start.
+    pub(crate) fn new(from: &Prescriptions<'_, T>) -> Self {
+        let mut values = Self { guides: [[T::ZERO; 3]; G], courses: [[T::ZERO; 3]; C] };
+        for (to, law) in values.guides.iter_mut().zip(from.guides) {
+            if let GuideLaw::Input(first) = law {
+                *to = *first;
+            }
+        }
+        for (to, law) in values.courses.iter_mut().zip(from.courses) {
+            if let CourseLaw::Input(first) = law {
+                *to = *first;
+            }
+        }
+        values
+    }
+}
+
+/// Laws and written values together: what a step asks for.
+#[derive(Debug)]
+pub(crate) struct Written<'a, T> {
+    pub(crate) laws: Prescriptions<'a, T>,
+    pub(crate) guides: &'a [[T; 3]],
+    pub(crate) courses: &'a [[T; 3]],
+}
+
+impl<T: Real> Inputs<T> for Written<'_, T> {
+    fn evaluate(&self, t: T, guides: &mut [[T; 3]], courses: &mut [[T; 3]]) {
+        for ((to, law), &written) in guides.iter_mut().zip(self.laws.guides).zip(self.guides) {
+            *to = guide_at(law, &self.laws, written, t);
+        }
+        for ((to, law), &written) in courses.iter_mut().zip(self.laws.courses).zip(self.courses) {
+            *to = course_at(law, &self.laws, written, t);
+        }
+    }
+}
+
+fn guide_at<T: Real>(
+    law: &GuideLaw<T>,
+    laws: &Prescriptions<'_, T>,
+    written: [T; 3],
+    t: T,
+) -> [T; 3] {
+    let motion = match law {
+        GuideLaw::Input(_) => return written,
+        GuideLaw::Sine { amplitude, frequency, phase } => {
+            guide::sine(*amplitude, *frequency, *phase, t)
+        }
+        GuideLaw::Ramp { rate } => guide::ramp(*rate, t),
+        GuideLaw::Table(part) => guide::spline(part.of(laws.knots.0), part.of(laws.knots.1), t),
+    };
+    [motion.value, motion.rate, motion.acceleration]
+}
+
+fn course_at<T: Real>(
+    law: &CourseLaw<T>,
+    laws: &Prescriptions<'_, T>,
+    written: [T; 3],
+    t: T,
+) -> [T; 3] {
+    let rows = match law {
+        CourseLaw::Input(_) => return written,
+        CourseLaw::Constant(value) => return *value,
+        CourseLaw::Travel(speed) => return [*speed * t, *speed, T::ZERO],
+        CourseLaw::Table(part) => part.of(laws.rows),
+    };
+    let next = rows.partition_point(|row| row[0] <= t);
+    match (next.checked_sub(1).and_then(|i| rows.get(i)), rows.get(next)) {
+        (Some([t0, x0, y0, z0]), Some([t1, x1, y1, z1])) => {
+            let s = (t - *t0) / (*t1 - *t0);
+            [*x0 + (*x1 - *x0) * s, *y0 + (*y1 - *y0) * s, *z0 + (*z1 - *z0) * s]
+        }
+        (Some(&[_, x, y, z]), None) | (None, Some(&[_, x, y, z])) => [x, y, z],
+        (None, None) => [T::ZERO; 3],
+    }
+}

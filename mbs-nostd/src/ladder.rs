@@ -1,0 +1,83 @@
+//! What is done about overruns: effects are dropped rung by rung, and taken up again when there is time.
+
+/// Climbs a rung after steps that ran out of time, and comes down after steps that did not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Ladder {
+    /// Overruns in a row before an effect is dropped.
+    pub patience: u32,
+    /// Steps in time in a row before one is taken up again.
+    pub recovery: u32,
+    rung: u32,
+    overruns: u32,
+    in_time: u32,
+}
+
+impl Default for Ladder {
+    /// Drops at the second overrun in a row, takes up after a thousand steps in time.
+    fn default() -> Self {
+        Self::new(2, 1000)
+    }
+}
+
+impl Ladder {
+    /// On the lowest rung, where all effects are kept. A patience or recovery of zero counts as one.
+    #[must_use]
+    pub const fn new(patience: u32, recovery: u32) -> Self {
+        Self { patience, recovery, rung: 0, overruns: 0, in_time: 0 }
+    }
+
+    /// How many rungs of effects are dropped.
+    #[must_use]
+    pub const fn rung(&self) -> u32 {
+        self.rung
+    }
+
+    /// Takes note of a step; `n_rungs` are there to climb.
+    pub fn note(&mut self, has_overrun: bool, n_rungs: u32) {
+        if has_overrun {
+            self.in_time = 0;
+            self.overruns = self.overruns.saturating_add(1);
+            if self.overruns >= self.patience.max(1) {
+                self.overruns = 0;
+                self.rung = self.rung.saturating_add(1).min(n_rungs);
+            }
+        } else {
+            self.overruns = 0;
+            self.in_time = self.in_time.saturating_add(1);
+            if self.in_time >= self.recovery.max(1) {
+                self.in_time = 0;
+                self.rung = self.rung.saturating_sub(1);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Ladder;
+
+    #[test]
+    fn a_single_overrun_drops_nothing_and_two_in_a_row_climb_a_rung() {
+        let mut ladder = Ladder::new(2, 3);
+        for has_overrun in [true, false, true, false] {
+            ladder.note(has_overrun, 2);
+            assert_eq!(ladder.rung(), 0);
+        }
+        for _ in 0..9 {
+            ladder.note(true, 2);
+        }
+        assert_eq!(ladder.rung(), 2, "no higher than there are rungs");
+    }
+
+    #[test]
+    fn steps_in_time_come_down_again_rung_by_rung() {
+        let mut ladder = Ladder::new(1, 3);
+        ladder.note(true, 2);
+        ladder.note(true, 2);
+        let rungs = [2, 2, 1, 1, 1, 0, 0];
+        for rung in rungs {
+            ladder.note(false, 2);
+            assert_eq!(ladder.rung(), rung);
+        }
+    }
+}

@@ -1,0 +1,28 @@
+#![doc = include_str!("../README.md")]
+#![no_std]
+
+#[cfg(feature = "export")]
+extern crate alloc;
+
+pub mod bound;
+mod check;
+#[cfg(feature = "export")]
+pub mod export;
+mod inputs;
+mod ladder;
+mod model;
+pub mod record;
+mod solver;
+pub mod table;
+mod tables;
+
+pub use check::{Checked, LoadError, Sizes};
+pub use inputs::{CourseLaw, GuideLaw, Prescriptions, Values};
+pub use ladder::Ladder;
+pub use mbs_core::Real;
+pub use mbs_core::step::StepError;
+pub use mbs_recursive::bounded::{BoundedReport, Bounds, Unwatched, Watch};
+pub use mbs_recursive::{Options, Planar, Spatial};
+pub use model::{Beginning, Model};
+pub use solver::Solver;
+pub use tables::Tables;

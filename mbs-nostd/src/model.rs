@@ -1,0 +1,33 @@
+//! [`Model`]: a scene as constant tables.
+
+use crate::inputs::Prescriptions;
+use mbs_core::Real;
+use mbs_recursive::mechanism::Mechanism;
+use mbs_recursive::space::Space;
+
+/// A scene as tables, in flash or in memory of the caller's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Model<'a, T: Real, S: Space<T>> {
+    /// Links, loops, effects and gravity.
+    pub mechanism: Mechanism<'a, T, S>,
+    /// Guides and courses as functions of time, or as inputs.
+    pub prescriptions: Prescriptions<'a, T>,
+    /// The state to start from.
+    pub beginning: Beginning<'a, T>,
+    /// How many of the effects are kept at each rung of the degrade ladder, fewer on each: the least needed stand last. Empty: all
+    /// are always kept.
+    pub rungs: &'a [u32],
+}
+
+/// A consistent state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beginning<'a, T> {
+    /// Time [s].
+    pub t: T,
+    /// Coordinates.
+    pub z: &'a [T],
+    /// Velocities.
+    pub v: &'a [T],
+    /// Accelerations.
+    pub a: &'a [T],
+}

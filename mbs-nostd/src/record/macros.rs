@@ -1,0 +1,87 @@
+//! What turns a list of fields into reading, writing and source.
+
+/// A struct, by its fields.
+macro_rules! record_struct {
+    ([$($bounds:tt)*] $type:ty = $name:ident { $($field:tt),* $(,)? }) => {
+        impl<$($bounds)*> $crate::record::Record for $type {
+            fn read(
+                from: &mut $crate::record::Reader<'_>,
+            ) -> Result<Self, $crate::check::LoadError> {
+                Ok($name { $($field: $crate::record::Record::read(from)?),* })
+            }
+            #[cfg(feature = "export")]
+            fn write(&self, to: &mut $crate::export::Bytes) -> bool {
+                $($crate::record::Record::write(&self.$field, to))&&*
+            }
+            #[cfg(feature = "export")]
+            fn source(&self, to: &mut alloc::string::String) {
+                $crate::export::open(stringify!($name), to);
+                $(
+                    $crate::export::name(stringify!($field), to);
+                    $crate::record::Record::source(&self.$field, to);
+                )*
+                $crate::export::close(to);
+            }
+        }
+    };
+}
+
+/// An enum, by its variants, their numbers and their fields: a name for each field, or its place.
+macro_rules! record_enum {
+    ([$($bounds:tt)*] $type:ty = $name:ident {
+        $($(#[$meta:meta])* $tag:literal $variant:ident { $($field:tt $own:ident),* }),* $(,)?
+    }) => {
+        impl<$($bounds)*> $crate::record::Record for $type {
+            fn read(
+                from: &mut $crate::record::Reader<'_>,
+            ) -> Result<Self, $crate::check::LoadError> {
+                match u32::read(from)? {
+                    $(
+                        $(#[$meta])*
+                        $tag => Ok($name::$variant {
+                            $($field: $crate::record::Record::read(from)?),*
+                        }),
+                    )*
+                    _ => Err(from.fault(4)),
+                }
+            }
+            #[cfg(feature = "export")]
+            #[allow(unreachable_patterns, reason = "some effects may be left out")]
+            fn write(&self, to: &mut $crate::export::Bytes) -> bool {
+                match self {
+                    $(
+                        $(#[$meta])*
+                        $name::$variant { $($field: $own),* } => {
+                            let tag: u32 = $tag;
+                            tag.write(to) $(&& $crate::record::Record::write($own, to))*
+                        }
+                    )*
+                    _ => false,
+                }
+            }
+            #[cfg(feature = "export")]
+            #[allow(unreachable_patterns, reason = "some effects may be left out")]
+            fn source(&self, to: &mut alloc::string::String) {
+                match self {
+                    $(
+                        $(#[$meta])*
+                        $name::$variant { $($field: $own),* } => {
+                            $crate::export::open(
+                                concat!(stringify!($name), "::", stringify!($variant)),
+                                to,
+                            );
+                            $(
+                                $crate::export::name(stringify!($field), to);
+                                $crate::record::Record::source($own, to);
+                            )*
+                            $crate::export::close(to);
+                        }
+                    )*
+                    _ => to.push_str("NotExported"),
+                }
+            }
+        }
+    };
+}
+
+pub(super) use {record_enum, record_struct};

@@ -1,0 +1,71 @@
+//! Entries of tables as bytes and as Rust source: each type's fields are listed once.
+//!
+//! ```text
+//! numbers      little endian: u32 for counts and places, four or eight bytes for reals (the text's head says which)
+//! variants     a u32, then their fields
+//! ```
+
+mod laws;
+mod macros;
+mod numbers;
+mod tables;
+
+pub use numbers::Axes;
+
+use crate::check::LoadError;
+
+/// Bytes being read.
+#[derive(Debug, Clone)]
+pub struct Reader<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    is_double: bool,
+}
+
+impl<'a> Reader<'a> {
+    /// Reads from the first byte.
+    #[must_use]
+    pub fn new(bytes: &'a [u8]) -> Self {
+        Self { bytes, at: 0, is_double: true }
+    }
+
+    /// Says how wide reals are from here on.
+    pub(crate) fn set_double(&mut self, is_double: bool) {
+        self.is_double = is_double;
+    }
+
+    /// The next `N` bytes.
+    fn take<const N: usize>(&mut self) -> Result<[u8; N], LoadError> {
+        let rest = self.bytes.get(self.at..).unwrap_or(&[]);
+        let bytes = rest.first_chunk().ok_or(LoadError::Length)?;
+        self.at += N;
+        Ok(*bytes)
+    }
+
+    /// What is no entry begins `back` bytes before.
+    pub(crate) fn fault(&self, back: usize) -> LoadError {
+        LoadError::Record { byte: self.at.saturating_sub(back) }
+    }
+
+    /// Has all been read?
+    pub(crate) fn is_at_end(&self) -> bool {
+        self.at >= self.bytes.len()
+    }
+}
+
+/// An entry of a table.
+pub trait Record: Sized {
+    /// Reads it.
+    ///
+    /// # Errors
+    /// [`LoadError`].
+    fn read(from: &mut Reader<'_>) -> Result<Self, LoadError>;
+
+    /// Writes it as bytes; false if it cannot be written.
+    #[cfg(feature = "export")]
+    fn write(&self, to: &mut crate::export::Bytes) -> bool;
+
+    /// Writes it as an expression of Rust.
+    #[cfg(feature = "export")]
+    fn source(&self, to: &mut alloc::string::String);
+}

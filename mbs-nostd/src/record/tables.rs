@@ -1,0 +1,70 @@
+//! Links, loops, rows, the plan of elimination, loads.
+
+use super::macros::{record_enum, record_struct};
+use super::{Axes, Record};
+use crate::inputs::{CourseLaw, GuideLaw};
+use mbs_core::Real;
+use mbs_core::laws::Part;
+use mbs_recursive::link::{Kind, Link};
+use mbs_recursive::loads::{Gauge, Load, OnBody};
+use mbs_recursive::plan::{Coupling, End, Pair, Pass, Span, Station, Update};
+use mbs_recursive::rows::{Loop, Row};
+
+record_enum!([] Kind = Kind {
+    0 Revolute {}, 1 Prismatic {}, 2 Ball {}, 3 Free {}, 4 GuidedRevolute {}, 5 GuidedPrismatic {},
+});
+
+record_struct!([T: Real + Record, S: Axes<T>] Link<T, S> = Link {
+    parent, kind, z, v, axis, direction, offset, mass, center, tensor,
+});
+
+record_struct!([T: Real + Record, S: Axes<T>] Loop<T, S> = Loop {
+    links, points, first, n, ancestor, block, joint,
+});
+
+record_enum!([T: Real + Record, S: Axes<T>] Row<T, S> = Row {
+    0 Coincidence { axis axis },
+    1 Gap { direction direction, constant constant },
+    2 Dot { x x, y y, constant constant },
+    3 Length { length length },
+});
+
+record_struct!([] Span = Span { first, end });
+record_struct!([] Station = Station { passes, pairs, ends });
+record_struct!([] Pass = Pass { lap, side, gain });
+record_struct!([] Pair = Pair { row, column, block });
+record_struct!([] End = End { lap, couplings, updates });
+record_struct!([] Coupling = Coupling { lap, side, block });
+record_struct!([] Update = Update { row, column, block });
+record_struct!([] Part = Part { first, n });
+
+record_enum!([T: Real + Record, S: Axes<T>] Load<T, S> = Load {
+    0 Between { links links, gauge gauge, law law },
+    1 Angle { link link, law law },
+    2 Constant { link link, point point, force force },
+    3 Force { link link, point point, course course, turns turns },
+    4 Torque { link link, course course },
+    5 OnBody { 0 load },
+});
+
+record_enum!([T: Real + Record, S: Axes<T>] Gauge<T, S> = Gauge {
+    0 Length { points points },
+    1 Along { points points, direction direction, offset offset },
+    2 Twist { sides sides },
+});
+
+record_struct!([T: Real + Record, S: Axes<T>] OnBody<T, S> = OnBody { link, point, axis, law });
+
+record_enum!([T: Real + Record] GuideLaw<T> = GuideLaw {
+    0 Input { 0 motion },
+    1 Sine { amplitude amplitude, frequency frequency, phase phase },
+    2 Ramp { rate rate },
+    3 Table { 0 part },
+});
+
+record_enum!([T: Real + Record] CourseLaw<T> = CourseLaw {
+    0 Input { 0 value },
+    1 Constant { 0 value },
+    2 Travel { 0 speed },
+    3 Table { 0 part },
+});

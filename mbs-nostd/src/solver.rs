@@ -1,0 +1,298 @@
+//! [`Solver`]: state, scratch and inputs of one model in arrays of fixed capacity, and its step.
+
+use crate::check::{Checked, LoadError, Sizes};
+use crate::inputs::{Values, Written};
+use crate::ladder::Ladder;
+use mbs_core::Real;
+use mbs_core::step::StepError;
+use mbs_recursive::bounded::{self, BoundedReport, Bounds, Watch};
+use mbs_recursive::link::{Condensed, Placed};
+use mbs_recursive::loops::LoopStore;
+use mbs_recursive::mechanism::{Counts, Store};
+use mbs_recursive::space::{Numbers, Space};
+use mbs_recursive::trapezoidal::Start;
+use mbs_recursive::{Options, Outside};
+
+/// State, scratch and inputs of a model with at most `L` links (the ground among them), `Z` coordinates, `V` freedoms, `R`
+/// rows of loops, `B` numbers in blocks of Λ, `N` gains, `G` guides and `C` courses.
+///
+/// Its size is about 130 numbers for each link, 46 for each row, 10 for each freedom, and one for each of the others.
+#[derive(Debug, Clone)]
+pub struct Solver<
+    T: Real,
+    S: Space<T>,
+    const L: usize,
+    const Z: usize,
+    const V: usize,
+    const R: usize,
+    const B: usize,
+    const N: usize,
+    const G: usize,
+    const C: usize,
+> {
+    /// Choices for the steps.
+    pub options: Options<T>,
+    /// How much work a step may be.
+    pub bounds: Bounds,
+    /// What is done about overruns.
+    pub ladder: Ladder,
+    sizes: Sizes,
+    t: T,
+    z: [T; Z],
+    v: [T; V],
+    a: [T; V],
+    lambda: [T; R],
+    inputs: Values<G, C, T>,
+    scratch: Scratch<T, S, L, Z, V, R, B, N, G, C>,
+}
+
+#[derive(Debug, Clone)]
+struct Scratch<
+    T: Real,
+    S: Space<T>,
+    const L: usize,
+    const Z: usize,
+    const V: usize,
+    const R: usize,
+    const B: usize,
+    const N: usize,
+    const G: usize,
+    const C: usize,
+> {
+    placed: [Placed<T, S>; L],
+    trial: [Placed<T, S>; L],
+    condensed: [Condensed<T, S>; L],
+    motions: [[S::Motion; L]; 2],
+    /// K as it travels, and at its bodies; both sides.
+    gradients: [[[S::Motion; R]; 2]; 2],
+    rows: [[T; 3]; R],
+    /// l, λ of a sweep, summed λ, scales, pivots.
+    multipliers: [[T; R]; 5],
+    blocks: [T; B],
+    gains: [[T; N]; 2],
+    guides: [[T; 3]; G],
+    courses: [[T; 3]; C],
+    z: [T; Z],
+    /// v, z̈, response, scratch.
+    freedoms: [[T; V]; 4],
+    rank: usize,
+}
+
+impl<
+    T: Real,
+    S: Space<T>,
+    const L: usize,
+    const Z: usize,
+    const V: usize,
+    const R: usize,
+    const B: usize,
+    const N: usize,
+    const G: usize,
+    const C: usize,
+> Solver<T, S, L, Z, V, R, B, N, G, C>
+{
+    /// A solver at the beginning of a model.
+    ///
+    /// # Errors
+    /// [`LoadError::Capacity`] if the model is larger than the solver.
+    pub fn new(model: &Checked<'_, T, S>) -> Result<Self, LoadError> {
+        let sizes = model.sizes();
+        sizes.fit(&Sizes {
+            links: L,
+            coordinates: Z,
+            freedoms: V,
+            rows: R,
+            blocks: B,
+            gains: N,
+            guides: G,
+            courses: C,
+        })?;
+        let zero = S::Motion::zero();
+        let mut solver = Self {
+            options: Options::default(),
+            bounds: Bounds::default(),
+            ladder: Ladder::default(),
+            sizes,
+            t: T::ZERO,
+            z: [T::ZERO; Z],
+            v: [T::ZERO; V],
+            a: [T::ZERO; V],
+            lambda: [T::ZERO; R],
+            inputs: Values::new(&model.model().prescriptions),
+            scratch: Scratch {
+                placed: [Placed::ground(); L],
+                trial: [Placed::ground(); L],
+                condensed: [Condensed::empty(); L],
+                motions: [[zero; L]; 2],
+                gradients: [[[zero; R]; 2]; 2],
+                rows: [[T::ZERO; 3]; R],
+                multipliers: [[T::ZERO; R]; 5],
+                blocks: [T::ZERO; B],
+                gains: [[T::ZERO; N]; 2],
+                guides: [[T::ZERO; 3]; G],
+                courses: [[T::ZERO; 3]; C],
+                z: [T::ZERO; Z],
+                freedoms: [[T::ZERO; V]; 4],
+                rank: 0,
+            },
+        };
+        solver.restart(model);
+        Ok(solver)
+    }
+
+    /// Goes back to the beginning of the model; inputs and choices stay.
+    pub fn restart(&mut self, model: &Checked<'_, T, S>) {
+        let from = &model.model().beginning;
+        self.t = from.t;
+        for (to, from) in [(&mut self.z[..], from.z), (&mut self.v, from.v), (&mut self.a, from.a)]
+        {
+            for (to, from) in to.iter_mut().zip(from) {
+                *to = *from;
+            }
+        }
+    }
+
+    /// Time [s].
+    pub fn time(&self) -> T {
+        self.t
+    }
+
+    /// Coordinates: angles, slides, quaternions; of free bodies rotation, then position.
+    pub fn coordinates(&self) -> &[T] {
+        self.z.get(..self.sizes.coordinates).unwrap_or(&[])
+    }
+
+    /// Velocities.
+    pub fn velocities(&self) -> &[T] {
+        self.v.get(..self.sizes.freedoms).unwrap_or(&[])
+    }
+
+    /// Accelerations that the last step found.
+    pub fn accelerations(&self) -> &[T] {
+        self.a.get(..self.sizes.freedoms).unwrap_or(&[])
+    }
+
+    /// Multipliers of the loops' rows [N, N m].
+    pub fn multipliers(&self) -> &[T] {
+        self.lambda.get(..self.sizes.rows).unwrap_or(&[])
+    }
+
+    /// Writes the vector of a course from now on; says whether there is such a course. It is read if the course is an input.
+    pub fn set_course(&mut self, course: usize, value: [T; 3]) -> bool {
+        let place = self.inputs.courses.get_mut(..self.sizes.courses);
+        place.and_then(|all| all.get_mut(course)).map(|to| *to = value).is_some()
+    }
+
+    /// Writes value, rate and acceleration that a guide has at the end of the next step; says whether there is such a guide. They
+    /// are read if the guide is an input.
+    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> bool {
+        let place = self.inputs.guides.get_mut(..self.sizes.guides);
+        place.and_then(|all| all.get_mut(guide)).map(|to| *to = motion).is_some()
+    }
+
+    /// Advances by one step of length `dt` [s]: work within the bounds, as long as `watch` says that there is time.
+    ///
+    /// The rung of the ladder says which effects act, and takes note of the step.
+    ///
+    /// # Errors
+    /// [`StepError`]; the state is then unchanged. [`StepError::Tables`] if the model is not the solver's.
+    pub fn step(
+        &mut self,
+        model: &Checked<'_, T, S>,
+        dt: T,
+        watch: &mut impl Watch,
+    ) -> Result<BoundedReport<T>, StepError> {
+        if model.sizes() != self.sizes {
+            return Err(StepError::Tables);
+        }
+        let (mechanism, n_rungs) = model.on_rung(self.ladder.rung());
+        let inputs = Written {
+            laws: model.model().prescriptions,
+            guides: &self.inputs.guides,
+            courses: &self.inputs.courses,
+        };
+        let sizes = &self.sizes;
+        let start = Start {
+            t: self.t,
+            z: self.z.get(..sizes.coordinates).unwrap_or(&[]),
+            v: self.v.get(..sizes.freedoms).unwrap_or(&[]),
+            a: self.a.get(..sizes.freedoms).unwrap_or(&[]),
+        };
+        let mut s = self.scratch.store(sizes).map_err(|Outside| StepError::Tables)?;
+        let work = (dt, &self.options, self.bounds);
+        let report = bounded::step(&mechanism, &inputs, work, (start, watch), &mut s)?;
+        // The step has checked the lengths.
+        for (to, from) in [
+            (&mut self.z[..], &*s.z),
+            (&mut self.v, &*s.v),
+            (&mut self.a, &*s.zdd),
+            (&mut self.lambda, &*s.lambda),
+        ] {
+            for (to, from) in to.iter_mut().zip(from) {
+                *to = *from;
+            }
+        }
+        self.t += dt;
+        self.ladder.note(report.is_cut_short, n_rungs);
+        Ok(report)
+    }
+}
+
+/// The first `n` entries.
+#[inline]
+fn first<X>(of: &mut [X], n: usize) -> Result<&mut [X], Outside> {
+    of.get_mut(..n).ok_or(Outside)
+}
+
+impl<
+    T: Real,
+    S: Space<T>,
+    const L: usize,
+    const Z: usize,
+    const V: usize,
+    const R: usize,
+    const B: usize,
+    const N: usize,
+    const G: usize,
+    const C: usize,
+> Scratch<T, S, L, Z, V, R, B, N, G, C>
+{
+    /// The scratch as slices of a model's sizes.
+    fn store(&mut self, n: &Sizes) -> Result<Store<'_, T, S>, Outside> {
+        let [a, a_response] = &mut self.motions;
+        let [k, gradient] = &mut self.gradients;
+        let [l, lambda_response, lambda, scales, pivots] = &mut self.multipliers;
+        let [gains, heads] = &mut self.gains;
+        let [v, zdd, v_response, scratch] = &mut self.freedoms;
+        Ok(Store {
+            placed: first(&mut self.placed, n.links)?,
+            trial: first(&mut self.trial, n.links)?,
+            condensed: first(&mut self.condensed, n.links)?,
+            a: first(a, n.links)?,
+            a_response: first(a_response, n.links)?,
+            v_response: first(v_response, n.freedoms)?,
+            loops: LoopStore {
+                k: first(k.as_flattened_mut(), 2 * n.rows)?,
+                l: first(l, n.rows)?,
+                lambda: first(lambda_response, n.rows)?,
+                blocks: first(&mut self.blocks, n.blocks)?,
+                gains: first(gains, n.gains)?,
+                heads: first(heads, n.gains)?,
+                scales: first(scales, n.rows)?,
+                pivots: first(pivots, n.rows)?,
+            },
+            gradient: first(gradient.as_flattened_mut(), 2 * n.rows)?,
+            rows: first(&mut self.rows, n.rows)?,
+            lambda: first(lambda, n.rows)?,
+            guides: first(&mut self.guides, n.guides)?,
+            courses: first(&mut self.courses, n.courses)?,
+            z: first(&mut self.z, n.coordinates)?,
+            v: first(v, n.freedoms)?,
+            zdd: first(zdd, n.freedoms)?,
+            scratch: first(scratch, n.freedoms)?,
+            history: &mut [],
+            rank: &mut self.rank,
+            counts: Counts::default(),
+        })
+    }
+}

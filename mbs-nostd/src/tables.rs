@@ -1,0 +1,224 @@
+//! [`Tables`]: a model read from bytes into memory of fixed capacity.
+
+use crate::check::{Checked, LoadError, Sizes};
+use crate::inputs::{CourseLaw, GuideLaw, Prescriptions};
+use crate::model::{Beginning, Model};
+use crate::record::{Axes, Reader, Record};
+use heapless::Vec;
+use mbs_core::Real;
+use mbs_core::laws::Supplies;
+#[cfg(feature = "polynomial")]
+use mbs_core::laws::polynomial::Piece;
+#[cfg(feature = "tire")]
+use mbs_core::laws::road::Feature;
+use mbs_recursive::link::Link;
+use mbs_recursive::loads::Load;
+use mbs_recursive::loops::Loops;
+use mbs_recursive::mechanism::Mechanism;
+use mbs_recursive::plan::{Coupling, End, Pair, Pass, Plan, Station, Update};
+use mbs_recursive::rows::{Loop, Row};
+use mbs_recursive::space::Space;
+
+/// What a model's text begins with, and its version.
+pub(crate) const HEAD: [u32; 2] = [u32::from_le_bytes(*b"MBSN"), 1];
+
+/// A model read from bytes: at most `L` links, `K` loops with `R` rows, `P` entries in each list of the plan, `E` effects,
+/// `X` entries in each table of laws, `I` guides and as many courses, `Q` coordinates and as many freedoms.
+///
+/// Models in flash need no such memory: `mbs export --rust` writes them as constants.
+#[derive(Debug, Clone)]
+pub struct Tables<
+    T: Real,
+    S: Space<T>,
+    const L: usize,
+    const K: usize,
+    const R: usize,
+    const P: usize,
+    const E: usize,
+    const X: usize,
+    const I: usize,
+    const Q: usize,
+> {
+    sizes: Sizes,
+    links: Vec<Link<T, S>, L>,
+    stations: Vec<Station, L>,
+    loops: Vec<Loop<T, S>, K>,
+    rows: Vec<Row<T, S>, R>,
+    passes: Vec<Pass, P>,
+    pairs: Vec<Pair, P>,
+    ends: Vec<End, K>,
+    couplings: Vec<Coupling, P>,
+    updates: Vec<Update, P>,
+    loads: Vec<Load<T, S>, E>,
+    #[cfg(feature = "polynomial")]
+    pieces: Vec<Piece<T>, X>,
+    #[cfg(feature = "tire")]
+    features: Vec<Feature<T>, X>,
+    #[cfg(feature = "tire")]
+    road: (Vec<[T; 2], X>, Vec<T, X>),
+    guides: Vec<GuideLaw<T>, I>,
+    courses: Vec<CourseLaw<T>, I>,
+    knots: (Vec<[T; 2], X>, Vec<T, X>),
+    course_rows: Vec<[T; 4], X>,
+    rungs: Vec<u32, E>,
+    z: Vec<T, Q>,
+    v: Vec<T, Q>,
+    a: Vec<T, Q>,
+    floor: [T; 2],
+    gravity: S::Point,
+    base: S::Point,
+    length: T,
+    n: [usize; 2],
+    t: T,
+}
+
+/// Reads a list that has its length first.
+fn list<X: Record, const N: usize>(
+    of: &'static str,
+    from: &mut Reader<'_>,
+) -> Result<Vec<X, N>, LoadError> {
+    let n = u32::read(from)? as usize;
+    let mut list = Vec::new();
+    for _ in 0..n {
+        let entry = X::read(from)?;
+        let too_many = |_| LoadError::Capacity { of, needed: n, capacity: N };
+        list.push(entry).map_err(too_many)?;
+    }
+    Ok(list)
+}
+
+/// A list that this build has no use for must be empty.
+#[cfg(not(all(feature = "polynomial", feature = "tire")))]
+fn nothing(from: &mut Reader<'_>) -> Result<(), LoadError> {
+    if u32::read(from)? == 0 { Ok(()) } else { Err(from.fault(4)) }
+}
+
+impl<
+    T: Real + Record,
+    S: Axes<T>,
+    const L: usize,
+    const K: usize,
+    const R: usize,
+    const P: usize,
+    const E: usize,
+    const X: usize,
+    const I: usize,
+    const Q: usize,
+> Tables<T, S, L, K, R, P, E, X, I, Q>
+{
+    /// Reads a model, and checks that every number in its tables points into them.
+    ///
+    /// Cost: linear in the bytes; no allocation.
+    ///
+    /// # Errors
+    /// [`LoadError`].
+    pub fn read(bytes: &[u8]) -> Result<Self, LoadError> {
+        let from = &mut Reader::new(bytes);
+        let head = <[u32; 4]>::read(from)?;
+        let [magic, version, dimension, width] = head;
+        let is_known = [magic, version] == HEAD && (width == 4 || width == 8);
+        if !is_known || dimension as usize != S::DIMENSION {
+            return Err(LoadError::Format);
+        }
+        from.set_double(width == 8);
+        let mut tables = Self {
+            sizes: Sizes::default(),
+            links: list("links", from)?,
+            stations: list("links", from)?,
+            loops: list("loops", from)?,
+            rows: list("rows", from)?,
+            passes: list("passes", from)?,
+            pairs: list("pairs", from)?,
+            ends: list("loops", from)?,
+            couplings: list("couplings", from)?,
+            updates: list("updates", from)?,
+            loads: list("effects", from)?,
+            #[cfg(feature = "polynomial")]
+            pieces: list("pieces", from)?,
+            #[cfg(feature = "tire")]
+            features: {
+                #[cfg(not(feature = "polynomial"))]
+                nothing(from)?;
+                list("parts of roads", from)?
+            },
+            #[cfg(feature = "tire")]
+            road: (list("knots of roads", from)?, list("knots of roads", from)?),
+            guides: {
+                #[cfg(not(any(feature = "polynomial", feature = "tire")))]
+                nothing(from)?;
+                #[cfg(not(feature = "tire"))]
+                for _ in 0..3 {
+                    nothing(from)?;
+                }
+                list("guides", from)?
+            },
+            courses: list("courses", from)?,
+            knots: (list("knots", from)?, list("knots", from)?),
+            course_rows: list("rows of courses", from)?,
+            rungs: list("rungs", from)?,
+            z: list("coordinates", from)?,
+            v: list("freedoms", from)?,
+            a: list("freedoms", from)?,
+            floor: Record::read(from)?,
+            gravity: Record::read(from)?,
+            base: Record::read(from)?,
+            length: Record::read(from)?,
+            n: Record::read(from)?,
+            t: Record::read(from)?,
+        };
+        if !from.is_at_end() {
+            return Err(LoadError::Length);
+        }
+        tables.sizes = Checked::new(&tables.unchecked())?.sizes();
+        Ok(tables)
+    }
+
+    /// The model, which was checked when it was read.
+    #[must_use]
+    pub fn model(&self) -> Checked<'_, T, S> {
+        Checked::again(self.unchecked(), self.sizes)
+    }
+
+    fn unchecked(&self) -> Model<'_, T, S> {
+        let plan = Plan {
+            stations: &self.stations,
+            passes: &self.passes,
+            pairs: &self.pairs,
+            ends: &self.ends,
+            couplings: &self.couplings,
+            updates: &self.updates,
+        };
+        #[allow(unused_mut, reason = "some effects have tables")]
+        let mut tables = Supplies::courses(&[]);
+        #[cfg(feature = "polynomial")]
+        {
+            tables.pieces = &self.pieces;
+        }
+        #[cfg(feature = "tire")]
+        {
+            tables.features = &self.features;
+            tables.knots = (&self.road.0, &self.road.1);
+        }
+        Model {
+            mechanism: Mechanism {
+                links: &self.links,
+                loops: Loops { loops: &self.loops, rows: &self.rows, plan, floor: self.floor },
+                loads: &self.loads,
+                tables,
+                gravity: self.gravity,
+                base: self.base,
+                length: self.length,
+                n_coordinates: self.n[0],
+                n_freedoms: self.n[1],
+            },
+            prescriptions: Prescriptions {
+                guides: &self.guides,
+                courses: &self.courses,
+                knots: (&self.knots.0, &self.knots.1),
+                rows: &self.course_rows,
+            },
+            beginning: Beginning { t: self.t, z: &self.z, v: &self.v, a: &self.a },
+            rungs: &self.rungs,
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! Entries of tables by number, without a panic: a number that its table does not have is a typed error.
+//!
+//! A model's numbers are checked when it is built or loaded, so that the error is not met; a compiler cannot know that, and would
+//! leave a path to a panic at every index.
+
+/// A number in a mechanism's tables, or the length of a scratch, that does not fit the rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Outside;
+
+/// Entry `i`.
+#[inline(always)]
+pub(crate) fn at<X>(table: &[X], i: usize) -> Result<&X, Outside> {
+    table.get(i).ok_or(Outside)
+}
+
+/// Entry `i`, to be written.
+#[inline(always)]
+pub(crate) fn at_mut<X>(table: &mut [X], i: usize) -> Result<&mut X, Outside> {
+    table.get_mut(i).ok_or(Outside)
+}
+
+/// `n` entries from `first`.
+#[inline(always)]
+pub(crate) fn part<X>(table: &[X], first: usize, n: usize) -> Result<&[X], Outside> {
+    table.get(first..).and_then(|rest| rest.get(..n)).ok_or(Outside)
+}
+
+/// `n` entries from `first`, to be written.
+#[inline(always)]
+pub(crate) fn part_mut<X>(table: &mut [X], first: usize, n: usize) -> Result<&mut [X], Outside> {
+    table.get_mut(first..).and_then(|rest| rest.get_mut(..n)).ok_or(Outside)
+}
+
+/// The entries of a range.
+#[inline(always)]
+pub(crate) fn range<X>(table: &[X], range: core::ops::Range<usize>) -> Result<&[X], Outside> {
+    table.get(range).ok_or(Outside)
+}
+
+/// All entries of one table over another of the same length.
+#[inline(always)]
+pub(crate) fn copy<X: Copy>(from: &[X], to: &mut [X]) -> Result<(), Outside> {
+    if from.len() != to.len() {
+        return Err(Outside);
+    }
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+    Ok(())
+}
+
+/// What comes of tables that fit because a tree made them all.
+///
+/// # Panics
+/// If they do not.
+#[cfg(feature = "alloc")]
+#[track_caller]
+pub(crate) fn own<X>(done: Result<X, Outside>) -> X {
+    done.unwrap_or_else(|Outside| unreachable!("the tables of a tree fit each other"))
+}

@@ -1,0 +1,187 @@
+//! A step of bounded work: the trapezoidal rule with a fixed number of evaluations, sweeps and projections.
+//!
+//! ```text
+//! z̈ ← z̈ₙ;   k times:   zₙ₊₁, żₙ₊₁ from z̈   [P3 (43)–(44)],   z̈ by the three passes, effects ahead (`loads::Reach`)
+//! zₙ₊₁, żₙ₊₁ from the last z̈
+//! p times:   z ← z ⊕ −M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ,   v ← v − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ̇      both at the same places
+//! ```
+//!
+//! Nothing is tested to decide how long to go on, so that the work of a step depends on the mechanism alone; what is left over is
+//! reported. It is what `trapezoidal` does with its iteration cut off, without the mixing of iterates, without the evaluation at
+//! the projected end, and with one outward pass for both projections: the accelerations that a step starts from are those
+//! of the last evaluation, which differ from the converged ones by O(h²).
+
+use crate::at::{Outside, at_mut, copy};
+use crate::evaluate::{Level, accelerations, accelerations_ahead, respond};
+use crate::loads::Reach;
+use crate::mechanism::{Counts, Inputs, Mechanism, Store};
+use crate::options::{Closure, Options};
+use crate::passes::{Fault, kinematics};
+use crate::project::advance;
+use crate::space::Space;
+use crate::trapezoidal::{Start, failure, reach_end};
+use mbs_core::Real;
+use mbs_core::algebra::norm_inf;
+use mbs_core::step::{StepError, largest_or_nan};
+
+/// How much work a step is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Bounds {
+    /// Evaluations of the accelerations, at least one.
+    pub evaluations: u32,
+    /// Sweeps of the loops' equations after the first one in each evaluation.
+    pub sweeps: u32,
+    /// Projections of positions and velocities.
+    pub projections: u32,
+}
+
+impl Default for Bounds {
+    /// One evaluation, no further sweep, one projection.
+    fn default() -> Self {
+        Self { evaluations: 1, sweeps: 0, projections: 1 }
+    }
+}
+
+/// Says whether there is time for more: asked before each evaluation but the first, and before each projection.
+pub trait Watch {
+    /// Is there?
+    fn has_time(&mut self) -> bool;
+}
+
+/// There always is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    #[inline(always)]
+    fn has_time(&mut self) -> bool {
+        true
+    }
+}
+
+impl<F: FnMut() -> bool> Watch for F {
+    #[inline(always)]
+    fn has_time(&mut self) -> bool {
+        self()
+    }
+}
+
+/// What a bounded step did, and what it left over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BoundedReport<T> {
+    /// Evaluations made.
+    pub evaluations: u32,
+    /// Projections made.
+    pub projections: u32,
+    /// The last change of a coordinate by a change of its acceleration: β h² times it [m or rad].
+    pub correction: T,
+    /// Largest |Φ| and |Φ̇| that the last projection found, of which it leaves the share ε and what is not linear [m, m/s];
+    /// |Φ̈| after the last sweep [m/s^2].
+    pub violation: [T; 3],
+    /// Time ran out, and evaluations or projections were left out.
+    pub is_cut_short: bool,
+}
+
+/// Makes one step of length `dt` [s]: the end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`.
+///
+/// Of `options` the integrator, the closure and the regularisation count.
+///
+/// Cost: `bounds.evaluations` evaluations, and as many responses as further sweeps, and two for each projection; no allocation.
+///
+/// # Errors
+/// [`StepError::NotFinite`], [`StepError::Singular`], [`StepError::RankLost`], [`StepError::Tables`].
+pub fn step<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    inputs: &impl Inputs<T>,
+    (dt, options, bounds): (T, &Options<T>, Bounds),
+    (start, watch): (Start<'_, T>, &mut impl Watch),
+    s: &mut Store<'_, T, S>,
+) -> Result<BoundedReport<T>, StepError> {
+    s.counts = Counts::default();
+    inputs.evaluate(start.t + dt, s.guides, s.courses);
+    let report = advance_by(m, (dt, options, bounds), (start, watch), s);
+    let report = report.map_err(|fault| failure(m, fault))?;
+    if report.correction.is_finite() {
+        Ok(report)
+    } else {
+        Err(StepError::NotFinite { unknown: largest_or_nan(s.zdd) })
+    }
+}
+
+/// The step at given inputs.
+fn advance_by<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    (dt, options, bounds): (T, &Options<T>, Bounds),
+    (start, watch): (Start<'_, T>, &mut impl Watch),
+    s: &mut Store<'_, T, S>,
+) -> Result<BoundedReport<T>, Fault<T>> {
+    copy(start.a, s.zdd)?;
+    let share = dt * dt * options.integrator.beta;
+    let reach = Reach { place: share, speed: dt * options.integrator.gamma };
+    let level = Level::Fixed(bounds.sweeps);
+    let mut report = BoundedReport {
+        evaluations: 0,
+        projections: 0,
+        correction: T::ZERO,
+        violation: [T::ZERO; 3],
+        is_cut_short: false,
+    };
+    for k in 0..bounds.evaluations.max(1) {
+        if k > 0 && !watch.has_time() {
+            report.is_cut_short = true;
+            break;
+        }
+        reach_end(m, (dt, options), &start, s)?;
+        copy(s.zdd, s.scratch)?;
+        report.violation[2] = if m.loads.is_empty() {
+            accelerations(m, options, level, s)?
+        } else {
+            accelerations_ahead(m, options, (level, reach), s)?
+        };
+        for (x, &zdd) in s.scratch.iter_mut().zip(&*s.zdd) {
+            *x -= zdd;
+        }
+        report.correction = norm_inf(s.scratch) * share;
+        report.evaluations += 1;
+    }
+    reach_end(m, (dt, options), &start, s)?;
+    if options.closure == Closure::Constraints && !m.loops.loops.is_empty() {
+        for _ in 0..bounds.projections {
+            if !watch.has_time() {
+                report.is_cut_short = true;
+                break;
+            }
+            let [position, velocity] = project(m, s)?;
+            (report.violation[0], report.violation[1]) = (position, velocity);
+            report.projections += 1;
+        }
+    }
+    Ok(report)
+}
+
+/// One projection of positions and of velocities with the inertias factored last; the largest |Φ| and |Φ̇| that it found.
+fn project<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    s: &mut Store<'_, T, S>,
+) -> Result<[T; 2], Outside> {
+    kinematics(m.links, (s.z, s.v, s.guides), s.trial)?;
+    let mut largest = [T::ZERO; 2];
+    for lap in m.loops.loops {
+        lap.evaluate(m.loops.rows, s.trial, |k, values| {
+            *at_mut(s.loops.l, k)? = values.value;
+            at_mut(s.rows, k)?[1] = values.rate;
+            largest = [largest[0].max(values.value.abs()), largest[1].max(values.rate.abs())];
+            Ok(())
+        })?;
+    }
+    respond(m, s)?;
+    advance(m.links, s.v_response, s.z)?;
+    for (l, row) in s.loops.l.iter_mut().zip(&*s.rows) {
+        *l = row[1];
+    }
+    respond(m, s)?;
+    for (v, &response) in s.v.iter_mut().zip(&*s.v_response) {
+        *v += response;
+    }
+    Ok(largest)
+}

@@ -1,0 +1,81 @@
+//! `mbs export SCENE`.
+
+use super::{files, refuse};
+use clap::Args;
+use mbs::export::{ExportError, export, ladder};
+use mbs::{Overrides, Precision, Settings};
+use mbs_core::scene::Dimension;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Arguments of `mbs export`.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Scene file (TOML).
+    scene: PathBuf,
+    /// File of Rust to write: constant tables, and a solver of just their size.
+    #[arg(long, value_name = "FILE", required_unless_present = "binary")]
+    rust: Option<PathBuf>,
+    /// File of bytes to write, which mbs-nostd reads without allocation.
+    #[arg(long, value_name = "FILE")]
+    binary: Option<PathBuf>,
+    /// f32, f64; left out: f64.
+    #[arg(long, value_name = "P")]
+    precision: Option<String>,
+    /// JSON of `mbs explain`: its effects may be dropped when time runs out, the least missed first.
+    #[arg(long, value_name = "JSON")]
+    ladder: Option<PathBuf>,
+}
+
+/// Runs the command.
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    match written(arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => refuse(&message),
+    }
+}
+
+fn written(arguments: &Arguments) -> Result<(), String> {
+    let (document, scene) = files::scene(&arguments.scene)?;
+    let overrides = Overrides {
+        formulation: Some("recursive".to_owned()),
+        integrator: Some("trapezoidal".to_owned()),
+        precision: arguments.precision.clone(),
+        ..Overrides::default()
+    };
+    let settings = Settings::new(&scene, &overrides);
+    let settings = settings.map_err(|error| files::refusal(&error, &document))?;
+    let rungs = match &arguments.ladder {
+        None => Vec::new(),
+        Some(path) => {
+            let text = std::fs::read_to_string(path);
+            let text = text.map_err(|error| format!("error: {}: {error}", path.display()))?;
+            ladder(&text, &scene).map_err(|error| refusal(&error))?
+        }
+    };
+    let form = (&rungs[..], settings.precision == Precision::F32);
+    let exported = match scene.dimension {
+        Dimension::Planar => export::<2>(&scene, &settings, form),
+        Dimension::Spatial => export::<3>(&scene, &settings, form),
+    };
+    let exported = exported.map_err(|error| refusal(&error))?;
+    for (path, bytes) in
+        [(&arguments.rust, exported.rust.as_bytes()), (&arguments.binary, &exported.bytes)]
+    {
+        if let Some(path) = path {
+            std::fs::write(path, bytes).map_err(|error| files::unwritable_file(path, &error))?;
+        }
+    }
+    Ok(())
+}
+
+fn refusal(error: &ExportError) -> String {
+    let hint = match error {
+        ExportError::Stop(_) => {
+            "`mbs run SCENE --formulation recursive` says more: controllers step in relative coordinates"
+        }
+        ExportError::Effect => "leave laws of one's own out: a table cannot hold a function",
+        ExportError::Ladder(_) => "make the price list from this scene: `mbs explain SCENE --json`",
+    };
+    format!("error: {error}\nhint: {hint}")
+}

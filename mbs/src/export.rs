@@ -1,0 +1,112 @@
+//! Scenes as tables for controllers: `mbs export`.
+
+use crate::settings::Settings;
+use crate::simulation::Simulation;
+use crate::stop::StopError;
+use crate::tree::{InSpace, Plane};
+use mbs_core::scene::Scene;
+use mbs_nostd::export::{Gathered, bytes, source};
+use mbs_nostd::record::Axes;
+use mbs_recursive::{StartError, TreeModel};
+use serde_json::Value;
+
+/// A scene as tables.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Exported {
+    /// A file of Rust.
+    pub rust: String,
+    /// Bytes that `mbs_nostd::Tables::read` reads.
+    pub bytes: Vec<u8>,
+}
+
+/// Why a scene has no tables.
+#[derive(Debug)]
+pub enum ExportError {
+    /// It does not start.
+    Stop(StopError),
+    /// An effect cannot be written.
+    Effect,
+    /// A ladder names what the scene has not, or is no price list.
+    Ladder(String),
+}
+
+impl core::fmt::Display for ExportError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Stop(error) => write!(f, "{error}"),
+            Self::Effect => write!(f, "the scene has an effect that cannot be written as a table"),
+            Self::Ladder(what) => write!(f, "{what}"),
+        }
+    }
+}
+
+impl core::error::Error for ExportError {}
+
+impl From<StopError> for ExportError {
+    fn from(error: StopError) -> Self {
+        Self::Stop(error)
+    }
+}
+
+/// Writes a scene as tables in single or double precision; start and tables are made in double. `ladder` has indices of effects,
+/// the one to be dropped first in front.
+///
+/// # Errors
+/// [`ExportError`].
+pub fn export<const D: usize>(
+    scene: &Scene<f64>,
+    settings: &Settings,
+    (ladder, is_single): (&[usize], bool),
+) -> Result<Exported, ExportError>
+where
+    Plane<D>: InSpace<f64, Space: Axes<f64>>,
+{
+    let simulation = Simulation::<f64, D>::new(scene, settings)?;
+    let tree = TreeModel::<f64, <Plane<D> as InSpace<f64>>::Space>::new(scene);
+    let tree = tree.map_err(StopError::tree)?;
+    let start = tree.start(scene, simulation.model(), simulation.state());
+    let start = start.map_err(|error| match error {
+        StartError::Tree(error) => StopError::tree(error),
+        StartError::Step(error) => {
+            StopError::step(error, |u| tree.owner_of_unknown(u), |row| tree.owner_of_row(row))
+        }
+        _ => StopError::tree(mbs_recursive::TreeError::Dimension),
+    })?;
+    let gathered = Gathered::new(&tree, &start, ladder);
+    let model = gathered.model();
+    let bytes = bytes(&model, is_single).ok_or(ExportError::Effect)?;
+    let title = format!("The scene \"{}\"", scene.name.escape_default());
+    let rust = source(&model, (&title, is_single)).map_err(|_| ExportError::Effect)?;
+    Ok(Exported { rust, bytes })
+}
+
+/// The degrade ladder of a price list, the JSON of `mbs explain`: effects whose absence the run survives and that cost something,
+/// those in front that change the outputs least.
+///
+/// # Errors
+/// [`ExportError::Ladder`].
+pub fn ladder<T>(prices: &str, scene: &Scene<T>) -> Result<Vec<usize>, ExportError> {
+    let fault = |what: &str| ExportError::Ladder(what.to_owned());
+    let json: Value =
+        serde_json::from_str(prices).map_err(|_| fault("the price list is not JSON"))?;
+    let entries = json["prices"]["effects"].as_array();
+    let entries = entries.ok_or_else(|| fault("the JSON has no prices of effects"))?;
+    let mut rungs = Vec::new();
+    for entry in entries {
+        let costs = entry["share"].as_f64().is_some_and(|share| share > 0.0);
+        if !costs || entry["completed"] != true {
+            continue;
+        }
+        let changes = entry["changes"].as_array().map_or(&[][..], Vec::as_slice);
+        let change = changes.iter().filter_map(|change| change["relative"].as_f64());
+        let change = change.fold(0.0, f64::max);
+        let name = entry["names"][0].as_str().unwrap_or_default();
+        let index = scene.effects.iter().position(|effect| effect.name == name);
+        let index = index.ok_or_else(|| {
+            ExportError::Ladder(format!("the price list has \"{name}\", and the scene has not"))
+        })?;
+        rungs.push((change, index));
+    }
+    rungs.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    Ok(rungs.into_iter().map(|(_, index)| index).collect())
+}

@@ -1,0 +1,258 @@
+//! The firmware example on emulated boards: built, run, disassembled, and compared with the same run on the host.
+
+use super::image::{Image, reachable};
+use super::in_c;
+use super::table::Build;
+use super::told::Told;
+use super::toolchain::Toolchain;
+use crate::process::{self, cargo, output, run};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// The target of both boards.
+const TARGET: &str = "thumbv7em-none-eabihf";
+/// Longest run of an emulator.
+const PATIENCE: Duration = Duration::from_secs(600);
+
+/// An emulated board.
+#[derive(Debug, Clone, Copy)]
+struct Board {
+    machine: &'static str,
+    cpu: &'static str,
+}
+
+const M7: Board = Board { machine: "mps2-an500", cpu: "cortex-m7" };
+const M4: Board = Board { machine: "mps2-an386", cpu: "cortex-m4" };
+
+/// A run, and what must hold of it.
+#[derive(Debug, Clone, Copy)]
+struct Case {
+    scene: &'static str,
+    features: &'static str,
+    precision: &'static str,
+    board: Board,
+    /// Instructions of the slowest step at most.
+    instructions: u64,
+    /// Largest difference of a coordinate from the host's run in double precision [m or rad]; zero: no bit differs.
+    apart: f64,
+}
+
+/// Bytes that an image and its stack may have.
+const FLASH: u64 = 256 * 1024;
+const STACK: u64 = 64 * 1024;
+
+const VEHICLE: &str = "polynomial,speed-hold,tire";
+const SUSPENSION: &str = "polynomial,tire";
+
+/// The runs. Single precision has no exact partner: a vehicle may end 5 mm from the run in double, the others 1 mm or 1 mrad.
+#[rustfmt::skip]
+const CASES: &[Case] = &[
+    Case { scene: "iltis-slalom", features: VEHICLE, precision: "f32", board: M7, instructions: 100_000, apart: 5e-3 },
+    Case { scene: "iltis-slalom", features: VEHICLE, precision: "f64", board: M7, instructions: 200_000, apart: 0.0 },
+    Case { scene: "iltis-suspension", features: SUSPENSION, precision: "f32", board: M4, instructions: 100_000, apart: 1e-3 },
+    Case { scene: "six-joint-arm", features: "", precision: "f32", board: M7, instructions: 15_000, apart: 1e-3 },
+    Case { scene: "six-joint-arm", features: "", precision: "f64", board: M7, instructions: 15_000, apart: 0.0 },
+    Case { scene: "six-joint-arm", features: "", precision: "f32", board: M4, instructions: 30_000, apart: 1e-3 },
+];
+
+/// Builds and runs all cases; what was measured, a line for each.
+///
+/// # Errors
+///
+/// The first thing that does not hold.
+pub(super) fn check(toolchain: Toolchain, lld: Option<&Path>) -> Result<Vec<String>, String> {
+    let models = process::target_dir().join("nostd/models");
+    std::fs::create_dir_all(&models).map_err(|e| format!("{}: {e}", models.display()))?;
+    run(cargo().args(["build", "--quiet", "--package", "mbs"]).current_dir(process::root()))?;
+    let mut lines = Vec::new();
+    for case in CASES {
+        lines.push(case.check(toolchain, lld, &models)?);
+        eprintln!("   {}", lines[lines.len() - 1]);
+    }
+    lines.push(smaller_without_tires(toolchain, lld, &models)?);
+    lines.push(in_c::check(&models)?);
+    Ok(lines)
+}
+
+impl Case {
+    fn check(
+        &self,
+        toolchain: Toolchain,
+        lld: Option<&Path>,
+        models: &Path,
+    ) -> Result<String, String> {
+        let Self { scene, precision, board, .. } = self;
+        let place = format!("{scene}, {precision} on {}", board.cpu);
+        let model = export(scene, precision, models)?;
+        let (elf, image) = build((toolchain, lld), board, self.features, &model)?;
+        no_panics(&elf, &place)?;
+        let told = Told::read(&emulate(board, &elf)?)?;
+        let same = Told::read(&on_host(&model, self.features)?)?;
+        let exact = if *precision == "f64" {
+            same.clone()
+        } else {
+            Told::read(&on_host(&export(scene, "f64", models)?, self.features)?)?
+        };
+        let apart = told.apart(&exact)?;
+        if self.apart == 0.0 && told.lines != same.lines {
+            return Err(format!("{place}: controller and host differ, by {apart:.1e}"));
+        }
+        if self.apart > 0.0 && !(apart <= self.apart) {
+            return Err(format!("{place}: {apart:.1e} from the run in double precision"));
+        }
+        let bound = same.bound;
+        for (what, is, most) in [
+            ("instructions in a step", told.most, self.instructions),
+            // The bound is that of a unit for the precision: the functions of libm take doubles, which a Cortex-M4 has not.
+            (
+                "instructions in a step",
+                told.most,
+                if board.cpu == M7.cpu { bound } else { u64::MAX },
+            ),
+            ("bytes of stack", told.stack, STACK),
+            ("bytes of flash", image.flash, FLASH),
+        ] {
+            if is > most {
+                return Err(format!("{place}: {is} {what}, and {most} are allowed"));
+            }
+        }
+        Ok(format!(
+            "{place}: {} to {} instructions a step (bound {bound}), stack {} bytes, flash {} bytes, solver {} bytes, {apart:.1e} from f64",
+            told.least, told.most, told.stack, image.flash, told.solver
+        ))
+    }
+}
+
+/// Writes a scene as a table of Rust; where.
+pub(super) fn export(scene: &str, precision: &str, models: &Path) -> Result<PathBuf, String> {
+    let file = models.join(format!("{scene}-{precision}.rs"));
+    let mut command = cargo();
+    command.args(["run", "--quiet", "--package", "mbs", "--", "export"]);
+    command.arg(format!("scenes/{scene}.toml")).args(["--precision", precision, "--rust"]);
+    command.arg(&file).arg("--binary").arg(file.with_extension("mbs"));
+    run(command.current_dir(process::root()))?;
+    Ok(file)
+}
+
+/// Builds the firmware with a model; the image, and its sizes.
+fn build(
+    (toolchain, lld): (Toolchain, Option<&Path>),
+    board: &Board,
+    features: &str,
+    model: &Path,
+) -> Result<(PathBuf, Image), String> {
+    let folder = process::target_dir().join("firmware").join(board.cpu);
+    let mut command =
+        toolchain.cargo(&Build { package: "mbs-firmware", features: &[], is_alloc: false });
+    command.args(["build", "--release", "--quiet", "--locked", "--target", TARGET]);
+    command.args(["--features", features]).arg("--target-dir").arg(&folder);
+    let mut flags = format!("-C target-cpu={} -C link-arg=-Tlink.x", board.cpu);
+    if let Some(lld) = lld {
+        flags.push_str(&format!(" -C linker={}", lld.display()));
+    }
+    command.env("RUSTFLAGS", flags).env("MBS_MODEL", model);
+    run(command.current_dir(process::root().join("mbs-nostd/firmware")))?;
+    let elf = folder.join(TARGET).join("release/mbs-firmware");
+    let image = Image::read(&elf)?;
+    Ok((elf, image))
+}
+
+/// Runs an image on its board; what it told.
+fn emulate(board: &Board, elf: &Path) -> Result<String, String> {
+    let file = elf.with_extension("told");
+    let to = std::fs::File::create(&file).map_err(|e| format!("{}: {e}", file.display()))?;
+    let mut command = Command::new("qemu-system-arm");
+    command.args(["-machine", board.machine, "-cpu", board.cpu, "-nographic"]);
+    command.args(["-semihosting-config", "enable=on,target=native", "-icount", "shift=0"]);
+    command.arg("-kernel").arg(elf).stdin(Stdio::null()).stdout(to);
+    let mut child = command.spawn().map_err(|e| format!("qemu-system-arm: {e}"))?;
+    let begin = Instant::now();
+    let status = loop {
+        if let Some(status) = child.try_wait().map_err(|e| format!("qemu-system-arm: {e}"))? {
+            break status;
+        }
+        if begin.elapsed() > PATIENCE {
+            let _ = child.kill();
+            let _ = child.wait();
+            return Err(format!("{} does not come to its end", elf.display()));
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    };
+    let told = std::fs::read_to_string(&file).map_err(|e| format!("{}: {e}", file.display()))?;
+    if status.success() { Ok(told) } else { Err(format!("{}: {status}\n{told}", elf.display())) }
+}
+
+/// The same run on the host, in a program without the standard library.
+pub(super) fn on_host(model: &Path, features: &str) -> Result<String, String> {
+    let folder = process::target_dir().join("firmware/host");
+    let mut command = cargo();
+    command.args(["build", "--release", "--quiet", "--locked", "--features", features]);
+    command.arg("--target-dir").arg(&folder).env("MBS_MODEL", model);
+    run(command.current_dir(process::root().join("mbs-nostd/firmware/host")))?;
+    let program = folder.join("release/mbs-firmware-host");
+    output(&mut Command::new(&program)).ok_or_else(|| format!("{} failed", program.display()))
+}
+
+/// Nothing that panics, and nothing of a heap, can be reached from the step.
+fn no_panics(elf: &Path, place: &str) -> Result<(), String> {
+    let disassembler = disassembler().ok_or("there is no llvm-objdump to look into images with")?;
+    let mut command = Command::new(disassembler);
+    let text = output(command.args(["-d", "--no-show-raw-insn"]).arg(elf));
+    let text = text.ok_or_else(|| format!("`{}` failed", process::line(&command)))?;
+    let reached = reachable(&text, "mbs_step")?;
+    let bad = |name: &&String| {
+        name.contains("9panicking") || name.contains("5alloc") || name.contains("__rust_alloc")
+    };
+    match reached.iter().find(bad) {
+        Some(name) => Err(format!("{place}: `{name}` can be reached from a step")),
+        None => Ok(()),
+    }
+}
+
+/// An `llvm-objdump`, of whatever version.
+fn disassembler() -> Option<PathBuf> {
+    let is_one = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        name == "llvm-objdump" || name.starts_with("llvm-objdump-")
+    };
+    let paths = std::env::var_os("PATH")?;
+    let mut found: Vec<_> = std::env::split_paths(&paths)
+        .filter_map(|folder| std::fs::read_dir(folder).ok())
+        .flat_map(|entries| entries.flatten().map(|entry| entry.path()))
+        .filter(is_one)
+        .collect();
+    // The newest knows most.
+    found.sort_by_key(|path| {
+        let name = path.to_string_lossy().into_owned();
+        name.rsplit('-').next().and_then(|n| n.parse::<u32>().ok()).unwrap_or(0)
+    });
+    found.pop()
+}
+
+/// The image of a scene without tires has no code of tires, and is smaller than with their feature on.
+fn smaller_without_tires(
+    toolchain: Toolchain,
+    lld: Option<&Path>,
+    models: &Path,
+) -> Result<String, String> {
+    let model = export("six-joint-arm", "f32", models)?;
+    let mut sizes = Vec::new();
+    for features in ["", "tire"] {
+        let (elf, image) = build((toolchain, lld), &M7, features, &model)?;
+        let names = image.names(&elf)?;
+        let has_tires = names.contains("4tire") || names.contains("4foot");
+        if features.is_empty() && has_tires {
+            return Err("an image without the feature `tire` has code of tires".to_owned());
+        }
+        sizes.push(image.flash);
+    }
+    if sizes[0] < sizes[1] {
+        Ok(format!(
+            "six-joint-arm in flash: {} bytes, {} with the feature `tire`",
+            sizes[0], sizes[1]
+        ))
+    } else {
+        Err(format!("the feature `tire` does not grow the image: {} and {}", sizes[0], sizes[1]))
+    }
+}

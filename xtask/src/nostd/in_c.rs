@@ -1,0 +1,35 @@
+//! The static library for C and its example, compiled, run, and compared with the host's run.
+
+use super::firmware::{export, on_host};
+use super::told::Told;
+use crate::process::{self, cargo, output, run};
+use std::path::Path;
+use std::process::Command;
+
+/// Builds the library and the example with the system's C compiler, and runs it.
+///
+/// # Errors
+///
+/// What failed, or that a bit differs.
+pub(super) fn check(models: &Path) -> Result<String, String> {
+    let here = process::root().join("mbs-nostd/ffi");
+    let folder = process::target_dir().join("firmware/ffi");
+    let mut library = cargo();
+    library.args(["build", "--release", "--quiet", "--locked", "--target-dir"]).arg(&folder);
+    run(library.current_dir(&here))?;
+    let program = folder.join("example");
+    let mut compile = Command::new("cc");
+    compile.args(["-std=c11", "-Wall", "-Wextra", "-Werror", "-O1", "-I", "include", "example.c"]);
+    compile.arg(folder.join("release/libmbs_nostd_ffi.a")).arg("-o").arg(&program);
+    run(compile.current_dir(&here))?;
+    let model = export("six-joint-arm", "f64", models)?;
+    let mut example = Command::new(&program);
+    let told = output(example.arg(model.with_extension("mbs")));
+    let told = Told::read(&told.ok_or_else(|| format!("{} failed", program.display()))?)?;
+    let host = Told::read(&on_host(&model, "")?)?;
+    if told.lines == host.lines {
+        Ok("a program in C gives the same bits".to_owned())
+    } else {
+        Err(format!("a program in C differs from the host's run by {:.1e}", told.apart(&host)?))
+    }
+}
