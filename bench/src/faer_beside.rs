@@ -1,4 +1,5 @@
-//! One linear system of the scene, ours and faer's: assemble, factor, solve, by turns in one run.
+//! One linear system of the scene, ours and faer's: assemble, factor, solve, by turns in one run; with blocks that are given, and
+//! with blocks that are written each time, which costs both the same.
 //!
 //! ```text
 //! T = M + (v'/a') C + (1/a') K + J^T s J,   s = 1e6 effective masses        as the index-3 step has it
@@ -12,10 +13,10 @@ use crate::scenes::Prepared;
 use crate::{Request, say};
 use faer::sparse::linalg::SupernodalThreshold;
 use mbs_augmented::{Options, Penalty, Workspace, index3};
-use mbs_core::SpdSolver;
 use mbs_core::model::{Load, Model, State, System, Tangent, Terms};
+use mbs_core::{BlockSource, Cliques, SpdSolver};
 use mbs_sparse::Multifrontal;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::cell::RefCell;
 use std::hint::black_box;
 
@@ -81,37 +82,80 @@ fn beside<const D: usize>(
     if let Err(error) = ours.factor(&system) {
         return say(&json!({ "kind": "faer", "after": after, "reason": error.to_string() }));
     }
+    let mut line = json!({ "kind": "faer", "after": after });
+    let (written, difference) = by_turns(model, &mut ours, &system, &b, request.seconds);
+    let (given, _) = by_turns(model, &mut ours, &Given::of(model, &system), &b, request.seconds);
+    merge(&mut line, [written, json!({ "given": given, "difference": difference })]);
+    say(&line);
+}
+
+/// Times of the three ways with blocks from `source`, and how far their solutions are apart.
+fn by_turns(
+    cliques: &impl Cliques,
+    ours: &mut Multifrontal<f64>,
+    source: &impl BlockSource<f64>,
+    b: &[f64],
+    seconds: f64,
+) -> (Value, f64) {
     let mut scratch = vec![0.0; ours.n_scratch()];
-    let found = [(); 3].map(|()| RefCell::new(vec![0.0; n]));
+    let found = [(); 3].map(|()| RefCell::new(b.to_vec()));
     let mut own = Work(|| {
         let x = &mut *found[0].borrow_mut();
-        x.copy_from_slice(&b);
+        x.copy_from_slice(b);
         // It has been factored before.
-        let _ = black_box(ours.factor(black_box(&system)));
+        let _ = black_box(ours.factor(black_box(source)));
         ours.solve(x, &mut scratch);
     });
     let rival = |threshold, place: usize| {
-        let mut rival = Rival::analyse_by(model, threshold);
-        let (found, b, system) = (&found[place], &b, &system);
+        let mut rival = Rival::analyse_by(cliques, threshold);
+        let found = &found[place];
         move || {
             let x = &mut *found.borrow_mut();
             x.copy_from_slice(b);
-            rival.assemble(model, black_box(system));
+            rival.assemble(cliques, black_box(source));
             rival.factor_and_solve(x);
         }
     };
     let mut simplicial = Work(rival(SupernodalThreshold::FORCE_SIMPLICIAL, 1));
     let mut supernodal = Work(rival(SupernodalThreshold::FORCE_SUPERNODAL, 2));
-    let timings = race(&mut [&mut own, &mut simplicial, &mut supernodal], request.seconds);
-    let mut line = json!({ "kind": "faer", "after": after });
+    let timings = race(&mut [&mut own, &mut simplicial, &mut supernodal], seconds);
+    let mut told = json!({});
     for (name, timing) in ["ours", "simplicial", "supernodal"].into_iter().zip(timings) {
         // None of them can fail.
-        let told = timing.map(|timing| timing.told()).unwrap_or_default();
-        merge(&mut line, [json!({ name: told })]);
+        let timing = timing.map(|timing| timing.told()).unwrap_or_default();
+        merge(&mut told, [json!({ name: timing })]);
     }
     let difference = |i: usize| distance(&found[0].borrow(), &found[i].borrow());
-    merge(&mut line, [json!({ "difference": difference(1).max(difference(2)) })]);
-    say(&line);
+    (told, difference(1).max(difference(2)))
+}
+
+/// Blocks that are written once.
+struct Given {
+    blocks: Vec<f64>,
+    starts: Vec<usize>,
+}
+
+impl Given {
+    fn of(cliques: &impl Cliques, source: &impl BlockSource<f64>) -> Self {
+        let (mut blocks, mut starts) = (Vec::new(), Vec::new());
+        for e in 0..cliques.n_elements() {
+            let (start, k) = (blocks.len(), cliques.clique(e).len());
+            blocks.resize(start + k * (k + 1) / 2, 0.0);
+            source.write_block(e, &mut blocks[start..]);
+            starts.push(start);
+        }
+        Self { blocks, starts }
+    }
+}
+
+impl BlockSource<f64> for Given {
+    fn write_block(&self, element: usize, block: &mut [f64]) {
+        block.copy_from_slice(&self.blocks[self.starts[element]..][..block.len()]);
+    }
+    /// Right-hand sides are not assembled here.
+    fn write_residual(&self, _: usize, residual: &mut [f64]) {
+        residual.fill(0.0);
+    }
 }
 
 /// Largest difference of two vectors over the largest number of the first.
