@@ -35,7 +35,7 @@ pub trait BlockSource<T: Real>: Sync {
     fn write_residual(&self, element: usize, residual: &mut [T]);
 }
 
-/// out[u] = `start` joined with what every element writes for u, in the order of the elements.
+/// `out[u]` = `start` joined with what every element writes for u, in the order of the elements.
 ///
 /// `write` has one place in a stretch of `values` for each unknown of the element's clique.
 #[inline(always)]

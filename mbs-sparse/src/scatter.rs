@@ -85,7 +85,7 @@ impl<T: Real> Scatter<T> {
         Self { values: vec![T::ZERO; cuts.n_kept() + n_rooms * largest], cuts }
     }
 
-    /// out[u] = zero joined with what every element writes for u, in the order of the elements.
+    /// `out[u]` = zero joined with what every element writes for u, in the order of the elements.
     #[inline(always)]
     pub(crate) fn combine<W: Team>(
         &mut self,
