@@ -46,7 +46,7 @@ macro_rules! record_enum {
                 }
             }
             #[cfg(feature = "export")]
-            #[allow(unreachable_patterns, reason = "some effects may be left out")]
+            #[allow(unreachable_patterns, unused_variables, reason = "some effects may be left out")]
             fn write(&self, to: &mut $crate::export::Bytes) -> bool {
                 match self {
                     $(
@@ -60,7 +60,7 @@ macro_rules! record_enum {
                 }
             }
             #[cfg(feature = "export")]
-            #[allow(unreachable_patterns, reason = "some effects may be left out")]
+            #[allow(unreachable_patterns, unused_variables, reason = "some effects may be left out")]
             fn source(&self, to: &mut alloc::string::String) {
                 match self {
                     $(
