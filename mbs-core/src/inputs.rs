@@ -181,14 +181,6 @@ impl<T: Real> CourseInput<T> {
             Course::Constant(value) | Course::Input(value) => return *value,
             Course::Table(rows) => rows,
         };
-        let next = rows.partition_point(|row| row.0 <= t);
-        match (next.checked_sub(1).and_then(|i| rows.get(i)), rows.get(next)) {
-            (Some((t0, a)), Some((t1, b))) => {
-                let s = (t - *t0) / (*t1 - *t0);
-                core::array::from_fn(|i| a[i] + (b[i] - a[i]) * s)
-            }
-            (Some((_, held)), None) | (None, Some((_, held))) => *held,
-            (None, None) => [T::ZERO; 3],
-        }
+        guide::linear(rows, |row| *row, t)
     }
 }

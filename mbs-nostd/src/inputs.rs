@@ -126,13 +126,5 @@ fn course_at<T: Real>(
         CourseLaw::Travel(speed) => return [*speed * t, *speed, T::ZERO],
         CourseLaw::Table(part) => part.of(laws.rows),
     };
-    let next = rows.partition_point(|row| row[0] <= t);
-    match (next.checked_sub(1).and_then(|i| rows.get(i)), rows.get(next)) {
-        (Some([t0, x0, y0, z0]), Some([t1, x1, y1, z1])) => {
-            let s = (t - *t0) / (*t1 - *t0);
-            [*x0 + (*x1 - *x0) * s, *y0 + (*y1 - *y0) * s, *z0 + (*z1 - *z0) * s]
-        }
-        (Some(&[_, x, y, z]), None) | (None, Some(&[_, x, y, z])) => [x, y, z],
-        (None, None) => [T::ZERO; 3],
-    }
+    guide::linear(rows, |&[t, x, y, z]| (t, [x, y, z]), t)
 }

@@ -12,6 +12,7 @@
 
 use crate::plan::column;
 use mbs_core::Real;
+use mbs_core::dense::panel::subtract_products;
 
 /// Pivots eliminated together.
 pub(crate) const BLOCK: usize = 6;
@@ -116,17 +117,7 @@ fn block_sized<T: Real, const P: usize>(
     for k in 0..P {
         below[k] = &panel[starts[k]..starts[k] + r];
     }
-    let mut rest = update;
-    for j in 0..r {
-        let (target, tail) = rest.split_at_mut(r - j);
-        rest = tail;
-        let (mut columns, mut w) = (below, [T::ZERO; P]);
-        for m in 0..P {
-            columns[m] = &below[m][j..r];
-            w[m] = columns[m][0] * d[m];
-        }
-        subtract(target, columns, w);
-    }
+    subtract_products(update, r, below, d);
     Ok(())
 }
 
@@ -188,26 +179,6 @@ fn divide_rows<T: Real, const P: usize, const R: usize>(
         for lane in 0..R {
             row[lane] = v[k][lane] * l[k][k];
         }
-    }
-}
-
-/// target_i <- target_i - sum_m w_m column_m,i
-#[inline(always)]
-pub(crate) fn subtract<T: Real, const M: usize>(
-    target: &mut [T],
-    mut columns: [&[T]; M],
-    w: [T; M],
-) {
-    let len = target.len();
-    for c in &mut columns {
-        *c = &c[..len];
-    }
-    for i in 0..len {
-        let mut sum = columns[0][i] * w[0];
-        for m in 1..M {
-            sum += columns[m][i] * w[m];
-        }
-        target[i] -= sum;
     }
 }
 

@@ -36,11 +36,6 @@ impl Part {
         triangle(self.size as usize)
     }
 
-    #[inline(always)]
-    fn is_scattered(&self) -> bool {
-        matches!(self.place, Place::Scattered(_))
-    }
-
     /// Where the entries of a scattered part go, and those of the scattered parts after it; of any other part nothing.
     #[inline(always)]
     pub(crate) fn targets<'a>(&self, all: &'a [u32]) -> &'a [u32] {
@@ -84,72 +79,65 @@ pub(crate) fn place_of(map: &[u32], f: usize, targets: &mut Vec<u32>) -> Place {
 /// Adds the packed triangle `from` of a part into the packed front `a` of `f` unknowns.
 #[inline]
 pub(crate) fn add<T: Real>(a: &mut [T], f: usize, part: &Part, targets: &[u32], from: &[T]) {
-    if part.is_scattered() {
-        return scatter(a, part.targets(targets), from);
-    }
-    match part.size {
-        6 => add_sized::<T, 6>(a, f, part, from),
-        9 => add_sized::<T, 9>(a, f, part, from),
-        12 => add_sized::<T, 12>(a, f, part, from),
-        _ => add_sized::<T, 0>(a, f, part, from),
+    match (part.place, part.size) {
+        (Place::Tail(offset), _) => {
+            for (to, &x) in a[offset as usize..].iter_mut().zip(from) {
+                *to += x;
+            }
+        }
+        (Place::Scattered(start), _) => scatter(a, &targets[start as usize..], from),
+        (Place::Shifted(first), 6) => add_shifted::<T, 6>(a, f, (first as usize, 6), from),
+        (Place::Shifted(first), 9) => add_shifted::<T, 9>(a, f, (first as usize, 9), from),
+        (Place::Shifted(first), 12) => add_shifted::<T, 12>(a, f, (first as usize, 12), from),
+        (Place::Shifted(first), k) => {
+            add_shifted::<T, 0>(a, f, (first as usize, k as usize), from);
+        }
     }
 }
 
-/// Adds a part of `K` unknowns; `K` = 0: of any number, known at run time only.
+/// Adds a part of `K` unknowns at rows `first`, ...; `K` = 0: of `k`, known at run time only.
 #[inline(never)]
-fn add_sized<T: Real, const K: usize>(a: &mut [T], f: usize, part: &Part, from: &[T]) {
-    let k = if K == 0 { part.size as usize } else { K };
-    let from = &from[..k * (k + 1) / 2];
-    match part.place {
-        Place::Tail(offset) => {
-            let to = &mut a[offset as usize..][..from.len()];
-            for i in 0..from.len() {
-                to[i] += from[i];
-            }
+fn add_shifted<T: Real, const K: usize>(
+    a: &mut [T],
+    f: usize,
+    (first, k): (usize, usize),
+    from: &[T],
+) {
+    let k = if K == 0 { k } else { K };
+    let (mut at, mut rest, mut length) = (column(f, first), &from[..triangle(k)], f - first);
+    for j in 0..k {
+        let (column, tail) = rest.split_at(k - j);
+        let to = &mut a[at..at + k - j];
+        for i in 0..k - j {
+            to[i] += column[i];
         }
-        Place::Shifted(first) => {
-            let first = first as usize;
-            let (mut at, mut rest, mut length) = (column(f, first), from, f - first);
-            for j in 0..k {
-                let (column, tail) = rest.split_at(k - j);
-                let to = &mut a[at..at + k - j];
-                for i in 0..k - j {
-                    to[i] += column[i];
-                }
-                (at, rest, length) = (at + length, tail, length - 1);
-            }
-        }
-        Place::Scattered(_) => {}
+        (at, rest, length) = (at + length, tail, length - 1);
     }
 }
 
 /// Adds each number at its target.
 #[inline(always)]
 pub(crate) fn scatter<T: Real>(a: &mut [T], targets: &[u32], from: &[T]) {
-    // By threes: the numbers of a triangle are a multiple of three most often.
-    let (threes, rest) = from.as_chunks::<3>();
-    let (places, rest_places) = targets[..from.len()].as_chunks::<3>();
-    for (to, from) in places.iter().zip(threes) {
-        for i in 0..3 {
-            a[to[i] as usize] += from[i];
-        }
-    }
-    for (&to, &from) in rest_places.iter().zip(rest) {
-        a[to as usize] += from;
-    }
+    to_targets(a, targets, from, |to, x| *to += x);
 }
 
 /// Writes the packed triangle `from` of an element that has all unknowns of the front, in another order.
 #[inline(never)]
 pub(crate) fn permute<T: Real>(a: &mut [T], targets: &[u32], from: &[T]) {
+    to_targets(a, targets, from, |to, x| *to = x);
+}
+
+/// Brings each number to its target, by threes: the numbers of a triangle are a multiple of three most often.
+#[inline(always)]
+fn to_targets<T: Real>(a: &mut [T], targets: &[u32], from: &[T], put: impl Fn(&mut T, T)) {
     let (threes, rest) = from.as_chunks::<3>();
     let (places, rest_places) = targets[..from.len()].as_chunks::<3>();
     for (to, from) in places.iter().zip(threes) {
         for i in 0..3 {
-            a[to[i] as usize] = from[i];
+            put(&mut a[to[i] as usize], from[i]);
         }
     }
     for (&to, &from) in rest_places.iter().zip(rest) {
-        a[to as usize] = from;
+        put(&mut a[to as usize], from);
     }
 }

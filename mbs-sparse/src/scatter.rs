@@ -20,7 +20,8 @@ const ELEMENTS: usize = 128;
 pub(crate) struct Scatter<T> {
     /// Values of one element; of a team those that are kept, and room for an element of each stretch.
     values: Vec<T>,
-    cuts: Cuts,
+    /// Nothing for one thread.
+    cuts: Option<Cuts>,
 }
 
 /// Where the elements are cut for a team.
@@ -77,12 +78,11 @@ impl Cuts {
 impl<T: Real> Scatter<T> {
     /// Room for the elements of `plan`.
     pub(crate) fn new(team: &impl Team, plan: &Plan) -> Self {
-        let (n, largest) = (plan.order.len(), plan.largest_clique);
-        let is_alone = team.size() == 1;
-        let none = Lists::with_capacity(0);
-        let cuts = Cuts::new(if is_alone { &none } else { &plan.cliques }, n, largest);
-        let n_rooms = if is_alone { 1 } else { cuts.n_stretches() };
-        Self { values: vec![T::ZERO; cuts.n_kept() + n_rooms * largest], cuts }
+        let (cliques, largest) = (&plan.cliques, plan.largest_clique);
+        let is_cut = team.size() > 1 && cliques.len() > 0;
+        let cuts = is_cut.then(|| Cuts::new(cliques, plan.order.len(), largest));
+        let n = cuts.as_ref().map_or(largest, |cuts| cuts.n_kept() + cuts.n_stretches() * largest);
+        Self { values: vec![T::ZERO; n], cuts }
     }
 
     /// `out[u]` = zero joined with what every element writes for u, in the order of the elements.
@@ -95,14 +95,13 @@ impl<T: Real> Scatter<T> {
         write: impl Fn(usize, &mut [T]) + Sync,
         join: impl Fn(T, T) -> T + Sync,
     ) {
-        if team.size() == 1 || cliques.len() == 0 {
+        let Some(cuts) = &self.cuts else {
             let all = (0..cliques.len()).map(|e| cliques.get(e));
-            combine(all, (&mut self.values, out), T::ZERO, write, join);
-            return;
-        }
-        let work = Work { cuts: &self.cuts, cliques, write, join };
-        let (kept, rooms) = self.values.split_at_mut(self.cuts.n_kept());
-        let all = (0, self.cuts.n_stretches());
+            return combine(all, (&mut self.values, out), T::ZERO, write, join);
+        };
+        let work = Work { cuts, cliques, write, join };
+        let (kept, rooms) = self.values.split_at_mut(cuts.n_kept());
+        let all = (0, cuts.n_stretches());
         work.stretches(team, all, (kept, rooms), out);
         work.take(team, all, kept, out);
     }

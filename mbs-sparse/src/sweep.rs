@@ -7,9 +7,10 @@
 //!
 //! The pivots of a front stand together in `y`, its other unknowns where `rows` says; L_11 has 1 / d on its diagonal.
 
-use crate::kernel::{BLOCK, subtract};
+use crate::kernel::BLOCK;
 use crate::plan::column;
 use mbs_core::Real;
+use mbs_core::dense::panel::subtract;
 
 /// Forward sweep through the packed front `a` that eliminates `p` unknowns, from place `first` of `y` on.
 pub(crate) fn forward<T: Real>(mut a: &[T], y: &mut [T], (first, p): (usize, usize), rows: &[u32]) {

@@ -34,8 +34,8 @@ pub(crate) struct Task {
     pub(crate) numbers: [usize; 3],
     /// Storage of a vector, likewise.
     pub(crate) vector: [usize; 3],
-    /// Time of a factorisation of the task with all below, as estimated [ns].
-    pub(crate) total: f64,
+    /// When its factorisation with all below would begin and end if one thread did all tasks in turn, as estimated [ns].
+    pub(crate) work: [f64; 2],
 }
 
 /// All tasks, children before parents.
@@ -82,16 +82,9 @@ impl Tasks {
 
     /// Cuts a list of neighbouring tasks, two or more, where each side has about half of the work.
     pub(crate) fn halves<'a>(&self, list: &'a [u32]) -> (&'a [u32], &'a [u32]) {
-        let total = |&t: &u32| self.list[t as usize].total;
-        let half = 0.5 * list.iter().map(total).sum::<f64>();
-        let (mut before, mut cut) = (0.0, 0);
-        for task in list {
-            let with = before + total(task);
-            if with - half > half - before {
-                break;
-            }
-            (before, cut) = (with, cut + 1);
-        }
+        let work = |t: &u32| self.list[*t as usize].work;
+        let ends = work(&list[0])[0] + work(&list[list.len() - 1])[1];
+        let cut = list.partition_point(|t| work(t)[0] + work(t)[1] <= ends);
         list.split_at(cut.clamp(1, list.len() - 1))
     }
 
@@ -164,11 +157,13 @@ pub(crate) fn tasks(
         tasks.children.items.extend_from_slice(below);
         tasks.children.close();
     }
+    let mut now = 0.0;
     for at in 0..tasks.list.len() {
         tasks.lay_out(at, fronts, all_rows, largest_block);
-        let below: f64 = tasks.below(at).iter().map(|&c| tasks.list[c as usize].total).sum();
+        let begin = tasks.below(at).first().map_or(now, |&c| tasks.list[c as usize].work[0]);
         let task = &mut tasks.list[at];
-        task.total = below + work[task.fronts.clone()].iter().sum::<f64>();
+        now += work[task.fronts.clone()].iter().sum::<f64>();
+        task.work = [begin, now];
     }
     tasks
 }

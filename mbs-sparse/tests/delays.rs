@@ -2,29 +2,8 @@
 
 mod common;
 
-use common::Saddle;
+use common::{Forking, Saddle};
 use mbs_sparse::{Alone, Indefinite, Options, Ordering, SymmetricSolver, Team};
-
-/// Two threads at every fork, in an order that changes from run to run.
-#[derive(Debug, Clone)]
-struct Forking;
-
-impl Team for Forking {
-    fn join<A: Send, B: Send>(
-        &self,
-        a: impl FnOnce() -> A + Send,
-        b: impl FnOnce() -> B + Send,
-    ) -> (A, B) {
-        std::thread::scope(|scope| {
-            let b = scope.spawn(b);
-            let a = a();
-            (a, b.join().expect("no panic"))
-        })
-    }
-    fn size(&self) -> usize {
-        2
-    }
-}
 
 /// Saddles whose multipliers are named, and the same whose multipliers the analysis does not know: it places many before their
 /// coordinates, so that their pivots are delayed.

@@ -2,29 +2,8 @@
 
 mod common;
 
-use common::Sum;
+use common::{Forking, Sum};
 use mbs_sparse::{Alone, Multifrontal, Options, Ordering, Pivoting, SpdSolver, Team};
-
-/// Two threads at every fork, in an order that changes from run to run.
-#[derive(Debug, Clone)]
-struct Forking;
-
-impl Team for Forking {
-    fn join<A: Send, B: Send>(
-        &self,
-        a: impl FnOnce() -> A + Send,
-        b: impl FnOnce() -> B + Send,
-    ) -> (A, B) {
-        std::thread::scope(|scope| {
-            let b = scope.spawn(b);
-            let a = a();
-            (a, b.join().expect("no panic"))
-        })
-    }
-    fn size(&self) -> usize {
-        2
-    }
-}
 
 fn sums() -> Vec<(&'static str, Sum)> {
     vec![

@@ -7,7 +7,7 @@
 //! ```
 
 pub mod front;
-mod panel;
+pub mod panel;
 pub mod scaling;
 
 use crate::Real;

@@ -1,4 +1,4 @@
-//! Pivots that some columns of a front do not know of yet.
+//! Pivots that some columns of a front do not know of yet, and the products that tell them.
 //!
 //! ```text
 //! a_j <- a_j - sum_m  d_m l_jm l_m          pivots m of the panel, together: each column is read and written once
@@ -59,27 +59,50 @@ impl<T: Real> Panel<T> {
     #[inline(always)]
     fn apply_sized<const P: usize>(&self, a: &mut [T], f: usize, columns: Range<usize>) {
         let first = columns.start;
-        let (done, mut rest) = a.split_at_mut(column(f, first));
+        let (done, rest) = a.split_at_mut(column(f, first));
         let mut known: [&[T]; P] = [&done[..0]; P];
         for m in 0..P {
             let k = self.start + m;
             known[m] = &done[column(f, k) + first - k..][..f - first];
         }
-        for j in 0..columns.len() {
-            let (target, next) = rest.split_at_mut(f - first - j);
-            rest = next;
-            let (mut below, mut w) = (known, [T::ZERO; P]);
-            for m in 0..P {
-                below[m] = &known[m][j..][..target.len()];
-                w[m] = below[m][0] * self.pivots[m];
-            }
-            for i in 0..target.len() {
-                let mut sum = below[0][i] * w[0];
-                for m in 1..P {
-                    sum += below[m][i] * w[m];
-                }
-                target[i] -= sum;
-            }
+        subtract_products(rest, columns.len(), known, &self.pivots);
+    }
+}
+
+/// a_ij <- a_ij - sum_m d_m l_im l_jm in the first `n` columns of the packed triangle `a`; `l` has as many rows as it.
+#[inline(always)]
+pub fn subtract_products<T: Real, const P: usize>(
+    a: &mut [T],
+    n: usize,
+    l: [&[T]; P],
+    pivots: &[T],
+) {
+    let rows = l[0].len();
+    let mut rest = a;
+    for j in 0..n {
+        let (target, next) = rest.split_at_mut(rows - j);
+        rest = next;
+        let (mut below, mut w) = (l, [T::ZERO; P]);
+        for m in 0..P {
+            below[m] = &l[m][j..rows];
+            w[m] = below[m][0] * pivots[m];
         }
+        subtract(target, below, w);
+    }
+}
+
+/// target_i <- target_i - sum_m w_m column_m,i
+#[inline(always)]
+pub fn subtract<T: Real, const M: usize>(target: &mut [T], mut columns: [&[T]; M], w: [T; M]) {
+    let len = target.len();
+    for c in &mut columns {
+        *c = &c[..len];
+    }
+    for i in 0..len {
+        let mut sum = columns[0][i] * w[0];
+        for m in 1..M {
+            sum += columns[m][i] * w[m];
+        }
+        target[i] -= sum;
     }
 }

@@ -68,6 +68,24 @@ pub fn spline_curvatures<T: Real>(table: &[[T; 2]], curvature: &mut [T], scratch
     }
 }
 
+/// The vector of a table, linear between its rows; `row` tells time and vector of one. Before the first and after the last row the
+/// end value is held; an empty table is zero.
+///
+/// Cost: one binary search; no allocation.
+#[inline]
+pub fn linear<T: Real, R>(rows: &[R], row: impl Fn(&R) -> (T, [T; 3]), t: T) -> [T; 3] {
+    let next = rows.partition_point(|r| row(r).0 <= t);
+    let before = next.checked_sub(1).and_then(|i| rows.get(i)).map(&row);
+    match (before, rows.get(next).map(&row)) {
+        (Some((t0, [x0, y0, z0])), Some((t1, [x1, y1, z1]))) => {
+            let s = (t - t0) / (t1 - t0);
+            [x0 + (x1 - x0) * s, y0 + (y1 - y0) * s, z0 + (z1 - z0) * s]
+        }
+        (Some((_, held)), None) | (None, Some((_, held))) => held,
+        (None, None) => [T::ZERO; 3],
+    }
+}
+
 /// Evaluates the natural cubic spline at `t`; before the first and after the last row the end value is held
 /// at rest. An empty table is zero; a curvature that is not there is zero too.
 ///

@@ -150,9 +150,9 @@ impl<T: Real, const D: usize> Layout<T, D> {
             let places = group.slots(&self.entities).into_iter().filter(unknown);
             places.map(|e| self.model.entity_at[e]).max()
         };
-        let mut order: Vec<_> = groups.iter().map(|group| (last(group), group)).collect();
-        order.sort_by_key(|&(last, _)| last);
-        order.into_iter().map(|(_, group)| group).collect()
+        let mut order: Vec<_> = groups.iter().collect();
+        order.sort_by_cached_key(|group| last(group));
+        order
     }
 
     fn add(&mut self, draft: &GroupDraft<T>) {

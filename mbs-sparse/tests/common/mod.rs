@@ -6,8 +6,10 @@
 
 #![allow(dead_code, unused_imports, reason = "each test binary uses a part")]
 
+mod forking;
 mod saddle;
 
+pub(crate) use forking::Forking;
 use mbs_sparse::{BlockSource, Cliques, Real};
 pub(crate) use saddle::Saddle;
 
