@@ -1,5 +1,7 @@
 //! What the test binaries share: scenes of the repository, and stepping without recording.
-#![allow(dead_code, reason = "each binary uses its part")]
+pub(crate) mod allocations;
+pub(crate) mod oracle;
+pub(crate) mod random;
 
 use mbs::augmented::{StepError, StepReport};
 use mbs::core::natural::Affine;

@@ -1,7 +1,6 @@
 //! Modes of the Bombardier Iltis: against an independent model, and against the motion that they predict.
-#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
-mod common;
+use crate::common;
 
 use mbs::augmented::{Options, Workspace, index3};
 use mbs::core::Cliques;

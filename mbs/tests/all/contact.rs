@@ -4,13 +4,11 @@
 //! pressed in   d'' = g - w^2 d,   d(0) = 0, d'(0) = v:   d = (g / w^2)(1 - cos w t) + (v / w) sin w t
 //! it lasts     w T = 2 (pi - atan(v w / g));   between contacts a parabola
 //! ```
-#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
-#[path = "common/allocations.rs"]
-mod allocations;
-mod common;
+use crate::common;
+use crate::common::allocations;
 
-use common::Bench;
+use crate::common::Bench;
 use mbs::core::outputs::Contacts;
 use mbs::core::scene::{Dimension, EffectKind, Scene};
 use mbs::scene_file::Document;

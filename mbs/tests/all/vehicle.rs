@@ -1,7 +1,6 @@
 //! The Bombardier Iltis: static equilibrium against the published one, runs in three formulations against each other, energy.
-#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
-mod common;
+use crate::common;
 
 use mbs::core::actions::{Action, Actions};
 use mbs::core::laws::body::{BodyLaw, BodyMotion};

@@ -6,9 +6,9 @@
     reason = "what is measured is shown with --nocapture; references keep their digits"
 )]
 
-mod common;
+use crate::common;
 
-use common::{Bench, FORMULATIONS, distance, steps, worst};
+use crate::common::{Bench, FORMULATIONS, distance, steps, worst};
 use mbs::augmented::{Options, Projection, StepError};
 
 /// Errors at a step and at half of it have this ratio in a method of order 2; higher orders of the step make the rest.

@@ -2,7 +2,6 @@
 //!
 //! Each method runs at dt and dt/2. Its error is estimated by the largest difference of the two over the run, channel by
 //! channel; two methods agree when they differ by at most [`SHARE`] times the larger of their estimates.
-#![allow(dead_code, reason = "each binary uses its part")]
 
 use mbs::core::scene::{Dimension, Output, Quantity, Scene};
 use mbs::{Overrides, Settings, StopError};

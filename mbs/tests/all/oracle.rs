@@ -1,15 +1,11 @@
 //! The cross-formulation oracle on every scene of the repository.
-#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
-mod common;
-#[path = "common/oracle.rs"]
-mod oracle;
-#[path = "../../mbs-core/tests/common/retell.rs"]
-mod retell;
+use crate::common;
+use crate::retell;
 
-use common::SCENES;
+use crate::common::SCENES;
+use crate::common::oracle::{METHODS, Method, Told, disagreement, everything, rows, tell};
 use mbs::core::scene::{Output, Quantity, Scene};
-use oracle::{METHODS, Method, Told, disagreement, everything, rows, tell};
 
 /// Step and span of a scene: the step resolves its motion, and the span ends before chaos has made rounding large.
 fn span(name: &str) -> (f64, f64) {

@@ -5,9 +5,7 @@
     reason = "what is measured is shown with --nocapture; references keep their digits"
 )]
 
-mod common;
-
-use common::{FORMULATIONS, distance, scene, settings, worst};
+use crate::common::{FORMULATIONS, distance, scene, settings, worst};
 use mbs::Formulation;
 
 /// Names of the angles, as channels of the scene.

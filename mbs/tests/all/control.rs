@@ -1,14 +1,11 @@
 //! Steps of controlled length: what they cost beside fixed ones, how errors follow the tolerances, and hard passages from many
 //! starts.
-#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
-#[path = "common/allocations.rs"]
-mod allocations;
-mod common;
-#[path = "control/starts.rs"]
+use crate::common;
+use crate::common::allocations;
 mod starts;
 
-use common::scene;
+use crate::common::scene;
 use mbs::core::scene::{Dimension, Quantity, Scene};
 use mbs::{Outcome, Overrides, Settings};
 

@@ -1,16 +1,11 @@
 //! The oracle on random trees and random closed loops, as they are, turned as a whole, and told in another order.
-#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
-#[path = "common/oracle.rs"]
-mod oracle;
-#[path = "common/random.rs"]
-mod random;
-#[path = "../../mbs-core/tests/common/retell.rs"]
-mod retell;
+use crate::common::random;
+use crate::retell;
 
+use crate::common::oracle::{METHODS, differences, disagreement, everything, rows, tell};
 use mbs::core::scene::{Dimension, Scene};
 use mbs::{Overrides, Settings, Simulation};
-use oracle::{METHODS, differences, disagreement, everything, rows, tell};
 
 /// Step and span [s]: at some metres and radians per second a step is a hundredth of what moves.
 const SPAN: (f64, f64) = (1e-3, 0.2);

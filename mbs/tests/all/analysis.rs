@@ -1,8 +1,8 @@
 //! `mbs equilibrium` and `mbs modes` as their users meet them, and the start from an equilibrium.
 
-mod common;
+use crate::common;
 
-use common::{path, scene};
+use crate::common::{path, scene};
 use mbs::core::model::Model;
 use mbs::core::natural::NaturalModel;
 use mbs::core::start::assemble;

@@ -1,9 +1,6 @@
 //! Energy books: how far the invariant may drift, step by step, and that no run drifts far in silence.
-#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
-mod common;
-
-use common::{Bench, FORMULATIONS, SCENES, scene, settings, worst};
+use crate::common::{Bench, FORMULATIONS, SCENES, scene, settings, worst};
 use mbs::core::scene::Dimension;
 use mbs::{InSpace, Plane};
 

@@ -1,5 +1,4 @@
 //! The `mbs` command as its users meet it: files, JSON, exit status, refusals.
-#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};

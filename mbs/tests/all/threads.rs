@@ -1,8 +1,8 @@
 //! Threads that share the steps of a run change no bit of it.
 
-mod common;
+use crate::common;
 
-use common::{SCENES, scene};
+use crate::common::{SCENES, scene};
 use mbs::core::scene::{Dimension, Scene};
 use mbs::scene_file::{Document, Family, generate};
 use mbs::{InSpace, Overrides, Plane, Settings, Simulation};

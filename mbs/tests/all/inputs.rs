@@ -1,6 +1,6 @@
 //! What is set between steps, and laws of a user's own: drivers, controllers and machines, in every formulation.
 
-mod common;
+use crate::common;
 
 use mbs::core::laws::body::{Action, BodyMotion};
 use mbs::core::laws::own::{OwnScalar, OwnWrench, ScalarLaw, WrenchLaw};

@@ -1,17 +1,14 @@
 //! What must be kept whatever moves: angular momenta, constraints after projection, the frame of reference, and memory.
-#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
-#[path = "common/allocations.rs"]
-mod allocations;
-mod common;
-#[path = "../../mbs-core/tests/common/retell.rs"]
-mod retell;
+use crate::common;
+use crate::common::allocations;
+use crate::retell;
 
-use common::{Bench, FORMULATIONS, SCENES, cross, distance, dot, scene, worst};
+use crate::common::{Bench, FORMULATIONS, SCENES, cross, distance, dot, scene, worst};
+use crate::retell::{turn_scene, turned};
 use mbs::core::natural::Affine;
 use mbs::core::scene::{Dimension, Inertia, InitialTarget, Scene};
 use mbs::{InSpace, Plane};
-use retell::{turn_scene, turned};
 
 /// Falls by 4 when the step is halved, in a method of order 2, or faster; higher orders of the step make the rest.
 const SECOND_ORDER: core::ops::RangeFrom<f64> = 3.5..;

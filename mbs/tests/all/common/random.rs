@@ -1,5 +1,4 @@
 //! Random mechanisms: trees of mixed joints, and loops closed over them; the same for the same seed on every machine.
-#![allow(dead_code, reason = "each binary uses its part")]
 
 use mbs::core::scene::{
     Body, BodyRef, Dimension, Effect, EffectKind, Inertia, Initial, InitialTarget, Joint,

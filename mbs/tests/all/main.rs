@@ -1,0 +1,25 @@
+//! The tests of the face, in one program: each program compiles the steps of every formulation anew, which takes more than a
+//! minute. `cargo test -p mbs -- energy::` runs one of them.
+#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
+
+mod common;
+#[path = "../../../mbs-core/tests/common/retell.rs"]
+mod retell;
+
+mod analysis;
+mod andrews;
+mod command;
+mod contact;
+mod control;
+mod energy;
+mod explain;
+mod generate;
+mod inputs;
+mod invariants;
+mod modes;
+mod oracle;
+mod random;
+mod reference;
+mod sweep;
+mod threads;
+mod vehicle;
