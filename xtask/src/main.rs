@@ -5,6 +5,7 @@ mod chart;
 mod check;
 mod counts;
 mod documentation;
+mod lab;
 mod mbs;
 mod nostd;
 mod page;

@@ -1,8 +1,8 @@
 //! Drawings that several experiments have: histories of runs, and errors over tolerances and times.
 
-use super::lab::Run;
-use super::record::Record;
 use crate::chart::{Axis, Chart, Kind, Look, Series};
+use crate::lab::Run;
+use crate::lab::record::Record;
 
 /// Styles, the same for the same thing in every drawing. Index 3.
 pub(crate) const INDEX_3: usize = 2;
@@ -98,8 +98,8 @@ pub(crate) fn work_precision(
 
 #[cfg(test)]
 mod tests {
-    use super::super::record::Step;
     use super::*;
+    use crate::lab::record::Step;
 
     #[test]
     fn steps_in_index_1_have_marks() {

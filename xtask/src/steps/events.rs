@@ -1,12 +1,12 @@
 //! What it buys to end steps at contacts and at kinks of the road.
 
-use super::case::{Case, Rule};
 use super::draw::{INDEX_1, INDEX_3, curve, log_log, points};
 use super::fit::{between, median, span};
-use super::lab::{Lab, Run};
 use super::reference::Watched;
 use super::rows::{HEAD, row_with, told};
-use super::section::Section;
+use crate::lab::case::{Case, Rule};
+use crate::lab::section::Section;
+use crate::lab::{Lab, Run};
 use crate::tell::{self, error, ratio};
 
 /// What is watched: the wheel behind the bump, the nose of the vehicle on the stairs, and every channel after the blow.

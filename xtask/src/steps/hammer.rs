@@ -1,11 +1,11 @@
 //! A short blow in a long run: steps of its own against the fixed step that is small enough everywhere.
 
-use super::case::{Case, Rule, size};
 use super::draw::work_precision;
-use super::lab::{Lab, Run};
 use super::reference::{Reference, Watched};
 use super::rows::{HEAD, row_with, told};
-use super::section::Section;
+use crate::lab::case::{Case, Rule, size};
+use crate::lab::section::Section;
+use crate::lab::{Lab, Run};
 use crate::tell::{error, ratio, seconds};
 
 /// What is watched.

@@ -1,12 +1,12 @@
 //! Is the change of index needed? The same rule with steps far below a ten-thousandth of a second, in both indices and in each
 //! alone.
 
-use super::case::{Case, Rule, size};
 use super::draw::work_precision;
 use super::fit::span;
-use super::lab::{Lab, Run};
 use super::rows::{HEAD, row};
-use super::section::Section;
+use crate::lab::case::{Case, Rule, size};
+use crate::lab::section::Section;
+use crate::lab::{Lab, Run};
 use crate::tell::ratios;
 
 /// Scenes, with the first and the largest step [s].

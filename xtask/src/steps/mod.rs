@@ -1,28 +1,22 @@
 //! `cargo xtask steps`: experiments on steps of variable length, beside fixed ones, with their drawings and their claims.
 
-mod case;
 mod draw;
 mod events;
-#[cfg(test)]
-mod fake;
 mod fit;
 mod hammer;
 mod index;
-mod lab;
 mod pendulum;
-mod record;
 mod reference;
 mod rows;
-pub(crate) mod section;
 mod sight;
 mod suspension;
 mod tolerance;
 
+use crate::lab::Lab;
+use crate::lab::section::{Section, item};
 use crate::mbs::Mbs;
 use crate::page;
 use crate::process;
-use lab::Lab;
-use section::{Section, item};
 use std::process::ExitCode;
 
 /// An experiment.
@@ -62,8 +56,8 @@ fn run(quick: bool, names: &[String]) -> Result<(), String> {
     }
     let mbs = Mbs::build()?;
     let folder = process::target_dir().join("steps");
-    let runner = |case: &case::Case, out: Option<&std::path::Path>| {
-        lab::run(&mbs, &folder.join("scenes"), case, out)
+    let runner = |case: &crate::lab::case::Case, out: Option<&std::path::Path>| {
+        crate::lab::run(&mbs, &folder.join("scenes"), case, out)
     };
     let lab = Lab { runner: &runner, quick, folder: folder.clone() };
     let sections = perform(&lab, names)?;
@@ -99,6 +93,7 @@ fn html(sections: &[Section]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::fake;
 
     #[test]
     fn every_experiment_runs_and_its_page_needs_nothing_else() {

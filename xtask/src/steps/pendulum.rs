@@ -1,13 +1,13 @@
 //! The double pendulum of the report's second publication: its Figures 2 to 5, 7 and 8, and what each way of choosing steps costs.
 
-use super::case::{Case, Rule, size};
 use super::draw::{ALONE, INDEX_3, MULTI, line, over_time, steps, work_precision};
 use super::fit::{between, median, rank_correlation, span};
-use super::lab::{Lab, Run};
-use super::record::{Record, Step};
 use super::rows::{HEAD, row};
-use super::section::Section;
 use crate::chart::Kind;
+use crate::lab::case::{Case, Rule, size};
+use crate::lab::record::{Record, Step};
+use crate::lab::section::Section;
+use crate::lab::{Lab, Run};
 use crate::tell::{error, ratio};
 use std::collections::BTreeMap;
 

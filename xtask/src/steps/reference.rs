@@ -1,7 +1,7 @@
 //! A channel at the end of a run, as it is known from elsewhere.
 
-use super::case::{Case, Rule};
-use super::lab::{Lab, Run};
+use crate::lab::case::{Case, Rule};
+use crate::lab::{Lab, Run};
 use crate::mbs::outcome::Figures;
 use crate::tell::error;
 
@@ -145,8 +145,8 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake;
     use super::*;
+    use crate::lab::fake;
 
     const TIP: Watched = Watched {
         scene: "double-pendulum",

@@ -1,8 +1,8 @@
 //! Runs as rows: of the tables of a section, and of the CSV.
 
-use super::case::size;
-use super::lab::Run;
-use super::section::Section;
+use crate::lab::Run;
+use crate::lab::case::size;
+use crate::lab::section::Section;
 use crate::tell::{error, seconds, step};
 
 /// Columns that every table of runs has.
@@ -100,8 +100,8 @@ fn record(experiment: &str, run: &Run) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::case::{Case, Rule};
     use super::*;
+    use crate::lab::case::{Case, Rule};
     use crate::mbs::outcome::{Control, Figures, Outcome};
 
     fn runs() -> [Run; 2] {

@@ -1,8 +1,8 @@
 //! Does a rule see the error? How the true error follows the tolerance, and what it is at equal time.
 
-use super::case::size;
 use super::fit::{between, continued, median, rises, slope};
-use super::section::Section;
+use crate::lab::case::size;
+use crate::lab::section::Section;
 use crate::tell::ratio;
 
 /// How much larger the error may be than that of the estimate at equal time before a rule is said not to see it.

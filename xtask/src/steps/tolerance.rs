@@ -1,13 +1,13 @@
 //! What a tolerance buys: true error over tolerance, for the estimate of the error of a step, for the energy, and for both.
 
-use super::case::{Case, Rule};
 use super::draw::{INDEX_1, INDEX_3, MULTI, curve, log_log, points};
-use super::lab::{Lab, Run};
 use super::reference::{Reference, Watched};
 use super::rows::{HEAD, row_with, told};
-use super::section::Section;
 use super::sight::{self, Sight};
 use crate::chart::Series;
+use crate::lab::case::{Case, Rule};
+use crate::lab::section::Section;
+use crate::lab::{Lab, Run};
 use crate::tell::{error, step};
 
 /// What is watched, with the first and the largest step [s].

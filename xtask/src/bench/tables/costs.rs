@@ -3,7 +3,7 @@
 use super::super::measured::{Lane, Measured, Scene, number};
 use super::{FORMULATIONS, average, by_size, count, percent, ratio, span, time};
 use crate::chart::{Axis, Chart, Kind, Look, Series};
-use crate::steps::section::Section;
+use crate::lab::section::Section;
 
 /// Seconds per step with one thread, in each formulation.
 pub(super) fn steps(measured: &Measured) -> Section {

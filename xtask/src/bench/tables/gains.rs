@@ -3,7 +3,7 @@
 use super::super::measured::{Measured, Scene, efficiency, number, speed_up};
 use super::{by_size, percent, ratio, time};
 use crate::chart::{Axis, Chart, Kind, Look, Series};
-use crate::steps::section::Section;
+use crate::lab::section::Section;
 
 /// The formulations that teams share the steps of.
 const SHARED: [&str; 4] = ["index-3", "index-1", "multi-index", "classical"];

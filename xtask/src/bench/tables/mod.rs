@@ -5,7 +5,7 @@ mod costs;
 mod gains;
 
 use super::measured::{Measured, Scene};
-use crate::steps::section::Section;
+use crate::lab::section::Section;
 
 /// Formulations in the order in which they are shown.
 const FORMULATIONS: [&str; 6] =

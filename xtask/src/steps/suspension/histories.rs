@@ -1,12 +1,12 @@
 //! Steps, energy errors and the height of the wheel over time: Figures 6 and 7 of the report, and what the wheel does.
 
-use super::super::case::size;
 use super::super::draw::{INDEX_1, INDEX_3, MULTI, line, over_time, steps};
 use super::super::fit::span;
-use super::super::record::Record;
-use super::super::section::Section;
 use super::{COARSE, FINE};
 use crate::chart::{Chart, Kind};
+use crate::lab::case::size;
+use crate::lab::record::Record;
+use crate::lab::section::Section;
 use crate::tell::error;
 
 /// When the wheel is on the bump [s].
@@ -111,8 +111,8 @@ fn apart(a: &Record, b: &Record) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::record::Step;
     use super::*;
+    use crate::lab::record::Step;
 
     /// Steps that are short, and in index 1, at 3.1 s alone.
     fn record() -> Record {

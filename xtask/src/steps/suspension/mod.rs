@@ -3,12 +3,12 @@
 
 mod histories;
 
-use super::case::{Case, Rule, size};
 use super::draw::work_precision;
 use super::fit::span;
-use super::lab::{Lab, Run};
 use super::rows::{HEAD, row_with, told};
-use super::section::Section;
+use crate::lab::case::{Case, Rule, size};
+use crate::lab::section::Section;
+use crate::lab::{Lab, Run};
 use crate::tell::{self, error, ratio, seconds};
 
 /// The scenes: the damper as printed there, and the suspension whose rubber stop the bump hits.

@@ -1,7 +1,7 @@
 //! Made-up runs: errors and times that follow simple laws, for the tests of the experiments.
 
+use super::Lab;
 use super::case::{Case, Rule};
-use super::lab::Lab;
 use crate::mbs::outcome::{Control, Figures, Outcome};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -30,7 +30,7 @@ pub(crate) fn with_old_lab(call: impl FnOnce(&Lab<'_>)) {
     lab(&runner, call);
 }
 
-fn lab(runner: &super::lab::Runner<'_>, call: impl FnOnce(&Lab<'_>)) {
+fn lab(runner: &super::Runner<'_>, call: impl FnOnce(&Lab<'_>)) {
     static CALLS: AtomicUsize = AtomicUsize::new(0);
     let number = CALLS.fetch_add(1, Ordering::Relaxed);
     let folder = std::env::temp_dir().join(format!("mbs-steps-{}-{number}", std::process::id()));

@@ -1,10 +1,16 @@
 //! Where experiments run: cases one after the other, the least of their times, and the files of a run.
 
-use super::case::Case;
-use super::record::Record;
+pub(crate) mod case;
+#[cfg(test)]
+pub(crate) mod fake;
+pub(crate) mod record;
+pub(crate) mod section;
+
 use crate::mbs::outcome::{Figures, Outcome};
 use crate::mbs::{self, Mbs};
 use crate::process;
+use case::Case;
+use record::Record;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -135,7 +141,6 @@ pub(crate) fn run(
 
 #[cfg(test)]
 mod tests {
-    use super::super::fake;
     use super::*;
     use std::cell::Cell;
 

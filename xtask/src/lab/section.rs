@@ -1,6 +1,6 @@
 //! What an experiment says: sentences, tables, drawings and claims, for a terminal and for a page.
 
-use super::lab::Run;
+use super::Run;
 use crate::chart::Chart;
 use crate::page::{cell, escape, figure, words};
 use crate::tell::paragraph;
