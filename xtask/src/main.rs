@@ -5,6 +5,7 @@ mod chart;
 mod check;
 mod counts;
 mod documentation;
+mod grades;
 mod lab;
 mod mbs;
 mod nostd;
@@ -12,6 +13,7 @@ mod page;
 mod pick;
 mod process;
 mod races;
+mod report;
 mod simulate;
 mod steps;
 mod summary;
@@ -52,14 +54,20 @@ enum Job {
     },
     /// Build and run each package of examples/pick: mbs-core and one formulation alone
     Pick,
-    /// Run the report's tables on accuracy anew, beside its numbers: text, CSV and HTML under target/tables
+    /// Run the report's tables anew, beside its numbers: text, CSV and HTML under target/tables
     Tables {
         /// Leave out runs of more than a million steps
         #[arg(long)]
         quick: bool,
-        /// These tables alone: T1, T1p, T2, T3, T4, T5.1, T5.2, T5.3, T8
+        /// These tables alone: T1, T1p, T2, T3, T4, T5.1, T5.2, T5.3, T8, T6, T7, G1, G2, F6
         #[arg(value_name = "TABLE")]
         names: Vec<String>,
+    },
+    /// Make every page of measurements with an index under target/report; a run that stops unlisted fails the job
+    Report {
+        /// Leave out the longest runs and the largest scenes
+        #[arg(long)]
+        quick: bool,
     },
     /// Run the experiments on variable steps beside fixed ones: text, CSV and HTML under target/steps
     Steps {
@@ -96,6 +104,7 @@ fn main() -> ExitCode {
         Job::Test { quick } => check::test(quick),
         Job::Pick => pick::pick(),
         Job::Tables { quick, names } => tables::tables(quick, &names),
+        Job::Report { quick } => report::report(quick),
         Job::Steps { quick, names } => steps::steps(quick, &names),
         Job::Bench { threads, quick, scenes } => {
             bench::bench(&bench::Asked { threads, quick, scenes })

@@ -8,9 +8,11 @@ mod rows;
 mod tables;
 mod threads;
 
+use crate::lab::section::Section;
 use crate::page;
 use crate::process;
 use machine::Machine;
+pub(crate) use machine::{cores, processor};
 use measured::{Measured, Scene};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -54,7 +56,7 @@ pub(crate) struct Asked {
 /// Measures the scenes, or those named, and writes text, JSON and HTML; exit status 1 where something cannot be run.
 pub(crate) fn bench(asked: &Asked) -> ExitCode {
     match run(asked) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(_) => ExitCode::SUCCESS,
         Err(why) => {
             eprintln!("cargo xtask bench: {why}");
             ExitCode::FAILURE
@@ -63,8 +65,45 @@ pub(crate) fn bench(asked: &Asked) -> ExitCode {
 }
 
 /// Builds the program, measures one scene after the other, and writes the files under `target/bench`.
+///
+/// # Errors
+///
+/// Why something cannot be run at all.
 #[allow(clippy::print_stdout, reason = "the tables are what is asked for")]
-fn run(asked: &Asked) -> Result<(), String> {
+pub(crate) fn run(asked: &Asked) -> Result<String, String> {
+    let measured = measure(asked)?;
+    let sections = tables::sections(&measured);
+    let mut remark = String::new();
+    crate::tell::paragraph(&mut remark, 0, &tables::remark(&measured));
+    println!("{remark}");
+    for section in &sections {
+        println!("{}", section.text());
+    }
+    let folder = process::target_dir().join("bench");
+    let json = format!("{:#}\n", rows::json(&measured));
+    process::write(&folder.join("bench.json"), json.as_bytes())?;
+    let content: String = sections.iter().map(|section| section.html()).collect();
+    let page = page::page(
+        "What a step costs, and what threads gain",
+        &tables::remark(&measured),
+        &content,
+    );
+    process::write(&folder.join("bench.html"), page.as_bytes())?;
+    Ok(page)
+}
+
+/// The report's tables on processors, T6 and T7, from the vehicle alone.
+///
+/// # Errors
+///
+/// Why something cannot be run at all.
+pub(crate) fn processors(quick: bool) -> Result<Section, String> {
+    let scenes = papers::TIMES.iter().map(|(_, scene, _)| (*scene).to_owned()).collect();
+    Ok(tables::processors(&measure(&Asked { threads: None, quick, scenes })?))
+}
+
+/// Builds the program and measures one scene after the other.
+fn measure(asked: &Asked) -> Result<Measured, String> {
     // The load before anything of this job runs is that of others.
     let machine = Machine::now();
     let threads = asked.threads.clone().unwrap_or_else(|| Threads::up_to(machine.cores));
@@ -85,24 +124,7 @@ fn run(asked: &Asked) -> Result<(), String> {
     }
     measured.machine.end();
     process::progress("");
-
-    let sections = tables::sections(&measured);
-    let mut remark = String::new();
-    crate::tell::paragraph(&mut remark, 0, &tables::remark(&measured));
-    println!("{remark}");
-    for section in &sections {
-        println!("{}", section.text());
-    }
-    let folder = process::target_dir().join("bench");
-    let json = format!("{:#}\n", rows::json(&measured));
-    process::write(&folder.join("bench.json"), json.as_bytes())?;
-    let content: String = sections.iter().map(|section| section.html()).collect();
-    let page = page::page(
-        "What a step costs, and what threads gain",
-        &tables::remark(&measured),
-        &content,
-    );
-    process::write(&folder.join("bench.html"), page.as_bytes())
+    Ok(measured)
 }
 
 /// The scenes that are asked for; a name that is not in the list is the program's to judge.

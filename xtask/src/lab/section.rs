@@ -42,11 +42,22 @@ enum Block {
     Heading(String),
     Words(String),
     Table(Vec<&'static str>, Vec<Vec<String>>),
-    /// A table that is on the page alone, behind its title.
-    Behind(String, Vec<&'static str>, Vec<Vec<String>>),
+    /// A table whose cells lead to rows of another on the page.
+    Leading(Vec<&'static str>, Vec<Vec<Leading>>),
+    /// A table that is on the page alone, behind its title; rows that are led to have names.
+    Behind(String, Vec<&'static str>, Vec<Vec<String>>, Vec<String>),
     Claim(Claim),
     /// A drawing, and its caption.
     Figure(String, String),
+}
+
+/// A cell that leads to a named row of another table on the page.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Leading {
+    /// What stands in the cell.
+    pub(crate) text: String,
+    /// The name of the row, or empty.
+    pub(crate) to: String,
 }
 
 /// An experiment.
@@ -84,7 +95,22 @@ impl Section {
 
     /// Adds a long table that opens on the page at a touch, and is not on a terminal.
     pub(crate) fn behind(&mut self, title: &str, head: &[&'static str], rows: Vec<Vec<String>>) {
-        self.blocks.push(Block::Behind(title.to_owned(), head.to_vec(), rows));
+        self.blocks.push(Block::Behind(title.to_owned(), head.to_vec(), rows, Vec::new()));
+    }
+
+    /// The same with names of the rows that other tables lead to, or empty ones.
+    pub(crate) fn behind_named(
+        &mut self,
+        title: &str,
+        head: &[&'static str],
+        (rows, names): (Vec<Vec<String>>, Vec<String>),
+    ) {
+        self.blocks.push(Block::Behind(title.to_owned(), head.to_vec(), rows, names));
+    }
+
+    /// Adds a table whose cells lead to named rows; its first column has names.
+    pub(crate) fn leading(&mut self, head: &[&'static str], rows: Vec<Vec<Leading>>) {
+        self.blocks.push(Block::Leading(head.to_vec(), rows));
     }
 
     /// Adds a claim.
@@ -116,6 +142,10 @@ impl Section {
                 Block::Heading(heading) => text.push_str(&format!("\n{heading}\n")),
                 Block::Words(sentences) => paragraph(&mut text, 0, sentences),
                 Block::Table(head, rows) => grid(&mut text, head, rows),
+                Block::Leading(head, rows) => {
+                    let row = |row: &Vec<Leading>| row.iter().map(|c| c.text.clone()).collect();
+                    grid(&mut text, head, &rows.iter().map(row).collect::<Vec<_>>());
+                }
                 Block::Claim(claim) => {
                     let told = format!("{}: {} ({})", claim.what, claim.measured, claim.verdict());
                     paragraph(&mut text, 2, &told);
@@ -142,15 +172,16 @@ impl Section {
                 Block::Words(sentences) => {
                     html.push_str(&format!("<p>{}</p>\n", words(sentences)));
                 }
-                Block::Table(head, rows) => html.push_str(&table(head, rows)),
+                Block::Table(head, rows) => html.push_str(&table(head, rows, &[])),
+                Block::Leading(head, rows) => html.push_str(&leading(head, rows)),
                 Block::Claim(claim) => {
                     html.push_str(&format!("<ul class=\"claims\">{}</ul>\n", item(claim)));
                 }
                 Block::Figure(figure, _) => html.push_str(figure),
-                Block::Behind(title, head, rows) => html.push_str(&format!(
+                Block::Behind(title, head, rows, names) => html.push_str(&format!(
                     "<details>\n<summary>{}</summary>\n{}</details>\n",
                     escape(title),
-                    table(head, rows)
+                    table(head, rows, names)
                 )),
             }
         }
@@ -169,12 +200,42 @@ pub(crate) fn item(claim: &Claim) -> String {
     )
 }
 
-/// A table on a page; in the first column are names.
-fn table(head: &[&str], rows: &[Vec<String>]) -> String {
+/// The beginning of a table on a page.
+fn opened(head: &[&str]) -> String {
     let heads: String = head.iter().map(|name| format!("<th>{}</th>", words(name))).collect();
-    let mut html = format!("<table>\n<thead><tr>{heads}</tr></thead>\n<tbody>\n");
+    format!("<table>\n<thead><tr>{heads}</tr></thead>\n<tbody>\n")
+}
+
+/// A table on a page whose cells lead elsewhere; in the first column are names.
+fn leading(head: &[&str], rows: &[Vec<Leading>]) -> String {
+    let mut html = opened(head);
     for row in rows {
         html.push_str("<tr>");
+        for (i, (label, Leading { text, to })) in head.iter().zip(row).enumerate() {
+            html.push_str(&match (i, to.is_empty()) {
+                (0, _) => format!("<th scope=\"row\">{}</th>", words(text)),
+                (_, true) => cell(label, text, ""),
+                (_, false) => format!(
+                    "<td data-label=\"{}\"><a href=\"#{}\">{}</a></td>",
+                    escape(label),
+                    escape(to),
+                    words(text)
+                ),
+            });
+        }
+        html.push_str("</tr>\n");
+    }
+    html + "</tbody>\n</table>\n"
+}
+
+/// A table on a page; in the first column are names, and rows may have names that are led to.
+fn table(head: &[&str], rows: &[Vec<String>], names: &[String]) -> String {
+    let mut html = opened(head);
+    for (i, row) in rows.iter().enumerate() {
+        html.push_str(&match names.get(i).filter(|name| !name.is_empty()) {
+            Some(name) => format!("<tr id=\"{}\">", escape(name)),
+            None => "<tr>".to_owned(),
+        });
         for (i, (label, value)) in head.iter().zip(row).enumerate() {
             html.push_str(&match i {
                 0 => format!("<th scope=\"row\">{}</th>", words(value)),

@@ -39,7 +39,7 @@ const REMARK: &str = "Energy error: largest error of the energy invariant over e
 /// Runs the experiments, or those named, and writes them as text, CSV and HTML; exit status 1 where something cannot be run.
 pub(crate) fn steps(quick: bool, names: &[String]) -> ExitCode {
     match run(quick, names) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(_) => ExitCode::SUCCESS,
         Err(why) => {
             eprintln!("cargo xtask steps: {why}");
             ExitCode::FAILURE
@@ -47,9 +47,31 @@ pub(crate) fn steps(quick: bool, names: &[String]) -> ExitCode {
     }
 }
 
+/// Figures 6 and 7 of the report, and the runs behind them.
+///
+/// # Errors
+///
+/// Why a case cannot be run at all.
+pub(crate) fn figures(lab: &Lab<'_>) -> Result<Section, String> {
+    suspension::run(lab)
+}
+
+/// What the experiments came to.
+#[derive(Debug)]
+pub(crate) struct Steps {
+    /// The page.
+    pub(crate) html: String,
+    /// Claims, and how many of them hold.
+    pub(crate) claims: [usize; 2],
+}
+
 /// Builds `mbs`, runs the experiments one after the other, and writes the files under `target/steps`.
+///
+/// # Errors
+///
+/// An unknown name, or why something cannot be run at all.
 #[allow(clippy::print_stdout, reason = "the experiments are what is asked for")]
-fn run(quick: bool, names: &[String]) -> Result<(), String> {
+pub(crate) fn run(quick: bool, names: &[String]) -> Result<Steps, String> {
     let known = EXPERIMENTS.map(|(name, _)| name);
     if let Some(name) = names.iter().find(|name| !known.contains(&name.as_str())) {
         return Err(format!("no experiment `{name}`; there are {}", known.join(", ")));
@@ -66,7 +88,11 @@ fn run(quick: bool, names: &[String]) -> Result<(), String> {
         println!("{}", section.text());
     }
     process::write(&folder.join("steps.csv"), &rows::csv(&sections)?)?;
-    process::write(&folder.join("steps.html"), html(&sections).as_bytes())
+    let page = html(&sections);
+    process::write(&folder.join("steps.html"), page.as_bytes())?;
+    let claims = || sections.iter().flat_map(Section::claims);
+    let hold = claims().filter(|claim| claim.holds == Some(true)).count();
+    Ok(Steps { html: page, claims: [claims().count(), hold] })
 }
 
 /// Performs the experiments, or those named.

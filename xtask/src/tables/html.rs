@@ -3,19 +3,21 @@
 use super::report::Table;
 use super::rows::{Row, by_table, sizes};
 use super::text::REMARK;
+use crate::lab::section::Section;
 use crate::mbs::outcome::Outcome;
 use crate::page::{cell, escape, words};
 use crate::tell::step;
 use std::fmt::Write;
 
-/// The page with all tables, and under some of them a figure.
-pub(crate) fn page(rows: &[Row], drawings: &[(&str, String)]) -> String {
+/// The page with all tables, and under some of them a figure; then what is made of sections.
+pub(crate) fn page(rows: &[Row], drawings: &[(&str, String)], sections: &[Section]) -> String {
     let drawing = |table: &Table| {
         drawings.iter().find(|(name, _)| *name == table.name).map_or("", |(_, svg)| svg)
     };
     let tables: String =
         by_table(rows).map(|(table, rows)| section(table, rows, drawing(table))).collect();
-    crate::page::page("Accuracy tables of the report, run anew", REMARK, &tables)
+    let sections: String = sections.iter().map(Section::html).collect();
+    crate::page::page("The report's tables, run anew", REMARK, &(tables + &sections))
 }
 
 /// One table with its heading and note.
@@ -88,7 +90,7 @@ mod tests {
 
     #[test]
     fn page_has_every_row_escaped_and_needs_nothing_else() {
-        let page = super::page(&samples(), &[("T1", "<figure>drawn</figure>".to_owned())]);
+        let page = super::page(&samples(), &[("T1", "<figure>drawn</figure>".to_owned())], &[]);
         assert!(!page.contains("{{"), "every place is filled");
         assert!(!page.contains("http") && !page.contains("src="), "nothing is fetched");
         assert_eq!(page.matches("<section").count(), 2);

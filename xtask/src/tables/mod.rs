@@ -1,15 +1,17 @@
-//! `cargo xtask tables`: the report's tables on accuracy, run anew and set beside the printed numbers.
+//! `cargo xtask tables`: the report's tables, run anew and set beside the printed numbers.
 
+mod expected;
 mod history;
 mod html;
 mod report;
 mod rows;
 mod text;
 
+use crate::lab::section::Section;
+use crate::lab::{self, Lab};
 use crate::mbs::outcome::Outcome;
 use crate::mbs::{Mbs, columns, scene};
-use crate::page;
-use crate::process;
+use crate::{bench, grades, page, process, steps};
 use rows::Row;
 use std::path::Path;
 use std::process::ExitCode;
@@ -17,11 +19,39 @@ use std::process::ExitCode;
 /// Runs with more steps than this are left out by `--quick`.
 const QUICK: f64 = 1e6;
 
+/// A table that is made of sections: grades, and what the experiments on steps draw.
+type Made = fn(&Lab<'_>) -> Result<Section, String>;
+/// Those tables, by their names; F6 shows the report's Figures 6 and 7.
+const MADE: [(&str, Made); 3] = [("G1", grades::g1), ("G2", grades::g2), ("F6", steps::figures)];
+/// Tables IV and V of the report, on processors, by their names; the bench measures both.
+const PROCESSORS: [&str; 2] = ["T6", "T7"];
+
+/// The names of all tables.
+pub(crate) fn names() -> Vec<&'static str> {
+    let tables = report::TABLES.iter().map(|table| table.name);
+    tables.chain(PROCESSORS).chain(MADE.map(|(name, _)| name)).collect()
+}
+
+/// What the tables came to.
+#[derive(Debug)]
+pub(crate) struct Tables {
+    /// The page.
+    pub(crate) html: String,
+    /// Outcomes that are not the listed ones.
+    pub(crate) surprises: Vec<String>,
+    /// Entries that were run.
+    pub(crate) entries: usize,
+}
+
 /// Runs every entry of the tables, or of those named, and writes them as text, CSV and HTML; exit status 1 where something
-/// cannot be run.
+/// cannot be run, or does not come to what is listed.
 pub(crate) fn tables(quick: bool, names: &[String]) -> ExitCode {
     match run(quick, names) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(tables) if tables.surprises.is_empty() => ExitCode::SUCCESS,
+        Ok(tables) => {
+            eprintln!("cargo xtask tables: not what is listed:\n{}", tables.surprises.join("\n"));
+            ExitCode::FAILURE
+        }
         Err(why) => {
             eprintln!("cargo xtask tables: {why}");
             ExitCode::FAILURE
@@ -30,19 +60,45 @@ pub(crate) fn tables(quick: bool, names: &[String]) -> ExitCode {
 }
 
 /// Builds `mbs`, runs all entries one after the other, and writes the files under `target/tables`.
+///
+/// # Errors
+///
+/// An unknown name, or why something cannot be run at all.
 #[allow(clippy::print_stdout, reason = "the tables are what is asked for")]
-fn run(quick: bool, names: &[String]) -> Result<(), String> {
-    let known = report::TABLES.map(|table| table.name);
-    if let Some(name) = names.iter().find(|name| !known.contains(&name.as_str())) {
+pub(crate) fn run(quick: bool, wanted: &[String]) -> Result<Tables, String> {
+    let known = names();
+    if let Some(name) = wanted.iter().find(|name| !known.contains(&name.as_str())) {
         return Err(format!("no table `{name}`; there are {}", known.join(", ")));
     }
     let mbs = Mbs::build()?;
-
     let folder = process::target_dir().join("tables");
+    let is_wanted = |name: &str| wanted.is_empty() || wanted.iter().any(|n| n == name);
+    let (rows, drawings) = entries(&mbs, &folder, quick, &is_wanted)?;
+    let sections = sections(&mbs, &folder, quick, &is_wanted)?;
+    process::progress("");
+
+    println!("{}", text::text(&rows));
+    for section in &sections {
+        println!("{}", section.text());
+    }
+    let html = html::page(&rows, &drawings, &sections);
+    process::write(&folder.join("tables.csv"), &rows::csv(&rows)?)?;
+    process::write(&folder.join("tables.html"), html.as_bytes())?;
+    Ok(Tables { html, surprises: expected::surprises(&rows), entries: rows.len() })
+}
+
+/// Rows of the tables on accuracy and time, and their drawings.
+type Entries = (Vec<Row>, Vec<(&'static str, String)>);
+
+/// Runs the entries of the tables on accuracy and time.
+fn entries(
+    mbs: &Mbs,
+    folder: &Path,
+    quick: bool,
+    is_wanted: &dyn Fn(&str) -> bool,
+) -> Result<Entries, String> {
     let runs = folder.join("runs");
-    let mut rows = Vec::new();
-    let mut drawings = Vec::new();
-    let is_wanted = |name: &str| names.is_empty() || names.iter().any(|n| n == name);
+    let (mut rows, mut drawings) = (Vec::new(), Vec::new());
     for table in report::TABLES.iter().filter(|table| is_wanted(table.name)) {
         let mut lines = Vec::new();
         for (method, step) in
@@ -50,7 +106,7 @@ fn run(quick: bool, names: &[String]) -> Result<(), String> {
         {
             process::progress(&format!("{} {} dt {step:.0e}", table.name, method.name));
             let drawn = table.history.filter(|_| table.draws(method, step));
-            let outcome = entry(&mbs, table, method, step, drawn.map(|_| &*runs))?;
+            let outcome = entry(mbs, table, method, step, drawn.map(|_| &*runs))?;
             if let Some(history) = drawn.filter(|_| outcome.has_run()) {
                 let points = columns::history(&runs.join("run.csv"), history.column)?;
                 // The finest run lies below the others.
@@ -67,11 +123,28 @@ fn run(quick: bool, names: &[String]) -> Result<(), String> {
             drawings.push((table.name, page::figure(&chart, history::CAPTION)?));
         }
     }
-    process::progress("");
+    Ok((rows, drawings))
+}
 
-    println!("{}", text::text(&rows));
-    process::write(&folder.join("tables.csv"), &rows::csv(&rows)?)?;
-    process::write(&folder.join("tables.html"), html::page(&rows, &drawings).as_bytes())
+/// The tables that are made of sections.
+fn sections(
+    mbs: &Mbs,
+    folder: &Path,
+    quick: bool,
+    is_wanted: &dyn Fn(&str) -> bool,
+) -> Result<Vec<Section>, String> {
+    let mut sections = Vec::new();
+    if PROCESSORS.iter().any(|name| is_wanted(name)) {
+        sections.push(bench::processors(quick)?);
+    }
+    let runner = |case: &lab::case::Case, out: Option<&Path>| {
+        lab::run(mbs, &folder.join("scenes"), case, out)
+    };
+    let lab = Lab { runner: &runner, quick, folder: folder.to_path_buf() };
+    for (_, made) in MADE.iter().filter(|(name, _)| is_wanted(name)) {
+        sections.push(made(&lab)?);
+    }
+    Ok(sections)
 }
 
 /// Runs one entry; with a folder, its files are left there. A reference that its table has must be there.

@@ -34,6 +34,11 @@ pub(crate) fn sections(measured: &Measured) -> Vec<Section> {
     ]
 }
 
+/// The report's tables on processors alone.
+pub(crate) fn processors(measured: &Measured) -> Section {
+    compared::report(measured)
+}
+
 /// A time with three digits and its unit.
 fn time(seconds: f64) -> String {
     let (number, unit) = match seconds {

@@ -1,0 +1,202 @@
+//! One column of the grades: for each method a letter, the number it rests on, and the runs behind it.
+
+use super::ladder::{self, Ladder};
+use super::letter::{Letter, mean, over_best, worst};
+use super::printed::{METHODS, Method};
+use crate::lab::{Lab, Run};
+
+/// A letter with what it rests on.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Cell {
+    pub(crate) letter: Letter,
+    /// How many times what the best method needs, or what it rests on; nothing where it fails.
+    pub(crate) ratio: Option<f64>,
+    /// What was counted, where nothing is run.
+    pub(crate) counted: String,
+    /// The runs.
+    pub(crate) runs: Vec<Run>,
+}
+
+/// A column: its name, the rule in words, and a cell for each of [`METHODS`].
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Column {
+    pub(crate) name: &'static str,
+    pub(crate) rule: String,
+    pub(crate) cells: Vec<Cell>,
+}
+
+/// How the ratios of several scenes make one.
+pub(crate) type Joined = fn(&[Option<f64>]) -> Option<f64>;
+
+/// What each method gave in each scene, and the runs: numbers that are better the smaller they are.
+type Given = Vec<(Vec<Option<f64>>, Vec<Run>)>;
+
+/// Cells from what the methods gave: each number beside the best in its scene, then over all scenes.
+fn graded(given: Given, floor: f64, joined: Joined, limits: [f64; 3]) -> Vec<Cell> {
+    let scenes = given.first().map_or(0, |(numbers, _)| numbers.len());
+    let beside: Vec<Vec<Option<f64>>> = (0..scenes)
+        .map(|s| over_best(&given.iter().map(|(numbers, _)| numbers[s]).collect::<Vec<_>>(), floor))
+        .collect();
+    let cell = |(m, (_, runs)): (usize, (Vec<Option<f64>>, Vec<Run>))| {
+        let ratio = joined(&beside.iter().map(|scene| scene[m]).collect::<Vec<_>>());
+        Cell { letter: Letter::of_ratio(ratio, limits), ratio, counted: String::new(), runs }
+    };
+    given.into_iter().enumerate().map(cell).collect()
+}
+
+/// For each method: a number from each ladder, and all runs.
+fn over_ladders(
+    ladders: &[Ladder],
+    number: impl Fn(&Ladder, &Method) -> Result<(Option<f64>, Vec<Run>), String>,
+) -> Result<Given, String> {
+    let of = |method: &Method| {
+        let mut given = (Vec::new(), Vec::new());
+        for ladder in ladders {
+            let (number, runs) = number(ladder, method)?;
+            given.0.push(number);
+            given.1.extend(runs);
+        }
+        Ok(given)
+    };
+    METHODS.iter().map(of).collect()
+}
+
+/// Limits of the letters A, B and C for times and lines: each grade is twice as much.
+const TIMES: [f64; 3] = [2.0, 4.0, 8.0];
+/// Limits for errors at one step: each grade is ten times as much.
+const ERRORS: [f64; 3] = [10.0, 100.0, 1000.0];
+/// Limits for steps on a ladder of half decades: each grade is one rung more.
+const RUNGS: [f64; 3] = [3.5, 12.0, 35.0];
+/// Accuracy whose price is compared: share of the energy turned over.
+const LEVEL: f64 = 1e-4;
+/// A run with a larger share of the energy wrong is of no use.
+const USEFUL: f64 = 1e-2;
+/// Shares below are rounding, and equal.
+const ROUNDING: f64 = 1e-10;
+
+/// CPU time at a wanted accuracy, over scenes.
+pub(crate) fn speed(
+    lab: &Lab<'_>,
+    name: &'static str,
+    ladders: &[Ladder],
+) -> Result<Column, String> {
+    let given = over_ladders(ladders, |ladder, method| {
+        let runs = ladder::descend(lab, ladder, method, LEVEL, true)?;
+        Ok((ladder::price(&runs, LEVEL), runs))
+    })?;
+    Ok(Column {
+        name,
+        rule: format!(
+            "CPU time at which the energy error is {LEVEL:e} of the energy turned over, between the steps of a ladder; over that \
+             of the fastest method, geometric mean over {}. A up to 2, B up to 4, C up to 8 times; F where a scene is not run so \
+             accurately.",
+            scenes(ladders)
+        ),
+        cells: graded(given, 0.0, mean, TIMES),
+    })
+}
+
+/// Energy error at given steps.
+pub(crate) fn accuracy(
+    lab: &Lab<'_>,
+    name: &'static str,
+    ladders: &[Ladder],
+) -> Result<Column, String> {
+    let given = over_ladders(ladders, |ladder, method| {
+        let Some(&step) = ladder.steps.first() else { return Err("a ladder has no step".into()) };
+        let run = ladder::run(lab, &ladder.case(method, step), false)?;
+        Ok((ladder::share(&run).filter(|share| *share <= 0.1), vec![run]))
+    })?;
+    let steps: Vec<_> = ladders
+        .iter()
+        .filter_map(|l| Some(format!("{} at {:e} s", l.scene, l.steps.first()?)))
+        .collect();
+    Ok(Column {
+        name,
+        rule: format!(
+            "Energy error over that of the most accurate method, the worst of {}; below {ROUNDING:e} of the energy turned over all \
+             are equal. A up to 10, B up to 100, C up to 1000 times; F where a run stops, or is wrong by more than a tenth of \
+             the energy.",
+            steps.join(", ")
+        ),
+        cells: graded(given, ROUNDING, worst, ERRORS),
+    })
+}
+
+/// The largest step that is of use.
+pub(crate) fn condition(
+    lab: &Lab<'_>,
+    name: &'static str,
+    ladders: &[Ladder],
+) -> Result<Column, String> {
+    let given = over_ladders(ladders, |ladder, method| {
+        let runs = ladder::descend(lab, ladder, method, USEFUL, false)?;
+        Ok((ladder::reached(&runs, USEFUL).map(|step| 1.0 / step), runs))
+    })?;
+    Ok(Column {
+        name,
+        rule: format!(
+            "The largest step of a ladder of half decades at which the run ends with an energy error of at most {USEFUL:e} of the \
+             energy turned over, beside the largest of all methods, the worst of {}. A the same or one rung less, B two, C \
+             three, D more rungs less; F no step of the ladder.",
+            scenes(ladders)
+        ),
+        cells: graded(given, 0.0, worst, RUNGS),
+    })
+}
+
+/// Numbers that are counted: `(over what, told)` for each method.
+pub(crate) fn easiness(counts: &[(usize, String)]) -> Column {
+    #[allow(clippy::cast_precision_loss, reason = "some thousand lines")]
+    let numbers: Vec<_> = counts.iter().map(|(n, _)| Some(*n as f64)).collect();
+    let cells = over_best(&numbers, 0.0).into_iter().zip(counts).map(|(ratio, (_, told))| Cell {
+        letter: Letter::of_ratio(ratio, TIMES),
+        ratio,
+        counted: told.clone(),
+        runs: Vec::new(),
+    });
+    Column {
+        name: "easiness of implementation",
+        rule: "Lines of code of the crate, without tests and comments, over the fewest. A up to 2, B up to 4, C up to 8 times."
+            .to_owned(),
+        cells: cells.collect(),
+    }
+}
+
+/// Whether a graph is searched: the file that does, for each method.
+pub(crate) fn graphs(files: &[Option<String>]) -> Column {
+    let cell = |file: &Option<String>| Cell {
+        letter: if file.is_some() { Letter::D } else { Letter::A },
+        ratio: None,
+        counted: file.clone().unwrap_or_else(|| "none".to_owned()),
+        runs: Vec::new(),
+    };
+    Column {
+        name: "free from graph methods",
+        rule: "A where no file of the crate searches a graph, D where one does.".to_owned(),
+        cells: files.iter().map(cell).collect(),
+    }
+}
+
+fn scenes(ladders: &[Ladder]) -> String {
+    let name = |l: &Ladder| {
+        format!("{}{}", l.scene, if l.appended.is_empty() { "" } else { " with a joint twice" })
+    };
+    ladders.iter().map(name).collect::<Vec<_>>().join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_method_that_fails_in_one_scene_fails_in_the_column() {
+        let given: Given = vec![
+            (vec![Some(1.0), Some(3.0)], vec![]),
+            (vec![Some(5.0), Some(1.0)], vec![]),
+            (vec![None, Some(1.0)], vec![]),
+        ];
+        let letters: Vec<_> = graded(given, 0.0, worst, TIMES).iter().map(|c| c.letter).collect();
+        assert_eq!(letters, [Letter::B, Letter::C, Letter::F]);
+    }
+}

@@ -1,0 +1,145 @@
+//! Runs down a ladder of steps: the first that is good enough, and what a wanted accuracy costs.
+
+use super::printed::Method;
+use crate::lab::case::Case;
+use crate::lab::{Lab, Run};
+
+/// Runs that take less are repeated, and the least time counts [s].
+const SHORT: f64 = 1.0;
+
+/// A scene with the steps that are tried, falling [s].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Ladder {
+    /// The scene, by its file.
+    pub(crate) scene: &'static str,
+    /// The steps [s].
+    pub(crate) steps: &'static [f64],
+    /// Simulated time [s]; else the scene's.
+    pub(crate) duration: Option<f64>,
+    /// What is appended to the scene.
+    pub(crate) appended: &'static str,
+}
+
+impl Ladder {
+    /// A scene as it is.
+    pub(crate) const fn new(scene: &'static str, steps: &'static [f64]) -> Self {
+        Self { scene, steps, duration: None, appended: "" }
+    }
+
+    /// The run of a method at a step.
+    pub(crate) fn case(&self, method: &Method, step: f64) -> Case {
+        Case {
+            duration: self.duration,
+            arguments: method.arguments,
+            appended: self.appended,
+            ..Case::fixed(self.scene, method.formulation, step)
+        }
+    }
+}
+
+/// Energy error as a share of the energy turned over, where a run reached its end.
+pub(crate) fn share(run: &Run) -> Option<f64> {
+    run.figures().map(crate::mbs::outcome::Figures::share).filter(|share| share.is_finite())
+}
+
+/// Runs one case; its least time of some where it is short.
+///
+/// # Errors
+///
+/// Why it cannot be run at all.
+pub(crate) fn run(lab: &Lab<'_>, case: &Case, is_timed: bool) -> Result<Run, String> {
+    let mut run = first(lab.measure(std::slice::from_ref(case), 1)?)?;
+    if is_timed && run.seconds().is_some_and(|s| s < SHORT) {
+        let again = first(lab.measure(std::slice::from_ref(case), 3)?)?;
+        if again.seconds() < run.seconds() {
+            run = again;
+        }
+    }
+    Ok(run)
+}
+
+fn first(runs: Vec<Run>) -> Result<Run, String> {
+    runs.into_iter().next().ok_or_else(|| "a case was not run".to_owned())
+}
+
+/// Steps down until a run's share of the energy is at most `level`; all runs that were made.
+///
+/// # Errors
+///
+/// Why a case cannot be run at all.
+pub(crate) fn descend(
+    lab: &Lab<'_>,
+    ladder: &Ladder,
+    method: &Method,
+    level: f64,
+    is_timed: bool,
+) -> Result<Vec<Run>, String> {
+    let mut runs = Vec::new();
+    for &step in ladder.steps {
+        let run = run(lab, &ladder.case(method, step), is_timed)?;
+        let is_enough = share(&run).is_some_and(|share| share <= level);
+        runs.push(run);
+        if is_enough {
+            break;
+        }
+    }
+    Ok(runs)
+}
+
+/// The step of the last run, where it is good enough [s].
+pub(crate) fn reached(runs: &[Run], level: f64) -> Option<f64> {
+    let last = runs.last()?;
+    share(last).filter(|&share| share <= level).map(|_| last.case.step)
+}
+
+/// CPU time at which the error is `level` [s]: between the last two runs by powers, or that of the last where the one before
+/// did not reach its end.
+pub(crate) fn price(runs: &[Run], level: f64) -> Option<f64> {
+    reached(runs, level)?;
+    let last = runs.last()?;
+    let (fine, seconds) = (share(last)?, last.seconds()?);
+    let before =
+        runs.len().checked_sub(2).and_then(|i| Some((share(&runs[i])?, runs[i].seconds()?)));
+    match before {
+        Some((coarse, less)) if coarse > fine && fine > 0.0 && less > 0.0 => {
+            let part = (coarse / level).ln() / (coarse / fine).ln();
+            Some(less * (seconds / less).powf(part))
+        }
+        _ => Some(seconds),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mbs::outcome::{Figures, Outcome};
+
+    fn made(step: f64, share: Option<f64>) -> Run {
+        let case = Case::fixed("pendulum", "index-3", step);
+        let figures = |share| Figures {
+            energy_error: share,
+            turned_over: 1.0,
+            seconds: 1e-2 / step,
+            ..Figures::default()
+        };
+        let stopped = Outcome::Refused("no".into());
+        let outcome = share.map_or(stopped, |share| Outcome::Completed(figures(share)));
+        Run { case, outcome, true_error: None }
+    }
+
+    #[test]
+    fn an_accuracy_between_two_runs_costs_what_the_order_says() {
+        // Second order: a hundredth of the error at a tenth of the step.
+        let runs = [made(1e-2, Some(1e-2)), made(1e-3, Some(1e-4))];
+        let price = price(&runs, 1e-3).unwrap();
+        assert!((price - 10f64.sqrt()).abs() < 1e-9, "{price}");
+    }
+
+    #[test]
+    fn what_never_is_good_enough_has_no_price_and_no_step() {
+        let runs = [made(1e-2, None), made(1e-3, Some(1e-2))];
+        assert_eq!((price(&runs, 1e-3), reached(&runs, 1e-3)), (None, None));
+        assert_eq!(reached(&runs, 1e-1), Some(1e-3));
+        assert_eq!(price(&runs, 1e-1), Some(10.0), "the run before gives no slope");
+    }
+}

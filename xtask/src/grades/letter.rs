@@ -1,0 +1,84 @@
+//! Letters by rule: how far a method is from the best one in the same row of runs.
+
+/// A grade. "A means outstanding, B good, C fair, D poor and F signifies a failure" (the report).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Letter {
+    A,
+    B,
+    C,
+    D,
+    F,
+}
+
+impl Letter {
+    /// As it is printed.
+    pub(crate) const fn told(self) -> &'static str {
+        match self {
+            Self::A => "A",
+            Self::B => "B",
+            Self::C => "C",
+            Self::D => "D",
+            Self::F => "F",
+        }
+    }
+
+    /// Of a number that is better the smaller it is, over the best one: A up to the first limit, and so on; none is a failure.
+    pub(crate) fn of_ratio(ratio: Option<f64>, limits: [f64; 3]) -> Self {
+        let Some(ratio) = ratio.filter(|ratio| ratio.is_finite()) else { return Self::F };
+        let [a, b, c] = limits;
+        if ratio <= a {
+            Self::A
+        } else if ratio <= b {
+            Self::B
+        } else if ratio <= c {
+            Self::C
+        } else {
+            Self::D
+        }
+    }
+}
+
+/// The number beside the smallest of all, each at least `floor`; nothing where a method has none.
+pub(crate) fn over_best(numbers: &[Option<f64>], floor: f64) -> Vec<Option<f64>> {
+    let lifted = |x: &Option<f64>| x.filter(|x| x.is_finite()).map(|x| x.max(floor));
+    let best = numbers.iter().filter_map(lifted).fold(f64::INFINITY, f64::min);
+    numbers.iter().map(|x| lifted(x).map(|x| x / best)).collect()
+}
+
+/// The geometric mean; nothing where a number is missing.
+pub(crate) fn mean(ratios: &[Option<f64>]) -> Option<f64> {
+    let logs = ratios.iter().map(|x| x.map(f64::ln)).collect::<Option<Vec<_>>>()?;
+    #[allow(clippy::cast_precision_loss, reason = "some scenes")]
+    let n = logs.len() as f64;
+    (n > 0.0).then(|| (logs.iter().sum::<f64>() / n).exp())
+}
+
+/// The largest; nothing where a number is missing.
+pub(crate) fn worst(ratios: &[Option<f64>]) -> Option<f64> {
+    ratios.iter().copied().collect::<Option<Vec<_>>>()?.into_iter().reduce(f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn letters_fall_at_their_limits_and_a_missing_number_is_a_failure() {
+        let letter = |x| Letter::of_ratio(x, [2.0, 4.0, 8.0]).told();
+        let told = [Some(1.0), Some(2.0), Some(2.1), Some(8.0), Some(9.0), None, Some(f64::NAN)];
+        assert_eq!(told.map(letter), ["A", "A", "B", "C", "D", "F", "F"]);
+    }
+
+    #[test]
+    fn numbers_below_the_floor_are_equal() {
+        let ratios = over_best(&[Some(1e-14), Some(1e-12), Some(4e-12), None], 1e-12);
+        assert_eq!(ratios, [Some(1.0), Some(1.0), Some(4.0), None]);
+    }
+
+    #[test]
+    fn a_missing_number_leaves_no_mean_and_no_worst() {
+        assert!((mean(&[Some(2.0), Some(8.0)]).unwrap() - 4.0).abs() < 1e-12);
+        assert_eq!(worst(&[Some(2.0), Some(8.0)]), Some(8.0));
+        assert_eq!((mean(&[Some(2.0), None]), worst(&[None]), mean(&[])), (None, None, None));
+    }
+}

@@ -1,0 +1,246 @@
+//! The report's grades, G1 and G2: letters by stated rules from runs, beside the printed ones.
+
+mod code;
+mod column;
+mod ladder;
+mod letter;
+mod printed;
+
+use crate::lab::section::{Leading, Section};
+use crate::lab::{Lab, Run};
+use crate::tell::{error, ratio, seconds, step};
+use column::{Cell, Column};
+use ladder::Ladder;
+use printed::{METHODS, Method};
+
+/// Steps that are tried for a wanted accuracy, and for a hard condition: half decades [s].
+const STEPS: &[f64] = &[3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5];
+/// The same for Andrews' mechanism, which is a hundred times as fast [s].
+const FAST: &[f64] = &[1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7];
+
+/// Problems of two to eight unknowns.
+const SMALL: [Ladder; 3] = [
+    Ladder::new("double-pendulum", STEPS),
+    Ladder::new("two-four-bars", STEPS),
+    Ladder::new("andrews", FAST),
+];
+/// Problems of some ten to some hundred unknowns.
+const LARGE: [Ladder; 4] = [
+    Ladder::new("iltis-suspension", STEPS),
+    Ladder::new("spatial-chain-20", STEPS),
+    Ladder::new("tree-30", STEPS),
+    Ladder::new("iltis-stairs", STEPS),
+];
+
+/// One step, and a short time where that is a small one.
+const fn at(scene: &'static str, steps: &'static [f64], duration: Option<f64>) -> Ladder {
+    Ladder { duration, ..Ladder::new(scene, steps) }
+}
+
+/// Steps below 1e-5 s.
+const TINY: [Ladder; 3] = [
+    at("double-pendulum", &[1e-6], Some(1.0)),
+    at("two-four-bars", &[1e-6], Some(1.0)),
+    at("andrews", &[1e-6], None),
+];
+/// Steps between.
+const USUAL: [Ladder; 3] = [
+    at("double-pendulum", &[1e-3], None),
+    at("two-four-bars", &[1e-3], None),
+    at("iltis-suspension", &[1e-3], None),
+];
+/// Steps above 1e-2 s.
+const WIDE: [Ladder; 3] = [
+    at("double-pendulum", &[2e-2], None),
+    at("two-four-bars", &[2e-2], None),
+    at("iltis-suspension", &[2e-2], None),
+];
+
+/// The last joint of the four-bar once more.
+const TWICE: &str = "
+[[joint]]
+name = \"end-0-again\"
+kind = \"revolute\"
+bodies = [\"coupler-0\", \"crank-1\"]
+at = [1.0, 1.0]
+";
+
+/// Hard conditions.
+const CONDITIONS: [(&str, &[Ladder]); 5] = [
+    ("changing topologies", &[Ladder::new("iltis-jump", STEPS)]),
+    (
+        "singular configurations",
+        &[Ladder::new("two-four-bars", STEPS), Ladder::new("n-four-bar-10", STEPS)],
+    ),
+    (
+        "inequality constraints",
+        &[Ladder::new("hammer-blow", STEPS), Ladder::new("iltis-suspension-stiff", STEPS)],
+    ),
+    (
+        "numerical stiffness",
+        &[Ladder::new("iltis-suspension-stiff", STEPS), Ladder::new("iltis-stairs-stiff", STEPS)],
+    ),
+    (
+        "redundant constraints",
+        &[
+            Ladder::new("spatial-four-bar", STEPS),
+            Ladder { appended: TWICE, ..Ladder::new("four-bar", STEPS) },
+        ],
+    ),
+];
+
+/// Speed and accuracy.
+///
+/// # Errors
+///
+/// Why a case cannot be run at all, or what cannot be counted.
+pub(crate) fn g1(lab: &Lab<'_>) -> Result<Section, String> {
+    let counted = METHODS.map(|method| code::count(method.package));
+    let counted = counted.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let lines: Vec<_> = METHODS
+        .iter()
+        .zip(&counted)
+        .map(|(method, c)| (c.lines, format!("{} lines in {}", c.lines, method.package)))
+        .collect();
+    let files: Vec<_> = counted.into_iter().map(|c| c.graph).collect();
+    let columns = [
+        column::easiness(&lines),
+        column::graphs(&files),
+        column::speed(lab, "speed, small to medium", &SMALL)?,
+        column::speed(lab, "speed, medium to large", &LARGE)?,
+        column::accuracy(lab, "accuracy, dt < 1e-5", &TINY)?,
+        column::accuracy(lab, "accuracy, 1e-5 < dt < 1e-2", &USUAL)?,
+        column::accuracy(lab, "accuracy, dt > 1e-2", &WIDE)?,
+    ];
+    let printed = |method: &Method| method.speed_and_accuracy;
+    Ok(section("G1", "Results in speed and accuracy, graded", &columns, printed))
+}
+
+/// Performance under different conditions.
+///
+/// # Errors
+///
+/// Why a case cannot be run at all.
+pub(crate) fn g2(lab: &Lab<'_>) -> Result<Section, String> {
+    let columns = CONDITIONS.iter().map(|(name, ladders)| column::condition(lab, name, ladders));
+    let columns = columns.collect::<Result<Vec<_>, _>>()?;
+    let printed = |method: &Method| method.conditions;
+    Ok(section("G2", "Performance under different conditions, graded", &columns, printed))
+}
+
+/// The letters of all methods with the printed ones below, the rules, and every run.
+fn section(
+    name: &'static str,
+    title: &'static str,
+    columns: &[Column],
+    printed: impl Fn(&Method) -> Option<[&'static str; 2]>,
+) -> Section {
+    let mut section = Section::new(name, title);
+    section.words(
+        "A outstanding, B good, C fair, D poor, F a failure. Each letter is followed by what it rests on: times the best method's, \
+         by the rule of its column. No letter is set by hand; on the page each leads to its runs.",
+    );
+    let mut head = vec!["method"];
+    head.extend(columns.iter().map(|column| column.name));
+    let mut rows = Vec::new();
+    for (m, method) in METHODS.iter().enumerate() {
+        let plain = |text: &str| Leading { text: text.to_owned(), to: String::new() };
+        let cell = |column: &Column| Leading {
+            text: told(&column.cells[m]),
+            to: anchor(name, method, column.name),
+        };
+        rows.push([plain(method.name)].into_iter().chain(columns.iter().map(cell)).collect());
+        if let Some([report, publication]) = printed(method) {
+            let letters = |source: &str, row: &str| {
+                let letters = row.chars().map(|letter| plain(letter.encode_utf8(&mut [0; 4])));
+                [plain(source)].into_iter().chain(letters).collect()
+            };
+            rows.push(letters("  the report", report));
+            if publication != report {
+                rows.push(letters("  publication 1", publication));
+            }
+        }
+    }
+    section.leading(&head, rows);
+    for column in columns {
+        section.words(format!("{}: {}", column.name, column.rule));
+    }
+    let head = ["method, column", "scene", "step [s]", "share", "CPU [s]", "what came of it"];
+    section.behind_named("Every count and every run", &head, behind(name, columns));
+    section.runs = columns.iter().flat_map(|c| &c.cells).flat_map(|c| c.runs.clone()).collect();
+    section
+}
+
+/// A letter and what it rests on.
+fn told(cell: &Cell) -> String {
+    let rests = match cell.ratio {
+        Some(x) => ratio(x),
+        None => cell.counted.clone(),
+    };
+    format!("{} {rests}", cell.letter.told()).trim_end().to_owned()
+}
+
+/// The name of the first row behind a cell.
+fn anchor(section: &str, method: &Method, column: &str) -> String {
+    let text = format!("{section} {} {column}", method.name);
+    text.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect()
+}
+
+/// The rows behind the letters, and the names of those that are led to.
+fn behind(section: &str, columns: &[Column]) -> (Vec<Vec<String>>, Vec<String>) {
+    let (mut rows, mut names) = (Vec::new(), Vec::new());
+    for column in columns {
+        for (method, cell) in METHODS.iter().zip(&column.cells) {
+            let name = format!("{}, {}", method.name, column.name);
+            names.push(anchor(section, method, column.name));
+            if cell.runs.is_empty() {
+                let none = String::new;
+                rows.push(vec![name, none(), none(), none(), none(), cell.counted.clone()]);
+                continue;
+            }
+            names.extend(cell.runs.iter().skip(1).map(|_| String::new()));
+            rows.extend(cell.runs.iter().map(|run| line(&name, run)));
+        }
+    }
+    (rows, names)
+}
+
+/// A run as a row.
+fn line(name: &str, run: &Run) -> Vec<String> {
+    let share = run.figures().map(|f| error(f.share())).unwrap_or_default();
+    let time = run.seconds().map(seconds).unwrap_or_default();
+    let reason = run.outcome.reason();
+    let came = if reason.is_empty() { "ended".to_owned() } else { reason };
+    let scene = if run.case.appended.is_empty() {
+        run.case.scene.to_owned()
+    } else {
+        format!("{} with a joint twice", run.case.scene)
+    };
+    vec![name.to_owned(), scene, step(run.case.step), share, time, came]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::fake;
+
+    #[test]
+    fn every_cell_has_a_letter_and_leads_to_its_runs() {
+        fake::with_lab(|lab| {
+            for (section, columns) in [(g1(lab).unwrap(), 7), (g2(lab).unwrap(), 5)] {
+                let html = section.html();
+                for method in METHODS {
+                    assert!(html.contains(&format!(">{}</th>", crate::page::words(method.name))));
+                }
+                let links = html.matches("<a href=\"#").count();
+                assert_eq!(links, METHODS.len() * columns, "{}", section.name);
+                for link in html.split("<a href=\"#").skip(1) {
+                    let to = link.split('"').next().unwrap();
+                    assert!(html.contains(&format!("<tr id=\"{to}\">")), "{to}");
+                }
+                assert!(section.text().contains("publication 1"));
+                assert!(!section.runs.is_empty());
+            }
+        });
+    }
+}

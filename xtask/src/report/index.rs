@@ -1,0 +1,146 @@
+//! The first page: what each of the others shows, the command that makes it, and what was not as listed.
+
+use crate::bench;
+use crate::page::{escape, words};
+use crate::process;
+use std::process::Command;
+use std::time::Instant;
+
+/// A page: its file, what it shows, and the command that makes it alone.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Page {
+    file: &'static str,
+    title: &'static str,
+    shows: &'static str,
+    command: &'static str,
+}
+
+/// The report's tables.
+pub(super) const TABLES: Page = Page {
+    file: "tables.html",
+    title: "The report's tables, run anew",
+    shows: "Errors and times of every method and step that the founding report prints, beside its numbers; grades G1 and G2 by \
+            rules from runs; step size and energy of the suspension (F6, F7); processors (T6, T7).",
+    command: "cargo xtask tables",
+};
+/// Variable steps.
+pub(super) const STEPS: Page = Page {
+    file: "steps.html",
+    title: "Variable steps beside fixed ones",
+    shows: "What choosing the steps gains, by the energy, by an estimate of the error, with and without a change of index, and \
+            where steps end at events.",
+    command: "cargo xtask steps",
+};
+/// Times and threads.
+pub(super) const BENCH: Page = Page {
+    file: "bench.html",
+    title: "What a step costs, and what threads gain",
+    shows: "Times and phases of a step in each formulation, faer beside our factorisation, speed-up over threads, orders of \
+            elimination.",
+    command: "cargo xtask bench",
+};
+
+/// A page that was made.
+#[derive(Debug, Clone)]
+pub(super) struct Entry {
+    page: Page,
+    remark: String,
+    seconds: f64,
+    surprises: Vec<String>,
+}
+
+impl Entry {
+    /// A page that was begun at `clock` and is made now.
+    pub(super) fn new(page: &Page, remark: String, clock: Instant, surprises: Vec<String>) -> Self {
+        Self { page: *page, remark, seconds: clock.elapsed().as_secs_f64(), surprises }
+    }
+
+    fn card(&self) -> String {
+        let Page { file, title, shows, command } = self.page;
+        let minutes = self.seconds / 60.0;
+        let mut html = format!(
+            "<section class=\"card\">\n<h2><a href=\"{file}\">{}</a></h2>\n<p>{}</p>\n<p class=\"soft\"><code>{command}</code>, \
+             {minutes:.1} minutes. {}</p>\n",
+            escape(title),
+            words(shows),
+            words(&self.remark)
+        );
+        if !self.surprises.is_empty() {
+            let item = |s: &String| format!("<li class=\"fails\">{}</li>", words(s));
+            let items: String = self.surprises.iter().map(item).collect();
+            html.push_str(&format!("<ul class=\"claims\">{items}</ul>\n"));
+        }
+        html + "</section>\n"
+    }
+}
+
+/// The first page.
+#[derive(Debug)]
+pub(super) struct Index {
+    quick: bool,
+    /// Where and of what it is made.
+    provenance: String,
+    /// The pages so far.
+    pub(super) entries: Vec<Entry>,
+}
+
+impl Index {
+    /// An empty one.
+    pub(super) fn new(quick: bool) -> Self {
+        Self { quick, provenance: provenance(), entries: Vec::new() }
+    }
+
+    /// Everything that was not as listed.
+    pub(super) fn surprises(&self) -> Vec<String> {
+        self.entries.iter().flat_map(|entry| entry.surprises.iter().cloned()).collect()
+    }
+
+    /// The page.
+    pub(super) fn html(&self) -> String {
+        let length = if self.quick { " --quick" } else { "" };
+        let remark = format!(
+            "Made by `cargo xtask report{length}`, {}. Every number on these pages was measured by the command named beside it.",
+            self.provenance
+        );
+        let cards: String = self.entries.iter().map(Entry::card).collect();
+        crate::page::page("Multibody systems, measured", &remark, &cards)
+    }
+}
+
+/// Commit, processor and compiler, as far as they can be asked for.
+fn provenance() -> String {
+    let said = |program: &str, arguments: &[&str]| {
+        let mut command = Command::new(program);
+        command.args(arguments).current_dir(process::root());
+        process::output(&mut command).map(|text| text.trim().to_owned()).filter(|t| !t.is_empty())
+    };
+    let commit = said("git", &["rev-parse", "--short", "HEAD"]).map(|hash| {
+        let changed = said("git", &["status", "--porcelain"]).is_some();
+        format!("commit {hash}{}", if changed { " and changes after it" } else { "" })
+    });
+    let processor = Some(format!("{} cores ({})", bench::cores(), bench::processor()));
+    let compiler = said("rustc", &["--version"]);
+    let known: Vec<_> = [commit, processor, compiler].into_iter().flatten().collect();
+    known.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_page_has_its_link_and_its_command_and_surprises_stand_out() {
+        let mut index = Index::new(true);
+        let clock = Instant::now();
+        index.entries.push(Entry::new(&TABLES, "3 entries".into(), clock, vec!["T1 <x>".into()]));
+        index.entries.push(Entry::new(&BENCH, "none".into(), clock, Vec::new()));
+        let html = index.html();
+        for page in [TABLES, BENCH] {
+            assert!(html.contains(&format!("href=\"{}\"", page.file)));
+            assert!(html.contains(&format!("<code>{}</code>", page.command)));
+        }
+        assert!(html.contains("class=\"fails\">T1 &lt;x&gt;") && html.contains("report --quick"));
+        assert!(!html.contains("{{") && !html.contains("src="), "nothing is fetched");
+        assert_eq!(index.surprises(), ["T1 <x>"]);
+    }
+}

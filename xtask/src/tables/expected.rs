@@ -1,0 +1,67 @@
+//! Entries of the tables that do not reach their end, and are known not to: everything else that stops is a surprise, and so is
+//! one of these that comes to an end.
+
+use super::rows::Row;
+use crate::mbs::outcome::Outcome;
+
+/// An entry that stops: table, method, step [s], and the code of its error.
+type Entry = (&'static str, &'static str, f64, &'static str);
+
+/// The entries that stop.
+const STOPPED: &[Entry] = &[];
+
+/// What differs from the list, in words.
+pub(crate) fn surprises(rows: &[Row]) -> Vec<String> {
+    rows.iter().filter_map(|row| surprise(row, STOPPED)).collect()
+}
+
+fn surprise(row: &Row, listed: &[Entry]) -> Option<String> {
+    let is_it = |(table, method, step, _): &&Entry| {
+        (*table, *method, step.to_bits()) == (row.table.name, row.method.name, row.step.to_bits())
+    };
+    let listed = listed.iter().find(is_it).map(|(.., code)| *code);
+    let name = format!("{} {} at {:e} s", row.table.name, row.method.name, row.step);
+    match (&row.outcome, listed) {
+        (Outcome::Completed(_), None) => None,
+        (Outcome::Stopped { code, .. }, Some(listed)) if code == listed => None,
+        (Outcome::Completed(_), Some(code)) => {
+            Some(format!("{name}: reached its end, and is listed to stop with {code}"))
+        }
+        (outcome, Some(code)) => {
+            Some(format!("{name}: {}; listed to stop with {code}", outcome.reason()))
+        }
+        (outcome, None) => Some(format!("{name}: {}", outcome.reason())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::report::TABLES;
+    use super::super::rows::tests::samples;
+    use super::*;
+
+    #[test]
+    fn listed_entries_exist() {
+        for (table, method, step, _) in STOPPED {
+            let table = TABLES.iter().find(|t| t.name == *table).expect("a table");
+            let is_there = |(m, dt): (&super::super::report::Method, f64)| {
+                m.name == *method && dt.to_bits() == step.to_bits()
+            };
+            assert!(table.entries().any(is_there), "{} {method} {step:e}", table.name);
+        }
+    }
+
+    #[test]
+    fn what_stops_unlisted_and_what_ends_though_listed_are_surprises() {
+        let rows = samples();
+        let told = |i: usize, listed: &[Entry]| surprise(&rows[i], listed);
+        let stops = [("T1", rows[1].method.name, 1e-4, "not-converged")];
+        assert_eq!((told(0, &[]), told(1, &stops)), (None, None));
+        assert!(told(1, &[]).unwrap().contains("not-converged"));
+        let other = [("T1", rows[1].method.name, 1e-4, "violated")];
+        assert!(told(1, &other).unwrap().contains("listed to stop with violated"));
+        let ends = [("T1", rows[0].method.name, 1e-2, "violated")];
+        assert!(told(0, &ends).unwrap().contains("reached its end"));
+        assert!(told(2, &[]).unwrap().contains("not built"));
+    }
+}
