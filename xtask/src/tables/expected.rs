@@ -7,8 +7,26 @@ use crate::mbs::outcome::Outcome;
 /// An entry that stops: table, method, step [s], and the code of its error.
 type Entry = (&'static str, &'static str, f64, &'static str);
 
-/// The entries that stop.
-const STOPPED: &[Entry] = &[];
+/// The entries that stop: the printed penalty, as the report found or where its pivoting helped; and singular positions at steps
+/// that are too large for index-1, or so small that a state is close to one.
+const STOPPED: &[Entry] = &[
+    ("T1", "index-3, alpha = 1e7", 1e-4, "not-converged"),
+    ("T1", "index-3, alpha = 1e7", 1e-5, "not-converged"),
+    ("T1p", "index-3, alpha = 1e7", 1e-4, "not-converged"),
+    ("T1p", "index-3, alpha = 1e7", 1e-5, "not-converged"),
+    ("T1p", "index-3, alpha = 1e7", 1e-6, "not-converged"),
+    ("T2", "index-1", 5e-2, "violated"),
+    ("T2", "index-3, alpha = 1e7", 5e-2, "not-converged"),
+    ("T2", "index-3, alpha = 1e7", 1e-2, "not-converged"),
+    ("T2", "index-3, alpha = 1e7", 1e-3, "not-converged"),
+    ("T2", "index-3, alpha = 1e7", 1e-4, "not-converged"),
+    ("T2", "state-space", 1e-4, "rank-lost"),
+    ("T2", "recursive", 1e-4, "violated"),
+    ("T3", "index-3, alpha = 1e7", 1e-4, "not-converged"),
+    ("T3", "index-3, alpha = 1e7", 1e-5, "not-converged"),
+    ("T3", "index-3, alpha = 1e7", 1e-6, "not-converged"),
+    ("T8", "index-3, alpha = 1e9", 1e-3, "not-converged"),
+];
 
 /// What differs from the list, in words.
 pub(crate) fn surprises(rows: &[Row]) -> Vec<String> {
