@@ -8,7 +8,16 @@ use core::ops::Neg;
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar};
 use num_traits::{One, Zero};
 
-/// A real number type the mechanics can be computed in: `f32`, `f64`, later a double-double.
+mod decimal;
+mod double_double;
+mod functions;
+mod show;
+mod transforms;
+mod wide;
+
+pub use double_double::DoubleDouble;
+
+/// A real number type the mechanics can be computed in: `f32`, `f64`, [`DoubleDouble`].
 pub trait Real:
     Scalar
     + Copy
@@ -35,7 +44,7 @@ pub trait Real:
     const HALF: Self;
     /// Two.
     const TWO: Self;
-    /// Distance from one to the next larger number.
+    /// Distance from one to the next larger number; of pairs of numbers, what their arithmetic tells from one.
     const EPSILON: Self;
     /// Half a turn [rad].
     const PI: Self;
