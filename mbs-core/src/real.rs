@@ -77,6 +77,12 @@ pub trait Real:
     fn min(self, other: Self) -> Self {
         if self > other { other } else { self }
     }
+    /// A tolerance that is `x` in `f64`, as many roundings of a finer number; coarser ones have floors of their own.
+    #[must_use]
+    fn tolerance(x: f64) -> Self {
+        let finer = Self::EPSILON / Self::from_f64(f64::EPSILON);
+        Self::from_f64(x) * finer.min(Self::ONE)
+    }
     /// Neither infinite nor NaN.
     #[inline]
     fn is_finite(self) -> bool {
