@@ -88,7 +88,7 @@ impl<T: Real> Options<T> {
         Self {
             integrator: Integrator::trapezoidal(),
             penalty: Penalty::Scaled(scale),
-            tolerance: T::from_f64(1e-10).max(T::EPSILON * T::from_f64(64.0)),
+            tolerance: T::tolerance(1e-10).max(T::EPSILON * T::from_f64(64.0)),
             max_iterations: 40,
             max_sweeps: 12,
             multipliers: Multipliers::Filtered,

@@ -54,10 +54,10 @@ impl<T: Real> Options<T> {
     pub fn index3() -> Self {
         Self {
             integrator: Integrator::trapezoidal(),
-            tolerance: T::from_f64(1e-10).max(T::EPSILON * T::from_f64(64.0)),
+            tolerance: T::tolerance(1e-10).max(T::EPSILON * T::from_f64(64.0)),
             max_iterations: 20,
             max_sweeps: 12,
-            rank: T::from_f64(1e-12).max(T::EPSILON * T::from_f64(300.0)),
+            rank: T::tolerance(1e-12).max(T::EPSILON * T::from_f64(300.0)),
             regularisation: None,
             stabilisation: Stabilisation::Projection,
             geometric_stiffness: true,

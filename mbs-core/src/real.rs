@@ -8,7 +8,16 @@ use core::ops::Neg;
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar};
 use num_traits::{One, Zero};
 
-/// A real number type the mechanics can be computed in: `f32`, `f64`, later a double-double.
+mod decimal;
+mod double_double;
+mod functions;
+mod show;
+mod transforms;
+mod wide;
+
+pub use double_double::DoubleDouble;
+
+/// A real number type the mechanics can be computed in: `f32`, `f64`, [`DoubleDouble`].
 pub trait Real:
     Scalar
     + Copy
@@ -35,7 +44,7 @@ pub trait Real:
     const HALF: Self;
     /// Two.
     const TWO: Self;
-    /// Distance from one to the next larger number.
+    /// Distance from one to the next larger number; of pairs of numbers, what their arithmetic tells from one.
     const EPSILON: Self;
     /// Half a turn [rad].
     const PI: Self;
@@ -67,6 +76,12 @@ pub trait Real:
     #[inline]
     fn min(self, other: Self) -> Self {
         if self > other { other } else { self }
+    }
+    /// A tolerance that is `x` in `f64`, as many roundings of a finer number; coarser ones have floors of their own.
+    #[must_use]
+    fn tolerance(x: f64) -> Self {
+        let finer = Self::EPSILON / Self::from_f64(f64::EPSILON);
+        Self::from_f64(x) * finer.min(Self::ONE)
     }
     /// Neither infinite nor NaN.
     #[inline]

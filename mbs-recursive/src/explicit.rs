@@ -1,4 +1,4 @@
-//! Explicit Runge-Kutta steps: order 4 with a fixed step, and the pair 5(4) with error control.
+//! Explicit steps: Runge-Kutta of order 4 with a fixed step; the pair 5(4) and extrapolation with error control.
 //!
 //! ```text
 //! y = (z, ż, W),   y' = (ż or ½ q ω for rotations, z̈, power)
@@ -16,7 +16,7 @@ use crate::project::project;
 use crate::space::{Numbers, Space};
 use crate::trapezoidal::{Start, failure, violations};
 use mbs_core::Real;
-use mbs_core::ode::{self, Adaptive, EndState, OdeError, Rates};
+use mbs_core::ode::{self, Adaptive, EndState, Method, OdeError, Rates};
 use mbs_core::step::{StepError, StepReport, Stop};
 
 /// Steps that one call with error control may try.
@@ -184,18 +184,18 @@ pub fn rk4<T: Real, S: Space<T>>(
     system.finish(start.t + dt, y)
 }
 
-/// Advances by exactly `dt` [s] with the pair 5(4) of Dormand and Prince, in as many steps as the tolerance asks for.
+/// Advances by exactly `dt` [s] with the driver's method, in as many steps as the tolerance asks for.
 ///
-/// `scratch` has at least `Tableau::scratch` numbers.
+/// `scratch` has at least [`Method::n_scratch`] numbers.
 ///
-/// Cost: six evaluations for each step tried, seven with loops; no allocation.
+/// Cost: the method's evaluations for each step tried, one more with loops; no allocation.
 ///
 /// # Errors
 /// [`StepError`]; where no step is short enough, what made the last one fail.
-pub fn rk54<T: Real, S: Space<T>>(
+pub fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     m: &Mechanism<'_, T, S>,
     inputs: &impl Inputs<T>,
-    (dt, options, driver): (T, &Options<T>, &mut Adaptive<T, 7>),
+    (dt, options, driver): (T, &Options<T>, &mut Adaptive<T, M>),
     (start, y, scratch): (Start<'_, T>, &mut [T], &mut [T]),
     s: &mut Store<'_, T, S>,
 ) -> Result<StepReport<T>, StepError> {

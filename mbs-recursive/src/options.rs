@@ -54,7 +54,7 @@ impl<T: Real> Default for Options<T> {
     fn default() -> Self {
         Self {
             integrator: Integrator::trapezoidal(),
-            tolerance: T::from_f64(1e-10).max(T::EPSILON * T::from_f64(64.0)),
+            tolerance: T::tolerance(1e-10).max(T::EPSILON * T::from_f64(64.0)),
             max_iterations: 50,
             max_sweeps: 30,
             closure: Closure::Constraints,

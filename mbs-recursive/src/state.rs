@@ -10,7 +10,7 @@ use crate::tree::TreeModel;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
-use mbs_core::ode::{Adaptive, Tableau, rk4_scratch};
+use mbs_core::ode::{Adaptive, Extrapolation, Tableau, rk4_scratch};
 
 /// Position, velocity and acceleration of a tree at a time.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,7 +81,7 @@ pub struct Workspace<T: Real, S: Space<T>> {
     history: Vec<T>,
     n_guides: usize,
     rank: usize,
-    explicit: Explicit<T>,
+    pub(crate) explicit: Explicit<T>,
 }
 
 /// Scratch of explicit steps.
@@ -92,7 +92,9 @@ pub(crate) struct Explicit<T> {
     /// Stages.
     pub(crate) scratch: Vec<T>,
     /// Error control, from the first step that asks for it.
-    pub(crate) driver: Option<Adaptive<T, 7>>,
+    pub(crate) pair: Option<Adaptive<T, Tableau<T, 7>>>,
+    /// The same of extrapolation.
+    pub(crate) extrapolation: Option<Adaptive<T, Extrapolation>>,
 }
 
 impl<T: Real, S: Space<T>> Workspace<T, S> {
@@ -103,6 +105,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         let n_guides = model.prescribed.n_guides();
         let n = n_components(&model.mechanism());
         let n_scratch = rk4_scratch(n).max(Tableau::<T, 7>::scratch(n));
+        let n_scratch = n_scratch.max(Extrapolation::most_scratch(n));
         Self {
             placed: vec![Placed::ground(); links],
             trial: vec![Placed::ground(); links],
@@ -125,7 +128,8 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             explicit: Explicit {
                 y: vec![T::ZERO; n],
                 scratch: vec![T::ZERO; n_scratch],
-                driver: None,
+                pair: None,
+                extrapolation: None,
             },
         }
     }

@@ -46,7 +46,7 @@ impl<T: Real> Default for Options<T> {
         Self {
             integrator: Integrator::trapezoidal(),
             coordinates: Coordinates::Tangent,
-            tolerance: T::from_f64(1e-10).max(T::EPSILON * T::from_f64(64.0)),
+            tolerance: T::tolerance(1e-10).max(T::EPSILON * T::from_f64(64.0)),
             max_iterations: 20,
             rechoice: Rechoice::WhenNeeded,
             geometric_stiffness: true,

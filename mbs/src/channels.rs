@@ -37,7 +37,7 @@ impl<T: Real, const D: usize> Channels<T, D> {
     }
 
     /// All components at a state.
-    pub(crate) fn write(&mut self, state: &State<T>, out: &mut [f64]) {
+    pub(crate) fn write(&mut self, state: &State<T>, out: &mut [T]) {
         if let Some(reactions) = &mut self.reactions {
             reactions.update(state);
             for &joint in &self.asked {

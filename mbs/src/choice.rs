@@ -7,14 +7,14 @@ use mbs_core::integrator::Integrator;
 pub const FORMULATIONS: [&str; 7] =
     ["auto", "index-1", "index-3", "multi-index", "classical", "state-space", "recursive"];
 /// Integrators that are built.
-pub const INTEGRATORS: [&str; 6] =
-    ["trapezoidal", "newmark", "generalised-alpha", "hht", "rk4", "rk54"];
+pub const INTEGRATORS: [&str; 7] =
+    ["trapezoidal", "newmark", "generalised-alpha", "hht", "rk4", "rk54", "gbs"];
 /// Precisions that are built.
-pub const PRECISIONS: [&str; 2] = ["f32", "f64"];
+pub const PRECISIONS: [&str; 3] = ["f32", "f64", "dd"];
 /// Controls of the step size.
 pub const STEP_RULES: [&str; 5] = ["fixed", "energy", "energy-printed", "error", "both"];
 /// Names of the scene format that are not built yet.
-pub(crate) const NOT_BUILT: [&str; 3] = ["rk853", "radau5", "dd"];
+pub(crate) const NOT_BUILT: [&str; 2] = ["rk853", "radau5"];
 
 /// A formulation that can run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,17 +91,21 @@ pub enum IntegratorKind {
     Rk4,
     /// Explicit Runge-Kutta of order 5 with an estimate of order 4, which controls the step.
     Rk54,
+    /// Extrapolation of the midpoint rule (Gragg, Bulirsch and Stoer): of as high an order as the tolerance is worth, which controls
+    /// the step. For reference runs.
+    Extrapolation,
 }
 
 impl IntegratorKind {
     /// All of them.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Trapezoidal,
         Self::Newmark,
         Self::GeneralisedAlpha,
         Self::Hht,
         Self::Rk4,
         Self::Rk54,
+        Self::Extrapolation,
     ];
 
     /// Its name.
@@ -114,25 +118,39 @@ impl IntegratorKind {
             Self::Hht => "hht",
             Self::Rk4 => "rk4",
             Self::Rk54 => "rk54",
+            Self::Extrapolation => "gbs",
         }
     }
 
-    /// Explicit Runge-Kutta?
+    /// Explicit?
     #[must_use]
     pub fn is_explicit(self) -> bool {
-        matches!(self, Self::Rk4 | Self::Rk54)
+        self == Self::Rk4 || self.controls_its_step()
+    }
+
+    /// Does it control its own step by the tolerance?
+    #[must_use]
+    pub fn controls_its_step(self) -> bool {
+        matches!(self, Self::Rk54 | Self::Extrapolation)
     }
 
     /// Coefficients of an implicit one-step method; the trapezoidal rule's for the explicit ones.
     #[must_use]
     pub fn coefficients<T: Real>(self) -> Integrator<T> {
         match self {
-            Self::Newmark => Integrator::newmark(T::from_f64(0.3025), T::from_f64(0.6)),
-            Self::GeneralisedAlpha => Integrator::generalised_alpha(T::from_f64(0.8)),
-            Self::Hht => Integrator::hht(T::from_f64(0.05)),
-            Self::Trapezoidal | Self::Rk4 | Self::Rk54 => Integrator::trapezoidal(),
+            Self::Newmark => Integrator::newmark(ratio(121, 400), ratio(3, 5)),
+            Self::GeneralisedAlpha => Integrator::generalised_alpha(ratio(4, 5)),
+            Self::Hht => Integrator::hht(ratio(1, 20)),
+            Self::Trapezoidal | Self::Rk4 | Self::Rk54 | Self::Extrapolation => {
+                Integrator::trapezoidal()
+            }
         }
     }
+}
+
+/// A quotient of whole numbers, exact to rounding in every precision.
+fn ratio<T: Real>(over: u16, under: u16) -> T {
+    T::from_f64(over.into()) / T::from_f64(under.into())
 }
 
 /// What chooses the length of the steps.
@@ -197,6 +215,8 @@ pub enum Precision {
     F32,
     /// Double precision.
     F64,
+    /// Pairs of doubles, about 32 digits.
+    DoubleDouble,
 }
 
 impl Precision {
@@ -206,6 +226,7 @@ impl Precision {
         match self {
             Self::F32 => "f32",
             Self::F64 => "f64",
+            Self::DoubleDouble => "dd",
         }
     }
 }

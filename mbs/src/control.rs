@@ -43,15 +43,16 @@ where
             return Ok(None);
         }
         let estimate = error.then(|| LocalError::new(&settings.integrator.coefficients()));
+        let lengths = settings.lengths(scene);
         let rules = Rules {
-            max_step: T::from_f64(settings.step_max),
+            max_step: lengths.step_max,
             energy: energy.then(|| EnergyRule {
                 is_printed: settings.rule == StepRule::EnergyPrinted,
                 ..EnergyRule::new(settings.energy_tolerance)
             }),
             error: estimate.map(|e| (settings.error_tolerance, e.power())),
         };
-        let driver = Driver::new(rules, T::from_f64(settings.step));
+        let driver = Driver::new(rules, lengths.step);
         let mut events = settings.events.then(|| Events::new(scene, model)).transpose()?;
         events.iter_mut().for_each(|events| events.start(state));
         Ok(Some(Self { driver, estimate, events, saved: state.clone() }))

@@ -95,7 +95,7 @@ fn used<T: Real>(scene: &Scene<T>) -> Vec<Vec<[T; 3]>> {
     }
     for output in &scene.outputs {
         if let Quantity::Position { body, at } = output.quantity {
-            used[body].push(at.map(T::from_f64));
+            used[body].push(at);
         }
     }
     used
@@ -176,7 +176,7 @@ impl<T: Real, const D: usize> Layout<'_, T, D> {
         let mut traces = Vec::new();
         for output in &scene.outputs {
             if let Quantity::Position { body, at } = output.quantity {
-                let point = self.add(body, at.map(T::from_f64));
+                let point = self.add(body, at);
                 traces.push(Trace { name: output.name.clone(), point });
             }
         }

@@ -1,9 +1,11 @@
 //! What is kept of a run: rows of channels, energies, violations and counts, thinned to a bounded number; maxima over every
 //! step.
 
+use mbs_core::Real;
+use mbs_core::real::DoubleDouble;
 use mbs_scene::{
     Channel, ChannelSeries, ControlSummary, EnergySeries, IterationSeries, StepRow, StepSeries,
-    ViolationSeries, ViolationSummary,
+    ViolationSeries, ViolationSummary, long,
 };
 
 /// Rows kept at most (and one more for the end); twice as many where the number of steps is not known before.
@@ -34,6 +36,8 @@ pub(crate) struct Recorder {
     /// One mark for each row, and all components, row by row.
     marks: Vec<StepMark>,
     rows: Vec<f64>,
+    /// What the numbers of the rows leave of the values, where these have more digits; else nothing.
+    rests: Vec<f64>,
     n_columns: usize,
     /// A row is kept of so many steps.
     every: u64,
@@ -63,6 +67,7 @@ impl Recorder {
             channels,
             marks: Vec::new(),
             rows: Vec::new(),
+            rests: Vec::new(),
             n_columns,
             every: n_steps.div_ceil(MOST_ROWS).max(1),
             initial,
@@ -92,18 +97,23 @@ impl Recorder {
     }
 
     /// Keeps a row; `values` are all components of all channels.
-    pub(crate) fn keep(&mut self, step: &StepMark, values: &[f64]) {
+    pub(crate) fn keep<T: Real>(&mut self, step: &StepMark, values: &[T]) {
         // A step that was marked is among the recent ones; a start and a stop are not.
         let is_marked = self.recent.step.length > 0.0 && self.recent.t >= step.t;
         if self.keep == Keep::Last {
             self.marks.clear();
             self.rows.clear();
+            self.rests.clear();
         }
         for ([least, most], &value) in self.ranges.iter_mut().zip(values) {
-            (*least, *most) = (least.min(value), most.max(value));
+            let near = value.to_f64();
+            (*least, *most) = (least.min(near), most.max(near));
+            self.rows.push(near);
+            if T::EPSILON.to_f64() < f64::EPSILON {
+                self.rests.push((value - T::from_f64(near)).to_f64());
+            }
         }
         self.marks.push(if is_marked { self.recent.clone() } else { step.after(&self.recent) });
-        self.rows.extend_from_slice(values);
         self.recent = StepMark::default();
         if self.marks.len() as u64 > 2 * MOST_ROWS {
             self.thin();
@@ -115,13 +125,16 @@ impl Recorder {
         self.every *= 2;
         let n = self.n_columns;
         let kept = (0..self.marks.len()).step_by(2);
-        let rows = kept.clone().flat_map(|i| &self.rows[i * n..(i + 1) * n]).copied().collect();
+        let [rows, rests] = [&self.rows, &self.rests].map(|of| {
+            let of_row = |i| of.get(i * n..(i + 1) * n).unwrap_or_default();
+            kept.clone().flat_map(of_row).copied().collect()
+        });
         let joined = |i: usize| match i {
             0 => self.marks[0].clone(),
             _ => self.marks[i].after(&self.marks[i - 1]),
         };
         let marks = kept.map(joined).collect();
-        (self.rows, self.marks) = (rows, marks);
+        (self.rows, self.rests, self.marks) = (rows, rests, marks);
     }
 
     /// Time of the last row.
@@ -147,11 +160,29 @@ impl Recorder {
     /// The last row by channels.
     pub(crate) fn last(&self) -> Vec<(String, Vec<f64>)> {
         let start = self.rows.len().saturating_sub(self.n_columns);
-        let mut row = self.rows[start..].iter().copied();
+        self.by_channels(self.rows[start..].iter().copied())
+    }
+
+    /// The same with all digits, where there are more than those of `f64`.
+    pub(crate) fn last_long(&self) -> Option<Vec<(String, Vec<String>)>> {
+        let row = self.long_table().last()?;
+        Some(self.by_channels(row.into_iter().map(long)))
+    }
+
+    fn by_channels<V>(&self, mut row: impl Iterator<Item = V>) -> Vec<(String, Vec<V>)> {
         let channels = self.channels.iter();
         channels
             .map(|c| (c.name.clone(), row.by_ref().take(c.components.len()).collect()))
             .collect()
+    }
+
+    /// The components of all rows with all digits; no row where those of `f64` are all.
+    pub(crate) fn long_table(&self) -> impl Iterator<Item = Vec<DoubleDouble>> {
+        let n = self.n_columns.max(1);
+        let both = self.rows.chunks(n).zip(self.rests.chunks(n));
+        both.map(|(row, rests)| {
+            row.iter().zip(rests).map(|(&hi, &lo)| DoubleDouble::from_sum(hi, lo)).collect()
+        })
     }
 
     /// All rows as time and components.

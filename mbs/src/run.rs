@@ -3,7 +3,7 @@
 use crate::channels::Channels;
 use crate::figure::Figure;
 use crate::recorder::{Keep, Recorder, StepMark};
-use crate::settings::Settings;
+use crate::settings::{Lengths, Settings};
 use crate::simulation::Simulation;
 use crate::stop::{Names, StopError};
 use crate::tree::{InSpace, Plane};
@@ -13,6 +13,7 @@ use cpu_time::ProcessTime;
 use mbs_core::Real;
 use mbs_core::control::{Accepted, Invariant};
 use mbs_core::outputs::{self, Contacts};
+use mbs_core::real::DoubleDouble;
 use mbs_core::scene::{EffectKind, Scene};
 use mbs_scene::{
     Channel, Contact, ControlSummary, CsvWriter, EnergySummary, Outputs, Provenance, RunRecord,
@@ -48,6 +49,8 @@ pub struct Outcome {
     record: RunRecord,
     channels: Vec<Channel>,
     table: Vec<(f64, Vec<f64>)>,
+    /// The same numbers with all their digits, where there are more than those of `f64`.
+    long_table: Vec<Vec<DoubleDouble>>,
     ranges: Vec<[f64; 2]>,
     steps: StepSeries,
 }
@@ -59,8 +62,11 @@ impl Outcome {
     /// Those of the sink.
     pub fn write_csv(&self, sink: impl io::Write) -> io::Result<()> {
         let mut csv = CsvWriter::new(sink, &self.channels)?;
-        for (t, row) in &self.table {
-            csv.row(*t, row)?;
+        for (i, (t, row)) in self.table.iter().enumerate() {
+            match self.long_table.get(i) {
+                Some(row) => csv.long_row(*t, row)?,
+                None => csv.row(*t, row)?,
+            }
         }
         csv.finish()
     }
@@ -145,6 +151,7 @@ where
     let mut run = Run {
         scene,
         settings,
+        lengths: settings.lengths(scene),
         simulation,
         measures,
         contacts,
@@ -182,12 +189,13 @@ where
 {
     scene: &'a Scene<T>,
     settings: &'a Settings,
+    lengths: Lengths<T>,
     simulation: Simulation<T, D>,
     measures: Channels<T, D>,
     contacts: Contacts<T, D>,
     recorder: Recorder,
     figure: Figure<T, D>,
-    values: Vec<f64>,
+    values: Vec<T>,
     /// What the last step left behind.
     mark: StepMark,
     counts: Counts,
@@ -204,7 +212,7 @@ where
     /// The first row.
     fn start(&mut self) {
         let n = self.recorder.channels.iter().map(|c| c.components.len()).sum();
-        self.values = vec![0.0; n];
+        self.values = vec![T::ZERO; n];
         let violation = self.simulation.start.residual.map(Real::to_f64);
         let energies = self.simulation.initial_energies();
         let mark = StepMark { energies, violation, ..StepMark::default() };
@@ -225,21 +233,24 @@ where
     /// Steps of fixed length, or intervals over which an explicit method controls its own.
     fn steps(&mut self, n_steps: u64, progress: &mut impl Progress) -> Result<(), StopError> {
         let (h, end) = (self.settings.step_max, self.settings.duration);
+        let Lengths { step_max, duration, .. } = self.lengths;
         let mut clock = Instant::now();
         for k in 1..=n_steps {
+            let (from, to) = (multiple(k - 1, (step_max, h)), multiple(k, (step_max, h)));
+            let is_last = k == n_steps;
             #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
-            let (from, to) = ((k - 1) as f64 * h, if k == n_steps { end } else { k as f64 * h });
-            let is_full = k < n_steps || (to - from - h).abs() <= 1e-9 * h * k as f64;
-            let dt = if is_full { h } else { to - from };
-            self.step(T::from_f64(dt), Some(to), &mut clock)?;
-            self.finish_step((k, k == n_steps), progress)?;
+            let (before, count) = ((k - 1) as f64 * h, k as f64);
+            let is_full = !is_last || (end - before - h).abs() <= 1e-9 * h * count;
+            let dt = if is_full { step_max } else { duration - from };
+            self.step(dt, Some(if is_last { duration } else { to }), &mut clock)?;
+            self.finish_step((k, is_last), progress)?;
         }
         Ok(())
     }
 
     /// Steps of controlled length, to the end.
     fn controlled_steps(&mut self, progress: &mut impl Progress) -> Result<(), StopError> {
-        let end = T::from_f64(self.settings.duration);
+        let end = self.lengths.duration;
         let mut clock = Instant::now();
         let mut k = 0;
         let mut is_last = false;
@@ -262,7 +273,7 @@ where
 
     /// One step of at most `rest` [s], with its counts; the time at its end is known where steps are fixed. Says
     /// whether it took the whole.
-    fn step(&mut self, rest: T, to: Option<f64>, clock: &mut Instant) -> Result<bool, StopError> {
+    fn step(&mut self, rest: T, to: Option<T>, clock: &mut Instant) -> Result<bool, StopError> {
         let accepted = match self.simulation.advance(rest) {
             Ok(accepted) => accepted,
             Err(error) => {
@@ -271,7 +282,7 @@ where
             }
         };
         if let Some(to) = to {
-            self.simulation.set_time(T::from_f64(to));
+            self.simulation.set_time(to);
         }
         self.take(&accepted);
         let now = Instant::now();
@@ -375,6 +386,7 @@ where
             control: self.simulation.is_controlled().then(|| control.clone()),
             violation: self.recorder.violation_summary(),
             outputs: Outputs(self.recorder.last()),
+            digits: self.recorder.last_long().map(Outputs),
             coordinates,
             constraints,
             constraint_rank,
@@ -398,10 +410,22 @@ where
             error: summary.error.as_ref().map(stop_text),
             ..RunRecord::default()
         };
+        let long_table = self.recorder.long_table().collect();
         let table = self.recorder.table().map(|(t, row)| (t, row.to_vec())).collect();
         let channels = self.recorder.channels.clone();
         let ranges = self.recorder.ranges().to_vec();
-        Outcome { summary, error, record, channels, table, ranges, steps }
+        Outcome { summary, error, record, channels, table, long_table, ranges, steps }
+    }
+}
+
+/// Time k h [s]: in `f64` where that has as many digits, so that short numbers make no short times.
+fn multiple<T: Real>(k: u64, (step, in_f64): (T, f64)) -> T {
+    #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
+    let count = k as f64;
+    if T::EPSILON.to_f64() < f64::EPSILON {
+        T::from_f64(count) * step
+    } else {
+        T::from_f64(count * in_f64)
     }
 }
 
@@ -462,6 +486,7 @@ fn not_started<T: Real>(
         record,
         channels: channels.to_vec(),
         table: Vec::new(),
+        long_table: Vec::new(),
         ranges: Vec::new(),
         steps: StepSeries::default(),
     }

@@ -88,6 +88,17 @@ pub struct Settings {
     pub threads: usize,
 }
 
+/// The lengths of time of a run in its own precision [s].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lengths<T> {
+    /// Step.
+    pub step: T,
+    /// Largest step.
+    pub step_max: T,
+    /// Duration.
+    pub duration: T,
+}
+
 /// A setting that is refused.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -140,7 +151,7 @@ impl SettingsError {
             Self::NotPositive { .. } => "write a number larger than zero".to_owned(),
             Self::LimitOrder(_) => "write the larger one first: U, then L".to_owned(),
             Self::NotTogether { option, .. } if option.starts_with("step control") => {
-                "rk54 controls its own step by --tolerance; the others need an implicit integrator"
+                "rk54 and gbs control their own step by --tolerance; the others need an implicit integrator"
                     .to_owned()
             }
             Self::NotTogether { option, .. } if option == "threads" => {
@@ -200,7 +211,7 @@ impl Settings {
             "precision",
             (&overrides.precision, &None, "f64"),
             &PRECISIONS,
-            [Precision::F32, Precision::F64],
+            [Precision::F32, Precision::F64, Precision::DoubleDouble],
         )?;
         let threads = overrides.threads.unwrap_or(1);
         if threads == 0 {
@@ -216,7 +227,7 @@ impl Settings {
         let step_max = overrides.step_max.or(of_scene(solver.step_max)).unwrap_or(step);
         let step_max = positive("step_max", step_max)?;
         let rule = step_rule(solver, overrides, (formulation, integrator))?;
-        let is_controlled = integrator == IntegratorKind::Rk54 || rule != StepRule::Fixed;
+        let is_controlled = integrator.controls_its_step() || rule != StepRule::Fixed;
         let limits =
             overrides.energy_tolerance.or(solver.energy_tolerance.map(|l| l.map(T::to_f64)));
         let limits = limits.unwrap_or([EnergyRule::default().upper, EnergyRule::default().lower]);
@@ -255,6 +266,23 @@ impl Settings {
             tolerance: checked("tolerance", overrides.tolerance.or(of_scene(solver.tolerance)))?,
             threads,
         })
+    }
+
+    /// Step, largest step and duration in the precision of the run: what the scene says with all its digits, else the
+    /// decimal number that was meant, which is the shortest one that `f64` reads as this.
+    #[must_use]
+    pub fn lengths<T: Real>(&self, scene: &Scene<T>) -> Lengths<T> {
+        let solver = &scene.solver;
+        let written = [Some(scene.duration), solver.step, solver.step_max];
+        let exact = |x: f64| {
+            if T::EPSILON.to_f64() >= f64::EPSILON {
+                return T::from_f64(x);
+            }
+            let same = written.into_iter().flatten().find(|&w| w.to_f64().to_bits() == x.to_bits());
+            same.or_else(|| T::from_decimal(&format!("{x:e}"))).unwrap_or(T::from_f64(x))
+        };
+        let [step, step_max, duration] = [self.step, self.step_max, self.duration].map(exact);
+        Lengths { step, step_max, duration }
     }
 
     /// What `auto` chose and why; nothing where a formulation was asked for.

@@ -243,7 +243,7 @@ fn object(channels: &[(Channel, Vec<f64>)]) -> Map<String, Value> {
 }
 
 /// The scene with other outputs, one for each quantity and named after its joint.
-fn of_joints(scene: &Scene<f64>, quantities: impl Iterator<Item = Quantity>) -> Scene<f64> {
+fn of_joints(scene: &Scene<f64>, quantities: impl Iterator<Item = Quantity<f64>>) -> Scene<f64> {
     let outputs = quantities.map(|quantity| {
         let name = match quantity {
             Quantity::JointValue { joint } | Quantity::Reaction { joint } => {

@@ -14,6 +14,9 @@ use mbs_recursive::{
     Closure, Options, Planar, Spatial, StartError, TreeModel, TreeState, Workspace,
 };
 
+/// Error of a step by extrapolation where none is given: 2e-10 in double precision, 5e-26 in pairs.
+const ROUNDINGS: f64 = 1e6;
+
 /// D dimensions as a type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Plane<const D: usize>;
@@ -71,7 +74,7 @@ where
             saved: start.clone(),
             state: start,
             workspace,
-            options: options(settings),
+            options: options(scene, settings),
             integrator: settings.integrator,
             motions,
             terms: natural.terms(),
@@ -98,6 +101,10 @@ where
             }
             IntegratorKind::Rk54 => {
                 mbs_recursive::rk54_step(model, dt, options, &mut self.state, &mut self.workspace)
+            }
+            IntegratorKind::Extrapolation => {
+                let workspace = &mut self.workspace;
+                mbs_recursive::extrapolated_step(model, dt, options, &mut self.state, workspace)
             }
             _ => mbs_recursive::step(model, dt, options, &mut self.state, &mut self.workspace),
         }?;
@@ -194,8 +201,8 @@ fn not_started<T: Real, S: Space<T>>(error: StartError, model: &TreeModel<T, S>)
     }
 }
 
-fn options<T: Real>(settings: &Settings) -> Options<T> {
-    let first_step = Some(T::from_f64(settings.step));
+fn options<T: Real>(scene: &Scene<T>, settings: &Settings) -> Options<T> {
+    let first_step = Some(settings.lengths(scene).step);
     let mut options = Options { first_step, ..Options::default() };
     if !settings.integrator.is_explicit() {
         options.integrator = settings.integrator.coefficients();
@@ -203,6 +210,10 @@ fn options<T: Real>(settings: &Settings) -> Options<T> {
     if let Some(alpha) = settings.penalty {
         let alpha = T::from_f64(alpha);
         options.closure = Closure::Report { alpha, omega: T::from_f64(10.0), mu: T::ONE };
+    }
+    if settings.integrator == IntegratorKind::Extrapolation {
+        // Orders this high are chosen for digits.
+        options.error = T::EPSILON * T::from_f64(ROUNDINGS);
     }
     if let Some(tolerance) = settings.tolerance {
         options.tolerance = T::from_f64(tolerance);

@@ -39,7 +39,7 @@ struct Line {
 
 impl Invariant {
     /// Starts from kinetic energy, potential energy and work [J]; `ground` is the energy that the scene's loads have anyway
-    /// [J], such as its weight times its length, and `epsilon` that of the scalar.
+    /// [J], such as its weight times its length, and `epsilon` that of the scalar; energies are no finer than `f64`.
     #[must_use]
     pub fn new(energies: [f64; 3], ground: f64, epsilon: f64) -> Self {
         let [kinetic, potential, work] = energies;
@@ -52,7 +52,7 @@ impl Invariant {
             potential: [potential; 2],
             gross_work: 0.0,
             ground,
-            epsilon,
+            epsilon: epsilon.max(f64::EPSILON),
             line: Line::default(),
         }
     }

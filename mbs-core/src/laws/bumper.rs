@@ -43,7 +43,7 @@ pub fn contact<T: Real>([stiffness, damping]: [T; 2], x: T, rate: T) -> Contact<
 
 /// s(x) and its slope.
 fn fade<T: Real>(x: T) -> (T, T) {
-    let inverse = T::from_f64(1.0 / FADE);
+    let inverse = T::ONE / T::from_f64(FADE);
     let r = x * inverse;
     if r >= T::ONE {
         return (T::ONE, T::ZERO);

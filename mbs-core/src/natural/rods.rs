@@ -39,7 +39,7 @@ impl<T: Real> Rods<T> {
             | Quantity::Velocity { body, at }
             | Quantity::Acceleration { body, at } = &output.quantity
             {
-                rods.point(BodyRef::Body(*body), &at.map(T::from_f64));
+                rods.point(BodyRef::Body(*body), at);
             }
         }
         rods

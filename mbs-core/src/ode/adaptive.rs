@@ -1,6 +1,6 @@
-//! Embedded pairs with error control, over given lengths of time.
+//! Methods with error control, over given lengths of time.
 
-use super::{OdeError, Rates, StepControl, Tableau};
+use super::{Method, OdeError, Rates, StepControl};
 use crate::Real;
 
 /// A step below this many roundings of the time is refused.
@@ -56,26 +56,26 @@ pub struct Counts {
     pub evaluations: u64,
 }
 
-/// An embedded pair with error control: what it remembers from step to step and from call to call.
+/// A method with error control: what it remembers from step to step and from call to call.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Adaptive<T, const S: usize> {
-    tableau: Tableau<T, S>,
+pub struct Adaptive<T, M> {
+    method: M,
     control: StepControl<T>,
     step: T,
     counts: Counts,
 }
 
-impl<T: Real, const S: usize> Adaptive<T, S> {
-    /// A driver of this pair, with the step to try first [s].
+impl<T: Real, M: Method<T>> Adaptive<T, M> {
+    /// A driver of this method, with the step to try first [s].
     ///
     /// # Panics
     ///
     /// If the step is not positive and finite.
     #[must_use]
-    pub fn new(tableau: Tableau<T, S>, first_step: T) -> Self {
+    pub fn new(method: M, first_step: T) -> Self {
         assert!(first_step > T::ZERO && first_step.is_finite(), "a positive step");
-        let control = StepControl::new(tableau.power);
-        Self { tableau, control, step: first_step, counts: Counts::default() }
+        let control = StepControl::new(method.power());
+        Self { method, control, step: first_step, counts: Counts::default() }
     }
 
     /// The step that will be tried next [s], if the end of the call and the longest step allow it.
@@ -94,10 +94,11 @@ impl<T: Real, const S: usize> Adaptive<T, S> {
     ///
     /// After each accepted step `hook` gets the system, the time and the state, which it may change, and says whether
     /// it did: rates at a changed state are evaluated again. The last step is shortened to end at `t + dt`; what the step
-    /// would have been is remembered for the next call. `scratch` is [`Tableau::scratch`] numbers.
+    /// would have been is remembered for the next call. `scratch` is
+    /// [`Method::n_scratch`] numbers or more.
     ///
-    /// Cost, beside the hook: one evaluation, and S − 1 for each step tried; where the hook changed the state, or the pair
-    /// does not end on a stage, one more for each accepted step but the last. About S²/2 n multiplications for a step; no
+    /// Cost, beside the hook: one evaluation, and [`Method::evaluations`] less one for each step tried; where the hook changed
+    /// the state, or the method does not end with the rates there, one more for each accepted step but the last. No
     /// allocation.
     ///
     /// # Errors
@@ -119,6 +120,9 @@ impl<T: Real, const S: usize> Adaptive<T, S> {
     ) -> Result<(), OdeError<R::Error>> {
         assert!(dt >= T::ZERO && dt.is_finite(), "a length of time");
         let n = system.n();
+        let (n_scratch, there) = (self.method.n_scratch(n), scratch.len());
+        assert!(there >= n_scratch && y.len() == n, "scratch and components of the state");
+        let scratch = &mut scratch[..n_scratch];
         let smallest = T::from_f64(SMALLEST_STEP) * T::EPSILON * (t.abs() + dt);
         let (mut done, mut tried, mut first_is_known) = (T::ZERO, 0, false);
         while done < dt {
@@ -132,13 +136,13 @@ impl<T: Real, const S: usize> Adaptive<T, S> {
             }
             tried += 1;
 
-            let evaluations = S as u64 - u64::from(first_is_known);
-            self.tableau
-                .stages(system, (time, h), y, first_is_known, scratch)
+            let evaluations = self.method.evaluations(first_is_known);
+            let error = self
+                .method
+                .trial(system, (time, h), y, first_is_known, (options, scratch))
                 .map_err(|error| OdeError::Rates { time: time.to_f64(), error })?;
             self.counts.evaluations += evaluations;
             first_is_known = true;
-            let error = self.tableau.error(h, y, options, scratch);
 
             // A NaN is no error within the tolerance.
             if !(error <= T::ONE) {
@@ -152,7 +156,7 @@ impl<T: Real, const S: usize> Adaptive<T, S> {
             }
 
             self.counts.accepted += 1;
-            y.copy_from_slice(Tableau::<T, S>::end_state(n, scratch));
+            y.copy_from_slice(self.method.new_state(n, scratch));
             done = if is_last { dt } else { done + h };
             // A step cut short at the end says nothing about the step that was planned.
             if h >= planned {
@@ -161,10 +165,7 @@ impl<T: Real, const S: usize> Adaptive<T, S> {
             let at_end = t + done;
             let end = hook(system, at_end, y)
                 .map_err(|error| OdeError::Rates { time: at_end.to_f64(), error })?;
-            first_is_known = end == EndState::Kept && self.tableau.first_same_as_last;
-            if first_is_known {
-                scratch.copy_within((S - 1) * n..S * n, 0);
-            }
+            first_is_known = end == EndState::Kept && self.method.carry(n, scratch);
         }
         Ok(())
     }

@@ -5,14 +5,16 @@
 //! ```
 //!
 //! [`rk4_step`] is the classical method of order 4 with a fixed step. [`Tableau`] holds an embedded pair, and [`Adaptive`]
-//! drives it with error control: [`StepControl`] chooses the steps, and a hook after each accepted step may project
-//! the state onto its constraints.
+//! drives it or an [`Extrapolation`] of any even order with error control: [`StepControl`] chooses the steps, and a hook after
+//! each accepted step may project the state onto its constraints.
 //!
 //! All storage is in slices of the caller; the module is built without `alloc`, so nothing here can allocate.
 
 mod adaptive;
 mod control;
 mod error;
+mod extrapolation;
+mod method;
 mod rk4;
 mod tableau;
 #[cfg(test)]
@@ -21,6 +23,8 @@ mod tests;
 pub use adaptive::{Adaptive, Counts, EndState, Options};
 pub use control::StepControl;
 pub use error::OdeError;
+pub use extrapolation::Extrapolation;
+pub use method::Method;
 pub use rk4::{rk4_scratch, rk4_step};
 pub use tableau::Tableau;
 

@@ -1,6 +1,6 @@
 //! Embedded Runge-Kutta pairs: coefficients, the stages of one trial step, and its error.
 
-use super::{Options, Rates};
+use super::{Method, Options, Rates, method};
 use crate::Real;
 
 /// The coefficients of an embedded pair with `S` stages.
@@ -117,11 +117,7 @@ impl<T: Real, const S: usize> Tableau<T, S> {
         &scratch[S * n..]
     }
 
-    /// Size of the error of the trial step in `scratch`: at most one is within the tolerance.
-    ///
-    /// ```text
-    /// ‖h Σᵢ eᵢ kᵢ‖ = √(1/n Σ (errorₖ / (absolute sizeₖ + relative max(|yₖ|, |y'ₖ|)))²)
-    /// ```
+    /// Size of the error of the trial step in `scratch`, h Σᵢ eᵢ kᵢ: at most one is within the tolerance.
     ///
     /// A number that is not finite anywhere in it or in the new state gives NaN or infinity.
     ///
@@ -130,21 +126,50 @@ impl<T: Real, const S: usize> Tableau<T, S> {
     pub fn error(&self, h: T, y: &[T], options: &Options<'_, T>, scratch: &[T]) -> T {
         let n = y.len();
         let (rates, end) = scratch.split_at(S * n);
-        let mut sum = T::ZERO;
-        for k in 0..n {
+        method::size((y, end), options, |k| {
             let mut error = T::ZERO;
             for i in 0..S {
                 error += self.e[i] * rates[i * n + k];
             }
-            error *= h;
-            let size = options.sizes.get(k).copied().unwrap_or(T::ONE);
-            let tolerance =
-                options.absolute * size + options.relative * y[k].abs().max(end[k].abs());
-            // No error needs no tolerance; a state that is not finite must not hide in the denominator.
-            let share = if error == T::ZERO { T::ZERO } else { error / tolerance };
-            sum += share * share + end[k] * T::ZERO;
+            error * h
+        })
+    }
+}
+
+impl<T: Real, const S: usize> Method<T> for Tableau<T, S> {
+    fn power(&self) -> u32 {
+        self.power
+    }
+
+    fn n_scratch(&self, n: usize) -> usize {
+        Self::scratch(n)
+    }
+
+    fn evaluations(&self, first_is_known: bool) -> u64 {
+        S as u64 - u64::from(first_is_known)
+    }
+
+    fn trial<R: Rates<T>>(
+        &self,
+        system: &mut R,
+        (t, h): (T, T),
+        y: &[T],
+        first_is_known: bool,
+        (options, scratch): (&Options<'_, T>, &mut [T]),
+    ) -> Result<T, R::Error> {
+        self.stages(system, (t, h), y, first_is_known, scratch)?;
+        Ok(self.error(h, y, options, scratch))
+    }
+
+    fn new_state<'s>(&self, n: usize, scratch: &'s [T]) -> &'s [T] {
+        Self::end_state(n, scratch)
+    }
+
+    fn carry(&self, n: usize, scratch: &mut [T]) -> bool {
+        if self.first_same_as_last {
+            scratch.copy_within((S - 1) * n..S * n, 0);
         }
-        if n == 0 { T::ZERO } else { (sum / T::from_f64(n as f64)).sqrt() }
+        self.first_same_as_last
     }
 }
 

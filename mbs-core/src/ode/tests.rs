@@ -139,7 +139,7 @@ fn drive(
     tolerance: f64,
     first_step: f64,
     end: EndState,
-) -> (Adaptive<f64, 7>, Problem<2>, [f64; 2]) {
+) -> (Adaptive<f64, Tableau<f64, 7>>, Problem<2>, [f64; 2]) {
     let (mut problem, mut y, mut scratch) = (oscillator(), OSCILLATOR, [0.0; 16]);
     let mut driver = Adaptive::new(Tableau::dormand_prince(), first_step);
     let options = Options::new(tolerance);
@@ -366,7 +366,7 @@ impl<T: Real> Rates<T> for Generic {
 
 #[test]
 fn single_precision_reaches_its_own_tolerance() {
-    let mut driver = Adaptive::<f32, 7>::new(Tableau::dormand_prince(), 0.01);
+    let mut driver = Adaptive::<f32, _>::new(Tableau::dormand_prince(), 0.01);
     let (mut y, mut scratch) = ([1.0_f32, 0.0], [0.0; 16]);
     let work = (&mut y[..], &mut scratch[..]);
     driver

@@ -61,9 +61,9 @@ impl<T: Real, const D: usize> Measures<T, D> {
         &mut self,
         (scene, starts): (&Scene<T>, &[Vec<T>]),
         model: &NaturalModel<T, D>,
-        quantity: &Quantity,
+        quantity: &Quantity<T>,
     ) {
-        let point = |body, at: [f64; 3]| model.point(BodyRef::Body(body), at.map(T::from_f64));
+        let point = |body, at| model.point(BodyRef::Body(body), at);
         let coordinates = |joint: usize| Coordinate::of_joint(scene, model, &scene.joints[joint]);
         let channel = match *quantity {
             Quantity::Position { body, at } => Channel::Position(point(body, at)),
@@ -108,7 +108,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
         }
     }
 
-    /// Tracks `state` and writes all components in the order of the channels, as `f64`.
+    /// Tracks `state` and writes all components in the order of the channels.
     ///
     /// `reaction` gives the reaction of a joint (planar [Fx, Fy, Mz] in the first three places); it is asked only for the
     /// channels that are reactions.
@@ -121,7 +121,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
         &mut self,
         state: &State<T>,
         mut reaction: impl FnMut(usize) -> [T; 6],
-        out: &mut [f64],
+        out: &mut [T],
     ) {
         assert_eq!(out.len(), self.n_components, "one place per component");
         self.track(state);
@@ -162,9 +162,9 @@ impl<T: Real, const D: usize> Channel<T, D> {
     }
 }
 
-fn copy<T: Real>(from: &[T], to: &mut [f64]) {
+fn copy<T: Real>(from: &[T], to: &mut [T]) {
     for (to, from) in to.iter_mut().zip(from) {
-        *to = from.to_f64();
+        *to = *from;
     }
 }
 

@@ -50,7 +50,7 @@ pub struct Scene<T> {
     /// Opt-in effects. Those with `enabled: false` are not built.
     pub effects: Vec<Effect<T>>,
     /// Channels; empty: every joint coordinate.
-    pub outputs: Vec<Output>,
+    pub outputs: Vec<Output<T>>,
     /// What the scene asks of the solver.
     pub solver: SolverChoice<T>,
 }

@@ -3,38 +3,38 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-/// A channel: what is recorded, under which name. Coordinates are `f64`, as records are.
+/// A channel: what is recorded, under which name.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Output {
+pub struct Output<T> {
     /// Unique name.
     pub name: String,
     /// What is measured.
-    pub quantity: Quantity,
+    pub quantity: Quantity<T>,
 }
 
 /// What a channel measures.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Quantity {
+pub enum Quantity<T> {
     /// Position of a material point [m], global axes.
     Position {
         /// Body.
         body: usize,
         /// Point in the reference configuration [m].
-        at: [f64; 3],
+        at: [T; 3],
     },
     /// Velocity of a material point [m/s].
     Velocity {
         /// Body.
         body: usize,
         /// Point in the reference configuration [m].
-        at: [f64; 3],
+        at: [T; 3],
     },
     /// Acceleration of a material point [m/s^2].
     Acceleration {
         /// Body.
         body: usize,
         /// Point in the reference configuration [m].
-        at: [f64; 3],
+        at: [T; 3],
     },
     /// Joint coordinates [rad or m], unwrapped.
     JointValue {

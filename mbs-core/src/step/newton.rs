@@ -50,7 +50,7 @@ pub fn stopping<T: Real>(
         Some(Stop::Converged)
     } else if contraction > T::HALF && correction <= noise {
         Some(Stop::Rounding)
-    } else if iterations > 5 && contraction > T::HALF && correction <= scale * T::from_f64(1e-5) {
+    } else if iterations > 5 && contraction > T::HALF && correction <= scale * T::tolerance(1e-5) {
         Some(Stop::Passage)
     } else {
         None

@@ -77,7 +77,7 @@ pub(crate) fn guide(scene: &mut Scene<f64>, joint: usize, law: GuideLaw<f64>) {
 }
 
 /// Adds an output channel.
-pub(crate) fn output(scene: &mut Scene<f64>, quantity: Quantity) {
+pub(crate) fn output(scene: &mut Scene<f64>, quantity: Quantity<f64>) {
     let name = format!("output {}", scene.outputs.len());
     scene.outputs.push(Output { name, quantity });
 }

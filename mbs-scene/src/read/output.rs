@@ -9,7 +9,7 @@ const KEYS: [&str; 5] = ["name", "body", "at", "joint", "quantity"];
 const BODY_WORDS: [&str; 3] = ["position", "velocity", "acceleration"];
 const JOINT_WORDS: [&str; 3] = ["value", "rate", "reaction"];
 
-pub(crate) fn read(fields: &Fields<'_>) -> Read<Output> {
+pub(crate) fn read<T: Real>(fields: &Fields<'_>) -> Read<Output<T>> {
     fields.exclusive("joint", "body")?;
     let quantity = if let Some(joint) = fields.get("joint") {
         fields.allow(&["name", "joint", "quantity"], &KEYS)?;

@@ -1,6 +1,7 @@
 //! CSV: one row per recorded time, written as the run goes.
 
 use crate::record::{Channel, StepSeries};
+use mbs_core::real::DoubleDouble;
 use std::io::{self, Write};
 
 /// Writes a header and then one row per recorded time; floats in the shortest form that reads back exactly.
@@ -40,10 +41,27 @@ impl<W: Write> CsvWriter<W> {
     /// # Panics
     /// If the count of values is not that of the header.
     pub fn row(&mut self, time: f64, values: &[f64]) -> io::Result<()> {
-        assert_eq!(values.len() + 1, self.n_columns, "one value per column");
-        for number in core::iter::once(&time).chain(values) {
-            self.out.write_field(shortest(*number)).map_err(io::Error::from)?;
+        self.fields(core::iter::once(&time).chain(values).map(|&x| shortest(x)))
+    }
+
+    /// The same with 32 digits; the time has those of `f64`.
+    ///
+    /// # Errors
+    /// Those of the sink.
+    ///
+    /// # Panics
+    /// If the count of values is not that of the header.
+    pub fn long_row(&mut self, time: f64, values: &[DoubleDouble]) -> io::Result<()> {
+        self.fields(core::iter::once(shortest(time)).chain(values.iter().map(|&x| long(x))))
+    }
+
+    fn fields(&mut self, fields: impl Iterator<Item = String>) -> io::Result<()> {
+        let mut n = 0;
+        for field in fields {
+            self.out.write_field(field).map_err(io::Error::from)?;
+            n += 1;
         }
+        assert_eq!(n, self.n_columns, "one value per column");
         self.out.write_record(None::<&[u8]>).map_err(io::Error::from)?;
         self.n_rows += 1;
         if self.n_rows.is_multiple_of(Self::FLUSH_EVERY) {
@@ -96,6 +114,14 @@ pub fn write_steps(sink: impl Write, steps: &StepSeries) -> io::Result<()> {
         out.write_record(record).map_err(io::Error::from)?;
     }
     out.flush()
+}
+
+/// At most 32 digits; exponents where [`shortest`] has them.
+#[must_use]
+pub fn long(x: DoubleDouble) -> String {
+    let size = x.hi().abs();
+    let is_plain = x.hi() == 0.0 || !size.is_finite() || (1.0e-4..1.0e15).contains(&size);
+    if is_plain { format!("{x}") } else { format!("{x:e}") }
 }
 
 /// The shortest decimal text that reads back as the same number; exponents where they are shorter.

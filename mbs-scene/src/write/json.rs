@@ -51,6 +51,9 @@ pub struct RunSummary {
     pub control: Option<ControlSummary>,
     /// Channels at `end_time`.
     pub outputs: Outputs,
+    /// The same as texts of 32 digits, where the run had them: most readers of JSON keep no more than 17.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub digits: Option<Outputs<String>>,
     /// What `auto` chose and why.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chosen: Option<Chosen>,
@@ -177,9 +180,9 @@ pub struct Chosen {
 
 /// Channels by name, in order; one number is written as a number, several as a list.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Outputs(pub Vec<(String, Vec<f64>)>);
+pub struct Outputs<V = f64>(pub Vec<(String, Vec<V>)>);
 
-impl Serialize for Outputs {
+impl<V: Serialize> Serialize for Outputs<V> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(self.0.len()))?;
         for (name, values) in &self.0 {

@@ -68,6 +68,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
             Ok(scene) => dispatch(&scene, &settings),
             Err(error) => return refuse(&error.render()),
         },
+        Precision::DoubleDouble => return refuse(super::NO_PAIRS),
     };
     tell(&explanation, arguments, &settings)
 }

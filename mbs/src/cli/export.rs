@@ -45,6 +45,9 @@ fn written(arguments: &Arguments) -> Result<(), String> {
     };
     let settings = Settings::new(&scene, &overrides);
     let settings = settings.map_err(|error| files::refusal(&error, &document))?;
+    if settings.precision == Precision::DoubleDouble {
+        return Err(super::NO_PAIRS.to_owned());
+    }
     let rungs = match &arguments.ladder {
         None => Vec::new(),
         Some(path) => {

@@ -48,6 +48,9 @@ enum Command {
     Sweep(sweep::Arguments),
 }
 
+/// Commands other than `run` compute in numbers of the hardware.
+const NO_PAIRS: &str = "error: precision `dd` is for `mbs run`\nhint: leave --precision out";
+
 /// Exit status of a refusal.
 pub(crate) const REFUSED: u8 = 1;
 /// Exit status of a run that stopped.

@@ -5,6 +5,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mbs::{Outcome, Overrides, Precision, Progress, Settings, words};
 use mbs_core::Real;
+use mbs_core::real::DoubleDouble;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_scene::{Document, Provenance, RunError, readable};
 use std::io::{IsTerminal, Write};
@@ -49,7 +50,7 @@ pub(crate) struct Arguments {
     /// of 1/alpha, in recursive the report's closing forces (left out: neither).
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     penalty: Option<f64>,
-    /// Corrections of an iteration are small below this share of what accelerations move in a step, else 1e-10; with rk54 the
+    /// Corrections of an iteration are small below this share of what accelerations move in a step, else 1e-10; with rk54 and gbs the
     /// error of a step, else 1e-8.
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
     tolerance: Option<f64>,
@@ -63,10 +64,10 @@ pub(crate) struct Arguments {
     /// One JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
-    /// f32, f64; left out: f64.
+    /// f32, f64, dd (pairs of doubles: 32 digits, for reference runs); left out: f64.
     #[arg(long, value_name = "P")]
     precision: Option<String>,
-    /// trapezoidal, newmark, generalised-alpha, hht; in recursive also rk4, rk54; else trapezoidal.
+    /// trapezoidal, newmark, generalised-alpha, hht; in recursive also rk4, rk54, gbs (extrapolation, for reference runs); else trapezoidal.
     #[arg(long, value_name = "I")]
     integrator: Option<String>,
     /// Wanted error (not built).
@@ -170,6 +171,10 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let outcome = match settings.precision {
         Precision::F64 => dispatch(&scene, &settings, arguments),
         Precision::F32 => match document.scene::<f32>() {
+            Ok(scene) => dispatch(&scene, &settings, arguments),
+            Err(error) => return refuse(&error.render()),
+        },
+        Precision::DoubleDouble => match document.scene::<DoubleDouble>() {
             Ok(scene) => dispatch(&scene, &settings, arguments),
             Err(error) => return refuse(&error.render()),
         },

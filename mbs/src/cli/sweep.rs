@@ -4,7 +4,7 @@ use super::{STOPPED, files, refuse, table};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use mbs::sweep::{Report, Study, StudyError, SweepError, Watch};
-use mbs::{Overrides, words};
+use mbs::{Overrides, Precision, words};
 use mbs_scene::Document;
 use serde_json::json;
 use std::io::{IsTerminal, Write as _};
@@ -81,6 +81,9 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(Report, PathBuf), String> {
+    if arguments.precision.as_deref() == Some(Precision::DoubleDouble.name()) {
+        return Err(super::NO_PAIRS.to_owned());
+    }
     let (document, _) = files::scene(&arguments.scene)?;
     let sweep = files::document(&arguments.sweep, "sweep file")?;
     let overrides = arguments.overrides();

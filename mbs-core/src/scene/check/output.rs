@@ -7,7 +7,7 @@ use crate::scene::{Quantity, Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(
     scene: &Scene<T>,
-    quantity: &Quantity,
+    quantity: &Quantity<T>,
     place: Place,
 ) -> Result<(), SceneError> {
     match *quantity {

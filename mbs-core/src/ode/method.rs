@@ -1,0 +1,64 @@
+//! What the control of the step asks of a method, and the size of an error.
+
+use super::{Options, Rates};
+use crate::Real;
+
+/// A one-step method that estimates its own error: an embedded pair, or an extrapolation.
+///
+/// Its scratch begins with the rates at the start of the step, n numbers, and holds the new state after a trial.
+pub trait Method<T: Real> {
+    /// Power of h in the error estimate: its order plus one.
+    fn power(&self) -> u32;
+
+    /// Numbers of scratch for `n` components.
+    fn n_scratch(&self, n: usize) -> usize;
+
+    /// Evaluations of one trial step.
+    fn evaluations(&self, first_is_known: bool) -> u64;
+
+    /// Makes one trial step and returns the size of its error: at most one is within the tolerance. `y` is not changed.
+    ///
+    /// With `first_is_known` the rates at (`t`, `y`) stand at the beginning of `scratch` already. A number that is not finite
+    /// gives NaN or infinity.
+    ///
+    /// # Errors
+    ///
+    /// What the rates say.
+    fn trial<R: Rates<T>>(
+        &self,
+        system: &mut R,
+        step: (T, T),
+        y: &[T],
+        first_is_known: bool,
+        control: (&Options<'_, T>, &mut [T]),
+    ) -> Result<T, R::Error>;
+
+    /// The new state that a trial left in `scratch`, for `n` components.
+    fn new_state<'s>(&self, n: usize, scratch: &'s [T]) -> &'s [T];
+
+    /// Brings the rates at the new state to the beginning of `scratch`, if the trial found them; says whether it did.
+    fn carry(&self, n: usize, scratch: &mut [T]) -> bool;
+}
+
+/// Size of an error beside the tolerance.
+///
+/// ```text
+/// √(1/n Σ (errorₖ / (absolute sizeₖ + relative max(|yₖ|, |y'ₖ|)))²)
+/// ```
+pub(super) fn size<T: Real>(
+    (y, end): (&[T], &[T]),
+    options: &Options<'_, T>,
+    error: impl Fn(usize) -> T,
+) -> T {
+    let n = y.len();
+    let mut sum = T::ZERO;
+    for k in 0..n {
+        let error = error(k);
+        let size = options.sizes.get(k).copied().unwrap_or(T::ONE);
+        let tolerance = options.absolute * size + options.relative * y[k].abs().max(end[k].abs());
+        // No error needs no tolerance; a state that is not finite must not hide in the denominator.
+        let share = if error == T::ZERO { T::ZERO } else { error / tolerance };
+        sum += share * share + end[k] * T::ZERO;
+    }
+    if n == 0 { T::ZERO } else { (sum / T::from_f64(n as f64)).sqrt() }
+}

@@ -1,0 +1,73 @@
+//! Decimal text to double-double, through exact whole numbers.
+
+use super::double_double::DoubleDouble;
+use super::wide::Wide;
+
+/// Digits that are read; the others move the number by less than 10⁻⁵⁹ of it.
+const MOST_DIGITS: u32 = 60;
+/// Bits of the quotient: two more than are kept are enough, and these fit the type.
+const BITS: usize = 120;
+
+/// The number that `text` says, within 2⁻¹⁰⁶ of its size (above 2⁻⁹⁶⁹); what `f64` reads as a number is one.
+///
+/// Cost: about 10⁵ operations on whole numbers.
+pub(super) fn read(text: &str) -> Option<DoubleDouble> {
+    let near: f64 = text.parse().ok()?;
+    // Infinities and NaN have no digits; what is too small for `f64` is zero.
+    if near == 0.0 || !near.is_finite() {
+        return Some(DoubleDouble::from_f64(near));
+    }
+    let (mut over, exponent) = digits(text)?;
+    let mut under = Wide::from_u64(1);
+    if exponent >= 0 {
+        over.multiply_by_ten_to(exponent.unsigned_abs());
+    } else {
+        under.multiply_by_ten_to(exponent.unsigned_abs());
+    }
+    // Scaled by a power of two so that the quotient has `BITS` bits or one less.
+    let (of_over, wanted) = (over.bits(), under.bits() + BITS - 1);
+    let (power, surplus) = (wanted.saturating_sub(of_over), of_over.saturating_sub(wanted));
+    over.shift_up(power);
+    under.shift_up(surplus);
+    let quotient = over.divide(&under, BITS);
+    let shift = i32::try_from(surplus).ok()? - i32::try_from(power).ok()?;
+    let size = pair(quotient, shift);
+    Some(if near < 0.0 { -size } else { size })
+}
+
+/// The first digits as a whole number, and the power of ten to multiply it by; the text is known to be a number.
+fn digits(text: &str) -> Option<(Wide, i32)> {
+    let (mantissa, exponent) = match text.find(['e', 'E']) {
+        Some(at) => (&text[..at], text[at + 1..].parse::<i32>().ok()?),
+        None => (text, 0),
+    };
+    let (mut number, mut n, mut shift, mut is_fraction) = (Wide::ZERO, 0, 0_i32, false);
+    for byte in mantissa.bytes() {
+        match byte {
+            b'.' => is_fraction = true,
+            b'0'..=b'9' if n < MOST_DIGITS => {
+                number.multiply(10);
+                number.add(u64::from(byte - b'0'), 0);
+                n += u32::from(!number.is_zero());
+                shift -= i32::from(is_fraction);
+            }
+            // A digit that is left out still counts for the place of the point.
+            b'0'..=b'9' => shift += i32::from(!is_fraction),
+            _ => {}
+        }
+    }
+    Some((number, exponent.checked_add(shift)?))
+}
+
+/// m 2^shift in two parts, each rounded to nearest.
+#[allow(
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "roundings are what is asked for, of numbers of at most 120 bits"
+)]
+fn pair(m: u128, shift: i32) -> DoubleDouble {
+    let hi = m as f64;
+    let lo = (m as i128 - hi as i128) as f64;
+    DoubleDouble::from_sum(libm::scalbn(hi, shift), libm::scalbn(lo, shift))
+}

@@ -1,0 +1,272 @@
+//! Double-double numbers: about 32 digits by pairs of `f64`, for reference runs.
+//!
+//! A number is hi + lo with |lo| at most half a unit in the last place of hi. With u = 2⁻⁵³, relative errors are at most
+//!
+//! | operation | error | flops |
+//! |---|---|---|
+//! | x + y, x − y | 3 u² + 13 u³ | 20 |
+//! | x y | 7 u² | 25 |
+//! | x / y | 15 u² + 56 u³ | 49 |
+//! | √x | 25/8 u² | 26 and a root in `f64` |
+//!
+//! by Joldes, Muller and Popescu, ACM Trans. Math. Softw. 44 (2017) 15: their algorithms 6, 10 and 17 without fused
+//! multiply-add; the root by Lefèvre, Louvet, Muller, Picot and Rideau, ACM Trans. Math. Softw. 49 (2023) 1. A sum of pairs
+//! that cancel keeps its bound: the cheaper addition of 11 flops does not. Bounds hold between 2⁻⁹⁶⁹ and 2⁹⁹⁶, where
+//! products split exactly (`transforms.rs`); beyond, lo loses bits or is zero. Infinities and NaN come as in `f64`; a sum
+//! or product that is zero has no sign.
+//! Functions, reading and writing have their bounds where they stand (`functions.rs`, `decimal.rs`, `show.rs`).
+//!
+//! The crate `twofloat` 0.8 has the same arithmetic, but calls its elementary functions preliminary, leaves infinities and
+//! NaN out, and reads no decimal text; what is left of it is these few lines.
+
+use super::transforms::{fast_two_sum, two_product, two_sum};
+use core::cmp::Ordering;
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use num_traits::{One, Zero};
+
+/// A number of about 32 digits: the unevaluated sum hi + lo of two `f64`.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct DoubleDouble {
+    hi: f64,
+    lo: f64,
+}
+
+impl DoubleDouble {
+    /// Zero.
+    pub const ZERO: Self = Self::from_f64(0.0);
+    /// One.
+    pub const ONE: Self = Self::from_f64(1.0);
+    /// π, to 2⁻¹⁰⁷.
+    pub const PI: Self = Self { hi: core::f64::consts::PI, lo: 1.2246467991473532e-16 };
+    /// 2⁻¹⁰⁴, four times u²: what the arithmetic tells from one.
+    pub const EPSILON: Self = Self::from_f64(f64::EPSILON * f64::EPSILON);
+
+    /// The same number.
+    #[inline]
+    #[must_use]
+    pub const fn from_f64(x: f64) -> Self {
+        Self { hi: x, lo: 0.0 }
+    }
+
+    /// a + b, rounded once where their exponents are far apart.
+    #[inline]
+    #[must_use]
+    pub const fn from_sum(a: f64, b: f64) -> Self {
+        let (hi, lo) = two_sum(a, b);
+        Self::pair(hi, lo)
+    }
+
+    /// The leading part: the nearest `f64`.
+    #[inline]
+    #[must_use]
+    pub const fn hi(self) -> f64 {
+        self.hi
+    }
+
+    /// What the leading part leaves.
+    #[inline]
+    #[must_use]
+    pub const fn lo(self) -> f64 {
+        self.lo
+    }
+
+    /// A pair whose remainder is no number where its leading part is infinite.
+    #[inline]
+    pub(super) const fn pair(hi: f64, lo: f64) -> Self {
+        Self { hi, lo: if hi.is_finite() { lo } else { 0.0 } }
+    }
+
+    /// x + y in constants; algorithm 6.
+    #[inline]
+    pub(super) const fn plus(self, y: Self) -> Self {
+        let (s, s_left) = two_sum(self.hi, y.hi);
+        if !s.is_finite() {
+            return Self::from_f64(s);
+        }
+        let (t, t_left) = two_sum(self.lo, y.lo);
+        let (v, v_left) = fast_two_sum(s, s_left + t);
+        let (hi, lo) = fast_two_sum(v, t_left + v_left);
+        Self { hi, lo }
+    }
+
+    /// x y in constants; algorithm 10.
+    #[inline]
+    pub(super) const fn times(self, y: Self) -> Self {
+        let (p, left) = two_product(self.hi, y.hi);
+        let crossed = self.hi * y.lo + self.lo * y.hi;
+        let (hi, lo) = fast_two_sum(p, left + crossed);
+        if hi.is_finite() { Self { hi, lo } } else { Self::from_f64(p) }
+    }
+
+    /// x y for a number y; algorithm 7, error 3/2 u² + 4 u³, 24 flops.
+    #[inline]
+    pub(super) const fn times_f64(self, y: f64) -> Self {
+        let (p, left) = two_product(self.hi, y);
+        let (t, t_left) = fast_two_sum(p, self.lo * y);
+        let (hi, lo) = fast_two_sum(t, t_left + left);
+        if hi.is_finite() { Self { hi, lo } } else { Self::from_f64(p) }
+    }
+
+    /// x / y in constants; algorithm 17.
+    #[inline]
+    pub(super) const fn over(self, y: Self) -> Self {
+        let quotient = self.hi / y.hi;
+        if !quotient.is_finite() || !y.hi.is_finite() {
+            return Self::from_f64(quotient);
+        }
+        let back = y.times_f64(quotient);
+        let left = (self.hi - back.hi) + (self.lo - back.lo);
+        let (hi, lo) = fast_two_sum(quotient, left / y.hi);
+        if hi.is_finite() { Self { hi, lo } } else { Self::from_f64(quotient) }
+    }
+
+    /// −x in constants.
+    #[inline]
+    pub(super) const fn minus(self) -> Self {
+        Self { hi: -self.hi, lo: -self.lo }
+    }
+
+    /// x 2ⁿ for a power of two that is given; exact but where it leaves the range.
+    #[inline]
+    pub(super) const fn scaled(self, power: f64) -> Self {
+        Self::pair(self.hi * power, self.lo * power)
+    }
+}
+
+impl From<f64> for DoubleDouble {
+    #[inline]
+    fn from(x: f64) -> Self {
+        Self::from_f64(x)
+    }
+}
+
+impl PartialOrd for DoubleDouble {
+    #[inline]
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        match self.hi.partial_cmp(&other.hi) {
+            Some(Ordering::Equal) => self.lo.partial_cmp(&other.lo),
+            order => order,
+        }
+    }
+}
+
+impl Neg for DoubleDouble {
+    type Output = Self;
+    #[inline]
+    fn neg(self) -> Self {
+        self.minus()
+    }
+}
+
+impl Add for DoubleDouble {
+    type Output = Self;
+    #[inline]
+    fn add(self, y: Self) -> Self {
+        self.plus(y)
+    }
+}
+
+impl Sub for DoubleDouble {
+    type Output = Self;
+    #[inline]
+    fn sub(self, y: Self) -> Self {
+        self.plus(y.minus())
+    }
+}
+
+impl Mul for DoubleDouble {
+    type Output = Self;
+    #[inline]
+    fn mul(self, y: Self) -> Self {
+        self.times(y)
+    }
+}
+
+impl Div for DoubleDouble {
+    type Output = Self;
+    #[inline]
+    fn div(self, y: Self) -> Self {
+        self.over(y)
+    }
+}
+
+impl AddAssign for DoubleDouble {
+    #[inline]
+    fn add_assign(&mut self, y: Self) {
+        *self = self.plus(y);
+    }
+}
+
+impl SubAssign for DoubleDouble {
+    #[inline]
+    fn sub_assign(&mut self, y: Self) {
+        *self = self.plus(y.minus());
+    }
+}
+
+impl MulAssign for DoubleDouble {
+    #[inline]
+    fn mul_assign(&mut self, y: Self) {
+        *self = self.times(y);
+    }
+}
+
+impl DivAssign for DoubleDouble {
+    #[inline]
+    fn div_assign(&mut self, y: Self) {
+        *self = self.over(y);
+    }
+}
+
+impl Zero for DoubleDouble {
+    #[inline]
+    fn zero() -> Self {
+        Self::ZERO
+    }
+    #[inline]
+    fn is_zero(&self) -> bool {
+        *self == Self::ZERO
+    }
+}
+
+impl One for DoubleDouble {
+    #[inline]
+    fn one() -> Self {
+        Self::ONE
+    }
+}
+
+impl super::Real for DoubleDouble {
+    const ZERO: Self = Self::ZERO;
+    const ONE: Self = Self::ONE;
+    const HALF: Self = Self::from_f64(0.5);
+    const TWO: Self = Self::from_f64(2.0);
+    const EPSILON: Self = Self::EPSILON;
+    const PI: Self = Self::PI;
+
+    #[inline]
+    fn from_f64(x: f64) -> Self {
+        Self::from_f64(x)
+    }
+    fn from_decimal(text: &str) -> Option<Self> {
+        super::decimal::read(text)
+    }
+    #[inline]
+    fn to_f64(self) -> f64 {
+        self.hi
+    }
+    #[inline]
+    fn sqrt(self) -> Self {
+        super::functions::sqrt(self)
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        super::functions::sin_cos(self)
+    }
+    fn atan2(self, x: Self) -> Self {
+        super::functions::atan2(self, x)
+    }
+    #[inline]
+    fn is_finite(self) -> bool {
+        self.hi.is_finite()
+    }
+}

@@ -1,0 +1,42 @@
+//! Error-free transforms: a rounded sum or product of two numbers, and what rounding took from it.
+//!
+//! A fused multiply-add is not asked for: where the hardware has none it is a slow call, and a product is split exactly
+//! without it. The results are the same bits on every target whose `f64` is IEEE 754 binary64 in every operation; the x87
+//! registers of 32-bit x86 without SSE2 are not.
+
+/// 2²⁷ + 1: times a number, it parts the upper 26 bits from the rest.
+const SPLITTER: f64 = 134_217_729.0;
+
+/// s + e = a + b exactly, s the rounded sum (Knuth). 6 flops; exact for all finite numbers whose sum is finite.
+#[inline]
+pub(super) const fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let s = a + b;
+    let of_a = s - b;
+    let of_b = s - of_a;
+    (s, (a - of_a) + (b - of_b))
+}
+
+/// s + e = a + b exactly, where |a| ≥ |b| or a = 0 (Dekker). 3 flops.
+#[inline]
+pub(super) const fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
+    let s = a + b;
+    (s, b - (s - a))
+}
+
+/// Two halves of at most 26 bits each that sum to a exactly (Veltkamp). 4 flops; |a| < 2⁹⁹⁶.
+#[inline]
+const fn split(a: f64) -> (f64, f64) {
+    let c = SPLITTER * a;
+    let upper = c - (c - a);
+    (upper, a - upper)
+}
+
+/// p + e = a b exactly, p the rounded product (Dekker). 17 flops; exact where both factors are below 2⁹⁹⁶ and the
+/// product is above 2⁻⁹⁶⁹, below which e is rounded to a multiple of 2⁻¹⁰⁷⁴.
+#[inline]
+pub(super) const fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let p = a * b;
+    let (a_up, a_low) = split(a);
+    let (b_up, b_low) = split(b);
+    (p, ((a_up * b_up - p) + a_up * b_low + a_low * b_up) + a_low * b_low)
+}

@@ -1,0 +1,93 @@
+//! `mbs run --precision dd`: digits in, digits out.
+#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
+
+use mbs::core::Real;
+use mbs::core::real::DoubleDouble as Pair;
+use serde_json::Value;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+fn scene(name: &str) -> String {
+    format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn mbs(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_mbs")).args(arguments).output().expect("the command starts")
+}
+
+fn json(output: &Output) -> Value {
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("one JSON object")
+}
+
+fn pair(text: &str) -> Pair {
+    Pair::from_decimal(text).expect("a number")
+}
+
+/// The final value of a channel of one component.
+fn digits(run: &Value, channel: &str) -> Pair {
+    pair(run["digits"][channel].as_str().expect("digits"))
+}
+
+/// What the table of the scene gives, at start and end: an extrapolation of 30 digits, of which two settings agree.
+const ANDREWS: [(&str, &str, &str); 7] = [
+    ("beta", "-0.0617138900142764496358948458001", "15.810771195153707097"),
+    ("theta", "0", "-15.756371058411839470"),
+    ("gamma", "0.455279819163070380255912382449", "0.040822240119645804858"),
+    ("phi", "0.222668390165885884674473185609", "-0.53473011634207959377"),
+    ("delta", "0.487364979543842550225598953530", "0.52440996587995406937"),
+    ("omega", "-0.222668390165885884674473185609", "0.53473011634207959377"),
+    ("epsilon", "1.23054744454982119249735015568", "1.0480807410419378731"),
+];
+
+#[test]
+fn the_command_finds_all_digits_of_andrews_mechanism() {
+    let scene = scene("andrews");
+    let method = ["--precision", "dd", "--integrator", "gbs", "--tolerance", "1e-26"];
+    let steps = ["--step", "1e-4", "--step-max", "3e-3", "--json"];
+    let run = json(&mbs(&[&["run", scene.as_str()], &method[..], &steps[..]].concat()));
+    println!("{} steps, {} s", run["steps"], run["cpu_seconds"]);
+    assert_eq!(run["precision"], "dd");
+    for (name, start, end) in ANDREWS {
+        let off = (pair(start) + digits(&run, name) - pair(end)).abs();
+        // The last two digits of each.
+        assert!(off <= pair("1e-17"), "{name} is off by {off:.1e}");
+    }
+}
+
+#[test]
+fn rows_have_32_digits_and_the_same_first_ones_as_in_f64() {
+    let out = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("double-double");
+    let scene = scene("double-pendulum");
+    let rows = |precision: &str| {
+        let out = out.join(precision);
+        let place = out.to_str().expect("a path");
+        let run = ["run", &scene, "--precision", precision, "--duration", "0.1", "--out", place];
+        json(&mbs(&[&run[..], &["--json"]].concat()));
+        let text = std::fs::read_to_string(out.join("run.csv")).expect("rows");
+        let last = text.lines().last().expect("a row").to_owned();
+        last.split(',').map(str::to_owned).collect::<Vec<_>>()
+    };
+    let (short, long) = (rows("f64"), rows("dd"));
+    for (short, long) in short.iter().zip(&long).skip(1) {
+        // A hundred steps of a method that both solve to rounding: some digits of f64 are lost, the first ones agree.
+        let off = (pair(short) - pair(long)).abs();
+        assert!(long.len() > 30 && off < pair("1e-13"), "{short} {long}");
+    }
+}
+
+#[test]
+fn commands_that_compute_in_f64_refuse_pairs() {
+    let scene = scene("double-pendulum");
+    let sweep =
+        format!("{}/../scenes/sweeps/double-pendulum-lengths.toml", env!("CARGO_MANIFEST_DIR"));
+    for arguments in [
+        vec!["explain", &scene, "--precision", "dd"],
+        vec!["sweep", &scene, &sweep, "--precision", "dd"],
+    ] {
+        let output = mbs(&arguments);
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{text}");
+        assert!(text.contains("precision `dd` is for `mbs run`"), "{text}");
+    }
+}
