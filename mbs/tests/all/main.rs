@@ -11,6 +11,7 @@ mod andrews;
 mod command;
 mod contact;
 mod control;
+mod double_double;
 mod energy;
 mod explain;
 mod generate;

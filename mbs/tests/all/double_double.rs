@@ -1,5 +1,4 @@
 //! `mbs run --precision dd`: digits in, digits out.
-#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
 use mbs::core::Real;
 use mbs::core::real::DoubleDouble as Pair;
