@@ -5,21 +5,28 @@ mod counted;
 mod support;
 
 use counted::{Counted, done};
+use mbs_core::scene::Scene;
 use mbs_nostd::bound::{self, Operations};
 use mbs_nostd::export::{Gathered, bytes};
 use mbs_nostd::record::Axes;
 use mbs_nostd::{Bounds, Planar, Solver, Spatial, Tables, Unwatched};
-use support::{file, start};
+use mbs_recursive::rows::Row;
+use support::{file, read, start};
 
 type Room<S> = Solver<Counted, S, 64, 80, 48, 160, 4096, 4096, 2, 8>;
 type RoomTables<S> = Tables<Counted, S, 64, 48, 160, 512, 64, 64, 8, 80>;
+
+/// A scene of the repository or of this test.
+fn scene(name: &str) -> Scene<f64> {
+    if name == "planar-rows" { read(include_str!("planar-rows.toml"), name) } else { file(name) }
+}
 
 /// Counts each of some steps of a scene beside the bound.
 fn counted<S: Axes<Counted> + Axes<f64>, const D: usize>(
     name: &str,
     bounds: Bounds,
 ) -> (Operations, Vec<Operations>) {
-    let (tree, begin) = start::<S, D>(&file(name));
+    let (tree, begin) = start::<S, D>(&scene(name));
     let gathered = Gathered::new(&tree, &begin, &[]);
     let text = bytes(&gathered.model(), false).expect("a scene without own laws");
     // The same numbers again, as counting ones.
@@ -57,11 +64,20 @@ fn the_formula_is_the_count_of_every_step_without_branching_effects() {
     is_exact::<Planar, 2>("guided-four-bar");
     is_exact::<Planar, 2>("n-four-bar-10");
     is_exact::<Planar, 2>("andrews");
+    is_exact::<Planar, 2>("planar-rows");
     is_exact::<Spatial, 3>("free-body");
     is_exact::<Spatial, 3>("spatial-four-bar");
     is_exact::<Spatial, 3>("rssr");
     is_exact::<Spatial, 3>("spatial-chain-20");
     is_exact::<Spatial, 3>("six-joint-arm");
+}
+
+#[test]
+fn the_scene_of_planar_rows_cuts_a_prismatic_joint_and_a_distance() {
+    let (tree, _) = start::<Planar, 2>(&scene("planar-rows"));
+    let rows = tree.mechanism().loops.rows;
+    assert!(rows.iter().any(|row| matches!(row, Row::Gap { .. })), "{rows:?}");
+    assert!(rows.iter().any(|row| matches!(row, Row::Length { .. })), "{rows:?}");
 }
 
 fn is_bound(name: &str) {

@@ -60,12 +60,13 @@ impl Operations {
         self.products + self.sums + self.quotients + self.roots + self.turns
     }
 
-    /// The bound of instructions of a Cortex-M7 whose arithmetic unit has both precisions: 3 for each product and sum with its
-    /// loads, stores and part of the loops, 16 for a quotient; roots and turns are functions of libm in software.
+    /// The bound of instructions of a Cortex-M whose arithmetic unit has the precision: 7 for two products or sums with their loads,
+    /// stores and part of the loops, 16 for a quotient. In single precision a root is an instruction between moves, and turns
+    /// need no doubles; in double precision both are functions of libm. Angles beyond 6400 rad, in double precision 1e6 rad, cost more.
     #[must_use]
     pub const fn instructions(&self, is_double: bool) -> u64 {
-        let (root, turn) = if is_double { (420, 560) } else { (220, 330) };
-        (self.products + self.sums) * 3
+        let (root, turn) = if is_double { (140, 400) } else { (20, 120) };
+        (self.products + self.sums) * 7 / 2
             + self.quotients * 16
             + self.roots * root
             + self.turns * turn
