@@ -1,7 +1,10 @@
 //! The one scalar trait: [`Real`] is what every formula of the workspace is generic over.
 //!
 //! It asks of nalgebra only `Scalar` and the closed operations, so only matrix *arithmetic* of nalgebra is
-//! used; roots and trigonometry come from `libm` on every target, so no feature and no host changes a number.
+//! used; roots and trigonometry come from `libm` or from here on every target, so no feature and no host changes a number.
+
+mod root;
+mod turn;
 
 use core::fmt::{Debug, Display, LowerExp};
 use core::ops::Neg;
@@ -146,11 +149,11 @@ impl Real for f32 {
     }
     #[inline]
     fn sqrt(self) -> Self {
-        libm::sqrtf(self)
+        root::root(self)
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
-        libm::sincosf(self)
+        turn::sin_cos(self)
     }
     #[inline]
     fn atan2(self, x: Self) -> Self {

@@ -108,15 +108,17 @@ impl<
             courses: C,
         })?;
         let zero = S::Motion::zero();
-        let mut solver = Self {
+        let from = &model.model().beginning;
+        // Made where it is returned: the stack holds no second one.
+        Ok(Self {
             options: Options::default(),
             bounds: Bounds::default(),
             ladder: Ladder::default(),
             sizes,
-            t: T::ZERO,
-            z: [T::ZERO; Z],
-            v: [T::ZERO; V],
-            a: [T::ZERO; V],
+            t: from.t,
+            z: taken(from.z),
+            v: taken(from.v),
+            a: taken(from.a),
             lambda: [T::ZERO; R],
             inputs: Values::new(&model.model().prescriptions),
             scratch: Scratch {
@@ -135,21 +137,14 @@ impl<
                 freedoms: [[T::ZERO; V]; 4],
                 rank: 0,
             },
-        };
-        solver.restart(model);
-        Ok(solver)
+        })
     }
 
     /// Goes back to the beginning of the model; inputs and choices stay.
     pub fn restart(&mut self, model: &Checked<'_, T, S>) {
         let from = &model.model().beginning;
         self.t = from.t;
-        for (to, from) in [(&mut self.z[..], from.z), (&mut self.v, from.v), (&mut self.a, from.a)]
-        {
-            for (to, from) in to.iter_mut().zip(from) {
-                *to = *from;
-            }
-        }
+        (self.z, self.v, self.a) = (taken(from.z), taken(from.v), taken(from.a));
     }
 
     /// Time [s].
@@ -295,4 +290,13 @@ impl<
             counts: Counts::default(),
         })
     }
+}
+
+/// The numbers of a slice, with zeros behind them.
+fn taken<T: Real, const N: usize>(from: &[T]) -> [T; N] {
+    let mut to = [T::ZERO; N];
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+    to
 }

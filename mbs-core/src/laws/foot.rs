@@ -17,7 +17,8 @@
 //!
 //! Elsewhere, which is in hollows as tight as the wheel and where a centre is far above a road, the road within the distance
 //! already found is looked at in [`CELLS`] equal cells, every cell at whose ends the distance shows a minimum within is
-//! searched, and the nearest of all is taken. A second minimum inside one cell (an eighth of the distance) may be missed.
+//! searched, and the nearest of all is taken. A second minimum inside one cell (an eighth of the distance) may be missed; so may
+//! what the last cells show where the first took all of the steps that they share ([`most_heights`]).
 //!
 //! **Two points equally near.** The nearest point, and with it the direction of the force, jumps where the centre crosses the
 //! middle between two points that are equally near; distance and force stay continuous in size. Equally near ones are
@@ -42,8 +43,19 @@ pub struct Foot<T> {
     pub bend: T,
 }
 
-/// Newton steps and bisections of one search at most: as many as a double has bits, and some.
-const STEPS: usize = 64;
+/// Newton steps and bisections of one search at most: as many as the number has bits, and some.
+const fn steps<T: Real>() -> usize {
+    // Sizes tell precisions apart where a number is not compared yet.
+    if size_of::<T>() == 4 { 32 } else { 64 }
+}
+
+/// Heights that [`foot`] asks for at most: below the centre, in one search, at the ends of all cells, and in as many steps as two
+/// searches have, which the cells share.
+#[must_use]
+pub const fn most_heights<T: Real>() -> usize {
+    1 + steps::<T>() + 1 + CELLS as usize + 2 * steps::<T>()
+}
+
 /// Cells in which the reach of a centre is looked at where one search does not tell.
 pub const CELLS: u32 = 16;
 
@@ -60,7 +72,7 @@ pub fn foot<T: Real>(road: Part, supplies: &Supplies<'_, T>, [x, z]: [T; 2]) -> 
     let search = Search { road, supplies, center: [x, z], goal, slack: T::TWO * goal * reach };
     let start = search.spot(x, below);
     let side = if start.slope > T::ZERO { -reach } else { reach };
-    let near = search.settle(start, x + side);
+    let near = search.settle(start, x + side, &mut steps::<T>());
     let distance = (near.square + near.square).sqrt();
     if above > T::ZERO && hollow * distance < T::ONE {
         return search.foot(&near);
@@ -109,12 +121,12 @@ impl<T: Real> Search<'_, T> {
         Spot { u, height, square, slope: along - above * height.slope }
     }
 
-    /// A minimum of D between `near`, from which D falls towards `far`, and `far`, where it has risen or rises again.
-    fn settle(&self, mut near: Spot<T>, mut far: T) -> Spot<T> {
+    /// A minimum of D between `near`, from which D falls towards `far`, and `far`, where it has risen or rises again; steps come off `left`.
+    fn settle(&self, mut near: Spot<T>, mut far: T, left: &mut usize) -> Spot<T> {
         let forward = far > near.u;
         let mut last = near;
         let (mut step, mut before) = ((far - near.u).abs(), (far - near.u).abs());
-        for _ in 0..STEPS {
+        for _ in 0..steps::<T>().min(*left) {
             if last.slope.abs() <= self.goal {
                 break;
             }
@@ -130,6 +142,7 @@ impl<T: Real> Search<'_, T> {
                 break;
             }
             (before, step) = (step, (u - last.u).abs());
+            *left -= 1;
             last = self.at(u);
             let falls_on = (last.slope < T::ZERO) == forward;
             if falls_on && last.square <= near.square + self.slack {
@@ -152,13 +165,14 @@ impl<T: Real> Search<'_, T> {
     fn among(&self, mut best: Spot<T>, distance: T) -> Spot<T> {
         let width = T::TWO * distance / T::from_f64(f64::from(CELLS));
         let mut left = self.at(self.center[0] - distance);
+        let mut shared = 2 * steps::<T>();
         for _ in 0..CELLS {
             let right = self.at(left.u + width);
             let (falls, rises) = (left.slope < -self.goal, right.slope > self.goal);
             let found = if falls && (rises || right.square >= left.square) {
-                Some(self.settle(left, right.u))
+                Some(self.settle(left, right.u, &mut shared))
             } else if rises && left.square >= right.square {
-                Some(self.settle(right, left.u))
+                Some(self.settle(right, left.u, &mut shared))
             } else {
                 // A cell may begin in a minimum, and another follow.
                 (left.slope.abs() <= self.goal).then_some(left)

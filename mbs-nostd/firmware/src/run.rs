@@ -5,6 +5,8 @@
 //! v STEP VELOCITIES
 //! r POSITION VELOCITY ACCELERATION     the largest residuals of the steps, as bits
 //! n LEAST MEAN MOST       what a step took, by the clock that is given
+//! e MEAN                  what one more evaluation in a step took
+//! z BYTES                 the size of the solver
 //! ```
 
 use crate::model::{Axes, MODEL, ModelSolver, Scalar};
@@ -13,6 +15,8 @@ use mbs_nostd::{BoundedReport, Checked, StepError, Unwatched};
 
 /// Steps of 1 ms.
 const STEPS: u32 = 10_000;
+/// Pairs of steps, with one evaluation and with two, behind these.
+const COMPARED: u32 = 100;
 /// Steps between two that are told.
 const TOLD: u32 = 100;
 
@@ -32,7 +36,9 @@ pub fn run(out: &mut impl Write, mut clock: impl FnMut() -> u32) -> Option<()> {
         writeln!(out, "the model does not pass its check").ok()?;
         return None;
     };
-    let Ok(mut solver) = ModelSolver::new(&model) else {
+    // Borrowed where it was made: taken out, it would be on the stack twice.
+    let mut made = ModelSolver::new(&model);
+    let Ok(solver) = &mut made else {
         writeln!(out, "the model does not fit its solver").ok()?;
         return None;
     };
@@ -40,7 +46,7 @@ pub fn run(out: &mut impl Write, mut clock: impl FnMut() -> u32) -> Option<()> {
     let mut residuals: [Scalar; 3] = [0.0; 3];
     for step in 1..=STEPS {
         clock();
-        let done = mbs_step(&mut solver, &model);
+        let done = mbs_step(solver, &model);
         let spent = clock();
         (least, most, sum) = (least.min(spent), most.max(spent), sum + u64::from(spent));
         let report = match done {
@@ -60,6 +66,16 @@ pub fn run(out: &mut impl Write, mut clock: impl FnMut() -> u32) -> Option<()> {
     }
     tell(out, format_args!("r"), &residuals)?;
     writeln!(out, "n {least} {} {most}", sum / u64::from(STEPS)).ok()?;
+    let mut spent = [0_u64; 2];
+    for _ in 0..COMPARED {
+        for (evaluations, spent) in (1..).zip(&mut spent) {
+            solver.bounds.evaluations = evaluations;
+            clock();
+            mbs_step(solver, &model).ok()?;
+            *spent += u64::from(clock());
+        }
+    }
+    writeln!(out, "e {}", spent[1].saturating_sub(spent[0]) / u64::from(COMPARED)).ok()?;
     writeln!(out, "z {}", size_of::<ModelSolver>()).ok()
 }
 

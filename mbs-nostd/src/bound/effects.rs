@@ -7,6 +7,8 @@ use crate::inputs::{CourseLaw, GuideLaw, Prescriptions};
 use mbs_core::Real;
 use mbs_core::laws::body::BodyLaw;
 #[cfg(feature = "tire")]
+use mbs_core::laws::foot::{self, CELLS};
+#[cfg(feature = "tire")]
 use mbs_core::laws::road::Feature;
 use mbs_core::laws::scalar::Law;
 use mbs_recursive::loads::{Gauge, Load};
@@ -185,23 +187,32 @@ fn on_body<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, law: &BodyLaw<T>) -> (
     }
 }
 
-/// The nearest point of a road: one height where it is level; elsewhere at most 64 steps of a search from the point below, and
-/// as many in each of sixteen cells.
+/// The nearest point of a road: one height where it is level, elsewhere as many as the search may ask for.
 #[cfg(feature = "tire")]
 fn road<T: Real>(features: &[Feature<T>]) -> Operations {
-    let mut height = ops(0, 2);
-    let mut is_level = true;
+    let (mut height, mut hollow) = (Operations::NONE, Operations::NONE);
     for feature in features {
-        is_level &= matches!(feature, Feature::Flat(_));
-        height += match feature {
-            Feature::Flat(_) => ops(0, 3),
-            _ => ops(40, 28).and(6, 0, 1),
+        let (value, bend) = match feature {
+            Feature::Flat(_) => (Operations::NONE, Operations::NONE),
+            // In the rounded corner at the end.
+            Feature::Rise { .. } => (ops(4, 5).and(4, 0, 0), ops(1, 3).and(1, 0, 0)),
+            Feature::Bump { .. } => (ops(8, 2).and(1, 0, 1), ops(3, 2).and(1, 0, 0)),
+            // The slopes at both ends of a table tell whether it rises from them.
+            Feature::Spline(_) => (ops(21, 14).and(4, 0, 0), ops(42, 30).and(9, 0, 0)),
         };
+        height += value + ops(0, 3);
+        hollow += bend;
     }
-    if is_level {
-        return height + ops(0, 1);
+    if features.iter().all(|feature| matches!(feature, Feature::Flat(_))) {
+        return height + ops(0, 3);
     }
-    let spot = height + ops(10, 12).and(2, 0, 0);
-    let curvatures = ops(4, 4).and(1, 0, 0) * count(features.len());
-    spot * (1 + 64 + 1 + 16 + 16 * 64) + curvatures + ops(20, 14).and(5, 3, 0)
+    // D and D' at a place, the step to the next, and whether it is taken.
+    let spot = height + ops(9, 12).and(1, 0, 0);
+    let (settled, cell) = (ops(5, 8).and(1, 0, 0), ops(0, 2));
+    let cells = u64::from(CELLS);
+    spot * count(foot::most_heights::<T>())
+        + settled * (1 + cells)
+        + cell * cells
+        + hollow
+        + ops(12, 13).and(5, 4, 0)
 }

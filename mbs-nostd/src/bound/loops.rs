@@ -63,11 +63,13 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Opera
         let f = count(link.kind.n_freedoms::<T, S>());
         for pass in plan.passes.get(station.passes.range()).unwrap_or(&[]) {
             let row = joints::pass::<T, S>(link.kind) + ops(n, n + 1) + gathered;
-            sum += (row + ops(2 * f, 2 * f + 1)) * lap_rows(pass.lap);
+            let row = row + ops(2 * f, 2 * f + 1) + Operations::entries(1);
+            sum += row * lap_rows(pass.lap);
         }
         for pair in plan.pairs.get(station.pairs.range()).unwrap_or(&[]) {
             let rows = |pass: u32| plan.passes.get(pass as usize).map_or(0, |p| lap_rows(p.lap));
-            sum += ops(f, f + 1) * (rows(pair.row) * rows(pair.column));
+            let entry = ops(f, f + 1) + Operations::entries(1);
+            sum += entry * (rows(pair.row) * rows(pair.column));
         }
     }
     for (i, station) in plan.stations.iter().enumerate() {
@@ -84,13 +86,15 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Opera
                 let later = lap_rows(coupling.lap);
                 let carried = if i == 0 { Operations::NONE } else { ops(n, n) };
                 sum += ops(pairs, pairs) * later;
-                sum += (carried + ops(1, 1).and(1, 0, 0)) * (later * rows);
+                let entry = ops(1, 1).and(1, 0, 0) + Operations::entries(1);
+                sum += (carried + entry) * (later * rows);
             }
             for update in plan.updates.get(end.updates.range()).unwrap_or(&[]) {
                 let of = |coupling: u32| {
                     plan.couplings.get(coupling as usize).map_or(0, |c| lap_rows(c.lap))
                 };
-                sum += ops(rows, rows + 1) * (of(update.row) * of(update.column));
+                let entry = ops(rows, rows + 1) + Operations::entries(1);
+                sum += entry * (of(update.row) * of(update.column));
             }
         }
     }
@@ -106,7 +110,7 @@ pub(super) fn response<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operati
     for (i, (station, link)) in plan.stations.iter().zip(m.links).enumerate() {
         let f = count(link.kind.n_freedoms::<T, S>());
         for pass in plan.passes.get(station.passes.range()).unwrap_or(&[]) {
-            sum += ops(f, f + 1) * lap_rows(pass.lap);
+            sum += (ops(f, f + 1) + Operations::entries(1)) * lap_rows(pass.lap);
         }
         for end in plan.ends.get(station.ends.range()).unwrap_or(&[]) {
             let rows = lap_rows(end.lap);
@@ -115,7 +119,7 @@ pub(super) fn response<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operati
                 sum += ops(n, n) * rows;
             }
             for coupling in plan.couplings.get(end.couplings.range()).unwrap_or(&[]) {
-                sum += ops(rows, rows + 1) * lap_rows(coupling.lap);
+                sum += (ops(rows, rows + 1) + Operations::entries(1)) * lap_rows(coupling.lap);
             }
         }
     }
@@ -131,7 +135,7 @@ fn opening<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operations {
     for (i, (station, link)) in plan.stations.iter().zip(m.links).enumerate() {
         let f = count(link.kind.n_freedoms::<T, S>());
         for pass in plan.passes.get(station.passes.range()).unwrap_or(&[]) {
-            sum += ops(f, f) * lap_rows(pass.lap);
+            sum += (ops(f, f) + Operations::entries(1)) * lap_rows(pass.lap);
         }
         for end in plan.ends.get(station.ends.range()).unwrap_or(&[]) {
             let rows = lap_rows(end.lap);

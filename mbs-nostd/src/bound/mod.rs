@@ -38,6 +38,8 @@ pub struct Operations {
     pub roots: u64,
     /// Sines with their cosines, and arc tangents.
     pub turns: u64,
+    /// Entries of Λ, l and gains that the kernels of loops look up by number: no arithmetic, but instructions.
+    pub entries: u64,
 }
 
 impl Operations {
@@ -46,7 +48,12 @@ impl Operations {
 
     /// Products and sums.
     pub(crate) const fn new(products: u64, sums: u64) -> Self {
-        Self { products, sums, quotients: 0, roots: 0, turns: 0 }
+        Self { products, sums, quotients: 0, roots: 0, turns: 0, entries: 0 }
+    }
+
+    /// Entries that are looked up.
+    pub(crate) const fn entries(entries: u64) -> Self {
+        Self { entries, ..Self::NONE }
     }
 
     /// With quotients, roots and turns.
@@ -54,21 +61,23 @@ impl Operations {
         Self { quotients, roots, turns, ..self }
     }
 
-    /// All operations, each counted as one.
+    /// All operations, each counted as one; entries are none.
     #[must_use]
     pub const fn total(&self) -> u64 {
         self.products + self.sums + self.quotients + self.roots + self.turns
     }
 
-    /// The bound of instructions of a Cortex-M7 whose arithmetic unit has both precisions: 3 for each product and sum with its
-    /// loads, stores and part of the loops, 16 for a quotient; roots and turns are functions of libm in software.
+    /// The bound of instructions of a Cortex-M whose arithmetic unit has the precision: 7 for two products or sums with their loads,
+    /// stores and part of the loops, 16 for a quotient, 40 to find an entry. In single precision a root is an instruction between moves, and turns
+    /// need no doubles; in double precision both are functions of libm. Angles beyond 6400 rad, in double precision 1e6 rad, cost more.
     #[must_use]
     pub const fn instructions(&self, is_double: bool) -> u64 {
-        let (root, turn) = if is_double { (420, 560) } else { (220, 330) };
-        (self.products + self.sums) * 3
+        let (root, turn) = if is_double { (140, 400) } else { (20, 120) };
+        (self.products + self.sums) * 7 / 2
             + self.quotients * 16
             + self.roots * root
             + self.turns * turn
+            + self.entries * 40
     }
 }
 
@@ -81,6 +90,7 @@ impl Add for Operations {
             quotients: self.quotients + other.quotients,
             roots: self.roots + other.roots,
             turns: self.turns + other.turns,
+            entries: self.entries + other.entries,
         }
     }
 }
@@ -100,6 +110,7 @@ impl Mul<u64> for Operations {
             quotients: self.quotients * n,
             roots: self.roots * n,
             turns: self.turns * n,
+            entries: self.entries * n,
         }
     }
 }

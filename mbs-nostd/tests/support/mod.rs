@@ -13,8 +13,13 @@ use mbs_sparse::Multifrontal;
 pub fn file(name: &str) -> Scene<f64> {
     let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).expect("the scene is there");
+    read(&text, name)
+}
+
+/// A scene from its text.
+pub fn read(text: &str, name: &str) -> Scene<f64> {
     let document =
-        mbs_scene::Document::parse(&text, name).unwrap_or_else(|e| panic!("{}", e.render()));
+        mbs_scene::Document::parse(text, name).unwrap_or_else(|e| panic!("{}", e.render()));
     document.scene::<f64>().unwrap_or_else(|e| panic!("{}", e.render()))
 }
 

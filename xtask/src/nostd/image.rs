@@ -3,11 +3,16 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+/// Where RAM begins on both boards.
+const RAM: u64 = 0x2000_0000;
+
 /// The sizes of an image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Image {
     /// Bytes that are written to flash.
     pub(super) flash: u64,
+    /// Bytes of static data in RAM.
+    pub(super) ram: u64,
 }
 
 impl Image {
@@ -23,20 +28,23 @@ impl Image {
             Some(u32::from_le_bytes([four[0], four[1], four[2], four[3]]) as usize)
         };
         let half = |at: usize| Some(word(at)? & 0xffff);
-        let flash = || {
+        let sizes = || {
             let (first, size, n) = (word(28)?, half(42)?, half(44)?);
-            let mut sum = 0;
+            let mut sizes = Self { flash: 0, ram: 0 };
             for header in (0..n).map(|i| first + i * size) {
-                // What is loaded, as many bytes as the file has of it.
+                // What is loaded, as many bytes as the file has of it; what stands in RAM, zeros included.
                 if word(header)? == 1 {
-                    sum += word(header + 16)? as u64;
+                    sizes.flash += word(header + 16)? as u64;
+                    if word(header + 8)? as u64 >= RAM {
+                        sizes.ram += word(header + 20)? as u64;
+                    }
                 }
             }
-            Some(sum)
+            Some(sizes)
         };
         let is_elf = bytes.starts_with(b"\x7fELF\x01");
-        let flash = is_elf.then(flash).flatten();
-        flash.map(|flash| Self { flash }).ok_or(format!("{} is no image", path.display()))
+        let sizes = is_elf.then(sizes).flatten();
+        sizes.ok_or(format!("{} is no image", path.display()))
     }
 
     /// All readable text of the file, where the names of its functions are.

@@ -30,6 +30,6 @@ pub(super) fn check(models: &Path) -> Result<String, String> {
     if told.lines == host.lines {
         Ok("a program in C gives the same bits".to_owned())
     } else {
-        Err(format!("a program in C differs from the host's run by {:.1e}", told.apart(&host)?))
+        Err(format!("a program in C differs from the host's run by {}", told.apart(&host)?))
     }
 }

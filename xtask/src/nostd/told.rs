@@ -1,5 +1,36 @@
 //! What a run of the firmware told.
 
+/// What a coordinate is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Unit {
+    /// A way [m].
+    Way,
+    /// An angle [rad].
+    Angle,
+    /// One of the four numbers of a turn.
+    Turn,
+}
+
+/// How far two runs are apart: the largest differences of a way [m] and of an angle [rad].
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Apart {
+    pub(super) way: f64,
+    pub(super) angle: f64,
+}
+
+impl Apart {
+    /// Is it within these? Not a number is not.
+    pub(super) fn is_within(self, [way, angle]: [f64; 2]) -> bool {
+        self.way <= way && self.angle <= angle
+    }
+}
+
+impl std::fmt::Display for Apart {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:.2} mm and {:.3} mrad", self.way * 1e3, self.angle * 1e3)
+    }
+}
+
 /// Lines and figures.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Told {
@@ -11,8 +42,11 @@ pub(super) struct Told {
     /// Bytes of stack, and of the solver.
     pub(super) stack: u64,
     pub(super) solver: u64,
-    /// Instructions of a step that the formula allows; told on the host alone.
+    /// Instructions of one more evaluation in a step.
+    pub(super) evaluation: u64,
+    /// Instructions of a step that the formula allows; told on the host alone, as what each coordinate is.
     pub(super) bound: u64,
+    units: Vec<Unit>,
     is_single: bool,
 }
 
@@ -38,6 +72,8 @@ impl Told {
                 Some(&"m") => told.stack = number(1).unwrap_or(0),
                 Some(&"z") => told.solver = number(1).unwrap_or(0),
                 Some(&"b") => told.bound = number(1).unwrap_or(0),
+                Some(&"e") => told.evaluation = number(1).unwrap_or(0),
+                Some(&"u") => told.units = words[1..].iter().filter_map(|w| unit(w)).collect(),
                 Some(&"r") | None => {}
                 Some(_) => return Err(format!("the run told: {line}")),
             }
@@ -45,25 +81,27 @@ impl Told {
         if told.lines.is_empty() { Err("the run told no states".to_owned()) } else { Ok(told) }
     }
 
-    /// The largest difference of a coordinate from another run's [m or rad].
+    /// The largest differences from a run that told what its coordinates are.
     ///
     /// # Errors
     ///
-    /// Runs of other lengths.
-    pub(super) fn apart(&self, other: &Self) -> Result<f64, String> {
+    /// Runs of other lengths, or of other coordinates.
+    pub(super) fn apart(&self, other: &Self) -> Result<Apart, String> {
         if self.lines.len() != other.lines.len() {
             return Err("the runs have different lengths".to_owned());
         }
-        let mut largest = 0.0_f64;
+        let mut apart = Apart::default();
         for (line, partner) in self.lines.iter().zip(&other.lines) {
             if line.starts_with('s') {
                 let (x, y) = (self.numbers(line), other.numbers(partner));
-                for (x, y) in x.iter().zip(&y) {
-                    largest = if (x - y).abs() <= largest { largest } else { (x - y).abs() };
+                if x.len() != other.units.len() || y.len() != x.len() {
+                    return Err("the runs have different coordinates".to_owned());
                 }
+                let differences: Vec<f64> = x.iter().zip(&y).map(|(x, y)| x - y).collect();
+                apart.widen(&differences, &other.units);
             }
         }
-        Ok(largest)
+        Ok(apart)
     }
 
     fn numbers(&self, line: &str) -> Vec<f64> {
@@ -78,17 +116,70 @@ impl Told {
     }
 }
 
+impl Apart {
+    /// Takes the differences of one state. The angle between two turns is twice the distance of their quaternions, nearly.
+    fn widen(&mut self, mut differences: &[f64], mut units: &[Unit]) {
+        while let Some(unit) = units.first() {
+            let n = if *unit == Unit::Turn { 4.min(units.len()) } else { 1 };
+            let (own, rest) = differences.split_at(n);
+            let size = own.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let (largest, size) = match unit {
+                Unit::Way => (&mut self.way, size),
+                Unit::Angle => (&mut self.angle, size),
+                Unit::Turn => (&mut self.angle, 2.0 * size),
+            };
+            // Not a number stays.
+            if size > *largest || size.is_nan() {
+                *largest = size;
+            }
+            (differences, units) = (rest, &units[n..]);
+        }
+    }
+}
+
+fn unit(word: &str) -> Option<Unit> {
+    match word {
+        "m" => Some(Unit::Way),
+        "r" => Some(Unit::Angle),
+        "q" => Some(Unit::Turn),
+        _ => None,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Told;
 
     #[test]
-    fn bits_of_both_precisions_are_compared_as_numbers() {
-        let single = Told::read("s 100 3f800000 0\nv 100 0\nn 10 20 30\nm 7\nz 5\n");
+    fn bits_of_both_precisions_are_compared_as_ways_and_angles() {
+        let single = Told::read("s 100 3f800000 0\nv 100 0\nn 10 20 30\nm 7\nz 5\ne 4\n");
         let single = single.expect("a run");
-        let double = Told::read("s 100 3ff8000000000000 0\nv 100 0\nb 9\n").expect("a run");
+        let text = "s 100 3ff8000000000000 3fd0000000000000\nv 100 0\nb 9\nu m r\n";
+        let double = Told::read(text).expect("a run");
         assert_eq!((single.least, single.most, single.stack, double.bound), (10, 30, 7, 9));
-        assert!((single.apart(&double).expect("one length") - 0.5).abs() < 1e-15);
+        assert_eq!(single.evaluation, 4);
+        let apart = single.apart(&double).expect("one length");
+        assert_eq!((apart.way, apart.angle), (0.5, 0.25));
+        assert!(apart.is_within([0.5, 0.25]) && !apart.is_within([0.5, 0.2]));
         assert!(Told::read("step 3: singular\n").is_err());
+        assert!(single.apart(&single).is_err(), "it tells no units");
+    }
+
+    #[test]
+    fn the_angle_of_two_turns_is_twice_the_distance_of_their_quaternions() {
+        // 1, 0, 0, 0 beside 1, 0.001, 0, 0: two milliradians.
+        let text = |x: f64| {
+            let bits = [1.0, x, 0.0, 0.0, 0.3].map(|x: f64| format!("{:x}", x.to_bits())).join(" ");
+            Told::read(&format!("s 100 {bits}\nu q q q q m\n")).expect("a run")
+        };
+        let apart = text(1e-3).apart(&text(0.0)).expect("one length");
+        assert!((apart.angle - 2e-3).abs() < 1e-15 && apart.way == 0.0, "{apart}");
+    }
+
+    #[test]
+    fn a_difference_that_is_no_number_is_within_nothing() {
+        let nan = Told::read("s 100 7fc00000\n").expect("a run");
+        let double = Told::read("s 100 0\nu r\n").expect("a run");
+        assert!(!nan.apart(&double).expect("one length").is_within([1.0, 1.0]));
     }
 }

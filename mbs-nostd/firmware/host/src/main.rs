@@ -11,6 +11,7 @@ mod run;
 
 use core::ffi::{c_int, c_void};
 use core::fmt::{self, Write};
+use mbs_nostd::table::Kind;
 use mbs_nostd::{Bounds, bound};
 
 #[link(name = "c")]
@@ -30,12 +31,34 @@ impl fmt::Write for Out {
     }
 }
 
+/// What each coordinate is: m a way, r an angle, q one of the four numbers of a turn.
+fn tell_units() -> fmt::Result {
+    write!(Out, "u")?;
+    // Link 0 is the ground.
+    for link in model::MODEL.mechanism.links.iter().skip(1) {
+        Out.write_str(match link.kind {
+            Kind::Revolute => " r",
+            Kind::Prismatic => " m",
+            Kind::Ball => " q q q q",
+            Kind::Free if is_planar(link.kind) => " r m m",
+            Kind::Free => " q q q q m m m",
+            Kind::GuidedRevolute | Kind::GuidedPrismatic => "",
+        })?;
+    }
+    writeln!(Out)
+}
+
+/// Has a free link three coordinates?
+fn is_planar(free: Kind) -> bool {
+    free.n_coordinates::<model::Scalar, model::Axes>() == 3
+}
+
 /// What the C library starts.
 #[unsafe(no_mangle)]
 pub extern "C" fn main() -> c_int {
     let bound = bound::step(&model::MODEL, Bounds::default());
     let is_double = size_of::<model::Scalar>() == 8;
-    let is_told = writeln!(Out, "b {}", bound.instructions(is_double)).is_ok();
+    let is_told = writeln!(Out, "b {}", bound.instructions(is_double)).is_ok() && tell_units().is_ok();
     c_int::from(!is_told || run::run(&mut Out, || 0).is_none())
 }
 

@@ -1,0 +1,75 @@
+//! What each effect's feature adds to an image: flash, static data, stack.
+
+use super::firmware::{M7, build, emulate, export};
+use super::image::Image;
+use super::told::Told;
+use super::toolchain::Toolchain;
+use std::path::Path;
+
+/// The features of effects, and modules of mbs-core that must not be in an image without them.
+const FEATURES: &[(&str, &[&str])] = &[
+    ("polynomial", &["4laws10polynomial"]),
+    ("bumper", &[]),
+    ("limit", &["4laws5limit"]),
+    ("friction", &["4laws8friction"]),
+    ("drag", &["4laws4drag"]),
+    ("speed-hold", &["4laws10speed_hold"]),
+    ("tire", &["4laws4tire", "4laws4foot", "4laws7calspan", "4laws4road"]),
+];
+
+/// Builds one scene, which has no effects, with none of the features, with each, and with all; a line for each.
+///
+/// # Errors
+///
+/// A feature that adds nothing, or whose code is in an image without it.
+pub(super) fn check(
+    toolchain: Toolchain,
+    lld: Option<&Path>,
+    models: &Path,
+) -> Result<Vec<String>, String> {
+    let model = export("six-joint-arm", "f32", models)?;
+    let all: Vec<&str> = FEATURES.iter().map(|(feature, _)| *feature).collect();
+    let mut sets = vec![String::new()];
+    sets.extend(all.iter().map(|&feature| feature.to_owned()));
+    sets.push(all.join(","));
+    let (mut lines, mut sizes) = (Vec::new(), Vec::new());
+    for set in &sets {
+        let (elf, image) = build((toolchain, lld), &M7, set, &model)?;
+        without_others(&image.names(&elf)?, set)?;
+        let told = Told::read(&emulate(&M7, &elf)?)?;
+        let Image { flash, ram } = image;
+        lines.push(format!(
+            "six-joint-arm [{set}]: flash {flash}, static data {ram}, stack {}",
+            told.stack
+        ));
+        eprintln!("   {}", lines[lines.len() - 1]);
+        sizes.push(flash);
+    }
+    let (none, whole) = (sizes[0], sizes[sizes.len() - 1]);
+    for (set, &flash) in sets.iter().zip(&sizes).skip(1) {
+        if flash <= none {
+            return Err(format!("the feature `{set}` adds nothing to an image of {none} bytes"));
+        }
+        if flash > whole {
+            return Err(format!("an image with `{set}` alone is larger than with all effects"));
+        }
+    }
+    Ok(lines)
+}
+
+/// What features that are off stand for is not in an image.
+fn without_others(names: &str, set: &str) -> Result<(), String> {
+    for (feature, modules) in FEATURES {
+        let is_on = set.split(',').any(|on| on == *feature);
+        let found = modules.iter().find(|module| names.contains(**module));
+        if let (false, Some(module)) = (is_on, found) {
+            return Err(format!("an image without the feature `{feature}` has code of `{module}`"));
+        }
+    }
+    if set.contains("tire") && !names.contains("4laws4tire") && !names.contains("4laws4foot") {
+        return Err(
+            "no function of tires is found where they are: the search finds nothing".to_owned()
+        );
+    }
+    Ok(())
+}
