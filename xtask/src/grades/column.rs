@@ -65,8 +65,8 @@ fn over_ladders(
 const TIMES: [f64; 3] = [2.0, 4.0, 8.0];
 /// Limits for errors at one step: each grade is ten times as much.
 const ERRORS: [f64; 3] = [10.0, 100.0, 1000.0];
-/// Limits for steps on a ladder of half decades: each grade is one rung more.
-const RUNGS: [f64; 3] = [3.5, 12.0, 35.0];
+/// Limits for runs that are of no use where those of another method are.
+const FEWER: [f64; 3] = [1.0, 2.0, 3.0];
 /// Accuracy whose price is compared: share of the energy turned over.
 const LEVEL: f64 = 1e-4;
 /// A run with a larger share of the energy wrong is of no use.
@@ -123,26 +123,52 @@ pub(crate) fn accuracy(
     })
 }
 
-/// The largest step that is of use.
+/// At how many steps of a ladder a run is of use.
 pub(crate) fn condition(
     lab: &Lab<'_>,
     name: &'static str,
     ladders: &[Ladder],
 ) -> Result<Column, String> {
     let given = over_ladders(ladders, |ladder, method| {
-        let runs = ladder::descend(lab, ladder, method, USEFUL, false)?;
-        Ok((ladder::reached(&runs, USEFUL).map(|step| 1.0 / step), runs))
+        let runs =
+            ladder.steps.iter().map(|&step| ladder::run(lab, &ladder.case(method, step), false));
+        let runs = runs.collect::<Result<Vec<_>, _>>()?;
+        let useful = runs.iter().filter(|run| is_useful(run)).count();
+        #[allow(clippy::cast_precision_loss, reason = "some steps")]
+        Ok(((useful > 0).then_some(useful as f64), runs))
     })?;
     Ok(Column {
         name,
         rule: format!(
-            "The largest step of a ladder of half decades at which the run ends with an energy error of at most {USEFUL:e} of the \
-             energy turned over, beside the largest of all methods, the worst of {}. A the same or one rung less, B two, C \
-             three, D more rungs less; F no step of the ladder.",
+            "At how many steps of a ladder of half decades the run ends with an energy error of at most {USEFUL:e} of the energy \
+             turned over, beside the method with the most of them, the worst of {}. A at most one less, B two, C three, D more; F \
+             at none.",
             scenes(ladders)
         ),
-        cells: graded(given, 0.0, worst, RUNGS),
+        cells: missing(given),
     })
+}
+
+/// Cells from numbers of useful runs: how many the best method of a scene has more.
+fn missing(given: Given) -> Vec<Cell> {
+    let scenes = given.first().map_or(0, |(useful, _)| useful.len());
+    let best: Vec<f64> = (0..scenes)
+        .map(|s| given.iter().filter_map(|(useful, _)| useful[s]).fold(0.0, f64::max))
+        .collect();
+    let cell = |(useful, runs): (Vec<Option<f64>>, Vec<Run>)| {
+        let less: Vec<_> =
+            useful.iter().zip(&best).map(|(useful, best)| useful.map(|n| best - n)).collect();
+        let ratio = worst(&less);
+        let n = runs.iter().filter(|run| is_useful(run)).count();
+        let counted = format!("{n} of {}", runs.len());
+        Cell { letter: Letter::of_ratio(ratio, FEWER), ratio, counted, runs }
+    };
+    given.into_iter().map(cell).collect()
+}
+
+/// Is a run of use: did it end, with little of the energy wrong?
+fn is_useful(run: &Run) -> bool {
+    ladder::share(run).is_some_and(|share| share <= USEFUL)
 }
 
 /// Numbers that are counted: `(over what, told)` for each method.
@@ -188,6 +214,20 @@ fn scenes(ladders: &[Ladder]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_method_with_fewer_useful_runs_is_graded_by_how_many() {
+        let some = |n: &[f64]| n.iter().map(|&n| Some(n)).collect::<Vec<_>>();
+        let given: Given = vec![
+            (some(&[6.0, 4.0]), vec![]),
+            (some(&[5.0, 4.0]), vec![]),
+            (some(&[6.0, 2.0]), vec![]),
+            (some(&[2.0, 4.0]), vec![]),
+            (vec![Some(6.0), None], vec![]),
+        ];
+        let letters: Vec<_> = missing(given).iter().map(|cell| cell.letter).collect();
+        assert_eq!(letters, [Letter::A, Letter::A, Letter::B, Letter::D, Letter::F]);
+    }
 
     #[test]
     fn a_method_that_fails_in_one_scene_fails_in_the_column() {
