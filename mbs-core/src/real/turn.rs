@@ -18,7 +18,7 @@ const ROUNDING: f32 = 12_582_912.0;
 
 const TWO_BY_PI: f32 = core::f32::consts::FRAC_2_PI;
 /// π/2 in three parts, the last rounded.
-const HALF_PI: [f32; 3] = [1.570_800_8, -4.453_584_6e-6, -8.705_515_7e-10];
+const HALF_PI: [f32; 3] = [1.570_800_8, -4.453_584_6e-6, -8.705_516e-10];
 
 /// Coefficients of S and C, the lowest first; the sine is off by 4e-9 of itself, the cosine by 4e-11 at most.
 const S: [f32; 3] = [-0.166_666_55, 0.008_332_161, -0.000_195_152_5];
