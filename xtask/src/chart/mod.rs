@@ -1,5 +1,6 @@
 //! Drawings as SVG: lines and marks over linear and logarithmic axes.
 
+pub(crate) mod picture;
 mod scale;
 pub(crate) mod style;
 mod thin;

@@ -3,10 +3,12 @@
 mod expected;
 mod history;
 mod html;
+mod precision;
 mod report;
 mod rows;
 mod text;
 
+use crate::chart::picture::picture;
 use crate::lab::section::Section;
 use crate::lab::{self, Lab};
 use crate::mbs::outcome::Outcome;
@@ -73,7 +75,7 @@ pub(crate) fn run(quick: bool, wanted: &[String]) -> Result<Tables, String> {
     let mbs = Mbs::build()?;
     let folder = process::target_dir().join("tables");
     let is_wanted = |name: &str| wanted.is_empty() || wanted.iter().any(|n| n == name);
-    let (rows, drawings) = entries(&mbs, &folder, quick, &is_wanted)?;
+    let (rows, drawings, pictures) = entries(&mbs, &folder, quick, &is_wanted)?;
     let sections = sections(&mbs, &folder, quick, &is_wanted)?;
     process::progress("");
 
@@ -84,11 +86,16 @@ pub(crate) fn run(quick: bool, wanted: &[String]) -> Result<Tables, String> {
     let html = html::page(&rows, &drawings, &sections);
     process::write(&folder.join("tables.csv"), &rows::csv(&rows)?)?;
     process::write(&folder.join("tables.html"), html.as_bytes())?;
+    for (name, svg) in &pictures {
+        process::write(&folder.join(format!("{name}.svg")), svg.as_bytes())?;
+    }
     Ok(Tables { html, surprises: expected::surprises(&rows), entries: rows.len() })
 }
 
-/// Rows of the tables on accuracy and time, and their drawings.
-type Entries = (Vec<Row>, Vec<(&'static str, String)>);
+/// Drawings, by the names of their tables.
+type Drawings = Vec<(&'static str, String)>;
+/// Rows of the tables on accuracy and time, their drawings for the page, and those that stand alone.
+type Entries = (Vec<Row>, Drawings, Drawings);
 
 /// Runs the entries of the tables on accuracy and time.
 fn entries(
@@ -98,7 +105,7 @@ fn entries(
     is_wanted: &dyn Fn(&str) -> bool,
 ) -> Result<Entries, String> {
     let runs = folder.join("runs");
-    let (mut rows, mut drawings) = (Vec::new(), Vec::new());
+    let (mut rows, mut drawings, mut pictures) = (Vec::new(), Vec::new(), Vec::new());
     for table in report::TABLES.iter().filter(|table| is_wanted(table.name)) {
         let mut lines = Vec::new();
         for (method, step) in
@@ -121,9 +128,12 @@ fn entries(
         if let Some(history) = &table.history {
             let chart = history::chart(history, lines);
             drawings.push((table.name, page::figure(&chart, history::CAPTION)?));
+        } else if let Some(chart) = precision::chart(table, &rows) {
+            drawings.push((table.name, page::figure(&chart, precision::CAPTION)?));
+            pictures.push((table.name, picture(&chart)?));
         }
     }
-    Ok((rows, drawings))
+    Ok((rows, drawings, pictures))
 }
 
 /// The tables that are made of sections.

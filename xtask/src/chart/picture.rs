@@ -1,0 +1,66 @@
+//! A drawing with its legend as one SVG file, for documents; its ink is readable on light and on dark paper.
+
+use super::style::Style;
+use super::{Chart, Look, Room};
+use crate::page::escape;
+use std::fmt::Write;
+
+/// Ink of text and axes: grey of the same contrast on both papers.
+const INK: &str = "#7D8590";
+/// Height of a line of the legend, and width of an entry; four stand beside each other.
+const ENTRY: [usize; 2] = [22, 230];
+/// Size of the drawing below it.
+const DRAWING: [usize; 2] = [960, 340];
+
+/// The file.
+///
+/// # Errors
+///
+/// That there is nothing to draw, or what the drawing library says.
+pub(crate) fn picture(chart: &Chart) -> Result<String, String> {
+    let drawing = chart.svg(Room::Wide)?;
+    let [line, width] = ENTRY;
+    let mut legend = String::new();
+    let named: Vec<_> =
+        chart.series.iter().filter(|s| !s.name.is_empty() && !s.points.is_empty()).collect();
+    for (i, series) in named.iter().enumerate() {
+        let (x, y) = (i % 4 * width + 40, i / 4 * line + 4);
+        let has_line = matches!(series.look, Look::Line | Look::Both);
+        let sample = Style::of(series.style).sample(has_line, series.look != Look::Line);
+        // Writing to a string cannot fail.
+        let _ = write!(
+            legend,
+            "<g transform=\"translate({x},{y})\">{sample}<text x=\"46\" y=\"12\" font-family=\"sans-serif\" font-size=\"14\" \
+             fill=\"{INK}\">{}</text></g>\n",
+            escape(&series.name)
+        );
+    }
+    let top = named.len().div_ceil(4) * line + 8;
+    let drawing = drawing.replacen("<svg ", &format!("<svg y=\"{top}\" "), 1);
+    Ok(format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" color=\"{INK}\">\n{legend}{drawing}</svg>\n",
+        DRAWING[0],
+        DRAWING[1] + top
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chart::{Axis, Kind, Series};
+
+    #[test]
+    fn a_picture_names_its_lines_and_needs_no_page() {
+        let series = |name: &str| Series {
+            name: name.into(),
+            style: 1,
+            look: Look::Both,
+            points: vec![[1.0, 1.0], [2.0, 3.0]],
+        };
+        let axis = || Axis::new("error [J]", Kind::Log);
+        let chart = Chart::new(axis(), axis(), ["a < b", "c", "d", "e", "f"].map(series).into());
+        let svg = picture(&chart).unwrap();
+        assert!(svg.starts_with("<svg xmlns=") && svg.contains("a &lt; b"));
+        assert!(svg.contains("viewBox=\"0 0 960 392\"") && svg.contains("<svg y=\"52\" "));
+    }
+}
