@@ -1,0 +1,158 @@
+//! What follows from the runs: orders, times at an error, ranks.
+
+use super::data::{Comparison, MethodRuns, Rank, RankLevel, RunEntry, Status};
+use super::{fit, front, rank};
+
+/// Errors below so many times the reference's uncertainty are marked: the reference cannot tell them.
+const TELLS: f64 = 3.0;
+
+impl Comparison {
+    /// The least error that the reference can tell.
+    #[must_use]
+    pub fn floor(&self) -> f64 {
+        TELLS * self.reference.uncertainty
+    }
+
+    /// Fills in what follows from the runs: least times, marks, orders, and the ranking at the errors given.
+    pub fn digest(&mut self, levels: &[f64]) {
+        let floor = self.floor();
+        for method in &mut self.methods {
+            for run in &mut method.runs {
+                run.cpu_least = run.cpu_seconds.iter().copied().min_by(f64::total_cmp);
+                run.is_below_reference = run.error.is_some_and(|error| error < floor);
+            }
+            method.fit = fit::fit(&method.errors(), floor);
+            let at = |level: &f64| Some(method.at_error(*level).filter(|_| *level >= floor)?[0]);
+            method.at_error = levels.iter().map(at).collect();
+        }
+        self.ranking = levels.iter().map(|level| self.ranked(*level)).collect();
+    }
+
+    fn ranked(&self, level: f64) -> RankLevel {
+        let floor = self.floor();
+        if level < floor {
+            let note = format!("the reference tells errors of {floor:.1e} and more only");
+            return RankLevel { error: level, note: Some(note), ..RankLevel::default() };
+        }
+        let (mut reached, mut not_reached) = (Vec::<Rank>::new(), Vec::<String>::new());
+        for method in &self.methods {
+            let name = method.family();
+            let Some([least, second]) = method.at_error(level) else {
+                not_reached.push(name);
+                continue;
+            };
+            let noise = second / least - 1.0;
+            let found = Rank { rank: 0, name, method: method.name.clone(), seconds: least, noise };
+            match reached.iter_mut().find(|rank| rank.name == found.name) {
+                Some(best) if best.seconds <= least => {}
+                Some(best) => *best = found,
+                None => reached.push(found),
+            }
+        }
+        not_reached.dedup();
+        not_reached.retain(|name| !reached.iter().any(|rank| rank.name == *name));
+        RankLevel { error: level, note: None, ranks: rank::rank(reached), not_reached }
+    }
+}
+
+impl MethodRuns {
+    /// Formulation, and the integrator where it is not the trapezoidal rule.
+    #[must_use]
+    pub fn family(&self) -> String {
+        match self.integrator.as_str() {
+            "trapezoidal" => self.formulation.clone(),
+            other => format!("{} {other}", self.formulation),
+        }
+    }
+
+    /// Completed runs, from the coarsest.
+    pub(super) fn completed(&self) -> impl Iterator<Item = &RunEntry> {
+        self.runs.iter().filter(|run| run.status == Status::Completed)
+    }
+
+    /// Mean step and error of the completed runs, from the longest step.
+    pub(super) fn errors(&self) -> Vec<(f64, f64)> {
+        let points = self.completed().filter_map(|run| Some((run.mean_step, run.error?)));
+        points.filter(|(h, e)| *h > 0.0 && *e > 0.0).collect()
+    }
+
+    /// Least and second CPU time at an error.
+    fn at_error(&self, level: f64) -> Option<[f64; 2]> {
+        let points: Vec<front::Point<2>> =
+            self.completed().filter_map(|run| Some((run.error?, run.two_least()?))).collect();
+        front::at_error(&points, level)
+    }
+}
+
+impl RunEntry {
+    /// The least and the second CPU time; the same where there is one.
+    #[must_use]
+    pub fn two_least(&self) -> Option<[f64; 2]> {
+        let mut times = self.cpu_seconds.clone();
+        times.sort_by(f64::total_cmp);
+        let least = *times.first()?;
+        (least > 0.0).then(|| [least, times.get(1).copied().unwrap_or(least)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::Reference;
+
+    /// Second order at 1 us a step of 10 s, times `cost`.
+    fn method(formulation: &str, control: &str, cost: f64) -> MethodRuns {
+        let run = |k: i32| {
+            let h = 0.01 * f64::powi(0.5, k);
+            let seconds = cost * 1e-6 * 10.0 / h;
+            RunEntry {
+                setting: h,
+                mean_step: h,
+                status: Status::Completed,
+                error: Some(10.0 * h * h),
+                cpu_seconds: vec![1.03 * seconds, seconds, 1.2 * seconds],
+                ..RunEntry::default()
+            }
+        };
+        MethodRuns {
+            name: format!("{formulation} {control}"),
+            formulation: formulation.to_owned(),
+            integrator: "trapezoidal".to_owned(),
+            control: control.to_owned(),
+            runs: (0..8).map(run).collect(),
+            ..MethodRuns::default()
+        }
+    }
+
+    #[test]
+    fn a_formulation_is_ranked_by_its_fastest_control() {
+        let methods = vec![
+            method("index-3", "fixed", 2.0),
+            method("index-3", "error", 1.0),
+            method("slow", "fixed", 4.0),
+        ];
+        let mut comparison = Comparison { methods, ..Comparison::default() };
+        comparison.digest(&[1e-3, 1e-5, 1e-9]);
+        let ranks = |level: usize| -> Vec<(usize, &str)> {
+            comparison.ranking[level].ranks.iter().map(|r| (r.rank, r.method.as_str())).collect()
+        };
+        assert_eq!(ranks(0), [(1, "index-3 error"), (2, "slow fixed")]);
+        assert_eq!(ranks(1), ranks(0));
+        assert_eq!(comparison.ranking[2].not_reached, ["index-3", "slow"]);
+        assert!((comparison.methods[0].fit.as_ref().unwrap().order.unwrap() - 2.0).abs() < 1e-9);
+        // h = 1e-3 at an error of 1e-5
+        assert!((comparison.methods[0].at_error[1].unwrap() - 0.02).abs() < 1e-9);
+    }
+
+    #[test]
+    fn errors_that_the_reference_cannot_tell_are_marked_and_not_ranked() {
+        let reference = Reference { uncertainty: 1e-6, ..Reference::default() };
+        let methods = vec![method("index-3", "fixed", 1.0)];
+        let mut comparison = Comparison { reference, methods, ..Comparison::default() };
+        comparison.digest(&[1e-3, 2e-6]);
+        assert!(comparison.ranking[1].note.is_some() && comparison.ranking[1].ranks.is_empty());
+        let marked: Vec<bool> =
+            comparison.methods[0].runs.iter().map(|run| run.is_below_reference).collect();
+        assert_eq!(marked, [false, false, false, false, false, true, true, true]);
+    }
+}
