@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
     /// Work of all runs together [s], roughly: it decides how far steps are refined where none are given.
     #[arg(long, value_name = "S", default_value_t = Request::default().budget, allow_negative_numbers = true)]
     budget: f64,
-    /// Table that errors are taken against, with the columns of run.csv; left out: NAME.reference.csv beside the scene
+    /// Table that errors are taken against, with the columns of run.csv; left out: references/NAME.csv beside the scene
     /// NAME.toml if it is there, else runs that are not under test.
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
@@ -89,7 +89,9 @@ impl Arguments {
 
     /// The reference table: the one given, or the one beside the scene; its name and text.
     fn table(&self) -> Result<Option<(String, String)>, String> {
-        let beside = self.scene.with_extension("reference.csv");
+        let name = self.scene.with_extension("csv");
+        let folder = self.scene.parent().unwrap_or(Path::new("")).join("references");
+        let beside = folder.join(name.file_name().unwrap_or_default());
         let path = match &self.reference {
             Some(path) => path.clone(),
             None if beside.is_file() => beside,
