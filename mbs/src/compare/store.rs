@@ -80,7 +80,7 @@ mod tests {
         let out = std::env::temp_dir().join(format!("mbs-store-{}", std::process::id()));
         let _ = std::fs::remove_dir_all(&out);
         let head = Head::new(KIND, &["a"]);
-        let numbers = [0.1 + 0.2, 1.0 / 3.0, 5e-324, -2.5e300];
+        let numbers: [f64; 4] = [0.1 + 0.2, 1.0 / 3.0, 5e-324, -2.5e300];
         let open = |earlier| Store::open(Some(&out), &head, earlier).unwrap();
         let mut store = open(Earlier::Refuse).unwrap();
         store.get("run 1", || numbers.to_vec().into()).unwrap();
