@@ -58,7 +58,7 @@ pub(super) fn orders(c: &Comparison) -> String {
             format!("{text} Rounding takes over at the shortest steps in {}.", rounding.join("; "))
         }
         n => format!(
-            "{text} Rounding takes over at the shortest steps in {n} methods; the legend says where."
+            "{text} Rounding takes over at the shortest steps in {n} methods; the list says where."
         ),
     }
 }

@@ -5,6 +5,8 @@ use super::{fit, front, rank};
 
 /// Errors below so many times the reference's uncertainty are marked: the reference cannot tell them.
 const TELLS: f64 = 3.0;
+/// A method may be the fastest of its formulation if it takes less than so many times the least.
+const NEARLY: f64 = 1.15;
 
 impl Comparison {
     /// The least error that the reference can tell.
@@ -28,6 +30,28 @@ impl Comparison {
         self.ranking = levels.iter().map(|level| self.ranked(*level)).collect();
     }
 
+    /// The runs whose times decide the ranking at these errors, by method and run: those beside an error, of methods that are, or
+    /// may well be, the fastest of their formulation and integrator.
+    #[must_use]
+    pub fn decisive(&self, levels: &[f64]) -> Vec<(usize, usize)> {
+        let mut runs = Vec::new();
+        for &level in levels.iter().filter(|level| **level >= self.floor()) {
+            let times: Vec<Option<f64>> =
+                self.methods.iter().map(|m| m.at_error(level).map(|[least, _]| least)).collect();
+            for (m, method) in self.methods.iter().enumerate() {
+                let same =
+                    self.methods.iter().zip(&times).filter(|(o, _)| o.family() == method.family());
+                let best = same.filter_map(|(_, time)| *time).fold(f64::INFINITY, f64::min);
+                if times[m].is_some_and(|time| time <= NEARLY * best) {
+                    runs.extend(method.beside(level).into_iter().map(|r| (m, r)));
+                }
+            }
+        }
+        runs.sort_unstable();
+        runs.dedup();
+        runs
+    }
+
     fn ranked(&self, level: f64) -> RankLevel {
         let floor = self.floor();
         if level < floor {
@@ -38,7 +62,9 @@ impl Comparison {
         for method in &self.methods {
             let name = method.family();
             let Some([least, second]) = method.at_error(level) else {
-                not_reached.push(name);
+                if !not_reached.contains(&name) {
+                    not_reached.push(name);
+                }
                 continue;
             };
             let noise = second / least - 1.0;
@@ -49,7 +75,6 @@ impl Comparison {
                 None => reached.push(found),
             }
         }
-        not_reached.dedup();
         not_reached.retain(|name| !reached.iter().any(|rank| rank.name == *name));
         RankLevel { error: level, note: None, ranks: rank::rank(reached), not_reached }
     }
@@ -78,9 +103,24 @@ impl MethodRuns {
 
     /// Least and second CPU time at an error.
     fn at_error(&self, level: f64) -> Option<[f64; 2]> {
-        let points: Vec<front::Point<2>> =
-            self.completed().filter_map(|run| Some((run.error?, run.two_least()?))).collect();
+        let points: Vec<front::Point<2>> = self.timed().map(|(_, point)| point).collect();
         front::at_error(&points, level)
+    }
+
+    /// Indices of the runs beside an error.
+    fn beside(&self, level: f64) -> Vec<usize> {
+        let (places, errors): (Vec<usize>, Vec<f64>) =
+            self.timed().map(|(i, (error, _))| (i, error)).unzip();
+        let beside = front::beside(&errors, level);
+        let both = beside.into_iter().flat_map(|b| b.misses.into_iter().chain([b.reaches]));
+        both.map(|i| places[i]).collect()
+    }
+
+    /// Completed runs that were timed, from the coarsest, with their indices.
+    fn timed(&self) -> impl Iterator<Item = (usize, front::Point<2>)> {
+        let runs = self.runs.iter().enumerate();
+        let completed = runs.filter(|(_, run)| run.status == Status::Completed);
+        completed.filter_map(|(i, run)| Some((i, (run.error?, run.two_least()?))))
     }
 }
 
@@ -140,6 +180,11 @@ mod tests {
         assert_eq!(ranks(1), ranks(0));
         assert_eq!(comparison.ranking[2].not_reached, ["index-3", "slow"]);
         assert!((comparison.methods[0].fit.as_ref().unwrap().order.unwrap() - 2.0).abs() < 1e-9);
+        // 1e-3 lies at the first run; beside 1e-5, at h = 1e-3, are the fourth and the fifth
+        assert_eq!(
+            comparison.decisive(&[1e-3, 1e-5]),
+            [(1, 0), (1, 3), (1, 4), (2, 0), (2, 3), (2, 4)]
+        );
         // h = 1e-3 at an error of 1e-5
         assert!((comparison.methods[0].at_error[1].unwrap() - 0.02).abs() < 1e-9);
     }

@@ -3,27 +3,47 @@
 /// A completed run: its error, and CPU times that are to be interpolated [s].
 pub(super) type Point<const N: usize> = (f64, [f64; N]);
 
-/// CPU times at an error, by interpolation of logarithms on the front of the runs, which go from the coarsest to the finest; the
-/// times of the coarsest run that reaches the error where no coarser one misses it. Nothing where none reaches it.
+/// The runs beside an error: the last that misses it, the first that reaches it, by their indices, and where between them it lies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Beside {
+    pub(super) misses: Option<usize>,
+    pub(super) reaches: usize,
+    /// 1 at the run that reaches it.
+    share: f64,
+}
+
+/// The runs beside an error on the front of runs with these errors, which go from the coarsest to the finest. Where no run misses
+/// it, the coarsest one reaches it. Nothing where none does.
 ///
-/// The front is chosen by the errors and by that order alone: times have noise, and would choose another one each time.
-pub(super) fn at_error<const N: usize>(points: &[Point<N>], level: f64) -> Option<[f64; N]> {
-    let mut front: Vec<Point<N>> = Vec::new();
-    for &(error, times) in points {
-        if front.last().is_none_or(|(best, _)| error < *best) {
-            front.push((error, times));
+/// An error that is smaller by luck counts for nothing: a run is credited with that of the next finer one if that is larger. The
+/// front is chosen by the errors and by that order alone: times have noise, and would choose another one each time.
+pub(super) fn beside(errors: &[f64], level: f64) -> Option<Beside> {
+    let credited = |i: usize| errors[i].max(errors.get(i + 1).copied().unwrap_or(0.0));
+    let mut front: Vec<usize> = Vec::new();
+    for i in 0..errors.len() {
+        if front.last().is_none_or(|&best| credited(i) < credited(best)) {
+            front.push(i);
         }
     }
-    let reached = front.iter().position(|(error, _)| *error <= level)?;
-    let (fine, after) = front[reached];
-    let Some((coarse, before)) = reached.checked_sub(1).map(|i| front[i]) else {
-        return Some(after);
-    };
-    // an error of zero lies at the end of every line
-    let share = if fine > 0.0 { libm::log(coarse / level) / libm::log(coarse / fine) } else { 1.0 };
-    let mut times = after;
+    let place = front.iter().position(|&i| credited(i) <= level)?;
+    let reaches = front[place];
+    let misses = place.checked_sub(1).map(|before| front[before]);
+    let share = misses.map_or(1.0, |coarse| {
+        let (coarse, fine) = (credited(coarse), credited(reaches));
+        // an error of zero lies at the end of every line
+        if fine > 0.0 { libm::log(coarse / level) / libm::log(coarse / fine) } else { 1.0 }
+    });
+    Some(Beside { misses, reaches, share })
+}
+
+/// CPU times at an error, by interpolation of logarithms between the runs beside it.
+pub(super) fn at_error<const N: usize>(points: &[Point<N>], level: f64) -> Option<[f64; N]> {
+    let errors: Vec<f64> = points.iter().map(|(error, _)| *error).collect();
+    let beside = beside(&errors, level)?;
+    let mut times = points[beside.reaches].1;
+    let before = beside.misses.map_or(times, |i| points[i].1);
     for (time, start) in times.iter_mut().zip(before) {
-        *time = libm::exp(libm::log(start) + share * (libm::log(*time) - libm::log(start)));
+        *time = libm::exp(libm::log(start) + beside.share * (libm::log(*time) - libm::log(start)));
     }
     Some(times)
 }
@@ -38,15 +58,20 @@ mod tests {
         let points: Vec<Point<1>> = [1e-1, 1e-2, 1e-3].map(|h| (h * h, [1.0 / h])).to_vec();
         let [t] = at_error(&points, 1e-5).unwrap();
         assert!((t - 10.0 * f64::sqrt(10.0) * 10.0).abs() < 1e-9 * t, "{t}");
-        assert_eq!(at_error(&points, 0.5), Some([1.0 / 1e-1]));
+        let [t] = at_error(&points, 0.5).unwrap();
+        assert!((t - 10.0).abs() < 1e-9, "the coarsest run reaches it: {t}");
         assert_eq!(at_error(&points, 1e-7), None);
     }
 
     #[test]
-    fn a_run_that_is_no_better_than_a_coarser_one_is_not_on_the_front() {
-        let points = [(1e-2, [1.0]), (1e-1, [2.0]), (1e-4, [4.0])];
-        let [t] = at_error(&points, 1e-3).unwrap();
-        assert!((t - 2.0).abs() < 1e-12, "{t}");
+    fn an_error_that_is_small_by_luck_counts_for_nothing() {
+        // the second run is better than its neighbours, the last two are on the way to rounding
+        let errors = [1e-1, 1e-5, 2e-2, 1e-3, 1e-4, 2e-4];
+        let of = |level| beside(&errors, level).map(|b| (b.misses, b.reaches));
+        assert_eq!(of(1e-2), Some((Some(1), 3)));
+        assert_eq!(of(3e-4), Some((Some(3), 4)));
+        assert_eq!(of(1.5e-4), None);
+        assert_eq!(of(0.5), Some((None, 0)));
         let [t] = at_error(&[(1e-2, [1.0]), (0.0, [3.0])], 1e-3).unwrap();
         assert!((t - 3.0).abs() < 1e-12);
     }

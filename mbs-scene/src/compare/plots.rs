@@ -168,7 +168,7 @@ fn failed(m: &MethodRuns, place: impl Fn(&RunEntry) -> f64) -> Vec<(f64, String)
     let stopped = m.runs.iter().filter(|run| run.status == Status::Failed);
     let entry = |run: &RunEntry| {
         let (why, at) = reason(run);
-        (rounded(place(run), DIGITS), format!("{}, {}: {why}, at {at}", m.name, setting(m, run)))
+        (rounded(place(run), DIGITS), format!("{}, {at}: {why}", m.name))
     };
     stopped.map(entry).collect()
 }

@@ -162,7 +162,8 @@ impl Comparison {
                 rows.push(vec![method.name.clone(), code, told]);
             }
         }
-        let head = ["method", "reason", "at"].map(str::to_owned).to_vec();
+        let head =
+            ["method", "reason", "step or tolerance: where it stopped"].map(str::to_owned).to_vec();
         let title = "Failures".to_owned();
         (!rows.is_empty()).then(|| Section { title, head, rows, ..Section::default() })
     }

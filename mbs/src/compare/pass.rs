@@ -19,9 +19,9 @@ use mbs_scene::compare::{Energy, RunEntry, Status};
 use mbs_scene::{Channel, Document, ReadError};
 
 /// Runs shorter than this are repeated within one timing, and the least of them is taken [s].
-const SHORT: f64 = 0.02;
+const SHORT: f64 = 0.01;
 /// But not more often.
-const MOST_FRESH: u32 = 20;
+const MOST_FRESH: u32 = 10;
 
 /// A scene in the precisions that run.
 #[derive(Debug)]

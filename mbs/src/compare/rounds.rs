@@ -6,7 +6,7 @@ use super::{CompareError, Study, Watch};
 use mbs_scene::compare::{Comparison, RunEntry, Status};
 
 /// The two least times of a run differ by no more than this share where it is known well enough.
-const SETTLED: f64 = 0.02;
+const SETTLED: f64 = 0.01;
 /// So many times the repeats asked for are made at most.
 const MOST_ROUNDS: u32 = 4;
 /// Where the rounds stand in the progress bar.
@@ -14,7 +14,7 @@ const SHARE: [f64; 2] = [0.35, 0.6];
 
 impl Study<'_> {
     /// Times every completed run: in rounds over all, there and back, so that what disturbs a while meets all alike; then again
-    /// those whose two least times are still apart.
+    /// those that decide the ranking and whose two least times are still apart.
     pub(super) fn time(
         &self,
         comparison: &mut Comparison,
@@ -24,7 +24,9 @@ impl Study<'_> {
     ) -> Result<(), CompareError> {
         let repeats = self.request.repeats;
         for round in 0..repeats * MOST_ROUNDS {
-            let mut jobs = unsettled(comparison, round < repeats);
+            let errors = &self.request.errors;
+            let mut jobs =
+                if round < repeats { completed(comparison) } else { unsettled(comparison, errors) };
             if jobs.is_empty() {
                 break;
             }
@@ -54,20 +56,24 @@ impl Study<'_> {
     }
 }
 
-/// The runs to time next, by method and run.
-fn unsettled(comparison: &Comparison, all: bool) -> Vec<(usize, usize)> {
+/// The completed runs, by method and run.
+fn completed(comparison: &Comparison) -> Vec<(usize, usize)> {
+    let methods = comparison.methods.iter().enumerate();
+    let runs = methods.flat_map(|(m, method)| {
+        let runs = method.runs.iter().enumerate();
+        runs.filter(|(_, run)| run.status == Status::Completed).map(move |(r, _)| (m, r))
+    });
+    runs.collect()
+}
+
+/// The runs that decide the ranking at some errors, and are not known well enough.
+fn unsettled(comparison: &Comparison, errors: &[f64]) -> Vec<(usize, usize)> {
     let is_apart = |run: &RunEntry| {
         run.two_least().is_none_or(|[least, second]| second > (1.0 + SETTLED) * least)
     };
-    let mut jobs = Vec::new();
-    for (m, method) in comparison.methods.iter().enumerate() {
-        for (r, run) in method.runs.iter().enumerate() {
-            if run.status == Status::Completed && (all || is_apart(run)) {
-                jobs.push((m, r));
-            }
-        }
-    }
-    jobs
+    let mut runs = comparison.decisive(errors);
+    runs.retain(|&(m, r)| is_apart(&comparison.methods[m].runs[r]));
+    runs
 }
 
 #[cfg(test)]
@@ -76,20 +82,22 @@ mod tests {
     use mbs_scene::compare::MethodRuns;
 
     #[test]
-    fn completed_runs_are_timed_until_their_two_least_times_are_close() {
-        let run = |status, times: &[f64]| RunEntry {
+    fn decisive_runs_are_timed_until_their_two_least_times_are_close() {
+        let run = |status, error, times: &[f64]| RunEntry {
             status,
+            error: Some(error),
             cpu_seconds: times.to_vec(),
             ..RunEntry::default()
         };
         let runs = vec![
-            run(Status::Completed, &[1.0, 1.01, 3.0]),
-            run(Status::Failed, &[]),
-            run(Status::Completed, &[1.0, 1.3]),
+            run(Status::Completed, 1e-1, &[1.0, 1.005, 3.0]),
+            run(Status::Failed, 1.0, &[]),
+            run(Status::Completed, 1e-3, &[1.0, 1.3]),
+            run(Status::Completed, 1e-5, &[1.0, 1.3]),
         ];
         let methods = vec![MethodRuns { runs, ..MethodRuns::default() }];
         let comparison = Comparison { methods, ..Comparison::default() };
-        assert_eq!(unsettled(&comparison, true), [(0, 0), (0, 2)]);
-        assert_eq!(unsettled(&comparison, false), [(0, 2)]);
+        assert_eq!(completed(&comparison), [(0, 0), (0, 2), (0, 3)]);
+        assert_eq!(unsettled(&comparison, &[1e-2]), [(0, 2)]);
     }
 }

@@ -48,12 +48,15 @@ fn keys(value: &Value) -> BTreeSet<&str> {
 #[test]
 fn orders_against_the_closed_form_are_those_of_the_integrators() {
     let steps = "2e-2,1e-2,5e-3,2.5e-3,1.25e-3";
-    let arguments = ["--precision", "f64", "--steps", steps, "--tolerances", "1e-4,1e-6", "--no-maps"];
+    let arguments =
+        ["--precision", "f64", "--steps", steps, "--tolerances", "1e-4,1e-6", "--no-maps"];
     let found = json(&compare("simple-pendulum", &[&arguments[..], &["--json"]].concat()));
     assert_eq!(found["reference"]["kind"], "table");
     assert!(found["reference"]["uncertainty"].as_f64().unwrap() < 1e-17);
     // orders of convergence: the trapezoidal rule's two, to what the longer steps bend
-    for name in ["index-3, f64", "index-1, f64", "classical, f64", "state-space, f64", "recursive, f64"] {
+    for name in
+        ["index-3, f64", "index-1, f64", "classical, f64", "state-space, f64", "recursive, f64"]
+    {
         let order = method(&found, name)["fit"]["order"].as_f64().expect("five runs on a line");
         assert!((order - 2.0).abs() < 0.02, "{name}: {order}");
     }
@@ -66,17 +69,22 @@ fn orders_against_the_closed_form_are_those_of_the_integrators() {
 
 #[test]
 fn the_reference_is_not_under_test_and_another_formulation_agrees_with_it() {
-    let arguments = ["--duration", "2", "--steps", "1e-2,5e-3", "--tolerances", "1e-4", "--no-maps"];
+    let arguments =
+        ["--duration", "2", "--steps", "1e-2,5e-3", "--tolerances", "1e-4", "--no-maps"];
     let found = json(&compare("double-pendulum", &[&arguments[..], &["--json"]].concat()));
     let reference = &found["reference"];
     assert_eq!(reference["is_verified"], true, "{reference:#}");
     let check = &reference["cross_check"];
     assert!(check["method"].as_str().unwrap().starts_with("index-3"));
-    assert!(check["difference"].as_f64().unwrap() <= 3.0 * check["own_uncertainty"].as_f64().unwrap());
+    assert!(
+        check["difference"].as_f64().unwrap() <= 3.0 * check["own_uncertainty"].as_f64().unwrap()
+    );
     assert!(reference["uncertainty"].as_f64().unwrap() < 1e-10);
     // none of the tolerances under test is one of the reference's
     let own = method(&found, "recursive rk54, f64");
-    assert!(own["runs"].as_array().unwrap().iter().all(|run| run["setting"].as_f64() > Some(1e-12)));
+    assert!(
+        own["runs"].as_array().unwrap().iter().all(|run| run["setting"].as_f64() > Some(1e-12))
+    );
     // the trapezoidal rule in one coordinate set is one method, by whatever elimination
     let [a, b] = ["index-3, f64", "classical, f64"].map(|name| errors(method(&found, name)));
     assert!((a[0] - b[0]).abs() < 1e-3 * a[0], "{a:?} {b:?}");
@@ -84,7 +92,8 @@ fn the_reference_is_not_under_test_and_another_formulation_agrees_with_it() {
 
 #[test]
 fn a_method_that_fails_stays_with_its_reason() {
-    let arguments = ["--formulation", "classical,index-3", "--precision", "f64", "--duration", "0.5"];
+    let arguments =
+        ["--formulation", "classical,index-3", "--precision", "f64", "--duration", "0.5"];
     let more = ["--steps", "1e-2,5e-3", "--tolerances", "1e-4", "--no-maps"];
     let out = scratch("failure");
     let place = ["--out", out.to_str().expect("UTF-8"), "--json"];
