@@ -169,7 +169,7 @@ pub(super) fn map(map: &ConvergenceMap) -> String {
     });
     format!(
         "{done} of {n} runs over {} s are completed.{best} A cell has the exponent of its error (-4: 1e-4 to 1e-3), dark where the error is \
-         large, and x where the run stops.",
+         large, above the mean iterations of a step, and x where the run stops.",
         short(map.span)
     )
 }

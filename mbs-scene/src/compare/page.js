@@ -182,7 +182,7 @@ function makeMap(map, parent) {
   const card = document.createElement("section");
   card.className = "card";
   let svg = null;
-  heading(card, `Convergence of ${map.formulation} over step and penalty, ${map.precision}`, () => svg);
+  heading(card, `Convergence: ${map.formulation}, ${map.precision}`, () => svg);
   svg = element("svg", { class: "plot", role: "img", "aria-label": map.caption }, card);
   const said = card.appendChild(document.createElement("p"));
   said.className = "said";
@@ -192,7 +192,7 @@ function makeMap(map, parent) {
   parent.appendChild(card);
   const [fewest, most] = [-12, 0];
   return function draw() {
-    const width = Math.max(card.clientWidth - 30, 240), left = 62, rowHeight = 28;
+    const width = Math.max(card.clientWidth - 30, 240), left = 62, rowHeight = 36;
     const height = map.penalties.length * rowHeight + 54, wide = (width - left - 8) / map.steps.length;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.style.height = height + "px";
@@ -206,8 +206,11 @@ function makeMap(map, parent) {
         const shade = cell.error === null ? 0 : (size - fewest) / (most - fewest);
         const box = element("rect", { x, y: top, width: wide, height: rowHeight, style: `fill: var(--ink); opacity: ${(shade * 0.85).toFixed(2)}` }, svg);
         element("rect", { class: "frame", x, y: top, width: wide, height: rowHeight }, svg);
-        const text = element("text", { x: x + wide / 2, y: top + rowHeight / 2 + 4, "text-anchor": "middle", style: `fill: var(${shade > 0.5 ? "--card" : "--ink"})` }, svg);
-        text.textContent = cell.failure || cell.error === null ? "x" : cell.error === 0 ? "0" : Math.floor(Math.log10(cell.error));
+        const stops = cell.failure || cell.error === null, ink = `fill: var(${shade > 0.5 ? "--card" : "--ink"})`;
+        if (stops) element("path", { d: `M${x},${top + rowHeight}L${x + wide},${top}`, style: "stroke: var(--rule); fill: none" }, svg);
+        const text = element("text", { x: x + wide / 2, y: top + (stops ? 22 : 16), "text-anchor": "middle", style: ink }, svg);
+        text.textContent = stops ? "x" : cell.error === 0 ? "0" : Math.floor(Math.log10(cell.error));
+        if (!stops) element("text", { class: "note", x: x + wide / 2, y: top + 30, "text-anchor": "middle", style: ink }, svg).textContent = cell.iterations.toFixed(1);
         const words = `step ${show(step)} s, penalty ${show(penalty)} ${map.unit}: ` + (cell.failure ? `stops, ${cell.failure}` : `error ${show(cell.error)}, ${cell.iterations.toFixed(2)} iterations a step`);
         for (const node of [box, text]) {
           node.addEventListener("pointerenter", () => { said.textContent = words; });

@@ -243,6 +243,12 @@ impl<'a> Study<'a> {
         text
     }
 
+    /// Coordinates and constraints in natural coordinates, roughly: before a model is built.
+    fn unknowns(&self) -> usize {
+        let of_body = if self.scenes.double.dimension.count() == 2 { 6 } else { 24 };
+        of_body * self.scenes.double.bodies.len()
+    }
+
     fn length(&self) -> f64 {
         scene_length(&self.scenes.double)
     }
@@ -259,8 +265,7 @@ impl<'a> Study<'a> {
         let precisions =
             precisions.filter(|p| self.methods.iter().any(|m| m.precision == *p)).collect();
         let instants = Instants { count: known.rows.len(), ..self.instants };
-        let unknowns = 24 * self.scenes.double.bodies.len();
-        let budget = (unknowns, self.request.budget / 10.0);
+        let budget = (self.unknowns(), self.request.budget / 10.0);
         let plan = map::Plan::new((instants, self.of_scene), (augmented, precisions), budget);
         (!plan.between.is_empty()).then_some(plan)
     }

@@ -89,12 +89,11 @@ impl Study<'_> {
             control: Control::Fixed,
             precision: Precision::F64,
         };
-        let unknowns = 24 * self.scenes.double.bodies.len();
         let most = self.request.budget / 20.0;
         let affordable = |factor: &&f64| {
             let shortest = self.of_scene * **factor / 4.0;
             let steps = self.instants.steps_between(shortest) * self.instants.count as u64;
-            super::ladder::work(3 * steps, unknowns) <= most
+            super::ladder::work(3 * steps, self.unknowns()) <= most
         };
         let factor = STEPS.iter().find(affordable).copied().unwrap_or(1.0);
         let between = self.instants.steps_between(self.of_scene * factor);
