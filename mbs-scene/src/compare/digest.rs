@@ -76,7 +76,9 @@ impl Comparison {
             }
         }
         not_reached.retain(|name| !reached.iter().any(|rank| rank.name == *name));
-        RankLevel { error: level, note: None, ranks: rank::rank(reached), not_reached }
+        let apart = rank::apart(reached.iter().map(|rank| rank.seconds));
+        let ranks = rank::rank(reached, apart);
+        RankLevel { error: level, note: None, apart, ranks, not_reached }
     }
 }
 

@@ -2,16 +2,31 @@
 
 use super::data::Rank;
 
-/// A method is faster than the next only if it takes less than 1/1.25 of its time.
-pub(super) const APART: f64 = 1.25;
+/// Between these factors lies the one by which neighbours must differ to have different ranks.
+const APART: [f64; 2] = [1.3, 2.0];
 
-/// Gives ranks to methods with their least times; those between which no gap is found are equal. What stands between two groups
-/// is a factor of at least [`APART`] between neighbours, and more than what lies between the two least times of the faster one.
+/// The factor by which neighbours must differ: of those from 1.3 to 2 the one that is furthest from all that occur, so that noise
+/// turns no gap into none.
+pub(super) fn apart(times: impl Iterator<Item = f64>) -> f64 {
+    let mut times: Vec<f64> = times.map(libm::log).collect();
+    times.sort_by(f64::total_cmp);
+    let [low, high] = APART.map(libm::log);
+    let mut gaps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    gaps.retain(|gap| *gap > low && *gap < high);
+    gaps.extend([low, high]);
+    gaps.sort_by(f64::total_cmp);
+    let widest = gaps.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])));
+    libm::exp(widest.map_or(low, |pair| 0.5 * (pair[0] + pair[1])))
+}
+
+/// Gives ranks to methods with their least times; those between which no gap is found are equal. A gap is a factor of more than
+/// `apart` between neighbours, and more than what lies between the two least times of the faster one.
 ///
-/// If noise makes each time longer by a share of at most e, the ranks are those without noise wherever no two neighbours differ
-/// by a factor between `APART` / (1 + e) and `APART` (1 + e): a gap of more than the second stays one, a gap of less than the
-/// first does not become one. Times that exceed each other by less change places only within their rank.
-pub(super) fn rank(mut methods: Vec<Rank>) -> Vec<Rank> {
+/// Noise that makes each time longer by a share of at most e moves the logarithm of every gap by log(1 + e) at most. So the ranks are
+/// those without noise wherever, of the stretches between the gaps from 1.3 to 2, the widest is wider than the second by 4 log(1 + e),
+/// and the noise is less than the factor itself: that stretch stays the widest, no gap crosses its middle, and times that exceed each other
+/// by less change places only within their rank.
+pub(super) fn rank(mut methods: Vec<Rank>, apart: f64) -> Vec<Rank> {
     let order: Vec<String> = methods.iter().map(|m| m.name.clone()).collect();
     methods.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
     // the slowest time that a method before may well have
@@ -19,7 +34,7 @@ pub(super) fn rank(mut methods: Vec<Rank>) -> Vec<Rank> {
     let mut rank = 1;
     for i in 0..methods.len() {
         let before = i.checked_sub(1).map(|j| methods[j].seconds);
-        if before.is_some_and(|before| methods[i].seconds > (before * APART).max(reach)) {
+        if before.is_some_and(|before| methods[i].seconds > (before * apart).max(reach)) {
             rank = i + 1;
         }
         methods[i].rank = rank;
@@ -42,7 +57,7 @@ mod tests {
             noise,
             ..Rank::default()
         };
-        rank(times.iter().enumerate().map(method).collect())
+        rank(times.iter().enumerate().map(method).collect(), apart(times.iter().copied()))
     }
 
     fn printed(ranks: &[Rank]) -> Vec<(usize, &str)> {
@@ -51,34 +66,51 @@ mod tests {
 
     #[test]
     fn methods_within_the_noise_are_equal_and_keep_the_order_of_the_list() {
-        let ranks = of(&[3.0, 1.1, 1.0, 1.2, 3.9], 0.01);
+        let ranks = of(&[3.0, 1.1, 1.0, 1.2, 7.0], 0.01);
         assert_eq!(printed(&ranks), [(1, "m1"), (1, "m2"), (1, "m3"), (4, "m0"), (5, "m4")]);
     }
 
     #[test]
+    fn the_factor_lies_where_no_gap_is_near() {
+        let factor = |times: &[f64]| apart(times.iter().copied());
+        assert!((factor(&[1.0, 5.0]) - f64::sqrt(1.3 * 2.0)).abs() < 1e-12);
+        assert!((factor(&[9.0, 1.0, 1.8]) - f64::sqrt(1.3 * 1.8)).abs() < 1e-12);
+        assert!((factor(&[1.0, 1.4, 1.4 * 1.5]) - f64::sqrt(1.5 * 2.0)).abs() < 1e-12);
+    }
+
+    #[test]
     fn a_gap_that_the_repeats_do_not_show_is_none() {
-        assert_eq!(printed(&of(&[1.0, 2.0], 1.5)), [(1, "m0"), (1, "m1")]);
-        assert_eq!(printed(&of(&[1.0, 2.0], 0.5)), [(1, "m0"), (2, "m1")]);
+        assert_eq!(printed(&of(&[1.0, 3.0], 2.5)), [(1, "m0"), (1, "m1")]);
+        assert_eq!(printed(&of(&[1.0, 3.0], 0.5)), [(1, "m0"), (2, "m1")]);
+    }
+
+    /// Is the widest of the stretches between the gaps wider than the second by this, in logarithms?
+    fn is_clear(times: &[f64], by: f64) -> bool {
+        let [low, high] = APART.map(f64::ln);
+        let mut gaps: Vec<f64> = times.windows(2).map(|t| f64::ln(t[1] / t[0])).collect();
+        gaps.retain(|gap| (low..high).contains(gap));
+        gaps.extend([low, high]);
+        gaps.sort_by(f64::total_cmp);
+        let mut widths: Vec<f64> = gaps.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        widths.sort_by(|a, b| b.total_cmp(a));
+        widths[0] - widths.get(1).copied().unwrap_or(0.0) > by
     }
 
     proptest! {
         #[test]
         fn two_measurements_with_other_noise_give_the_same_ranking(
-            gaps in prop::collection::vec((0.0..1.0_f64, any::<bool>()), 1..12),
-            noise in prop::collection::vec((0.0..0.08_f64, 0.0..0.08_f64), 12),
+            gaps in prop::collection::vec(0.0..1.2_f64, 1..9),
+            noise in prop::collection::vec((0.0..0.03_f64, 0.0..0.03_f64), 9),
         ) {
-            // neighbours differ by less than APART/1.08, or by more than APART*1.08
-            let (low, high) = (f64::ln(APART / 1.08), f64::ln(APART * 1.08));
-            let mut log = 0.0;
             let mut times = vec![1.0];
-            for (share, is_wide) in gaps {
-                log += if is_wide { high * 1.0001 + share } else { low * 0.9999 * share };
-                times.push(f64::exp(log));
+            for gap in gaps {
+                times.push(times[times.len() - 1] * f64::exp(gap * gap));
             }
+            prop_assume!(is_clear(&times, 4.0 * f64::ln(1.03)));
             let measured = |pick: fn(&(f64, f64)) -> f64| -> Vec<f64> {
                 times.iter().zip(&noise).map(|(t, n)| t * (1.0 + pick(n))).collect()
             };
-            let (first, second) = (of(&measured(|n| n.0), 0.08), of(&measured(|n| n.1), 0.08));
+            let (first, second) = (of(&measured(|n| n.0), 0.03), of(&measured(|n| n.1), 0.03));
             prop_assert_eq!(printed(&first), printed(&second));
             let exact = of(&times, 0.0);
             prop_assert_eq!(printed(&first), printed(&exact));
@@ -88,7 +120,7 @@ mod tests {
         fn ranks_count_those_that_are_faster(times in prop::collection::vec(0.1..10.0_f64, 1..12)) {
             for r in of(&times, 0.02) {
                 prop_assert!(r.rank >= 1 && r.rank <= times.len());
-                let faster = times.iter().filter(|&&t| t * APART < r.seconds).count();
+                let faster = times.iter().filter(|&&t| t * APART[0] < r.seconds).count();
                 prop_assert!(r.rank <= faster + 1, "{} of {:?}", r.name, times);
             }
         }

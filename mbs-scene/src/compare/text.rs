@@ -103,10 +103,10 @@ impl Comparison {
         );
         let caption = match &level.note {
             Some(note) => format!("Not ranked: {note}."),
-            None => {
-                "Equal ranks: no neighbours differ by a factor of 1.25 and by more than the noise."
-                    .to_owned()
-            }
+            None => format!(
+                "Equal ranks: between neighbours lies no factor of more than {:.2}, or no more than the noise.",
+                level.apart
+            ),
         };
         let head =
             ["rank", "formulation, integrator", "CPU time", "noise", "by"].map(str::to_owned);
