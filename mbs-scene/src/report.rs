@@ -100,7 +100,7 @@ impl Section {
         }
     }
 
-    fn write_card(&self, out: &mut String) {
+    pub(crate) fn write_card(&self, out: &mut String) {
         if self.rows.is_empty() {
             return;
         }

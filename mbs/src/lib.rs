@@ -1,12 +1,15 @@
 #![doc = include_str!("../README.md")]
 
+mod alarm;
 mod channels;
 mod choice;
+pub mod compare;
 mod control;
 mod engine;
 pub mod explain;
 pub mod export;
 mod figure;
+mod journal;
 mod modes;
 mod recorder;
 mod run;

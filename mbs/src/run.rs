@@ -1,5 +1,6 @@
 //! A whole run: from a scene to its summary, rows and page.
 
+use crate::alarm::Alarm;
 use crate::channels::Channels;
 use crate::figure::Figure;
 use crate::recorder::{Keep, Recorder, StepMark};
@@ -21,10 +22,6 @@ use mbs_scene::{
 };
 use std::io;
 use std::time::Instant;
-
-/// Steps in a row, or less at the end of a run, that it may be off by more: the first steps from rest turn little over, and
-/// their error may be large beside that and small beside what follows.
-const PATIENCE: u32 = 10;
 
 /// Roundings of the time at the end that are nothing.
 const LAST_ROUNDINGS: f64 = 32.0;
@@ -161,7 +158,7 @@ where
         mark: StepMark::default(),
         counts: Counts::default(),
         reached: 0.0,
-        off: 0,
+        alarm: Alarm::new(settings.energy_alarm),
     };
     run.start();
     let cpu = ProcessTime::now();
@@ -201,8 +198,7 @@ where
     counts: Counts,
     /// Time reached [s].
     reached: f64,
-    /// Steps in a row after which the invariant was off.
-    off: u32,
+    alarm: Alarm,
 }
 
 impl<T: Real, const D: usize> Run<'_, T, D>
@@ -302,7 +298,7 @@ where
             self.row(&mark, is_last);
             progress.reached(mark.t);
         }
-        match self.alarm(is_last) {
+        match self.alarm.rings(&self.simulation, is_last) {
             Some(stop) => self.stop(stop),
             None => Ok(()),
         }
@@ -347,21 +343,6 @@ where
         };
         self.recorder.mark(&self.mark);
         self.counts.control.take(&self.mark.step);
-    }
-
-    /// Has the invariant drifted too far?
-    fn alarm(&mut self, is_last: bool) -> Option<StopError> {
-        let invariant = self.simulation.invariant();
-        let is_off = invariant.is_off(self.settings.energy_alarm);
-        let (error, turned_over) = (invariant.error().abs(), invariant.turned_over());
-        self.off = if is_off { self.off + 1 } else { 0 };
-        let is_stop = self.off >= PATIENCE || (is_off && is_last) || !error.is_finite();
-        is_stop.then(|| StopError::Energy {
-            error,
-            turned_over,
-            share: self.settings.energy_alarm,
-            owner: self.simulation.most_loaded(),
-        })
     }
 
     fn finish(self, cpu: Duration, error: Option<StopError>, names: &Names) -> Outcome {

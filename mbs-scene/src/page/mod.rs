@@ -12,7 +12,7 @@ use crate::record::RunRecord;
 
 const TEMPLATE: &str = include_str!("page.html");
 pub(crate) const STYLE: &str = include_str!("style.css");
-const PLOT: &str = include_str!("plot.js");
+pub(crate) const PLOT: &str = include_str!("plot.js");
 const MOTION: &str = include_str!("motion.js");
 const MAIN: &str = include_str!("main.js");
 
@@ -33,15 +33,23 @@ pub fn page(record: &RunRecord) -> String {
     // `<` inside a text of the data must not end the script element it stands in
     let data = data::json(record).replace('<', "\\u003c");
     let scripts = [PLOT, MOTION, MAIN].concat();
-    let mut out = String::with_capacity(TEMPLATE.len() + data.len() + scripts.len() + STYLE.len());
-    // the parts are inserted in one pass, so what they contain is never taken for a mark
-    let mut rest = TEMPLATE;
-    for (mark, part) in [
-        ("{{title}}", title.as_str()),
-        ("{{style}}", STYLE),
-        ("{{data}}", data.as_str()),
-        ("{{script}}", scripts.as_str()),
-    ] {
+    fill(
+        TEMPLATE,
+        &[
+            ("{{title}}", &title),
+            ("{{style}}", STYLE),
+            ("{{data}}", &data),
+            ("{{script}}", &scripts),
+        ],
+    )
+}
+
+/// Puts parts in the places of their marks, which stand in this order. One pass, so that what they contain is never taken for a
+/// mark.
+pub(crate) fn fill(template: &str, parts: &[(&str, &str)]) -> String {
+    let mut out = String::new();
+    let mut rest = template;
+    for (mark, part) in parts {
         if let Some((before, after)) = rest.split_once(mark) {
             out += before;
             out += part;

@@ -88,7 +88,7 @@ fn is_zero(n: &u64) -> bool {
 }
 
 /// Why a run stopped early.
-#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct RunError {
     /// Short fixed word for programs, such as `not-converged`.
     pub code: String,

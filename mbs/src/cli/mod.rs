@@ -1,6 +1,7 @@
 //! Command line: arguments, refusals, and the commands.
 
 mod analysis;
+mod compare;
 mod explain;
 mod export;
 mod files;
@@ -28,12 +29,14 @@ Example: mbs run scenes/double-pendulum.toml --out out
 Exit status: 0 completed, 1 scene or usage refused, 2 the run stopped early or some of a sweep did (their data are
 kept), or there is no equilibrium.";
 /// Commands of the format's contract that are not built yet.
-const NOT_BUILT: [&str; 2] = ["compare", "doctor"];
+const NOT_BUILT: [&str; 1] = ["doctor"];
 
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Simulate a scene: summary, and with --out run.csv, run.json and run.html.
     Run(run::Arguments),
+    /// What accuracy costs: every method over a range of steps, CPU time against true error; resumable after a kill.
+    Compare(compare::Arguments),
     /// What a scene simulates, what it does not, and the measured price of each effect.
     Explain(explain::Arguments),
     /// Write a scene as constant tables for a controller: Rust, or bytes.
@@ -71,6 +74,7 @@ pub(crate) fn main() -> ExitCode {
     };
     match cli.command {
         Command::Run(arguments) => run::main(&arguments),
+        Command::Compare(arguments) => compare::main(&arguments),
         Command::Explain(arguments) => explain::main(&arguments),
         Command::Export(arguments) => export::main(&arguments),
         Command::Equilibrium(arguments) => analysis::equilibrium(&arguments),

@@ -3,7 +3,6 @@
 //! A [`Study`] is a scene with its sweep, checked; [`Study::run`] runs the members that the journal of a directory lacks, and
 //! writes the table when all are there.
 
-mod journal;
 mod member;
 #[cfg(feature = "parquet")]
 mod parquet;
@@ -11,20 +10,28 @@ mod table;
 #[cfg(test)]
 mod tests;
 
-pub use journal::JournalError;
+pub use crate::journal::JournalError;
 pub use member::Row;
 pub use table::{Columns, Failures};
 
+use crate::journal::{Head, Journal, Kind};
 use crate::settings::{Overrides, Settings, SettingsError};
 use core::fmt::{self, Display, Formatter};
 use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
-use journal::{Head, Journal};
 use mbs_parallel::ensemble::{Ensemble, EnsembleError, Panicked, available};
 use mbs_scene::{Channel, Document, ReadError, Sweep};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+
+/// The journal of a sweep.
+const KIND: Kind = Kind {
+    file: "sweep.journal",
+    title: "mbs sweep journal",
+    of: ["a sweep", "another sweep"],
+    hashes: &["the scene", "the sweep", "an option"],
+};
 
 /// A scene with its sweep, checked and ready to run.
 #[derive(Debug)]
@@ -119,7 +126,8 @@ impl Study {
         let data = scene.scene::<f64>().map_err(StudyError::Read)?;
         let settings = Settings::new(&data, overrides).map_err(StudyError::Settings)?;
         let columns = Columns::new(&Channel::of_scene(&data));
-        let head = Head::new(scene.text(), sweep.text(), overrides);
+        let options = format!("{overrides:?}");
+        let head = Head::new(KIND, &[scene.text(), sweep.text(), &options]);
         let sweep = Sweep::read(sweep, &scene, columns.taken()).map_err(StudyError::Read)?;
         let varied = |path: &str| sweep.varies(&scene, path);
         if let Some((path, _)) = GIVEN.into_iter().find(|(p, is)| is(overrides) && varied(p)) {
@@ -189,8 +197,8 @@ impl Study {
     ) -> Result<Report, SweepError> {
         let clock = Instant::now();
         std::fs::create_dir_all(out).map_err(SweepError::Write)?;
-        let shape = (self.columns.len(), self.n_members());
-        let (mut journal, mut rows) = Journal::open(out, &self.head, shape, anew)?;
+        let (mut journal, lines) = Journal::open(out, &self.head, anew)?;
+        let mut rows = whole_rows(lines, self.columns.len(), self.n_members());
         let resumed = rows.len();
         let todo: Vec<usize> = (0..self.n_members()).filter(|i| !rows.contains_key(i)).collect();
         let most = NonZeroUsize::new(todo.len()).unwrap_or(NonZeroUsize::MIN);
@@ -254,6 +262,19 @@ impl Study {
         }
         Ok(tables)
     }
+}
+
+/// Rows by member: those that have all their cells; others are of members that run again.
+fn whole_rows(
+    lines: Vec<Vec<String>>,
+    n_cells: usize,
+    n_members: usize,
+) -> BTreeMap<usize, Vec<String>> {
+    let rows = lines.into_iter().filter_map(|cells| {
+        let member = cells.first()?.parse::<usize>().ok()?.checked_sub(1)?;
+        (cells.len() == n_cells && member < n_members).then_some((member, cells))
+    });
+    rows.collect()
 }
 
 impl From<JournalError> for SweepError {

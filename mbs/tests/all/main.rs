@@ -9,6 +9,7 @@ mod retell;
 mod analysis;
 mod andrews;
 mod command;
+mod compare;
 mod contact;
 mod control;
 mod double_double;

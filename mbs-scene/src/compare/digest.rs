@@ -1,0 +1,205 @@
+//! What follows from the runs: orders, times at an error, ranks.
+
+use super::data::{Comparison, MethodRuns, Rank, RankLevel, RunEntry, Status};
+use super::{fit, front, rank};
+
+/// Errors below so many times the reference's uncertainty are marked: the reference cannot tell them.
+const TELLS: f64 = 3.0;
+/// A method may be the fastest of its formulation if it takes less than so many times the least.
+const NEARLY: f64 = 1.15;
+
+impl Comparison {
+    /// The least error that the reference can tell.
+    #[must_use]
+    pub fn floor(&self) -> f64 {
+        TELLS * self.reference.uncertainty
+    }
+
+    /// Fills in what follows from the runs: least times, marks, orders, and the ranking at the errors given.
+    pub fn digest(&mut self, levels: &[f64]) {
+        let floor = self.floor();
+        for method in &mut self.methods {
+            for run in &mut method.runs {
+                run.cpu_least = run.cpu_seconds.iter().copied().min_by(f64::total_cmp);
+                run.is_below_reference = run.error.is_some_and(|error| error < floor);
+            }
+            method.fit = fit::fit(&method.errors(), floor);
+            let at = |level: &f64| Some(method.at_error(*level).filter(|_| *level >= floor)?[0]);
+            method.at_error = levels.iter().map(at).collect();
+        }
+        self.ranking = levels.iter().map(|level| self.ranked(*level)).collect();
+    }
+
+    /// The runs whose times decide the ranking at these errors, by method and run: those beside an error, of methods that are, or
+    /// may well be, the fastest of their formulation and integrator.
+    #[must_use]
+    pub fn decisive(&self, levels: &[f64]) -> Vec<(usize, usize)> {
+        let mut runs = Vec::new();
+        for &level in levels.iter().filter(|level| **level >= self.floor()) {
+            let times: Vec<Option<f64>> =
+                self.methods.iter().map(|m| m.at_error(level).map(|[least, _]| least)).collect();
+            for (m, method) in self.methods.iter().enumerate() {
+                let same =
+                    self.methods.iter().zip(&times).filter(|(o, _)| o.family() == method.family());
+                let best = same.filter_map(|(_, time)| *time).fold(f64::INFINITY, f64::min);
+                if times[m].is_some_and(|time| time <= NEARLY * best) {
+                    runs.extend(method.beside(level).into_iter().map(|r| (m, r)));
+                }
+            }
+        }
+        runs.sort_unstable();
+        runs.dedup();
+        runs
+    }
+
+    fn ranked(&self, level: f64) -> RankLevel {
+        let floor = self.floor();
+        if level < floor {
+            let note = format!("the reference tells errors of {floor:.1e} and more only");
+            return RankLevel { error: level, note: Some(note), ..RankLevel::default() };
+        }
+        let (mut reached, mut not_reached) = (Vec::<Rank>::new(), Vec::<String>::new());
+        for method in &self.methods {
+            let name = method.family();
+            let Some([least, second]) = method.at_error(level) else {
+                if !not_reached.contains(&name) {
+                    not_reached.push(name);
+                }
+                continue;
+            };
+            let noise = second / least - 1.0;
+            let found = Rank { rank: 0, name, method: method.name.clone(), seconds: least, noise };
+            match reached.iter_mut().find(|rank| rank.name == found.name) {
+                Some(best) if best.seconds <= least => {}
+                Some(best) => *best = found,
+                None => reached.push(found),
+            }
+        }
+        not_reached.retain(|name| !reached.iter().any(|rank| rank.name == *name));
+        let apart = rank::apart(reached.iter().map(|rank| rank.seconds));
+        let ranks = rank::rank(reached, apart);
+        RankLevel { error: level, note: None, apart, ranks, not_reached }
+    }
+}
+
+impl MethodRuns {
+    /// Formulation, and the integrator where it is not the trapezoidal rule.
+    #[must_use]
+    pub fn family(&self) -> String {
+        match self.integrator.as_str() {
+            "trapezoidal" => self.formulation.clone(),
+            other => format!("{} {other}", self.formulation),
+        }
+    }
+
+    /// Completed runs, from the coarsest.
+    pub(super) fn completed(&self) -> impl Iterator<Item = &RunEntry> {
+        self.runs.iter().filter(|run| run.status == Status::Completed)
+    }
+
+    /// Mean step and error of the completed runs, from the longest step.
+    pub(super) fn errors(&self) -> Vec<(f64, f64)> {
+        let points = self.completed().filter_map(|run| Some((run.mean_step, run.error?)));
+        points.filter(|(h, e)| *h > 0.0 && *e > 0.0).collect()
+    }
+
+    /// Least and second CPU time at an error.
+    fn at_error(&self, level: f64) -> Option<[f64; 2]> {
+        let points: Vec<front::Point<2>> = self.timed().map(|(_, point)| point).collect();
+        front::at_error(&points, level)
+    }
+
+    /// Indices of the runs beside an error.
+    fn beside(&self, level: f64) -> Vec<usize> {
+        let (places, errors): (Vec<usize>, Vec<f64>) =
+            self.timed().map(|(i, (error, _))| (i, error)).unzip();
+        let beside = front::beside(&errors, level);
+        let both = beside.into_iter().flat_map(|b| b.misses.into_iter().chain([b.reaches]));
+        both.map(|i| places[i]).collect()
+    }
+
+    /// Completed runs that were timed, from the coarsest, with their indices.
+    fn timed(&self) -> impl Iterator<Item = (usize, front::Point<2>)> {
+        let runs = self.runs.iter().enumerate();
+        let completed = runs.filter(|(_, run)| run.status == Status::Completed);
+        completed.filter_map(|(i, run)| Some((i, (run.error?, run.two_least()?))))
+    }
+}
+
+impl RunEntry {
+    /// The least and the second CPU time; the same where there is one.
+    #[must_use]
+    pub fn two_least(&self) -> Option<[f64; 2]> {
+        let mut times = self.cpu_seconds.clone();
+        times.sort_by(f64::total_cmp);
+        let least = *times.first()?;
+        (least > 0.0).then(|| [least, times.get(1).copied().unwrap_or(least)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::Reference;
+
+    /// Second order at 1 us a step of 10 s, times `cost`.
+    fn method(formulation: &str, control: &str, cost: f64) -> MethodRuns {
+        let run = |k: i32| {
+            let h = 0.01 * f64::powi(0.5, k);
+            let seconds = cost * 1e-6 * 10.0 / h;
+            RunEntry {
+                setting: h,
+                mean_step: h,
+                status: Status::Completed,
+                error: Some(10.0 * h * h),
+                cpu_seconds: vec![1.03 * seconds, seconds, 1.2 * seconds],
+                ..RunEntry::default()
+            }
+        };
+        MethodRuns {
+            name: format!("{formulation} {control}"),
+            formulation: formulation.to_owned(),
+            integrator: "trapezoidal".to_owned(),
+            control: control.to_owned(),
+            runs: (0..8).map(run).collect(),
+            ..MethodRuns::default()
+        }
+    }
+
+    #[test]
+    fn a_formulation_is_ranked_by_its_fastest_control() {
+        let methods = vec![
+            method("index-3", "fixed", 2.0),
+            method("index-3", "error", 1.0),
+            method("slow", "fixed", 4.0),
+        ];
+        let mut comparison = Comparison { methods, ..Comparison::default() };
+        comparison.digest(&[1e-3, 1e-5, 1e-9]);
+        let ranks = |level: usize| -> Vec<(usize, &str)> {
+            comparison.ranking[level].ranks.iter().map(|r| (r.rank, r.method.as_str())).collect()
+        };
+        assert_eq!(ranks(0), [(1, "index-3 error"), (2, "slow fixed")]);
+        assert_eq!(ranks(1), ranks(0));
+        assert_eq!(comparison.ranking[2].not_reached, ["index-3", "slow"]);
+        assert!((comparison.methods[0].fit.as_ref().unwrap().order.unwrap() - 2.0).abs() < 1e-9);
+        // 1e-3 lies at the first run; beside 1e-5, at h = 1e-3, are the fourth and the fifth
+        assert_eq!(
+            comparison.decisive(&[1e-3, 1e-5]),
+            [(1, 0), (1, 3), (1, 4), (2, 0), (2, 3), (2, 4)]
+        );
+        // h = 1e-3 at an error of 1e-5
+        assert!((comparison.methods[0].at_error[1].unwrap() - 0.02).abs() < 1e-9);
+    }
+
+    #[test]
+    fn errors_that_the_reference_cannot_tell_are_marked_and_not_ranked() {
+        let reference = Reference { uncertainty: 1e-6, ..Reference::default() };
+        let methods = vec![method("index-3", "fixed", 1.0)];
+        let mut comparison = Comparison { reference, methods, ..Comparison::default() };
+        comparison.digest(&[1e-3, 2e-6]);
+        assert!(comparison.ranking[1].note.is_some() && comparison.ranking[1].ranks.is_empty());
+        let marked: Vec<bool> =
+            comparison.methods[0].runs.iter().map(|run| run.is_below_reference).collect();
+        assert_eq!(marked, [false, false, false, false, false, true, true, true]);
+    }
+}

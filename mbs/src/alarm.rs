@@ -1,0 +1,46 @@
+//! The alarm of a run: its energy invariant has drifted too far.
+
+use crate::simulation::Simulation;
+use crate::stop::StopError;
+use crate::tree::{InSpace, Plane};
+use mbs_core::Real;
+
+/// Steps in a row, or less at the end of a run, that it may be off by more: the first steps from rest turn little over, and
+/// their error may be large beside that and small beside what follows.
+const PATIENCE: u32 = 10;
+
+/// Steps in a row after which the invariant was off.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Alarm {
+    /// Share of the energy turned over that it may be off by.
+    share: f64,
+    off: u32,
+}
+
+impl Alarm {
+    pub(crate) fn new(share: f64) -> Self {
+        Self { share, off: 0 }
+    }
+
+    /// Has the invariant drifted too far after this step?
+    pub(crate) fn rings<T: Real, const D: usize>(
+        &mut self,
+        simulation: &Simulation<T, D>,
+        is_last: bool,
+    ) -> Option<StopError>
+    where
+        Plane<D>: InSpace<T>,
+    {
+        let invariant = simulation.invariant();
+        let is_off = invariant.is_off(self.share);
+        let (error, turned_over) = (invariant.error().abs(), invariant.turned_over());
+        self.off = if is_off { self.off + 1 } else { 0 };
+        let is_stop = self.off >= PATIENCE || (is_off && is_last) || !error.is_finite();
+        is_stop.then(|| StopError::Energy {
+            error,
+            turned_over,
+            share: self.share,
+            owner: simulation.most_loaded(),
+        })
+    }
+}

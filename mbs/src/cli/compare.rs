@@ -1,0 +1,266 @@
+//! `mbs compare SCENE`.
+
+use super::{STOPPED, files, refuse};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use mbs::compare::{CompareError, Earlier, Request, Watch, compare};
+use mbs::{FORMULATIONS, Formulation, PRECISIONS, Precision};
+use mbs_scene::compare::{Comparison, Status, comparison_page, write_comparison};
+use std::io::{IsTerminal, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Arguments of `mbs compare`.
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Scene file (TOML).
+    scene: PathBuf,
+    /// Formulations, such as index-3,recursive; left out: all.
+    #[arg(long, value_name = "F,..", value_delimiter = ',')]
+    formulation: Vec<String>,
+    /// Precisions: f64, f32; left out: both.
+    #[arg(long, value_name = "P,..", value_delimiter = ',')]
+    precision: Vec<String>,
+    /// Steps [s]; left out: from 10 times that of the scene to 1/32 of it, as far as the budget goes.
+    #[arg(long, value_name = "H,..", value_delimiter = ',', allow_negative_numbers = true)]
+    steps: Vec<f64>,
+    /// Tolerances of controlled steps; left out: from 1e-3 to 1e-10, as far as the budget goes.
+    #[arg(long, value_name = "E,..", value_delimiter = ',', allow_negative_numbers = true)]
+    tolerances: Vec<f64>,
+    /// Errors at which methods are ranked; left out: 1e-2,1e-4,1e-6.
+    #[arg(long, value_name = "E,..", value_delimiter = ',', allow_negative_numbers = true)]
+    error: Vec<f64>,
+    /// Duration [s]; left out: the scene's.
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    duration: Option<f64>,
+    /// Times that each run is timed at least; more where they differ.
+    #[arg(long, value_name = "N", default_value_t = Request::default().repeats)]
+    repeats: u32,
+    /// CPU time of a run at most [s].
+    #[arg(long, value_name = "S", default_value_t = Request::default().time_limit, allow_negative_numbers = true)]
+    time_limit: f64,
+    /// Work of all runs together [s], roughly: it decides how far steps are refined where none are given.
+    #[arg(long, value_name = "S", default_value_t = Request::default().budget, allow_negative_numbers = true)]
+    budget: f64,
+    /// Table that errors are taken against, with the columns of run.csv; left out: references/NAME.csv beside the scene
+    /// NAME.toml if it is there, else runs that are not under test.
+    #[arg(long, value_name = "FILE")]
+    reference: Option<PathBuf>,
+    /// Leave out the convergence maps over step and penalty.
+    #[arg(long)]
+    no_maps: bool,
+    /// Directory for compare.csv, compare.json, compare.html, and for the journal that a later start goes on from; made if
+    /// missing.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Go on from the runs that an earlier start left in the directory.
+    #[arg(long, requires = "out", conflicts_with = "restart")]
+    resume: bool,
+    /// Throw away what an earlier start left in the directory.
+    #[arg(long, requires = "out")]
+    restart: bool,
+    /// One JSON object on standard output and nothing else.
+    #[arg(long)]
+    json: bool,
+}
+
+impl Arguments {
+    fn request(&self) -> Result<Request, String> {
+        let plain = Request::default();
+        // `auto` stands before the formulations
+        let formulation =
+            |name: &String| named("formulation", name, &FORMULATIONS[1..], &Formulation::ALL);
+        let precision = |name: &String| {
+            named("precision", name, &PRECISIONS, &[Precision::F32, Precision::F64])
+        };
+        Ok(Request {
+            formulations: self.formulation.iter().map(formulation).collect::<Result<_, _>>()?,
+            precisions: self.precision.iter().map(precision).collect::<Result<_, _>>()?,
+            steps: self.steps.clone(),
+            tolerances: self.tolerances.clone(),
+            errors: if self.error.is_empty() { plain.errors } else { self.error.clone() },
+            duration: self.duration,
+            repeats: self.repeats,
+            time_limit: self.time_limit,
+            budget: self.budget,
+            maps: !self.no_maps,
+        })
+    }
+
+    /// The reference table: the one given, or the one beside the scene; its name and text.
+    fn table(&self) -> Result<Option<(String, String)>, String> {
+        let name = self.scene.with_extension("csv");
+        let folder = self.scene.parent().unwrap_or(Path::new("")).join("references");
+        let beside = folder.join(name.file_name().unwrap_or_default());
+        let path = match &self.reference {
+            Some(path) => path.clone(),
+            None if beside.is_file() => beside,
+            None => return Ok(None),
+        };
+        let text = std::fs::read_to_string(&path);
+        let text = text.map_err(|error| {
+            format!("error: cannot read `{}`: {error}\nhint: give a CSV file", path.display())
+        })?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Some((name, text)))
+    }
+
+    fn earlier(&self) -> Earlier {
+        match (self.resume, self.restart) {
+            (true, _) => Earlier::Resume,
+            (_, true) => Earlier::Restart,
+            _ => Earlier::Refuse,
+        }
+    }
+
+    /// The command line that makes the same comparison.
+    fn command(&self) -> String {
+        let plain = Request::default();
+        let join =
+            |numbers: &[f64]| numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
+        let list = |numbers: &[f64]| (!numbers.is_empty()).then(|| join(numbers));
+        let words = |words: &[String]| (!words.is_empty()).then(|| words.join(","));
+        let unusual = |x: f64, usual: f64| (x.total_cmp(&usual).is_ne()).then(|| x.to_string());
+        let options = [
+            ("formulation", words(&self.formulation)),
+            ("precision", words(&self.precision)),
+            ("steps", list(&self.steps)),
+            ("tolerances", list(&self.tolerances)),
+            ("error", list(&self.error)),
+            ("duration", self.duration.map(|x| x.to_string())),
+            ("repeats", (self.repeats != plain.repeats).then(|| self.repeats.to_string())),
+            ("time-limit", unusual(self.time_limit, plain.time_limit)),
+            ("budget", unusual(self.budget, plain.budget)),
+            ("reference", self.reference.as_ref().map(|path| path.display().to_string())),
+        ];
+        let mut command = format!("mbs compare {}", self.scene.display());
+        for (key, value) in options {
+            if let Some(value) = value {
+                command.push_str(&format!(" --{key} {value}"));
+            }
+        }
+        command + if self.no_maps { " --no-maps" } else { "" }
+    }
+}
+
+fn named<U: Copy>(
+    key: &str,
+    name: &str,
+    names: &[&'static str],
+    values: &[U],
+) -> Result<U, String> {
+    let place = names.iter().position(|n| *n == name);
+    place.and_then(|i| values.get(i).copied()).ok_or_else(|| {
+        let hint = mbs_scene::suggestion(name, names, "built are");
+        format!("error: unknown {key} `{name}`\nhint: {hint}")
+    })
+}
+
+/// Runs the command.
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    match run(arguments) {
+        Ok(comparison) => tell(&comparison, arguments),
+        Err(refusal) => refuse(&refusal),
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<Comparison, String> {
+    let request = arguments.request()?;
+    let document = files::document(&arguments.scene, "scene file")?;
+    let table = arguments.table()?;
+    if let Some(out) = &arguments.out {
+        files::prepare(out, "compare.csv").map_err(|error| files::unwritable(out, &error))?;
+    }
+    let mut bar = Bar::new(arguments.json);
+    let table = table.as_ref().map(|(name, text)| (name.as_str(), text.as_str()));
+    let place = (arguments.out.as_deref(), arguments.earlier());
+    let comparison = compare(&document, &request, table, place, &mut bar);
+    bar.bar.finish_and_clear();
+    let mut comparison = comparison.map_err(|error| match &error {
+        CompareError::Read(read) => read.render(),
+        other => format!("error: {other}\nhint: {}", other.hint()),
+    })?;
+    let origin = &mut comparison.provenance;
+    origin.command = arguments.command();
+    origin.version = format!("mbs {}", env!("CARGO_PKG_VERSION"));
+    origin.commit = option_env!("MBS_COMMIT").unwrap_or_default().to_owned();
+    origin.build = build();
+    origin.cpu = files::processor();
+    Ok(comparison)
+}
+
+/// Profile and vector instructions of this build.
+fn build() -> String {
+    let profile = if cfg!(debug_assertions) { "with debug assertions" } else { "release" };
+    let wide = match (cfg!(target_feature = "avx512f"), cfg!(target_feature = "avx2")) {
+        (true, _) => "AVX-512",
+        (_, true) => "AVX2",
+        _ => "no wider vectors than the target's baseline",
+    };
+    format!("{profile}; {}; {wide}", std::env::consts::ARCH)
+}
+
+/// Files, then JSON or tables. Runs that fail are results; the exit status is that of a run that stopped if no run was completed.
+fn tell(comparison: &Comparison, arguments: &Arguments) -> ExitCode {
+    if let Some(out) = &arguments.out
+        && let Err(error) = write_files(comparison, out)
+    {
+        return refuse(&files::unwritable(out, &error));
+    }
+    let mut text = if arguments.json { comparison.to_json() } else { comparison.report().text() };
+    if let (Some(out), false) = (&arguments.out, arguments.json) {
+        text +=
+            &format!("\nwrote compare.csv, compare.json and compare.html to {}\n", out.display());
+    }
+    // A reader that has gone away is no error of the command.
+    let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
+    let mut runs = comparison.methods.iter().flat_map(|method| &method.runs);
+    let is_any = runs.any(|run| run.status == Status::Completed);
+    if is_any { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) }
+}
+
+fn write_files(comparison: &Comparison, out: &Path) -> std::io::Result<()> {
+    write_comparison(std::fs::File::create(out.join("compare.csv"))?, comparison)?;
+    std::fs::write(out.join("compare.json"), comparison.to_json() + "\n")?;
+    std::fs::write(out.join("compare.html"), comparison_page(comparison))
+}
+
+/// A progress bar on a terminal; elsewhere the plan only, and with JSON nothing.
+struct Bar {
+    bar: ProgressBar,
+    is_quiet: bool,
+}
+
+/// Ticks of the whole.
+const TICKS: f64 = 1000.0;
+
+impl Bar {
+    fn new(quiet: bool) -> Self {
+        let target = if quiet || !std::io::stderr().is_terminal() {
+            ProgressDrawTarget::hidden()
+        } else {
+            ProgressDrawTarget::stderr()
+        };
+        let bar = ProgressBar::with_draw_target(Some(1000), target);
+        let style = ProgressStyle::with_template("{wide_bar} {percent:>3} %  {msg}");
+        Self { bar: style.map_or(bar.clone(), |style| bar.with_style(style)), is_quiet: quiet }
+    }
+}
+
+impl Watch for Bar {
+    fn plan(&mut self, text: &str) {
+        if !self.is_quiet {
+            self.bar.suspend(|| eprintln!("{text}"));
+        }
+    }
+
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a share between 0 and 1000"
+    )]
+    fn doing(&mut self, share: f64, doing: &str) {
+        self.bar.set_position((TICKS * share.clamp(0.0, 1.0)) as u64);
+        self.bar.set_message(doing.to_owned());
+    }
+}

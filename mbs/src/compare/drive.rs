@@ -1,0 +1,123 @@
+//! Steps from instant to instant, and who watches them.
+
+use super::ladder::Instants;
+use crate::simulation::Simulation;
+use crate::stop::StopError;
+use crate::tree::{InSpace, Plane};
+use mbs_core::Real;
+use mbs_core::control::Accepted;
+
+/// What a run does.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Course {
+    pub(super) instants: Instants,
+    /// Steps between two instants, where their length is fixed.
+    pub(super) between: Option<u64>,
+}
+
+/// Watches a run; does nothing by default.
+pub(super) trait Watcher<T: Real, const D: usize>
+where
+    Plane<D>: InSpace<T>,
+{
+    /// A step was made; `is_last`: it ends the run.
+    ///
+    /// # Errors
+    /// What stops the run.
+    fn step(
+        &mut self,
+        simulation: &Simulation<T, D>,
+        accepted: &Accepted<T>,
+        is_last: bool,
+    ) -> Result<(), StopError> {
+        let _ = (simulation, accepted, is_last);
+        Ok(())
+    }
+
+    /// An instant is reached. Says whether to go on.
+    fn instant(&mut self, simulation: &Simulation<T, D>) -> bool {
+        let _ = simulation;
+        true
+    }
+}
+
+impl<T: Real, const D: usize> Watcher<T, D> for () where Plane<D>: InSpace<T> {}
+
+/// Steps a simulation from its start over all instants.
+///
+/// # Errors
+/// Why it stopped.
+pub(super) fn drive<T: Real, const D: usize>(
+    simulation: &mut Simulation<T, D>,
+    course: &Course,
+    watcher: &mut impl Watcher<T, D>,
+) -> Result<(), StopError>
+where
+    Plane<D>: InSpace<T>,
+{
+    for k in 0..course.instants.count {
+        let is_last = k + 1 == course.instants.count;
+        match course.between {
+            Some(n) => fixed(simulation, (course.instants, n), k, watcher)?,
+            None => {
+                let end = T::from_f64(course.instants.time(k + 1));
+                controlled(simulation, end, is_last, watcher)?;
+            }
+        }
+        if !watcher.instant(simulation) {
+            return Ok(());
+        }
+    }
+    Ok(())
+}
+
+/// The steps of fixed length after instant `k`.
+fn fixed<T: Real, const D: usize>(
+    simulation: &mut Simulation<T, D>,
+    (instants, n): (Instants, u64),
+    k: usize,
+    watcher: &mut impl Watcher<T, D>,
+) -> Result<(), StopError>
+where
+    Plane<D>: InSpace<T>,
+{
+    #[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
+    let float = |n: u64| n as f64;
+    let h = instants.interval / float(n);
+    let dt = T::from_f64(h);
+    let end = instants.time(k + 1);
+    for j in 1..=n {
+        let accepted = simulation.advance(dt).map_err(|error| simulation.explain(error))?;
+        let t = if j == n { end } else { instants.time(k) + float(j) * h };
+        simulation.set_time(T::from_f64(t));
+        watcher.step(simulation, &accepted, j == n && k + 1 == instants.count)?;
+    }
+    Ok(())
+}
+
+/// Steps of controlled length up to `end` [s]. An integrator that controls its own takes them within one.
+fn controlled<T: Real, const D: usize>(
+    simulation: &mut Simulation<T, D>,
+    end: T,
+    is_last: bool,
+    watcher: &mut impl Watcher<T, D>,
+) -> Result<(), StopError>
+where
+    Plane<D>: InSpace<T>,
+{
+    loop {
+        let rest = end - simulation.state().t;
+        if rest <= T::ZERO {
+            simulation.set_time(end);
+            return Ok(());
+        }
+        let accepted = simulation.advance(rest).map_err(|error| simulation.explain(error))?;
+        if accepted.is_last {
+            simulation.set_time(end);
+        }
+        watcher.step(simulation, &accepted, is_last && accepted.is_last)?;
+        if accepted.is_last {
+            return Ok(());
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! Which steps and tolerances are run, and at which instants runs are compared. None of it depends on a clock: two comparisons of
+//! a scene make the same runs.
+
+/// Steps by default, beside that of the scene.
+const STEPS: [f64; 9] = [10.0, 5.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];
+/// Tolerances by default.
+const TOLERANCES: [f64; 8] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
+/// Instants by default.
+const INSTANTS: usize = 200;
+/// A step fits if it misses by less than this share.
+const FITS: f64 = 1e-6;
+
+/// Work of one iteration for each coordinate and constraint, and besides [s]: roughly what they take on a processor of 3 GHz. A
+/// measure of work that is the same every time, not of time.
+const PER_UNKNOWN: f64 = 1e-7;
+const PER_ITERATION: f64 = 3e-7;
+
+/// Steps to run, from the longest; those that are longer than a tenth of the run are left out.
+pub(super) fn steps(asked: &[f64], of_scene: f64, duration: f64) -> Vec<f64> {
+    let mut steps: Vec<f64> = match asked {
+        [] => {
+            STEPS.iter().map(|factor| factor * of_scene).filter(|h| *h <= duration / 10.0).collect()
+        }
+        asked => asked.iter().map(|h| h.min(duration)).collect(),
+    };
+    if steps.is_empty() {
+        steps.push(of_scene.min(duration));
+    }
+    steps.sort_by(|a, b| b.total_cmp(a));
+    steps.dedup();
+    steps
+}
+
+/// Tolerances to run, from the largest.
+pub(super) fn tolerances(asked: &[f64]) -> Vec<f64> {
+    let mut tolerances = if asked.is_empty() { TOLERANCES.to_vec() } else { asked.to_vec() };
+    tolerances.sort_by(|a, b| b.total_cmp(a));
+    tolerances.dedup();
+    tolerances
+}
+
+/// Equally spaced instants at which runs are compared; every step ends on one, or is made to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Instants {
+    pub(super) count: usize,
+    /// Their distance [s].
+    pub(super) interval: f64,
+}
+
+impl Instants {
+    /// At most 200, no closer than the longest step, and so that the steps fit between them, if that can be had.
+    pub(super) fn new(duration: f64, steps: &[f64]) -> Self {
+        let longest = steps.iter().copied().fold(0.0, f64::max);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to 200")]
+        let most = (duration / longest * (1.0 + FITS)).floor().clamp(1.0, count(INSTANTS)) as usize;
+        let of = |count_: usize| Self { count: count_, interval: duration / count(count_) };
+        let fits = |instants: &Self| {
+            steps.iter().all(|h| {
+                let n = instants.interval / h;
+                (n - n.round()).abs() <= FITS * n
+            })
+        };
+        let candidates = (most.div_ceil(2)..=most).rev().map(of);
+        candidates.into_iter().find(fits).unwrap_or_else(|| of(most))
+    }
+
+    /// Steps between two instants: as many as bring their length nearest to the one that is asked for.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+    pub(super) fn steps_between(&self, step: f64) -> u64 {
+        (self.interval / step).round().max(1.0) as u64
+    }
+
+    /// Time of an instant, from 0 for the start [s].
+    pub(super) fn time(&self, k: usize) -> f64 {
+        count(k) * self.interval
+    }
+}
+
+/// The work of so many iterations of a model with so many coordinates and constraints [s, nominal].
+#[allow(clippy::cast_precision_loss, reason = "a rough number")]
+pub(super) fn work(iterations: u64, unknowns: usize) -> f64 {
+    iterations as f64 * (PER_ITERATION + PER_UNKNOWN * unknowns as f64)
+}
+
+#[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
+pub(super) fn count(n: usize) -> f64 {
+    n as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn default_steps_fit_between_the_instants() {
+        for (duration, step) in [(10.0, 1e-3), (0.03, 1e-5), (6.0, 1e-3), (10.0, 5e-3), (1.0, 1e-2)]
+        {
+            let steps = steps(&[], step, duration);
+            let instants = Instants::new(duration, &steps);
+            assert!((10..=200).contains(&instants.count), "{instants:?}");
+            for h in steps {
+                let n = instants.steps_between(h) as f64;
+                assert!((n * h - instants.interval).abs() < 1e-9 * duration, "{h} {instants:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn steps_that_do_not_fit_are_brought_to_the_nearest_that_do() {
+        let instants = Instants::new(1.0, &[0.03, 0.007]);
+        let h = instants.interval / instants.steps_between(0.007) as f64;
+        assert!((h - 0.007).abs() < 0.001, "{h}");
+        assert_eq!(Instants::new(1.0, &[1.0]).count, 1);
+    }
+
+    #[test]
+    fn what_is_asked_for_is_run_from_the_coarsest() {
+        assert_eq!(steps(&[1e-3, 1e-2, 1e-3], 0.1, 1.0), [1e-2, 1e-3]);
+        assert_eq!(tolerances(&[1e-6, 1e-3]), [1e-3, 1e-6]);
+        assert_eq!(steps(&[], 1.0, 2.0), [0.125, 0.0625, 0.03125]);
+    }
+}

@@ -1,0 +1,158 @@
+//! The methods that are compared: formulation, integrator, what chooses the steps, precision.
+
+use crate::choice::{Formulation, IntegratorKind, Precision};
+use crate::settings::Overrides;
+
+/// What chooses the length of the steps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Control {
+    /// Nothing: the setting is the step.
+    Fixed,
+    /// An estimate of the local error; the setting is its tolerance.
+    Error,
+    /// The energy invariant; the setting is U, and L a hundredth of it.
+    Energy,
+    /// The integrator itself; the setting is its tolerance.
+    Own,
+}
+
+/// A method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Method {
+    pub(super) formulation: Formulation,
+    pub(super) integrator: IntegratorKind,
+    pub(super) control: Control,
+    pub(super) precision: Precision,
+}
+
+/// Formulations in the order in which methods are listed.
+const FORMULATIONS: [Formulation; 6] = [
+    Formulation::Index3,
+    Formulation::Index1,
+    Formulation::MultiIndex,
+    Formulation::Classical,
+    Formulation::StateSpace,
+    Formulation::Recursive,
+];
+
+/// Precisions that are compared: one entry for each that runs.
+pub(super) const PRECISIONS: [Precision; 2] = [Precision::F64, Precision::F32];
+
+/// Ways to step a formulation.
+fn ways(formulation: Formulation) -> Vec<(IntegratorKind, Control)> {
+    use Control::{Energy, Error, Fixed, Own};
+    use IntegratorKind::{Rk4, Rk54, Trapezoidal};
+    match formulation {
+        // its index changes with the step
+        Formulation::MultiIndex => vec![(Trapezoidal, Error), (Trapezoidal, Energy)],
+        Formulation::Recursive => {
+            vec![(Trapezoidal, Fixed), (Trapezoidal, Error), (Rk4, Fixed), (Rk54, Own)]
+        }
+        _ => vec![(Trapezoidal, Fixed), (Trapezoidal, Error)],
+    }
+}
+
+impl Method {
+    /// All that are wanted, by precision; none given means all of that kind.
+    pub(super) fn all(formulations: &[Formulation], precisions: &[Precision]) -> Vec<Self> {
+        let mut methods = Vec::new();
+        for precision in PRECISIONS {
+            if !(precisions.is_empty() || precisions.contains(&precision)) {
+                continue;
+            }
+            for formulation in FORMULATIONS {
+                if !(formulations.is_empty() || formulations.contains(&formulation)) {
+                    continue;
+                }
+                let ways = ways(formulation).into_iter();
+                methods.extend(ways.map(|(integrator, control)| Self {
+                    formulation,
+                    integrator,
+                    control,
+                    precision,
+                }));
+            }
+        }
+        methods
+    }
+
+    /// Its name: what is usual is left out, the precision is not.
+    pub(super) fn name(&self) -> String {
+        let integrator = match self.integrator {
+            IntegratorKind::Trapezoidal => String::new(),
+            other => format!(" {}", other.name()),
+        };
+        let control = match self.control {
+            Control::Error => ", error-controlled",
+            Control::Energy => ", energy-controlled",
+            Control::Fixed | Control::Own => "",
+        };
+        format!("{}{integrator}{control}, {}", self.formulation.name(), self.precision.name())
+    }
+
+    /// Word for its control, in tables.
+    pub(super) fn control(&self) -> &'static str {
+        match self.control {
+            Control::Fixed => "fixed",
+            Control::Error => "error",
+            Control::Energy => "energy",
+            Control::Own => "own",
+        }
+    }
+
+    /// Are its settings steps?
+    pub(super) fn is_fixed(&self) -> bool {
+        self.control == Control::Fixed
+    }
+
+    /// How much more work the next setting is: for a step that is shorter by `ratio`, or a tolerance smaller by that.
+    pub(super) fn growth(&self, ratio: f64) -> f64 {
+        match self.control {
+            Control::Fixed => ratio,
+            // the local error goes with the cube of the step, in rk54 with the fifth power
+            Control::Error | Control::Energy => ratio.cbrt(),
+            Control::Own => ratio.powf(0.2),
+        }
+    }
+
+    /// What a run of it is asked for, between instants `interval` apart, and first (or all) steps of `step` [s].
+    pub(super) fn overrides(&self, setting: f64, step: f64, interval: f64) -> Overrides {
+        let control = match self.control {
+            Control::Fixed | Control::Own => "fixed",
+            Control::Error => "error",
+            Control::Energy => "energy",
+        };
+        let longest = if self.is_fixed() { step } else { interval };
+        Overrides {
+            formulation: Some(self.formulation.name().to_owned()),
+            integrator: Some(self.integrator.name().to_owned()),
+            precision: Some(self.precision.name().to_owned()),
+            step: Some(step.min(longest)),
+            step_max: Some(longest),
+            step_control: Some(control.to_owned()),
+            error_tolerance: (self.control == Control::Error).then_some(setting),
+            energy_tolerance: (self.control == Control::Energy)
+                .then_some([setting, setting / 100.0]),
+            tolerance: (self.control == Control::Own).then_some(setting),
+            ..Overrides::default()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_formulation_is_compared_and_names_are_unique() {
+        let methods = Method::all(&[], &[]);
+        for formulation in Formulation::ALL {
+            assert!(methods.iter().any(|m| m.formulation == formulation), "{formulation:?}");
+        }
+        let mut names: Vec<String> = methods.iter().map(Method::name).collect();
+        names.sort();
+        names.dedup();
+        assert_eq!(names.len(), methods.len());
+        assert_eq!(Method::all(&[Formulation::Classical], &[Precision::F64]).len(), 2);
+    }
+}

@@ -1,0 +1,255 @@
+//! One run of a scene: recorded, with its steps timed one by one, or timed as a whole.
+
+use super::clocked::step_times;
+use super::drive::{Course, Watcher, drive};
+use super::ladder::work;
+use crate::alarm::Alarm;
+use crate::channels::Channels;
+use crate::choice::Precision;
+use crate::settings::Settings;
+use crate::simulation::Simulation;
+use crate::stop::{Names, StopError};
+use crate::tree::{InSpace, Plane};
+use core::time::Duration;
+use cpu_time::ThreadTime;
+use mbs_core::Real;
+use mbs_core::control::Accepted;
+use mbs_core::scene::{Dimension, Scene};
+use mbs_scene::compare::{Energy, RunEntry, Status};
+use mbs_scene::{Channel, Document, ReadError};
+
+/// Runs shorter than this are repeated within one timing, and the least of them is taken [s].
+const SHORT: f64 = 0.01;
+/// But not more often.
+const MOST_FRESH: u32 = 10;
+
+/// A scene in the precisions that run.
+#[derive(Debug)]
+pub(super) struct Scenes {
+    pub(super) double: Scene<f64>,
+    single: Scene<f32>,
+    n_columns: usize,
+}
+
+/// What a recorded run leaves behind.
+#[derive(Debug, Default)]
+pub(super) struct Recorded {
+    /// All components of all channels at the instants reached.
+    pub(super) rows: Vec<Vec<f64>>,
+    /// Everything but errors and times of the whole.
+    pub(super) entry: RunEntry,
+    /// Its work, the same every time [s, nominal].
+    pub(super) work: f64,
+    /// It was given up: it took longer than allowed.
+    pub(super) is_given_up: bool,
+    /// It did not even start.
+    pub(super) is_not_started: bool,
+}
+
+impl Scenes {
+    pub(super) fn new(document: &Document) -> Result<Self, ReadError> {
+        let double = document.scene::<f64>()?;
+        let n_columns = Channel::of_scene(&double).iter().map(|c| c.components.len()).sum();
+        Ok(Self { double, single: document.scene::<f32>()?, n_columns })
+    }
+
+    /// Runs and records, for at most so many seconds of CPU time.
+    pub(super) fn recorded(&self, settings: &Settings, course: &Course, most: f64) -> Recorded {
+        let n = self.n_columns;
+        match (settings.precision, self.double.dimension) {
+            (Precision::F64, Dimension::Planar) => {
+                recorded::<f64, 2>(&self.double, settings, course, (n, most))
+            }
+            (Precision::F64, Dimension::Spatial) => {
+                recorded::<f64, 3>(&self.double, settings, course, (n, most))
+            }
+            (Precision::F32, Dimension::Planar) => {
+                recorded::<f32, 2>(&self.single, settings, course, (n, most))
+            }
+            (Precision::F32, Dimension::Spatial) => {
+                recorded::<f32, 3>(&self.single, settings, course, (n, most))
+            }
+        }
+    }
+
+    /// CPU time of the steps from a fresh start [s]; the least of several where they take little.
+    pub(super) fn timed(&self, settings: &Settings, course: &Course) -> Option<f64> {
+        match (settings.precision, self.double.dimension) {
+            (Precision::F64, Dimension::Planar) => timed::<f64, 2>(&self.double, settings, course),
+            (Precision::F64, Dimension::Spatial) => timed::<f64, 3>(&self.double, settings, course),
+            (Precision::F32, Dimension::Planar) => timed::<f32, 2>(&self.single, settings, course),
+            (Precision::F32, Dimension::Spatial) => timed::<f32, 3>(&self.single, settings, course),
+        }
+    }
+}
+
+fn timed<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    course: &Course,
+) -> Option<f64>
+where
+    Plane<D>: InSpace<T>,
+{
+    let (mut least, mut sum) = (None::<f64>, 0.0);
+    for _ in 0..MOST_FRESH {
+        let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
+        let clock = ThreadTime::now();
+        drive(&mut simulation, course, &mut ()).ok()?;
+        let seconds = clock.elapsed().as_secs_f64();
+        least = Some(least.map_or(seconds, |least| least.min(seconds)));
+        sum += seconds;
+        if sum >= SHORT {
+            break;
+        }
+    }
+    least
+}
+
+fn recorded<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    course: &Course,
+    (n_columns, most): (usize, f64),
+) -> Recorded
+where
+    Plane<D>: InSpace<T>,
+{
+    let started = Simulation::<T, D>::new(scene, settings).and_then(|simulation| {
+        let channels = Channels::new(scene, simulation.model())?;
+        Ok((simulation, channels))
+    });
+    let (mut simulation, channels) = match started {
+        Ok(both) => both,
+        Err(error) => {
+            let failure = Some(error.report(0.0, &Names::new(scene)));
+            let entry = RunEntry { status: Status::Failed, failure, ..RunEntry::default() };
+            return Recorded { entry, is_not_started: true, ..Recorded::default() };
+        }
+    };
+    let mut recorder = Recorder {
+        channels,
+        alarm: Alarm::new(settings.energy_alarm),
+        row: vec![0.0; n_columns],
+        rows: Vec::new(),
+        most: Duration::from_secs_f64(most),
+        violation: simulation.start.residual.map(Real::to_f64),
+        steps: 0,
+        iterations: 0,
+        reached: 0.0,
+        times: Vec::new(),
+        is_given_up: false,
+        last: Duration::ZERO,
+        start: ThreadTime::now(),
+    };
+    let end = drive(&mut simulation, course, &mut recorder);
+    recorder.finish(&simulation, end.err(), &Names::new(scene))
+}
+
+/// Records a run.
+struct Recorder<T: Real, const D: usize> {
+    channels: Channels<T, D>,
+    alarm: Alarm,
+    row: Vec<f64>,
+    rows: Vec<Vec<f64>>,
+    most: Duration,
+    violation: [f64; 3],
+    steps: u64,
+    iterations: u64,
+    reached: f64,
+    times: Vec<f64>,
+    is_given_up: bool,
+    /// When the step began that is made next.
+    last: Duration,
+    start: ThreadTime,
+}
+
+impl<T: Real, const D: usize> Watcher<T, D> for Recorder<T, D>
+where
+    Plane<D>: InSpace<T>,
+{
+    fn step(
+        &mut self,
+        simulation: &Simulation<T, D>,
+        accepted: &Accepted<T>,
+        is_last: bool,
+    ) -> Result<(), StopError> {
+        let now = self.start.elapsed();
+        let report = &accepted.attempt.report;
+        let steps = report.steps.max(1);
+        self.times.push((now - self.last).as_secs_f64() / f64::from(steps));
+        self.steps += u64::from(steps);
+        self.iterations += u64::from(report.iterations);
+        self.reached = simulation.state().t.to_f64();
+        for (most, v) in self.violation.iter_mut().zip(report.violation) {
+            *most = most.max(v.to_f64());
+        }
+        self.channels.track(simulation.state());
+        let stop = self.alarm.rings(simulation, is_last);
+        self.last = self.start.elapsed();
+        stop.map_or(Ok(()), Err)
+    }
+
+    fn instant(&mut self, simulation: &Simulation<T, D>) -> bool {
+        self.channels.write(simulation.state(), &mut self.row);
+        self.rows.push(self.row.clone());
+        self.last = self.start.elapsed();
+        self.is_given_up = self.last > self.most;
+        !self.is_given_up
+    }
+}
+
+impl<T: Real, const D: usize> Recorder<T, D>
+where
+    Plane<D>: InSpace<T>,
+{
+    fn finish(
+        self,
+        simulation: &Simulation<T, D>,
+        stop: Option<StopError>,
+        names: &Names,
+    ) -> Recorded {
+        let invariant = simulation.invariant();
+        let finite = |x: f64| x.is_finite().then_some(x);
+        let [coordinates, constraints, _] = simulation.sizes();
+        #[allow(clippy::cast_precision_loss, reason = "a mean")]
+        let mean_step = if self.steps > 0 { self.reached / self.steps as f64 } else { 0.0 };
+        let entry = RunEntry {
+            status: if stop.is_some() { Status::Failed } else { Status::Completed },
+            failure: stop.map(|error| error.report(self.reached, names)),
+            steps: self.steps,
+            mean_step,
+            iterations: self.iterations,
+            clocked_seconds: self.times.iter().sum(),
+            energy: Energy {
+                max_error: finite(invariant.max_error()),
+                turned_over: finite(invariant.turned_over()),
+                drift: finite(invariant.drift()),
+                scatter: finite(invariant.scatter()),
+            },
+            violation: self.violation.map(|v| if v.is_finite() { v } else { f64::MAX }),
+            step_times: step_times(self.times, reading()),
+            ..RunEntry::default()
+        };
+        Recorded {
+            rows: self.rows,
+            work: work(self.iterations, coordinates + constraints),
+            entry,
+            is_given_up: self.is_given_up,
+            is_not_started: false,
+        }
+    }
+}
+
+/// CPU time of reading the clock: the middle of many.
+fn reading() -> f64 {
+    let clock = ThreadTime::now();
+    let mut times: Vec<Duration> = (0..101)
+        .map(|_| {
+            let before = clock.elapsed();
+            clock.elapsed() - before
+        })
+        .collect();
+    times.sort();
+    times[times.len() / 2].as_secs_f64()
+}

@@ -1,0 +1,165 @@
+//! Makes the reference: by candidates, the best first.
+
+use super::ladder::count;
+use super::method::{Control, Method};
+use super::reference::{Known, Pair, Rows};
+use super::store::Store;
+use super::{CompareError, Study, drive::Course, table};
+use crate::choice::{Formulation, IntegratorKind, Precision};
+use crate::settings::Settings;
+use mbs_scene::compare::Status;
+use serde_json::{Value, json};
+
+/// A run of the reference may take so many times what others may.
+const PATIENCE: f64 = 10.0;
+/// Tolerances of the reference's two runs, the best pair first.
+const TOLERANCES: [[f64; 2]; 3] = [[1e-13, 1e-12], [1e-11, 1e-10], [1e-9, 1e-8]];
+/// Steps of the check beside that of the scene; each is halved twice. A third of the work of all runs is not exceeded.
+const STEPS: [f64; 4] = [0.125, 0.25, 0.5, 1.0];
+/// Formulations that check, and that serve where there are no relative coordinates.
+const CHECKS: [Formulation; 4] =
+    [Formulation::Index3, Formulation::StateSpace, Formulation::Classical, Formulation::Index1];
+
+impl Study<'_> {
+    /// The reference: a table where one is given; else runs.
+    pub(super) fn known(
+        &self,
+        table: Option<(&str, &str)>,
+        store: &mut Store,
+    ) -> Result<Known, CompareError> {
+        let of = (&self.channels[..], self.length());
+        if let Some((name, text)) = table {
+            let table = table::read(text, &self.channels, &self.instants);
+            return Ok(Known::of_table(table.map_err(CompareError::Table)?, name, of));
+        }
+        let least = self.request.errors.iter().copied().fold(1e-2, f64::min);
+        let mut why = String::from("none was tried");
+        let mut pairs = Vec::new();
+        // further candidates of higher precision come first here
+        if let Some(pair) = self.own_control(store, &mut why)? {
+            pairs.push(pair);
+        }
+        for formulation in CHECKS {
+            if pairs.len() < 2
+                && let Some(pair) = self.extrapolated(formulation, store, &mut why)?
+            {
+                pairs.push(pair);
+            }
+        }
+        let Some(best) = pairs.first() else { return Err(CompareError::NoReference(why)) };
+        Ok(Known::of_runs(best, pairs.get(1), of, (&self.instants, least)))
+    }
+
+    /// Relative coordinates with the explicit integrator of highest order, at two tight tolerances.
+    fn own_control(
+        &self,
+        store: &mut Store,
+        why: &mut String,
+    ) -> Result<Option<Pair>, CompareError> {
+        let method = Method {
+            formulation: Formulation::Recursive,
+            integrator: IntegratorKind::Rk54,
+            control: Control::Own,
+            precision: Precision::F64,
+        };
+        for [fine, coarse] in TOLERANCES {
+            let (rows, coarse_rows) = (
+                self.reference_run(&method, fine, store, why)?,
+                self.reference_run(&method, coarse, store, why)?,
+            );
+            if let (Some(rows), Some(coarse_rows)) = (rows, coarse_rows) {
+                let method =
+                    format!("recursive rk54, f64, at tolerances {fine:.0e} and {coarse:.0e}");
+                return Ok(Some(Pair { method, rows, coarse: coarse_rows }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// A formulation with the trapezoidal rule at three steps, extrapolated.
+    fn extrapolated(
+        &self,
+        formulation: Formulation,
+        store: &mut Store,
+        why: &mut String,
+    ) -> Result<Option<Pair>, CompareError> {
+        let method = Method {
+            formulation,
+            integrator: IntegratorKind::Trapezoidal,
+            control: Control::Fixed,
+            precision: Precision::F64,
+        };
+        let most = self.request.budget / 20.0;
+        let affordable = |factor: &&f64| {
+            let shortest = self.of_scene * **factor / 4.0;
+            let steps = self.instants.steps_between(shortest) * self.instants.count as u64;
+            super::ladder::work(3 * steps, self.unknowns()) <= most
+        };
+        let factor = STEPS.iter().find(affordable).copied().unwrap_or(1.0);
+        let between = self.instants.steps_between(self.of_scene * factor);
+        let mut runs: Vec<Rows> = Vec::new();
+        for halvings in 0..3 {
+            let step = self.instants.interval / count((between as usize) << halvings);
+            match self.reference_run(&method, step, store, why)? {
+                Some(rows) => runs.push(rows),
+                None => return Ok(None),
+            }
+        }
+        let h = mbs_scene::readable(self.instants.interval / count(between as usize));
+        let name = format!(
+            "{}, f64, extrapolated from steps of {h} s, a half and a quarter",
+            formulation.name()
+        );
+        let [a, b, c] = &runs[..] else { return Ok(None) };
+        Ok(Some(Pair::richardson(name, [a, b, c])))
+    }
+
+    /// The rows of a run that goes to the end.
+    fn reference_run(
+        &self,
+        method: &Method,
+        setting: f64,
+        store: &mut Store,
+        why: &mut String,
+    ) -> Result<Option<Rows>, CompareError> {
+        let key = format!("reference {} {setting:e}", method.name());
+        let value = store.get(&key, || self.reference_value(method, setting));
+        let value = value.map_err(CompareError::Journal)?;
+        if let Some(text) = value.get("stopped").and_then(Value::as_str) {
+            *why = format!("{}, {text}", method.name());
+            return Ok(None);
+        }
+        let rows = value.get("rows").cloned().unwrap_or_default();
+        Ok(serde_json::from_value::<Rows>(rows).ok())
+    }
+
+    fn reference_value(&self, method: &Method, setting: f64) -> Value {
+        let step = if method.is_fixed() { setting } else { self.of_scene };
+        let settings = match self.settings(method, setting, step) {
+            Ok(settings) => settings,
+            Err(text) => return json!({ "stopped": text }),
+        };
+        let between = method.is_fixed().then(|| self.instants.steps_between(setting));
+        let course = Course { instants: self.instants, between };
+        let recorded = self.scenes.recorded(&settings, &course, PATIENCE * self.request.time_limit);
+        match (&recorded.entry.failure, recorded.entry.status) {
+            (Some(error), _) => {
+                json!({ "stopped": format!("at t = {} s: {}", error.time, error.message) })
+            }
+            (None, Status::Completed) if !recorded.is_given_up => json!({ "rows": recorded.rows }),
+            _ => json!({ "stopped": "it took longer than ten times the time limit" }),
+        }
+    }
+
+    /// The settings of a run, over the whole duration.
+    pub(super) fn settings(
+        &self,
+        method: &Method,
+        setting: f64,
+        step: f64,
+    ) -> Result<Settings, String> {
+        let mut overrides = method.overrides(setting, step, self.instants.interval);
+        overrides.duration = Some(self.duration);
+        Settings::new(&self.scenes.double, &overrides).map_err(|error| error.to_string())
+    }
+}
