@@ -39,10 +39,11 @@ fn one_step(k: usize, h: f64) -> [f64; 2] {
     [off(h, method.new_state(2, &scratch)), estimate.to_f64()]
 }
 
-/// A step of half the length has an error smaller by 2^(2k+1), and an estimate by 2^(2k−1), but for a tenth by later terms.
+/// A step of half the length has an error smaller by 2^(2k+1), and an estimate by 2^(2k−1), but for a tenth by later terms. With
+/// 8 columns the error is down to 1e-31, where rounding is seen.
 #[test]
 fn k_columns_have_order_2k_and_an_estimate_of_order_2k_less_two() {
-    for k in 3..=8 {
+    for k in 3..=7 {
         let (coarse, fine) = (one_step(k, 0.2), one_step(k, 0.1));
         let power = 2 * k as i32;
         for (i, power) in [power + 1, power - 1].into_iter().enumerate() {
