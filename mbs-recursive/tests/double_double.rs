@@ -3,6 +3,8 @@
 //! Rows come from extrapolations with 30 and 34 digits, of which two settings agree to the digits given; the scenes cite the
 //! same numbers.
 
+#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
+
 use mbs_core::Real;
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
