@@ -1,8 +1,6 @@
 //! The trapezoidal rule in double-double: without rounding its error is a series in the step, which extrapolation takes away.
 #![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
-#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
-
 use mbs_augmented::{Options, Penalty, Workspace, index3};
 use mbs_core::Real;
 use mbs_core::model::State;

@@ -4,8 +4,6 @@
 //! same numbers.
 #![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
-#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
-
 use mbs_core::Real;
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;

@@ -3,6 +3,7 @@
 mod alarm;
 mod channels;
 mod choice;
+pub mod cli;
 pub mod compare;
 mod control;
 mod engine;

@@ -1,9 +1,7 @@
 //! The `mbs` command. Exit status: 0 done, 1 refused (scene or usage), 2 the run could not go on.
 
-mod cli;
-
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    cli::main()
+    mbs::cli::main()
 }

@@ -4,8 +4,8 @@ use super::files::{prepare, scene as load, unwritable};
 use super::run::stopped;
 use super::table::{counted, fixed};
 use super::{STOPPED, refuse};
+use crate::{Names, Place, Still, StopError, words};
 use clap::{Args, ValueEnum};
-use mbs::{Names, Place, Still, StopError, words};
 use mbs_core::scene::{Dimension, Scene};
 use mbs_scene::{Channel, Document};
 use serde_json::{Value, json};
@@ -70,8 +70,8 @@ pub(crate) fn modes(arguments: &Modes) -> ExitCode {
         At::Moving => Place::Moving,
     };
     let analyse = |scene: &Scene<f64>| match scene.dimension {
-        Dimension::Planar => mbs::Modes::new::<2>(scene, place),
-        Dimension::Spatial => mbs::Modes::new::<3>(scene, place),
+        Dimension::Planar => crate::Modes::new::<2>(scene, place),
+        Dimension::Spatial => crate::Modes::new::<3>(scene, place),
     };
     let told = |scene: &Scene<f64>| analyse(scene).map(|m| (m.to_json(), spectrum(&m)));
     command(&arguments.common, "modes.json", told)
@@ -192,7 +192,7 @@ fn told(channel: &Channel, values: &[f64]) -> String {
 }
 
 /// Eigenvalues as a table.
-fn spectrum(m: &mbs::Modes) -> String {
+fn spectrum(m: &crate::Modes) -> String {
     let stable = if m.is_stable() { "stable" } else { "unstable" };
     let mut text = format!(
         "{}: {} about its {}, {stable}\n",

@@ -1,10 +1,10 @@
 //! `mbs compare SCENE`.
 
 use super::{STOPPED, files, refuse};
+use crate::compare::{CompareError, Earlier, Request, Watch, compare};
+use crate::{FORMULATIONS, Formulation, PRECISIONS, Precision};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use mbs::compare::{CompareError, Earlier, Request, Watch, compare};
-use mbs::{FORMULATIONS, Formulation, PRECISIONS, Precision};
 use mbs_scene::compare::{Comparison, Status, comparison_page, write_comparison};
 use std::io::{IsTerminal, Write as _};
 use std::path::{Path, PathBuf};
@@ -18,7 +18,7 @@ pub(crate) struct Arguments {
     /// Formulations, such as index-3,recursive; left out: all.
     #[arg(long, value_name = "F,..", value_delimiter = ',')]
     formulation: Vec<String>,
-    /// Precisions: f64, f32; left out: both.
+    /// Precisions: f64, f32, dd (32 digits, dear); left out: f64 and f32.
     #[arg(long, value_name = "P,..", value_delimiter = ',')]
     precision: Vec<String>,
     /// Steps [s]; left out: from 10 times that of the scene to 1/32 of it, as far as the budget goes.
@@ -71,7 +71,12 @@ impl Arguments {
         let formulation =
             |name: &String| named("formulation", name, &FORMULATIONS[1..], &Formulation::ALL);
         let precision = |name: &String| {
-            named("precision", name, &PRECISIONS, &[Precision::F32, Precision::F64])
+            named(
+                "precision",
+                name,
+                &PRECISIONS,
+                &[Precision::F32, Precision::F64, Precision::DoubleDouble],
+            )
         };
         Ok(Request {
             formulations: self.formulation.iter().map(formulation).collect::<Result<_, _>>()?,

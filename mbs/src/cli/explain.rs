@@ -1,9 +1,9 @@
 //! `mbs explain SCENE`.
 
 use super::{STOPPED, files, refuse};
+use crate::explain::{Effort, explain, report};
+use crate::{Overrides, Precision, Settings, words};
 use clap::Args;
-use mbs::explain::{Effort, explain, report};
-use mbs::{Overrides, Precision, Settings, words};
 use mbs_core::Real;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_scene::{Explanation, Report};

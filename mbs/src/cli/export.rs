@@ -1,9 +1,9 @@
 //! `mbs export SCENE`.
 
 use super::{files, refuse};
+use crate::export::{ExportError, export, ladder};
+use crate::{Overrides, Precision, Settings};
 use clap::Args;
-use mbs::export::{ExportError, export, ladder};
-use mbs::{Overrides, Precision, Settings};
 use mbs_core::scene::Dimension;
 use std::path::PathBuf;
 use std::process::ExitCode;

@@ -1,6 +1,6 @@
 //! Scene files in, result files out, and what to say when that fails.
 
-use mbs::{Settings, SettingsError};
+use crate::{Settings, SettingsError};
 use mbs_core::scene::{Entry, Scene};
 use mbs_scene::{Document, Provenance, readable};
 use std::path::Path;

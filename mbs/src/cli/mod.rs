@@ -59,8 +59,10 @@ pub(crate) const REFUSED: u8 = 1;
 /// Exit status of a run that stopped.
 pub(crate) const STOPPED: u8 = 2;
 
-/// Parses, runs, and gives the exit status.
-pub(crate) fn main() -> ExitCode {
+/// Parses the arguments of the process, runs, and gives the exit status.
+///
+/// It stands in the library, so that the steps of every formulation are compiled once for both.
+pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => {

@@ -1,9 +1,9 @@
 //! `mbs run SCENE`.
 
 use super::{STOPPED, files, refuse, table};
+use crate::{Outcome, Overrides, Precision, Progress, Settings, words};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use mbs::{Outcome, Overrides, Precision, Progress, Settings, words};
 use mbs_core::Real;
 use mbs_core::real::DoubleDouble;
 use mbs_core::scene::{Dimension, Scene};
@@ -185,8 +185,8 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 fn dispatch<T: Real>(scene: &Scene<T>, settings: &Settings, arguments: &Arguments) -> Outcome {
     let mut bar = Bar::new(settings.duration, arguments.json);
     let outcome = match scene.dimension {
-        Dimension::Planar => mbs::run::<T, 2>(scene, settings, &mut bar),
-        Dimension::Spatial => mbs::run::<T, 3>(scene, settings, &mut bar),
+        Dimension::Planar => crate::run::<T, 2>(scene, settings, &mut bar),
+        Dimension::Spatial => crate::run::<T, 3>(scene, settings, &mut bar),
     };
     bar.bar.finish_and_clear();
     outcome
@@ -226,7 +226,7 @@ fn report(
 pub(crate) fn stopped(
     what: &str,
     report: &RunError,
-    error: &mbs::StopError,
+    error: &crate::StopError,
     document: &Document,
 ) -> String {
     let message = format!("{what} {}: {}", words::stopped_at(report), report.message);

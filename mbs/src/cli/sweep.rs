@@ -1,10 +1,10 @@
 //! `mbs sweep SCENE SWEEP`.
 
 use super::{STOPPED, files, refuse, table};
+use crate::sweep::{Report, Study, StudyError, SweepError, Watch};
+use crate::{Overrides, Precision, words};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use mbs::sweep::{Report, Study, StudyError, SweepError, Watch};
-use mbs::{Overrides, Precision, words};
 use mbs_scene::Document;
 use serde_json::json;
 use std::io::{IsTerminal, Write as _};

@@ -1,6 +1,6 @@
 //! The short table at the end of a run.
 
-use mbs::{Outcome, words};
+use crate::{Outcome, words};
 use mbs_scene::{RunSummary, readable};
 use std::fmt::Write;
 use std::path::Path;

@@ -35,18 +35,25 @@ const FORMULATIONS: [Formulation; 6] = [
     Formulation::Recursive,
 ];
 
-/// Precisions that are compared: one entry for each that runs.
-pub(super) const PRECISIONS: [Precision; 2] = [Precision::F64, Precision::F32];
+/// Precisions that are compared; the last one only where it is asked for.
+pub(super) const PRECISIONS: [Precision; 3] =
+    [Precision::F64, Precision::F32, Precision::DoubleDouble];
 
 /// Ways to step a formulation.
 fn ways(formulation: Formulation) -> Vec<(IntegratorKind, Control)> {
     use Control::{Energy, Error, Fixed, Own};
-    use IntegratorKind::{Rk4, Rk54, Trapezoidal};
+    use IntegratorKind::{Extrapolation, Rk4, Rk54, Trapezoidal};
     match formulation {
         // its index changes with the step
         Formulation::MultiIndex => vec![(Trapezoidal, Error), (Trapezoidal, Energy)],
         Formulation::Recursive => {
-            vec![(Trapezoidal, Fixed), (Trapezoidal, Error), (Rk4, Fixed), (Rk54, Own)]
+            vec![
+                (Trapezoidal, Fixed),
+                (Trapezoidal, Error),
+                (Rk4, Fixed),
+                (Rk54, Own),
+                (Extrapolation, Own),
+            ]
         }
         _ => vec![(Trapezoidal, Fixed), (Trapezoidal, Error)],
     }
@@ -57,7 +64,8 @@ impl Method {
     pub(super) fn all(formulations: &[Formulation], precisions: &[Precision]) -> Vec<Self> {
         let mut methods = Vec::new();
         for precision in PRECISIONS {
-            if !(precisions.is_empty() || precisions.contains(&precision)) {
+            let is_usual = precisions.is_empty() && precision != Precision::DoubleDouble;
+            if !(is_usual || precisions.contains(&precision)) {
                 continue;
             }
             for formulation in FORMULATIONS {
@@ -109,8 +117,9 @@ impl Method {
     pub(super) fn growth(&self, ratio: f64) -> f64 {
         match self.control {
             Control::Fixed => ratio,
-            // the local error goes with the cube of the step, in rk54 with the fifth power
+            // the local error goes with the cube of the step, in rk54 with the fifth power, in gbs about with the tenth
             Control::Error | Control::Energy => ratio.cbrt(),
+            Control::Own if self.integrator == IntegratorKind::Extrapolation => ratio.powf(0.1),
             Control::Own => ratio.powf(0.2),
         }
     }

@@ -14,6 +14,7 @@ use core::time::Duration;
 use cpu_time::ThreadTime;
 use mbs_core::Real;
 use mbs_core::control::Accepted;
+use mbs_core::real::DoubleDouble;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_scene::compare::{Energy, RunEntry, Status};
 use mbs_scene::{Channel, Document, ReadError};
@@ -28,6 +29,7 @@ const MOST_FRESH: u32 = 10;
 pub(super) struct Scenes {
     pub(super) double: Scene<f64>,
     single: Scene<f32>,
+    pairs: Scene<DoubleDouble>,
     n_columns: usize,
 }
 
@@ -50,7 +52,8 @@ impl Scenes {
     pub(super) fn new(document: &Document) -> Result<Self, ReadError> {
         let double = document.scene::<f64>()?;
         let n_columns = Channel::of_scene(&double).iter().map(|c| c.components.len()).sum();
-        Ok(Self { double, single: document.scene::<f32>()?, n_columns })
+        let (single, pairs) = (document.scene::<f32>()?, document.scene::<DoubleDouble>()?);
+        Ok(Self { double, single, pairs, n_columns })
     }
 
     /// Runs and records, for at most so many seconds of CPU time.
@@ -69,6 +72,12 @@ impl Scenes {
             (Precision::F32, Dimension::Spatial) => {
                 recorded::<f32, 3>(&self.single, settings, course, (n, most))
             }
+            (Precision::DoubleDouble, Dimension::Planar) => {
+                recorded::<DoubleDouble, 2>(&self.pairs, settings, course, (n, most))
+            }
+            (Precision::DoubleDouble, Dimension::Spatial) => {
+                recorded::<DoubleDouble, 3>(&self.pairs, settings, course, (n, most))
+            }
         }
     }
 
@@ -79,6 +88,12 @@ impl Scenes {
             (Precision::F64, Dimension::Spatial) => timed::<f64, 3>(&self.double, settings, course),
             (Precision::F32, Dimension::Planar) => timed::<f32, 2>(&self.single, settings, course),
             (Precision::F32, Dimension::Spatial) => timed::<f32, 3>(&self.single, settings, course),
+            (Precision::DoubleDouble, Dimension::Planar) => {
+                timed::<DoubleDouble, 2>(&self.pairs, settings, course)
+            }
+            (Precision::DoubleDouble, Dimension::Spatial) => {
+                timed::<DoubleDouble, 3>(&self.pairs, settings, course)
+            }
         }
     }
 }
@@ -130,7 +145,7 @@ where
     let mut recorder = Recorder {
         channels,
         alarm: Alarm::new(settings.energy_alarm),
-        row: vec![0.0; n_columns],
+        row: vec![T::ZERO; n_columns],
         rows: Vec::new(),
         most: Duration::from_secs_f64(most),
         violation: simulation.start.residual.map(Real::to_f64),
@@ -150,7 +165,7 @@ where
 struct Recorder<T: Real, const D: usize> {
     channels: Channels<T, D>,
     alarm: Alarm,
-    row: Vec<f64>,
+    row: Vec<T>,
     rows: Vec<Vec<f64>>,
     most: Duration,
     violation: [f64; 3],
@@ -192,7 +207,7 @@ where
 
     fn instant(&mut self, simulation: &Simulation<T, D>) -> bool {
         self.channels.write(simulation.state(), &mut self.row);
-        self.rows.push(self.row.clone());
+        self.rows.push(self.row.iter().copied().map(Real::to_f64).collect());
         self.last = self.start.elapsed();
         self.is_given_up = self.last > self.most;
         !self.is_given_up

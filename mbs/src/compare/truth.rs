@@ -10,10 +10,13 @@ use crate::settings::Settings;
 use mbs_scene::compare::Status;
 use serde_json::{Value, json};
 
-/// A run of the reference may take so many times what others may.
+/// A run of the reference may take so many times what others may; the dearest kind is tried for no longer than they.
 const PATIENCE: f64 = 10.0;
+const SHORT_PATIENCE: f64 = 1.0;
 /// Tolerances of the reference's two runs, the best pair first.
 const TOLERANCES: [[f64; 2]; 3] = [[1e-13, 1e-12], [1e-11, 1e-10], [1e-9, 1e-8]];
+/// The same in double-double.
+const PAIR_TOLERANCES: [[f64; 2]; 1] = [[1e-20, 1e-18]];
 /// Steps of the check beside that of the scene; each is halved twice. A third of the work of all runs is not exceeded.
 const STEPS: [f64; 4] = [0.125, 0.25, 0.5, 1.0];
 /// Formulations that check, and that serve where there are no relative coordinates.
@@ -35,9 +38,17 @@ impl Study<'_> {
         let least = self.request.errors.iter().copied().fold(1e-2, f64::min);
         let mut why = String::from("none was tried");
         let mut pairs = Vec::new();
-        // further candidates of higher precision come first here
-        if let Some(pair) = self.own_control(store, &mut why)? {
-            pairs.push(pair);
+        use {IntegratorKind as I, Precision as P};
+        let kinds = [
+            ((I::Extrapolation, P::DoubleDouble), (&PAIR_TOLERANCES[..], SHORT_PATIENCE)),
+            ((I::Rk54, P::F64), (&TOLERANCES[..], PATIENCE)),
+        ];
+        for (kind, how) in kinds {
+            if pairs.is_empty()
+                && let Some(pair) = self.own_control(kind, how, store, &mut why)?
+            {
+                pairs.push(pair);
+            }
         }
         for formulation in CHECKS {
             if pairs.len() < 2
@@ -50,26 +61,27 @@ impl Study<'_> {
         Ok(Known::of_runs(best, pairs.get(1), of, (&self.instants, least)))
     }
 
-    /// Relative coordinates with the explicit integrator of highest order, at two tight tolerances.
+    /// Relative coordinates with an explicit integrator that controls its error, at two tight tolerances.
     fn own_control(
         &self,
+        (integrator, precision): (IntegratorKind, Precision),
+        (tolerances, patience): (&[[f64; 2]], f64),
         store: &mut Store,
         why: &mut String,
     ) -> Result<Option<Pair>, CompareError> {
         let method = Method {
             formulation: Formulation::Recursive,
-            integrator: IntegratorKind::Rk54,
+            integrator,
             control: Control::Own,
-            precision: Precision::F64,
+            precision,
         };
-        for [fine, coarse] in TOLERANCES {
-            let (rows, coarse_rows) = (
-                self.reference_run(&method, fine, store, why)?,
-                self.reference_run(&method, coarse, store, why)?,
-            );
-            if let (Some(rows), Some(coarse_rows)) = (rows, coarse_rows) {
+        for &[fine, coarse] in tolerances {
+            // The cheaper run first: where it fails, the other is spared.
+            let coarse_rows = self.reference_run(&method, (coarse, patience), store, why)?;
+            let Some(coarse_rows) = coarse_rows else { continue };
+            if let Some(rows) = self.reference_run(&method, (fine, patience), store, why)? {
                 let method =
-                    format!("recursive rk54, f64, at tolerances {fine:.0e} and {coarse:.0e}");
+                    format!("{}, at tolerances {fine:.0e} and {coarse:.0e}", method.name());
                 return Ok(Some(Pair { method, rows, coarse: coarse_rows }));
             }
         }
@@ -100,7 +112,7 @@ impl Study<'_> {
         let mut runs: Vec<Rows> = Vec::new();
         for halvings in 0..3 {
             let step = self.instants.interval / count((between as usize) << halvings);
-            match self.reference_run(&method, step, store, why)? {
+            match self.reference_run(&method, (step, PATIENCE), store, why)? {
                 Some(rows) => runs.push(rows),
                 None => return Ok(None),
             }
@@ -118,12 +130,12 @@ impl Study<'_> {
     fn reference_run(
         &self,
         method: &Method,
-        setting: f64,
+        (setting, patience): (f64, f64),
         store: &mut Store,
         why: &mut String,
     ) -> Result<Option<Rows>, CompareError> {
         let key = format!("reference {} {setting:e}", method.name());
-        let value = store.get(&key, || self.reference_value(method, setting));
+        let value = store.get(&key, || self.reference_value(method, setting, patience));
         let value = value.map_err(CompareError::Journal)?;
         if let Some(text) = value.get("stopped").and_then(Value::as_str) {
             *why = format!("{}, {text}", method.name());
@@ -133,7 +145,7 @@ impl Study<'_> {
         Ok(serde_json::from_value::<Rows>(rows).ok())
     }
 
-    fn reference_value(&self, method: &Method, setting: f64) -> Value {
+    fn reference_value(&self, method: &Method, setting: f64, patience: f64) -> Value {
         let step = if method.is_fixed() { setting } else { self.of_scene };
         let settings = match self.settings(method, setting, step) {
             Ok(settings) => settings,
@@ -141,13 +153,13 @@ impl Study<'_> {
         };
         let between = method.is_fixed().then(|| self.instants.steps_between(setting));
         let course = Course { instants: self.instants, between };
-        let recorded = self.scenes.recorded(&settings, &course, PATIENCE * self.request.time_limit);
+        let recorded = self.scenes.recorded(&settings, &course, patience * self.request.time_limit);
         match (&recorded.entry.failure, recorded.entry.status) {
             (Some(error), _) => {
                 json!({ "stopped": format!("at t = {} s: {}", error.time, error.message) })
             }
             (None, Status::Completed) if !recorded.is_given_up => json!({ "rows": recorded.rows }),
-            _ => json!({ "stopped": "it took longer than ten times the time limit" }),
+            _ => json!({ "stopped": "it took longer than the reference may" }),
         }
     }
 

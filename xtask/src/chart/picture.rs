@@ -28,10 +28,10 @@ pub(crate) fn picture(chart: &Chart) -> Result<String, String> {
         let has_line = matches!(series.look, Look::Line | Look::Both);
         let sample = Style::of(series.style).sample(has_line, series.look != Look::Line);
         // Writing to a string cannot fail.
-        let _ = write!(
+        let _ = writeln!(
             legend,
             "<g transform=\"translate({x},{y})\">{sample}<text x=\"46\" y=\"12\" font-family=\"sans-serif\" font-size=\"14\" \
-             fill=\"{INK}\">{}</text></g>\n",
+             fill=\"{INK}\">{}</text></g>",
             escape(&series.name)
         );
     }
