@@ -57,6 +57,19 @@ impl Mbs {
     }
 }
 
+impl Mbs {
+    /// Compares the methods on a scene, with about so much work [s], and leaves the files in a folder.
+    ///
+    /// # Errors
+    ///
+    /// The command, and what it came to.
+    pub(crate) fn compare(&self, scene: &Path, out: &Path, budget: &str) -> Result<(), String> {
+        let mut command = Command::new(&self.path);
+        command.args(["compare", "--restart", "--budget", budget]).arg("--out").arg(out).arg(scene);
+        process::run(&mut command)
+    }
+}
+
 /// The path of a scene of this repository.
 pub(crate) fn scene(name: &str) -> PathBuf {
     process::root().join("scenes").join(format!("{name}.toml"))

@@ -3,16 +3,21 @@
 use crate::bench;
 use crate::page::{escape, words};
 use crate::process;
+use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
 /// A page: its file, what it shows, and the command that makes it alone.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Page {
-    file: &'static str,
+    /// Where it lies in the folder.
+    pub(super) file: &'static str,
     title: &'static str,
     shows: &'static str,
-    command: &'static str,
+    /// The command that makes it alone.
+    pub(super) command: &'static str,
+    /// The scene it is about, where it is about one.
+    pub(super) scene: &'static str,
 }
 
 /// The report's tables.
@@ -22,6 +27,7 @@ pub(super) const TABLES: Page = Page {
     shows: "Errors and times of every method and step that the founding report prints, beside its numbers; grades G1 and G2 by \
             rules from runs; step size and energy of the suspension (F6, F7); processors (T6, T7).",
     command: "cargo xtask tables",
+    scene: "",
 };
 /// Variable steps.
 pub(super) const STEPS: Page = Page {
@@ -30,6 +36,7 @@ pub(super) const STEPS: Page = Page {
     shows: "What choosing the steps gains, by the energy, by an estimate of the error, with and without a change of index, and \
             where steps end at events.",
     command: "cargo xtask steps",
+    scene: "",
 };
 /// Times and threads.
 pub(super) const BENCH: Page = Page {
@@ -38,7 +45,41 @@ pub(super) const BENCH: Page = Page {
     shows: "Times and phases of a step in each formulation, faer beside our factorisation, speed-up over threads, orders of \
             elimination.",
     command: "cargo xtask bench",
+    scene: "",
 };
+
+/// A comparison of all methods on a scene.
+macro_rules! compared {
+    ($scene:literal, $shows:literal) => {
+        Page {
+            file: concat!("compare/", $scene, "/compare.html"),
+            title: concat!("What accuracy costs: ", $scene),
+            shows: $shows,
+            command: concat!("mbs compare scenes/", $scene, ".toml --out out"),
+            scene: $scene,
+        }
+    };
+}
+
+/// The scenes on which all methods are compared.
+pub(super) const COMPARED: [Page; 4] = [
+    compared!(
+        "double-pendulum",
+        "Two links, smooth motion: CPU time against true error of every method."
+    ),
+    compared!(
+        "andrews",
+        "A stiff small mechanism with loops: CPU time against true error of every method."
+    ),
+    compared!(
+        "iltis-suspension",
+        "A suspension over a bump: CPU time against true error of every method."
+    ),
+    compared!(
+        "iltis-stairs",
+        "A whole vehicle over stairs: CPU time against true error of every method."
+    ),
+];
 
 /// A page that was made.
 #[derive(Debug, Clone)]
@@ -56,7 +97,7 @@ impl Entry {
     }
 
     fn card(&self) -> String {
-        let Page { file, title, shows, command } = self.page;
+        let Page { file, title, shows, command, .. } = self.page;
         let minutes = self.seconds / 60.0;
         let mut html = format!(
             "<section class=\"card\">\n<h2><a href=\"{file}\">{}</a></h2>\n<p>{}</p>\n<p class=\"soft\"><code>{command}</code>, \
@@ -88,6 +129,23 @@ impl Index {
     /// An empty one.
     pub(super) fn new(quick: bool) -> Self {
         Self { quick, provenance: provenance(), entries: Vec::new() }
+    }
+
+    /// Writes a page, and adds it.
+    pub(super) fn add_page(
+        &mut self,
+        folder: &Path,
+        html: &str,
+        entry: Entry,
+    ) -> Result<(), String> {
+        process::write(&folder.join(entry.page.file), html.as_bytes())?;
+        self.add(folder, entry)
+    }
+
+    /// Adds a page that was written, and writes this one.
+    pub(super) fn add(&mut self, folder: &Path, entry: Entry) -> Result<(), String> {
+        self.entries.push(entry);
+        process::write(&folder.join("index.html"), self.html().as_bytes())
     }
 
     /// Everything that was not as listed.

@@ -2,6 +2,7 @@
 
 mod index;
 
+use crate::mbs::{self, Mbs};
 use crate::{bench, process, steps, tables};
 use index::{Entry, Index};
 use std::process::ExitCode;
@@ -26,11 +27,6 @@ pub(crate) fn report(quick: bool) -> ExitCode {
 fn run(quick: bool) -> Result<Vec<String>, String> {
     let folder = process::target_dir().join("report");
     let mut index = Index::new(quick);
-    let mut add = |file: &str, html: &str, entry: Entry| {
-        process::write(&folder.join(file), html.as_bytes())?;
-        index.entries.push(entry);
-        process::write(&folder.join("index.html"), index.html().as_bytes())
-    };
 
     let clock = Instant::now();
     let made = tables::run(quick, &[])?;
@@ -38,18 +34,33 @@ fn run(quick: bool) -> Result<Vec<String>, String> {
         0 => format!("{} entries; all that stop are known to.", made.entries),
         n => format!("{} entries; {n} did not come to what is listed.", made.entries),
     };
-    add("tables.html", &made.html, Entry::new(&index::TABLES, remark, clock, made.surprises))?;
+    index.add_page(
+        &folder,
+        &made.html,
+        Entry::new(&index::TABLES, remark, clock, made.surprises),
+    )?;
+
+    let mbs = Mbs::build()?;
+    for page in &index::COMPARED {
+        let clock = Instant::now();
+        process::progress(page.command);
+        let out = folder.join(page.file);
+        let out = out.parent().unwrap_or(&folder);
+        mbs.compare(&mbs::scene(page.scene), out, if quick { "10" } else { "60" })?;
+        let remark = "Time against true error, the ranking, and what failed, with its reason.";
+        index.add(&folder, Entry::new(page, remark.to_owned(), clock, Vec::new()))?;
+    }
 
     let clock = Instant::now();
     let made = steps::run(quick, &[])?;
     let [claims, hold] = made.claims;
     let remark = format!("{hold} of {claims} claims hold; the page says which do not.");
-    add("steps.html", &made.html, Entry::new(&index::STEPS, remark, clock, Vec::new()))?;
+    index.add_page(&folder, &made.html, Entry::new(&index::STEPS, remark, clock, Vec::new()))?;
 
     let clock = Instant::now();
     let html = bench::run(&bench::Asked { threads: None, quick, scenes: Vec::new() })?;
     let remark = "Times of this machine, at the load that the page names.".to_owned();
-    add("bench.html", &html, Entry::new(&index::BENCH, remark, clock, Vec::new()))?;
+    index.add_page(&folder, &html, Entry::new(&index::BENCH, remark, clock, Vec::new()))?;
 
     Ok(index.surprises())
 }
