@@ -250,7 +250,7 @@ fn what_is_not_built_is_refused_with_the_list_of_what_is() {
             "index-1, index-3, multi-index, classical, state-space, recursive",
         ),
         (["--integrator", "rk853"], "trapezoidal, newmark"),
-        (["--precision", "dd"], "f32, f64"),
+        (["--precision", "f16"], "f32, f64, dd"),
         (["--threads", "0"], "threads must be positive"),
     ] {
         let output = run(&[&[file.as_str(), "--json"], &arguments[..]].concat());
