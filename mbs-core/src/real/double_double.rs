@@ -77,7 +77,7 @@ impl DoubleDouble {
     }
 
     /// x + y in constants; algorithm 6.
-    #[inline]
+    #[inline(never)]
     pub(super) const fn plus(self, y: Self) -> Self {
         let (s, s_left) = two_sum(self.hi, y.hi);
         if !s.is_finite() {
@@ -90,7 +90,7 @@ impl DoubleDouble {
     }
 
     /// x y in constants; algorithm 10.
-    #[inline]
+    #[inline(never)]
     pub(super) const fn times(self, y: Self) -> Self {
         let (p, left) = two_product(self.hi, y.hi);
         let crossed = self.hi * y.lo + self.lo * y.hi;
@@ -99,7 +99,7 @@ impl DoubleDouble {
     }
 
     /// x y for a number y; algorithm 7, error 3/2 u² + 4 u³, 24 flops.
-    #[inline]
+    #[inline(never)]
     pub(super) const fn times_f64(self, y: f64) -> Self {
         let (p, left) = two_product(self.hi, y);
         let (t, t_left) = fast_two_sum(p, self.lo * y);
@@ -108,7 +108,7 @@ impl DoubleDouble {
     }
 
     /// x / y in constants; algorithm 17.
-    #[inline]
+    #[inline(never)]
     pub(super) const fn over(self, y: Self) -> Self {
         let quotient = self.hi / y.hi;
         if !quotient.is_finite() || !y.hi.is_finite() {
