@@ -220,6 +220,9 @@ pub enum Precision {
 }
 
 impl Precision {
+    /// All, in the order of their names.
+    pub const ALL: [Self; 3] = [Self::F32, Self::F64, Self::DoubleDouble];
+
     /// Its name.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -239,6 +242,7 @@ mod tests {
     fn every_name_that_is_offered_stands_for_something() {
         assert_eq!(Formulation::ALL.map(Formulation::name), FORMULATIONS[1..]);
         assert_eq!(StepRule::ALL.map(StepRule::name), STEP_RULES);
+        assert_eq!(Precision::ALL.map(Precision::name), PRECISIONS);
         assert_eq!(IntegratorKind::ALL.map(IntegratorKind::name), INTEGRATORS);
     }
 }

@@ -207,12 +207,8 @@ impl Settings {
     pub fn new<T: Real>(scene: &Scene<T>, overrides: &Overrides) -> Result<Self, SettingsError> {
         let solver = &scene.solver;
         let (asked, formulation, integrator) = method(solver, overrides)?;
-        let (_, precision) = named(
-            "precision",
-            (&overrides.precision, &None, "f64"),
-            &PRECISIONS,
-            [Precision::F32, Precision::F64, Precision::DoubleDouble],
-        )?;
+        let (_, precision) =
+            named("precision", (&overrides.precision, &None, "f64"), &PRECISIONS, Precision::ALL)?;
         let threads = overrides.threads.unwrap_or(1);
         if threads == 0 {
             return Err(SettingsError::NotPositive { key: "threads", value: 0.0 });

@@ -45,6 +45,14 @@ pub(crate) fn output(command: &mut Command) -> Option<String> {
     out.status.success().then(|| text.trim().to_owned())
 }
 
+/// The commit of the repository, and whether anything was changed since; `None` where it is not asked for with git.
+pub(crate) fn commit() -> Option<String> {
+    let git = |arguments: &[&str]| output(Command::new("git").args(arguments).current_dir(root()));
+    let hash = git(&["rev-parse", "--short", "HEAD"])?;
+    let is_changed = git(&["status", "--porcelain"]).is_none_or(|text| !text.is_empty());
+    Some(format!("{hash}{}", if is_changed { " and changes after it" } else { "" }))
+}
+
 /// A command as one would type it.
 pub(crate) fn line(command: &Command) -> String {
     let program = Path::new(command.get_program());

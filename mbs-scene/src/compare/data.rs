@@ -228,7 +228,7 @@ pub struct RankLevel {
     pub error: f64,
     /// Why there is no ranking at it.
     pub note: Option<String>,
-    /// Neighbours with different ranks differ by more than this factor.
+    /// Up to this factor times are called equal to the fastest of their rank.
     pub apart: f64,
     /// Those that reach it, by rank; those of a rank in the order of the methods.
     pub ranks: Vec<Rank>,

@@ -70,14 +70,7 @@ impl Arguments {
         // `auto` stands before the formulations
         let formulation =
             |name: &String| named("formulation", name, &FORMULATIONS[1..], &Formulation::ALL);
-        let precision = |name: &String| {
-            named(
-                "precision",
-                name,
-                &PRECISIONS,
-                &[Precision::F32, Precision::F64, Precision::DoubleDouble],
-            )
-        };
+        let precision = |name: &String| named("precision", name, &PRECISIONS, &Precision::ALL);
         Ok(Request {
             formulations: self.formulation.iter().map(formulation).collect::<Result<_, _>>()?,
             precisions: self.precision.iter().map(precision).collect::<Result<_, _>>()?,
@@ -188,10 +181,16 @@ fn run(arguments: &Arguments) -> Result<Comparison, String> {
     let origin = &mut comparison.provenance;
     origin.command = arguments.command();
     origin.version = format!("mbs {}", env!("CARGO_PKG_VERSION"));
-    origin.commit = option_env!("MBS_COMMIT").unwrap_or_default().to_owned();
+    origin.commit = commit();
     origin.build = build();
     origin.cpu = files::processor();
     Ok(comparison)
+}
+
+/// The commit, as the one who builds or who starts the command tells it.
+fn commit() -> String {
+    let told = option_env!("MBS_COMMIT").map(str::to_owned);
+    told.or_else(|| std::env::var("MBS_COMMIT").ok()).unwrap_or_default()
 }
 
 /// Profile and vector instructions of this build.

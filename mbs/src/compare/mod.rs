@@ -7,6 +7,7 @@
 mod clocked;
 mod drive;
 mod ladder;
+mod layout;
 mod map;
 mod method;
 mod pass;

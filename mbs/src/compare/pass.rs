@@ -3,6 +3,7 @@
 use super::clocked::step_times;
 use super::drive::{Course, Watcher, drive};
 use super::ladder::work;
+use super::layout::moved;
 use crate::alarm::Alarm;
 use crate::channels::Channels;
 use crate::choice::Precision;
@@ -48,6 +49,25 @@ pub(super) struct Recorded {
     pub(super) is_not_started: bool,
 }
 
+/// Calls a function for the scene in the precision of the settings and in its dimension.
+macro_rules! in_kind {
+    ($scenes:expr, $settings:expr, $call:ident($($argument:expr),*)) => {{
+        let s = $scenes;
+        match ($settings.precision, s.double.dimension) {
+            (Precision::F64, Dimension::Planar) => $call::<f64, 2>(&s.double, $($argument),*),
+            (Precision::F64, Dimension::Spatial) => $call::<f64, 3>(&s.double, $($argument),*),
+            (Precision::F32, Dimension::Planar) => $call::<f32, 2>(&s.single, $($argument),*),
+            (Precision::F32, Dimension::Spatial) => $call::<f32, 3>(&s.single, $($argument),*),
+            (Precision::DoubleDouble, Dimension::Planar) => {
+                $call::<DoubleDouble, 2>(&s.pairs, $($argument),*)
+            }
+            (Precision::DoubleDouble, Dimension::Spatial) => {
+                $call::<DoubleDouble, 3>(&s.pairs, $($argument),*)
+            }
+        }
+    }};
+}
+
 impl Scenes {
     pub(super) fn new(document: &Document) -> Result<Self, ReadError> {
         let double = document.scene::<f64>()?;
@@ -58,43 +78,13 @@ impl Scenes {
 
     /// Runs and records, for at most so many seconds of CPU time.
     pub(super) fn recorded(&self, settings: &Settings, course: &Course, most: f64) -> Recorded {
-        let n = self.n_columns;
-        match (settings.precision, self.double.dimension) {
-            (Precision::F64, Dimension::Planar) => {
-                recorded::<f64, 2>(&self.double, settings, course, (n, most))
-            }
-            (Precision::F64, Dimension::Spatial) => {
-                recorded::<f64, 3>(&self.double, settings, course, (n, most))
-            }
-            (Precision::F32, Dimension::Planar) => {
-                recorded::<f32, 2>(&self.single, settings, course, (n, most))
-            }
-            (Precision::F32, Dimension::Spatial) => {
-                recorded::<f32, 3>(&self.single, settings, course, (n, most))
-            }
-            (Precision::DoubleDouble, Dimension::Planar) => {
-                recorded::<DoubleDouble, 2>(&self.pairs, settings, course, (n, most))
-            }
-            (Precision::DoubleDouble, Dimension::Spatial) => {
-                recorded::<DoubleDouble, 3>(&self.pairs, settings, course, (n, most))
-            }
-        }
+        in_kind!(self, settings, recorded(settings, course, (self.n_columns, most)))
     }
 
-    /// CPU time of the steps from a fresh start [s]; the least of several where they take little.
-    pub(super) fn timed(&self, settings: &Settings, course: &Course) -> Option<f64> {
-        match (settings.precision, self.double.dimension) {
-            (Precision::F64, Dimension::Planar) => timed::<f64, 2>(&self.double, settings, course),
-            (Precision::F64, Dimension::Spatial) => timed::<f64, 3>(&self.double, settings, course),
-            (Precision::F32, Dimension::Planar) => timed::<f32, 2>(&self.single, settings, course),
-            (Precision::F32, Dimension::Spatial) => timed::<f32, 3>(&self.single, settings, course),
-            (Precision::DoubleDouble, Dimension::Planar) => {
-                timed::<DoubleDouble, 2>(&self.pairs, settings, course)
-            }
-            (Precision::DoubleDouble, Dimension::Spatial) => {
-                timed::<DoubleDouble, 3>(&self.pairs, settings, course)
-            }
-        }
+    /// CPU time of the steps from a fresh start [s]; the least of several where they take little. Each turn finds other places in
+    /// memory.
+    pub(super) fn timed(&self, settings: &Settings, course: &Course, turn: u32) -> Option<f64> {
+        in_kind!(self, settings, timed(settings, course, turn))
     }
 }
 
@@ -102,16 +92,19 @@ fn timed<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
     course: &Course,
+    turn: u32,
 ) -> Option<f64>
 where
     Plane<D>: InSpace<T>,
 {
     let (mut least, mut sum) = (None::<f64>, 0.0);
-    for _ in 0..MOST_FRESH {
-        let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
-        let clock = ThreadTime::now();
-        drive(&mut simulation, course, &mut ()).ok()?;
-        let seconds = clock.elapsed().as_secs_f64();
+    for k in 0..MOST_FRESH {
+        let seconds = moved(turn * MOST_FRESH + k, || {
+            let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
+            let clock = ThreadTime::now();
+            drive(&mut simulation, course, &mut ()).ok()?;
+            Some(clock.elapsed().as_secs_f64())
+        })?;
         least = Some(least.map_or(seconds, |least| least.min(seconds)));
         sum += seconds;
         if sum >= SHORT {

@@ -55,6 +55,14 @@ pub(crate) struct Series {
     pub(crate) points: Vec<[f64; 2]>,
 }
 
+impl Series {
+    /// A piece of it for a legend: its line, its mark, or both.
+    pub(crate) fn sample(&self) -> String {
+        let has_line = matches!(self.look, Look::Line | Look::Both);
+        Style::of(self.style).sample(has_line, self.look != Look::Line)
+    }
+}
+
 /// How points are drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Look {
@@ -130,6 +138,11 @@ impl Chart {
     /// A chart without a shaded span.
     pub(crate) fn new(x: Axis, y: Axis, series: Vec<Series>) -> Self {
         Self { x, y, series, shade: None }
+    }
+
+    /// The series that a legend names.
+    pub(crate) fn named(&self) -> impl Iterator<Item = &Series> {
+        self.series.iter().filter(|s| !s.name.is_empty() && !s.points.is_empty())
     }
 
     /// The drawing.

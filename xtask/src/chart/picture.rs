@@ -1,7 +1,6 @@
 //! A drawing with its legend as one SVG file, for documents; its ink is readable on light and on dark paper.
 
-use super::style::Style;
-use super::{Chart, Look, Room};
+use super::{Chart, Room};
 use crate::page::escape;
 use std::fmt::Write;
 
@@ -21,12 +20,10 @@ pub(crate) fn picture(chart: &Chart) -> Result<String, String> {
     let drawing = chart.svg(Room::Wide)?;
     let [line, width] = ENTRY;
     let mut legend = String::new();
-    let named: Vec<_> =
-        chart.series.iter().filter(|s| !s.name.is_empty() && !s.points.is_empty()).collect();
+    let named: Vec<_> = chart.named().collect();
     for (i, series) in named.iter().enumerate() {
         let (x, y) = (i % 4 * width + 40, i / 4 * line + 4);
-        let has_line = matches!(series.look, Look::Line | Look::Both);
-        let sample = Style::of(series.style).sample(has_line, series.look != Look::Line);
+        let sample = series.sample();
         // Writing to a string cannot fail.
         let _ = writeln!(
             legend,
@@ -47,7 +44,7 @@ pub(crate) fn picture(chart: &Chart) -> Result<String, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chart::{Axis, Kind, Series};
+    use crate::chart::{Axis, Kind, Look, Series};
 
     #[test]
     fn a_picture_names_its_lines_and_needs_no_page() {

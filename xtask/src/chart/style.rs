@@ -17,7 +17,7 @@ pub(crate) struct Style {
 }
 
 /// The styles, by their numbers.
-const STYLES: [Style; 6] = [
+const STYLES: [Style; 9] = [
     Style {
         color: RGBColor(31, 119, 220),
         dashes: "",
@@ -52,6 +52,17 @@ const STYLES: [Style; 6] = [
             (-1, 1),
             (-4, 1),
         ],
+    },
+    Style {
+        color: RGBColor(0, 138, 150),
+        dashes: "2 4",
+        corners: &[(0, -5), (2, 0), (0, 5), (-2, 0)],
+    },
+    Style { color: RGBColor(158, 110, 50), dashes: "20 4", corners: &[(-4, 0), (3, -4), (3, 4)] },
+    Style {
+        color: RGBColor(222, 80, 160),
+        dashes: "2 3 9 3",
+        corners: &[(4, 0), (-3, -4), (-3, 4)],
     },
 ];
 
@@ -146,6 +157,6 @@ mod tests {
     fn a_sample_shows_line_and_mark() {
         let both = Style::of(1).sample(true, true);
         assert!(both.contains("stroke-dasharray=\"9 4\"") && both.contains("<polygon"));
-        assert!(!Style::of(7).sample(true, false).contains("<polygon"));
+        assert!(!Style::of(10).sample(true, false).contains("<polygon"));
     }
 }

@@ -114,17 +114,15 @@ impl Lab<'_> {
     }
 }
 
-/// Runs a case with `mbs`; a scene with something appended is written into the folder first.
-///
-/// # Errors
-///
-/// Why it cannot be run at all.
-pub(crate) fn run(
-    mbs: &Mbs,
-    folder: &Path,
-    case: &Case,
-    out: Option<&Path>,
-) -> Result<Outcome, String> {
+/// Runs cases with `mbs`; scenes with something appended are written under the folder first.
+pub(crate) fn runner<'a>(
+    mbs: &'a Mbs,
+    folder: &'a Path,
+) -> impl Fn(&Case, Option<&Path>) -> Result<Outcome, String> + 'a {
+    move |case, out| run(mbs, &folder.join("scenes"), case, out)
+}
+
+fn run(mbs: &Mbs, folder: &Path, case: &Case, out: Option<&Path>) -> Result<Outcome, String> {
     let mut scene = mbs::scene(case.scene);
     if !scene.is_file() {
         return Ok(Outcome::Refused(format!("there is no scene `{}`", case.scene)));

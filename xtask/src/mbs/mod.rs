@@ -66,6 +66,9 @@ impl Mbs {
     pub(crate) fn compare(&self, scene: &Path, out: &Path, budget: &str) -> Result<(), String> {
         let mut command = Command::new(&self.path);
         command.args(["compare", "--restart", "--budget", budget]).arg("--out").arg(out).arg(scene);
+        if let Some(commit) = process::commit() {
+            command.env("MBS_COMMIT", commit);
+        }
         process::run(&mut command)
     }
 }

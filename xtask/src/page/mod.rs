@@ -1,7 +1,6 @@
 //! HTML pages that need nothing else: their frame and style, cells that carry their labels, drawings with their legends.
 
-use crate::chart::style::Style;
-use crate::chart::{Chart, Look, Room, Series};
+use crate::chart::{Chart, Room, Series};
 
 /// The frame of a page, with its style.
 const PAGE: &str = include_str!("page.html");
@@ -28,20 +27,15 @@ pub(crate) fn figure(chart: &Chart, caption: &str) -> Result<String, String> {
     let (wide, narrow) = (chart.svg(Room::Wide)?, chart.svg(Room::Narrow)?);
     Ok(format!(
         "<figure>\n{}<div class=\"wide\">{wide}</div>\n<div class=\"narrow\">{narrow}</div>\n<figcaption class=\"soft\">{}</figcaption>\n</figure>\n",
-        legend(&chart.series),
+        legend(chart),
         words(caption)
     ))
 }
 
 /// The names of the series, each behind a piece of it.
-fn legend(series: &[Series]) -> String {
-    let entry = |s: &Series| {
-        let sample = Style::of(s.style)
-            .sample(matches!(s.look, Look::Line | Look::Both), s.look != Look::Line);
-        format!("<li>{sample} {}</li>", words(&s.name))
-    };
-    let named = series.iter().filter(|s| !s.name.is_empty() && !s.points.is_empty());
-    format!("<ul class=\"legend\">{}</ul>\n", named.map(entry).collect::<String>())
+fn legend(chart: &Chart) -> String {
+    let entry = |s: &Series| format!("<li>{} {}</li>", s.sample(), words(&s.name));
+    format!("<ul class=\"legend\">{}</ul>\n", chart.named().map(entry).collect::<String>())
 }
 
 /// Units that stay beside their number.
@@ -79,7 +73,7 @@ pub(crate) fn escape(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chart::{Axis, Kind};
+    use crate::chart::{Axis, Kind, Look};
 
     #[test]
     fn numbers_stay_whole_and_beside_their_units() {

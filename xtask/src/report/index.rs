@@ -172,10 +172,7 @@ fn provenance() -> String {
         command.args(arguments).current_dir(process::root());
         process::output(&mut command).map(|text| text.trim().to_owned()).filter(|t| !t.is_empty())
     };
-    let commit = said("git", &["rev-parse", "--short", "HEAD"]).map(|hash| {
-        let changed = said("git", &["status", "--porcelain"]).is_some();
-        format!("commit {hash}{}", if changed { " and changes after it" } else { "" })
-    });
+    let commit = process::commit().map(|commit| format!("commit {commit}"));
     let processor = Some(format!("{} cores ({})", bench::cores(), bench::processor()));
     let compiler = said("rustc", &["--version"]);
     let known: Vec<_> = [commit, processor, compiler].into_iter().flatten().collect();

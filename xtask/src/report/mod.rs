@@ -1,10 +1,14 @@
 //! `cargo xtask report`: every page of measurements in one folder, with an index that says how each is made.
 
+mod compared;
+mod drawing;
 mod index;
 
+use crate::chart::picture::picture;
 use crate::mbs::{self, Mbs};
 use crate::{bench, process, steps, tables};
 use index::{Entry, Index};
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -29,7 +33,7 @@ fn run(quick: bool) -> Result<Vec<String>, String> {
     let mut index = Index::new(quick);
 
     let clock = Instant::now();
-    let made = tables::run(quick, &[])?;
+    let made = tables::run(quick, &tables::own())?;
     let remark = match made.surprises.len() {
         0 => format!("{} entries; all that stop are known to.", made.entries),
         n => format!("{} entries; {n} did not come to what is listed.", made.entries),
@@ -42,13 +46,7 @@ fn run(quick: bool) -> Result<Vec<String>, String> {
 
     let mbs = Mbs::build()?;
     for page in &index::COMPARED {
-        let clock = Instant::now();
-        process::progress(page.command);
-        let out = folder.join(page.file);
-        let out = out.parent().unwrap_or(&folder);
-        mbs.compare(&mbs::scene(page.scene), out, if quick { "10" } else { "60" })?;
-        let remark = "Time against true error, the ranking, and what failed, with its reason.";
-        index.add(&folder, Entry::new(page, remark.to_owned(), clock, Vec::new()))?;
+        compare(&mbs, page, (&folder, quick), &mut index)?;
     }
 
     let clock = Instant::now();
@@ -63,4 +61,27 @@ fn run(quick: bool) -> Result<Vec<String>, String> {
     index.add_page(&folder, &html, Entry::new(&index::BENCH, remark, clock, Vec::new()))?;
 
     Ok(index.surprises())
+}
+
+/// Compares all methods on a scene: its page, and its picture.
+fn compare(
+    mbs: &Mbs,
+    page: &index::Page,
+    (folder, quick): (&Path, bool),
+    index: &mut Index,
+) -> Result<(), String> {
+    let clock = Instant::now();
+    process::progress(page.command);
+    let out = folder.join(page.file);
+    let out = out.parent().unwrap_or(folder);
+    mbs.compare(&mbs::scene(page.scene), out, if quick { "10" } else { "60" })?;
+    let comparison = compared::read(out)?;
+    let drawing = picture(&drawing::chart(&comparison))?;
+    process::write(&out.join("work-precision.svg"), drawing.as_bytes())?;
+    let judged = compared::judge(page.scene, &comparison);
+    let [completed, stopped] = judged.counts;
+    let remark = format!("{completed} runs were completed, {stopped} stopped; the page says why.");
+    // With less work the ranges of steps are shorter: what is listed may not be reached.
+    let surprises = if quick { Vec::new() } else { judged.surprises };
+    index.add(folder, Entry::new(page, remark, clock, surprises))
 }

@@ -12,8 +12,8 @@ mod sight;
 mod suspension;
 mod tolerance;
 
-use crate::lab::Lab;
 use crate::lab::section::{Section, item};
+use crate::lab::{self, Lab};
 use crate::mbs::Mbs;
 use crate::page;
 use crate::process;
@@ -78,9 +78,7 @@ pub(crate) fn run(quick: bool, names: &[String]) -> Result<Steps, String> {
     }
     let mbs = Mbs::build()?;
     let folder = process::target_dir().join("steps");
-    let runner = |case: &crate::lab::case::Case, out: Option<&std::path::Path>| {
-        crate::lab::run(&mbs, &folder.join("scenes"), case, out)
-    };
+    let runner = lab::runner(&mbs, &folder);
     let lab = Lab { runner: &runner, quick, folder: folder.clone() };
     let sections = perform(&lab, names)?;
     process::progress("");

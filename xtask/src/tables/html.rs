@@ -25,7 +25,7 @@ fn section(table: &Table, rows: &[Row], drawing: &str) -> String {
     let distance = table.reference.map_or("", |reference| reference.label);
     let mut html = format!(
         "<section class=\"card\">\n<h2><span class=\"tag\">{}</span> {}</h2>\n<p class=\"soft\">{}; scene \
-         <code>{}</code>, {} s</p>\n<table>\n<thead>\n<tr><th rowspan=\"2\">method</th><th rowspan=\"2\">step [s]</th>\
+         <code>{}</code>, {} s; <code>cargo xtask tables {}</code>, a row: <code>{}</code> with its step and options</p>\n<table>\n<thead>\n<tr><th rowspan=\"2\">method</th><th rowspan=\"2\">step [s]</th>\
          <th colspan=\"4\" class=\"group\">measured</th><th colspan=\"2\" class=\"group\">report</th></tr>\n<tr>\
          <th>energy error [J]</th><th>share of<br>turnover</th><th>{}</th><th>CPU [s]</th><th class=\"report\">error</th><th>CPU [s]</th></tr>\n\
          </thead>\n",
@@ -34,6 +34,8 @@ fn section(table: &Table, rows: &[Row], drawing: &str) -> String {
         escape(table.source),
         escape(table.scene),
         table.duration,
+        escape(table.name),
+        escape(&format!("mbs run scenes/{}.toml", table.scene)),
         escape(distance),
     );
     for rows in rows.chunk_by(|a, b| a.method.name == b.method.name) {
@@ -61,7 +63,11 @@ fn line(row: &Row, distance: &str, span: Option<usize>) -> String {
         let (name, printed) = (escape(row.method.name), escape(row.method.printed_name));
         let printed =
             if printed.is_empty() { printed } else { format!("<small>report: {printed}</small>") };
-        let _ = write!(html, "<th scope=\"rowgroup\" rowspan=\"{span}\">{name} {printed}</th>");
+        let options = escape(&row.method.options().join(" "));
+        let _ = write!(
+            html,
+            "<th scope=\"rowgroup\" rowspan=\"{span}\">{name} {printed}<small><code>{options}</code></small></th>"
+        );
     }
     html.push_str(&cell("step [s]", &step(row.step), "step"));
     if matches!(row.outcome, Outcome::Completed(_)) {

@@ -24,7 +24,9 @@ const QUICK: f64 = 1e6;
 /// A table that is made of sections: grades, and what the experiments on steps draw.
 type Made = fn(&Lab<'_>) -> Result<Section, String>;
 /// Those tables, by their names; F6 shows the report's Figures 6 and 7.
-const MADE: [(&str, Made); 3] = [("G1", grades::g1), ("G2", grades::g2), ("F6", steps::figures)];
+const MADE: [(&str, Made); 3] = [("G1", grades::g1), ("G2", grades::g2), (STEPS, steps::figures)];
+/// The one of them that is also an experiment on steps.
+const STEPS: &str = "F6";
 /// Tables IV and V of the report, on processors, by their names; the bench measures both.
 const PROCESSORS: [&str; 2] = ["T6", "T7"];
 
@@ -32,6 +34,12 @@ const PROCESSORS: [&str; 2] = ["T6", "T7"];
 pub(crate) fn names() -> Vec<&'static str> {
     let tables = report::TABLES.iter().map(|table| table.name);
     tables.chain(PROCESSORS).chain(MADE.map(|(name, _)| name)).collect()
+}
+
+/// The names of the tables that no other job measures: the report's pages show each run once.
+pub(crate) fn own() -> Vec<String> {
+    let is_own = |name: &&str| *name != STEPS && !PROCESSORS.contains(name);
+    names().into_iter().filter(is_own).map(str::to_owned).collect()
 }
 
 /// What the tables came to.
@@ -147,9 +155,7 @@ fn sections(
     if PROCESSORS.iter().any(|name| is_wanted(name)) {
         sections.push(bench::processors(quick)?);
     }
-    let runner = |case: &lab::case::Case, out: Option<&Path>| {
-        lab::run(mbs, &folder.join("scenes"), case, out)
-    };
+    let runner = lab::runner(mbs, folder);
     let lab = Lab { runner: &runner, quick, folder: folder.to_path_buf() };
     for (_, made) in MADE.iter().filter(|(name, _)| is_wanted(name)) {
         sections.push(made(&lab)?);
@@ -165,10 +171,10 @@ fn entry(
     step: f64,
     out: Option<&Path>,
 ) -> Result<Outcome, String> {
+    let mut arguments = method.options();
     let step = format!("{step:e}");
-    let arguments = ["--formulation", method.formulation, "--step", &step];
-    let arguments: Vec<_> =
-        arguments.iter().chain(method.arguments).map(|&word| word.to_owned()).collect();
+    arguments.extend(["--step", &step]);
+    let arguments: Vec<_> = arguments.into_iter().map(str::to_owned).collect();
     let outcome = mbs.run(&scene(table.scene), &arguments, out, None)?;
     if let (Some(figures), Some(reference)) = (outcome.figures(), table.reference) {
         figures.distance(reference.channel, reference.value)?;

@@ -13,6 +13,9 @@ pub(crate) fn text(rows: &[Row]) -> String {
     for (table, rows) in by_table(rows) {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{}  {} ({})\n", table.name, table.title, table.source);
+        let run =
+            format!("Each row by mbs run scenes/{}.toml --formulation F --step H", table.scene);
+        paragraph(&mut text, 0, &run);
         let (channel, off) =
             table.reference.map_or(("", ""), |reference| (reference.channel, "off by"));
         line(&mut text, ["", "dt", "error", "share", channel, "CPU", "report", "CPU"]);

@@ -43,6 +43,14 @@ pub(crate) struct Method {
     pub(crate) printed: &'static [Printed],
 }
 
+impl Method {
+    /// The arguments of `mbs run`, without scene and step.
+    pub(crate) fn options(&self) -> Vec<&'static str> {
+        let formulation = ["--formulation", self.formulation];
+        formulation.iter().chain(self.arguments).copied().collect()
+    }
+}
+
 /// A channel whose value at the end is known from elsewhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Reference {

@@ -1,0 +1,46 @@
+//! Another place in memory for each timing. Where stack and heap happen to lie decides some per cent of a time; a process that
+//! keeps them where they are measures its luck, however often it repeats.
+
+use std::hint::black_box;
+
+/// Bytes that a level of the stack takes at least: no power of two, so that levels fall on all places within a page.
+const LEVEL: usize = 208;
+/// So many levels at most.
+const LEVELS: u32 = 19;
+/// Blocks of the heap that are held, so that what comes later lies elsewhere.
+const BLOCKS: u32 = 48;
+
+/// Calls a function with stack and heap moved, by an amount that depends on the turn alone.
+pub(super) fn moved<R>(turn: u32, call: impl FnOnce() -> R) -> R {
+    let size = |k: u32| (32_usize << ((k + turn) % 8)) + 16 * ((k * (turn + 3)) % 11) as usize;
+    let held: Vec<Vec<u8>> =
+        (0..BLOCKS).filter(|k| (k + turn) % 3 > 0).map(|k| Vec::with_capacity(size(k))).collect();
+    let result = deeper((turn * 7) % LEVELS, call);
+    drop(black_box(held));
+    result
+}
+
+#[inline(never)]
+fn deeper<R>(levels: u32, call: impl FnOnce() -> R) -> R {
+    let level = black_box([0_u8; LEVEL]);
+    let result = if levels == 0 { call() } else { deeper(levels - 1, call) };
+    black_box(&level);
+    result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_turn_finds_the_stack_elsewhere() {
+        let place = |turn| {
+            moved(turn, || {
+                let local = black_box(0_u8);
+                std::ptr::from_ref(&local).addr()
+            })
+        };
+        let places: std::collections::BTreeSet<usize> = (0..LEVELS).map(place).collect();
+        assert_eq!(places.len(), LEVELS as usize);
+    }
+}
