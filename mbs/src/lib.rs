@@ -6,6 +6,7 @@ mod choice;
 pub mod cli;
 pub mod compare;
 mod control;
+mod digits;
 mod engine;
 pub mod explain;
 pub mod export;

@@ -1,6 +1,7 @@
 //! What is kept of a run: rows of channels, energies, violations and counts, thinned to a bounded number; maxima over every
 //! step.
 
+use crate::digits::is_finer;
 use mbs_core::Real;
 use mbs_core::real::DoubleDouble;
 use mbs_scene::{
@@ -109,7 +110,7 @@ impl Recorder {
             let near = value.to_f64();
             (*least, *most) = (least.min(near), most.max(near));
             self.rows.push(near);
-            if T::EPSILON.to_f64() < f64::EPSILON {
+            if is_finer::<T>() {
                 self.rests.push((value - T::from_f64(near)).to_f64());
             }
         }

@@ -2,6 +2,7 @@
 
 use crate::alarm::Alarm;
 use crate::channels::Channels;
+use crate::digits::is_finer;
 use crate::figure::Figure;
 use crate::recorder::{Keep, Recorder, StepMark};
 use crate::settings::{Lengths, Settings};
@@ -403,7 +404,7 @@ where
 fn multiple<T: Real>(k: u64, (step, in_f64): (T, f64)) -> T {
     #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
     let count = k as f64;
-    if T::EPSILON.to_f64() < f64::EPSILON {
+    if is_finer::<T>() {
         T::from_f64(count) * step
     } else {
         T::from_f64(count * in_f64)

@@ -4,6 +4,7 @@ use crate::choice::{
     FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, NOT_BUILT, PRECISIONS, Precision,
     STEP_RULES, StepRule,
 };
+use crate::digits::is_finer;
 use mbs_core::Real;
 use mbs_core::control::EnergyRule;
 use mbs_core::scene::{Scene, SolverChoice};
@@ -271,7 +272,7 @@ impl Settings {
         let solver = &scene.solver;
         let written = [Some(scene.duration), solver.step, solver.step_max];
         let exact = |x: f64| {
-            if T::EPSILON.to_f64() >= f64::EPSILON {
+            if !is_finer::<T>() {
                 return T::from_f64(x);
             }
             let same = written.into_iter().flatten().find(|&w| w.to_f64().to_bits() == x.to_bits());

@@ -76,9 +76,8 @@ impl Comparison {
             }
         }
         not_reached.retain(|name| !reached.iter().any(|rank| rank.name == *name));
-        let apart = rank::apart(reached.iter().map(|rank| rank.seconds));
-        let ranks = rank::rank(reached, apart);
-        RankLevel { error: level, note: None, apart, ranks, not_reached }
+        let ranks = rank::rank(reached);
+        RankLevel { error: level, note: None, apart: rank::APART, ranks, not_reached }
     }
 }
 

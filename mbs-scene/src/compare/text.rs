@@ -104,7 +104,7 @@ impl Comparison {
         let caption = match &level.note {
             Some(note) => format!("Not ranked: {note}."),
             None => format!(
-                "Equal ranks: no more than {:.2} times the fastest of the rank, or no more than the noise.",
+                "Equal ranks: no more than {} times the fastest of the rank, or no more than the noise.",
                 level.apart
             ),
         };

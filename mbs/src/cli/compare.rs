@@ -1,12 +1,13 @@
 //! `mbs compare SCENE`.
 
+use super::bar::{bar, ticks};
 use super::{STOPPED, files, refuse};
 use crate::compare::{CompareError, Earlier, Request, Watch, compare};
 use crate::{FORMULATIONS, Formulation, PRECISIONS, Precision};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use mbs_scene::compare::{Comparison, Status, comparison_page, write_comparison};
-use std::io::{IsTerminal, Write as _};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -236,18 +237,11 @@ struct Bar {
 }
 
 /// Ticks of the whole.
-const TICKS: f64 = 1000.0;
+const TICKS: u64 = 1000;
 
 impl Bar {
-    fn new(quiet: bool) -> Self {
-        let target = if quiet || !std::io::stderr().is_terminal() {
-            ProgressDrawTarget::hidden()
-        } else {
-            ProgressDrawTarget::stderr()
-        };
-        let bar = ProgressBar::with_draw_target(Some(1000), target);
-        let style = ProgressStyle::with_template("{wide_bar} {percent:>3} %  {msg}");
-        Self { bar: style.map_or(bar.clone(), |style| bar.with_style(style)), is_quiet: quiet }
+    fn new(is_quiet: bool) -> Self {
+        Self { bar: bar(TICKS, is_quiet, "{wide_bar} {percent:>3} %  {msg}"), is_quiet }
     }
 }
 
@@ -258,13 +252,8 @@ impl Watch for Bar {
         }
     }
 
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a share between 0 and 1000"
-    )]
     fn doing(&mut self, share: f64, doing: &str) {
-        self.bar.set_position((TICKS * share.clamp(0.0, 1.0)) as u64);
+        self.bar.set_position(ticks(share, TICKS));
         self.bar.set_message(doing.to_owned());
     }
 }

@@ -1,6 +1,7 @@
 //! Command line: arguments, refusals, and the commands.
 
 mod analysis;
+mod bar;
 mod compare;
 mod explain;
 mod export;

@@ -1,14 +1,15 @@
 //! `mbs run SCENE`.
 
+use super::bar::{bar, ticks};
 use super::{STOPPED, files, refuse, table};
 use crate::{Outcome, Overrides, Precision, Progress, Settings, words};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use mbs_core::Real;
 use mbs_core::real::DoubleDouble;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_scene::{Document, Provenance, RunError, readable};
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -259,33 +260,17 @@ struct Bar {
 }
 
 /// Ticks of a whole run.
-const TICKS: f64 = 1000.0;
+const TICKS: u64 = 1000;
 
 impl Bar {
-    fn new(duration: f64, quiet: bool) -> Self {
-        let target = if quiet || !std::io::stderr().is_terminal() {
-            ProgressDrawTarget::hidden()
-        } else {
-            ProgressDrawTarget::stderr()
-        };
-        let bar = ProgressBar::with_draw_target(Some(1000), target);
-        if let Ok(style) =
-            ProgressStyle::with_template("{wide_bar} {percent:>3} %  {msg}  {eta} left")
-        {
-            bar.set_style(style);
-        }
-        Self { bar, duration }
+    fn new(duration: f64, is_quiet: bool) -> Self {
+        Self { bar: bar(TICKS, is_quiet, "{wide_bar} {percent:>3} %  {msg}  {eta} left"), duration }
     }
 }
 
 impl Progress for Bar {
-    #[allow(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a share between 0 and 1000"
-    )]
     fn reached(&mut self, t: f64) {
-        let ticks = (t / self.duration * TICKS).clamp(0.0, TICKS) as u64;
+        let ticks = ticks(t / self.duration, TICKS);
         if ticks != self.bar.position() {
             self.bar.set_position(ticks);
             self.bar.set_message(format!(

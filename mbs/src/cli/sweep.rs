@@ -1,13 +1,14 @@
 //! `mbs sweep SCENE SWEEP`.
 
+use super::bar::bar;
 use super::{STOPPED, files, refuse, table};
 use crate::sweep::{Report, Study, StudyError, SweepError, Watch};
 use crate::{Overrides, Precision, words};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use mbs_scene::Document;
 use serde_json::json;
-use std::io::{IsTerminal, Write as _};
+use std::io::Write as _;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -170,15 +171,8 @@ fn text(report: &Report, out: &Path) -> String {
 struct Bar(ProgressBar);
 
 impl Bar {
-    fn new(members: usize, quiet: bool) -> Self {
-        let target = if quiet || !std::io::stderr().is_terminal() {
-            ProgressDrawTarget::hidden()
-        } else {
-            ProgressDrawTarget::stderr()
-        };
-        let bar = ProgressBar::with_draw_target(Some(members as u64), target);
-        let style = ProgressStyle::with_template("{wide_bar} {pos} of {len}{msg}  {eta} left");
-        Self(style.map_or(bar.clone(), |style| bar.with_style(style)))
+    fn new(members: usize, is_quiet: bool) -> Self {
+        Self(bar(members as u64, is_quiet, "{wide_bar} {pos} of {len}{msg}  {eta} left"))
     }
 }
 

@@ -6,7 +6,7 @@ use super::pass::Scenes;
 use super::reference::Known;
 use crate::choice::{Formulation, Precision};
 use crate::settings::{Overrides, Settings};
-use mbs_scene::compare::{Cell, Status};
+use mbs_scene::compare::{Cell, ConvergenceMap, Status};
 
 /// Penalties.
 pub(super) const PENALTIES: [f64; 7] = [1e3, 1e5, 1e7, 1e9, 1e11, 1e13, 1e15];
@@ -60,6 +60,33 @@ impl Plan {
     /// Steps [s].
     pub(super) fn steps(&self) -> Vec<f64> {
         self.between.iter().map(|n| self.instants.interval / float(*n)).collect()
+    }
+
+    /// The formulations and precisions, each with a map.
+    pub(super) fn which(&self) -> impl Iterator<Item = (Formulation, Precision)> {
+        let precisions = &self.precisions;
+        self.formulations.iter().flat_map(|&f| precisions.iter().map(move |&p| (f, p)))
+    }
+
+    /// One map, from its cells by steps between two instants and penalty.
+    pub(super) fn map<E>(
+        &self,
+        (formulation, precision): (Formulation, Precision),
+        mut cell: impl FnMut(u64, f64) -> Result<Cell, E>,
+    ) -> Result<ConvergenceMap, E> {
+        let mut row = |penalty| -> Result<Vec<Cell>, E> {
+            self.between.iter().map(|&between| cell(between, penalty)).collect()
+        };
+        let is_index1 = formulation == Formulation::Index1;
+        Ok(ConvergenceMap {
+            formulation: formulation.name().to_owned(),
+            precision: precision.name().to_owned(),
+            span: self.instants.time(self.instants.count),
+            unit: if is_index1 { "kg" } else { "N/m" }.to_owned(),
+            steps: self.steps(),
+            penalties: PENALTIES.to_vec(),
+            cells: PENALTIES.into_iter().map(&mut row).collect::<Result<_, E>>()?,
+        })
     }
 
     /// One cell, for at most so many seconds.

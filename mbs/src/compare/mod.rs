@@ -280,38 +280,20 @@ impl<'a> Study<'a> {
     ) -> Result<Vec<ConvergenceMap>, CompareError> {
         let Some(plan) = plan else { return Ok(Vec::new()) };
         let mut maps = Vec::new();
-        for &formulation in &plan.formulations {
-            for &precision in &plan.precisions {
-                watch.doing(0.95, "convergence maps");
-                let mut rows = Vec::new();
-                for penalty in map::PENALTIES {
-                    let mut row = Vec::new();
-                    for &between in &plan.between {
-                        let names = (formulation.name(), precision.name());
-                        let key = format!("map {} {} {penalty:e} {between}", names.0, names.1);
-                        let most = self.request.time_limit;
-                        let run = || {
-                            let which = (formulation, precision);
-                            let cell =
-                                plan.cell(self.scenes, known, which, (between, penalty), most);
-                            serde_json::to_value(cell).unwrap_or_default()
-                        };
-                        let value = store.get(&key, run).map_err(CompareError::Journal)?;
-                        row.push(serde_json::from_value::<Cell>(value).unwrap_or_default());
-                    }
-                    rows.push(row);
-                }
-                let is_index1 = formulation == Formulation::Index1;
-                maps.push(ConvergenceMap {
-                    formulation: formulation.name().to_owned(),
-                    precision: precision.name().to_owned(),
-                    span: plan.instants.time(plan.instants.count),
-                    unit: if is_index1 { "kg" } else { "N/m" }.to_owned(),
-                    steps: plan.steps(),
-                    penalties: map::PENALTIES.to_vec(),
-                    cells: rows,
-                });
-            }
+        for which in plan.which() {
+            watch.doing(0.95, "convergence maps");
+            let map = plan.map(which, |between, penalty| {
+                let (formulation, precision) = (which.0.name(), which.1.name());
+                let key = format!("map {formulation} {precision} {penalty:e} {between}");
+                let run = || {
+                    let most = self.request.time_limit;
+                    let cell = plan.cell(self.scenes, known, which, (between, penalty), most);
+                    serde_json::to_value(cell).unwrap_or_default()
+                };
+                let value = store.get(&key, run).map_err(CompareError::Journal)?;
+                Ok(serde_json::from_value::<Cell>(value).unwrap_or_default())
+            })?;
+            maps.push(map);
         }
         Ok(maps)
     }
