@@ -404,11 +404,7 @@ where
 fn multiple<T: Real>(k: u64, (step, in_f64): (T, f64)) -> T {
     #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
     let count = k as f64;
-    if is_finer::<T>() {
-        T::from_f64(count) * step
-    } else {
-        T::from_f64(count * in_f64)
-    }
+    if is_finer::<T>() { T::from_f64(count) * step } else { T::from_f64(count * in_f64) }
 }
 
 /// An instant with the effect's name.

@@ -12,7 +12,7 @@ const FITS: f64 = 1e-6;
 
 /// Work of one iteration for each coordinate and constraint, and besides [s]: roughly what they take on a processor of 3 GHz. A
 /// measure of work that is the same every time, not of time.
-const PER_UNKNOWN: f64 = 1e-7;
+const PER_UNKNOWN: f64 = 2e-7;
 const PER_ITERATION: f64 = 3e-7;
 
 /// Steps to run, from the longest; those that are longer than a tenth of the run are left out.

@@ -204,8 +204,9 @@ impl<'a> Study<'a> {
         let methods = Method::all(&request.formulations, &request.precisions);
         let steps = ladder::steps(&request.steps, of_scene, duration);
         let instants = Instants::new(duration, &steps);
-        // a recorded run and the repeats; the settings before the last take about as much as it does
-        let passes = f64::from(request.repeats) + 1.0;
+        // a recorded run, the repeats, and about as many where the ranking is decided; the settings before the last take about as
+        // much as it does
+        let passes = 2.0 * f64::from(request.repeats) + 1.0;
         let most_work = request.budget / (ladder::count(methods.len().max(1)) * passes * 2.0);
         Self {
             channels: Channel::of_scene(scene),

@@ -105,7 +105,8 @@ impl Known {
         let largest = |other: &Rows| {
             distances(&scales, rows, &other[..n.min(other.len())]).last().copied().unwrap_or(0.0)
         };
-        let uncertainty = largest(&best.coarse);
+        // rows are in `f64`, however many digits the run has
+        let uncertainty = largest(&best.coarse).max(f64::EPSILON);
         let mut notes = Vec::new();
         let cross_check = check.map(|check| CrossCheck {
             method: check.method.clone(),

@@ -4,10 +4,13 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Methods with runs that stop before their end. Explicit integrators do not hold the nearly singular leaf springs of the vehicle
+/// Methods with runs that stop before their end. Controlled steps at a tolerance of 1e-3 lose the pendulum's energy. Explicit integrators do not hold the nearly singular leaf springs of the vehicle
 /// on their constraints; f32 ends where a tolerance is finer than its rounding; long steps are the first of every method's range.
 const STOPPED: [(&str, &[&str]); 4] = [
-    ("double-pendulum", &[]),
+    (
+        "double-pendulum",
+        &["state-space, error-controlled, f64", "state-space, error-controlled, f32"],
+    ),
     ("andrews", &[]),
     ("iltis-suspension", &["recursive rk54, f32"]),
     (

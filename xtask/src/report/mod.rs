@@ -74,7 +74,7 @@ fn compare(
     process::progress(page.command);
     let out = folder.join(page.file);
     let out = out.parent().unwrap_or(folder);
-    mbs.compare(&mbs::scene(page.scene), out, if quick { "10" } else { "60" })?;
+    mbs.compare(&mbs::scene(page.scene), out, if quick { "20" } else { "120" })?;
     let comparison = compared::read(out)?;
     let drawing = picture(&drawing::chart(&comparison))?;
     process::write(&out.join("work-precision.svg"), drawing.as_bytes())?;
