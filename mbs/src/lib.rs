@@ -7,6 +7,7 @@ pub mod cli;
 pub mod compare;
 mod control;
 mod digits;
+mod document;
 mod engine;
 pub mod explain;
 pub mod export;
@@ -37,6 +38,7 @@ pub use choice::{
     FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
     StepRule,
 };
+pub use document::run_document;
 pub use engine::{Engine, Index};
 pub use modes::{Mode, Modes, Place};
 pub use run::{Outcome, Progress, run};

@@ -2,7 +2,9 @@
 
 use crate::counts;
 use crate::documentation;
+use crate::fuzz;
 use crate::nostd;
+use crate::pages;
 use crate::pick;
 use crate::process::{self, cargo, run};
 use crate::summary::{LeftOut, Outcome, Summary};
@@ -58,6 +60,13 @@ fn checks(quick: bool, summary: &mut Summary) -> Result<(), String> {
         summary.check("lints", || component("clippy", "clippy", &args))?;
     }
     summary.check("tests", || passed(cargo().args(["test", "--workspace"])))?;
+    if quick {
+        summary.skip("fuzz", "--quick");
+        summary.skip("pages", "--quick");
+    } else {
+        summary.check("fuzz", fuzz::check)?;
+        summary.check("pages", pages::check)?;
+    }
     if quick {
         summary.skip("documentation", "--quick");
     } else {

@@ -4,12 +4,15 @@ mod bench;
 mod chart;
 mod check;
 mod counts;
+mod debian;
 mod documentation;
+mod fuzz;
 mod grades;
 mod lab;
 mod mbs;
 mod nostd;
 mod page;
+mod pages;
 mod pick;
 mod process;
 mod races;
@@ -92,6 +95,15 @@ enum Job {
     },
     /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
     Counts,
+    /// Try scenes that nobody meant, mutated text and random mechanisms; what breaks or hangs is kept under target/fuzz
+    Fuzz {
+        /// For so long [s]
+        #[arg(long, value_name = "S", default_value_t = 120)]
+        seconds: u64,
+        /// Seed of the first text; the check of the repository begins at 1
+        #[arg(long, value_name = "N", default_value_t = 1)]
+        seed: u64,
+    },
     /// Watch the lock-free team of mbs-parallel for data races, under ThreadSanitizer
     Races,
     /// Cross-compile the no_std crates for a microcontroller, without and with alloc
@@ -110,6 +122,7 @@ fn main() -> ExitCode {
             bench::bench(&bench::Asked { threads, quick, scenes })
         }
         Job::Counts => counts::counts(),
+        Job::Fuzz { seconds, seed } => fuzz::fuzz(seconds, seed),
         Job::Races => races::races(),
         Job::CheckNostd => nostd::check_nostd(),
     }

@@ -90,7 +90,7 @@ function makeDiagram(panel, looks, parent) {
     const shown = panel.lines.filter((line) => looks[line.method].is_shown);
     const points = shown.flatMap((line) => line.points);
     const onRail = panel.rail ? shown.flatMap((line) => line.failed) : [];
-    const [left, top, right, bottom] = [70, panel.rail === "top" && onRail.length ? 30 : 10, width - (panel.rail === "right" && onRail.length ? 44 : 14), height - 42];
+    const [left, top, right, bottom] = [70, panel.rail === "top" && onRail.length ? 30 : 10, width - (panel.rail === "right" && onRail.length ? 44 : 14), height - 46];
     const alongX = panel.rail === "top" ? onRail.map((f) => f[0]) : [], alongY = panel.rail === "right" ? onRail.map((f) => f[0]) : [];
     const [x0, x1] = decades([...points.map((p) => p[0]), ...alongX, ...panel.upright.map((l) => l[0])]);
     const across = panel.across.filter((l) => l[0] > 0);
@@ -99,7 +99,7 @@ function makeDiagram(panel, looks, parent) {
     const y = (v) => bottom - ((Math.max(v > 0 ? Math.log10(v) : y0, y0) - y0) / (y1 - y0)) * (bottom - top);
     axis([x0, x1], right - left, (k) => x(10 ** k), (p, label) => {
       element("line", { class: label === null ? "minor" : "grid", x1: p, x2: p, y1: top, y2: bottom }, svg);
-      if (label) element("text", { x: p, y: bottom + 16, "text-anchor": "middle" }, svg).textContent = label;
+      if (label) element("text", { x: p, y: bottom + 20, "text-anchor": "middle" }, svg).textContent = label;
     });
     axis([y0, y1], (bottom - top) * 2, (k) => y(10 ** k), (p, label) => {
       element("line", { class: label === null ? "minor" : "grid", x1: left, x2: right, y1: p, y2: p }, svg);
@@ -156,7 +156,7 @@ function makeDiagram(panel, looks, parent) {
     svg.insertBefore(band, svg.firstChild);
     const label = panel.rail === "top"
       ? element("text", { class: "note", x: left - 6, y: 17, "text-anchor": "end" }, svg)
-      : element("text", { class: "note", x: width - 2, y: bottom + 16, "text-anchor": "end" }, svg);
+      : element("text", { class: "note", x: width - 2, y: bottom + 20, "text-anchor": "end" }, svg);
     label.textContent = "failed";
   }
   function say(event) {

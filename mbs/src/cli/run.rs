@@ -2,12 +2,9 @@
 
 use super::bar::{bar, ticks};
 use super::{STOPPED, files, refuse, table};
-use crate::{Outcome, Overrides, Precision, Progress, Settings, words};
+use crate::{Outcome, Overrides, Settings, run_document, words};
 use clap::Args;
 use indicatif::ProgressBar;
-use mbs_core::Real;
-use mbs_core::real::DoubleDouble;
-use mbs_core::scene::{Dimension, Scene};
 use mbs_scene::{Document, Provenance, RunError, readable};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -169,28 +166,13 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     {
         return refuse(&files::unwritable(out, &error));
     }
-    let outcome = match settings.precision {
-        Precision::F64 => dispatch(&scene, &settings, arguments),
-        Precision::F32 => match document.scene::<f32>() {
-            Ok(scene) => dispatch(&scene, &settings, arguments),
-            Err(error) => return refuse(&error.render()),
-        },
-        Precision::DoubleDouble => match document.scene::<DoubleDouble>() {
-            Ok(scene) => dispatch(&scene, &settings, arguments),
-            Err(error) => return refuse(&error.render()),
-        },
-    };
-    report(&outcome, arguments, &settings, &document)
-}
-
-fn dispatch<T: Real>(scene: &Scene<T>, settings: &Settings, arguments: &Arguments) -> Outcome {
     let mut bar = Bar::new(settings.duration, arguments.json);
-    let outcome = match scene.dimension {
-        Dimension::Planar => crate::run::<T, 2>(scene, settings, &mut bar),
-        Dimension::Spatial => crate::run::<T, 3>(scene, settings, &mut bar),
-    };
+    let outcome = run_document(&document, &settings, &mut |t| bar.reached(t));
     bar.bar.finish_and_clear();
-    outcome
+    match outcome {
+        Ok(outcome) => report(&outcome, arguments, &settings, &document),
+        Err(error) => refuse(&error.render()),
+    }
 }
 
 /// Files, then JSON or table; the exit status says whether the run was completed.
@@ -266,9 +248,7 @@ impl Bar {
     fn new(duration: f64, is_quiet: bool) -> Self {
         Self { bar: bar(TICKS, is_quiet, "{wide_bar} {percent:>3} %  {msg}  {eta} left"), duration }
     }
-}
 
-impl Progress for Bar {
     fn reached(&mut self, t: f64) {
         let ticks = ticks(t / self.duration, TICKS);
         if ticks != self.bar.position() {

@@ -58,14 +58,22 @@ impl Mbs {
 }
 
 impl Mbs {
-    /// Compares the methods on a scene, with about so much work [s], and leaves the files in a folder.
+    /// Compares the methods on a scene, with about so much work [s] or the usual, and leaves the files in a folder.
     ///
     /// # Errors
     ///
     /// The command, and what it came to.
-    pub(crate) fn compare(&self, scene: &Path, out: &Path, budget: &str) -> Result<(), String> {
+    pub(crate) fn compare(
+        &self,
+        scene: &Path,
+        out: &Path,
+        budget: Option<&str>,
+    ) -> Result<(), String> {
         let mut command = Command::new(&self.path);
-        command.args(["compare", "--restart", "--budget", budget]).arg("--out").arg(out).arg(scene);
+        command.args(["compare", "--restart"]).arg("--out").arg(out).arg(scene);
+        if let Some(budget) = budget {
+            command.args(["--budget", budget]);
+        }
         if let Some(commit) = process::commit() {
             command.env("MBS_COMMIT", commit);
         }

@@ -2,7 +2,8 @@
 //! its sources. Debian's packages are installed where that is possible; toolchains and targets are never fetched.
 
 use super::table::Build;
-use crate::process::{cargo, output, run};
+use crate::debian::install;
+use crate::process::{cargo, output};
 use crate::summary::LeftOut;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -169,24 +170,6 @@ fn release(version: &str) -> Option<(u32, u32)> {
     let number = version.split_whitespace().find(|word| word.starts_with(char::is_numeric))?;
     let mut parts = number.split('.').map(|part| part.parse().ok());
     Some((parts.next()??, parts.next()??))
-}
-
-/// Installs Debian's packages, as root on a system that has `apt-get`.
-fn install(packages: &[&str]) -> Result<(), String> {
-    if output(Command::new("id").arg("-u")).as_deref() != Some("0") {
-        return Err("packages can be installed as root only".to_owned());
-    }
-    if output(Command::new("apt-get").arg("--version")).is_none() {
-        return Err("this system has no apt-get".to_owned());
-    }
-    eprintln!("   installing {} with apt-get", packages.join(", "));
-    let apt = |args: &[&str]| {
-        run(Command::new("apt-get").args(args).env("DEBIAN_FRONTEND", "noninteractive"))
-    };
-    apt(&["update", "--quiet=2"])?;
-    let mut args = vec!["install", "--yes", "--quiet=2", "--no-install-recommends"];
-    args.extend(packages);
-    apt(&args)
 }
 
 #[cfg(test)]

@@ -148,6 +148,11 @@ impl Index {
         process::write(&folder.join("index.html"), self.html().as_bytes())
     }
 
+    /// The files of all pages.
+    pub(super) fn files(&self) -> impl Iterator<Item = &'static str> {
+        std::iter::once("index.html").chain(self.entries.iter().map(|entry| entry.page.file))
+    }
+
     /// Everything that was not as listed.
     pub(super) fn surprises(&self) -> Vec<String> {
         self.entries.iter().flat_map(|entry| entry.surprises.iter().cloned()).collect()

@@ -6,7 +6,7 @@ mod index;
 
 use crate::chart::picture::picture;
 use crate::mbs::{self, Mbs};
-use crate::{bench, process, steps, tables};
+use crate::{bench, pages, process, steps, tables};
 use index::{Entry, Index};
 use std::path::Path;
 use std::process::ExitCode;
@@ -60,7 +60,12 @@ fn run(quick: bool) -> Result<Vec<String>, String> {
     let remark = "Times of this machine, at the load that the page names.".to_owned();
     index.add_page(&folder, &html, Entry::new(&index::BENCH, remark, clock, Vec::new()))?;
 
-    Ok(index.surprises())
+    let mut surprises = index.surprises();
+    if let Some(browser) = pages::browser() {
+        let looked = index.files().map(|file| pages::look(browser, &folder.join(file)));
+        surprises.extend(looked.filter_map(Result::err));
+    }
+    Ok(surprises)
 }
 
 /// Compares all methods on a scene: its page, and its picture.
@@ -74,7 +79,7 @@ fn compare(
     process::progress(page.command);
     let out = folder.join(page.file);
     let out = out.parent().unwrap_or(folder);
-    mbs.compare(&mbs::scene(page.scene), out, if quick { "20" } else { "120" })?;
+    mbs.compare(&mbs::scene(page.scene), out, quick.then_some("20"))?;
     let comparison = compared::read(out)?;
     let drawing = picture(&drawing::chart(&comparison))?;
     process::write(&out.join("work-precision.svg"), drawing.as_bytes())?;

@@ -1,0 +1,155 @@
+//! Random mechanisms as scene text: any joint between any two bodies, as if at random by someone who knows the format and no mechanics.
+
+use crate::Dice;
+use std::fmt::Write;
+
+/// Joints, and what they need besides a place: so many axes.
+const JOINTS: [(&str, usize); 8] = [
+    ("revolute", 1),
+    ("spherical", 0),
+    ("universal", 2),
+    ("prismatic", 1),
+    ("cylindrical", 1),
+    ("planar", 1),
+    ("weld", 0),
+    ("free", 0),
+];
+const FORMULATIONS: [&str; 7] =
+    ["auto", "index-1", "index-3", "multi-index", "classical", "state-space", "recursive"];
+
+/// Numbers of a mechanism of so many dimensions.
+struct Space {
+    n: usize,
+}
+
+impl Space {
+    fn vector(&self, dice: &mut Dice, size: f64) -> String {
+        // half of the coordinates lie on a grid, where axes are parallel and places coincide
+        let mut one = || {
+            if dice.once_in(2) {
+                0.5 * (dice.between(-2.0, 3.0)).floor()
+            } else {
+                dice.between(-1.0, 1.0)
+            }
+        };
+        let parts: Vec<String> = (0..self.n).map(|_| format!("{:?}", size * one())).collect();
+        format!("[{}]", parts.join(", "))
+    }
+}
+
+/// A mechanism: one to six bodies, about as many joints as make a tree or some loops, a few effects.
+#[must_use]
+pub fn mechanism(dice: &mut Dice) -> String {
+    let space = Space { n: 2 + dice.below(2) };
+    let bodies = 1 + dice.below(6);
+    let size = if dice.once_in(4) { 10_f64.powf(dice.between(-4.0, 4.0)) } else { 1.0 };
+    let mut text = format!(
+        "[scene]\nname = \"random\"\ndimension = {}\ngravity = {}\nduration = 1.0\n\n[solver]\nstep = {:e}\nformulation = \"{}\"\n",
+        space.n,
+        space.vector(dice, 9.81),
+        10_f64.powf(dice.between(-7.0, 0.0)),
+        dice.one_of(&FORMULATIONS),
+    );
+    for k in 0..bodies {
+        body(&mut text, k, (&space, size), dice);
+    }
+    let joints = bodies + dice.below(3);
+    for k in 0..joints {
+        // a tree first, then loops
+        let second = if k < bodies { k } else { dice.below(bodies) };
+        let first = if k < bodies { dice.below(k + 1) } else { dice.below(bodies + 1) };
+        joint(&mut text, (k, [name(first), name(second + 1)]), (&space, size), dice);
+    }
+    for k in 0..dice.below(3) {
+        effect(&mut text, (k, bodies), (&space, size), dice);
+    }
+    if dice.once_in(2) {
+        let (joint, rate) = (dice.below(joints), dice.between(-5.0, 5.0));
+        // writing to a string cannot fail
+        let _ = writeln!(text, "[[initial]]\njoint = \"j{joint}\"\nrate = {rate:?}\n");
+    }
+    text
+}
+
+/// The ground is 0, bodies count from 1.
+fn name(k: usize) -> String {
+    if k == 0 { "ground".to_owned() } else { format!("b{}", k - 1) }
+}
+
+fn body(text: &mut String, k: usize, (space, size): (&Space, f64), dice: &mut Dice) {
+    let mass = if dice.once_in(12) { 0.0 } else { 10_f64.powf(dice.between(-3.0, 3.0)) };
+    let _ = writeln!(text, "[[body]]\nname = \"b{k}\"\nmass = {mass:e}");
+    let _ = if dice.once_in(3) {
+        let (from, to) = (space.vector(dice, size), space.vector(dice, size));
+        writeln!(text, "rod = {{ from = {from}, to = {to} }}\n")
+    } else {
+        let moment = mass * size * size * 10_f64.powf(dice.between(-3.0, 1.0));
+        let inertia = match space.n {
+            2 => format!("{moment:e}"),
+            _ => format!("[{moment:e}, {moment:e}, {moment:e}, 0.0, 0.0, 0.0]"),
+        };
+        writeln!(text, "center = {}\ninertia = {inertia}\n", space.vector(dice, size))
+    };
+}
+
+fn joint(
+    text: &mut String,
+    (k, bodies): (usize, [String; 2]),
+    (space, size): (&Space, f64),
+    dice: &mut Dice,
+) {
+    let &(kind, axes) = dice.one_of(&JOINTS);
+    let [first, second] = bodies;
+    let _ = writeln!(
+        text,
+        "[[joint]]\nname = \"j{k}\"\nkind = \"{kind}\"\nbodies = [\"{first}\", \"{second}\"]\nat = {}",
+        space.vector(dice, size)
+    );
+    let in_plane = space.n == 2 && kind == "revolute";
+    let _ = match axes {
+        1 if !in_plane => writeln!(text, "axis = {}", space.vector(dice, 1.0)),
+        2 => writeln!(text, "axes = [{}, {}]", space.vector(dice, 1.0), space.vector(dice, 1.0)),
+        _ => Ok(()),
+    };
+    if kind == "planar" {
+        let _ = writeln!(text, "direction = {}", space.vector(dice, 1.0));
+    }
+    text.push('\n');
+}
+
+fn effect(
+    text: &mut String,
+    (k, bodies): (usize, usize),
+    (space, size): (&Space, f64),
+    dice: &mut Dice,
+) {
+    let (first, second) = (name(dice.below(bodies + 1)), name(1 + dice.below(bodies)));
+    let kind = *dice.one_of(&["spring-damper", "bumper"]);
+    let stiffness = 10_f64.powf(dice.between(0.0, 9.0));
+    let length = if kind == "bumper" { "clearance" } else { "free_length" };
+    let _ = writeln!(
+        text,
+        "[[effect]]\nname = \"e{k}\"\nkind = \"{kind}\"\nbodies = [\"{first}\", \"{second}\"]\npoints = [{}, {}]\n\
+         stiffness = {stiffness:e}\ndamping = {:?}\n{length} = {:?}\n",
+        space.vector(dice, size),
+        space.vector(dice, size),
+        dice.between(0.0, 10.0),
+        size * dice.between(0.0, 1.0)
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mbs::scene_file::Document;
+
+    #[test]
+    fn many_random_mechanisms_are_scenes() {
+        let is_scene = |seed: u64| {
+            let text = mechanism(&mut Dice::new(seed));
+            Document::from_bytes(text.as_bytes(), "x").is_ok_and(|d| d.scene::<f64>().is_ok())
+        };
+        let scenes = (0..500).filter(|&seed| is_scene(seed)).count();
+        assert!(scenes > 100, "{scenes} of 500 are scenes");
+    }
+}

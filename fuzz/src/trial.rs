@@ -1,0 +1,111 @@
+//! A text through everything that a user's text goes through: reading, building, a few steps in every formulation and precision.
+
+use mbs::core::scene::Scene;
+use mbs::scene_file::Document;
+use mbs::{FORMULATIONS, Overrides, Settings};
+
+/// Steps of a run.
+const STEPS: f64 = 6.0;
+/// Steps where a scene names none [s].
+const STEP: f64 = 1e-3;
+/// Of so many texts one is run in f32 and one in double-double.
+const OTHER_PRECISIONS: usize = 5;
+
+/// What became of a text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Verdict {
+    /// It is no scene, and was refused with words.
+    Refused,
+    /// It was run.
+    Ran {
+        /// Completed.
+        completed: usize,
+        /// Stopped.
+        stopped: usize,
+    },
+    /// Something that must not be; what.
+    Wrong(String),
+}
+
+/// Puts a text to the trial; a panic is the caller's to see. `turn` chooses the precision.
+#[must_use]
+pub fn trial(text: &[u8], turn: usize) -> Verdict {
+    let document = match Document::from_bytes(text, "fuzzed.toml") {
+        Ok(document) => document,
+        Err(error) => return refusal(&error.render()),
+    };
+    let scene = match document.scene::<f64>() {
+        Ok(scene) => scene,
+        Err(error) => return refusal(&error.render()),
+    };
+    let precision = match turn % OTHER_PRECISIONS {
+        0 => "f32",
+        1 => "dd",
+        _ => "f64",
+    };
+    let [mut completed, mut stopped] = [0; 2];
+    for formulation in FORMULATIONS {
+        match run((&document, &scene), formulation, precision) {
+            Ok(Some(true)) => completed += 1,
+            Ok(Some(false)) => stopped += 1,
+            Ok(None) => {}
+            Err(why) => return Verdict::Wrong(format!("{formulation}, {precision}: {why}")),
+        }
+    }
+    Verdict::Ran { completed, stopped }
+}
+
+/// A refusal must name its place.
+fn refusal(words: &str) -> Verdict {
+    match words.contains("fuzzed.toml") {
+        true => Verdict::Refused,
+        false => Verdict::Wrong(format!("a refusal without a place: {words}")),
+    }
+}
+
+/// Runs a scene for some steps: was it completed? Nothing where it is refused.
+fn run(
+    (document, scene): (&Document, &Scene<f64>),
+    formulation: &str,
+    precision: &str,
+) -> Result<Option<bool>, String> {
+    let step = scene.solver.step.unwrap_or(STEP);
+    let overrides = Overrides {
+        formulation: Some(formulation.to_owned()),
+        precision: Some(precision.to_owned()),
+        duration: Some((STEPS * step).min(scene.duration)),
+        ..Overrides::default()
+    };
+    let Ok(settings) = Settings::new(scene, &overrides) else { return Ok(None) };
+    let outcome = match mbs::run_document(document, &settings, &mut |_| {}) {
+        Ok(outcome) => outcome,
+        Err(error) => match refusal(&error.render()) {
+            Verdict::Wrong(why) => return Err(why),
+            _ => return Ok(None),
+        },
+    };
+    let is_finite = outcome.rows().iter().flat_map(|(_, row)| row).all(|x| x.is_finite());
+    match (outcome.summary.completed, &outcome.summary.error) {
+        (true, Some(_)) => Err("completed with an error".to_owned()),
+        (false, None) => Err("stopped without an error".to_owned()),
+        _ if !is_finite => Err("a row that is not finite".to_owned()),
+        (is_completed, _) => Ok(Some(is_completed)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_scene_is_refused_and_a_scene_runs_in_every_formulation() {
+        assert_eq!(trial(b"name = ", 0), Verdict::Refused);
+        assert_eq!(trial(b"\xff", 0), Verdict::Refused);
+        let pendulum = b"[scene]\nname = \"p\"\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n\n[[body]]\nname = \"b\"\n\
+            mass = 1.0\nrod = { from = [0.0, 0.0], to = [1.0, 0.0] }\n\n[[joint]]\nname = \"j\"\nkind = \"revolute\"\n\
+            bodies = [\"ground\", \"b\"]\nat = [0.0, 0.0]\n";
+        for turn in 0..3 {
+            assert_eq!(trial(pendulum, turn), Verdict::Ran { completed: 7, stopped: 0 });
+        }
+    }
+}

@@ -1,0 +1,26 @@
+//! Debian's packages, where a job may install what it needs.
+
+use crate::process::{output, run};
+use std::process::Command;
+
+/// Installs them, as root on a system that has `apt-get`.
+///
+/// # Errors
+///
+/// Why they cannot be installed.
+pub(crate) fn install(packages: &[&str]) -> Result<(), String> {
+    if output(Command::new("id").arg("-u")).as_deref() != Some("0") {
+        return Err("packages can be installed as root only".to_owned());
+    }
+    if output(Command::new("apt-get").arg("--version")).is_none() {
+        return Err("this system has no apt-get".to_owned());
+    }
+    eprintln!("   installing {} with apt-get", packages.join(", "));
+    let apt = |args: &[&str]| {
+        run(Command::new("apt-get").args(args).env("DEBIAN_FRONTEND", "noninteractive"))
+    };
+    apt(&["update", "--quiet=2"])?;
+    let mut args = vec!["install", "--yes", "--quiet=2", "--no-install-recommends"];
+    args.extend(packages);
+    apt(&args)
+}

@@ -1,0 +1,144 @@
+//! Pages are looked at in a browser without a window, at the widths of a desk and of a phone: labels that lie over each other or are
+//! cut off, what does not answer to pointer and buttons, pictures that cannot be exported.
+
+use crate::debian;
+use crate::process::{self, cargo, output};
+use crate::summary::{LeftOut, Outcome};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// Names that the browser goes by.
+const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
+/// Widths: a desk, a phone [px].
+const WIDTHS: [u32; 2] = [1280, 390];
+/// Catches what a page throws, before anything of it runs.
+const CATCH: &str = "<script>window.probeFaults = []; addEventListener(\"error\", (e) => window.probeFaults.push(e.message));</script>";
+
+/// Makes the pages of a run and of a comparison, and looks at them.
+///
+/// # Errors
+///
+/// What is wrong with a page, by its width.
+pub(crate) fn check() -> Result<Outcome, String> {
+    let Some(browser) = browser() else {
+        return Ok(Outcome::LeftOut(LeftOut {
+            why: "there is no chromium".to_owned(),
+            remedy: "On Debian, as root: `apt-get install chromium`.".to_owned(),
+        }));
+    };
+    let folder = process::target_dir().join("pages");
+    let out = folder.display().to_string();
+    let scene = process::root().join("scenes").join("simple-pendulum.toml").display().to_string();
+    mbs(&["run", &scene, "--duration", "1", "--out", &out])?;
+    let compare =
+        ["compare", &scene, "--restart", "--repeats", "2", "--budget", "0.5", "--time-limit", "2"];
+    mbs(&[&compare[..], &["--duration", "0.5", "--out", &out]].concat())?;
+    let pages = ["run.html", "compare.html"];
+    for page in pages {
+        look(&browser, &folder.join(page))?;
+    }
+    Ok(Outcome::Passed(format!("{} at {WIDTHS:?} px", pages.join(", "))))
+}
+
+/// The browser, installed where that is possible.
+pub(crate) fn browser() -> Option<&'static str> {
+    let found =
+        || BROWSERS.into_iter().find(|name| output(Command::new(name).arg("--version")).is_some());
+    found().or_else(|| {
+        // It is asked for again in any case.
+        let _ = debian::install(&["chromium"]);
+        found()
+    })
+}
+
+/// Looks at a page at every width.
+///
+/// # Errors
+///
+/// What is wrong with it.
+pub(crate) fn look(browser: &str, page: &Path) -> Result<(), String> {
+    let place = |e: std::io::Error| format!("{}: {e}", page.display());
+    let html = fs::read_to_string(page).map_err(place)?;
+    let probed = page.with_extension("probed.html");
+    fs::write(&probed, with_probe(&html)).map_err(place)?;
+    let mut faults = Vec::new();
+    for width in WIDTHS {
+        let frame = page.with_extension("frame.html");
+        let name = probed.file_name().unwrap_or_default().to_string_lossy();
+        let text = include_str!("frame.html").replace("{{page}}", &name);
+        fs::write(&frame, text.replace("{{width}}", &width.to_string())).map_err(place)?;
+        let told = told(&dom(browser, &frame)?);
+        if told != "sound" {
+            faults.push(format!("{} at {width} px: {told}", page.display()));
+        }
+        fs::remove_file(&frame).map_err(place)?;
+    }
+    fs::remove_file(&probed).map_err(place)?;
+    if faults.is_empty() { Ok(()) } else { Err(faults.join("\n")) }
+}
+
+fn with_probe(html: &str) -> String {
+    let probe = format!("<script>{}</script></body>", include_str!("probe.js"));
+    html.replacen("<head>", &format!("<head>{CATCH}"), 1).replacen("</body>", &probe, 1)
+}
+
+/// What the probe told, from the page as the browser leaves it.
+fn told(dom: &str) -> String {
+    let text = dom.split_once("<pre id=\"told\">").and_then(|(_, rest)| rest.split_once("</pre>"));
+    let text = text.map_or("the browser showed nothing", |(text, _)| text);
+    text.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&")
+}
+
+/// The page as it is after its scripts.
+fn dom(browser: &str, page: &Path) -> Result<String, String> {
+    let profile = std::env::temp_dir().join(format!("xtask-pages-{}", std::process::id()));
+    let mut command = Command::new(browser);
+    command.args([
+        "--headless",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--no-first-run",
+        "--disable-background-networking",
+        "--disable-component-update",
+        "--disable-sync",
+        "--allow-file-access-from-files",
+        "--window-size=1400,1000",
+        "--virtual-time-budget=8000",
+        "--dump-dom",
+    ]);
+    command.arg(format!("--user-data-dir={}", profile.display()));
+    command.arg(format!("file://{}", absolute(page).display()));
+    let out = command.stdin(Stdio::null()).output().map_err(|e| format!("{browser}: {e}"))?;
+    // What is left of it is nobody's.
+    let _ = fs::remove_dir_all(profile);
+    Ok(String::from_utf8_lossy(&out.stdout).into_owned())
+}
+
+fn absolute(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
+}
+
+/// Runs `mbs` as the tests have it, without its words.
+fn mbs(arguments: &[&str]) -> Result<(), String> {
+    let mut command = cargo();
+    command.args(["run", "--quiet", "--profile", "test", "--package", "mbs", "--bin", "mbs", "--"]);
+    command.args(arguments).current_dir(process::root()).stdout(Stdio::null());
+    process::run(&mut command)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_gets_the_probe_and_what_it_tells_is_read() {
+        let page = with_probe("<html><head><title>x</title></head><body>y</body></html>");
+        assert!(
+            page.starts_with("<html><head><script>window.probeFaults")
+                && page.ends_with("</script></body></html>")
+        );
+        assert_eq!(told("<pre id=\"told\">faults\na &lt; b</pre>"), "faults\na < b");
+        assert_eq!(told("<p>"), "the browser showed nothing");
+    }
+}
