@@ -112,7 +112,7 @@ fn extrapolated_index_3_has_the_digits_of_the_elliptic_functions_on_two_four_bar
 }
 
 /// Ten singular positions later. Steps of 1/300 and 1/700 s end next to one; those between them are near each other, so that
-/// extrapolation multiplies the last digits of each run by 1e6, and what is left of the series grows with time.
+/// extrapolation multiplies the last digits of each run by 2e6, and what is left of the series grows with time.
 #[test]
 fn extrapolated_index_3_has_15_digits_after_ten_singular_positions() {
     let at_5 = [

@@ -11,6 +11,7 @@ use crate::lab::Lab;
 use crate::lab::section::Section;
 use crate::process;
 use outcome::Run;
+use std::collections::BTreeSet;
 use std::time::Duration;
 
 /// A run that takes longer is ended.
@@ -78,7 +79,6 @@ const OURS: usize = 5;
 #[derive(Debug, Clone)]
 struct Cell {
     scene: Scene,
-    ladder: usize,
     /// The step is 10^-k s, alpha 10^exponent.
     k: i32,
     exponent: i32,
@@ -88,6 +88,11 @@ struct Cell {
 impl Cell {
     fn step(&self) -> f64 {
         10_f64.powi(-self.k)
+    }
+
+    /// Is its penalty the one that this ladder chooses for its step?
+    fn is_on(&self, ladder: &Ladder) -> bool {
+        (ladder.exponent)(self.k) == self.exponent
     }
 }
 
@@ -116,14 +121,13 @@ fn cells(quick: bool, mut run: impl FnMut(&[&str]) -> Run) -> Vec<Cell> {
             let [step, alpha] = [format!("1e-{k}"), format!("1e{exponent}")];
             run(&["digits", scene.file, way.form, way.digits, &step, SPAN, &alpha])
         };
-        let ours: Vec<_> = steps().map(|k| made(DEFAULT, k, 7)).collect();
-        for (ladder, rule) in LADDERS.iter().enumerate() {
-            for (k, ours) in steps().zip(&ours) {
-                let exponent = (rule.exponent)(k);
-                let mut runs: Vec<_> =
-                    WAYS[..OURS].iter().map(|&way| made(way, k, exponent)).collect();
-                runs.push(ours.clone());
-                cells.push(Cell { scene, ladder, k, exponent, runs });
+        for k in steps() {
+            let ours = made(DEFAULT, k, 7);
+            let exponents: BTreeSet<_> = LADDERS.iter().map(|rule| (rule.exponent)(k)).collect();
+            for exponent in exponents {
+                let printed = WAYS[..OURS].iter().map(|&way| made(way, k, exponent));
+                let runs = printed.chain([ours.clone()]).collect();
+                cells.push(Cell { scene, k, exponent, runs });
             }
         }
     }
@@ -148,9 +152,10 @@ mod tests {
             asked.push(words.join(" "));
             Run::read(Err("not run".to_owned()))
         });
-        assert_eq!(cells.len(), 2 * 3 * 3);
+        // At 1e-2 and 1e-3 s two ladders meet.
+        assert_eq!(cells.len(), 2 * (2 + 2 + 3));
         assert!(cells.iter().all(|cell| cell.runs.len() == WAYS.len()));
-        assert_eq!(asked.len(), 2 * 3 * (3 * 5 + 1));
+        assert_eq!(asked.len(), 2 * ((2 + 2 + 3) * 5 + 3));
         assert!(asked.contains(&"digits two-four-bars printed dd 1e-4 1 1e17".to_owned()));
         assert_eq!([WAYS[PRINTED], WAYS[PAIRS]].map(|way| way.digits), ["f64", "dd"]);
         assert_eq!(

@@ -1,6 +1,6 @@
 //! What a run came to, as the program tells it.
 
-use super::{Cell, LADDERS, WAYS};
+use super::{Cell, WAYS};
 use crate::tell::{error, step};
 use serde_json::Value;
 
@@ -66,6 +66,12 @@ impl Run {
     /// Its error [J], or when it stopped.
     pub(super) fn told(&self) -> String {
         match self {
+            Self::Made(Figures { steps, .. }) if self.completed().is_none() && *steps < 1.0 => {
+                "no step".to_owned()
+            }
+            Self::Made(Figures { stopped: Some((t, _)), .. }) if *t < 0.01 => {
+                format!("stops at {t:.0e} s")
+            }
             Self::Made(Figures { stopped: Some((t, _)), .. }) => format!("stops at {t:.2} s"),
             Self::Made(figures) => error(figures.energy_error),
             Self::None(_) => "not run".to_owned(),
@@ -136,7 +142,6 @@ pub(super) fn csv(cells: &[Cell]) -> Result<Vec<u8>, String> {
     let mut out = csv::Writer::from_writer(Vec::new());
     let head = [
         "scene",
-        "ladder",
         "step_s",
         "alpha",
         "way",
@@ -162,7 +167,6 @@ pub(super) fn csv(cells: &[Cell]) -> Result<Vec<u8>, String> {
             let exact = |x: f64| format!("{x:e}");
             let record = [
                 cell.scene.file.to_owned(),
-                LADDERS[cell.ladder].name.to_owned(),
                 step(cell.step()),
                 format!("1e{}", cell.exponent),
                 way.name.to_owned(),
