@@ -22,7 +22,7 @@ pub(super) struct Figures {
     /// Largest violation of positions, velocities and accelerations.
     pub(super) violation: [f64; 3],
     pub(super) steps: f64,
-    /// Iterations and time [s] of a step.
+    /// Iterations of a step, and its time by the wall clock [s].
     pub(super) iterations: f64,
     pub(super) seconds: f64,
     /// Corrections of a refined solution.
@@ -99,7 +99,7 @@ pub(super) const HEAD: [&str; 10] = [
     "steps",
     "iterations",
     "corrections",
-    "CPU of a step [µs]",
+    "time of a step [µs]",
     "reason",
 ];
 
@@ -153,7 +153,7 @@ pub(super) fn csv(cells: &[Cell]) -> Result<Vec<u8>, String> {
         "steps",
         "iterations_per_step",
         "corrections_per_solution",
-        "cpu_per_step_s",
+        "seconds_per_step",
         "stopped_at_s",
         "reason",
     ];

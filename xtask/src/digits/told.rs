@@ -26,7 +26,7 @@ pub(super) fn section(cells: &[Cell]) -> Section {
         let these: Vec<_> = cells.iter().filter(|cell| cell.scene == scene).collect();
         section.heading(format!("{}, 1 s: largest energy error [J]", scene.what));
         section.table(&head("step [s], alpha"), errors(&these));
-        section.words("CPU of a step [µs], in brackets beside the printed form in f64 at the same step and alpha:");
+        section.words("Time of a step [µs] by the wall clock, as the machine was loaded; in brackets beside the printed form in f64 at the same step and alpha:");
         section.table(&head("step [s], alpha"), prices(&these));
         if let Some((ladder, chart)) = drawing(&these) {
             let caption = format!(
