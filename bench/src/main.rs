@@ -3,12 +3,14 @@
 //! ```text
 //! bench forks [--threads 2,3] [--seconds S]
 //! bench SCENE FORMULATION[,FORMULATION] [--threads 1,2] [--seconds S]
+//! bench digits SCENE FORM DIGITS STEP SPAN ALPHA
 //! ```
 //!
 //! Clocks live here alone: what is timed is the step of the library, through a model and a solver that delegate to its own.
 
 mod augmented;
 mod clocked;
+mod digits;
 mod faer_beside;
 #[path = "../../mbs-sparse/benches/factor/faer_rival.rs"]
 mod faer_rival;
@@ -53,6 +55,7 @@ fn run(words: &[String]) -> Result<(), String> {
     let (places, request) = parse(words)?;
     match &places[..] {
         [word] if word == "forks" => forks::measure(&request),
+        [word, words @ ..] if word == "digits" => digits::measure(words),
         [scene, formulations] => {
             let scene = scenes::read(scene)?;
             match scene.dimension {
@@ -60,7 +63,7 @@ fn run(words: &[String]) -> Result<(), String> {
                 Dimension::Spatial => measure::<3>(scene, formulations, &request),
             }
         }
-        _ => Err("expected `forks`, or a scene and formulations".to_owned()),
+        _ => Err("expected `forks`, `digits`, or a scene and formulations".to_owned()),
     }
 }
 

@@ -1,11 +1,11 @@
 //! Scenes by name: those in `scenes/`, and large ones made by rule.
 
-use mbs_core::Cliques;
 use mbs_core::integrator::Integrator;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Scene, Start};
 use mbs_core::start::assemble;
+use mbs_core::{Cliques, Real};
 use mbs_scene::{Document, Family, generate};
 use mbs_sparse::{Multifrontal, Options};
 use serde_json::{Value, json};
@@ -19,7 +19,7 @@ const VEHICLE: &str = "iltis-stairs";
 const STEP: f64 = 1e-3;
 
 /// A scene by its name: a file in `scenes/`, or FAMILY-N.
-pub(crate) fn read(name: &str) -> Result<Scene<f64>, String> {
+pub(crate) fn read<T: Real>(name: &str) -> Result<Scene<T>, String> {
     let document = match file(name) {
         Ok(document) => document,
         Err(missing) => {
@@ -27,7 +27,7 @@ pub(crate) fn read(name: &str) -> Result<Scene<f64>, String> {
             Document::parse(&made(family, n)?, name).map_err(|e| e.render())?
         }
     };
-    document.scene::<f64>().map_err(|e| e.render())
+    document.scene().map_err(|e| e.render())
 }
 
 /// A family of scenes with its size.

@@ -27,6 +27,8 @@ pub mod ode;
 #[cfg(feature = "alloc")]
 pub mod outputs;
 pub mod real;
+#[cfg(feature = "alloc")]
+pub mod refined;
 pub mod rigid;
 #[cfg(feature = "alloc")]
 pub mod saddle;

@@ -5,6 +5,7 @@ mod chart;
 mod check;
 mod counts;
 mod debian;
+mod digits;
 mod documentation;
 mod fuzz;
 mod grades;
@@ -62,7 +63,7 @@ enum Job {
         /// Leave out runs of more than a million steps
         #[arg(long)]
         quick: bool,
-        /// These tables alone: T1, T1p, T2, T3, T4, T5.1, T5.2, T5.3, T8, T6, T7, G1, G2, F6
+        /// These tables alone: T1, T1p, T2, T3, T4, T5.1, T5.2, T5.3, T8, T6, T7, G1, G2, F6, D1
         #[arg(value_name = "TABLE")]
         names: Vec<String>,
     },

@@ -7,6 +7,7 @@
 //! ```
 
 pub mod front;
+pub(crate) mod lists;
 pub mod panel;
 pub mod scaling;
 
@@ -18,13 +19,12 @@ use crate::team::Alone;
 use alloc::vec;
 use alloc::vec::Vec;
 use front::{Places, Tally, Thresholds, column};
+use lists::Lists;
 
 /// A dense solver for any [`Cliques`]; cost n^3 / 6 multiply-subtracts for a factorisation, n^2 for a solution.
 #[derive(Debug, Clone)]
 pub struct Dense<T> {
-    cliques: Vec<u32>,
-    /// Start of each clique, and their end.
-    starts: Vec<usize>,
+    cliques: Lists,
     /// One block or residual of an element.
     block: Vec<T>,
     /// 0, 1, ..., n - 1: the clique of the whole matrix.
@@ -50,18 +50,12 @@ impl<T: Real> Dense<T> {
     /// With more than 2^32 - 1 unknowns.
     pub fn new(cliques: &impl Cliques) -> Self {
         let n = cliques.n_unknowns();
-        let mut largest = 0;
-        let (mut all, mut starts) = (Vec::new(), vec![0]);
-        for e in 0..cliques.n_elements() {
-            all.extend_from_slice(cliques.clique(e));
-            starts.push(all.len());
-            largest = largest.max(cliques.clique(e).len());
-        }
+        let cliques = Lists::of(cliques);
+        let largest = cliques.largest();
         let natural: Vec<u32> =
             (0..n).map(|u| u32::try_from(u).expect("at most 2^32 - 1 unknowns")).collect();
         Self {
-            cliques: all,
-            starts,
+            cliques,
             block: vec![T::ZERO; largest * (largest + 1) / 2],
             order: natural.clone(),
             natural,
@@ -81,8 +75,7 @@ impl<T: Real> Dense<T> {
     fn gather<S: BlockSource<T>>(&mut self, source: &S) {
         let n = self.natural.len();
         self.matrix.fill(T::ZERO);
-        for e in 0..self.starts.len() - 1 {
-            let clique = &self.cliques[self.starts[e]..self.starts[e + 1]];
+        for (e, clique) in self.cliques.iter().enumerate() {
             let block = &mut self.block[..column(clique.len(), clique.len())];
             source.write_block(e, block);
             let mut entries = block.iter();
@@ -98,9 +91,8 @@ impl<T: Real> Dense<T> {
     }
 
     fn gather_residuals<S: BlockSource<T>>(&mut self, source: &S, f: &mut [T]) {
-        let cliques = self.starts.windows(2).map(|ends| &self.cliques[ends[0]..ends[1]]);
         let write = |e: usize, residual: &mut [T]| source.write_residual(e, residual);
-        combine(cliques, (&mut self.block, f), T::ZERO, write, |sum, x| sum + x);
+        combine(self.cliques.iter(), (&mut self.block, f), T::ZERO, write, |sum, x| sum + x);
     }
 
     /// x <- S P^T (L D L^T)^-1 P S x.

@@ -28,29 +28,92 @@ fn digits(run: &Value, channel: &str) -> Pair {
     pair(run["digits"][channel].as_str().expect("digits"))
 }
 
-/// What the table of the scene gives, at start and end: an extrapolation of 30 digits, of which two settings agree.
-const ANDREWS: [(&str, &str, &str); 7] = [
-    ("beta", "-0.0617138900142764496358948458001", "15.810771195153707097"),
-    ("theta", "0", "-15.756371058411839470"),
-    ("gamma", "0.455279819163070380255912382449", "0.040822240119645804858"),
-    ("phi", "0.222668390165885884674473185609", "-0.53473011634207959377"),
-    ("delta", "0.487364979543842550225598953530", "0.52440996587995406937"),
-    ("omega", "-0.222668390165885884674473185609", "0.53473011634207959377"),
-    ("epsilon", "1.23054744454982119249735015568", "1.0480807410419378731"),
+/// Name and joint of an angle; what the table of the scene gives at start and end, and its rate at the end [rad/s]: an extrapolation
+/// of 30 digits, of which two settings agree.
+const ANDREWS: [(&str, &str, [&str; 3]); 7] = [
+    (
+        "beta",
+        "crank-pivot",
+        ["-0.0617138900142764496358948458001", "15.810771195153707097", "1139.9203022591060642"],
+    ),
+    ("theta", "crank-pin", ["0", "-15.756371058411839470", "-1424.3792951775400732"]),
+    (
+        "gamma",
+        "spring-arm-pivot",
+        ["0.455279819163070380255912382449", "0.040822240119645804858", "11.032911910618593745"],
+    ),
+    (
+        "phi",
+        "upper-knee",
+        ["0.222668390165885884674473185609", "-0.53473011634207959377", "19.293374105032040832"],
+    ),
+    (
+        "delta",
+        "upper-arm-pivot",
+        ["0.487364979543842550225598953530", "0.52440996587995406937", "0.57356991482950245382"],
+    ),
+    (
+        "omega",
+        "lower-knee",
+        ["-0.222668390165885884674473185609", "0.53473011634207959377", "-19.293374105032040832"],
+    ),
+    (
+        "epsilon",
+        "lower-arm-pivot",
+        ["1.23054744454982119249735015568", "1.0480807410419378731", "0.32317914924913087499"],
+    ),
 ];
+/// Second derivative of beta at the end [rad/s²], and the length of the crank [m].
+const CRANK: [&str; 2] = ["-24631.7631228746345", "0.007"];
+
+/// The scene with rates of its angles, and the acceleration of the crank's end.
+fn andrews() -> String {
+    let mut text = std::fs::read_to_string(scene("andrews")).expect("the scene is there");
+    for (name, joint, _) in ANDREWS {
+        text += &format!(
+            "\n[[output]]\nname = \"{name}-rate\"\njoint = \"{joint}\"\nquantity = \"rate\"\n"
+        );
+    }
+    let end = text
+        .rsplit("name = \"F\"")
+        .next()
+        .and_then(|rest| rest.lines().find(|l| l.starts_with("at")));
+    let end = end.expect("where F is").to_owned();
+    text += &format!(
+        "\n[[output]]\nname = \"pull\"\nbody = \"crank\"\n{end}\nquantity = \"acceleration\"\n"
+    );
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("andrews-with-rates.toml");
+    std::fs::write(&path, text).expect("a file");
+    path.to_str().expect("a path").to_owned()
+}
 
 #[test]
 fn the_command_finds_all_digits_of_andrews_mechanism() {
-    let scene = scene("andrews");
+    let scene = andrews();
     let method = ["--precision", "dd", "--integrator", "gbs", "--tolerance", "1e-26"];
     let steps = ["--step", "1e-4", "--step-max", "3e-3", "--json"];
     let run = json(&mbs(&[&["run", scene.as_str()], &method[..], &steps[..]].concat()));
     println!("{} steps, {} s", run["steps"], run["cpu_seconds"]);
     assert_eq!(run["precision"], "dd");
-    for (name, start, end) in ANDREWS {
+    for (name, _, [start, end, rate]) in ANDREWS {
         let off = (pair(start) + digits(&run, name) - pair(end)).abs();
         // The last two digits of each.
         assert!(off <= pair("1e-17"), "{name} is off by {off:.1e}");
+        let off = (digits(&run, &format!("{name}-rate")) - pair(rate)).abs();
+        println!("rate of {name}: off by {off:.1e}");
+        assert!(off <= pair(rate).abs() * pair("1e-18"), "rate of {name} is off by {off:.1e}");
+    }
+    // The end of the crank turns about the origin: a = l (beta'' e' - beta'^2 e).
+    let [_, beta, rate] = ANDREWS[0].2.map(pair);
+    let [second, length] = CRANK.map(pair);
+    let (sin, cos) = beta.sin_cos();
+    let expected = [-second * sin - rate * rate * cos, second * cos - rate * rate * sin];
+    let told = run["digits"]["pull"].as_array().expect("two numbers");
+    for (told, expected) in told.iter().zip(expected) {
+        let off = (pair(told.as_str().expect("digits")) - length * expected).abs();
+        println!("acceleration: off by {off:.1e}");
+        // rate² is known to 1e-16 * 2 * 1140, the second derivative to 1e-13.
+        assert!(off <= pair("1e-15"), "the acceleration is off by {off:.1e}");
     }
 }
 

@@ -11,6 +11,7 @@ mod threads;
 use crate::lab::section::Section;
 use crate::page;
 use crate::process;
+use child::Program;
 use machine::Machine;
 pub(crate) use machine::{cores, processor};
 use measured::{Measured, Scene};
@@ -107,14 +108,7 @@ fn measure(asked: &Asked) -> Result<Measured, String> {
     // The load before anything of this job runs is that of others.
     let machine = Machine::now();
     let threads = asked.threads.clone().unwrap_or_else(|| Threads::up_to(machine.cores));
-    let mut build = process::cargo();
-    build.args(["build", "--quiet", "--release", "--package", "bench"]);
-    process::run(build.current_dir(process::root()))?;
-    let program = child::Program {
-        path: process::target_dir().join("release").join("bench"),
-        threads: threads.listed(),
-        seconds: if asked.quick { "0.5" } else { "2" },
-    };
+    let program = built(&threads, asked.quick)?;
 
     let forks = program.run(&["forks"], Duration::from_secs(60))?;
     let mut measured =
@@ -127,6 +121,22 @@ fn measure(asked: &Asked) -> Result<Measured, String> {
     Ok(measured)
 }
 
+/// Builds the program.
+///
+/// # Errors
+///
+/// What cargo says.
+pub(crate) fn built(threads: &Threads, quick: bool) -> Result<Program, String> {
+    let mut build = process::cargo();
+    build.args(["build", "--quiet", "--release", "--package", "bench"]);
+    process::run(build.current_dir(process::root()))?;
+    Ok(Program {
+        path: process::target_dir().join("release").join("bench"),
+        threads: threads.listed(),
+        seconds: if quick { "0.5" } else { "2" },
+    })
+}
+
 /// The scenes that are asked for; a name that is not in the list is the program's to judge.
 fn wanted(asked: &Asked) -> Vec<String> {
     if !asked.scenes.is_empty() {
@@ -137,7 +147,7 @@ fn wanted(asked: &Asked) -> Vec<String> {
 }
 
 /// Measures one scene in all formulations, each in a process of its own where it may take too long.
-fn scene(program: &child::Program, name: &str) -> Result<Scene, String> {
+fn scene(program: &Program, name: &str) -> Result<Scene, String> {
     process::progress(&format!("{name} {SHARED}"));
     let mut scene = Scene::new(name);
     scene.read(&program.run(&[name, SHARED], Duration::from_secs(300))?)?;

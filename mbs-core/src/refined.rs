@@ -1,0 +1,261 @@
+//! Solutions with more digits than their factor: [`Refined`] factors in `f64` and solves in a finer scalar.
+//!
+//! ```text
+//! T = L D L^T in f64,   x = 0,   r = b
+//! d = (L D L^T)^-1 r,   x += d,   r = b - sum_e P_e^T T_e P_e x in the finer scalar        until d is rounding
+//! ```
+//!
+//! Each correction leaves about cond(T) times the epsilon of `f64` of the error before it, so that the digits of a
+//! double-double solution are there after 32 / (16 - log10 cond) corrections, as long as cond(T) stays below 1e15. Residuals
+//! are sums over the blocks of the elements, which keep what an assembled matrix in `f64` has lost: the mass beside a penalty.
+//!
+//! A formulation that solves for corrections of a residual of its own needs none of this: its next residual refines
+//! ([`Refined::most`] is then 1). One that solves for the vector itself, as the printed projections do [P1 (13), (19)], does.
+
+use crate::Real;
+use crate::algebra::norm_inf;
+use crate::blocks::{BlockSource, Cliques, FactorError, SpdSolver, combine};
+use crate::dense::front::column;
+use crate::dense::lists::Lists;
+use crate::dense::scaling::subtract_product;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::cell::{Cell, RefCell};
+
+/// A solver in `T` over a solver in `f64`.
+///
+/// Cost beside that of the inner solver: a factorisation keeps the blocks of all elements, in the finer scalar; each correction
+/// after the first takes a product with them, two operations for each entry, and one solution in `f64`.
+#[derive(Debug, Clone)]
+pub struct Refined<T, S> {
+    solver: S,
+    most: u32,
+    cliques: Lists,
+    /// The blocks last factored, one after the other.
+    blocks: Vec<T>,
+    /// Where each begins, and the end of all.
+    places: Vec<usize>,
+    /// Values of one element.
+    values: Vec<T>,
+    pivots: Vec<T>,
+    room: RefCell<Room>,
+    tally: Cell<Tally>,
+}
+
+/// Room for a solution in `f64`: a solver shares itself while it solves.
+#[derive(Debug, Clone)]
+struct Room {
+    x: Vec<f64>,
+    scratch: Vec<f64>,
+}
+
+/// What the solutions came to since [`Refined::take_tally`] was last asked.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Tally {
+    /// Solutions.
+    pub solutions: u64,
+    /// Corrections of those that succeeded, each a solution in `f64`; the first of each is that of the factor alone.
+    pub corrections: u64,
+    /// Solutions that have fewer digits than was asked for.
+    pub failed: u64,
+    /// Why the last of those has.
+    pub failure: Option<RefinementError>,
+}
+
+/// A solution has no more digits than its factor gives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RefinementError {
+    /// Corrections did not fall by half: the condition of the matrix is beyond the factor's precision. Remedy: a smaller
+    /// penalty, or a factor in the finer scalar.
+    Stalled {
+        /// Corrections made.
+        corrections: u32,
+        /// The last one beside the one before it [-].
+        contraction: f64,
+        /// The last one beside the solution [-].
+        left: f64,
+    },
+    /// The corrections that are allowed were made, and the last one was not rounding yet. Remedy: allow more.
+    Unfinished {
+        /// Corrections made.
+        corrections: u32,
+        /// The last one beside the solution [-].
+        left: f64,
+    },
+    /// A correction was not a number.
+    NotFinite,
+}
+
+impl core::fmt::Display for RefinementError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Stalled { corrections, contraction, left } => write!(
+                f,
+                "refinement stalled: correction {corrections} is {contraction:.1e} of the one before and {left:.1e} of the \
+                 solution; the matrix is too ill-conditioned for its factor"
+            ),
+            Self::Unfinished { corrections, left } => {
+                write!(
+                    f,
+                    "refinement not finished: correction {corrections} is {left:.1e} of the solution"
+                )
+            }
+            Self::NotFinite => write!(f, "refinement failed: a correction is not a number"),
+        }
+    }
+}
+
+impl core::error::Error for RefinementError {}
+
+/// Corrections that give all digits of a double-double as long as each leaves less than half of the error before it.
+pub const ALL: u32 = 100;
+
+impl<T: Real, S: SpdSolver<f64>> Refined<T, S> {
+    /// Over a `solver` that was analysed for the same `cliques`; at most `most` corrections make a solution: one takes what
+    /// the factor gives, [`ALL`] go on to the rounding of `T`. The only place that allocates.
+    pub fn new(cliques: &impl Cliques, solver: S, most: u32) -> Self {
+        let n = cliques.n_unknowns();
+        let cliques = Lists::of(cliques);
+        let mut places = vec![0];
+        places.extend(cliques.iter().scan(0, |end, clique| {
+            *end += column(clique.len(), clique.len());
+            Some(*end)
+        }));
+        Self {
+            blocks: vec![T::ZERO; places.last().copied().unwrap_or(0)],
+            places,
+            values: vec![T::ZERO; cliques.largest()],
+            cliques,
+            pivots: vec![T::ZERO; n],
+            room: RefCell::new(Room { x: vec![0.0; n], scratch: vec![0.0; solver.n_scratch()] }),
+            tally: Cell::default(),
+            solver,
+            most,
+        }
+    }
+
+    /// Corrections that may make a solution.
+    pub fn most(&self) -> u32 {
+        self.most
+    }
+
+    /// What the solutions came to since this was last asked.
+    pub fn take_tally(&self) -> Tally {
+        self.tally.take()
+    }
+
+    /// Replaces `x` (n places) by the solution of T x = b, given b in `x`, with [`n_scratch`](SpdSolver::n_scratch) places of
+    /// `scratch`. Returns the number of corrections; of a single one nothing is asked.
+    ///
+    /// # Errors
+    /// [`RefinementError`]; `x` is then the best that was reached.
+    pub fn refine(&self, x: &mut [T], scratch: &mut [T]) -> Result<u32, RefinementError> {
+        let (residual, rest) = scratch.split_at_mut(x.len());
+        let d = &mut rest[..x.len()];
+        residual.copy_from_slice(x);
+        x.fill(T::ZERO);
+        let goal = T::EPSILON.to_f64();
+        let (mut last, mut contraction) = (f64::INFINITY, 1.0);
+        for corrections in 1..=self.most {
+            let size = self.correction(residual, d);
+            if !size.is_finite() {
+                return Err(RefinementError::NotFinite);
+            }
+            if corrections > 1 {
+                contraction = size / last;
+                if contraction > 0.5 {
+                    let left = last / norm_inf(x).to_f64();
+                    return Err(RefinementError::Stalled { corrections, contraction, left });
+                }
+            }
+            x.iter_mut().zip(&*d).for_each(|(x, &d)| *x += d);
+            last = size;
+            // The next correction would be smaller by the same factor.
+            let is_rounding = size * contraction <= goal * norm_inf(x).to_f64();
+            if is_rounding || self.most == 1 {
+                return Ok(corrections);
+            }
+            if corrections < self.most {
+                self.subtract_product(d, residual);
+            }
+        }
+        let left = last / norm_inf(x).to_f64();
+        Err(RefinementError::Unfinished { corrections: self.most, left })
+    }
+
+    /// d = (L D L^T)^-1 r in `f64`; returns its largest absolute value, or what is not finite in it.
+    fn correction(&self, r: &[T], d: &mut [T]) -> f64 {
+        let mut room = self.room.borrow_mut();
+        let Room { x, scratch } = &mut *room;
+        x.iter_mut().zip(r).for_each(|(x, r)| *x = r.to_f64());
+        self.solver.solve(x, scratch);
+        d.iter_mut().zip(&*x).for_each(|(d, &x)| *d = T::from_f64(x));
+        norm_inf(x)
+    }
+
+    /// r <- r - T d, element by element.
+    fn subtract_product(&self, d: &[T], r: &mut [T]) {
+        for (clique, ends) in self.cliques.iter().zip(self.places.windows(2)) {
+            subtract_product(clique, &self.blocks[ends[0]..ends[1]], d, r);
+        }
+    }
+}
+
+/// The blocks as the inner solver takes them.
+struct Rounded<'a, T> {
+    blocks: &'a [T],
+    places: &'a [usize],
+}
+
+impl<T: Real> BlockSource<f64> for Rounded<'_, T> {
+    fn write_block(&self, element: usize, block: &mut [f64]) {
+        let from = &self.blocks[self.places[element]..self.places[element + 1]];
+        block.iter_mut().zip(from).for_each(|(low, x)| *low = x.to_f64());
+    }
+    fn write_residual(&self, _: usize, residual: &mut [f64]) {
+        residual.fill(0.0);
+    }
+}
+
+impl<T: Real, S: SpdSolver<f64>> SpdSolver<T> for Refined<T, S> {
+    fn factor<B: BlockSource<T>>(&mut self, source: &B) -> Result<(), FactorError> {
+        for (e, ends) in self.places.windows(2).enumerate() {
+            source.write_block(e, &mut self.blocks[ends[0]..ends[1]]);
+        }
+        self.solver.factor(&Rounded { blocks: &self.blocks, places: &self.places })?;
+        for (pivot, &low) in self.pivots.iter_mut().zip(self.solver.pivots()) {
+            *pivot = T::from_f64(low);
+        }
+        Ok(())
+    }
+
+    /// [`refine`](Refined::refine); what fails there is kept in the [`Tally`], and the best that was reached is the solution.
+    fn solve(&self, x: &mut [T], scratch: &mut [T]) {
+        let mut tally = self.tally.get();
+        tally.solutions += 1;
+        match self.refine(x, scratch) {
+            Ok(corrections) => tally.corrections += u64::from(corrections),
+            Err(error) => {
+                tally.failed += 1;
+                tally.failure = Some(error);
+            }
+        }
+        self.tally.set(tally);
+    }
+
+    fn n_scratch(&self) -> usize {
+        2 * self.pivots.len()
+    }
+    fn assemble<B: BlockSource<T>>(&mut self, source: &B, f: &mut [T]) {
+        let write = |e: usize, residual: &mut [T]| source.write_residual(e, residual);
+        combine(self.cliques.iter(), (&mut self.values, f), T::ZERO, write, |sum, x| sum + x);
+    }
+
+    /// With the digits of `f64`.
+    fn pivots(&self) -> &[T] {
+        &self.pivots
+    }
+    fn elimination_order(&self) -> &[u32] {
+        self.solver.elimination_order()
+    }
+}
