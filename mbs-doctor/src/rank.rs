@@ -78,11 +78,13 @@ impl Rank {
         }
     }
 
-    /// The combination of rows that is nearest to vanishing among those that count.
+    /// The combination of rows that belongs to singular value number `i`, a unit vector.
+    ///
+    /// # Panics
+    /// If there is no such value.
     #[must_use]
-    pub fn weakest(&self) -> Vec<f64> {
-        let Some(last) = self.sizes[2].checked_sub(1) else { return vec![0.0; self.sizes[0]] };
-        (0..self.sizes[0]).map(|i| self.left[(i, last)]).collect()
+    pub fn combination(&self, i: usize) -> Vec<f64> {
+        (0..self.sizes[0]).map(|row| self.left[(row, i)]).collect()
     }
 
     /// The left null space as it would be if the suspicious singular values were zero; nothing where none is.

@@ -1,0 +1,332 @@
+//! Along the motion: how near it comes to a singular position, and which corners of its loops straighten.
+//!
+//! ```text
+//! κ(t) = σ_r / σ₁,   r: the largest rank met on the way
+//! ```
+//!
+//! Where κ passes zero it is |c (t − t₀)| to first order, so that κ² is a parabola: the least of three samples round the smallest
+//! one is found exactly, however far apart they stand on both sides.
+
+use super::finding::{Finding, Severity, Topic, joint_names};
+use super::{Effort, places, stopped};
+use crate::settings::Settings;
+use crate::simulation::Simulation;
+use crate::tree::{InSpace, Plane};
+use crate::words::few;
+use mbs_core::scene::{Entry, Scene};
+use mbs_doctor::{Linkage, Loop, Part, Poses, Rank, loops};
+use std::time::Instant;
+
+/// What was seen along the motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// Formulation of the run.
+    pub formulation: &'static str,
+    /// Positions looked at.
+    pub positions: u64,
+    /// Time that was reached [s].
+    pub reached: f64,
+    /// Duration that was asked for [s].
+    pub duration: f64,
+    /// Was the time of the examination up before the duration?
+    pub is_cut_short: bool,
+    /// The nearest singular position of each part with loops.
+    pub nearest: Vec<Nearest>,
+    /// Corners of loops, in the order of the loops.
+    pub corners: Vec<Straight>,
+    /// Why the run stopped: code, message and hint.
+    pub error: Option<(&'static str, String, &'static str)>,
+    /// Whose: the place in the scene.
+    pub entry: Option<Entry>,
+}
+
+/// Nearest singular position of a part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Nearest {
+    /// Time [s].
+    pub time: f64,
+    /// Smallest singular value over the largest, there [-]: zero where it is singular.
+    pub sigma: f64,
+    /// The same at the start.
+    pub sigma_at_start: f64,
+    /// Rank, and the rank at the start.
+    pub rank: [usize; 2],
+    /// Joints whose equations nearly depend on each other there.
+    pub joints: Vec<usize>,
+}
+
+/// A corner of a loop along the motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Straight {
+    /// Number of the loop.
+    pub lap: usize,
+    /// The joint in the corner.
+    pub joint: usize,
+    /// Turn at the start [rad].
+    pub turn: f64,
+    /// Smallest angle to a straight line [rad], and its time [s].
+    pub least: [f64; 2],
+    /// First time at which the corner was on its other side [s].
+    pub changed: Option<f64>,
+}
+
+/// κ below which a position counts as passed through.
+const SINGULAR: f64 = 1e-3;
+/// Parts beyond this number of joints are left out: decompositions would take minutes.
+const LARGEST: usize = 120;
+/// Share of a combination above which a joint belongs to it.
+const SHARE: f64 = 0.05;
+
+struct Watch<'a> {
+    scene: &'a Scene<f64>,
+    linkage: &'a Linkage,
+    tracks: Vec<Track<'a>>,
+    corners: Vec<Straight>,
+}
+
+/// One part, watched.
+struct Track<'a> {
+    part: &'a Part,
+    rank: [usize; 2],
+    /// Time and κ of each position since the rank was last raised.
+    kappa: Vec<[f64; 2]>,
+    at_start: f64,
+    joints: Vec<usize>,
+}
+
+/// Runs the scene and looks at positions on the way.
+pub(super) fn watch<const D: usize>(
+    scene: &Scene<f64>,
+    settings: &Settings,
+    (linkage, effort): (&Linkage, &Effort),
+) -> Motion
+where
+    Plane<D>: InSpace<f64>,
+{
+    let mut motion = Motion {
+        formulation: settings.formulation.name(),
+        positions: 0,
+        reached: 0.0,
+        duration: settings.duration,
+        is_cut_short: false,
+        nearest: Vec::new(),
+        corners: Vec::new(),
+        error: None,
+        entry: None,
+    };
+    let mut simulation = match Simulation::<f64, D>::new(scene, settings) {
+        Ok(simulation) => simulation,
+        Err(error) => {
+            let (message, hint) = stopped(scene, &error, 0.0);
+            (motion.error, motion.entry) = (Some((error.code(), message, hint)), error.entry());
+            return motion;
+        }
+    };
+    let mut watch = Watch::new(scene, linkage);
+    let clock = Instant::now();
+    let end = settings.duration;
+    let every = end / effort.positions as f64;
+    watch.look(0.0, &places(scene, simulation.model(), simulation.state()));
+    motion.positions = 1;
+    let mut next = every;
+    while motion.reached < end * (1.0 - 1e-12) {
+        let rest = end - motion.reached;
+        match simulation.advance(rest.min(settings.step_max)) {
+            Ok(_) => motion.reached = simulation.state().t,
+            Err(error) => {
+                let stop = simulation.explain(error);
+                let (message, hint) = stopped(scene, &stop, motion.reached);
+                (motion.error, motion.entry) = (Some((stop.code(), message, hint)), stop.entry());
+                break;
+            }
+        }
+        if motion.reached >= next * (1.0 - 1e-9) {
+            watch.look(motion.reached, &places(scene, simulation.model(), simulation.state()));
+            motion.positions += 1;
+            next += every * ((motion.reached - next) / every).floor().max(0.0) + every;
+        }
+        if clock.elapsed().as_secs_f64() > effort.seconds {
+            motion.is_cut_short = motion.reached < end * (1.0 - 1e-12);
+            break;
+        }
+    }
+    motion.nearest = watch.tracks.iter().map(Track::nearest).collect();
+    motion.corners = watch.corners;
+    motion
+}
+
+impl<'a> Watch<'a> {
+    fn new(scene: &'a Scene<f64>, linkage: &'a Linkage) -> Self {
+        let parts = linkage.parts.iter().filter(|p| p.has_loop() && p.joints.len() <= LARGEST);
+        let track = |part| Track {
+            part,
+            rank: [0; 2],
+            kappa: Vec::new(),
+            at_start: 0.0,
+            joints: Vec::new(),
+        };
+        Self { scene, linkage, tracks: parts.map(track).collect(), corners: Vec::new() }
+    }
+
+    fn look(&mut self, t: f64, at: &Poses) {
+        for track in &mut self.tracks {
+            track.look(self.linkage, t, at);
+        }
+        if self.scene.joints.len() > LARGEST {
+            return;
+        }
+        let all = loops(self.linkage, at);
+        let corners = || {
+            all.iter()
+                .enumerate()
+                .flat_map(|(lap, of): (usize, &Loop)| of.corners.iter().map(move |c| (lap, c)))
+        };
+        if t == 0.0 {
+            let straight = |(lap, c): (usize, &mbs_doctor::Corner)| Straight {
+                lap,
+                joint: c.joint,
+                turn: c.turn,
+                least: [c.distance(), 0.0],
+                changed: None,
+            };
+            self.corners = corners().map(straight).collect();
+        }
+        for (lap, corner) in corners() {
+            // A corner may vanish where two places meet.
+            let Some(of) =
+                self.corners.iter_mut().find(|s| s.lap == lap && s.joint == corner.joint)
+            else {
+                continue;
+            };
+            if corner.distance() < of.least[0] {
+                of.least = [corner.distance(), t];
+            }
+            if corner.has_sign && corner.turn * of.turn < 0.0 {
+                of.changed.get_or_insert(t);
+            }
+        }
+    }
+}
+
+impl Track<'_> {
+    fn look(&mut self, linkage: &Linkage, t: f64, at: &Poses) {
+        let jacobian = linkage.jacobian(self.part, at);
+        let Some(rank) = Rank::of(&jacobian.matrix) else { return };
+        let here = rank.sizes[2];
+        let is_first = self.rank == [0; 2];
+        if is_first {
+            self.rank = [here, here];
+            self.at_start = rank.least();
+        } else if here > self.rank[0] {
+            // What came before had a lower rank: it was singular.
+            self.rank[0] = here;
+            self.kappa.iter_mut().for_each(|sample| sample[1] = 0.0);
+            if self.kappa.iter().any(|sample| sample[0] <= 0.0) {
+                self.at_start = 0.0;
+            }
+        }
+        let Some(last) = self.rank[0].checked_sub(1) else { return };
+        let kappa = if here < self.rank[0] { 0.0 } else { rank.sigma[last] / rank.sigma[0] };
+        if self.kappa.iter().all(|sample| kappa < sample[1]) {
+            let weights = rank.combination(last);
+            let weight = |range: &std::ops::Range<usize>| {
+                range.clone().map(|row| weights[row] * weights[row]).sum::<f64>()
+            };
+            let joints = self.part.joints.iter().zip(&jacobian.rows);
+            let taken = joints.filter(|(_, range)| weight(range) > SHARE * SHARE);
+            self.joints = taken.map(|(&joint, _)| joint).collect();
+        }
+        self.kappa.push([t, kappa]);
+    }
+
+    fn nearest(&self) -> Nearest {
+        let least =
+            (0..self.kappa.len()).min_by(|&a, &b| self.kappa[a][1].total_cmp(&self.kappa[b][1]));
+        let [time, sigma] = least.map_or([0.0, 1.0], |i| refined(&self.kappa, i));
+        Nearest {
+            time,
+            sigma,
+            sigma_at_start: self.at_start,
+            rank: self.rank,
+            joints: self.joints.clone(),
+        }
+    }
+}
+
+/// The least of the parabola through κ² of three samples, beside sample `i`.
+fn refined(kappa: &[[f64; 2]], i: usize) -> [f64; 2] {
+    if i == 0 || i + 1 >= kappa.len() {
+        return kappa[i];
+    }
+    let [[t0, a], [t1, b], [t2, c]] = [kappa[i - 1], kappa[i], kappa[i + 1]];
+    let [a, b, c] = [a, b, c].map(|x| x * x);
+    let (first, second) = ((b - a) / (t1 - t0), (c - b) / (t2 - t1));
+    let curvature = (second - first) / (t2 - t0);
+    if !(curvature > 0.0) {
+        return kappa[i];
+    }
+    let slope = first + curvature * (t1 - t0);
+    let t = t1 - slope / (2.0 * curvature);
+    let value = b - slope * slope / (4.0 * curvature);
+    if t < t0 || t > t2 { kappa[i] } else { [t, value.max(0.0).sqrt()] }
+}
+
+pub(super) fn findings(
+    (scene, _): (&Scene<f64>, &Linkage),
+    motion: &Motion,
+    findings: &mut Vec<Finding>,
+) {
+    for near in motion.nearest.iter().filter(|near| near.sigma < SINGULAR && near.time > 0.0) {
+        let message = format!(
+            "at t = {} s the motion passes a singular position of {} (smallest singular value {} of the largest, {} at the start): branches meet there",
+            few(near.time),
+            joint_names(scene, &near.joints),
+            few(near.sigma),
+            few(near.sigma_at_start)
+        );
+        let remedy = "run it by index-3 or index-1, compare two steps, and see that the branch is the one that is meant";
+        let told = (Topic::Motion, "passes-singular-position");
+        let finding = Finding::new(Severity::Doubt, told, message, remedy);
+        findings.push(finding.joints(near.joints.clone()));
+    }
+    if let Some((code, message, hint)) = &motion.error {
+        let message = format!(
+            "the run by {} stops at t = {} s: {message}",
+            motion.formulation,
+            few(motion.reached)
+        );
+        let mut finding = Finding::new(Severity::Fault, (Topic::Motion, code), message, *hint);
+        match motion.entry {
+            Some(Entry::Joint(j)) => finding = finding.joints(vec![j]),
+            Some(Entry::Body(b)) => finding = finding.bodies(vec![b]),
+            Some(entry) => finding = finding.at(entry, "name"),
+            None => {}
+        }
+        findings.push(finding);
+    }
+    if motion.is_cut_short {
+        let message = format!(
+            "the motion was looked at up to t = {} s of {} s: the time for it was up",
+            few(motion.reached),
+            few(motion.duration)
+        );
+        let told = (Topic::Motion, "cut-short");
+        findings.push(Finding::new(Severity::Note, told, message, ""));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_passage_between_samples_is_found_where_it_is() {
+        let at = 0.437;
+        let kappa: Vec<[f64; 2]> =
+            (0..11).map(|i| f64::from(i) * 0.1).map(|t| [t, 3.0 * (t - at).abs()]).collect();
+        let i = (0..11).min_by(|&a, &b| kappa[a][1].total_cmp(&kappa[b][1])).expect("samples");
+        let [t, value] = refined(&kappa, i);
+        // Roundings of squares of order one, under a root.
+        assert!((t - at).abs() < 1e-14 && value < 1e-7, "{t} {value}");
+    }
+}
