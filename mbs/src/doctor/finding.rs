@@ -133,8 +133,29 @@ fn quoted<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
-/// A count with its noun.
+/// A count with its noun, of which there may be many.
 pub(super) fn counted(n: usize, noun: &str) -> String {
-    let plural = if n == 1 { "" } else { "s" };
-    format!("{n} {noun}{plural}")
+    if n == 1 {
+        return format!("1 {noun}");
+    }
+    match noun.split_once(" of ") {
+        Some((head, rest)) => format!("{n} {head}s of {rest}"),
+        None => match noun.strip_suffix('y') {
+            Some(stem) => format!("{n} {stem}ies"),
+            None => format!("{n} {noun}s"),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::counted;
+
+    #[test]
+    fn nouns_have_their_plurals() {
+        assert_eq!(counted(1, "body"), "1 body");
+        assert_eq!(counted(0, "body"), "0 bodies");
+        assert_eq!(counted(2, "degree of freedom"), "2 degrees of freedom");
+        assert_eq!(counted(3, "equation"), "3 equations");
+    }
 }

@@ -73,7 +73,9 @@ pub struct Straight {
 /// κ below which a position counts as passed through.
 const SINGULAR: f64 = 1e-3;
 /// Parts beyond this number of joints are left out: decompositions would take minutes.
-const LARGEST: usize = 120;
+const LARGEST: usize = 200;
+/// Operations that all decompositions may take: of large parts fewer positions are looked at.
+const WORK: f64 = 2e10;
 /// Share of a combination above which a joint belongs to it.
 const SHARE: f64 = 0.05;
 
@@ -125,7 +127,7 @@ where
     let mut watch = Watch::new(scene, linkage);
     let clock = Instant::now();
     let end = settings.duration;
-    let every = end / effort.positions as f64;
+    let every = end / positions(linkage, effort);
     watch.look(0.0, &places(scene, simulation.model(), simulation.state()));
     motion.positions = 1;
     let mut next = every;
@@ -155,9 +157,21 @@ where
     motion
 }
 
+/// How many positions are looked at.
+#[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
+fn positions(linkage: &Linkage, effort: &Effort) -> f64 {
+    let watched = linkage.parts.iter().filter(|p| is_watched(p));
+    let work = watched.map(|p| 20.0 * (p.bodies.len() * linkage.freedoms()).pow(3) as f64).sum();
+    (effort.positions as f64).min((WORK / f64::max(work, 1.0)).ceil())
+}
+
+fn is_watched(part: &Part) -> bool {
+    part.has_loop() && part.joints.len() <= LARGEST
+}
+
 impl<'a> Watch<'a> {
     fn new(scene: &'a Scene<f64>, linkage: &'a Linkage) -> Self {
-        let parts = linkage.parts.iter().filter(|p| p.has_loop() && p.joints.len() <= LARGEST);
+        let parts = linkage.parts.iter().filter(|p| is_watched(p));
         let track = |part| Track {
             part,
             rank: [0; 2],
@@ -272,7 +286,7 @@ fn refined(kappa: &[[f64; 2]], i: usize) -> [f64; 2] {
 }
 
 pub(super) fn findings(
-    (scene, _): (&Scene<f64>, &Linkage),
+    (scene, linkage): (&Scene<f64>, &Linkage),
     motion: &Motion,
     findings: &mut Vec<Finding>,
 ) {
@@ -303,6 +317,20 @@ pub(super) fn findings(
             None => {}
         }
         findings.push(finding);
+    }
+    let left: Vec<usize> = linkage
+        .parts
+        .iter()
+        .filter(|part| part.has_loop() && !is_watched(part))
+        .map(|part| part.joints[0])
+        .collect();
+    if !left.is_empty() {
+        let message = format!(
+            "the loops that {} belong to are too many to be looked at along the motion",
+            joint_names(scene, &left)
+        );
+        let told = (Topic::Motion, "not-watched");
+        findings.push(Finding::new(Severity::Note, told, message, "").joints(left));
     }
     if motion.is_cut_short {
         let message = format!(

@@ -8,6 +8,9 @@ use mbs_core::scene::{Entry, Scene};
 use mbs_doctor::UNCERTAIN;
 use mbs_scene::{Provenance, Report, Section, readable};
 
+/// Ways and turns below this are rounding [m or rad].
+const ROUNDING: f64 = 1e-12;
+
 /// Where an entry's key stands in the scene file.
 type Line<'a> = &'a dyn Fn(Entry, &str) -> Option<usize>;
 
@@ -168,7 +171,10 @@ fn reactions(c: &Checkup) -> Section {
     let rows = if some.is_empty() {
         vec![row("all joints", "every component is determined by the motion".to_owned())]
     } else {
-        let told = |(j, open): &(usize, String)| row(&c.joints[*j], format!("not unique: {open}"));
+        let told = |(j, open): &(usize, String)| {
+            let value = format!("not unique: {open}{}", directions(c, *j));
+            row(&c.joints[*j], value)
+        };
         let mut rows: Vec<_> = some.iter().map(told).collect();
         if c.unique.len() > some.len() {
             rows.push(row("all others", "every component is determined by the motion".to_owned()));
@@ -182,6 +188,20 @@ fn reactions(c: &Checkup) -> Section {
             .to_owned()
     };
     Section { title: "Reactions".to_owned(), rows, caption, ..Section::default() }
+}
+
+/// Whatever the axes: how many forces and moments of a joint are open.
+fn directions(c: &Checkup, joint: usize) -> String {
+    let exact = c.joint_level.sets.iter().filter(|set| set.is_exact);
+    let member = exact.flat_map(|set| &set.members).find(|m| m.joint == joint);
+    member.map_or_else(String::new, |m| {
+        let [forces, moments, both] = m.open;
+        let noun = |n: usize, noun| (n > 0).then(|| counted(n, noun));
+        let parts: Vec<String> =
+            [noun(forces, "force"), noun(moments, "moment")].into_iter().flatten().collect();
+        let coupled = if both < forces + moments { ", coupled" } else { "" };
+        format!(" ({}{coupled})", parts.join(" and "))
+    })
 }
 
 fn loops(c: &Checkup) -> Option<Section> {
@@ -271,7 +291,7 @@ fn start(scene: &Scene<f64>, c: &Checkup) -> Option<Section> {
         let (a, b) = (farthest(0), farthest(1));
         ([a.0, b.0], [a.1, b.1])
     };
-    let moved = if way > 0.0 || turn > 0.0 {
+    let moved = if way > ROUNDING || turn > ROUNDING {
         format!("up to {} m ({far}), {} rad ({turned})", few(way), few(turn))
     } else {
         "nothing".to_owned()

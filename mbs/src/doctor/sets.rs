@@ -82,11 +82,24 @@ fn remedy(scene: &Scene<f64>, set: &Set) -> String {
             "start a little away from this position with an [[initial]] value, or run it: index-3 and index-1 pass it".to_owned()
         }
         (None, _, false) => "give places and axes with all their digits".to_owned(),
+        (None, ..) if of_one_pair(scene, set) => {
+            "replace these joints, all between the same two bodies, by one that allows what they allow together: two balls by a revolute joint through both".to_owned()
+        }
         (None, ..) if set.members.iter().any(|m| m.guide) => {
             "leave one of the guides out, or a joint that repeats another".to_owned()
         }
         (None, ..) => "leave a joint or a body out that repeats another".to_owned(),
     }
+}
+
+/// Are all joints of a set between the same two bodies?
+fn of_one_pair(scene: &Scene<f64>, set: &Set) -> bool {
+    let pair = |m: &mbs_doctor::Member| {
+        let mut bodies = scene.joints[m.joint].bodies;
+        bodies.sort_unstable();
+        bodies
+    };
+    set.members.iter().all(|m| pair(m) == pair(&set.members[0]))
 }
 
 /// What would be changed, in one sentence.

@@ -65,7 +65,6 @@ fn differs(
     let message = format!(
         "whole bodies and joints have {}, natural coordinates {dof}: the position is singular for one of them, or a rank is uncertain",
         counted(joint_level, "degree of freedom")
-            .replace("degree of freedoms", "degrees of freedom")
     );
     let remedy = "start a little away from this position with an [[initial]] value";
     findings.push(Finding::new(Severity::Doubt, (Topic::Rank, "freedoms-differ"), message, remedy));

@@ -1,9 +1,11 @@
 //! The start: what did not fit before assembly, and how far it moved each body.
 
-use super::finding::{Finding, Severity, Topic, body_names, joint_names};
+use super::finding::{Finding, Severity, Topic, counted};
 use super::{Begun, stopped};
+use crate::simulation::rank;
 use crate::stop::StopError;
 use crate::words::few;
+use mbs_core::Cliques;
 use mbs_core::algebra::rotation_vector;
 use mbs_core::scene::{BodyRef, Entry, GuideLaw, InitialTarget, Scene};
 use mbs_doctor::reference;
@@ -66,14 +68,15 @@ pub(super) fn findings<const D: usize>(
         };
         let severity = if asks(scene) { Severity::Note } else { Severity::Doubt };
         let message = format!(
-            "assembly moves {} from the reference configuration, by up to {} m and {} rad, {why}",
-            body_names(scene, &far),
+            "assembly moves {} of {} from the reference configuration, by up to {} m and {} rad, {why}",
+            far.len(),
+            counted(bodies.len(), "body"),
             few(way),
             few(turn)
         );
         findings.push(Finding::new(severity, (Topic::Start, "moved"), message, "").bodies(far));
     }
-    follow(scene, &speeds, length, findings);
+    follow(scene, (begun, &speeds), findings);
     Moved {
         residual_before: begun.start.residual_before,
         residual: begun.start.residual,
@@ -91,34 +94,45 @@ fn asks(scene: &Scene<f64>) -> bool {
         || scene.guides.iter().any(drives)
 }
 
-/// Bodies that move at the start though no velocity of theirs is written.
-fn follow(scene: &Scene<f64>, speeds: &[[f64; 2]], length: f64, findings: &mut Vec<Finding>) {
-    let (mut bodies, mut joints) = (vec![false; scene.bodies.len()], Vec::new());
+/// Bodies that move at the start though no velocity of theirs is written, and less is written than there are freedoms.
+fn follow<const D: usize>(
+    scene: &Scene<f64>,
+    (begun, speeds): (&Begun<D>, &[[f64; 2]]),
+    findings: &mut Vec<Finding>,
+) {
+    let dof = begun.model.n_unknowns() - rank(&begun.model, &begun.start.state);
+    let (mut is_written, mut n) = (vec![false; scene.bodies.len()], 0);
     for initial in &scene.initials {
         match &initial.target {
-            InitialTarget::Joint { joint, rate: Some(_), .. } => {
-                joints.push(*joint);
+            InitialTarget::Joint { joint, rate: Some(rates), .. } => {
+                n += rates.len();
                 for body in scene.joints[*joint].bodies {
                     if let BodyRef::Body(b) = body {
-                        bodies[b] = true;
+                        is_written[b] = true;
                     }
                 }
             }
-            InitialTarget::Body { body, .. } => bodies[*body] = true,
+            InitialTarget::Body { body, velocity, angular_velocity } => {
+                n += if velocity.is_some() { D } else { 0 };
+                n += if angular_velocity.is_some() { 2 * D - 3 } else { 0 };
+                is_written[*body] = true;
+            }
             InitialTarget::Joint { .. } => {}
         }
     }
-    let fastest = speeds.iter().map(|s| s[0].max(s[1] * length)).fold(0.0, f64::max);
-    let moves =
-        |b: &usize| !bodies[*b] && speeds[*b][0].max(speeds[*b][1] * length) > STILL * fastest;
+    let size = |s: &[f64; 2]| s[0].max(s[1] * begun.model.length());
+    let fastest = speeds.iter().map(size).fold(0.0, f64::max);
+    let moves = |b: &usize| !is_written[*b] && size(&speeds[*b]) > STILL * fastest;
     let others: Vec<usize> = (0..scene.bodies.len()).filter(moves).collect();
-    if others.is_empty() || joints.is_empty() {
+    if n == 0 || n >= dof || others.is_empty() {
         return;
     }
     let message = format!(
-        "with the rates written for {}, {} move too: the smallest motion in the measure of mass",
-        joint_names(scene, &joints),
-        body_names(scene, &others)
+        "{} for {}: {} without a written velocity move{} by the smallest motion in the measure of mass that fits",
+        counted(n, "initial velocity"),
+        counted(dof, "degree of freedom"),
+        counted(others.len(), "body"),
+        if others.len() == 1 { "s" } else { "" }
     );
     let told = (Topic::Start, "velocities-follow");
     findings.push(Finding::new(Severity::Note, told, message, "").bodies(others));
