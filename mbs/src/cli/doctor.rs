@@ -85,7 +85,8 @@ fn tell(
         ("step", arguments.step.map(|x| x.to_string())),
         ("duration", arguments.duration.map(|x| x.to_string())),
     ];
-    let provenance = files::provenance(("doctor", &arguments.scene), &options, settings);
+    let command = if arguments.still { "doctor --still" } else { "doctor" };
+    let provenance = files::provenance((command, &arguments.scene), &options, settings);
     let line = |entry: Entry, key: &str| Some(document.place(entry, key).line);
     let (page, mut text) = report(scene, checkup, &line, provenance);
     let object = to_json(checkup, &line).to_string();

@@ -162,6 +162,7 @@ impl Names<'_> {
                 "rank": n.rank[0],
                 "rank_at_start": n.rank[1],
                 "joints": self.joints(&n.joints),
+                "passages": n.passages,
             })).collect::<Vec<_>>(),
             "corners": m.corners.iter().map(|s| json!({
                 "loop": s.lap,

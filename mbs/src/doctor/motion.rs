@@ -4,8 +4,9 @@
 //! κ(t) = σ_r / σ₁,   r: the largest rank met on the way
 //! ```
 //!
-//! Where κ passes zero it is |c (t − t₀)| to first order, so that κ² is a parabola: the least of three samples round the smallest
-//! one is found exactly, however far apart they stand on both sides.
+//! Where κ passes zero it is a smooth function with its sign taken off. So behind each smallest sample the sign is put back: if the
+//! cubic through two samples before and two behind, these negated, meets the sample between them, κ passes zero, and the cubic
+//! says where. Else the least is that of the parabola through κ².
 
 use super::finding::{Finding, Severity, Topic, joint_names};
 use super::{Effort, places, stopped};
@@ -53,6 +54,8 @@ pub struct Nearest {
     pub rank: [usize; 2],
     /// Joints whose equations nearly depend on each other there.
     pub joints: Vec<usize>,
+    /// Times of all passages through a singular position [s].
+    pub passages: Vec<f64>,
 }
 
 /// A corner of a loop along the motion.
@@ -241,7 +244,7 @@ impl Track<'_> {
         }
         let Some(last) = self.rank[0].checked_sub(1) else { return };
         let kappa = if here < self.rank[0] { 0.0 } else { rank.sigma[last] / rank.sigma[0] };
-        if self.kappa.iter().all(|sample| kappa < sample[1]) {
+        if self.kappa.iter().all(|sample| kappa < sample[1]) || self.joints.is_empty() {
             let weights = rank.combination(last);
             let weight = |range: &std::ops::Range<usize>| {
                 range.clone().map(|row| weights[row] * weights[row]).sum::<f64>()
@@ -254,21 +257,57 @@ impl Track<'_> {
     }
 
     fn nearest(&self) -> Nearest {
-        let least =
-            (0..self.kappa.len()).min_by(|&a, &b| self.kappa[a][1].total_cmp(&self.kappa[b][1]));
-        let [time, sigma] = least.map_or([0.0, 1.0], |i| refined(&self.kappa, i));
+        let n = self.kappa.len();
+        let at = |i: usize| self.kappa.get(i).map_or(f64::INFINITY, |sample| sample[1]);
+        let is_low = |i: &usize| at(*i) < at(i.wrapping_sub(1)) && at(*i) <= at(i + 1);
+        let lows: Vec<[f64; 2]> = (0..n).filter(is_low).map(|i| refined(&self.kappa, i)).collect();
+        let least = lows.iter().copied().min_by(|a, b| a[1].total_cmp(&b[1]));
+        let [time, sigma] = least.unwrap_or(self.kappa.first().copied().unwrap_or([0.0, 1.0]));
+        let passed = lows.iter().filter(|low| low[0] > 0.0 && low[1] < SINGULAR);
         Nearest {
             time,
             sigma,
             sigma_at_start: self.at_start,
             rank: self.rank,
             joints: self.joints.clone(),
+            passages: passed.map(|low| low[0]).collect(),
         }
     }
 }
 
-/// The least of the parabola through κ² of three samples, beside sample `i`.
+/// Time and value of the least of κ near sample `i`, which is the smallest of its neighbours.
 fn refined(kappa: &[[f64; 2]], i: usize) -> [f64; 2] {
+    let low = touched(kappa, i);
+    match crossed(kappa, i) {
+        Some(crossing) if crossing[1] < low[1] => crossing,
+        _ => low,
+    }
+}
+
+/// Where κ passes zero, and by how much the samples contradict that.
+fn crossed(kappa: &[[f64; 2]], i: usize) -> Option<[f64; 2]> {
+    if i < 2 || i + 2 >= kappa.len() {
+        return None;
+    }
+    let [before, behind] = [[i - 2, i - 1], [i + 1, i + 2]];
+    let points: Vec<[f64; 2]> = before
+        .iter()
+        .map(|&k| kappa[k])
+        .chain(behind.iter().map(|&k| [kappa[k][0], -kappa[k][1]]))
+        .collect();
+    let [t, value] = kappa[i];
+    // Lagrange's polynomial at t.
+    let weight = |a: usize| {
+        let others = (0..4).filter(|&b| b != a);
+        others.map(|b| (t - points[b][0]) / (points[a][0] - points[b][0])).product::<f64>()
+    };
+    let here: f64 = (0..4).map(|a| weight(a) * points[a][1]).sum();
+    let slope = (points[2][1] - points[1][1]) / (points[2][0] - points[1][0]);
+    Some([t - here / slope, (here.abs() - value).abs()])
+}
+
+/// The least of the parabola through κ² of three samples.
+fn touched(kappa: &[[f64; 2]], i: usize) -> [f64; 2] {
     if i == 0 || i + 1 >= kappa.len() {
         return kappa[i];
     }
@@ -281,8 +320,9 @@ fn refined(kappa: &[[f64; 2]], i: usize) -> [f64; 2] {
     }
     let slope = first + curvature * (t1 - t0);
     let t = t1 - slope / (2.0 * curvature);
-    let value = b - slope * slope / (4.0 * curvature);
-    if t < t0 || t > t2 { kappa[i] } else { [t, value.max(0.0).sqrt()] }
+    let least = b - slope * slope / (4.0 * curvature);
+    // Below zero the parabola is no picture of a square.
+    if t < t0 || t > t2 || least < 0.0 { kappa[i] } else { [t, least.sqrt()] }
 }
 
 pub(super) fn findings(
@@ -290,10 +330,18 @@ pub(super) fn findings(
     motion: &Motion,
     findings: &mut Vec<Finding>,
 ) {
-    for near in motion.nearest.iter().filter(|near| near.sigma < SINGULAR && near.time > 0.0) {
+    for near in motion.nearest.iter().filter(|near| !near.passages.is_empty()) {
+        let times = match near.passages.as_slice() {
+            [once] => format!("at t = {} s the motion passes a singular position", few(*once)),
+            [first, ..] => format!(
+                "the motion passes a singular position {} times, first at t = {} s,",
+                near.passages.len(),
+                few(*first)
+            ),
+            [] => continue,
+        };
         let message = format!(
-            "at t = {} s the motion passes a singular position of {} (smallest singular value {} of the largest, {} at the start): branches meet there",
-            few(near.time),
+            "{times} of {}: branches meet there (smallest singular value {} of the largest, {} at the start)",
             joint_names(scene, &near.joints),
             few(near.sigma),
             few(near.sigma_at_start)
@@ -347,14 +395,26 @@ pub(super) fn findings(
 mod tests {
     use super::*;
 
+    fn least(kappa: impl Fn(f64) -> f64) -> [f64; 2] {
+        let kappa: Vec<[f64; 2]> =
+            (0..21).map(|i| f64::from(i) * 0.1).map(|t| [t, kappa(t)]).collect();
+        let i = (0..21).min_by(|&a, &b| kappa[a][1].total_cmp(&kappa[b][1])).expect("samples");
+        refined(&kappa, i)
+    }
+
     #[test]
     fn a_passage_between_samples_is_found_where_it_is() {
-        let at = 0.437;
-        let kappa: Vec<[f64; 2]> =
-            (0..11).map(|i| f64::from(i) * 0.1).map(|t| [t, 3.0 * (t - at).abs()]).collect();
-        let i = (0..11).min_by(|&a, &b| kappa[a][1].total_cmp(&kappa[b][1])).expect("samples");
-        let [t, value] = refined(&kappa, i);
-        // Roundings of squares of order one, under a root.
-        assert!((t - at).abs() < 1e-14 && value < 1e-7, "{t} {value}");
+        for at in [0.737, 0.75, 0.8, 0.799, 1.03] {
+            let [t, value] = least(|t| (t - at).sin().abs());
+            // Cubics through samples 0.1 apart are off by (2 0.1)^4 / 24, a chord's slope by (0.1)^2 / 6 of half a sample.
+            assert!((t - at).abs() < 2e-3 && value < 1e-4, "{t} {value}");
+        }
+    }
+
+    #[test]
+    fn a_near_miss_is_no_passage() {
+        let [t, value] = least(|t| (t - 0.737).hypot(0.05));
+        // The parabola through squares is exact here.
+        assert!((t - 0.737).abs() < 1e-12 && (value - 0.05).abs() < 1e-12, "{t} {value}");
     }
 }

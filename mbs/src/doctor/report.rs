@@ -261,12 +261,7 @@ fn motion(c: &Checkup) -> Option<Section> {
             ),
         ));
     }
-    for s in m.corners.iter().filter(|s| s.changed.is_some()) {
-        rows.push(row(
-            "a corner changed its side",
-            format!("{} at t = {} s", c.joints[s.joint], few(s.changed.unwrap_or(0.0))),
-        ));
-    }
+    rows.extend(changes(c, &m.corners));
     if m.nearest.is_empty() {
         rows.push(row("nearest singular position", "no loop, none".to_owned()));
     }
@@ -278,6 +273,22 @@ fn motion(c: &Checkup) -> Option<Section> {
             .to_owned(),
         ..Section::default()
     })
+}
+
+/// Corners that changed their side, those at the same time together.
+fn changes(c: &Checkup, corners: &[super::Straight]) -> Vec<Vec<String>> {
+    let mut changed: Vec<(f64, usize)> =
+        corners.iter().filter_map(|s| Some((s.changed?, s.joint))).collect();
+    changed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    changed.dedup();
+    let together = changed.chunk_by(|a, b| a.0.total_cmp(&b.0).is_eq());
+    let told = |of: &[(f64, usize)]| {
+        let joints: Vec<&str> = of.iter().map(|(_, j)| c.joints[*j].as_str()).collect();
+        let corner =
+            if of.len() == 1 { "a corner changed its side" } else { "corners changed sides" };
+        row(corner, format!("t = {} s: {}", few(of[0].0), joints.join(", ")))
+    };
+    together.map(told).collect()
 }
 
 fn start(scene: &Scene<f64>, c: &Checkup) -> Option<Section> {
