@@ -74,8 +74,12 @@ impl<T: Real> Clusters<T> {
     }
 }
 
-/// The root of `i`; the way there is halved, so that long chains of welds stay cheap.
-pub(crate) fn root(parent: &mut [usize], mut i: usize) -> usize {
+/// The root of `i` in a forest where roots are their own parents (union-find); the way there is halved, so that long chains stay
+/// cheap.
+///
+/// # Panics
+/// If `i` is not in the forest.
+pub fn root(parent: &mut [usize], mut i: usize) -> usize {
     while parent[i] != i {
         parent[i] = parent[parent[i]];
         i = parent[i];

@@ -272,11 +272,16 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     ) -> Result<usize, StepError> {
         let m = self.mechanism();
         let options = Options { closure: Closure::Constraints, ..Options::default() };
+        // A repeated row keeps ε times the squares of the weights by which others make it up, which may be thousands.
+        let regularisation = T::EPSILON * T::from_f64(256.0);
+        let sharp = Options { regularisation, ..options };
         let mut s = workspace.store();
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
         self.evaluate(state.t, s.guides, s.courses);
-        accelerations(&m, &options, Level::Once, &mut s).map_err(|fault| failure(&m, fault))?;
+        if accelerations(&m, &sharp, Level::Once, &mut s).is_err() {
+            accelerations(&m, &options, Level::Once, &mut s).map_err(|fault| failure(&m, fault))?;
+        }
         let least = T::EPSILON.sqrt();
         Ok(s.loops.pivots.iter().filter(|&&pivot| pivot > least).count())
     }

@@ -72,6 +72,14 @@ fn the_redundant_loop_of_the_spatial_four_bar_has_its_rank() {
 }
 
 #[test]
+fn a_hinge_of_two_balls_repeats_one_row_though_its_weights_are_large() {
+    let mut run = Run::<Spatial>::new::<3>(&file("iltis-links"));
+    let rank = run.model.rank(&run.state, &mut run.workspace).expect("regular");
+    // Four hinges; the vehicle has ten freedoms.
+    assert_eq!((run.model.n_freedoms(), run.model.n_rows(), rank), (42, 36, 32));
+}
+
+#[test]
 fn two_four_bars_pass_their_singular_positions_on_the_pendulum_s_branch() {
     // Ten passages in 10 s; the error of the tip falls with the order of the method.
     let tip = |run: &mut Run<Planar>| {

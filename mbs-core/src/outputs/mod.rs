@@ -23,3 +23,4 @@ pub use error::ReactionError;
 pub use event::Events;
 pub use measure::{Measures, start_values};
 pub use reaction::{LARGEST_BLOCK, Reactions};
+pub use wrench::{Transmission, Wrench};

@@ -18,13 +18,15 @@ use super::frame::normalised;
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, raised, unit};
 use crate::natural::{Affine, NaturalModel, joint_axes, transverse};
-use crate::scene::{BodyRef, JointKind, Scene};
+use crate::scene::{BodyRef, Dimension, Joint, JointKind, Scene};
 
 /// A force and a moment about the joint's place [N, N m], or about a body's centre of mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Wrench<T: Real> {
-    pub(super) force: Vector<T, 3>,
-    pub(super) moment: Vector<T, 3>,
+pub struct Wrench<T: Real> {
+    /// Force [N].
+    pub force: Vector<T, 3>,
+    /// Moment [N m].
+    pub moment: Vector<T, 3>,
 }
 
 impl<T: Real> Wrench<T> {
@@ -49,12 +51,11 @@ impl<T: Real> Wrench<T> {
     }
 }
 
-/// A joint as a carrier of wrenches.
-#[derive(Debug, Clone)]
-pub(super) struct Carrier<T: Real, const D: usize> {
+/// What a joint can transmit, by its kind and axes alone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Transmission<T: Real> {
+    dimension: Dimension,
     kind: JointKind,
-    pub(super) bodies: [BodyRef; 2],
-    places: [Affine<T, D>; 2],
     /// a, v, w in the reference configuration.
     axes: [Vector<T, 3>; 3],
     second_axis: Vector<T, 3>,
@@ -63,31 +64,28 @@ pub(super) struct Carrier<T: Real, const D: usize> {
     length: T,
 }
 
-impl<T: Real, const D: usize> Carrier<T, D> {
-    pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, index: usize) -> Self {
-        let joint = &scene.joints[index];
-        let [a, b] = joint_axes(joint, scene.dimension).map(Vector::<T, 3>::from);
-        let [v, w] = transverse(&a, scene.dimension);
+impl<T: Real> Transmission<T> {
+    /// Of a joint that passed its scene's check. Moments are unit forces at a lever of `length` [m], so that all directions
+    /// are forces.
+    #[must_use]
+    pub fn new(joint: &Joint<T>, dimension: Dimension, is_guided: bool, length: T) -> Self {
+        let [a, b] = joint_axes(joint, dimension).map(Vector::<T, 3>::from);
+        let [v, w] = transverse(&a, dimension);
         Self {
+            dimension,
             kind: joint.kind,
-            bodies: joint.bodies,
-            places: [0, 1].map(|i| model.point(joint.bodies[i], joint.points[i])),
             axes: [a, v, w],
             second_axis: b,
             is_hinged: joint.kind == JointKind::Distance && joint.axes[0].is_some(),
-            is_guided: scene.guides.iter().any(|guide| guide.joint == index),
-            length: model.length(),
+            is_guided,
+            length,
         }
     }
 
-    /// The joint's place on the second body.
-    pub(super) fn place(&self, q: &[T]) -> Vector<T, 3> {
-        raised(&self.places[1].value(q))
-    }
-
     /// How many directions it has.
-    pub(super) fn n_directions(&self) -> usize {
-        let spatial = D == 3;
+    #[must_use]
+    pub fn n_directions(&self) -> usize {
+        let spatial = self.dimension == Dimension::Spatial;
         let n = match self.kind {
             JointKind::Free => 0,
             JointKind::Distance => 1 + usize::from(self.is_hinged),
@@ -101,14 +99,14 @@ impl<T: Real, const D: usize> Carrier<T, D> {
         n + usize::from(self.is_guided)
     }
 
-    /// Hands out its directions, the bodies' rotations being `turned`. Moments are one times the scene's length, so that
-    /// all unknowns are forces.
-    pub(super) fn directions(
+    /// Hands out its directions; `places` are those of the joint on both bodies [m], whose rotations are `turned`.
+    pub fn directions(
         &self,
-        q: &[T],
+        places: impl Fn(usize) -> Vector<T, 3>,
         turned: [&Matrix<T, 3>; 2],
         mut take: impl FnMut(Wrench<T>),
     ) {
+        let is_planar = self.dimension == Dimension::Planar;
         let [a, v, w] = self.axes.map(|axis| turned[0] * axis);
         let xyz: [Vector<T, 3>; 3] = core::array::from_fn(unit);
         let mut hand = |forces: &[Vector<T, 3>], moments: &[Vector<T, 3>]| {
@@ -120,9 +118,9 @@ impl<T: Real, const D: usize> Carrier<T, D> {
             }
         };
         match self.kind {
-            JointKind::Revolute if D == 2 => hand(&xyz[..2], &[]),
-            JointKind::Prismatic if D == 2 => hand(&[cross(&xyz[2], &a)], &xyz[2..]),
-            JointKind::Weld if D == 2 => hand(&xyz[..2], &xyz[2..]),
+            JointKind::Revolute if is_planar => hand(&xyz[..2], &[]),
+            JointKind::Prismatic if is_planar => hand(&[cross(&xyz[2], &a)], &xyz[2..]),
+            JointKind::Weld if is_planar => hand(&xyz[..2], &xyz[2..]),
             JointKind::Revolute => hand(&xyz, &[v, w]),
             JointKind::Prismatic => hand(&[v, w], &xyz),
             JointKind::Weld => hand(&xyz, &xyz),
@@ -133,8 +131,7 @@ impl<T: Real, const D: usize> Carrier<T, D> {
             JointKind::Cylindrical => hand(&[v, w], &[v, w]),
             JointKind::Planar => hand(&[a], &[v, w]),
             JointKind::Distance => {
-                let link = self.place(q) - raised(&self.places[0].value(q));
-                hand(&[normalised(&link)], &[]);
+                hand(&[normalised(&(places(1) - places(0)))], &[]);
                 if self.is_hinged {
                     hand(&[a], &[]);
                 }
@@ -146,5 +143,46 @@ impl<T: Real, const D: usize> Carrier<T, D> {
             (true, JointKind::Prismatic) => hand(&[a], &[]),
             (true, _) => hand(&[], &[a]),
         }
+    }
+}
+
+/// A joint as a carrier of wrenches, its places read off natural coordinates.
+#[derive(Debug, Clone)]
+pub(super) struct Carrier<T: Real, const D: usize> {
+    pub(super) bodies: [BodyRef; 2],
+    places: [Affine<T, D>; 2],
+    transmission: Transmission<T>,
+}
+
+impl<T: Real, const D: usize> Carrier<T, D> {
+    pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, index: usize) -> Self {
+        let joint = &scene.joints[index];
+        let is_guided = scene.guides.iter().any(|guide| guide.joint == index);
+        Self {
+            bodies: joint.bodies,
+            places: [0, 1].map(|i| model.point(joint.bodies[i], joint.points[i])),
+            transmission: Transmission::new(joint, scene.dimension, is_guided, model.length()),
+        }
+    }
+
+    /// The joint's place on the second body.
+    pub(super) fn place(&self, q: &[T]) -> Vector<T, 3> {
+        raised(&self.places[1].value(q))
+    }
+
+    /// How many directions it has.
+    pub(super) fn n_directions(&self) -> usize {
+        self.transmission.n_directions()
+    }
+
+    /// Hands out its directions, the bodies' rotations being `turned`. Moments are one times the scene's length, so that
+    /// all unknowns are forces.
+    pub(super) fn directions(
+        &self,
+        q: &[T],
+        turned: [&Matrix<T, 3>; 2],
+        take: impl FnMut(Wrench<T>),
+    ) {
+        self.transmission.directions(|i| raised(&self.places[i].value(q)), turned, take);
     }
 }

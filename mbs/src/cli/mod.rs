@@ -3,6 +3,7 @@
 mod analysis;
 mod bar;
 mod compare;
+mod doctor;
 mod explain;
 mod export;
 mod files;
@@ -28,9 +29,7 @@ const ABOUT: &str =
 const STATUS: &str = "\
 Example: mbs run scenes/double-pendulum.toml --out out
 Exit status: 0 completed, 1 scene or usage refused, 2 the run stopped early or some of a sweep did (their data are
-kept), or there is no equilibrium.";
-/// Commands of the format's contract that are not built yet.
-const NOT_BUILT: [&str; 1] = ["doctor"];
+kept), there is no equilibrium, or the doctor found a fault.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -40,6 +39,8 @@ enum Command {
     Compare(compare::Arguments),
     /// What a scene simulates, what it does not, and the measured price of each effect.
     Explain(explain::Arguments),
+    /// What is wrong or doubtful: dependent joints by name, reactions, branches, masses, units, start; and what would mend it.
+    Doctor(doctor::Arguments),
     /// Write a scene as constant tables for a controller: Rust, or bytes.
     Export(export::Arguments),
     /// Static equilibrium: joint coordinates, reactions and outputs, and whether it is stable.
@@ -79,6 +80,7 @@ pub fn main() -> ExitCode {
         Command::Run(arguments) => run::main(&arguments),
         Command::Compare(arguments) => compare::main(&arguments),
         Command::Explain(arguments) => explain::main(&arguments),
+        Command::Doctor(arguments) => doctor::main(&arguments),
         Command::Export(arguments) => export::main(&arguments),
         Command::Equilibrium(arguments) => analysis::equilibrium(&arguments),
         Command::Modes(arguments) => analysis::modes(&arguments),
@@ -93,9 +95,6 @@ fn hint(error: &clap::Error) -> Option<String> {
         (ErrorKind::InvalidSubcommand, Some(ContextValue::String(word))) => word,
         _ => return None,
     };
-    if NOT_BUILT.contains(&word.as_str()) {
-        return Some(format!("`mbs {word}` is not built yet; `mbs --help` lists what is"));
-    }
     std::path::Path::new(word).exists().then(|| format!("to run a scene, write `mbs run {word}`"))
 }
 

@@ -12,6 +12,7 @@ mod command;
 mod compare;
 mod contact;
 mod control;
+mod doctor;
 mod double_double;
 mod energy;
 mod explain;

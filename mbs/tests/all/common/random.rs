@@ -1,6 +1,6 @@
 //! Random mechanisms: trees of mixed joints, and loops closed over them; the same for the same seed on every machine.
 
-use mbs::core::scene::{
+use mbs_core::scene::{
     Body, BodyRef, Dimension, Effect, EffectKind, Inertia, Initial, InitialTarget, Joint,
     JointKind, Scene, SolverChoice,
 };
@@ -196,6 +196,65 @@ pub(crate) fn loops(seed: u64, dimension: Dimension, n: usize, n_loops: usize) -
     }
     scene.effects.push(spring(&mut random, &scene, dimension));
     scene
+}
+
+/// A tree with loops that have more freedoms than they lose, no two of them through the same joint: for places and axes drawn at
+/// random its equations are independent, by counting alone.
+pub(crate) fn sound(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
+    let mut scene = tree(seed, dimension, n);
+    let mut random = Random::new(seed ^ 0x3333);
+    scene.name = format!("sound mechanism {seed}");
+    scene.initials.clear();
+    let mut is_used = vec![false; n];
+    for _ in 0..6 * n {
+        let [a, b] = [random.below(n), random.below(n)];
+        let way = between(&scene, a, b);
+        if a == b || way.len() < 2 || way.iter().any(|&j| is_used[j]) {
+            continue;
+        }
+        let kinds = || way.iter().map(|&j| scene.joints[j].kind);
+        let freedoms: usize = kinds().map(|kind| kind.n_coordinates(dimension)).sum();
+        let turns: usize = kinds().map(|kind| kind.n_rotations(dimension)).sum();
+        let closures: &[(JointKind, usize, usize)] = match dimension {
+            Dimension::Planar => &[(JointKind::Revolute, 2, 2), (JointKind::Distance, 1, 1)],
+            Dimension::Spatial => &[
+                (JointKind::Revolute, 5, 4),
+                (JointKind::Spherical, 3, 2),
+                (JointKind::Distance, 1, 1),
+            ],
+        };
+        let fits = closures.iter().find(|(_, rows, least)| freedoms > *rows && turns >= *least);
+        let Some(&(kind, ..)) = fits else { continue };
+        let [p, q] = [a, b].map(|i| plus(scene.bodies[i].center, random.point(dimension, 0.3)));
+        let bodies = [BodyRef::Body(a), BodyRef::Body(b)];
+        let mut closure = joint(&mut random, dimension, kind, bodies, p);
+        if kind == JointKind::Distance {
+            (closure.points, closure.axes) = ([p, q], [None; 2]);
+        }
+        closure.name = format!("closure-{}", scene.joints.len() - n);
+        way.iter().for_each(|&j| is_used[j] = true);
+        scene.joints.push(closure);
+    }
+    scene
+}
+
+/// Joints of a tree on the way between two bodies; joint i holds body i.
+fn between(scene: &Scene<f64>, a: usize, b: usize) -> Vec<usize> {
+    let up = |mut body: usize| {
+        let mut way = vec![body];
+        while let BodyRef::Body(parent) = scene.joints[body].bodies[0] {
+            way.push(parent);
+            body = parent;
+        }
+        way
+    };
+    let [mut first, mut second] = [up(a), up(b)];
+    while first.last().is_some() && first.last() == second.last() {
+        first.pop();
+        second.pop();
+    }
+    first.extend(second);
+    first
 }
 
 /// A spring with a damper from the ground to the last body.

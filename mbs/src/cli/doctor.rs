@@ -1,0 +1,114 @@
+//! `mbs doctor SCENE`.
+
+use super::{STOPPED, files, refuse};
+use crate::doctor::{Checkup, Effort, Severity, examine, report, to_json};
+use crate::{Overrides, Precision, Settings};
+use clap::Args;
+use mbs_core::scene::{Dimension, Entry, Scene};
+use mbs_scene::{Document, Report};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+const STATUS: &str = "\
+Findings are notes, doubts and faults, each with its place in the scene and what would mend it; see docs/DOCTOR.md.
+Exit status: 0 no fault (doubts are told and run), 1 scene or usage refused, 2 a fault: no start, or the run stops.";
+
+/// Arguments of `mbs doctor`.
+#[derive(Debug, Args)]
+#[command(after_help = STATUS)]
+pub(crate) struct Arguments {
+    /// Scene file (TOML).
+    scene: PathBuf,
+    /// One JSON object on standard output and nothing else.
+    #[arg(long)]
+    json: bool,
+    /// Directory for doctor.json and doctor.html; made if missing.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Formulation of the run that is watched; like the options below: left out, the scene's, else auto.
+    #[arg(long, value_name = "F")]
+    formulation: Option<String>,
+    /// Step of that run [s]; else 0.001.
+    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    step: Option<f64>,
+    /// Duration of that run [s].
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    duration: Option<f64>,
+    /// Look at the start only: no run.
+    #[arg(long)]
+    still: bool,
+}
+
+/// Runs the command.
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    let (document, scene) = match files::scene(&arguments.scene) {
+        Ok(both) => both,
+        Err(message) => return refuse(&message),
+    };
+    let overrides = Overrides {
+        formulation: arguments.formulation.clone(),
+        step: arguments.step,
+        duration: arguments.duration,
+        precision: Some(Precision::F64.name().to_owned()),
+        ..Overrides::default()
+    };
+    let settings = match Settings::new(&scene, &overrides) {
+        Ok(settings) => settings,
+        Err(error) => return refuse(&files::refusal(&error, &document)),
+    };
+    if let Some(out) = &arguments.out
+        && let Err(error) = files::prepare(out, "doctor.json")
+    {
+        return refuse(&files::unwritable(out, &error));
+    }
+    let mut effort = Effort::default();
+    if arguments.still {
+        effort.positions = 0;
+    }
+    let checkup = match scene.dimension {
+        Dimension::Planar => examine::<2>(&scene, &settings, &effort),
+        Dimension::Spatial => examine::<3>(&scene, &settings, &effort),
+    };
+    tell((&scene, &document), &checkup, arguments, &settings)
+}
+
+/// Files, then JSON or text; the exit status says whether there is a fault.
+fn tell(
+    (scene, document): (&Scene<f64>, &Document),
+    checkup: &Checkup,
+    arguments: &Arguments,
+    settings: &Settings,
+) -> ExitCode {
+    let options = [
+        ("formulation", arguments.formulation.clone()),
+        ("step", arguments.step.map(|x| x.to_string())),
+        ("duration", arguments.duration.map(|x| x.to_string())),
+    ];
+    let command = if arguments.still { "doctor --still" } else { "doctor" };
+    let provenance = files::provenance((command, &arguments.scene), &options, settings);
+    let line = |entry: Entry, key: &str| Some(document.place(entry, key).line);
+    let (page, mut text) = report(scene, checkup, &line, provenance);
+    let object = to_json(checkup, &line).to_string();
+    if let Some(out) = &arguments.out
+        && let Err(error) = write_files(&object, &page, out)
+    {
+        return refuse(&files::unwritable(out, &error));
+    }
+    if arguments.json {
+        text = object;
+    } else if let Some(out) = &arguments.out {
+        text.push_str(&format!("\nwrote doctor.json and doctor.html to {}\n", out.display()));
+    }
+    // A reader that has gone away is no error of the command.
+    let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
+    match checkup.worst() {
+        Some(Severity::Fault) => ExitCode::from(STOPPED),
+        _ => ExitCode::SUCCESS,
+    }
+}
+
+fn write_files(object: &str, page: &Report, out: &Path) -> std::io::Result<()> {
+    std::fs::write(out.join("doctor.json"), format!("{object}\n"))?;
+    std::fs::write(out.join("doctor.html"), page.page())
+}
