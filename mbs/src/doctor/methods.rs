@@ -53,7 +53,7 @@ where
 }
 
 /// Says that it is run anyway, and by what.
-pub(super) fn findings(_: &Scene<f64>, attempts: &[Attempt], findings: &mut Vec<Finding>) {
+pub(super) fn findings(attempts: &[Attempt], findings: &mut Vec<Finding>) {
     let named = |is_refused: bool| {
         let of = attempts.iter().filter(|a| a.error.is_some() == is_refused);
         of.map(|a| a.formulation).collect::<Vec<_>>().join(", ")

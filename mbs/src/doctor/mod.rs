@@ -129,10 +129,10 @@ where
         .as_ref()
         .ok()
         .map(|b| [b.model.n_unknowns(), b.model.n_constraints(), rank(&b.model, &b.start.state)]);
-    sets::findings(scene, (&linkage, &joint_level), natural, &mut findings);
+    sets::findings(scene, &joint_level, natural, &mut findings);
     sound::findings(scene, (&joint_level, natural), massless.as_deref(), &mut findings);
     masses::findings(scene, massless.as_deref(), &mut findings);
-    units::findings(scene, settings, &mut findings);
+    units::findings(scene, &mut findings);
     let is_dependent = joint_level.sets.iter().any(|set| set.is_exact)
         || natural.is_some_and(|[_, constraints, rank]| rank < constraints);
     let (mut methods, mut motion, mut start) = (Vec::new(), None, None);
@@ -142,7 +142,7 @@ where
             start = Some(start::findings(scene, begun, &mut findings));
             if is_dependent {
                 methods = methods::try_all::<D>(scene, settings);
-                methods::findings(scene, &methods, &mut findings);
+                methods::findings(&methods, &mut findings);
             }
             if effort.positions > 0 {
                 let seen = motion::watch::<D>(scene, settings, (&linkage, effort));

@@ -330,27 +330,7 @@ pub(super) fn findings(
     motion: &Motion,
     findings: &mut Vec<Finding>,
 ) {
-    for near in motion.nearest.iter().filter(|near| !near.passages.is_empty()) {
-        let times = match near.passages.as_slice() {
-            [once] => format!("at t = {} s the motion passes a singular position", few(*once)),
-            [first, ..] => format!(
-                "the motion passes a singular position {} times, first at t = {} s,",
-                near.passages.len(),
-                few(*first)
-            ),
-            [] => continue,
-        };
-        let message = format!(
-            "{times} of {}: branches meet there (smallest singular value {} of the largest, {} at the start)",
-            joint_names(scene, &near.joints),
-            few(near.sigma),
-            few(near.sigma_at_start)
-        );
-        let remedy = "run it by index-3 or index-1, compare two steps, and see that the branch is the one that is meant";
-        let told = (Topic::Motion, "passes-singular-position");
-        let finding = Finding::new(Severity::Doubt, told, message, remedy);
-        findings.push(finding.joints(near.joints.clone()));
-    }
+    findings.extend(motion.nearest.iter().filter_map(|near| passes(scene, near)));
     if let Some((code, message, hint)) = &motion.error {
         let message = format!(
             "the run by {} stops at t = {} s: {message}",
@@ -389,6 +369,24 @@ pub(super) fn findings(
         let told = (Topic::Motion, "cut-short");
         findings.push(Finding::new(Severity::Note, told, message, ""));
     }
+}
+
+/// A part that passes singular positions.
+fn passes(scene: &Scene<f64>, near: &Nearest) -> Option<Finding> {
+    let first = few(*near.passages.first()?);
+    let times = match near.passages.len() {
+        1 => format!("at t = {first} s the motion passes a singular position"),
+        n => format!("the motion passes a singular position {n} times, first at t = {first} s,"),
+    };
+    let message = format!(
+        "{times} of {}: branches meet there (smallest singular value {} of the largest, {} at the start)",
+        joint_names(scene, &near.joints),
+        few(near.sigma),
+        few(near.sigma_at_start)
+    );
+    let remedy = "run it by index-3 or index-1, compare two steps, and see that the branch is the one that is meant";
+    let told = (Topic::Motion, "passes-singular-position");
+    Some(Finding::new(Severity::Doubt, told, message, remedy).joints(near.joints.clone()))
 }
 
 #[cfg(test)]

@@ -3,12 +3,12 @@
 use super::finding::{Finding, Severity, Topic, body_names, counted, joint_names};
 use crate::words::few;
 use mbs_core::scene::{JointKind, Scene};
-use mbs_doctor::{Change, Cure, Diagnosis, Linkage, Nature, Set};
+use mbs_doctor::{Change, Cure, Diagnosis, Nature, Set};
 
 /// One finding per set.
 pub(super) fn findings(
     scene: &Scene<f64>,
-    (_, diagnosis): (&Linkage, &Diagnosis),
+    diagnosis: &Diagnosis,
     natural: Option<[usize; 3]>,
     findings: &mut Vec<Finding>,
 ) {

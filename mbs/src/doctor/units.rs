@@ -1,7 +1,6 @@
 //! Numbers that look like another unit: told only where the evidence is strong, as warnings that always come are not read.
 
 use super::finding::{Finding, Severity, Topic, body_names};
-use crate::settings::Settings;
 use crate::words::few;
 use mbs_core::cluster::{mass_properties, scene_length};
 use mbs_core::scene::{BodyRef, EffectKind, Entry, GuideLaw, InitialTarget, JointKind, Scene};
@@ -15,7 +14,7 @@ const LENGTHS: f64 = 100.0;
 /// Frequency that no part of a machine has [rad/s].
 const FASTEST: f64 = 1e7;
 
-pub(super) fn findings(scene: &Scene<f64>, _: &Settings, findings: &mut Vec<Finding>) {
+pub(super) fn findings(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
     gravity(scene, findings);
     bodies(scene, findings);
     angles(scene, findings);
