@@ -98,6 +98,7 @@ fn dom(browser: &str, page: &Path) -> Result<String, String> {
         "--headless",
         "--no-sandbox",
         "--disable-gpu",
+        "--disable-dev-shm-usage",
         "--no-first-run",
         "--disable-background-networking",
         "--disable-component-update",
