@@ -1,4 +1,4 @@
-//! `fuzz SECONDS SEED CORPUS.. CURRENT`: trials of scenes by seed, counted on; each is written to the file `CURRENT` before it
+//! `fuzz SECONDS SEED COUNT CORPUS.. CURRENT`: so many trials of scenes by seed, or for so long; each is written to the file `CURRENT` before it
 //! begins, so that who started this program knows what it was about when it stops or hangs. Exit status 1 where one is wrong.
 
 use fuzz::{Verdict, scene, trial};
@@ -22,18 +22,19 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &[String]) -> Result<String, String> {
-    let [seconds, seed, folders @ .., current] = arguments else {
-        return Err("usage: fuzz SECONDS SEED CORPUS.. CURRENT".to_owned());
+    let [seconds, seed, count, folders @ .., current] = arguments else {
+        return Err("usage: fuzz SECONDS SEED COUNT CORPUS.. CURRENT".to_owned());
     };
     let number = |text: &String| text.parse::<u64>().map_err(|e| format!("`{text}`: {e}"));
     let (seconds, first) = (Duration::from_secs(number(seconds)?), number(seed)?);
+    let end = first.saturating_add(number(count)?);
     let mut corpus = Vec::new();
     for folder in folders {
         texts(Path::new(folder), &mut corpus).map_err(|e| format!("{folder}: {e}"))?;
     }
     let start = Instant::now();
     let (mut seed, mut counts) = (first, [0_usize; 3]);
-    while start.elapsed() < seconds {
+    while start.elapsed() < seconds && seed < end {
         let text = scene(seed, &corpus);
         std::fs::write(current, &text).map_err(|e| format!("{current}: {e}"))?;
         #[allow(clippy::cast_possible_truncation, reason = "only its remainder counts")]

@@ -2,7 +2,7 @@
 
 use mbs::core::scene::Scene;
 use mbs::scene_file::Document;
-use mbs::{FORMULATIONS, Overrides, Settings};
+use mbs::{Overrides, Settings};
 
 /// Steps of a run.
 const STEPS: f64 = 6.0;
@@ -10,6 +10,10 @@ const STEPS: f64 = 6.0;
 const STEP: f64 = 1e-3;
 /// Of so many texts one is run in f32 and one in double-double.
 const OTHER_PRECISIONS: usize = 5;
+/// Larger mechanisms take too long in double-double.
+const SMALL: usize = 8;
+/// Formulations that take as many steps as they are told, and no more.
+const TRIED: [&str; 5] = ["index-1", "index-3", "classical", "state-space", "recursive"];
 
 /// What became of a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -40,11 +44,11 @@ pub fn trial(text: &[u8], turn: usize) -> Verdict {
     };
     let precision = match turn % OTHER_PRECISIONS {
         0 => "f32",
-        1 => "dd",
+        1 if scene.bodies.len() <= SMALL => "dd",
         _ => "f64",
     };
     let [mut completed, mut stopped] = [0; 2];
-    for formulation in FORMULATIONS {
+    for formulation in TRIED {
         match run((&document, &scene), formulation, precision) {
             Ok(Some(true)) => completed += 1,
             Ok(Some(false)) => stopped += 1,
@@ -73,6 +77,8 @@ fn run(
     let overrides = Overrides {
         formulation: Some(formulation.to_owned()),
         precision: Some(precision.to_owned()),
+        integrator: Some("trapezoidal".to_owned()),
+        step_control: Some("fixed".to_owned()),
         duration: Some((STEPS * step).min(scene.duration)),
         ..Overrides::default()
     };
@@ -105,7 +111,7 @@ mod tests {
             mass = 1.0\nrod = { from = [0.0, 0.0], to = [1.0, 0.0] }\n\n[[joint]]\nname = \"j\"\nkind = \"revolute\"\n\
             bodies = [\"ground\", \"b\"]\nat = [0.0, 0.0]\n";
         for turn in 0..3 {
-            assert_eq!(trial(pendulum, turn), Verdict::Ran { completed: 7, stopped: 0 });
+            assert_eq!(trial(pendulum, turn), Verdict::Ran { completed: 5, stopped: 0 });
         }
     }
 }

@@ -283,7 +283,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             accelerations(&m, &options, Level::Once, &mut s).map_err(|fault| failure(&m, fault))?;
         }
         let least = T::EPSILON.sqrt();
-        Ok(s.loops.pivots.iter().filter(|&&pivot| pivot > least).count())
+        let counted = s.loops.pivots.iter().filter(|&&pivot| pivot > least).count();
+        // no rows take more freedoms than there are
+        Ok(counted.min(self.n_freedoms()))
     }
 }
 
