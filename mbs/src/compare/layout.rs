@@ -13,8 +13,10 @@ const BLOCKS: u32 = 48;
 /// Calls a function with stack and heap moved, by an amount that depends on the turn alone.
 pub(super) fn moved<R>(turn: u32, call: impl FnOnce() -> R) -> R {
     let size = |k: u32| (32_usize << ((k + turn) % 8)) + 16 * ((k * (turn + 3)) % 11) as usize;
-    let held: Vec<Vec<u8>> =
-        (0..BLOCKS).filter(|k| (k + turn) % 3 > 0).map(|k| Vec::with_capacity(size(k))).collect();
+    let held: Vec<Vec<u8>> = (0..BLOCKS)
+        .filter(|k| !(k + turn).is_multiple_of(3))
+        .map(|k| Vec::with_capacity(size(k)))
+        .collect();
     let result = deeper((turn * 7) % LEVELS, call);
     drop(black_box(held));
     result

@@ -279,7 +279,8 @@ impl Track<'_> {
 fn refined(kappa: &[[f64; 2]], i: usize) -> [f64; 2] {
     let low = touched(kappa, i);
     match crossed(kappa, i) {
-        Some(crossing) if crossing[1] < low[1] => crossing,
+        // What the samples contradict is no passage, and its value none of κ.
+        Some(crossing) if crossing[1] < low[1].min(SINGULAR) => crossing,
         _ => low,
     }
 }

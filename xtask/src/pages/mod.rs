@@ -36,7 +36,7 @@ pub(crate) fn check() -> Result<Outcome, String> {
     mbs(&[&compare[..], &["--duration", "0.5", "--out", &out]].concat())?;
     let pages = ["run.html", "compare.html"];
     for page in pages {
-        look(&browser, &folder.join(page))?;
+        look(browser, &folder.join(page))?;
     }
     Ok(Outcome::Passed(format!("{} at {WIDTHS:?} px", pages.join(", "))))
 }
