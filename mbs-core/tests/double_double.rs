@@ -173,6 +173,14 @@ proptest! {
     }
 }
 
+#[test]
+fn near_the_end_of_the_range_the_leading_part_stays_the_nearest() {
+    for text in ["12e-308", "-12e-308", "1.2e-307", "3e-324", "7.3e-320"] {
+        let read = DoubleDouble::from_decimal(text).map(DoubleDouble::hi);
+        assert_eq!(read, text.parse::<f64>().ok(), "{text}");
+    }
+}
+
 fn number(x: f64) -> DoubleDouble {
     DoubleDouble::from_f64(x)
 }

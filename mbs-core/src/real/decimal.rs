@@ -8,6 +8,9 @@ const MOST_DIGITS: u32 = 60;
 /// Bits of the quotient: two more than are kept are enough, and these fit the type.
 const BITS: usize = 120;
 
+/// 2⁻⁹⁶⁹: numbers below have no room for all bits of a second part.
+const WHOLE: f64 = f64::from_bits((1023 - 969) << 52);
+
 /// The number that `text` says, within 2⁻¹⁰⁶ of its size (above 2⁻⁹⁶⁹); what `f64` reads as a number is one.
 ///
 /// Cost: about 10⁵ operations on whole numbers.
@@ -31,7 +34,12 @@ pub(super) fn read(text: &str) -> Option<DoubleDouble> {
     under.shift_up(surplus);
     let quotient = over.divide(&under, BITS);
     let shift = i32::try_from(surplus).ok()? - i32::try_from(power).ok()?;
-    let size = pair(quotient, shift);
+    let mut size = pair(quotient, shift);
+    // A second part that loses bits may tip the first over.
+    let nearest = near.abs();
+    if nearest < WHOLE && size.hi().to_bits() != nearest.to_bits() {
+        size = DoubleDouble::from_f64(nearest);
+    }
     Some(if near < 0.0 { -size } else { size })
 }
 
