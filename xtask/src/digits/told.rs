@@ -55,7 +55,7 @@ fn errors(cells: &[&Cell]) -> Vec<Vec<String>> {
     cells.iter().map(row).collect()
 }
 
-/// Times [µs] and what they are beside the first one.
+/// Times in microseconds, and what they are beside the first one.
 fn prices(cells: &[&Cell]) -> Vec<Vec<String>> {
     let row = |cell: &&Cell| {
         let first = seconds(&cell.runs[PRINTED]);

@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 
 /// Names that the browser goes by.
 const BROWSERS: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
-/// Widths: a desk, a phone [px].
+/// Widths in pixels: a desk, a phone.
 const WIDTHS: [u32; 2] = [1280, 390];
 /// Catches what a page throws, before anything of it runs.
 const CATCH: &str = "<script>window.probeFaults = []; addEventListener(\"error\", (e) => window.probeFaults.push(e.message));</script>";
