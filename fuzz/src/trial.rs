@@ -83,7 +83,7 @@ fn run(
         ..Overrides::default()
     };
     let Ok(settings) = Settings::new(scene, &overrides) else { return Ok(None) };
-    let outcome = match mbs::run_document(document, &settings, &mut |_| {}) {
+    let outcome = match mbs::run_document((document, scene), &settings, &mut |_| {}) {
         Ok(outcome) => outcome,
         Err(error) => match refusal(&error.render()) {
             Verdict::Wrong(why) => return Err(why),

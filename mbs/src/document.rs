@@ -6,7 +6,7 @@ use crate::settings::Settings;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::real::DoubleDouble;
-use mbs_core::scene::Dimension;
+use mbs_core::scene::{Dimension, Scene};
 use mbs_scene::{Document, ReadError};
 
 /// Who is told where a run is [s].
@@ -18,37 +18,35 @@ impl Progress for Listener<'_> {
     }
 }
 
-/// Runs a scene from its text, which is read with the digits of the settings' precision; `reached` is told the time of each step [s].
+/// Runs a scene with the digits of the settings' precision: as it was read in `f64`, from which the settings are, or read anew from
+/// its document in another; `reached` is told the time of each step [s].
 ///
-/// The same as [`run`] for the scene of the document; programs that take what precision comes compile it only once.
+/// The same as [`run`]; programs that take what precision comes compile it only once.
 ///
 /// # Errors
-/// [`ReadError`] where the text is no scene in that precision, though it may be in another.
+/// [`ReadError`] where the text is no scene in that precision, though it is one in `f64`.
 pub fn run_document(
-    document: &Document,
+    (document, scene): (&Document, &Scene<f64>),
     settings: &Settings,
     reached: &mut dyn FnMut(f64),
 ) -> Result<Outcome, ReadError> {
     match settings.precision {
-        Precision::F64 => in_precision::<f64>(document, settings, reached),
-        Precision::F32 => in_precision::<f32>(document, settings, reached),
-        Precision::DoubleDouble => in_precision::<DoubleDouble>(document, settings, reached),
+        Precision::F64 => Ok(in_space(scene, settings, reached)),
+        Precision::F32 => Ok(in_space(&document.scene::<f32>()?, settings, reached)),
+        Precision::DoubleDouble => {
+            Ok(in_space(&document.scene::<DoubleDouble>()?, settings, reached))
+        }
     }
 }
 
-fn in_precision<T: Real>(
-    document: &Document,
-    settings: &Settings,
-    reached: &mut dyn FnMut(f64),
-) -> Result<Outcome, ReadError>
+fn in_space<T: Real>(scene: &Scene<T>, settings: &Settings, reached: &mut dyn FnMut(f64)) -> Outcome
 where
     Plane<2>: InSpace<T>,
     Plane<3>: InSpace<T>,
 {
-    let scene = document.scene::<T>()?;
     let mut listener = Listener(reached);
-    Ok(match scene.dimension {
-        Dimension::Planar => run::<T, 2>(&scene, settings, &mut listener),
-        Dimension::Spatial => run::<T, 3>(&scene, settings, &mut listener),
-    })
+    match scene.dimension {
+        Dimension::Planar => run::<T, 2>(scene, settings, &mut listener),
+        Dimension::Spatial => run::<T, 3>(scene, settings, &mut listener),
+    }
 }

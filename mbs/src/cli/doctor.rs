@@ -42,10 +42,6 @@ pub(crate) struct Arguments {
 
 /// Runs the command.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
-    let (document, scene) = match files::scene(&arguments.scene) {
-        Ok(both) => both,
-        Err(message) => return refuse(&message),
-    };
     let overrides = Overrides {
         formulation: arguments.formulation.clone(),
         step: arguments.step,
@@ -53,15 +49,11 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         precision: Some(Precision::F64.name().to_owned()),
         ..Overrides::default()
     };
-    let settings = match Settings::new(&scene, &overrides) {
-        Ok(settings) => settings,
-        Err(error) => return refuse(&files::refusal(&error, &document)),
+    let place = (arguments.out.as_deref(), "doctor.json");
+    let (document, scene, settings) = match files::begin(&arguments.scene, &overrides, place) {
+        Ok(begun) => begun,
+        Err(message) => return refuse(&message),
     };
-    if let Some(out) = &arguments.out
-        && let Err(error) = files::prepare(out, "doctor.json")
-    {
-        return refuse(&files::unwritable(out, &error));
-    }
     let mut effort = Effort::default();
     if arguments.still {
         effort.positions = 0;

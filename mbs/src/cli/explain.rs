@@ -41,10 +41,6 @@ pub(crate) struct Arguments {
 
 /// Runs the command.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
-    let (document, scene) = match files::scene(&arguments.scene) {
-        Ok(both) => both,
-        Err(message) => return refuse(&message),
-    };
     let overrides = Overrides {
         formulation: arguments.formulation.clone(),
         integrator: arguments.integrator.clone(),
@@ -53,15 +49,11 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         duration: arguments.duration,
         ..Overrides::default()
     };
-    let settings = match Settings::new(&scene, &overrides) {
-        Ok(settings) => settings,
-        Err(error) => return refuse(&files::refusal(&error, &document)),
+    let place = (arguments.out.as_deref(), "explain.json");
+    let (document, scene, settings) = match files::begin(&arguments.scene, &overrides, place) {
+        Ok(begun) => begun,
+        Err(message) => return refuse(&message),
     };
-    if let Some(out) = &arguments.out
-        && let Err(error) = files::prepare(out, "explain.json")
-    {
-        return refuse(&files::unwritable(out, &error));
-    }
     let explanation = match settings.precision {
         Precision::F64 => dispatch(&scene, &settings),
         Precision::F32 => match document.scene::<f32>() {

@@ -1,6 +1,6 @@
 //! Scene files in, result files out, and what to say when that fails.
 
-use crate::{Settings, SettingsError};
+use crate::{Overrides, Settings, SettingsError};
 use mbs_core::scene::{Entry, Scene};
 use mbs_scene::{Document, Provenance, readable};
 use std::path::Path;
@@ -10,6 +10,21 @@ pub(crate) fn scene(path: &Path) -> Result<(Document, Scene<f64>), String> {
     let document = document(path, "scene file")?;
     let scene = document.scene::<f64>().map_err(|error| error.render())?;
     Ok((document, scene))
+}
+
+/// What a command that runs a scene begins with: reads it, settles how it is run, and tries the place of its results, since what
+/// cannot be written should not be computed; else the refusal.
+pub(crate) fn begin(
+    path: &Path,
+    overrides: &Overrides,
+    (out, first): (Option<&Path>, &str),
+) -> Result<(Document, Scene<f64>, Settings), String> {
+    let (document, scene) = scene(path)?;
+    let settings = Settings::new(&scene, overrides).map_err(|e| refusal(&e, &document))?;
+    if let Some(out) = out {
+        prepare(out, first).map_err(|error| unwritable(out, &error))?;
+    }
+    Ok((document, scene, settings))
 }
 
 /// Reads a file of a kind that is called `what`; else the refusal.

@@ -152,22 +152,14 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
             "error: {option} is not built yet\nhint: leave it out; give --step instead"
         ));
     }
-    let (document, scene) = match files::scene(&arguments.scene) {
-        Ok(both) => both,
+    let place = (arguments.out.as_deref(), "run.csv");
+    let begun = files::begin(&arguments.scene, &arguments.overrides(), place);
+    let (document, scene, settings) = match begun {
+        Ok(begun) => begun,
         Err(message) => return refuse(&message),
     };
-    let settings = match Settings::new(&scene, &arguments.overrides()) {
-        Ok(settings) => settings,
-        Err(error) => return refuse(&files::refusal(&error, &document)),
-    };
-    // Before the run: what cannot be written should not be computed.
-    if let Some(out) = &arguments.out
-        && let Err(error) = files::prepare(out, "run.csv")
-    {
-        return refuse(&files::unwritable(out, &error));
-    }
     let mut bar = Bar::new(settings.duration, arguments.json);
-    let outcome = run_document(&document, &settings, &mut |t| bar.reached(t));
+    let outcome = run_document((&document, &scene), &settings, &mut |t| bar.reached(t));
     bar.bar.finish_and_clear();
     match outcome {
         Ok(outcome) => report(&outcome, arguments, &settings, &document),
