@@ -12,6 +12,8 @@ const AFTER_FAILURE: f64 = 0.25;
 const SMALLEST: f64 = 1e-10;
 /// And not shorter than so many roundings of the time.
 const TIME_ROUNDINGS: f64 = 16.0;
+/// Trials within a stretch of the largest step, at most: a run whose steps are shorter than this on average would not end.
+const MOST_TRIALS: u32 = 100_000;
 /// Re-solves of a step that shall end at an event.
 const MOST_LANDINGS: u32 = 12;
 /// Growth of the step where no rule says anything.
@@ -131,6 +133,31 @@ pub struct Driver<T> {
     /// The step that is tried next, and the first one [s].
     next: T,
     first: T,
+    stretch: Stretch<T>,
+}
+
+/// The time of a largest step, or a little more, and the trials in it so far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Stretch<T> {
+    /// Where it began [s]; nothing before the first step.
+    from: Option<T>,
+    trials: u32,
+}
+
+impl<T: Real> Stretch<T> {
+    /// Called before a trial from time `t` [s]; how far a trial comes on average [s], where that is too little.
+    fn count(&mut self, t: T, length: T) -> Result<(), StepError> {
+        let from = *self.from.get_or_insert(t);
+        if t - from >= length {
+            *self = Self { from: Some(t), trials: 0 };
+        }
+        if self.trials >= MOST_TRIALS {
+            let step = ((t - from) / T::from_f64(self.trials.into())).to_f64();
+            return Err(StepError::StepTooSmall { step });
+        }
+        self.trials += 1;
+        Ok(())
+    }
 }
 
 /// The trials of one step so far.
@@ -208,6 +235,7 @@ impl<T: Real> Driver<T> {
             error: rules.error.map(|(tolerance, power)| (tolerance, StepControl::new(power))),
             next: first,
             first,
+            stretch: Stretch { from: None, trials: 0 },
         }
     }
 
@@ -222,8 +250,8 @@ impl<T: Real> Driver<T> {
     /// No allocation but what the stepper does.
     ///
     /// # Errors
-    /// That of the last trial, [`StepError::StepTooSmall`] where rules reject steps that no longer matter. The state is then
-    /// that of the last accepted step.
+    /// That of the last trial, [`StepError::StepTooSmall`] where rules reject steps that no longer matter, or where 100,000 trials
+    /// came less far than one largest step. The state is then that of the last accepted step.
     ///
     /// # Panics
     /// If `rest` is not positive.
@@ -237,6 +265,7 @@ impl<T: Real> Driver<T> {
         let (mut h, is_cut) = self.planned(t, rest);
         let mut effort = Effort::default();
         loop {
+            self.stretch.count(t, self.max_step)?;
             stepper.prepare(h, effort.reductions)?;
             let attempt = match stepper.attempt(h) {
                 Ok(attempt) => attempt,
