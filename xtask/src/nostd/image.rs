@@ -82,7 +82,8 @@ pub(super) fn reachable(disassembly: &str, start: &str) -> Result<BTreeSet<Strin
         {
             opaque.insert(here, "calls through a register");
         } else if is_branch || operation.starts_with("cb") {
-            let target = code.split_once('<').and_then(|(before, _)| before.split_whitespace().last());
+            let target =
+                code.split_once('<').and_then(|(before, _)| before.split_whitespace().last());
             let target = target.and_then(number).and_then(|address| holder(&functions, address));
             calls.entry(here).or_default().extend(target);
         }
