@@ -25,6 +25,9 @@ use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
 use mbs_core::step::{StepError, StepReport, Stop, largest, largest_or_nan};
 
+/// So many iterates in a row that do not halve the least correction, and it falls no more.
+const STALLED: u32 = 4;
+
 /// The state that a step starts from.
 #[derive(Debug, Clone, Copy)]
 pub struct Start<'a, T> {
@@ -98,6 +101,7 @@ fn iterate<T: Real, S: Space<T>>(
     let (passage, enough) = (T::from_f64(0.1), T::from_f64(1e-2));
     let mut mixing = Mixing::default();
     let (mut last, mut is_slow) = (T::ZERO, projects);
+    let (mut best, mut stalled) = (T::from_f64(f64::INFINITY), 0);
     for iterations in 1..=options.max_iterations {
         reach_end(m, (dt, options), &start, s).map_err(|f| failure(m, f.into()))?;
         s.scratch.copy_from_slice(s.zdd);
@@ -120,6 +124,8 @@ fn iterate<T: Real, S: Space<T>>(
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(s.zdd) });
         }
+        let is_best = correction + correction <= best;
+        (best, stalled) = if is_best { (correction, 0) } else { (best, stalled + 1) };
         // The next correction, from the last two, is below the tolerance.
         let goal = scale * options.tolerance;
         let rate = if last > T::ZERO { correction / last } else { T::ONE };
@@ -134,8 +140,9 @@ fn iterate<T: Real, S: Space<T>>(
             if correction <= scale * passage && note_rank(s) {
                 return Ok((iterations, correction, Stop::Passage));
             }
-            // What is left is small against scene and step.
-            if correction <= m.length * options.tolerance && correction <= scale * enough {
+            // What is left is small against scene and step, and mixed iterates, which do not fall at each turn, have stopped falling.
+            let is_small = correction <= m.length * options.tolerance && correction <= scale * enough;
+            if is_small && (m.loads.is_empty() || stalled >= STALLED) {
                 return Ok((iterations, correction, Stop::Tolerance));
             }
         }

@@ -186,6 +186,8 @@ pub(super) fn stiff_hinge(dice: &mut Dice) -> Case {
     let hinge = draft.pin([body, beam], end);
     let stiffness = decades(dice, 3.0, 10.0);
     draft.effects.push(Effect::Torsion(hinge, [stiffness, 0.0, 0.0]));
+    // else the beam would start with a motion of its own
+    draft.rate(hinge, 0.0);
     draft.watch(beam, tip);
     let span = time(dice, &STEPS, 0.4);
     // the beam bends by some 10 N m / k
