@@ -140,7 +140,7 @@ impl Draft {
         self.outputs.push((body, at));
     }
 
-    /// Largest distance between places of bodies and joints [m].
+    /// Largest distance between places of bodies, joints and effects [m].
     #[must_use]
     pub fn size(&self) -> f64 {
         let of_body = |body: &Body| match &body.shape {
@@ -149,8 +149,14 @@ impl Draft {
         };
         let of_joints = self.joints.iter().flat_map(|joint| joint.at.clone());
         let watched = self.outputs.iter().map(|(_, at)| *at);
-        let places: Vec<Point> =
-            self.bodies.iter().flat_map(of_body).chain(of_joints).chain(watched).collect();
+        let held = self.effects.iter().flat_map(|effect| match effect {
+            Effect::Spring(_, points, _)
+            | Effect::Bumper(_, points, _)
+            | Effect::Pieces(_, points, _) => points.to_vec(),
+            _ => Vec::new(),
+        });
+        let places = self.bodies.iter().flat_map(of_body).chain(of_joints).chain(watched);
+        let places: Vec<Point> = places.chain(held).collect();
         let apart = |a: &Point| places.iter().map(|b| distance(*a, *b)).fold(0.0, f64::max);
         places.iter().map(apart).fold(0.0, f64::max)
     }

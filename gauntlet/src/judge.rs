@@ -210,7 +210,8 @@ fn errors(
 /// last.
 fn error(rows: &Rows, reference: &Rows, size: f64) -> f64 {
     let end = rows.last().map_or(0.0, |(t, _)| *t);
-    let near = 1e-9 * end;
+    // a clock of single precision has seven digits
+    let near = 3e-7 * end;
     let (mut k, mut most) = (0, f64::INFINITY);
     for (t, row) in rows {
         while k + 1 < reference.len() && reference[k].0 < t - near {

@@ -42,6 +42,7 @@ mod tests {
         for family in all() {
             let [a, b, c] = [3, 3, 4].map(|seed| family.case(seed).scene);
             assert!(a == b && a != c, "{}", family.name);
+            assert!(family.case(3).size > 0.0, "{} has a size", family.name);
         }
     }
 }
