@@ -2,7 +2,7 @@
 //!
 //! A method is *wrong* where its outputs differ from the reference by more than ten times what the rule's own error is at that step
 //! (the lower median of what the other formulations, or those on the twin, are off by), and more than rounding, without a typed
-//! error; or where its energy invariant is off by more than a tenth of the energy turned over.
+//! error and without falling with the square of the step; or where its energy invariant is off by more than a tenth of the energy turned over.
 
 use crate::case::{Case, Image, Options, Truth};
 use crate::run::{EXTRAPOLATED, METHODS, Ran, run};
@@ -17,6 +17,8 @@ const COARSE: f64 = 0.1;
 const NEAR: f64 = 1e-3;
 /// Where nothing but the invariants is judged: joints may be open by this share of the size.
 const MOST_VIOLATION: f64 = 1e-6;
+/// How far a quotient of errors may be from the square of that of the steps.
+const ORDER: f64 = 3.0;
 /// A reference has so many steps in one of the case.
 const FINER: f64 = 10.0;
 /// Formulations that references are taken from, in this order.
@@ -29,6 +31,8 @@ pub enum Verdict {
     Right(f64),
     /// As near as the rule, which is far off at this step.
     Coarse(f64),
+    /// Further off than the others allow, by an error that falls with the square of the step: the rule's own in these coordinates.
+    Apart(f64),
     /// A typed error: its code, and when [s].
     Stopped(String, f64),
     /// Completed with its energy and closed joints, which is all that can be known of a long motion.
@@ -102,12 +106,24 @@ fn verdict(
     let error = error(&rows, &reference.rows, case.size);
     let allowed = TIMES * of_rule + ROUNDING[usize::from(case.options.is_single)];
     if error > allowed {
+        if is_of_the_rule(case, method, error, &reference.rows) {
+            return Verdict::Apart(error);
+        }
         Verdict::Wrong(format!("off by {error:.2e} of the size, where {allowed:.2e} are allowed"))
     } else if error.max(energy) > COARSE {
         Verdict::Coarse(error.max(energy))
     } else {
         Verdict::Right(error)
     }
+}
+
+/// Is an error that of a rule of second order: a hundredth, to a factor, at a tenth of the step? A motion that went another way, or an
+/// iteration that ended early, is off by anything else.
+fn is_of_the_rule(case: &Case, method: &str, error: f64, reference: &Rows) -> bool {
+    let fine = run(&case.scene, method, case.step / FINER, case.options);
+    let Some(rows) = fine.rows() else { return false };
+    let ratio = error / self::error(&rows.to_vec(), reference, case.size);
+    error < COARSE && ratio > FINER * FINER / ORDER && ratio < FINER * FINER * ORDER
 }
 
 /// The first reference that is not the method's own.

@@ -81,6 +81,7 @@ fn of_verdict(verdict: &Verdict) -> Value {
     match verdict {
         Verdict::Right(error) => json!({ "is": "right", "error": error }),
         Verdict::Coarse(error) => json!({ "is": "coarse", "error": error }),
+        Verdict::Apart(error) => json!({ "is": "apart", "error": error }),
         Verdict::Kept => json!({ "is": "kept" }),
         Verdict::Unjudged => json!({ "is": "unjudged" }),
         Verdict::Stopped(code, time) => json!({ "is": "stopped", "code": code, "time": time }),

@@ -98,7 +98,9 @@ fn iterate<T: Real, S: Space<T>>(
     let rounding = T::EPSILON * T::from_f64(64.0);
     // Coordinates that go into forces are rounded: what moves them less than that says nothing more.
     let rest = m.length * T::EPSILON;
-    let (passage, enough) = (T::from_f64(0.1), T::from_f64(1e-2));
+    // A stiff effect makes much of what is left in its place.
+    let enough = if m.loads.is_empty() { T::from_f64(1e-2) } else { T::tolerance(1e-6) };
+    let passage = T::from_f64(0.1);
     let mut mixing = Mixing::default();
     let (mut last, mut is_slow) = (T::ZERO, projects);
     let (mut best, mut stalled) = (T::from_f64(f64::INFINITY), 0);
@@ -141,7 +143,8 @@ fn iterate<T: Real, S: Space<T>>(
                 return Ok((iterations, correction, Stop::Passage));
             }
             // What is left is small against scene and step, and mixed iterates, which do not fall at each turn, have stopped falling.
-            let is_small = correction <= m.length * options.tolerance && correction <= scale * enough;
+            let is_small =
+                correction <= m.length * options.tolerance && correction <= scale * enough;
             if is_small && (m.loads.is_empty() || stalled >= STALLED) {
                 return Ok((iterations, correction, Stop::Tolerance));
             }
