@@ -23,13 +23,13 @@ pub struct History<T> {
 impl<T: Real, S: Space<T>> Workspace<T, S> {
     /// What the next step goes on from.
     #[must_use]
-    pub fn history(&mut self) -> History<T> {
-        let (s, explicit) = self.parts();
+    pub fn history(&self) -> History<T> {
+        let (rank, pivots) = self.last();
         History {
-            rank: *s.rank,
-            pivots: s.loops.pivots.to_vec(),
-            pair: explicit.pair.as_ref().map(Adaptive::history),
-            extrapolation: explicit.extrapolation.as_ref().map(Adaptive::history),
+            rank,
+            pivots: pivots.to_vec(),
+            pair: self.explicit.pair.as_ref().map(Adaptive::history),
+            extrapolation: self.explicit.extrapolation.as_ref().map(Adaptive::history),
         }
     }
 
