@@ -10,6 +10,8 @@ use std::io;
 pub enum CheckpointError {
     /// It cannot be read.
     Io(io::Error),
+    /// Another process keeps a run in the directory.
+    Busy,
     /// The file is something else.
     NotACheckpoint,
     /// Another version of mbs has written it: this one.
@@ -48,6 +50,7 @@ impl CheckpointError {
     pub fn hint(&self) -> String {
         match self {
             Self::Io(_) => "give a file that can be read".to_owned(),
+            Self::Busy => "wait for it, or give another directory with --out".to_owned(),
             Self::NotACheckpoint => "give the checkpoint.mbs of a run".to_owned(),
             Self::Version(found) => format!(
                 "go on with mbs {found}, or begin anew with --restart: another version may round otherwise"
@@ -74,6 +77,7 @@ impl Display for CheckpointError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Io(error) => write!(f, "the checkpoint cannot be read: {error}"),
+            Self::Busy => write!(f, "another process keeps a run in the directory"),
             Self::NotACheckpoint => write!(f, "this is no checkpoint"),
             Self::Version(found) => write!(
                 f,

@@ -3,7 +3,7 @@
 use super::CheckpointError;
 use super::rows::Rows;
 use crate::recorder::Recorder;
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -31,14 +31,24 @@ pub struct Keeping {
     next: f64,
     rows: Rows,
     failure: Option<io::Error>,
+    /// Holds the lock on the directory.
+    _lock: Option<File>,
 }
 
 impl Keeping {
-    /// Into a directory that is there, each `every` [s] of simulated time.
-    #[must_use]
-    pub fn new(out: &Path, every: f64) -> Self {
+    /// Into a directory, made if missing, each `every` [s] of simulated time. The directory is locked until this is dropped.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Busy`] where another process keeps a run there, [`CheckpointError::Io`] where there is no directory.
+    pub fn new(out: &Path, every: f64) -> Result<Self, CheckpointError> {
+        fs::create_dir_all(out)?;
+        // Where directories cannot be opened or locked there is no lock to be had.
+        let lock = File::open(out).ok();
+        if let Some(Err(TryLockError::WouldBlock)) = lock.as_ref().map(File::try_lock) {
+            return Err(CheckpointError::Busy);
+        }
         let (out, rows) = (out.to_owned(), Rows::default());
-        Self { out, every, next: f64::NEG_INFINITY, rows, failure: None }
+        Ok(Self { out, every, next: f64::NEG_INFINITY, rows, failure: None, _lock: lock })
     }
 
     /// Where the checkpoint is.

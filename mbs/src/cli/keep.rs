@@ -12,13 +12,7 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Arguments {
     /// Write DIR/checkpoint.mbs at the start and each so many simulated seconds, and the rows as the run goes, so that a run that is
     /// killed can go on with --resume. No step and no result changes by it.
-    #[arg(
-        long,
-        value_name = "SECONDS",
-        requires = "out",
-        conflicts_with = "resume",
-        allow_negative_numbers = true
-    )]
+    #[arg(long, value_name = "SECONDS", requires = "out", allow_negative_numbers = true)]
     checkpoint: Option<f64>,
     /// Go on from DIR/checkpoint.mbs, or from FILE, with the settings of its run; the results are those of a run in one go, to the
     /// last bit.
@@ -58,28 +52,45 @@ impl Arguments {
                 return Err("error: there is no directory to go on in\nhint: give --out DIR, or --resume=FILE".to_owned());
             }
         };
+        if let Some(out) = out.filter(|out| is_another(&out.join(FILE), &path)) {
+            return Err(unfinished(out, "give another directory with --out, or remove the file"));
+        }
         let from = Checkpoint::open(&path).map_err(|error| refusal(&path, &error))?;
-        let every = if from.every() > 0.0 { from.every() } else { f64::INFINITY };
-        let keeping = out.map(|out| Keeping::new(out, every));
+        let stored = if from.every() > 0.0 { from.every() } else { f64::INFINITY };
+        let keeping = out.map(|out| keeping(out, self.checkpoint.unwrap_or(stored))).transpose()?;
         Ok(Kept { from: Some(from), keeping, out: out.map(Path::to_owned) })
     }
 
     /// A run from its start.
     fn anew(&self, out: Option<&Path>) -> Result<Kept, String> {
         let Some(out) = out else { return Ok(Kept::default()) };
-        let path = out.join(FILE);
-        if path.exists() && !self.restart {
-            let at =
-                Checkpoint::open(&path).map(|c| format!(", at t = {} s", words::time(c.time())));
-            return Err(format!(
-                "error: `{}` has the checkpoint of a run that has not ended{}\nhint: go on with --resume, or begin anew with --restart",
-                out.display(),
-                at.unwrap_or_default()
-            ));
+        if out.join(FILE).exists() && !self.restart {
+            return Err(unfinished(out, "go on with --resume, or begin anew with --restart"));
         }
-        let keeping = self.checkpoint.map(|every| Keeping::new(out, every));
+        let keeping = self.checkpoint.map(|every| keeping(out, every)).transpose()?;
         Ok(Kept { from: None, keeping, out: Some(out.to_owned()) })
     }
+}
+
+/// Keeps a run in a directory; else the refusal.
+fn keeping(out: &Path, every: f64) -> Result<Keeping, String> {
+    Keeping::new(out, every).map_err(|error| match error {
+        CheckpointError::Io(error) => files::unwritable(out, &error),
+        error => said(&error),
+    })
+}
+
+/// Is there a file, and not under the other name?
+fn is_another(file: &Path, other: &Path) -> bool {
+    file.exists() && file.canonicalize().ok() != other.canonicalize().ok()
+}
+
+/// The refusal of a directory where a run has not ended.
+fn unfinished(out: &Path, hint: &str) -> String {
+    let at = Checkpoint::open(&out.join(FILE));
+    let at = at.map(|c| format!(", at t = {} s", words::time(c.time()))).unwrap_or_default();
+    let out = out.display();
+    format!("error: `{out}` has the checkpoint of a run that has not ended{at}\nhint: {hint}")
 }
 
 impl Kept {
@@ -100,8 +111,11 @@ impl Kept {
         if self.keeping.is_some() { TRIAL } else { "run.csv" }
     }
 
-    /// Nothing stands in the way: what an earlier start has left goes.
+    /// Nothing stands in the way: what an earlier start has left goes, and what the trial has.
     pub(crate) fn clear(&self) {
+        if let (Some(_), Some(out)) = (&self.keeping, &self.out) {
+            let _ = std::fs::remove_file(out.join(TRIAL));
+        }
         if let (None, Some(out)) = (&self.from, &self.out) {
             // What is not there need not go.
             let _ = std::fs::remove_file(out.join(FILE));
