@@ -1,10 +1,11 @@
 //! A whole run: from a scene to its summary, rows and page.
 
 mod kept;
+mod outcome;
 
 use crate::alarm::Alarm;
 use crate::channels::Channels;
-use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Keeping, write_rows};
+use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Keeping};
 use crate::digits::is_finer;
 use crate::figure::Figure;
 use crate::recorder::{Keep, Recorder, StepMark};
@@ -18,14 +19,14 @@ use kept::{Clock, Kept};
 use mbs_core::Real;
 use mbs_core::control::{Accepted, Invariant};
 use mbs_core::outputs::{self, Contacts};
-use mbs_core::real::DoubleDouble;
 use mbs_core::scene::{EffectKind, Scene};
 use mbs_scene::{
-    Channel, Contact, ControlSummary, EnergySummary, Outputs, Provenance, RunRecord, RunSummary,
-    StepRow, StepSeries,
+    Channel, Contact, ControlSummary, EnergySummary, Outputs, RunRecord, RunSummary, StepRow,
+    StepSeries,
 };
-use std::io;
 use std::time::Instant;
+
+pub use outcome::Outcome;
 
 /// Roundings of the time at the end that are nothing.
 const LAST_ROUNDINGS: f64 = 32.0;
@@ -39,72 +40,6 @@ pub trait Progress {
 }
 
 impl Progress for () {}
-
-/// What a run gives.
-#[derive(Debug)]
-pub struct Outcome {
-    /// The JSON object.
-    pub summary: RunSummary,
-    /// Why it stopped early.
-    pub error: Option<StopError>,
-    record: RunRecord,
-    channels: Vec<Channel>,
-    table: Vec<(f64, Vec<f64>)>,
-    /// The same numbers with all their digits, where there are more than those of `f64`.
-    long_table: Vec<Vec<DoubleDouble>>,
-    ranges: Vec<[f64; 2]>,
-    steps: StepSeries,
-}
-
-impl Outcome {
-    /// Writes the rows as CSV.
-    ///
-    /// # Errors
-    /// Those of the sink.
-    pub fn write_csv(&self, sink: impl io::Write) -> io::Result<()> {
-        let table = self.table.iter().map(|(t, row)| (*t, &row[..]));
-        write_rows((sink, &self.channels), true, table, self.long_table.iter().cloned())
-    }
-
-    /// Writes the steps as CSV: their lengths, and what came of them.
-    ///
-    /// # Errors
-    /// Those of the sink.
-    pub fn write_steps(&self, sink: impl io::Write) -> io::Result<()> {
-        mbs_scene::write_steps(sink, &self.steps)
-    }
-
-    /// The steps of the rows.
-    #[must_use]
-    pub fn steps(&self) -> &StepSeries {
-        &self.steps
-    }
-
-    /// The page, with how the run was made.
-    #[must_use]
-    pub fn page(&self, provenance: Provenance) -> String {
-        let record = RunRecord { provenance, ..self.record.clone() };
-        mbs_scene::page(&record)
-    }
-
-    /// The rows: time and all components of all channels.
-    #[must_use]
-    pub fn rows(&self) -> &[(f64, Vec<f64>)] {
-        &self.table
-    }
-
-    /// Least and largest value of each component of each channel, over the rows; empty when the run did not start.
-    #[must_use]
-    pub fn ranges(&self) -> &[[f64; 2]] {
-        &self.ranges
-    }
-
-    /// What the user should know.
-    #[must_use]
-    pub fn notes(&self) -> &[String] {
-        &self.record.notes
-    }
-}
 
 /// Runs a checked scene to its end, or to where it stops.
 pub fn run<T: Real, const D: usize>(

@@ -101,7 +101,7 @@ where
         })
     }
 
-    /// Writes the run beside its simulation, or reads it back.
+    /// Writes the run beside its simulation, or reads it back. What the last step left in `mark` and `values` the next one replaces.
     fn walk(&mut self, tape: &mut impl Tape, cpu: Duration) -> Told {
         tape.count(&mut self.done)?;
         tape.float(&mut self.reached)?;
@@ -109,7 +109,6 @@ where
         self.figure.walk(tape)?;
         self.measures.walk(tape)?;
         self.walk_contacts(tape)?;
-        self.mark.walk(tape)?;
         self.counts.walk(tape)?;
         self.alarm.walk(tape)?;
         let mut cpu = cpu;
@@ -157,3 +156,6 @@ impl Counts {
         tape.count(&mut control.events)
     }
 }
+
+#[cfg(test)]
+mod tests;
