@@ -19,6 +19,6 @@ pub use report::{Report, Section};
 pub use write::{
     Absence, Change, Chosen, Contact, ControlSummary, ControllerStep, CsvWriter, EffectEntry,
     EnergySummary, Explanation, GuideEntry, JointGroup, LargestStep, Outputs, Price, Prices,
-    Relative, Rod, RunError, RunSummary, SearchEnd, Simulated, Sizes, ViolationSummary, long,
-    readable, shortest, write_steps,
+    Relative, Rod, RunError, RunSummary, SearchEnd, Simulated, Sizes, ViolationSummary,
+    append_steps, long, readable, shortest, write_steps,
 };

@@ -1,5 +1,6 @@
 //! The stick figure of a scene: which points are drawn and what lines join them.
 
+use crate::checkpoint::tape::{Tape, Told, holds};
 use mbs_core::Real;
 use mbs_core::natural::{Affine, NaturalModel};
 use mbs_core::scene::{BodyRef, Dimension, Inertia, Joint, JointKind, Quantity, Scene};
@@ -45,6 +46,18 @@ impl<T: Real, const D: usize> Figure<T, D> {
         #[allow(clippy::cast_precision_loss, reason = "numbers of points are far below 2^53")]
         let frames = (MOST_NUMBERS / (points.len() * D).max(1) as f64).clamp(1.0, MOST_FRAMES);
         Self { points, animation, every: duration / frames, next: 0.0 }
+    }
+
+    /// Writes the pictures so far, or reads them back.
+    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+        let n = self.points.len() * D;
+        tape.float(&mut self.next)?;
+        tape.list(&mut self.animation.times, 8, Tape::float)?;
+        tape.list(&mut self.animation.frames, 8 * n.max(1), |tape, frame| {
+            frame.resize(n, 0.0);
+            tape.floats(frame)
+        })?;
+        holds(self.animation.times.len() == self.animation.frames.len())
     }
 
     /// Takes a picture where one is due.

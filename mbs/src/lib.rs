@@ -2,6 +2,7 @@
 
 mod alarm;
 mod channels;
+mod checkpoint;
 mod choice;
 pub mod cli;
 pub mod compare;
@@ -13,6 +14,7 @@ mod engine;
 pub mod explain;
 pub mod export;
 mod figure;
+mod fingerprint;
 mod journal;
 mod modes;
 mod recorder;
@@ -36,14 +38,15 @@ pub use mbs_scene as scene_file;
 pub use mbs_sparse as sparse;
 pub use mbs_statespace as statespace;
 
+pub use checkpoint::{Checkpoint, CheckpointError, FILE as CHECKPOINT, Keeping};
 pub use choice::{
     FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
     StepRule,
 };
-pub use document::run_document;
+pub use document::{run_document, run_document_kept};
 pub use engine::{Engine, Index};
 pub use modes::{Mode, Modes, Place};
-pub use run::{Outcome, Progress, run};
+pub use run::{Outcome, Progress, run, run_kept};
 pub use settings::{Overrides, Settings, SettingsError};
 pub use simulation::Simulation;
 pub use statics::{Still, equilibrium_start, settle};

@@ -1,5 +1,6 @@
 //! A run in relative coordinates: the tree, its state, and the same state told in natural coordinates for the outputs.
 
+use crate::checkpoint::TreeKept;
 use crate::choice::IntegratorKind;
 use crate::settings::Settings;
 use crate::stop::StopError;
@@ -122,6 +123,22 @@ where
     pub(crate) fn undo(&mut self) {
         self.state.copy_from(&self.saved);
         self.energies = self.saved_energies;
+    }
+
+    /// What the next step goes on from.
+    pub(crate) fn kept(&self) -> TreeKept<T> {
+        let (state, energies) = (self.state.clone(), self.energies);
+        TreeKept { state, history: self.workspace.history(), energies }
+    }
+
+    /// Goes on from what was kept; says whether it is of this tree.
+    pub(crate) fn go_on(&mut self, kept: &TreeKept<T>) -> bool {
+        let is_ours = self.workspace.set_history(&kept.history, &self.options);
+        if is_ours {
+            self.state.copy_from(&kept.state);
+            self.energies = kept.energies;
+        }
+        is_ours
     }
 
     /// Tells the natural state of the tree's.

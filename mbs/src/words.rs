@@ -28,6 +28,12 @@ pub(crate) fn limit_name(limit: Limit) -> &'static str {
     }
 }
 
+/// All of them.
+pub(crate) fn limit_names() -> [&'static str; 6] {
+    [Limit::Largest, Limit::Energy, Limit::Error, Limit::Event, Limit::Contact, Limit::Failure]
+        .map(limit_name)
+}
+
 /// The summary table of a page.
 pub(crate) fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
     if s.coordinates == 0 && s.error.is_some() {

@@ -160,6 +160,17 @@ impl<T: Real> Stretch<T> {
     }
 }
 
+/// What a driver remembers from step to step.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct DriverHistory<T> {
+    /// The step that is tried next [s].
+    pub next: T,
+    /// Of the energy rule, where there is one: the last changes, faded [-], and small changes in a row.
+    pub energy: Option<(f64, u32)>,
+    /// Of the error estimate, where there is one: that of its [`StepControl`].
+    pub error: Option<(Option<f64>, bool)>,
+}
+
 /// The trials of one step so far.
 #[derive(Debug, Default)]
 struct Effort {
@@ -243,6 +254,36 @@ impl<T: Real> Driver<T> {
     #[must_use]
     pub fn next(&self) -> T {
         self.next
+    }
+
+    /// What the next step goes on from.
+    #[must_use]
+    pub fn history(&self) -> DriverHistory<T> {
+        DriverHistory {
+            next: self.next,
+            energy: self.energy.map(|steering| steering.history()),
+            error: self.error.map(|(_, control)| control.history()),
+        }
+    }
+
+    /// Goes on from the history of a driver by the same rules. Says whether it is one; else nothing is changed.
+    pub fn set_history(&mut self, history: DriverHistory<T>) -> bool {
+        let DriverHistory { next, energy, error } = history;
+        let is_step = next > T::ZERO && next <= self.max_step;
+        if !is_step
+            || energy.is_some() != self.energy.is_some()
+            || error.is_some() != self.error.is_some()
+        {
+            return false;
+        }
+        self.next = next;
+        if let (Some(steering), Some(energy)) = (&mut self.energy, energy) {
+            steering.set_history(energy);
+        }
+        if let (Some((_, control)), Some(error)) = (&mut self.error, error) {
+            control.set_history(error);
+        }
+        true
     }
 
     /// Makes one step of at most `rest` [s] from time `t` [s], with as many trials as it takes; the invariant is marked with it.

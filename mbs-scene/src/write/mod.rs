@@ -7,7 +7,7 @@ mod readable;
 #[cfg(test)]
 mod tests;
 
-pub use csv::{CsvWriter, long, shortest, write_steps};
+pub use csv::{CsvWriter, append_steps, long, shortest, write_steps};
 pub use explanation::{
     Absence, Change, ControllerStep, EffectEntry, Explanation, GuideEntry, JointGroup, LargestStep,
     Price, Prices, Relative, Rod, SearchEnd, Simulated, Sizes,

@@ -8,6 +8,7 @@ mod explain;
 mod export;
 mod files;
 mod generate;
+mod keep;
 mod run;
 mod sweep;
 mod table;

@@ -1,10 +1,11 @@
 //! `mbs run SCENE`.
 
 use super::bar::{bar, ticks};
-use super::{STOPPED, files, refuse, table};
-use crate::{Outcome, Overrides, Settings, run_document, words};
+use super::{STOPPED, files, keep, refuse, table};
+use crate::{Outcome, Overrides, Settings, run_document_kept, words};
 use clap::Args;
 use indicatif::ProgressBar;
+use mbs_core::scene::Scene;
 use mbs_scene::{Document, Provenance, RunError, readable};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -59,6 +60,8 @@ pub(crate) struct Arguments {
     /// Directory for run.csv, steps.csv, run.json and run.html; made if missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    keep: keep::Arguments,
     /// One JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
@@ -99,21 +102,21 @@ impl Arguments {
         }
     }
 
-    fn provenance(&self, settings: &Settings) -> Provenance {
+    fn provenance(&self, o: &Overrides, settings: &Settings) -> Provenance {
         let options = [
-            ("formulation", self.formulation.clone()),
-            ("step", self.step.map(|x| x.to_string())),
-            ("step-max", self.step_max.map(|x| x.to_string())),
-            ("step-control", self.step_control.clone()),
-            ("energy-tolerance", self.energy_tolerance.map(|[u, l]| format!("{u},{l}"))),
-            ("error-tolerance", self.error_tolerance.map(|x| x.to_string())),
-            ("events", self.events.map(|on| if on { "on" } else { "off" }.to_owned())),
-            ("energy-alarm", self.energy_alarm.map(|x| x.to_string())),
-            ("duration", self.duration.map(|x| x.to_string())),
-            ("penalty", self.penalty.map(|x| x.to_string())),
-            ("tolerance", self.tolerance.map(|x| x.to_string())),
-            ("precision", self.precision.clone()),
-            ("integrator", self.integrator.clone()),
+            ("formulation", o.formulation.clone()),
+            ("step", o.step.map(|x| x.to_string())),
+            ("step-max", o.step_max.map(|x| x.to_string())),
+            ("step-control", o.step_control.clone()),
+            ("energy-tolerance", o.energy_tolerance.map(|[u, l]| format!("{u},{l}"))),
+            ("error-tolerance", o.error_tolerance.map(|x| x.to_string())),
+            ("events", o.events.map(|on| if on { "on" } else { "off" }.to_owned())),
+            ("energy-alarm", o.energy_alarm.map(|x| x.to_string())),
+            ("duration", o.duration.map(|x| x.to_string())),
+            ("penalty", o.penalty.map(|x| x.to_string())),
+            ("tolerance", o.tolerance.map(|x| x.to_string())),
+            ("precision", o.precision.clone()),
+            ("integrator", o.integrator.clone()),
         ];
         files::provenance(("run", &self.scene), &options, settings)
     }
@@ -152,32 +155,54 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
             "error: {option} is not built yet\nhint: leave it out; give --step instead"
         ));
     }
-    let place = (arguments.out.as_deref(), "run.csv");
-    let begun = files::begin(&arguments.scene, &arguments.overrides(), place);
-    let (document, scene, settings) = match begun {
-        Ok(begun) => begun,
-        Err(message) => return refuse(&message),
-    };
+    match begin(arguments) {
+        Ok(begun) => go(arguments, begun),
+        Err(message) => refuse(&message),
+    }
+}
+
+/// A run that may begin.
+struct Begun {
+    document: Document,
+    scene: Scene<f64>,
+    settings: Settings,
+    overrides: Overrides,
+    kept: keep::Kept,
+}
+
+/// Reads what is run, and what it goes on from; else the refusal.
+fn begin(arguments: &Arguments) -> Result<Begun, String> {
+    let out = arguments.out.as_deref();
+    let kept = arguments.keep.begin(out)?;
+    let overrides = kept.overrides(arguments.overrides())?;
+    let begun = files::begin(&arguments.scene, &overrides, (out, kept.trial()))?;
+    let (document, scene, settings) = begun;
+    let settings = kept.settle(settings)?;
+    kept.clear();
+    Ok(Begun { document, scene, settings, overrides, kept })
+}
+
+fn go(arguments: &Arguments, mut begun: Begun) -> ExitCode {
+    let Begun { document, scene, settings, kept, .. } = &mut begun;
     let mut bar = Bar::new(settings.duration, arguments.json);
-    let outcome = run_document((&document, &scene), &settings, &mut |t| bar.reached(t));
+    let parts = (kept.from.as_ref(), kept.keeping.as_mut());
+    let outcome = run_document_kept((document, scene), settings, &mut |t| bar.reached(t), parts);
     bar.bar.finish_and_clear();
     match outcome {
-        Ok(outcome) => report(&outcome, arguments, &settings, &document),
+        Ok(Ok(outcome)) => report(&outcome, arguments, &begun),
+        Ok(Err(error)) => refuse(&keep::said(&error)),
         Err(error) => refuse(&error.render()),
     }
 }
 
 /// Files, then JSON or table; the exit status says whether the run was completed.
-fn report(
-    outcome: &Outcome,
-    arguments: &Arguments,
-    settings: &Settings,
-    document: &Document,
-) -> ExitCode {
-    if let Some(out) = &arguments.out
-        && let Err(error) = write_files(outcome, out, arguments, settings)
-    {
-        return refuse(&files::unwritable(out, &error));
+fn report(outcome: &Outcome, arguments: &Arguments, begun: &Begun) -> ExitCode {
+    if let Some(out) = &arguments.out {
+        let provenance = arguments.provenance(&begun.overrides, &begun.settings);
+        if let Err(error) = write_files(outcome, out, provenance) {
+            return refuse(&files::unwritable(out, &error));
+        }
+        begun.kept.end();
     }
     let text = if arguments.json {
         outcome.summary.to_json()
@@ -191,7 +216,7 @@ fn report(
     let Some(error) = &outcome.error else { return ExitCode::SUCCESS };
     if !arguments.json {
         let report = outcome.summary.error.as_ref();
-        let text = report.map(|report| stopped("stopped", report, error, document));
+        let text = report.map(|report| stopped("stopped", report, error, &begun.document));
         eprint!("{}", text.unwrap_or_default());
     }
     ExitCode::from(STOPPED)
@@ -215,16 +240,11 @@ pub(crate) fn stopped(
     place.render(document.file(), &message, &report.hint)
 }
 
-fn write_files(
-    outcome: &Outcome,
-    out: &Path,
-    arguments: &Arguments,
-    settings: &Settings,
-) -> std::io::Result<()> {
+fn write_files(outcome: &Outcome, out: &Path, provenance: Provenance) -> std::io::Result<()> {
     outcome.write_csv(std::io::BufWriter::new(std::fs::File::create(out.join("run.csv"))?))?;
     outcome.write_steps(std::io::BufWriter::new(std::fs::File::create(out.join("steps.csv"))?))?;
     std::fs::write(out.join("run.json"), outcome.summary.to_json() + "\n")?;
-    std::fs::write(out.join("run.html"), outcome.page(arguments.provenance(settings)))
+    std::fs::write(out.join("run.html"), outcome.page(provenance))
 }
 
 /// A progress bar on a terminal, nothing elsewhere.

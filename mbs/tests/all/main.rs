@@ -8,6 +8,7 @@ mod retell;
 
 mod analysis;
 mod andrews;
+mod checkpoint;
 mod command;
 mod compare;
 mod contact;
