@@ -169,6 +169,8 @@ pub struct DriverHistory<T> {
     pub energy: Option<(f64, u32)>,
     /// Of the error estimate, where there is one: that of its [`StepControl`].
     pub error: Option<(Option<f64>, bool)>,
+    /// Where the present stretch of a largest step began [s], and the trials in it.
+    pub stretch: Option<(T, u32)>,
 }
 
 /// The trials of one step so far.
@@ -263,12 +265,13 @@ impl<T: Real> Driver<T> {
             next: self.next,
             energy: self.energy.map(|steering| steering.history()),
             error: self.error.map(|(_, control)| control.history()),
+            stretch: self.stretch.from.map(|from| (from, self.stretch.trials)),
         }
     }
 
     /// Goes on from the history of a driver by the same rules. Says whether it is one; else nothing is changed.
     pub fn set_history(&mut self, history: DriverHistory<T>) -> bool {
-        let DriverHistory { next, energy, error } = history;
+        let DriverHistory { next, energy, error, stretch } = history;
         let is_step = next > T::ZERO && next <= self.max_step;
         if !is_step
             || energy.is_some() != self.energy.is_some()
@@ -277,6 +280,10 @@ impl<T: Real> Driver<T> {
             return false;
         }
         self.next = next;
+        self.stretch = Stretch {
+            from: stretch.map(|(from, _)| from),
+            trials: stretch.map_or(0, |(_, trials)| trials),
+        };
         if let (Some(steering), Some(energy)) = (&mut self.energy, energy) {
             steering.set_history(energy);
         }

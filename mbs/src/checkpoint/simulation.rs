@@ -56,13 +56,17 @@ impl<T: Real> Kept<T> {
 
 impl<T: Real> ControlKept<T> {
     fn walk(&mut self, tape: &mut impl Tape) -> Told {
-        let DriverHistory { next, energy, error } = &mut self.driver;
+        let DriverHistory { next, energy, error, stretch } = &mut self.driver;
         tape.real(next)?;
         tape.option(energy, |tape, (memory, small)| {
             tape.float(memory)?;
             tape.small(small)
         })?;
         tape.option(error, Parts::errors)?;
+        tape.option(stretch, |tape, (from, trials)| {
+            tape.real(from)?;
+            tape.small(trials)
+        })?;
         let Some(EventHistory { t, trials, begin }) = &mut self.events else { return Ok(()) };
         tape.real(t)?;
         tape.small(trials)?;
