@@ -58,6 +58,11 @@ where
         Ok(Some(Self { driver, estimate, events, saved: state.clone() }))
     }
 
+    /// The state was set from outside: what steps are watched for begins there.
+    pub(crate) fn restart(&mut self, state: &State<T>) {
+        self.events.iter_mut().for_each(|events| events.start(state));
+    }
+
     /// One step of at most `rest` [s].
     pub(crate) fn step(
         &mut self,

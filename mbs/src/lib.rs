@@ -45,7 +45,7 @@ pub use engine::{Engine, Index};
 pub use modes::{Mode, Modes, Place};
 pub use run::{Outcome, Progress, run};
 pub use settings::{Overrides, Settings, SettingsError};
-pub use simulation::Simulation;
+pub use simulation::{Refusal, Simulation};
 pub use statics::{Still, equilibrium_start, settle};
 pub use stop::{Names, StopError};
 pub use tree::{InSpace, Plane, Tree};

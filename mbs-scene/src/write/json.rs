@@ -1,5 +1,6 @@
 //! JSON: the summary of a run, with the keys of the scene format.
 
+use super::realtime::RealtimeSummary;
 use crate::record::StepRow;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
@@ -49,6 +50,9 @@ pub struct RunSummary {
     /// What the control of the step size did; absent where steps are fixed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub control: Option<ControlSummary>,
+    /// How the run kept up with the clock; absent where it was not paced.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub realtime: Option<RealtimeSummary>,
     /// Channels at `end_time`.
     pub outputs: Outputs,
     /// The same as texts of 32 digits, where the run had them: most readers of JSON keep no more than 17.
