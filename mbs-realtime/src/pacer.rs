@@ -267,6 +267,12 @@ impl Pacer {
         u64::try_from(late.as_nanos().div_ceil(self.pace.period.as_nanos())).unwrap_or(u64::MAX)
     }
 
+    /// How the loop is paced.
+    #[must_use]
+    pub fn pace(&self) -> &Pace {
+        &self.pace
+    }
+
     /// The level at which the next task runs.
     #[must_use]
     pub fn level(&self) -> usize {

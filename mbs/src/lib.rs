@@ -15,6 +15,7 @@ pub mod export;
 mod figure;
 mod journal;
 mod modes;
+pub mod realtime;
 mod recorder;
 mod run;
 mod settings;

@@ -1,5 +1,10 @@
 //! A whole run: from a scene to its summary, rows and page.
 
+mod paced;
+mod summary;
+
+pub(crate) use paced::{Rung, Track, paced};
+
 use crate::alarm::Alarm;
 use crate::channels::Channels;
 use crate::digits::is_finer;
@@ -13,16 +18,17 @@ use crate::words::{limit_name, notes, stop_text, summary_rows};
 use core::time::Duration;
 use cpu_time::ProcessTime;
 use mbs_core::Real;
-use mbs_core::control::{Accepted, Invariant};
-use mbs_core::outputs::{self, Contacts};
+use mbs_core::control::Accepted;
+use mbs_core::outputs::Contacts;
 use mbs_core::real::DoubleDouble;
-use mbs_core::scene::{EffectKind, Scene};
+use mbs_core::scene::Scene;
 use mbs_scene::{
-    Channel, Contact, ControlSummary, CsvWriter, EnergySummary, Outputs, Provenance, RunRecord,
+    Channel, ControlSummary, CsvWriter, Outputs, Provenance, RealtimeSummary, RunRecord,
     RunSummary, StepRow, StepSeries,
 };
 use std::io;
 use std::time::Instant;
+use summary::{contact, energy_summary, not_started, plain_summary};
 
 /// Roundings of the time at the end that are nothing.
 const LAST_ROUNDINGS: f64 = 32.0;
@@ -131,35 +137,11 @@ pub(crate) fn run_keeping<T: Real, const D: usize>(
 where
     Plane<D>: InSpace<T>,
 {
-    let names = Names::new(scene);
-    let channels = Channel::of_scene(scene);
-    let started = Simulation::<T, D>::new(scene, settings);
-    let started = started.and_then(|simulation| {
-        let measures = Channels::new(scene, simulation.model())?;
-        let contacts = Contacts::new(scene, simulation.model());
-        Ok((simulation, measures, contacts.map_err(|e| StopError::Start(e.into()))?))
-    });
-    let (simulation, measures, contacts) = match started {
-        Ok(both) => both,
-        Err(error) => return not_started(scene, settings, &channels, &names, error),
-    };
     let n_steps = settings.n_steps();
-    let recorder = Recorder::new(channels, n_steps, simulation.invariant().initial(), keep);
-    let figure = Figure::new(scene, simulation.model(), settings.duration);
-    let mut run = Run {
-        scene,
-        settings,
-        lengths: settings.lengths(scene),
-        simulation,
-        measures,
-        contacts,
-        recorder,
-        figure,
-        values: Vec::new(),
-        mark: StepMark::default(),
-        counts: Counts::default(),
-        reached: 0.0,
-        alarm: Alarm::new(settings.energy_alarm),
+    let channels = Channel::of_scene(scene);
+    let mut run = match Run::new(scene, settings, channels, (n_steps, keep)) {
+        Ok(run) => run,
+        Err(outcome) => return *outcome,
     };
     run.start();
     let cpu = ProcessTime::now();
@@ -169,7 +151,7 @@ where
         run.steps(n_steps, progress).err()
     };
     let cpu = cpu.elapsed();
-    run.finish(cpu, error, &names)
+    run.finish(cpu, error)
 }
 
 #[derive(Debug, Default)]
@@ -200,12 +182,53 @@ where
     /// Time reached [s].
     reached: f64,
     alarm: Alarm,
+    /// Of a paced run: how it kept up, and the lowest level since the last row where there is a ladder.
+    realtime: Option<RealtimeSummary>,
+    level: Option<f64>,
 }
 
-impl<T: Real, const D: usize> Run<'_, T, D>
+impl<'a, T: Real, const D: usize> Run<'a, T, D>
 where
     Plane<D>: InSpace<T>,
 {
+    /// Everything that a run needs, for rows after so many steps or intervals; else how it did not start.
+    fn new(
+        scene: &'a Scene<T>,
+        settings: &'a Settings,
+        channels: Vec<Channel>,
+        (n_rows, keep): (u64, Keep),
+    ) -> Result<Self, Box<Outcome>> {
+        let started = Simulation::<T, D>::new(scene, settings);
+        let started = started.and_then(|simulation| {
+            let measures = Channels::new(scene, simulation.model())?;
+            let contacts = Contacts::new(scene, simulation.model());
+            Ok((simulation, measures, contacts.map_err(|e| StopError::Start(e.into()))?))
+        });
+        let (simulation, measures, contacts) = match started {
+            Ok(all) => all,
+            Err(error) => return Err(Box::new(not_started(scene, settings, &channels, error))),
+        };
+        let recorder = Recorder::new(channels, n_rows, simulation.invariant().initial(), keep);
+        let figure = Figure::new(scene, simulation.model(), settings.duration);
+        Ok(Self {
+            scene,
+            settings,
+            lengths: settings.lengths(scene),
+            simulation,
+            measures,
+            contacts,
+            recorder,
+            figure,
+            values: Vec::new(),
+            mark: StepMark::default(),
+            counts: Counts::default(),
+            reached: 0.0,
+            alarm: Alarm::new(settings.energy_alarm),
+            realtime: None,
+            level: None,
+        })
+    }
+
     /// The first row.
     fn start(&mut self) {
         let n = self.recorder.channels.iter().map(|c| c.components.len()).sum();
@@ -220,7 +243,12 @@ where
 
     fn row(&mut self, mark: &StepMark, is_last: bool) {
         let state = self.simulation.state();
-        self.measures.write(state, &mut self.values);
+        let n = self.values.len() - usize::from(self.level.is_some());
+        let (values, level) = self.values.split_at_mut(n);
+        self.measures.write(state, values);
+        if let ([level], Some(lowest)) = (level, &mut self.level) {
+            *level = T::from_f64(core::mem::take(lowest));
+        }
         if self.recorder.keeps_all() {
             self.figure.offer(mark.t, &state.q, is_last);
         }
@@ -281,11 +309,16 @@ where
         if let Some(to) = to {
             self.simulation.set_time(to);
         }
-        self.take(&accepted);
+        self.made(&accepted, clock);
+        Ok(accepted.is_last)
+    }
+
+    /// Takes a step that was made since the `clock`.
+    fn made(&mut self, accepted: &Accepted<T>, clock: &mut Instant) {
+        self.take(accepted);
         let now = Instant::now();
         self.counts.worst = self.counts.worst.max(now - *clock);
         *clock = now;
-        Ok(accepted.is_last)
     }
 
     /// A row where one is due, and the alarm.
@@ -346,7 +379,7 @@ where
         self.counts.control.take(&self.mark.step);
     }
 
-    fn finish(self, cpu: Duration, error: Option<StopError>, names: &Names) -> Outcome {
+    fn finish(self, cpu: Duration, error: Option<StopError>) -> Outcome {
         let end_time = self.reached;
         let cpu_seconds = cpu.as_secs_f64();
         let [coordinates, constraints, constraint_rank] = self.simulation.sizes();
@@ -357,7 +390,7 @@ where
         let summary = RunSummary {
             steps: self.counts.steps,
             completed: error.is_none(),
-            error: error.as_ref().map(|e| e.report(end_time, names)),
+            error: error.as_ref().map(|e| e.report(end_time, &Names::new(self.scene))),
             end_time,
             cpu_seconds,
             real_time_factor: if cpu_seconds > 0.0 { end_time / cpu_seconds } else { 0.0 },
@@ -367,6 +400,7 @@ where
             energy: energy_summary(self.simulation.invariant()),
             control: self.simulation.is_controlled().then(|| control.clone()),
             violation: self.recorder.violation_summary(),
+            realtime: self.realtime,
             outputs: Outputs(self.recorder.last()),
             digits: self.recorder.last_long().map(Outputs),
             coordinates,
@@ -405,67 +439,4 @@ fn multiple<T: Real>(k: u64, (step, in_f64): (T, f64)) -> T {
     #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
     let count = k as f64;
     if is_finer::<T>() { T::from_f64(count) * step } else { T::from_f64(count * in_f64) }
-}
-
-/// An instant with the effect's name.
-fn contact<T: Real>(scene: &Scene<T>, instant: &outputs::Instant) -> Contact {
-    let effect = &scene.effects[instant.effect];
-    let is_limit = matches!(effect.kind, EffectKind::Limit { .. });
-    Contact {
-        time: instant.t,
-        effect: effect.name.clone(),
-        end: is_limit.then_some(["lower", "upper"][instant.end]),
-        event: if instant.makes { "made" } else { "broken" },
-    }
-}
-
-/// The invariant over every step.
-fn energy_summary(invariant: &Invariant) -> EnergySummary {
-    EnergySummary {
-        initial: invariant.initial(),
-        max_error: invariant.max_error(),
-        final_error: invariant.error().abs(),
-        turned_over: invariant.turned_over(),
-        scatter: invariant.scatter(),
-        drift: invariant.drift(),
-    }
-}
-
-fn plain_summary<T: Real>(scene: &Scene<T>, settings: &Settings) -> RunSummary {
-    RunSummary {
-        scene: scene.name.clone(),
-        formulation: settings.asked.clone(),
-        precision: settings.precision.name().to_owned(),
-        dimension: scene.dimension.count(),
-        step: settings.step,
-        chosen: settings.chosen(),
-        ..RunSummary::default()
-    }
-}
-
-fn not_started<T: Real>(
-    scene: &Scene<T>,
-    settings: &Settings,
-    channels: &[Channel],
-    names: &Names,
-    error: StopError,
-) -> Outcome {
-    let summary =
-        RunSummary { error: Some(error.report(0.0, names)), ..plain_summary(scene, settings) };
-    let record = RunRecord {
-        scene: scene.name.clone(),
-        summary: summary_rows(&summary),
-        error: summary.error.as_ref().map(stop_text),
-        ..RunRecord::default()
-    };
-    Outcome {
-        summary,
-        error: Some(error),
-        record,
-        channels: channels.to_vec(),
-        table: Vec::new(),
-        long_table: Vec::new(),
-        ranges: Vec::new(),
-        steps: StepSeries::default(),
-    }
 }

@@ -8,6 +8,7 @@ mod explain;
 mod export;
 mod files;
 mod generate;
+mod realtime;
 mod run;
 mod sweep;
 mod table;

@@ -1,7 +1,7 @@
 //! `mbs run SCENE`.
 
 use super::bar::{bar, ticks};
-use super::{STOPPED, files, refuse, table};
+use super::{STOPPED, files, realtime, refuse, table};
 use crate::{Outcome, Overrides, Settings, run_document, words};
 use clap::Args;
 use indicatif::ProgressBar;
@@ -74,9 +74,8 @@ pub(crate) struct Arguments {
     /// Deadline (not built).
     #[arg(long, value_name = "S", hide = true)]
     deadline: Option<String>,
-    /// Paced run (not built).
-    #[arg(long, hide = true)]
-    realtime: bool,
+    #[command(flatten)]
+    realtime: realtime::Arguments,
 }
 
 impl Arguments {
@@ -115,16 +114,13 @@ impl Arguments {
             ("precision", self.precision.clone()),
             ("integrator", self.integrator.clone()),
         ];
+        let options: Vec<_> = options.into_iter().chain(self.realtime.options()).collect();
         files::provenance(("run", &self.scene), &options, settings)
     }
 
     /// The first option that is part of the contract and not built.
     fn not_built(&self) -> Option<&'static str> {
-        let options = [
-            (self.error.is_some(), "--error"),
-            (self.deadline.is_some(), "--deadline"),
-            (self.realtime, "--realtime"),
-        ];
+        let options = [(self.error.is_some(), "--error"), (self.deadline.is_some(), "--deadline")];
         options.into_iter().find(|(given, _)| *given).map(|(_, name)| name)
     }
 }
@@ -158,12 +154,18 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         Ok(begun) => begun,
         Err(message) => return refuse(&message),
     };
-    let mut bar = Bar::new(settings.duration, arguments.json);
-    let outcome = run_document((&document, &scene), &settings, &mut |t| bar.reached(t));
-    bar.bar.finish_and_clear();
+    let outcome = if let Some(pacing) = arguments.realtime.pacing() {
+        let run = realtime::run((&document, &scene), &settings, &pacing);
+        run.map_err(|error| error.render())
+    } else {
+        let mut bar = Bar::new(settings.duration, arguments.json);
+        let run = run_document((&document, &scene), &settings, &mut |t| bar.reached(t));
+        bar.bar.finish_and_clear();
+        run.map_err(|error| error.render())
+    };
     match outcome {
         Ok(outcome) => report(&outcome, arguments, &settings, &document),
-        Err(error) => refuse(&error.render()),
+        Err(message) => refuse(&message),
     }
 }
 
@@ -223,6 +225,7 @@ fn write_files(
 ) -> std::io::Result<()> {
     outcome.write_csv(std::io::BufWriter::new(std::fs::File::create(out.join("run.csv"))?))?;
     outcome.write_steps(std::io::BufWriter::new(std::fs::File::create(out.join("steps.csv"))?))?;
+    realtime::write(out, &outcome.summary)?;
     std::fs::write(out.join("run.json"), outcome.summary.to_json() + "\n")?;
     std::fs::write(out.join("run.html"), outcome.page(arguments.provenance(settings)))
 }
