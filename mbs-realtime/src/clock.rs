@@ -14,6 +14,20 @@ pub trait Clock {
     fn pause(&mut self);
 }
 
+impl<C: Clock + ?Sized> Clock for &mut C {
+    fn now(&self) -> Duration {
+        (**self).now()
+    }
+
+    fn sleep(&mut self, time: Duration) {
+        (**self).sleep(time);
+    }
+
+    fn pause(&mut self) {
+        (**self).pause();
+    }
+}
+
 /// The monotonic clock of the system, from when it was made.
 #[derive(Debug, Clone, Copy)]
 pub struct SystemClock(Instant);

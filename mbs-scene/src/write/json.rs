@@ -33,7 +33,7 @@ pub struct RunSummary {
     pub error: Option<RunError>,
     /// Time reached [s].
     pub end_time: f64,
-    /// CPU time of all threads from the first step to the last [s].
+    /// CPU time of all threads from the first step to the last; of a paced run the time of its periods by the clock [s].
     pub cpu_seconds: f64,
     /// Time reached over the time it took.
     pub real_time_factor: f64,

@@ -79,8 +79,10 @@ pub struct Degraded {
     pub without: Vec<String>,
     /// Periods that ran at it.
     pub periods: u64,
-    /// Its measured share of the time of a period that is saved; absent where nothing was measured.
+    /// The measured share of the time of a period that it saves; `null` where nothing was measured, as in what follows.
     pub saves: Option<f64>,
+    /// The time from the start over which it was measured [s].
+    pub measured_over: Option<f64>,
     /// The measured largest change of an output, as a share of the output's range.
     pub changes: Option<f64>,
     /// The output that changes so.

@@ -35,16 +35,24 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// What is asked for; nothing where the run is not paced.
-    pub(crate) fn pacing(&self) -> Option<Pacing> {
+    /// What is asked for; nothing where the run is not paced; else the refusal.
+    pub(crate) fn pacing(&self) -> Result<Option<Pacing>, String> {
         let other = Pacing::default();
-        self.realtime.then(|| Pacing {
+        let is_laddered = self.degrade.is_some() || self.quiet.is_some();
+        if is_laddered && self.overrun != Some(Overrun::Degrade) {
+            return Err(
+                "error: --degrade and --quiet are for --overrun degrade\nhint: leave them out, or \
+                        write --overrun degrade"
+                    .to_owned(),
+            );
+        }
+        Ok(self.realtime.then(|| Pacing {
             period: self.period,
             overrun: self.overrun.unwrap_or(other.overrun),
             degrade: self.degrade.clone().map_or(other.degrade, Degrade::Listed),
             awake: self.awake.unwrap_or(other.awake),
             quiet: Quiet { tasks: self.quiet.unwrap_or(other.quiet.tasks), ..other.quiet },
-        })
+        }))
     }
 
     /// The options that were given, for a page.

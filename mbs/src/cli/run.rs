@@ -56,7 +56,7 @@ pub(crate) struct Arguments {
     /// The results are the same to the last bit.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// Directory for run.csv, steps.csv, run.json and run.html; made if missing.
+    /// Directory for run.csv, steps.csv, run.json and run.html, with --realtime also realtime.csv; made if missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// One JSON object on standard output and nothing else.
@@ -148,14 +148,18 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
             "error: {option} is not built yet\nhint: leave it out; give --step instead"
         ));
     }
+    let pacing = match arguments.realtime.pacing() {
+        Ok(pacing) => pacing,
+        Err(message) => return refuse(&message),
+    };
     let place = (arguments.out.as_deref(), "run.csv");
     let begun = files::begin(&arguments.scene, &arguments.overrides(), place);
     let (document, scene, settings) = match begun {
         Ok(begun) => begun,
         Err(message) => return refuse(&message),
     };
-    let outcome = if let Some(pacing) = arguments.realtime.pacing() {
-        let run = realtime::run((&document, &scene), &settings, &pacing);
+    let outcome = if let Some(pacing) = &pacing {
+        let run = realtime::run((&document, &scene), &settings, pacing);
         run.map_err(|error| error.render())
     } else {
         let mut bar = Bar::new(settings.duration, arguments.json);

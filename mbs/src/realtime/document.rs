@@ -18,6 +18,8 @@ use mbs_scene::Document;
 
 /// Runs a scene at the pace of a clock, as [`crate::run_document`] runs one as fast as it goes.
 ///
+/// Programs that take what clock comes compile the steps only once.
+///
 /// With [`Overrun::Degrade`] and [`Degrade::Measured`] some seconds pass before the run begins.
 ///
 /// Cost of a period beside its steps: the row of outputs and some hundred operations; no allocation.
@@ -28,7 +30,7 @@ pub fn run_document(
     (document, scene): (&Document, &Scene<f64>),
     settings: &Settings,
     pacing: &Pacing,
-    clock: &mut impl Clock,
+    clock: &mut dyn Clock,
 ) -> Result<Outcome, PacingError> {
     let read = |error| PacingError::Read(Box::new(error));
     match settings.precision {
@@ -48,7 +50,7 @@ fn in_space<T: Real>(
     scene: &Scene<T>,
     settings: &Settings,
     pacing: &Pacing,
-    clock: &mut impl Clock,
+    clock: &mut dyn Clock,
 ) -> Result<Outcome, PacingError>
 where
     Plane<2>: InSpace<T>,
@@ -64,7 +66,7 @@ fn run<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
     pacing: &Pacing,
-    clock: &mut impl Clock,
+    clock: &mut dyn Clock,
 ) -> Result<Outcome, PacingError>
 where
     Plane<D>: InSpace<T>,
@@ -77,7 +79,8 @@ where
         _ => vec![Rung::default()],
     };
     let mut pacer = Pacer::new(pace, rungs.len()).map_err(|_| PacingError::Quiet)?;
-    paced::<T, D>(scene, settings, &track, (&mut pacer, &rungs), clock).map_err(|(i, why)| {
+    let of_levels = (&mut pacer, &rungs[..]);
+    paced::<T, D>(scene, settings, &track, of_levels, &mut &mut *clock).map_err(|(i, why)| {
         let last = rungs.get(i).and_then(|rung| rung.off.last());
         let name = last.map_or_else(String::new, |&effect| scene.effects[effect].name.clone());
         PacingError::Fixed { name, why }

@@ -6,7 +6,8 @@
 //! ```
 //!
 //! Each candidate runs alone over the beginning of the scene, by the loop that is paced later, with a clock that does not wait.
-//! Those that save more than the noise are sorted by what they change; level k leaves the first k out, and is measured again.
+//! Those that save more than the noise are sorted by what they change; level k leaves the first k out, and is measured again. The
+//! ladder ends where a level changes an output by more than half of its range.
 
 use super::error::PacingError;
 use super::ladder::Sought;
@@ -33,6 +34,8 @@ const REPEATS: u32 = 3;
 const LEAST_SAVING: f64 = 0.02;
 /// Levels below the full scene at most; more effects than that go by their kinds.
 const MOST: usize = 8;
+/// A level whose outputs are off by more than this share of their range tells nothing of them; who wants it names it.
+const MOST_CHANGE: f64 = 0.5;
 /// Halvings of the number of steps: twice and four times as long.
 const HALVINGS: u32 = 2;
 
@@ -105,7 +108,10 @@ where
     let alone = run_all::<T, D>(sought, &full, candidates, periods);
     let levels = run_all::<T, D>(sought, &full, ladder(sought, &alone), periods);
     let mut rungs = vec![full];
-    rungs.extend(levels.into_iter().skip(1).filter(Trial::completes).map(|trial| trial.rung));
+    let is_near = |trial: &Trial| {
+        trial.completes() && trial.rung.told.changes.is_some_and(|changes| changes <= MOST_CHANGE)
+    };
+    rungs.extend(levels.into_iter().skip(1).take_while(is_near).map(|trial| trial.rung));
     if rungs.len() == 1 { Err(PacingError::NoLadder) } else { Ok(rungs) }
 }
 
@@ -179,6 +185,7 @@ where
     for other in others {
         let saves = full.best().zip(other.best()).map(|([full, _], [less, _])| 1.0 - less / full);
         other.rung.told.saves = saves;
+        other.rung.told.measured_over = other.outcome.as_ref().map(|o| o.summary.end_time);
         let outcome = outputs.as_ref().zip(other.outcome.as_ref());
         let changes = outcome.map(|(outputs, outcome)| outputs.changes(outcome));
         if let Some((output, share)) = changes.as_deref().and_then(largest) {

@@ -59,7 +59,10 @@ fn told(level: &Degraded) -> String {
         text += "everything";
     }
     if let Some(saves) = level.saves {
-        text += &format!("; saves {} %", few(100.0 * saves));
+        let over = level
+            .measured_over
+            .map_or_else(String::new, |t| format!(" over the first {} s", few(t)));
+        text += &format!("; saves {} %{over}", few(100.0 * saves));
     }
     if let (Some(changes), Some(output)) = (level.changes, &level.output) {
         text += &format!(", changes `{output}` most, by {} % of its range", few(100.0 * changes));
