@@ -80,10 +80,10 @@ where
     };
     let mut pacer = Pacer::new(pace, rungs.len()).map_err(|_| PacingError::Quiet)?;
     let of_levels = (&mut pacer, &rungs[..]);
-    paced::<T, D>(scene, settings, &track, of_levels, &mut &mut *clock).map_err(|(i, why)| {
-        let last = rungs.get(i).and_then(|rung| rung.off.last());
-        let name = last.map_or_else(String::new, |&effect| scene.effects[effect].name.clone());
-        PacingError::Fixed { name, why }
+    let run = paced::<T, D>(scene, settings, &track, of_levels, &mut &mut *clock);
+    run.map_err(|(effect, why)| PacingError::Fixed {
+        name: scene.effects[effect].name.clone(),
+        why,
     })
 }
 

@@ -66,7 +66,7 @@ impl Rung {
 /// Runs a scene at the pace of a clock; `rungs` are the levels, the first that of everything.
 ///
 /// # Errors
-/// [`Refusal`] where a level cannot take the state over, with its number.
+/// [`Refusal`] where a level cannot take the state over, with the effect that it was the last to leave out.
 pub(crate) fn paced<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
@@ -87,9 +87,12 @@ where
         Err(outcome) => return Ok(*outcome),
     };
     run.level = track.tells_level.then_some(0.0);
-    let levels = match levels(&run, rungs)? {
+    let levels: Result<Vec<_>, _> =
+        rungs.iter().map(|rung| Level::new(&run, rung, track.steps)).collect();
+    let levels = match levels {
         Ok(levels) => levels,
-        Err(error) => return Ok(run.finish(Duration::ZERO, Some(error))),
+        Err(Unready::Refused(refusal)) => return Err(refusal),
+        Err(Unready::Stopped(error)) => return Ok(run.finish(Duration::ZERO, Some(*error))),
     };
     run.recorder.reserve(track.periods);
     run.figure.reserve(settings.duration);
@@ -102,35 +105,18 @@ where
     Ok(run.finish(report.busy, error))
 }
 
-/// Simulations and reactions of all levels.
-fn levels<T: Real, const D: usize>(
-    run: &Run<'_, T, D>,
-    rungs: &[Rung],
-) -> Result<Result<Vec<Level<T, D>>, StopError>, (usize, Refusal)>
-where
-    Plane<D>: InSpace<T>,
-{
-    let mut levels = Vec::with_capacity(rungs.len());
-    for (i, rung) in rungs.iter().enumerate() {
-        let mut level = Level { simulation: None, reactions: None, halvings: rung.halvings };
-        if !rung.off.is_empty() {
-            let scene = rung.scene(run.scene);
-            let simulation = match Simulation::new(&scene, run.settings) {
-                Ok(simulation) => simulation,
-                Err(error) => return Ok(Err(error)),
-            };
-            simulation.takes_over(&run.simulation).map_err(|refusal| (i, refusal))?;
-            level.simulation = Some(Box::new(simulation));
-            if Reactions::<T, D>::needed(run.scene) {
-                match Reactions::new(&scene, run.simulation.model()) {
-                    Ok(reactions) => level.reactions = Some(reactions),
-                    Err(error) => return Ok(Err(StopError::Reaction(error))),
-                }
-            }
-        }
-        levels.push(level);
+/// Why a level is not there.
+enum Unready {
+    /// It cannot take the state over; the effect that was last left out.
+    Refused((usize, Refusal)),
+    /// It does not start.
+    Stopped(Box<StopError>),
+}
+
+impl From<StopError> for Unready {
+    fn from(error: StopError) -> Self {
+        Self::Stopped(Box::new(error))
     }
-    Ok(Ok(levels))
 }
 
 /// What a level steps, where it is not the run's own simulation.
@@ -141,7 +127,29 @@ where
     simulation: Option<Box<Simulation<T, D>>>,
     /// Of its effects; while it runs, those of the full scene.
     reactions: Option<Reactions<T, D>>,
-    halvings: u32,
+    /// Steps of a period, where their lengths are fixed.
+    steps: Option<u32>,
+}
+
+impl<T: Real, const D: usize> Level<T, D>
+where
+    Plane<D>: InSpace<T>,
+{
+    /// Builds what a level needs beside the run.
+    fn new(run: &Run<'_, T, D>, rung: &Rung, steps: Option<u32>) -> Result<Self, Unready> {
+        let steps = steps.map(|steps| rung.steps(steps));
+        let Some(&last) = rung.off.last() else {
+            return Ok(Self { simulation: None, reactions: None, steps });
+        };
+        let scene = rung.scene(run.scene);
+        let simulation = Simulation::new(&scene, run.settings)?;
+        let taken = simulation.takes_over(&run.simulation);
+        taken.map_err(|refusal| Unready::Refused((last, refusal)))?;
+        let needed = Reactions::<T, D>::needed(run.scene);
+        let reactions = needed.then(|| Reactions::new(&scene, run.simulation.model()));
+        let reactions = reactions.transpose().map_err(StopError::Reaction)?;
+        Ok(Self { simulation: Some(Box::new(simulation)), reactions, steps })
+    }
 }
 
 /// A run in the hands of a pacer.
@@ -203,13 +211,12 @@ where
 
     /// Period `k` from 1, in its steps.
     fn period(&mut self, k: u64) -> Result<(), StopError> {
-        let Track { period, periods, steps, .. } = self.track;
+        let Track { period, periods, .. } = self.track;
         let is_last = k == periods;
         let from = multiple(k - 1, period);
         let to = if is_last { self.run.lengths.duration } else { multiple(k, period) };
         let mut clock = Instant::now();
-        let Some(steps) = steps else { return self.controlled(to, &mut clock) };
-        let n = steps.div_ceil(1 << self.levels[self.at].halvings.min(30)).max(1);
+        let Some(n) = self.levels[self.at].steps else { return self.controlled(to, &mut clock) };
         // The length of a whole period is exact; that between two multiples is rounded.
         let is_whole = !is_last || (to - from - period.0).abs() <= period.0 * T::from_f64(1e-9);
         let whole = if is_whole { period.0 } else { to - from };
