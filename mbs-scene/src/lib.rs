@@ -17,8 +17,9 @@ pub use record::{
 };
 pub use report::{Report, Section};
 pub use write::{
-    Absence, Change, Chosen, Contact, ControlSummary, ControllerStep, CsvWriter, EffectEntry,
-    EnergySummary, Explanation, GuideEntry, JointGroup, LargestStep, Outputs, Price, Prices,
-    Relative, Rod, RunError, RunSummary, SearchEnd, Simulated, Sizes, ViolationSummary,
-    append_steps, long, readable, shortest, write_steps,
+    Absence, Change, Chosen, Contact, ControlSummary, ControllerStep, CsvWriter, Degraded,
+    EffectEntry, EnergySummary, Explanation, GuideEntry, JointGroup, LargestStep, MarginSummary,
+    Outputs, Overrun, Price, Prices, RealtimeSummary, Relative, Rod, RunError, RunSummary,
+    SearchEnd, Simulated, Sizes, Times, ViolationSummary, append_steps, long, readable, shortest,
+    write_overruns, write_steps,
 };

@@ -29,7 +29,13 @@ impl<T: Real, const D: usize> Channels<T, D> {
             Quantity::Reaction { joint } => Some(joint),
             _ => None,
         });
-        Ok(Self { measures, reactions, not_unique: Vec::new(), asked: asked.collect() })
+        let asked: Vec<usize> = asked.collect();
+        Ok(Self { measures, reactions, not_unique: Vec::with_capacity(asked.len()), asked })
+    }
+
+    /// Exchanges what reactions are made of: the same scene with other effects has others.
+    pub(crate) fn exchange(&mut self, reactions: &mut Option<Reactions<T, D>>) {
+        core::mem::swap(&mut self.reactions, reactions);
     }
 
     /// Writes what is remembered of them, or reads it back.

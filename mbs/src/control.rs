@@ -74,6 +74,11 @@ where
         is_ours && self.driver.set_history(kept.driver)
     }
 
+    /// The state was set from outside: what steps are watched for begins there.
+    pub(crate) fn restart(&mut self, state: &State<T>) {
+        self.events.iter_mut().for_each(|events| events.start(state));
+    }
+
     /// One step of at most `rest` [s].
     pub(crate) fn step(
         &mut self,

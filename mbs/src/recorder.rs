@@ -128,6 +128,14 @@ impl Recorder {
         }
     }
 
+    /// Makes room for all rows of a run whose number of steps was known, so that none is allocated when it is kept.
+    pub(crate) fn reserve(&mut self, n_steps: u64) {
+        let rows = usize::try_from(n_steps.min(MOST_ROWS)).unwrap_or(0) + 3;
+        self.marks.reserve(rows);
+        self.rows.reserve(rows * self.n_columns);
+        self.rests.reserve(rows * self.n_columns);
+    }
+
     /// Is step `k` (0: the start) kept as a row?
     pub(crate) fn keeps(&self, k: u64) -> bool {
         k.is_multiple_of(self.every)

@@ -2,6 +2,10 @@
 
 mod kept;
 mod outcome;
+mod paced;
+mod summary;
+
+pub(crate) use paced::{Rung, Track, paced};
 
 use crate::alarm::Alarm;
 use crate::channels::Channels;
@@ -17,14 +21,14 @@ use crate::words::{limit_name, notes, stop_text, summary_rows};
 use core::time::Duration;
 use kept::{Clock, Kept};
 use mbs_core::Real;
-use mbs_core::control::{Accepted, Invariant};
-use mbs_core::outputs::{self, Contacts};
-use mbs_core::scene::{EffectKind, Scene};
+use mbs_core::control::Accepted;
+use mbs_core::outputs::Contacts;
+use mbs_core::scene::Scene;
 use mbs_scene::{
-    Channel, Contact, ControlSummary, EnergySummary, Outputs, RunRecord, RunSummary, StepRow,
-    StepSeries,
+    Channel, ControlSummary, Outputs, RealtimeSummary, RunRecord, RunSummary, StepRow,
 };
 use std::time::Instant;
+use summary::{contact, energy_summary, not_started, plain_summary};
 
 pub use outcome::Outcome;
 
@@ -127,6 +131,9 @@ where
     done: u64,
     clock: Clock,
     kept: Option<Kept<'a>>,
+    /// Of a paced run: how it kept up, and the lowest level since the last row where there is a ladder.
+    realtime: Option<RealtimeSummary>,
+    level: Option<f64>,
 }
 
 impl<'a, T: Real, const D: usize> Run<'a, T, D>
@@ -139,26 +146,40 @@ where
         settings: &'a Settings,
         keep: Keep,
     ) -> Result<Self, Box<Outcome>> {
-        let channels = Channel::of_scene(scene);
+        let rows = (settings.n_steps(), keep);
+        let mut run = Self::new(scene, settings, Channel::of_scene(scene), rows)?;
+        run.start();
+        Ok(run)
+    }
+
+    /// Everything that a run needs, for rows after so many steps or intervals; else how it did not start.
+    fn new(
+        scene: &'a Scene<T>,
+        settings: &'a Settings,
+        channels: Vec<Channel>,
+        (n_rows, keep): (u64, Keep),
+    ) -> Result<Self, Box<Outcome>> {
         let started = Simulation::<T, D>::new(scene, settings);
         let started = started.and_then(|simulation| {
             let measures = Channels::new(scene, simulation.model())?;
             let contacts = Contacts::new(scene, simulation.model());
             Ok((simulation, measures, contacts.map_err(|e| StopError::Start(e.into()))?))
         });
-        let (simulation, measures, contacts) =
-            started.map_err(|error| Box::new(not_started(scene, settings, &channels, error)))?;
-        let n_steps = settings.n_steps();
-        let initial = simulation.invariant().initial();
-        let mut run = Self {
+        let (simulation, measures, contacts) = match started {
+            Ok(all) => all,
+            Err(error) => return Err(Box::new(not_started(scene, settings, &channels, error))),
+        };
+        let recorder = Recorder::new(channels, n_rows, simulation.invariant().initial(), keep);
+        let figure = Figure::new(scene, simulation.model(), settings.duration);
+        Ok(Self {
             scene,
             settings,
             lengths: settings.lengths(scene),
-            recorder: Recorder::new(channels, n_steps, initial, keep),
-            figure: Figure::new(scene, simulation.model(), settings.duration),
             simulation,
             measures,
             contacts,
+            recorder,
+            figure,
             values: Vec::new(),
             mark: StepMark::default(),
             counts: Counts::default(),
@@ -167,9 +188,9 @@ where
             done: 0,
             clock: Clock::new(),
             kept: None,
-        };
-        run.start();
-        Ok(run)
+            realtime: None,
+            level: None,
+        })
     }
 
     /// All steps that are left, to the end or to where the run stops.
@@ -198,7 +219,12 @@ where
 
     fn row(&mut self, mark: &StepMark, is_last: bool) {
         let state = self.simulation.state();
-        self.measures.write(state, &mut self.values);
+        let n = self.values.len() - usize::from(self.level.is_some());
+        let (values, level) = self.values.split_at_mut(n);
+        self.measures.write(state, values);
+        if let ([level], Some(lowest)) = (level, &mut self.level) {
+            *level = T::from_f64(core::mem::take(lowest));
+        }
         if self.recorder.keeps_all() {
             self.figure.offer(mark.t, &state.q, is_last);
         }
@@ -265,11 +291,16 @@ where
         if let Some(to) = to {
             self.simulation.set_time(to);
         }
-        self.take(&accepted);
+        self.made(&accepted, clock);
+        Ok(accepted.is_last)
+    }
+
+    /// Takes a step that was made since the `clock`.
+    fn made(&mut self, accepted: &Accepted<T>, clock: &mut Instant) {
+        self.take(accepted);
         let now = Instant::now();
         self.counts.worst = self.counts.worst.max(now - *clock);
         *clock = now;
-        Ok(accepted.is_last)
     }
 
     /// A row where one is due, and the alarm.
@@ -331,7 +362,6 @@ where
     }
 
     fn finish(self, cpu: Duration, error: Option<StopError>) -> Outcome {
-        let names = &Names::new(self.scene);
         let end_time = self.reached;
         let cpu_seconds = cpu.as_secs_f64();
         let [coordinates, constraints, constraint_rank] = self.simulation.sizes();
@@ -342,7 +372,7 @@ where
         let summary = RunSummary {
             steps: self.counts.steps,
             completed: error.is_none(),
-            error: error.as_ref().map(|e| e.report(end_time, names)),
+            error: error.as_ref().map(|e| e.report(end_time, &Names::new(self.scene))),
             end_time,
             cpu_seconds,
             real_time_factor: if cpu_seconds > 0.0 { end_time / cpu_seconds } else { 0.0 },
@@ -352,6 +382,7 @@ where
             energy: energy_summary(self.simulation.invariant()),
             control: self.simulation.is_controlled().then(|| control.clone()),
             violation: self.recorder.violation_summary(),
+            realtime: self.realtime,
             outputs: Outputs(self.recorder.last()),
             digits: self.recorder.last_long().map(Outputs),
             coordinates,
@@ -390,66 +421,4 @@ fn multiple<T: Real>(k: u64, (step, in_f64): (T, f64)) -> T {
     #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
     let count = k as f64;
     if is_finer::<T>() { T::from_f64(count) * step } else { T::from_f64(count * in_f64) }
-}
-
-/// An instant with the effect's name.
-fn contact<T: Real>(scene: &Scene<T>, instant: &outputs::Instant) -> Contact {
-    let effect = &scene.effects[instant.effect];
-    let is_limit = matches!(effect.kind, EffectKind::Limit { .. });
-    Contact {
-        time: instant.t,
-        effect: effect.name.clone(),
-        end: is_limit.then_some(["lower", "upper"][instant.end]),
-        event: if instant.makes { "made" } else { "broken" },
-    }
-}
-
-/// The invariant over every step.
-fn energy_summary(invariant: &Invariant) -> EnergySummary {
-    EnergySummary {
-        initial: invariant.initial(),
-        max_error: invariant.max_error(),
-        final_error: invariant.error().abs(),
-        turned_over: invariant.turned_over(),
-        scatter: invariant.scatter(),
-        drift: invariant.drift(),
-    }
-}
-
-fn plain_summary<T: Real>(scene: &Scene<T>, settings: &Settings) -> RunSummary {
-    RunSummary {
-        scene: scene.name.clone(),
-        formulation: settings.asked.clone(),
-        precision: settings.precision.name().to_owned(),
-        dimension: scene.dimension.count(),
-        step: settings.step,
-        chosen: settings.chosen(),
-        ..RunSummary::default()
-    }
-}
-
-fn not_started<T: Real>(
-    scene: &Scene<T>,
-    settings: &Settings,
-    channels: &[Channel],
-    error: StopError,
-) -> Outcome {
-    let report = error.report(0.0, &Names::new(scene));
-    let summary = RunSummary { error: Some(report), ..plain_summary(scene, settings) };
-    let record = RunRecord {
-        scene: scene.name.clone(),
-        summary: summary_rows(&summary),
-        error: summary.error.as_ref().map(stop_text),
-        ..RunRecord::default()
-    };
-    Outcome {
-        summary,
-        error: Some(error),
-        record,
-        channels: channels.to_vec(),
-        table: Vec::new(),
-        long_table: Vec::new(),
-        ranges: Vec::new(),
-        steps: StepSeries::default(),
-    }
 }

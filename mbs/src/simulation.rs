@@ -1,5 +1,9 @@
 //! A scene that can step: model, consistent state and formulation in one place.
 
+mod carry;
+
+pub use carry::Refusal;
+
 use crate::checkpoint::{Kept, inputs};
 use crate::control::Control;
 use crate::engine::Engine;

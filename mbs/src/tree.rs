@@ -157,6 +157,32 @@ where
         self.energies = energies.map(Real::to_f64);
     }
 
+    /// May this tree take over the state of another?
+    pub(crate) fn has_same_coordinates(&self, other: &Self) -> bool {
+        self.model.has_same_coordinates(&other.model)
+    }
+
+    /// Takes the coordinates and velocities of another tree over.
+    pub(crate) fn show(&mut self, other: &Self) {
+        self.state.copy_from(&other.state);
+    }
+
+    /// Makes accelerations and multipliers those of this tree's own effects, and tells `natural`'s state.
+    pub(crate) fn settle(
+        &mut self,
+        natural: &NaturalModel<T, D>,
+        state: &mut State<T>,
+    ) -> Result<(), StepError> {
+        self.model.settle(&mut self.state, &mut self.workspace)?;
+        self.tell(natural, state);
+        Ok(())
+    }
+
+    /// Sets the work since the start [J].
+    pub(crate) fn set_work(&mut self, work: T) {
+        self.state.work = work;
+    }
+
     /// Sets an effect's input; says whether it has one.
     pub(crate) fn set_input(&mut self, effect: usize, value: [T; 3]) -> bool {
         self.model.set_input(effect, value)

@@ -58,6 +58,8 @@ pub(crate) fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
         row("slowest step", duration(s.worst_step_seconds)),
     ];
     rows.extend(s.control.as_ref().map(|c| row("control of the step", control(c))));
+    let paced = s.realtime.iter().flat_map(crate::realtime::rows);
+    rows.extend(paced.map(|(label, value)| row(label, value)));
     rows.extend(contacts(s).map(|text| row("contacts", text)));
     rows
 }
@@ -185,6 +187,7 @@ pub(crate) fn notes<T: Real>(
             few(change)
         ));
     }
+    notes.extend(s.realtime.as_ref().and_then(crate::realtime::note));
     for joint in &s.not_unique {
         notes.push(not_unique(joint));
     }

@@ -4,6 +4,7 @@ mod csv;
 mod explanation;
 mod json;
 mod readable;
+mod realtime;
 #[cfg(test)]
 mod tests;
 
@@ -17,3 +18,4 @@ pub use json::{
 };
 pub use readable::readable;
 pub(crate) use readable::rounded;
+pub use realtime::{Degraded, MarginSummary, Overrun, RealtimeSummary, Times, write_overruns};

@@ -12,11 +12,17 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Arguments {
     /// Write DIR/checkpoint.mbs at the start and each so many simulated seconds, and the rows as the run goes, so that a run that is
     /// killed can go on with --resume. No step and no result changes by it.
-    #[arg(long, value_name = "SECONDS", requires = "out", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        requires = "out",
+        conflicts_with = "realtime",
+        allow_negative_numbers = true
+    )]
     checkpoint: Option<f64>,
     /// Go on from DIR/checkpoint.mbs, or from FILE, with the settings of its run; the results are those of a run in one go, to the
     /// last bit.
-    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with = "restart")]
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with_all = ["restart", "realtime"])]
     resume: Option<Option<PathBuf>>,
     /// Throw away the checkpoint that an earlier start left in the directory.
     #[arg(long, requires = "out")]

@@ -1,7 +1,8 @@
 //! `mbs run SCENE`.
 
 use super::bar::{bar, ticks};
-use super::{STOPPED, files, keep, refuse, table};
+use super::{STOPPED, files, keep, realtime, refuse, table};
+use crate::realtime::Pacing;
 use crate::{Outcome, Overrides, Settings, run_document_kept, words};
 use clap::Args;
 use indicatif::ProgressBar;
@@ -57,7 +58,7 @@ pub(crate) struct Arguments {
     /// The results are the same to the last bit.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// Directory for run.csv, steps.csv, run.json and run.html; made if missing.
+    /// Directory for run.csv, steps.csv, run.json and run.html, with --realtime also realtime.csv; made if missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -77,9 +78,8 @@ pub(crate) struct Arguments {
     /// Deadline (not built).
     #[arg(long, value_name = "S", hide = true)]
     deadline: Option<String>,
-    /// Paced run (not built).
-    #[arg(long, hide = true)]
-    realtime: bool,
+    #[command(flatten)]
+    realtime: realtime::Arguments,
 }
 
 impl Arguments {
@@ -118,16 +118,13 @@ impl Arguments {
             ("precision", o.precision.clone()),
             ("integrator", o.integrator.clone()),
         ];
+        let options: Vec<_> = options.into_iter().chain(self.realtime.options()).collect();
         files::provenance(("run", &self.scene), &options, settings)
     }
 
     /// The first option that is part of the contract and not built.
     fn not_built(&self) -> Option<&'static str> {
-        let options = [
-            (self.error.is_some(), "--error"),
-            (self.deadline.is_some(), "--deadline"),
-            (self.realtime, "--realtime"),
-        ];
+        let options = [(self.error.is_some(), "--error"), (self.deadline.is_some(), "--deadline")];
         options.into_iter().find(|(given, _)| *given).map(|(_, name)| name)
     }
 }
@@ -167,31 +164,45 @@ struct Begun {
     scene: Scene<f64>,
     settings: Settings,
     overrides: Overrides,
+    pacing: Option<Pacing>,
     kept: keep::Kept,
 }
 
 /// Reads what is run, and what it goes on from; else the refusal.
 fn begin(arguments: &Arguments) -> Result<Begun, String> {
     let out = arguments.out.as_deref();
+    let pacing = arguments.realtime.pacing()?;
     let kept = arguments.keep.begin(out)?;
     let overrides = kept.overrides(arguments.overrides())?;
     let begun = files::begin(&arguments.scene, &overrides, (out, kept.trial()))?;
     let (document, scene, settings) = begun;
     let settings = kept.settle(settings)?;
     kept.clear();
-    Ok(Begun { document, scene, settings, overrides, kept })
+    Ok(Begun { document, scene, settings, overrides, pacing, kept })
 }
 
 fn go(arguments: &Arguments, mut begun: Begun) -> ExitCode {
-    let Begun { document, scene, settings, kept, .. } = &mut begun;
+    match run(arguments, &mut begun) {
+        Ok(outcome) => report(&outcome, arguments, &begun),
+        Err(message) => refuse(&message),
+    }
+}
+
+/// Runs it, at the pace of a clock or as fast as it can; else the refusal.
+fn run(arguments: &Arguments, begun: &mut Begun) -> Result<Outcome, String> {
+    let Begun { document, scene, settings, pacing, kept, .. } = begun;
+    if let Some(pacing) = pacing {
+        let run = realtime::run((document, scene), settings, pacing);
+        return run.map_err(|error| error.render());
+    }
     let mut bar = Bar::new(settings.duration, arguments.json);
     let parts = (kept.from.as_ref(), kept.keeping.as_mut());
     let outcome = run_document_kept((document, scene), settings, &mut |t| bar.reached(t), parts);
     bar.bar.finish_and_clear();
     match outcome {
-        Ok(Ok(outcome)) => report(&outcome, arguments, &begun),
-        Ok(Err(error)) => refuse(&keep::said(&error)),
-        Err(error) => refuse(&error.render()),
+        Ok(Ok(outcome)) => Ok(outcome),
+        Ok(Err(error)) => Err(keep::said(&error)),
+        Err(error) => Err(error.render()),
     }
 }
 
@@ -243,6 +254,7 @@ pub(crate) fn stopped(
 fn write_files(outcome: &Outcome, out: &Path, provenance: Provenance) -> std::io::Result<()> {
     outcome.write_csv(std::io::BufWriter::new(std::fs::File::create(out.join("run.csv"))?))?;
     outcome.write_steps(std::io::BufWriter::new(std::fs::File::create(out.join("steps.csv"))?))?;
+    realtime::write(out, &outcome.summary)?;
     std::fs::write(out.join("run.json"), outcome.summary.to_json() + "\n")?;
     std::fs::write(out.join("run.html"), outcome.page(provenance))
 }

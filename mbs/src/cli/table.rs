@@ -23,7 +23,8 @@ pub(crate) fn text(outcome: &Outcome, out: Option<&Path>) -> String {
         line(format!("note: {note}"));
     }
     if let Some(out) = out {
-        line(format!("wrote run.csv, steps.csv, run.json and run.html to {}", out.display()));
+        let more = if s.realtime.is_some() { "realtime.csv, " } else { "" };
+        line(format!("wrote run.csv, steps.csv, {more}run.json and run.html to {}", out.display()));
     }
     text
 }
@@ -71,6 +72,8 @@ fn rows(s: &RunSummary) -> Vec<(&str, String)> {
         ),
     ];
     rows.extend(s.control.as_ref().map(|control| ("control of the step", words::control(control))));
+    let paced = s.realtime.iter().flat_map(crate::realtime::rows);
+    rows.extend(paced.map(|(label, value): (&str, String)| (label, value)));
     for (name, values) in &s.outputs.0 {
         let values: Vec<String> = values.iter().map(|v| fixed(*v)).collect();
         rows.push((name, values.join("  ")));

@@ -23,6 +23,7 @@ mod invariants;
 mod modes;
 mod oracle;
 mod random;
+mod realtime;
 mod reference;
 mod sweep;
 mod threads;
