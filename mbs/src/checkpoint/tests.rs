@@ -25,6 +25,8 @@ struct Case {
     step: f64,
     /// Steps before the checkpoint, and after it.
     steps: [u32; 2],
+    /// Checkpoints that are tried: after so many steps, and after each of the next ones.
+    places: u32,
 }
 
 const CASE: Case = Case {
@@ -34,6 +36,7 @@ const CASE: Case = Case {
     control: "fixed",
     step: 1e-3,
     steps: [40, 40],
+    places: 12,
 };
 
 impl Case {
@@ -131,9 +134,6 @@ where
 /// Leaves one item out: it is then as in a simulation that has made no step.
 type Leave = fn(&mut Kept<f64>, &Kept<f64>);
 
-/// Checkpoints of a case that are tried: after so many steps, and each step on.
-const OFFSETS: u32 = 12;
-
 /// That the bits after a checkpoint are those without it, wherever it is, and that they are not where one of the items is left
 /// out, at some of the places: not every one matters everywhere.
 fn every_item_matters<const D: usize>(case: Case, items: &[(&str, Leave)])
@@ -142,7 +142,7 @@ where
 {
     let fresh = case.simulation::<D>().kept();
     let mut left: Vec<_> = items.to_vec();
-    for offset in 0..OFFSETS {
+    for offset in 0..case.places {
         let case = Case { steps: [case.steps[0] + offset, case.steps[1]], ..case };
         let mut first = case.before::<D>();
         let mut kept = first.kept();
@@ -257,7 +257,7 @@ fn what_the_penalty_remembers_matters() {
         ("combination of constraints", |k, _| augmented(k).probe.fill(1.0)),
         ("what is left of it", |k, _| augmented(k).rho = 0.0),
     ];
-    let case = Case { scene: "two-four-bars", step: 1e-2, ..CASE };
+    let case = Case { scene: "two-four-bars", ..CASE };
     let mut simulation = case.before::<2>();
     let mut steps = case.steps[0];
     while augmented(&mut simulation.kept()).boost <= 1.0
@@ -267,17 +267,23 @@ fn what_the_penalty_remembers_matters() {
         steps += 1;
         assert!(steps < 5000, "no penalty is raised");
     }
-    every_item_matters::<2>(Case { steps: [steps, 100], ..case }, &items);
+    // and where it is going to be
+    every_item_matters::<2>(Case { steps: [steps - 8, 100], places: 60, ..case }, &items);
 }
 
 #[test]
 fn what_the_control_remembers_matters() {
-    let case = Case { control: "energy", ..CASE };
+    // an error that passes through zero is remembered
+    let case = Case { control: "energy", places: 700, ..CASE };
     let items: [(&str, Leave); 2] = [
         ("next step", |k, f| driver(k).next = f.control.as_ref().map_or(0.0, |c| c.driver.next)),
         ("energy rule", |k, _| driver(k).energy = Some((0.0, 0))),
     ];
     every_item_matters::<2>(case, &items);
+    let items: [(&str, Leave); 1] =
+        [("printed energy rule", |k, _| driver(k).energy = Some((0.0, 0)))];
+    let (step, steps) = (1e-5, [2, 20]);
+    every_item_matters::<2>(Case { control: "energy-printed", step, steps, ..CASE }, &items);
     let case = Case { control: "error", ..CASE };
     let items: [(&str, Leave); 1] =
         [("error control", |k, _| driver(k).error = Some((None, false)))];
