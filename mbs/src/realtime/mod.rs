@@ -60,11 +60,11 @@
 //! at = [0.0, 0.0]
 //! "#;
 //! let mut scene = Document::parse(text, "arm.toml")?.scene::<f64>()?;
-//! let kind = EffectKind::JointTorque { joint: 0, course: Course::Input([0.0; 3]) };
+//! // what the input is at the start, before the first `set_input`: 9.81 N m hold 1 kg at 1 m
+//! let kind = EffectKind::JointTorque { joint: 0, course: Course::Input([9.81, 0.0, 0.0]) };
 //! scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
 //! let settings = Settings::new(&scene, &Overrides { step: Some(1e-3), ..Overrides::default() })?;
 //! let simulation = Simulation::new(&scene, &settings).expect("the scene starts");
-//! // 9.81 N m hold 1 kg at 1 m
 //! let mut bench = Bench { simulation, motor: 0, wanted: &|_| 9.81, tip: Vec::with_capacity(500) };
 //!
 //! let pace = Pace { overrun: Overrun::Hold, ..Pace::every(Duration::from_millis(1)) };
