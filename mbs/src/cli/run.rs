@@ -2,7 +2,8 @@
 
 use super::bar::{bar, ticks};
 use super::{STOPPED, files, refuse, table};
-use crate::{Outcome, Overrides, Settings, run_document, words};
+use crate::auto::{Goal, Processor, plan, run_plan, time};
+use crate::{Outcome, Overrides, Settings, words};
 use clap::Args;
 use indicatif::ProgressBar;
 use mbs_scene::{Document, Provenance, RunError, readable};
@@ -68,12 +69,14 @@ pub(crate) struct Arguments {
     /// trapezoidal, newmark, generalised-alpha, hht; in recursive also rk4, rk54, gbs (extrapolation, for reference runs); else trapezoidal.
     #[arg(long, value_name = "I")]
     integrator: Option<String>,
-    /// Wanted error (not built).
-    #[arg(long, value_name = "E", hide = true)]
-    error: Option<String>,
-    /// Deadline (not built).
-    #[arg(long, value_name = "S", hide = true)]
-    deadline: Option<String>,
+    /// Wanted error: the largest of the outputs over the run, each beside its own range, as in `mbs compare`. A short pilot measures which
+    /// formulation, integrator and step reach it in the least time, and says why; --formulation and --integrator narrow the choice.
+    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    error: Option<f64>,
+    /// Deadline [s, or 1ms, 500us]: the run is made in frames of this length, each computed within the same time even where its steps
+    /// are slowest, as accurately as that allows (with --error: as cheaply as the error allows).
+    #[arg(long, value_name = "S", value_parser = time, allow_negative_numbers = true)]
+    deadline: Option<f64>,
     /// Paced run (not built).
     #[arg(long, hide = true)]
     realtime: bool,
@@ -114,18 +117,15 @@ impl Arguments {
             ("tolerance", self.tolerance.map(|x| x.to_string())),
             ("precision", self.precision.clone()),
             ("integrator", self.integrator.clone()),
+            ("error", self.error.map(|x| x.to_string())),
+            ("deadline", self.deadline.map(|x| x.to_string())),
         ];
         files::provenance(("run", &self.scene), &options, settings)
     }
 
     /// The first option that is part of the contract and not built.
     fn not_built(&self) -> Option<&'static str> {
-        let options = [
-            (self.error.is_some(), "--error"),
-            (self.deadline.is_some(), "--deadline"),
-            (self.realtime, "--realtime"),
-        ];
-        options.into_iter().find(|(given, _)| *given).map(|(_, name)| name)
+        self.realtime.then_some("--realtime")
     }
 }
 
@@ -158,11 +158,18 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         Ok(begun) => begun,
         Err(message) => return refuse(&message),
     };
-    let mut bar = Bar::new(settings.duration, arguments.json);
-    let outcome = run_document((&document, &scene), &settings, &mut |t| bar.reached(t));
+    let goal = Goal { error: arguments.error, deadline: arguments.deadline };
+    let clock = &mut Processor::new(settings.threads);
+    let plan = plan((&document, &scene), (&arguments.overrides(), settings), goal, clock);
+    let plan = match plan {
+        Ok(plan) => plan,
+        Err(error) => return refuse(&error.render()),
+    };
+    let mut bar = Bar::new(plan.first().duration, arguments.json);
+    let outcome = run_plan((&document, &scene), &plan, &mut |t| bar.reached(t));
     bar.bar.finish_and_clear();
     match outcome {
-        Ok(outcome) => report(&outcome, arguments, &settings, &document),
+        Ok((outcome, settings)) => report(&outcome, arguments, &settings, &document),
         Err(error) => refuse(&error.render()),
     }
 }
@@ -224,6 +231,9 @@ fn write_files(
     outcome.write_csv(std::io::BufWriter::new(std::fs::File::create(out.join("run.csv"))?))?;
     outcome.write_steps(std::io::BufWriter::new(std::fs::File::create(out.join("steps.csv"))?))?;
     std::fs::write(out.join("run.json"), outcome.summary.to_json() + "\n")?;
+    if let Some(choice) = &settings.choice {
+        files::write_choice(out, choice)?;
+    }
     std::fs::write(out.join("run.html"), outcome.page(arguments.provenance(settings)))
 }
 

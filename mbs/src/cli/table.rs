@@ -19,11 +19,16 @@ pub(crate) fn text(outcome: &Outcome, out: Option<&Path>) -> String {
             line(format!("  {label:<24} {value}"));
         }
     }
+    for reason in s.chosen.iter().filter(|c| c.evidence.is_some()).flat_map(|c| &c.reasons) {
+        line(format!("chosen: {reason}"));
+    }
     for note in outcome.notes() {
         line(format!("note: {note}"));
     }
     if let Some(out) = out {
-        line(format!("wrote run.csv, steps.csv, run.json and run.html to {}", out.display()));
+        let is_measured = s.chosen.as_ref().is_some_and(|c| c.evidence.is_some());
+        let more = if is_measured { ", choice.json, choice.csv" } else { "" };
+        line(format!("wrote run.csv, steps.csv, run.json{more} and run.html to {}", out.display()));
     }
     text
 }

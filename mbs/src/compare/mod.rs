@@ -5,11 +5,11 @@
 //! that two comparisons make the same ones. Each result is in the journal before the next run begins.
 
 mod clocked;
-mod drive;
-mod ladder;
+pub(crate) mod drive;
+pub(crate) mod ladder;
 mod layout;
 mod map;
-mod method;
+pub(crate) mod method;
 mod pass;
 mod reference;
 mod rounds;

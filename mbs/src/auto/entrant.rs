@@ -1,0 +1,146 @@
+//! A candidate in the pilot: its method, its trials, what is known of their errors.
+
+use super::law::{Law, Point, Prediction, predict};
+use super::trial::{End, Trial};
+use crate::compare::method::Method;
+
+/// Errors above this share of the outputs' ranges have lost the motion: what they become at finer settings is not to be told.
+const LOST: f64 = 0.1;
+/// The finer of two neighbours is believed to be better by no more than this factor.
+const BETTER: f64 = 10.0;
+/// A setting is tried if it differs from those that were by more than this share.
+const SAME: f64 = 0.02;
+
+/// A trial, and its error as far as it is known.
+#[derive(Debug, Clone)]
+pub(crate) struct Try {
+    pub(crate) setting: f64,
+    pub(crate) trial: Trial,
+    /// Its error by the distance of its coarser neighbour.
+    pub(crate) own: Option<f64>,
+    /// Its error against the best of all trials.
+    pub(crate) error: Option<f64>,
+}
+
+impl Try {
+    pub(crate) fn is_done(&self) -> bool {
+        self.trial.end == End::Done
+    }
+}
+
+/// A candidate.
+#[derive(Debug, Clone)]
+pub(crate) struct Entrant {
+    pub(crate) method: Method,
+    /// From the coarsest.
+    pub(crate) tries: Vec<Try>,
+    /// Why it is out.
+    pub(crate) out: Option<String>,
+    /// The setting that it is given first, and the coarsest there is.
+    pub(crate) first: f64,
+    pub(crate) coarsest: f64,
+    /// The finest setting that it is allowed; 0 where all are.
+    pub(crate) finest: f64,
+}
+
+/// A step is no longer than this share more than what is asked for.
+const ROUNDING: f64 = 1e-9;
+
+impl Entrant {
+    pub(crate) fn new(method: Method, first: f64, coarsest: f64) -> Self {
+        Self { method, tries: Vec::new(), out: None, first, coarsest, finest: 0.0 }
+    }
+
+    pub(crate) fn law(&self) -> Law {
+        Law::of(&self.method)
+    }
+
+    /// The setting that can be had, no coarser than the one asked for: a whole number of steps makes the longest.
+    pub(crate) fn fit(&self, setting: f64) -> f64 {
+        if !self.method.is_fixed() {
+            return setting.min(self.coarsest);
+        }
+        self.coarsest / (self.coarsest / setting * (1.0 - ROUNDING)).ceil().max(1.0)
+    }
+
+    /// Takes a trial in.
+    pub(crate) fn take(&mut self, setting: f64, trial: Trial) {
+        let place = self.tries.iter().position(|t| t.setting < setting).unwrap_or(self.tries.len());
+        self.tries.insert(place, Try { setting, trial, own: None, error: None });
+    }
+
+    /// Was a setting tried that is about the same?
+    pub(crate) fn has_tried(&self, setting: f64) -> bool {
+        self.tries.iter().any(|t| (t.setting / setting - 1.0).abs() <= SAME)
+    }
+
+    pub(crate) fn done(&self) -> impl DoubleEndedIterator<Item = &Try> {
+        self.tries.iter().filter(|t| t.is_done())
+    }
+
+    /// Estimates the own error of every completed trial that has a coarser neighbour.
+    ///
+    /// ```text
+    /// e = d r/(1 - r),   r = (fine/coarse)^a,   but not less than d/10, and d itself where the motion is lost
+    /// ```
+    pub(crate) fn estimate(&mut self, distance: impl Fn(&Trial, &Trial) -> f64) {
+        let law = self.law();
+        let done: Vec<usize> = (0..self.tries.len()).filter(|&i| self.tries[i].is_done()).collect();
+        for pair in done.windows(2) {
+            let (coarse, fine) = (&self.tries[pair[0]], &self.tries[pair[1]]);
+            if fine.own.is_some() {
+                continue;
+            }
+            let d = distance(&fine.trial, &coarse.trial);
+            let r = (fine.setting / coarse.setting).powf(law.error);
+            let share = if d > LOST { 1.0 } else { (r / (1.0 - r)).clamp(1.0 / BETTER, 1.0) };
+            // outputs that agree to the last digit have its error
+            self.tries[pair[1]].own = Some((d * share).max(f64::EPSILON));
+        }
+    }
+
+    /// Completed trials whose error is known, from the coarsest.
+    pub(crate) fn points(&self) -> Vec<Point> {
+        let point = |t: &Try| Some(Point { setting: t.setting, error: t.error?, seconds: t.trial.seconds });
+        self.done().filter_map(point).collect()
+    }
+
+    /// What an error takes, if anything is known.
+    pub(crate) fn predict(&self, wanted: f64) -> Option<Prediction> {
+        predict(&self.law(), &self.points(), wanted, self.coarsest)
+    }
+
+    /// Its largest and its finest error do not differ over two refinements: rounding, or another motion.
+    pub(crate) fn is_at_its_floor(&self) -> bool {
+        let points = self.points();
+        let [.., a, b, c] = &points[..] else { return false };
+        let fell = |coarse: &Point, fine: &Point| fine.error < 0.7 * coarse.error;
+        a.error < LOST && !fell(a, b) && !fell(b, c) && a.setting > 2.0 * c.setting
+    }
+
+    /// CPU time of a run to the end with the finest setting tried, by the share that was reached [s].
+    pub(crate) fn whole_seconds(&self) -> Option<f64> {
+        let finest = self.tries.last()?;
+        let reached = finest.trial.reached;
+        (reached > 0.0).then(|| finest.trial.seconds / reached)
+    }
+
+    /// The slowest step of all trials [s].
+    pub(crate) fn slowest(&self) -> Option<f64> {
+        self.tries.iter().filter_map(|t| t.trial.slowest).reduce(f64::max)
+    }
+
+    /// The stop of the finest trial.
+    pub(crate) fn stopped(&self) -> Option<String> {
+        let last = self.tries.last()?;
+        match &last.trial.end {
+            End::Stopped(e) | End::NotStarted(e) => Some(format!(
+                "{} at t = {} s with {}",
+                e.code,
+                crate::words::few(e.time),
+                crate::words::few(last.setting)
+            )),
+            _ => None,
+        }
+    }
+}
