@@ -18,7 +18,8 @@ pub use record::{
 pub use report::{Report, Section};
 pub use write::{
     Absence, Candidate, Change, Choice, Chosen, Contact, ControlSummary, ControllerStep, CsvWriter,
-    EffectEntry, EnergySummary, Explanation, Fallback, GuideEntry, JointGroup, LargestStep, Outputs, PilotReference, Price, Prices,
-    Relative, Rod, RunError, RunSummary, SearchEnd, Simulated, Sizes, TrialEntry, ViolationSummary, long,
-    readable, shortest, write_choice, write_steps,
+    EffectEntry, EnergySummary, Explanation, Fallback, GuideEntry, JointGroup, LargestStep,
+    Outputs, PilotReference, Price, Prices, Relative, Rod, RunError, RunSummary, SearchEnd,
+    Simulated, Sizes, TrialEntry, ViolationSummary, long, readable, shortest, write_choice,
+    write_steps,
 };

@@ -196,7 +196,8 @@ mod tests {
 
     #[test]
     fn every_trial_has_a_row_and_a_candidate_without_trials_has_one() {
-        let trial = TrialEntry { setting: 0.5, outcome: "completed".into(), ..TrialEntry::default() };
+        let trial =
+            TrialEntry { setting: 0.5, outcome: "completed".into(), ..TrialEntry::default() };
         let chosen = Candidate { rank: Some(1), trials: vec![trial; 2], ..Candidate::default() };
         let out = Candidate { out: Some("no tree".into()), ..Candidate::default() };
         let choice = Choice { candidates: vec![chosen, out], ..Choice::default() };

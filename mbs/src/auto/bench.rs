@@ -4,7 +4,7 @@ use super::trial::{Aim, Bench, End, Rows, Trial};
 use crate::alarm::Alarm;
 use crate::channels::Channels;
 use crate::compare::drive::{Course, Watcher, drive};
-use crate::compare::ladder::{Instants, work};
+use crate::compare::ladder::{Instants, count, work};
 use crate::compare::method::{Control, Method};
 use crate::settings::{Overrides, Settings, SettingsError};
 use crate::simulation::Simulation;
@@ -20,7 +20,9 @@ use mbs_scene::{Channel, RunError};
 /// The clock is read every so many steps, where steps are not timed one by one.
 const STRIDE: u64 = 8;
 /// The first interval of an integrator that controls its own steps is cut into so many, to see how long it takes.
-const CAUTIOUS: u64 = 16;
+const CAUTIOUS: u64 = 4;
+/// A trial is begun where its first interval promises no more than so many times what it may take.
+const DOUBT: f64 = 10.0;
 /// First step where the scene has none [s].
 const DEFAULT_STEP: f64 = 1e-3;
 
@@ -50,19 +52,27 @@ impl<'a, T: Real, const D: usize> SceneBench<'a, T, D>
 where
     Plane<D>: InSpace<T>,
 {
+    /// A bench on which so many seconds were spent before.
     pub(crate) fn new(
         scene: &'a Scene<T>,
         base: &'a Overrides,
         instants: Instants,
-        clock: &'a mut dyn Clock,
+        (clock, spent): (&'a mut dyn Clock, f64),
     ) -> Self {
-        let begun = clock.seconds();
+        let begun = clock.seconds() - spent;
         let channels = Channel::of_scene(scene);
         let length = scene_length(scene).to_f64();
         Self { scene, base, instants, channels, length, clock, begun }
     }
 
-    fn run(&mut self, method: &Method, setting: f64, aim: Aim, most: f64) -> Trial {
+    /// Runs the span, with so many steps between two instants where they are counted.
+    fn run(
+        &mut self,
+        (method, between): (&Method, Option<u64>),
+        setting: f64,
+        aim: Aim,
+        most: f64,
+    ) -> Trial {
         let settings = settings(self.scene, self.base, method, (setting, self.instants));
         let started = settings.map_err(|e| refused(&e)).and_then(|settings| {
             let simulation = Simulation::<T, D>::new(self.scene, &settings);
@@ -94,7 +104,6 @@ where
             reached: 0.0,
             is_late: false,
         };
-        let between = method.is_fixed().then(|| self.instants.steps_between(setting));
         let course = Course { instants: self.instants, between };
         let end = drive(&mut simulation, &course, &mut recorder);
         let Recorder { rows, steps, reached, slowest, is_late, .. } = recorder;
@@ -119,19 +128,18 @@ where
         if method.control == Control::Own && aim == Aim::Rows {
             // one step of it may be a whole interval, which nothing interrupts
             let whole = self.instants;
-            let interval = whole.interval / crate::compare::ladder::count(CAUTIOUS as usize);
-            self.instants = Instants { count: 1, interval };
-            let probe = self.run(method, setting, Aim::Time, most);
+            self.instants = Instants { count: 1, ..whole };
+            let probe = self.run((method, Some(CAUTIOUS)), setting, Aim::Time, most);
             self.instants = whole;
-            let intervals = crate::compare::ladder::count(whole.count);
-            let would = probe.seconds * intervals * crate::compare::ladder::count(CAUTIOUS as usize);
-            // the first piece has the start in it
-            if probe.end != End::Done || would > 8.0 * most {
-                let share = interval / whole.time(whole.count);
-                return Trial { reached: probe.reached * share, end: late(probe.end), ..probe };
+            let share = 1.0 / count(whole.count);
+            // pieces take more steps, and the first ones the search for their length
+            if probe.end != End::Done || probe.seconds > DOUBT * share * most {
+                let reached = probe.reached * share * DOUBT;
+                return Trial { reached, end: late(probe.end), ..probe };
             }
         }
-        self.run(method, setting, aim, most)
+        let between = method.is_fixed().then(|| self.instants.steps_between(setting));
+        self.run((method, between), setting, aim, most)
     }
 
     fn spent(&mut self) -> f64 {
@@ -173,7 +181,7 @@ pub(crate) fn settings<T: Real>(
 ) -> Result<Settings, SettingsError> {
     let of_scene = scene.solver.step.map_or(DEFAULT_STEP, Real::to_f64);
     let step = if method.is_fixed() {
-        instants.interval / crate::compare::ladder::count(instants.steps_between(setting) as usize)
+        instants.interval / count(instants.steps_between(setting) as usize)
     } else {
         of_scene
     };

@@ -101,7 +101,8 @@ impl Entrant {
 
     /// Completed trials whose error is known, from the coarsest.
     pub(crate) fn points(&self) -> Vec<Point> {
-        let point = |t: &Try| Some(Point { setting: t.setting, error: t.error?, seconds: t.trial.seconds });
+        let point =
+            |t: &Try| Some(Point { setting: t.setting, error: t.error?, seconds: t.trial.seconds });
         self.done().filter_map(point).collect()
     }
 

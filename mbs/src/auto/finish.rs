@@ -5,6 +5,10 @@ use super::law::{Basis, Prediction};
 use super::race::Race;
 use super::trial::{Aim, End};
 
+/// Errors are not predicted over more than this factor.
+const FAR: f64 = 300.0;
+/// A finalist is given up where it takes so many times what was predicted.
+const SLOW: f64 = 3.0;
 /// Those within this factor of the cheapest are tried with their own settings and timed again.
 const CLOSE: f64 = 1.6;
 /// So many of them at most, and so often.
@@ -36,7 +40,31 @@ impl Race<'_> {
         places = self.ranked(&[]);
         let finalists = self::close(&places);
         let timed = self.time(&places, &finalists);
-        self.ranked(&timed)
+        let places = self.ranked(&timed);
+        if places.is_empty() { self.rescued() } else { places }
+    }
+
+    /// Where all are out: the trials that were completed, those that reach the wanted error by their times, then the others by their
+    /// errors.
+    fn rescued(&self) -> Vec<Place> {
+        let mut places: Vec<Place> = Vec::new();
+        for (entrant, e) in self.entrants.iter().enumerate() {
+            places.extend(e.points().into_iter().map(|point| Place {
+                entrant,
+                prediction: Prediction { point, basis: Basis::Coarsest },
+                reaches: point.error <= self.wanted.error,
+                is_timed: false,
+            }));
+        }
+        sort(&mut places);
+        let mut seen = Vec::new();
+        places.retain(|p| {
+            !seen.contains(&p.entrant) && {
+                seen.push(p.entrant);
+                true
+            }
+        });
+        places
     }
 
     /// Tries a finalist with its own setting: does it get to the end, and with the error that was predicted? Once more if not.
@@ -47,7 +75,7 @@ impl Race<'_> {
             if has || 1.5 * p.point.seconds > self.budget(self.cheapest()) - self.bench.spent() {
                 return;
             }
-            self.attempt(i, p.point.setting, Some(2.0 * p.point.seconds));
+            self.attempt(i, p.point.setting, Some(SLOW * p.point.seconds));
             self.judge();
             let finest = self.entrants[i].tries.last();
             if finest.is_some_and(|t| matches!(t.trial.end, End::Stopped(_))) {
@@ -89,7 +117,8 @@ impl Race<'_> {
         }
         let mut prediction = self.prediction(entrant)?;
         let worst = self.wanted.error * (1.0 + 1e-9);
-        let reaches = prediction.point.error <= worst && !entrant.is_at_its_floor();
+        let is_far = matches!(prediction.basis, Basis::Finer(factor) if factor > FAR);
+        let reaches = prediction.point.error <= worst && !entrant.is_at_its_floor() && !is_far;
         if !reaches && let Some(finest) = entrant.points().last() {
             // nothing finer than what was seen to run
             prediction.point = *finest;
@@ -107,17 +136,12 @@ impl Race<'_> {
                 place.is_timed = true;
             }
         }
-        places.sort_by(|a, b| {
-            let error = |p: &Place| p.prediction.point.error;
-            let seconds = |p: &Place| p.prediction.point.seconds;
-            b.reaches.cmp(&a.reaches).then_with(|| {
-                if a.reaches { seconds(a).total_cmp(&seconds(b)) } else { error(a).total_cmp(&error(b)) }
-            })
-        });
+        sort(&mut places);
         // what is the same within the noise goes by the order of the candidates
         if let Some(first) = places.first().copied().filter(|first| first.reaches) {
             let bound = SAME * first.prediction.point.seconds;
-            let same = places.iter().take_while(|p| p.reaches && p.prediction.point.seconds <= bound);
+            let same =
+                places.iter().take_while(|p| p.reaches && p.prediction.point.seconds <= bound);
             let n = same.count();
             places[..n].sort_by_key(|p| p.entrant);
         }
@@ -125,11 +149,22 @@ impl Race<'_> {
     }
 }
 
+/// Those that reach the wanted error by their times, then the others by their errors.
+fn sort(places: &mut [Place]) {
+    let error = |p: &Place| p.prediction.point.error;
+    let seconds = |p: &Place| p.prediction.point.seconds;
+    places.sort_by(|a, b| {
+        let by = if a.reaches { seconds } else { error };
+        b.reaches.cmp(&a.reaches).then_with(|| by(a).total_cmp(&by(b)))
+    });
+}
+
 /// The candidates beside the cheapest.
 fn close(places: &[Place]) -> Vec<usize> {
     let Some(first) = places.first() else { return Vec::new() };
     let bound = CLOSE * first.prediction.point.seconds;
-    let near = places.iter().filter(|p| p.reaches == first.reaches && p.prediction.point.seconds <= bound);
+    let near =
+        places.iter().filter(|p| p.reaches == first.reaches && p.prediction.point.seconds <= bound);
     near.take(FINALISTS).map(|p| p.entrant).collect()
 }
 

@@ -109,7 +109,11 @@ impl Display for GoalError {
         let few = crate::words::few;
         match self {
             Self::Error(x) => {
-                write!(f, "the wanted error must be more than 0 and less than 1, but is {}", few(*x))
+                write!(
+                    f,
+                    "the wanted error must be more than 0 and less than 1, but is {}",
+                    few(*x)
+                )
             }
             Self::Deadline(x) => {
                 write!(f, "the deadline must be a time longer than zero, but is {} s", few(*x))

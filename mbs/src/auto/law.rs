@@ -150,7 +150,10 @@ mod tests {
         for (wanted, basis) in [(1e-5, "finer"), (1e-3, "between"), (0.5e-1, "coarser")] {
             let found = predict(&SECOND, &points(&[0.1, 0.01]), wanted, 1.0).unwrap();
             let h = f64::sqrt(wanted);
-            assert!(near(found.point.setting, h) && near(found.point.seconds, 1e-3 / h), "{found:?}");
+            assert!(
+                near(found.point.setting, h) && near(found.point.seconds, 1e-3 / h),
+                "{found:?}"
+            );
             let is = match found.basis {
                 Basis::Finer(_) => "finer",
                 Basis::Between => "between",

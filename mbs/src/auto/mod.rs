@@ -36,6 +36,9 @@ use race::{Race, Wanted};
 
 /// Instants at which errors are taken, where the caller has none.
 const INSTANTS: f64 = 200.0;
+/// Tolerances: what is looser controls nothing any more; the first of an error estimate, whose runs are short with it.
+const LOOSEST: f64 = 0.1;
+const FIRST: f64 = 1e-4;
 /// With a deadline alone, no smaller error is aimed at.
 const ACCURATE: f64 = 1e-6;
 /// The span is cut by this factor where no candidate is run to its end within the budget, at most so often.
@@ -71,7 +74,8 @@ pub(crate) fn methods<T>(
     let mut methods = Method::all(&formulations, &[settings.precision]);
     if let Some(integrator) = integrator {
         methods.retain_mut(|m| {
-            let is_other_rule = !integrator.is_explicit() && m.integrator == IntegratorKind::Trapezoidal;
+            let is_other_rule =
+                !integrator.is_explicit() && m.integrator == IntegratorKind::Trapezoidal;
             if is_other_rule {
                 m.integrator = integrator;
             }
@@ -127,21 +131,25 @@ where
 {
     let structure = structure::structure::<T, D>(scene, task.settings);
     let (wanted, mut instants) = (wanted(&task.goal), task.instants);
-    let mut spent = 0.0;
+    let (mut spent, mut before) = (0.0, 0.0);
     for cut in 0..=CUTS {
-        let mut bench = SceneBench::<T, D>::new(scene, task.base, instants, &mut *clock);
-        let entrants = methods.iter().map(|m| entrant(*m, &structure, (wanted, instants)));
-        let mut race = Race::new(&mut bench, entrants.collect(), wanted);
+        let mut bench = SceneBench::<T, D>::new(scene, task.base, instants, (&mut *clock, spent));
+        let mut entrants: Vec<Entrant> =
+            methods.iter().map(|m| entrant(*m, &structure, (wanted, instants))).collect();
+        entrants.sort_by_key(|e| structure.promise(&e.method));
+        let mut race = Race::new(&mut bench, entrants, wanted);
         let places = race.run();
         let is_blind = places.is_empty() && race.is_cut && instants.count > CUT;
         if is_blind && cut < CUTS {
-            spent += race.bench.spent();
+            before += race.bench.spent() - spent;
+            // the shorter span has half of the time again
+            spent = 0.5 * race::BUDGET[0];
             instants.count /= CUT;
             continue;
         }
         let mut choice = report::evidence(&mut race, &places, &structure);
+        choice.pilot_seconds += before - spent;
         let picks = picks(&race, &places, scaled(task.instants, instants));
-        choice.pilot_seconds += spent;
         choice.instants = instants.count;
         choice.span = instants.time(instants.count);
         extend(&mut choice, scaled(task.instants, instants));
@@ -182,13 +190,12 @@ fn entrant(
     let coarsest = match (method.is_fixed(), wanted.deadline) {
         (true, Some(deadline)) => deadline.min(instants.interval),
         (true, None) => instants.interval,
-        // a tolerance of a tenth of a length controls nothing any more
-        _ => 0.1,
+        _ => LOOSEST,
     };
     let first = match method.control {
         Control::Fixed => coarsest,
         Control::Own => wanted.error.min(coarsest),
-        Control::Error | Control::Energy => (0.1 * wanted.error).min(coarsest),
+        Control::Error | Control::Energy => FIRST.max(0.01 * wanted.error).min(coarsest),
     };
     let entrant = Entrant::new(method, first, coarsest);
     Entrant { out: structure.refuses(&method), ..entrant }
@@ -204,24 +211,24 @@ fn picks(race: &Race<'_>, places: &[Place], times: f64) -> Vec<Pick> {
     places.iter().map(pick).collect()
 }
 
-/// What structure alone says of the candidates.
-pub(crate) fn by_structure<T: Real, const D: usize>(
+/// The candidates of a scene, and what structure alone says of them.
+pub(crate) fn candidates<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
-    methods: &[Method],
-) -> Choice
+) -> Option<Choice>
 where
     Plane<D>: InSpace<T>,
 {
+    let methods = methods(scene, &Overrides::default(), settings, &Goal::default()).ok()?;
     let structure = structure::structure::<T, D>(scene, settings);
     let candidate = |method: &Method| Candidate {
         out: structure.refuses(method),
         basis: "the pilot decides".to_owned(),
         ..report::candidate(&Entrant::new(*method, 1.0, 1.0))
     };
-    Choice {
+    Some(Choice {
         structure: structure.words(),
         candidates: methods.iter().map(candidate).collect(),
         ..Choice::default()
-    }
+    })
 }

@@ -2,6 +2,7 @@
 
 use super::{Clock, Goal, GoalError, Pick, Task, bench, choose, instants, methods};
 use crate::choice::Precision;
+use crate::compare::method::Method;
 use crate::run::Outcome;
 use crate::settings::{Overrides, Settings};
 use crate::{Names, run_document};
@@ -104,13 +105,19 @@ pub fn plan(
             choose(&scene, &task, &methods, clock)
         }
     };
-    Ok(Plan { ranked: ranked(scene, &task, &picks, &choice) })
+    Ok(Plan { ranked: ranked(scene, &task, (&picks, &methods), &choice) })
 }
 
 /// Settings of the picks; where there is none, those that were there, which will say why nothing runs.
-fn ranked(scene: &Scene<f64>, task: &Task<'_>, picks: &[Pick], choice: &Choice) -> Vec<Settings> {
+fn ranked(
+    scene: &Scene<f64>,
+    task: &Task<'_>,
+    (picks, methods): (&[Pick], &[Method]),
+    choice: &Choice,
+) -> Vec<Settings> {
     let of = |pick: &Pick| {
-        let settings = bench::settings(scene, task.base, &pick.method, (pick.setting, task.instants));
+        let settings =
+            bench::settings(scene, task.base, &pick.method, (pick.setting, task.instants));
         Some(Settings {
             asked: task.settings.asked.clone(),
             choice: Some(Box::new(choice.clone())),
@@ -118,12 +125,30 @@ fn ranked(scene: &Scene<f64>, task: &Task<'_>, picks: &[Pick], choice: &Choice) 
             ..settings.ok()?
         })
     };
-    let mut ranked: Vec<Settings> = picks.iter().filter_map(of).collect();
+    let blind = if picks.is_empty() { blind(task, choice, methods) } else { Vec::new() };
+    let mut ranked: Vec<Settings> = picks.iter().chain(&blind).filter_map(of).collect();
     if ranked.is_empty() {
         let choice = Some(Box::new(choice.clone()));
         ranked.push(Settings { choice, ..task.settings.clone() });
     }
     ranked
+}
+
+/// Where the pilot has got nowhere: every method that starts, in the order of its candidates, with the step of the scene, or a
+/// tolerance of a hundredth of the wanted error.
+fn blind(task: &Task<'_>, choice: &Choice, methods: &[Method]) -> Vec<Pick> {
+    let starts = |m: &&Method| {
+        let same = choice.candidates.iter().find(|c| c.method == m.name());
+        same.is_none_or(|c| c.trials.iter().all(|t| t.reached > 0.0))
+    };
+    let place = |m: &Method| choice.candidates.iter().position(|c| c.method == m.name());
+    let mut left: Vec<&Method> = methods.iter().filter(starts).collect();
+    left.sort_by_key(|m| place(m));
+    let setting = |m: &Method| match m.is_fixed() {
+        true => task.goal.deadline.unwrap_or(f64::INFINITY).min(task.settings.step),
+        false => 0.01 * task.goal.error.unwrap_or(super::ACCURATE),
+    };
+    left.into_iter().map(|m| Pick { method: *m, setting: setting(m) }).collect()
 }
 
 /// Runs a plan: where a run stops, the next of the ranking is tried, and the choice says so. Where none gets to the end, the one

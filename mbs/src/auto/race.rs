@@ -24,6 +24,15 @@ const TRIES: [usize; 2] = [9, 5];
 const LEAP: f64 = 30.0;
 /// A trial is given up where it takes so many times what the best does.
 const LOSING: f64 = 1.6;
+/// A first look at a candidate takes this share of the time of the best; where there is none, a trial this share of what is left, but
+/// not less than so much [s].
+const LOOK: f64 = 0.25;
+const SHARE: f64 = 0.3;
+const SHORTEST: f64 = 2e-3;
+/// Where no trial has got to the end after this share of the budget, the span is too long for it.
+const BLIND: f64 = 0.7;
+/// Candidates are gone through so often at most.
+const PASSES: usize = 3;
 /// Twins are believed to need no less than this share of each other's steps.
 const TWIN: f64 = 0.7;
 /// A frame is filled up to this share by steps that take as long as the slowest.
@@ -70,23 +79,63 @@ impl<'a> Race<'a> {
         Self { bench, entrants, wanted, best: None, is_cut: false, is_refined: false }
     }
 
-    /// Tries candidates until the cheapest is known, or the budget is used up.
+    /// Tries candidates in their order until the cheapest is known, or the budget is used up; again where errors have become known
+    /// better meanwhile.
     pub(crate) fn heats(&mut self) {
+        for _ in 0..PASSES {
+            let mut is_any = false;
+            for i in 0..self.entrants.len() {
+                is_any |= self.explore(i);
+                if self.is_cut {
+                    return;
+                }
+            }
+            if !is_any {
+                return;
+            }
+        }
+    }
+
+    /// Tries a candidate until it is known, out, or dearer than another in any case. Says whether it was tried at all.
+    fn explore(&mut self, i: usize) -> bool {
+        let mut is_any = false;
         loop {
             self.judge();
             let cheapest = self.cheapest();
-            if self.bench.spent() >= self.budget(cheapest) {
-                self.is_cut = true;
-                return;
-            }
             if let (Some(seconds), false) = (cheapest, self.is_refined) {
                 self.is_refined = true;
                 self.refine_reference(seconds);
                 continue;
             }
-            let Some((i, setting)) = self.pick(cheapest) else { return };
-            self.attempt(i, setting, cheapest.map(|seconds| LOSING * seconds));
+            if self.entrants[i].out.is_some() {
+                return is_any;
+            }
+            let setting = match self.next(&self.entrants[i]) {
+                Next::Settled(_) => return is_any,
+                Next::Out(why) => {
+                    self.entrants[i].out = Some(why);
+                    return is_any;
+                }
+                Next::Try(setting) => setting,
+            };
+            if cheapest.is_some_and(|seconds| self.least(&self.entrants[i]) >= seconds) {
+                return is_any;
+            }
+            let (spent, budget) = (self.bench.spent(), self.budget(cheapest));
+            let is_any_done = self.entrants.iter().any(|e| e.done().next().is_some());
+            if spent >= if is_any_done { budget } else { BLIND * budget } {
+                self.is_cut = true;
+                return is_any;
+            }
+            self.attempt(i, setting, self.patience(i, cheapest));
+            is_any = true;
         }
+    }
+
+    /// How long the next trial of a candidate may take [s]: a look first, where another is known to take less.
+    fn patience(&self, i: usize, cheapest: Option<f64>) -> Option<f64> {
+        let share = if self.entrants[i].tries.is_empty() { LOOK } else { LOSING };
+        cheapest.map(|seconds| share * seconds)
     }
 
     /// What the pilot may take [s].
@@ -102,16 +151,21 @@ impl<'a> Race<'a> {
     /// One more trial of a candidate, for at most so many seconds where another is known to take less.
     pub(super) fn attempt(&mut self, i: usize, setting: f64, most: Option<f64>) {
         let left = self.left();
-        let most = most.map_or(0.5 * left, |most| most.min(left)).max(1e-3);
+        let most = most.map_or(SHARE * left, |most| most.min(left)).max(SHORTEST);
+        // a first look leaves another
+        let is_last = !self.entrants[i].tries.is_empty() || self.cheapest().is_none();
         let aim = if self.wanted.deadline.is_some() { Aim::Steps } else { Aim::Rows };
         let method = self.entrants[i].method;
         let trial = self.bench.trial(&method, setting, aim, most);
         let entrant = &mut self.entrants[i];
-        if trial.end == End::GivenUp {
+        entrant.tries.retain(|t| t.trial.end != End::GivenUp);
+        if trial.end == End::GivenUp && (is_last || trial.reached <= 0.0) {
             let whole = trial.seconds / trial.reached.max(1e-9);
             entrant.out = Some(match trial.reached > 0.0 {
                 true => format!("with {} it would take about {}", few(setting), duration(whole)),
-                false => format!("with {} it makes no way in {}", few(setting), duration(trial.seconds)),
+                false => {
+                    format!("with {} it makes no way in {}", few(setting), duration(trial.seconds))
+                }
             });
         }
         entrant.take(setting, trial);
@@ -130,7 +184,9 @@ impl<'a> Race<'a> {
 
     /// A finer run than is wanted, if there is time: errors are taken against it.
     fn refine_reference(&mut self, seconds: f64) {
-        let Some(best) = self.best.filter(|best| best.own > 0.25 * self.wanted.error) else { return };
+        let Some(best) = self.best.filter(|best| best.own > 0.25 * self.wanted.error) else {
+            return;
+        };
         let entrant = &self.entrants[best.entrant];
         let law = entrant.law();
         let setting = entrant.fit(best.setting * law.setting_for(0.05));
@@ -149,7 +205,8 @@ impl<'a> Race<'a> {
     pub(super) fn judge(&mut self) {
         let bench = &*self.bench;
         for entrant in &mut self.entrants {
-            entrant.estimate(|fine: &Trial, coarse: &Trial| bench.distance(&fine.rows, &coarse.rows));
+            entrant
+                .estimate(|fine: &Trial, coarse: &Trial| bench.distance(&fine.rows, &coarse.rows));
         }
         let known = self.entrants.iter().enumerate().flat_map(|(entrant, e)| {
             e.done().filter_map(move |t| Some(Best { entrant, setting: t.setting, own: t.own? }))
@@ -191,31 +248,10 @@ impl<'a> Race<'a> {
         settled.min_by(f64::total_cmp)
     }
 
-    /// Who is tried next, and with what.
-    fn pick(&mut self, cheapest: Option<f64>) -> Option<(usize, f64)> {
-        let mut pick: Option<(f64, usize, f64)> = None;
-        for i in 0..self.entrants.len() {
-            if self.entrants[i].out.is_some() {
-                continue;
-            }
-            match self.next(&self.entrants[i]) {
-                Next::Settled(_) => {}
-                Next::Out(why) => self.entrants[i].out = Some(why),
-                Next::Try(setting) => {
-                    let least = self.least(&self.entrants[i]);
-                    let can_win = cheapest.is_none_or(|seconds| least < seconds);
-                    if can_win && pick.is_none_or(|(other, ..)| least < other) {
-                        pick = Some((least, i, setting));
-                    }
-                }
-            }
-        }
-        pick.map(|(_, i, setting)| (i, setting))
-    }
-
     /// What a candidate takes in the best case [s].
     fn least(&self, entrant: &Entrant) -> f64 {
         let Some(seconds) = entrant.whole_seconds() else { return 0.0 };
+        let is_partial = entrant.tries.last().is_some_and(|t| t.trial.end == End::GivenUp);
         let law = entrant.law();
         let finest = entrant.tries.last().map_or(entrant.first, |t| t.setting);
         let twins = self.entrants.iter().filter(|e| is_twin(&e.method, &entrant.method));
@@ -232,6 +268,7 @@ impl<'a> Race<'a> {
                 seconds * law.cost_of((0.25 * factor).max(1.0))
             }
             Some(p) => p.point.seconds / KNOWN,
+            None if is_partial => seconds / KNOWN,
             None => 0.5 * seconds,
         };
         own.max(of_twins)
@@ -251,6 +288,7 @@ impl<'a> Race<'a> {
         let is_any_done = entrant.done().next().is_some();
         match &last.trial.end {
             End::NotStarted(e) => return Next::Out(format!("{}: {}", e.code, e.message)),
+            End::GivenUp => return Next::Try(last.setting),
             End::Stopped(_) if !is_any_done => {
                 let finer = refine(LEAP);
                 let is_over = entrant.tries.len() >= TRIES[1] || entrant.has_tried(finer);
@@ -262,7 +300,11 @@ impl<'a> Race<'a> {
         let Some(p) = self.prediction(entrant) else {
             let finer = refine(if entrant.law().cost < 1.0 { LEAP } else { 4.0 });
             let is_over = !is_any_done || entrant.has_tried(finer);
-            return if is_over { Next::Out("its error is not known".into()) } else { Next::Try(finer) };
+            return if is_over {
+                Next::Out("its error is not known".into())
+            } else {
+                Next::Try(finer)
+            };
         };
         let reaches = entrant.points().iter().any(|point| point.error <= self.wanted.error);
         if let (Some(why), false) = (entrant.stopped(), reaches) {
@@ -291,7 +333,8 @@ impl<'a> Race<'a> {
             Basis::Between => {
                 let points = entrant.points();
                 let beside = |is: fn(f64, f64) -> bool| {
-                    let times = points.iter().filter(|q| is(q.error, p.point.error)).map(|q| q.seconds);
+                    let times =
+                        points.iter().filter(|q| is(q.error, p.point.error)).map(|q| q.seconds);
                     times.min_by(|a, b| {
                         let far = |t: f64| (t / p.point.seconds).ln().abs();
                         far(*a).total_cmp(&far(*b))
@@ -304,7 +347,11 @@ impl<'a> Race<'a> {
             Basis::Finer(factor) => factor <= 1.0 / AIMS[1],
         };
         let is_over = entrant.tries.len() >= TRIES[0];
-        if is_close || is_over || entrant.has_tried(setting) { Next::Settled(p) } else { Next::Try(setting) }
+        if is_close || is_over || entrant.has_tried(setting) {
+            Next::Settled(p)
+        } else {
+            Next::Try(setting)
+        }
     }
 }
 

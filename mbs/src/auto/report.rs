@@ -33,7 +33,11 @@ pub(super) fn evidence(race: &mut Race<'_>, places: &[Place], structure: &Struct
     }
     let is_placed = |i: usize| places.iter().any(|place| place.entrant == i);
     for (i, entrant) in race.entrants.iter().enumerate().filter(|(i, _)| !is_placed(*i)) {
-        let open = if race.is_cut { "the pilot had no time for it" } else { "another is cheaper in any case" };
+        let open = if race.is_cut {
+            "the pilot had no time for it"
+        } else {
+            "another is cheaper in any case"
+        };
         let out = race.entrants[i].out.clone().unwrap_or_else(|| open.to_owned());
         candidates.push(Candidate { out: Some(out), ..candidate(entrant) });
     }

@@ -8,6 +8,7 @@ mod retell;
 
 mod analysis;
 mod andrews;
+mod choice;
 mod command;
 mod compare;
 mod contact;
