@@ -6,6 +6,7 @@ use crate::channels::Channels;
 use crate::compare::drive::{Course, Watcher, drive};
 use crate::compare::ladder::{Instants, count, work};
 use crate::compare::method::{Control, Method};
+use crate::engine::Engine;
 use crate::settings::{Overrides, Settings, SettingsError};
 use crate::simulation::Simulation;
 use crate::stop::{Names, StopError};
@@ -14,6 +15,7 @@ use mbs_core::Real;
 use mbs_core::cluster::scene_length;
 use mbs_core::control::Accepted;
 use mbs_core::scene::Scene;
+use mbs_core::step::StepError;
 use mbs_scene::compare::{output_scales, row_distance};
 use mbs_scene::{Channel, RunError};
 
@@ -23,6 +25,8 @@ const STRIDE: u64 = 8;
 const CAUTIOUS: u64 = 4;
 /// A trial is begun where its first interval promises no more than so many times what it may take.
 const DOUBT: f64 = 10.0;
+/// Steps that it may try in a piece of that.
+const FEW: u32 = 300;
 /// First step where the scene has none [s].
 const DEFAULT_STEP: f64 = 1e-3;
 
@@ -46,6 +50,8 @@ pub(crate) struct SceneBench<'a, T: Real, const D: usize> {
     length: f64,
     clock: &'a mut dyn Clock,
     begun: f64,
+    /// Steps that an integrator of its own control may try in an interval.
+    most_steps: Option<u32>,
 }
 
 impl<'a, T: Real, const D: usize> SceneBench<'a, T, D>
@@ -62,7 +68,7 @@ where
         let begun = clock.seconds() - spent;
         let channels = Channel::of_scene(scene);
         let length = scene_length(scene).to_f64();
-        Self { scene, base, instants, channels, length, clock, begun }
+        Self { scene, base, instants, channels, length, clock, begun, most_steps: None }
     }
 
     /// Runs the span, with so many steps between two instants where they are counted.
@@ -86,6 +92,9 @@ where
             Ok(started) => started,
             Err(error) => return Trial { end: End::NotStarted(error), ..nothing() },
         };
+        if let (Engine::Recursive(tree), Some(most)) = (simulation.engine_mut(), self.most_steps) {
+            tree.limit_steps(most);
+        }
         let [coordinates, constraints, _] = simulation.sizes();
         let n_columns = self.channels.iter().map(|c| c.components.len()).sum();
         let begun = self.clock.seconds();
@@ -111,6 +120,11 @@ where
         let span = self.instants.time(self.instants.count);
         let end = match end {
             Err(_) if is_late => End::GivenUp,
+            Err(StopError::Step(StepError::StepTooSmall { .. }, _))
+                if self.most_steps.is_some() =>
+            {
+                End::GivenUp
+            }
             Err(error) => End::Stopped(error.report(reached, &Names::new(self.scene))),
             Ok(()) if is_late => End::GivenUp,
             Ok(()) => End::Done,
@@ -129,6 +143,7 @@ where
             // one step of it may be a whole interval, which nothing interrupts
             let whole = self.instants;
             self.instants = Instants { count: 1, ..whole };
+            self.most_steps = Some(FEW);
             let probe = self.run((method, Some(CAUTIOUS)), setting, Aim::Time, most);
             self.instants = whole;
             let share = 1.0 / count(whole.count);
@@ -137,7 +152,16 @@ where
                 let reached = probe.reached * share * DOUBT;
                 return Trial { reached, end: late(probe.end), ..probe };
             }
+            #[allow(clippy::cast_precision_loss, reason = "a rough number")]
+            let a_step = probe.seconds / probe.steps.max(1) as f64;
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "capped")]
+            let steps = (most / a_step).clamp(f64::from(FEW), 1e6) as u32;
+            self.most_steps = Some(steps);
+            let trial = self.run((method, None), setting, aim, most);
+            self.most_steps = None;
+            return trial;
         }
+        self.most_steps = None;
         let between = method.is_fixed().then(|| self.instants.steps_between(setting));
         self.run((method, between), setting, aim, most)
     }

@@ -8,6 +8,8 @@ use crate::compare::method::Method;
 const LOST: f64 = 0.1;
 /// The finer of two neighbours is believed to be better by no more than this factor.
 const BETTER: f64 = 10.0;
+/// Distance of outputs that are the same but for rounding.
+const SAME_MOTION: f64 = 1e-12;
 /// A setting is tried if it differs from those that were by more than this share.
 const SAME: f64 = 0.02;
 
@@ -78,13 +80,14 @@ impl Entrant {
         self.tries.iter().filter(|t| t.is_done())
     }
 
-    /// Estimates the own error of every completed trial that has a coarser neighbour.
+    /// Estimates the own error of every completed trial that has a coarser neighbour with fewer steps: where finer settings change
+    /// nothing, the intervals of the results hold the steps, and nothing is told.
     ///
     /// ```text
-    /// e = d r/(1 - r),   r = (fine/coarse)^a,   but not less than d/10, and d itself where the motion is lost
+    /// e = d r/(1 - r),   r = (steps of the coarse / of the fine)^order,   but not less than d/10, and d where the motion is lost
     /// ```
     pub(crate) fn estimate(&mut self, distance: impl Fn(&Trial, &Trial) -> f64) {
-        let law = self.law();
+        let order = Law::order(&self.method);
         let done: Vec<usize> = (0..self.tries.len()).filter(|&i| self.tries[i].is_done()).collect();
         for pair in done.windows(2) {
             let (coarse, fine) = (&self.tries[pair[0]], &self.tries[pair[1]]);
@@ -92,7 +95,11 @@ impl Entrant {
                 continue;
             }
             let d = distance(&fine.trial, &coarse.trial);
-            let r = (fine.setting / coarse.setting).powf(law.error);
+            if d <= SAME_MOTION && fine.trial.steps <= coarse.trial.steps {
+                continue;
+            }
+            let fewer = count(coarse.trial.steps) / count(fine.trial.steps.max(1));
+            let r = fewer.min(1.0).powf(order);
             let share = if d > LOST { 1.0 } else { (r / (1.0 - r)).clamp(1.0 / BETTER, 1.0) };
             // outputs that agree to the last digit have its error
             self.tries[pair[1]].own = Some((d * share).max(f64::EPSILON));
@@ -144,4 +151,9 @@ impl Entrant {
             _ => None,
         }
     }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
+fn count(n: u64) -> f64 {
+    n as f64
 }

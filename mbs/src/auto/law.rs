@@ -34,6 +34,16 @@ impl Law {
         Self { error, cost }
     }
 
+    /// Order of the error in the mean step; lower than theory's where the order itself is chosen.
+    pub(crate) fn order(method: &Method) -> f64 {
+        match (method.control, method.integrator) {
+            (Control::Own, IntegratorKind::Extrapolation) => 8.0,
+            (Control::Own, _) | (Control::Fixed, IntegratorKind::Rk4) => 4.0,
+            (Control::Fixed, IntegratorKind::Newmark) => 1.0,
+            _ => 2.0,
+        }
+    }
+
     /// How much the setting changes for an error that is so many times as large.
     pub(crate) fn setting_for(&self, times_error: f64) -> f64 {
         times_error.powf(1.0 / self.error)

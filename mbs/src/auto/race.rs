@@ -24,17 +24,17 @@ const TRIES: [usize; 2] = [9, 5];
 const LEAP: f64 = 30.0;
 /// A trial is given up where it takes so many times what the best does.
 const LOSING: f64 = 1.6;
-/// A first look at a candidate takes this share of the time of the best; where there is none, a trial this share of what is left, but
-/// not less than so much [s].
+/// A first look at a candidate takes this share of the time of the best; where there is none, this share of the budget, and a later
+/// trial that of what is left, but not less than so much [s].
 const LOOK: f64 = 0.25;
+const GLANCE: f64 = 0.06;
 const SHARE: f64 = 0.3;
 const SHORTEST: f64 = 2e-3;
 /// Where no trial has got to the end after this share of the budget, the span is too long for it.
 const BLIND: f64 = 0.7;
-/// Candidates are gone through so often at most.
-const PASSES: usize = 3;
-/// Twins are believed to need no less than this share of each other's steps.
+/// Twins are believed to need no less than this share of each other's steps, and of the time of each.
 const TWIN: f64 = 0.7;
+const CHEAPER: f64 = 0.4;
 /// A frame is filled up to this share by steps that take as long as the slowest.
 const FILLED: f64 = 0.5;
 
@@ -79,63 +79,56 @@ impl<'a> Race<'a> {
         Self { bench, entrants, wanted, best: None, is_cut: false, is_refined: false }
     }
 
-    /// Tries candidates in their order until the cheapest is known, or the budget is used up; again where errors have become known
-    /// better meanwhile.
+    /// Tries candidates until the cheapest is known, or the budget is used up.
     pub(crate) fn heats(&mut self) {
-        for _ in 0..PASSES {
-            let mut is_any = false;
-            for i in 0..self.entrants.len() {
-                is_any |= self.explore(i);
-                if self.is_cut {
-                    return;
-                }
-            }
-            if !is_any {
-                return;
-            }
-        }
-    }
-
-    /// Tries a candidate until it is known, out, or dearer than another in any case. Says whether it was tried at all.
-    fn explore(&mut self, i: usize) -> bool {
-        let mut is_any = false;
         loop {
             self.judge();
             let cheapest = self.cheapest();
+            let is_any_done = self.entrants.iter().any(|e| e.done().next().is_some());
+            let budget = self.budget(cheapest) * if is_any_done { 1.0 } else { BLIND };
+            if self.bench.spent() >= budget {
+                self.is_cut = true;
+                return;
+            }
             if let (Some(seconds), false) = (cheapest, self.is_refined) {
                 self.is_refined = true;
                 self.refine_reference(seconds);
                 continue;
             }
-            if self.entrants[i].out.is_some() {
-                return is_any;
-            }
-            let setting = match self.next(&self.entrants[i]) {
-                Next::Settled(_) => return is_any,
-                Next::Out(why) => {
-                    self.entrants[i].out = Some(why);
-                    return is_any;
-                }
-                Next::Try(setting) => setting,
-            };
-            if cheapest.is_some_and(|seconds| self.least(&self.entrants[i]) >= seconds) {
-                return is_any;
-            }
-            let (spent, budget) = (self.bench.spent(), self.budget(cheapest));
-            let is_any_done = self.entrants.iter().any(|e| e.done().next().is_some());
-            if spent >= if is_any_done { budget } else { BLIND * budget } {
-                self.is_cut = true;
-                return is_any;
-            }
+            let Some((i, setting)) = self.pick(cheapest) else { return };
             self.attempt(i, setting, self.patience(i, cheapest));
-            is_any = true;
         }
     }
 
-    /// How long the next trial of a candidate may take [s]: a look first, where another is known to take less.
+    /// Who is tried next, and with what: the one that could be the cheapest.
+    fn pick(&mut self, cheapest: Option<f64>) -> Option<(usize, f64)> {
+        let mut pick: Option<(f64, usize, f64)> = None;
+        for i in 0..self.entrants.len() {
+            if self.entrants[i].out.is_some() {
+                continue;
+            }
+            match self.next(&self.entrants[i]) {
+                Next::Settled(_) => {}
+                Next::Out(why) => self.entrants[i].out = Some(why),
+                Next::Try(setting) => {
+                    let least = self.least(i);
+                    let can_win = cheapest.is_none_or(|seconds| least < seconds);
+                    if can_win && pick.is_none_or(|(other, ..)| least < other) {
+                        pick = Some((least, i, setting));
+                    }
+                }
+            }
+        }
+        pick.map(|(_, i, setting)| (i, setting))
+    }
+
+    /// How long the next trial of a candidate may take [s]: the first is a look.
     fn patience(&self, i: usize, cheapest: Option<f64>) -> Option<f64> {
-        let share = if self.entrants[i].tries.is_empty() { LOOK } else { LOSING };
-        cheapest.map(|seconds| share * seconds)
+        match (self.entrants[i].tries.is_empty(), cheapest) {
+            (true, Some(seconds)) => Some(LOOK * seconds),
+            (true, None) => Some(GLANCE * BUDGET[0]),
+            (false, cheapest) => cheapest.map(|seconds| LOSING * seconds),
+        }
     }
 
     /// What the pilot may take [s].
@@ -153,7 +146,7 @@ impl<'a> Race<'a> {
         let left = self.left();
         let most = most.map_or(SHARE * left, |most| most.min(left)).max(SHORTEST);
         // a first look leaves another
-        let is_last = !self.entrants[i].tries.is_empty() || self.cheapest().is_none();
+        let is_last = !self.entrants[i].tries.is_empty();
         let aim = if self.wanted.deadline.is_some() { Aim::Steps } else { Aim::Rows };
         let method = self.entrants[i].method;
         let trial = self.bench.trial(&method, setting, aim, most);
@@ -249,29 +242,37 @@ impl<'a> Race<'a> {
     }
 
     /// What a candidate takes in the best case [s].
-    fn least(&self, entrant: &Entrant) -> f64 {
-        let Some(seconds) = entrant.whole_seconds() else { return 0.0 };
-        let is_partial = entrant.tries.last().is_some_and(|t| t.trial.end == End::GivenUp);
-        let law = entrant.law();
+    fn least(&self, i: usize) -> f64 {
+        let entrant = &self.entrants[i];
+        let twins = || self.entrants.iter().filter(|e| is_twin(&e.method, &entrant.method));
+        let Some(seconds) = entrant.whole_seconds() else {
+            // who takes about the same steps may make each of them for less
+            let of = |e: &Entrant| Some(CHEAPER * self.least_of(e, e.whole_seconds()?));
+            return twins().filter_map(of).fold(0.0, f64::max);
+        };
         let finest = entrant.tries.last().map_or(entrant.first, |t| t.setting);
-        let twins = self.entrants.iter().filter(|e| is_twin(&e.method, &entrant.method));
         let of_twin = |e: &Entrant| match self.next(e) {
             Next::Settled(p) => {
                 let finer = finest / p.point.setting;
-                Some(TWIN * seconds * finer.powf(law.cost))
+                Some(TWIN * seconds * finer.powf(entrant.law().cost))
             }
             _ => None,
         };
-        let of_twins = twins.filter_map(of_twin).fold(0.0, f64::max);
-        let own = match entrant.predict(self.aim(entrant)) {
+        let of_twins = twins().filter_map(of_twin).fold(0.0, f64::max);
+        self.least_of(entrant, seconds).max(of_twins)
+    }
+
+    /// The same by its own trials, of which the finest takes so many seconds.
+    fn least_of(&self, entrant: &Entrant, seconds: f64) -> f64 {
+        let is_partial = entrant.tries.last().is_some_and(|t| t.trial.end == End::GivenUp);
+        match entrant.predict(self.aim(entrant)) {
             Some(Prediction { basis: Basis::Finer(factor), .. }) => {
-                seconds * law.cost_of((0.25 * factor).max(1.0))
+                seconds * entrant.law().cost_of((0.25 * factor).max(1.0))
             }
             Some(p) => p.point.seconds / KNOWN,
             None if is_partial => seconds / KNOWN,
             None => 0.5 * seconds,
-        };
-        own.max(of_twins)
+        }
     }
 
     /// What its trials so far say of a candidate, where that is enough.
