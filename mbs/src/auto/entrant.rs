@@ -5,11 +5,13 @@ use super::trial::{End, Trial};
 use crate::compare::method::Method;
 
 /// Errors above this share of the outputs' ranges have lost the motion: what they become at finer settings is not to be told.
-const LOST: f64 = 0.1;
+pub(super) const LOST: f64 = 0.1;
 /// The finer of two neighbours is believed to be better by no more than this factor.
 const BETTER: f64 = 10.0;
-/// Distance of outputs that are the same but for rounding.
-const SAME_MOTION: f64 = 1e-12;
+/// Settings are not as close as this factor to a coarser one that stopped.
+const CLEAR: f64 = 1.5;
+/// A neighbour is coarser in earnest if it has no more than this share of the steps.
+const COARSER: f64 = 0.85;
 /// A setting is tried if it differs from those that were by more than this share.
 const SAME: f64 = 0.02;
 
@@ -43,6 +45,8 @@ pub(crate) struct Entrant {
     pub(crate) coarsest: f64,
     /// The finest setting that it is allowed; 0 where all are.
     pub(crate) finest: f64,
+    /// The pilot has no time for another trial of it.
+    pub(crate) is_spent: bool,
 }
 
 /// A step is no longer than this share more than what is asked for.
@@ -50,7 +54,7 @@ const ROUNDING: f64 = 1e-9;
 
 impl Entrant {
     pub(crate) fn new(method: Method, first: f64, coarsest: f64) -> Self {
-        Self { method, tries: Vec::new(), out: None, first, coarsest, finest: 0.0 }
+        Self { method, tries: Vec::new(), out: None, first, coarsest, finest: 0.0, is_spent: false }
     }
 
     pub(crate) fn law(&self) -> Law {
@@ -89,20 +93,18 @@ impl Entrant {
     pub(crate) fn estimate(&mut self, distance: impl Fn(&Trial, &Trial) -> f64) {
         let order = Law::order(&self.method);
         let done: Vec<usize> = (0..self.tries.len()).filter(|&i| self.tries[i].is_done()).collect();
-        for pair in done.windows(2) {
-            let (coarse, fine) = (&self.tries[pair[0]], &self.tries[pair[1]]);
-            if fine.own.is_some() {
-                continue;
-            }
-            let d = distance(&fine.trial, &coarse.trial);
-            if d <= SAME_MOTION && fine.trial.steps <= coarse.trial.steps {
-                continue;
-            }
-            let fewer = count(coarse.trial.steps) / count(fine.trial.steps.max(1));
-            let r = fewer.min(1.0).powf(order);
-            let share = if d > LOST { 1.0 } else { (r / (1.0 - r)).clamp(1.0 / BETTER, 1.0) };
+        for (k, &i) in done.iter().enumerate() {
+            let fine = &self.tries[i];
+            let fewer =
+                |&j: &usize| count(self.tries[j].trial.steps) / count(fine.trial.steps.max(1));
+            // the nearest that is coarser in earnest
+            let coarse = done[..k].iter().copied().rev().find(|j| fewer(j) <= COARSER);
+            let Some(j) = coarse.filter(|_| fine.own.is_none()) else { continue };
+            let d = distance(&fine.trial, &self.tries[j].trial);
+            let r = fewer(&j).powf(order);
+            let share = if d > LOST { 1.0 } else { (r / (1.0 - r)).max(1.0 / BETTER) };
             // outputs that agree to the last digit have its error
-            self.tries[pair[1]].own = Some((d * share).max(f64::EPSILON));
+            self.tries[i].own = Some((d * share).max(f64::EPSILON));
         }
     }
 
@@ -115,7 +117,16 @@ impl Entrant {
 
     /// What an error takes, if anything is known.
     pub(crate) fn predict(&self, wanted: f64) -> Option<Prediction> {
-        predict(&self.law(), &self.points(), wanted, self.coarsest)
+        predict(&self.law(), &self.points(), wanted, self.limit())
+    }
+
+    /// The coarsest setting that may run: well below one that stopped.
+    fn limit(&self) -> f64 {
+        let coarsest_done = self.done().next().map_or(0.0, |t| t.setting);
+        let is_stop = |t: &&Try| matches!(t.trial.end, End::Stopped(_));
+        let stopped = self.tries.iter().filter(is_stop).map(|t| t.setting);
+        let coarser = stopped.filter(|s| *s > coarsest_done).fold(f64::INFINITY, f64::min);
+        (coarser / CLEAR).max(coarsest_done).min(self.coarsest)
     }
 
     /// Its largest and its finest error do not differ over two refinements: rounding, or another motion.

@@ -1,12 +1,12 @@
 //! The end of the pilot: those that are close are timed again by turns, and all are ranked.
 
-use super::entrant::Entrant;
+use super::entrant::{Entrant, LOST};
 use super::law::{Basis, Prediction};
 use super::race::Race;
 use super::trial::{Aim, End};
 
-/// Errors are not predicted over more than this factor.
-const FAR: f64 = 300.0;
+/// Errors are not predicted where they take more than so many times the longest trial.
+const FAR: f64 = 30.0;
 /// A finalist is given up where it takes so many times what was predicted.
 const SLOW: f64 = 3.0;
 /// Those within this factor of the cheapest are tried with their own settings and timed again.
@@ -72,13 +72,14 @@ impl Race<'_> {
         for _ in 0..2 {
             let Some(p) = self.place(i).map(|place| place.prediction) else { return };
             let has = self.entrants[i].has_tried(p.point.setting);
-            if has || 1.5 * p.point.seconds > self.budget(self.cheapest()) - self.bench.spent() {
+            if has || 1.5 * p.point.seconds > self.budget() - self.bench.spent() {
                 return;
             }
             self.attempt(i, p.point.setting, Some(SLOW * p.point.seconds));
             self.judge();
             let finest = self.entrants[i].tries.last();
             if finest.is_some_and(|t| matches!(t.trial.end, End::Stopped(_))) {
+                // nothing coarser runs with the wanted error, and this does not run
                 let why = self.entrants[i].stopped();
                 self.entrants[i].out = why;
             }
@@ -92,7 +93,7 @@ impl Race<'_> {
         for _ in 0..ROUNDS {
             for place in finalists.iter().filter_map(|&i| of(i)) {
                 let (i, point) = (place.entrant, place.prediction.point);
-                let left = self.budget(self.cheapest()) - self.bench.spent();
+                let left = self.budget() - self.bench.spent();
                 if left < 1.5 * point.seconds {
                     continue;
                 }
@@ -117,9 +118,15 @@ impl Race<'_> {
         }
         let mut prediction = self.prediction(entrant)?;
         let worst = self.wanted.error * (1.0 + 1e-9);
-        let is_far = matches!(prediction.basis, Basis::Finer(factor) if factor > FAR);
+        let is_lost = entrant.points().last().is_some_and(|point| point.error >= LOST);
+        let is_far = matches!(prediction.basis, Basis::Finer(factor)
+            if is_lost || entrant.law().cost_of(factor) > FAR);
         let reaches = prediction.point.error <= worst && !entrant.is_at_its_floor() && !is_far;
-        if !reaches && let Some(finest) = entrant.points().last() {
+        let is_free = self.wanted.deadline.is_none();
+        if !reaches
+            && is_free
+            && let Some(finest) = entrant.points().last()
+        {
             // nothing finer than what was seen to run
             prediction.point = *finest;
         }

@@ -24,10 +24,10 @@ const TRIES: [usize; 2] = [9, 5];
 const LEAP: f64 = 30.0;
 /// A trial is given up where it takes so many times what the best does.
 const LOSING: f64 = 1.6;
-/// A first look at a candidate takes this share of the time of the best; where there is none, this share of the budget, and a later
-/// trial that of what is left, but not less than so much [s].
+/// A first look at a candidate takes this share of the time of the best; where there is none, this share of the fastest trial; any
+/// other this share of what is left, but not less than so much [s].
 const LOOK: f64 = 0.25;
-const GLANCE: f64 = 0.06;
+const GLANCE: f64 = 0.5;
 const SHARE: f64 = 0.3;
 const SHORTEST: f64 = 2e-3;
 /// Where no trial has got to the end after this share of the budget, the span is too long for it.
@@ -85,7 +85,7 @@ impl<'a> Race<'a> {
             self.judge();
             let cheapest = self.cheapest();
             let is_any_done = self.entrants.iter().any(|e| e.done().next().is_some());
-            let budget = self.budget(cheapest) * if is_any_done { 1.0 } else { BLIND };
+            let budget = self.budget() * if is_any_done { 1.0 } else { BLIND };
             if self.bench.spent() >= budget {
                 self.is_cut = true;
                 return;
@@ -103,8 +103,14 @@ impl<'a> Race<'a> {
     /// Who is tried next, and with what: the one that could be the cheapest.
     fn pick(&mut self, cheapest: Option<f64>) -> Option<(usize, f64)> {
         let mut pick: Option<(f64, usize, f64)> = None;
+        let is_blind = self.best.is_none() && self.fastest().is_some();
         for i in 0..self.entrants.len() {
             if self.entrants[i].out.is_some() {
+                continue;
+            }
+            // before anything else one neighbour tells errors; those that follow a leader wait until one has reached the goal
+            let is_early = is_blind && self.entrants[i].done().next().is_none();
+            if is_early || (cheapest.is_none() && self.follows(i)) {
                 continue;
             }
             match self.next(&self.entrants[i]) {
@@ -122,23 +128,29 @@ impl<'a> Race<'a> {
         pick.map(|(_, i, setting)| (i, setting))
     }
 
+    /// Is there a candidate that takes about the same steps, comes first, and is not out?
+    fn follows(&self, i: usize) -> bool {
+        let method = &self.entrants[i].method;
+        let leaders = self.entrants[..i].iter().filter(|e| e.out.is_none());
+        leaders.into_iter().any(|e| is_twin(&e.method, method))
+    }
+
     /// How long the next trial of a candidate may take [s]: the first is a look.
     fn patience(&self, i: usize, cheapest: Option<f64>) -> Option<f64> {
         match (self.entrants[i].tries.is_empty(), cheapest) {
             (true, Some(seconds)) => Some(LOOK * seconds),
-            (true, None) => Some(GLANCE * BUDGET[0]),
+            (true, None) => self.fastest().map(|seconds| GLANCE * seconds),
             (false, cheapest) => cheapest.map(|seconds| LOSING * seconds),
         }
     }
 
     /// What the pilot may take [s].
-    pub(crate) fn budget(&self, cheapest: Option<f64>) -> f64 {
-        BUDGET[0].max(BUDGET[1] * cheapest.unwrap_or(0.0))
+    pub(crate) fn budget(&self) -> f64 {
+        BUDGET[0].max(BUDGET[1] * self.expected().unwrap_or(0.0))
     }
 
     fn left(&mut self) -> f64 {
-        let cheapest = self.cheapest();
-        self.budget(cheapest) - self.bench.spent()
+        self.budget() - self.bench.spent()
     }
 
     /// One more trial of a candidate, for at most so many seconds where another is known to take less.
@@ -149,10 +161,14 @@ impl<'a> Race<'a> {
         let is_last = !self.entrants[i].tries.is_empty();
         let aim = if self.wanted.deadline.is_some() { Aim::Steps } else { Aim::Rows };
         let method = self.entrants[i].method;
+        let (is_losing, is_known) =
+            (self.cheapest().is_some(), !self.entrants[i].points().is_empty());
         let trial = self.bench.trial(&method, setting, aim, most);
         let entrant = &mut self.entrants[i];
         entrant.tries.retain(|t| t.trial.end != End::GivenUp);
-        if trial.end == End::GivenUp && (is_last || trial.reached <= 0.0) {
+        // who loses to another is out; whom only the budget stops is judged by what is known
+        entrant.is_spent |= trial.end == End::GivenUp && is_last && !is_losing && is_known;
+        if trial.end == End::GivenUp && (is_last || trial.reached <= 0.0) && !entrant.is_spent {
             let whole = trial.seconds / trial.reached.max(1e-9);
             entrant.out = Some(match trial.reached > 0.0 {
                 true => format!("with {} it would take about {}", few(setting), duration(whole)),
@@ -230,15 +246,24 @@ impl<'a> Race<'a> {
         self.wanted.error * AIMS[usize::from(!is_cheap)]
     }
 
-    /// CPU time of the cheapest candidate that is known well enough [s].
+    /// CPU time that the cheapest takes of the candidates that were seen to reach the wanted error [s].
     pub(super) fn cheapest(&self) -> Option<f64> {
-        let settled = self.entrants.iter().filter_map(|e| match self.next(e) {
-            Next::Settled(p) if e.out.is_none() && p.point.error <= self.wanted.error => {
-                Some(p.point.seconds)
-            }
-            _ => None,
-        });
-        settled.min_by(f64::total_cmp)
+        let reaches = |e: &&Entrant| e.points().iter().any(|p| p.error <= self.wanted.error);
+        let known = self.entrants.iter().filter(|e| e.out.is_none()).filter(reaches);
+        known.filter_map(|e| Some(self.prediction(e)?.point.seconds)).min_by(f64::total_cmp)
+    }
+
+    /// CPU time that is expected of the run, whether it was seen or not [s].
+    fn expected(&self) -> Option<f64> {
+        let known = self.entrants.iter().filter(|e| e.out.is_none());
+        let seconds = known.filter_map(|e| Some(self.prediction(e)?.point.seconds));
+        self.cheapest().or_else(|| seconds.min_by(f64::total_cmp))
+    }
+
+    /// CPU time of the fastest trial that got to the end [s].
+    fn fastest(&self) -> Option<f64> {
+        let done = self.entrants.iter().flat_map(|e| e.done().map(|t| t.trial.seconds));
+        done.min_by(f64::total_cmp)
     }
 
     /// What a candidate takes in the best case [s].
@@ -283,6 +308,9 @@ impl<'a> Race<'a> {
     /// What a candidate needs to be known.
     fn next(&self, entrant: &Entrant) -> Next {
         let Some(last) = entrant.tries.last() else { return Next::Try(entrant.first) };
+        if let (true, Some(p)) = (entrant.is_spent, self.prediction(entrant)) {
+            return Next::Settled(p);
+        }
         let refine = |factor: f64| {
             entrant.fit(entrant.law().setting_for(1.0 / factor) * last.setting).max(entrant.finest)
         };

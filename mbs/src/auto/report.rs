@@ -14,7 +14,7 @@ const TOLD: usize = 3;
 /// The evidence: the ranked ones first, then those that are out.
 pub(super) fn evidence(race: &mut Race<'_>, places: &[Place], structure: &Structure) -> Choice {
     let pilot_seconds = race.bench.spent();
-    let pilot_budget = race.budget(race.cheapest());
+    let pilot_budget = race.budget();
     let chosen = places.first().map(|place| place.prediction.point.seconds);
     let mut candidates: Vec<Candidate> = Vec::new();
     for (k, place) in places.iter().enumerate() {

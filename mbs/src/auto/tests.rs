@@ -62,15 +62,8 @@ impl<F: Fn(&Method) -> Nature> Bench for Fake<F> {
         let reached = if stops { reached.min(0.5) } else { reached };
         self.spent += whole * reached;
         let error = self.error(method, setting);
-        // the same motion for all, and an error of its own sign and shape for each
-        let bend = 0.5 + 0.1 * (method.name().len() % 5) as f64;
-        let row = |k: usize| {
-            let t = 0.01 * k as f64;
-            vec![
-                t.sin()
-                    + error * (t * bend).sin().abs().min(1.0) / (2.0 * bend).sin().abs().max(0.9),
-            ]
-        };
+        // the same motion for all, and an error that grows
+        let row = |k: usize| vec![(0.01 * k as f64).sin() + error * k as f64 / 200.0];
         let rows: Rows = (1..=200).map(row).collect();
         let error = RunError { code: "violated".into(), ..RunError::default() };
         Trial {
