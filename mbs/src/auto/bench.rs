@@ -71,6 +71,22 @@ where
         Self { scene, base, instants, channels, length, clock, begun, most_steps: None }
     }
 
+    /// A simulation ready to step, with its outputs and its alarm.
+    fn start(
+        &self,
+        method: &Method,
+        setting: f64,
+    ) -> Result<(Simulation<T, D>, Channels<T, D>, f64), RunError> {
+        let settings = settings(self.scene, self.base, method, (setting, self.instants));
+        let settings = settings.map_err(|e| refused(&e))?;
+        let simulation = Simulation::<T, D>::new(self.scene, &settings);
+        let both = simulation.and_then(|simulation| {
+            let channels = Channels::new(self.scene, simulation.model())?;
+            Ok((simulation, channels, settings.energy_alarm))
+        });
+        both.map_err(|e| e.report(0.0, &Names::new(self.scene)))
+    }
+
     /// Runs the span, with so many steps between two instants where they are counted.
     fn run(
         &mut self,
@@ -79,15 +95,7 @@ where
         aim: Aim,
         most: f64,
     ) -> Trial {
-        let settings = settings(self.scene, self.base, method, (setting, self.instants));
-        let started = settings.map_err(|e| refused(&e)).and_then(|settings| {
-            let simulation = Simulation::<T, D>::new(self.scene, &settings);
-            let both = simulation.and_then(|simulation| {
-                let channels = Channels::new(self.scene, simulation.model())?;
-                Ok((simulation, channels, settings.energy_alarm))
-            });
-            both.map_err(|e| e.report(0.0, &Names::new(self.scene)))
-        });
+        let started = self.start(method, setting);
         let (mut simulation, channels, alarm) = match started {
             Ok(started) => started,
             Err(error) => return Trial { end: End::NotStarted(error), ..nothing() },

@@ -6,7 +6,7 @@ use super::race::{BUDGET, Race};
 use super::structure::Structure;
 use super::trial::End;
 use crate::words::{duration, few};
-use mbs_scene::{Candidate, Choice, PilotReference, TrialEntry};
+use mbs_scene::{Candidate, Choice, Fallback, PilotReference, TrialEntry};
 
 /// Candidates that are told beside the chosen one.
 const TOLD: usize = 3;
@@ -159,15 +159,18 @@ pub(crate) fn reasons(choice: &Choice) -> Vec<String> {
         duration(choice.pilot_seconds)
     ));
     reasons.extend(choice.notes.iter().cloned());
-    for lost in &choice.fallbacks {
-        reasons.push(format!(
-            "{} came first and stopped at {} s: {} ({}); {} of CPU time lost",
-            lost.method,
-            few(lost.time),
-            lost.message,
-            lost.code,
-            duration(lost.cpu_seconds)
-        ));
-    }
+    reasons.extend(choice.fallbacks.iter().map(fallback));
     reasons
+}
+
+/// A candidate that stopped in the run.
+fn fallback(lost: &Fallback) -> String {
+    format!(
+        "{} came before and stopped at {} s: {} ({}); {} of CPU time lost",
+        lost.method,
+        few(lost.time),
+        lost.message,
+        lost.code,
+        duration(lost.cpu_seconds)
+    )
 }
