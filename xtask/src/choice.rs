@@ -56,6 +56,7 @@ pub(crate) fn choice(names: &[String]) -> ExitCode {
     }
 }
 
+#[allow(clippy::print_stdout, reason = "the table is what is asked for")]
 fn run(names: &[String]) -> Result<bool, String> {
     let mut build = process::cargo();
     build.args(["build", "--quiet", "--release", "--package", "mbs", "--bin", "mbs"]);
