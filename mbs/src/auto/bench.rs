@@ -19,8 +19,9 @@ use mbs_core::step::StepError;
 use mbs_scene::compare::{output_scales, row_distance};
 use mbs_scene::{Channel, RunError};
 
-/// The clock is read every so many steps, where steps are not timed one by one.
+/// The clock is read every so many steps where that many take no longer than this [s], and steps are not timed one by one.
 const STRIDE: u64 = 8;
+const SOON: f64 = 1e-4;
 /// The first interval of an integrator that controls its own steps is cut into so many, to see how long it takes.
 const CAUTIOUS: u64 = 4;
 /// A trial is begun where its first interval promises no more than so many times what it may take.
@@ -76,15 +77,15 @@ where
         &self,
         method: &Method,
         setting: f64,
-    ) -> Result<(Simulation<T, D>, Channels<T, D>, f64), RunError> {
+    ) -> Result<(Simulation<T, D>, Channels<T, D>, f64), Box<RunError>> {
         let settings = settings(self.scene, self.base, method, (setting, self.instants));
-        let settings = settings.map_err(|e| refused(&e))?;
+        let settings = settings.map_err(|e| Box::new(refused(&e)))?;
         let simulation = Simulation::<T, D>::new(self.scene, &settings);
         let both = simulation.and_then(|simulation| {
             let channels = Channels::new(self.scene, simulation.model())?;
             Ok((simulation, channels, settings.energy_alarm))
         });
-        both.map_err(|e| e.report(0.0, &Names::new(self.scene)))
+        both.map_err(|e| Box::new(e.report(0.0, &Names::new(self.scene))))
     }
 
     /// Runs the span, with so many steps between two instants where they are counted.
@@ -95,10 +96,12 @@ where
         aim: Aim,
         most: f64,
     ) -> Trial {
+        // what comes before the first step is no part of a run's time, but of the pilot's
+        let until = self.clock.seconds() + most;
         let started = self.start(method, setting);
         let (mut simulation, channels, alarm) = match started {
             Ok(started) => started,
-            Err(error) => return Trial { end: End::NotStarted(error), ..nothing() },
+            Err(error) => return Trial { end: End::NotStarted(*error), ..nothing() },
         };
         if let (Engine::Recursive(tree), Some(most)) = (simulation.engine_mut(), self.most_steps) {
             tree.limit_steps(most);
@@ -114,7 +117,8 @@ where
             clock: &mut *self.clock,
             per_iteration: work(1, coordinates + constraints),
             is_fine: aim == Aim::Steps,
-            until: begun + most,
+            is_slow: true,
+            until,
             last: begun,
             slowest: 0.0,
             steps: 0,
@@ -238,6 +242,8 @@ struct Recorder<'a, T: Real, const D: usize> {
     per_iteration: f64,
     /// Is every step timed?
     is_fine: bool,
+    /// Do a few steps take so long that the clock is read after each?
+    is_slow: bool,
     until: f64,
     last: f64,
     slowest: f64,
@@ -261,8 +267,9 @@ where
         let before = self.steps;
         self.steps += u64::from(report.steps.max(1));
         self.reached = simulation.state().t.to_f64();
-        if self.is_fine || before / STRIDE != self.steps / STRIDE {
+        if self.is_fine || self.is_slow || before / STRIDE != self.steps / STRIDE {
             let now = self.clock.seconds();
+            self.is_slow = now - self.last > if self.is_slow { SOON / 8.0 } else { SOON };
             self.slowest = self.slowest.max(now - self.last);
             self.is_late = now > self.until;
             self.last = now;

@@ -24,11 +24,14 @@ const TRIES: [usize; 2] = [9, 5];
 const LEAP: f64 = 30.0;
 /// A trial is given up where it takes so many times what the best does.
 const LOSING: f64 = 1.6;
-/// A first look at a candidate takes this share of the time of the best; where there is none, this share of the fastest trial; any
-/// other this share of what is left, but not less than so much [s].
+/// A first look at a candidate takes this share of the time of the best; where there is none, this share of the fastest trial, or of
+/// what is left, so that each has one; any other trial this share of what is left, or up to
+/// the next where that is likely to be enough, but not less than so much [s].
 const LOOK: f64 = 0.25;
 const GLANCE: f64 = 0.5;
+const GLIMPSE: f64 = 0.125;
 const SHARE: f64 = 0.3;
+const MOST: f64 = 0.7;
 const SHORTEST: f64 = 2e-3;
 /// Where no trial has got to the end after this share of the budget, the span is too long for it.
 const BLIND: f64 = 0.7;
@@ -95,13 +98,16 @@ impl<'a> Race<'a> {
                 self.refine_reference(seconds);
                 continue;
             }
-            let Some((i, setting)) = self.pick(cheapest) else { return };
-            self.attempt(i, setting, self.patience(i, cheapest));
+            // who waits for others waits no longer where these want no more trials
+            let pick = self.pick(cheapest, true).or_else(|| self.pick(cheapest, false));
+            let Some((i, setting)) = pick else { return };
+            let most = self.patience(i, setting, cheapest);
+            self.attempt(i, setting, most);
         }
     }
 
     /// Who is tried next, and with what: the one that could be the cheapest.
-    fn pick(&mut self, cheapest: Option<f64>) -> Option<(usize, f64)> {
+    fn pick(&mut self, cheapest: Option<f64>, may_wait: bool) -> Option<(usize, f64)> {
         let mut pick: Option<(f64, usize, f64)> = None;
         let is_blind = self.best.is_none() && self.fastest().is_some();
         for i in 0..self.entrants.len() {
@@ -110,7 +116,7 @@ impl<'a> Race<'a> {
             }
             // before anything else one neighbour tells errors; those that follow a leader wait until one has reached the goal
             let is_early = is_blind && self.entrants[i].done().next().is_none();
-            if is_early || (cheapest.is_none() && self.follows(i)) {
+            if may_wait && (is_early || (cheapest.is_none() && self.follows(i))) {
                 continue;
             }
             match self.next(&self.entrants[i]) {
@@ -136,11 +142,22 @@ impl<'a> Race<'a> {
     }
 
     /// How long the next trial of a candidate may take [s]: the first is a look.
-    fn patience(&self, i: usize, cheapest: Option<f64>) -> Option<f64> {
+    fn patience(&mut self, i: usize, setting: f64, cheapest: Option<f64>) -> Option<f64> {
         match (self.entrants[i].tries.is_empty(), cheapest) {
             (true, Some(seconds)) => Some(LOOK * seconds),
-            (true, None) => self.fastest().map(|seconds| GLANCE * seconds),
-            (false, cheapest) => cheapest.map(|seconds| LOSING * seconds),
+            (true, None) => {
+                let most = self.fastest().map(|seconds| GLANCE * seconds);
+                Some(most.unwrap_or(GLIMPSE * self.left()))
+            }
+            (false, Some(seconds)) => Some(LOSING * seconds),
+            (false, None) => {
+                // what is likely to get to the end may do so
+                let (left, entrant) = (self.left(), &self.entrants[i]);
+                let last = entrant.tries.last().map_or(setting, |t| t.setting);
+                let finer = (last / setting).powf(entrant.law().cost);
+                let enough = LOSING * entrant.whole_seconds()? * finer;
+                Some((SHARE * left).max(if enough <= MOST * left { enough } else { 0.0 }))
+            }
         }
     }
 

@@ -5,7 +5,7 @@ use super::law::Law;
 use super::race::{BUDGET, Race, Wanted};
 use super::trial::{Aim, Bench, End, Rows, Trial};
 use crate::choice::{Formulation, Precision};
-use crate::compare::method::Method;
+use crate::compare::method::{Control, Method};
 use mbs_scene::RunError;
 
 /// Coarsest step [s], and tolerance.
@@ -44,11 +44,11 @@ impl<F: Fn(&Method) -> Nature> Fake<F> {
         (self.nature)(method).error * (setting / 0.01).powf(Law::of(method).error)
     }
 
-    /// CPU time that a method takes for an error [s].
+    /// CPU time that a method takes for an error [s]: with a setting that can be had, none coarser than the coarsest.
     fn needs(&self, method: &Method, error: f64) -> f64 {
-        let law = Law::of(method);
-        let nature = (self.nature)(method);
-        nature.seconds * law.cost_of(nature.error / error)
+        let setting = 0.01 * Law::of(method).setting_for(error / (self.nature)(method).error);
+        let coarsest = if method.is_fixed() { COARSEST } else { LOOSEST };
+        self.cost(method, Entrant::new(*method, coarsest, coarsest).fit(setting.min(coarsest)))
     }
 }
 
@@ -69,7 +69,8 @@ impl<F: Fn(&Method) -> Nature> Bench for Fake<F> {
         Trial {
             rows,
             seconds: whole * reached,
-            steps: (1.0 / setting) as u64,
+            // as many as the CPU time's law says
+            steps: (1e6 * (0.01 / setting).powf(Law::of(method).cost)) as u64,
             reached,
             slowest: (aim == Aim::Steps).then_some(whole * setting),
             end: match (stops, whole > most) {
@@ -125,41 +126,41 @@ fn chosen<F: Fn(&Method) -> Nature>(
     (first, fake)
 }
 
-/// A nature for each method by its place in the list, spread over some decades.
+/// A nature for each method, spread over some decades. The same rule in coordinates of the same kind takes about the same steps, and
+/// two and a half times the work of another at most: that is what the pilot relies on where it leaves such a candidate alone.
 fn spread(seed: usize) -> impl Fn(&Method) -> Nature {
+    let kind = |m: &Method| {
+        (m.integrator, m.control, m.formulation == Formulation::Recursive, !m.is_fixed())
+    };
     move |m: &Method| {
-        let place = all().iter().position(|other| other == m).unwrap_or(0);
-        let roll = |k: usize| ((place * 7919 + seed * 104_729 + k * 1299) % 997) as f64 / 997.0;
-        let seconds = 1e-3 * 10.0_f64.powf(1.5 * roll(1));
+        let first = |is: &dyn Fn(&Method) -> bool| all().iter().position(is).unwrap_or(0);
+        let (place, twins) = (first(&|other| other == m), first(&|other| kind(other) == kind(m)));
+        let roll =
+            |of: usize, k: usize| ((of * 7919 + seed * 104_729 + k * 1299) % 997) as f64 / 997.0;
+        let seconds = 1e-4 * 10.0_f64.powf(1.2 * roll(twins, 1) + 0.39 * roll(place, 3));
         // a tolerance of 0.01 and a step of 0.01 are not alike
-        let error = 10.0_f64.powf(-3.0 + 2.0 * roll(2));
+        let error = 10.0_f64.powf(-3.0 + 2.0 * roll(twins, 2) + 0.1 * roll(place, 4));
         Nature { error, seconds, ..TAME }
     }
 }
 
 #[test]
-fn the_cheapest_is_found_within_a_fifth_where_all_keep_their_laws() {
+fn the_cheapest_is_found_within_a_fifth_where_all_keep_their_laws_and_twins_take_like_steps() {
     for seed in 0..40 {
         for error in [1e-2, 1e-4, 1e-6] {
             let (first, fake) = chosen(spread(seed), error, None);
             let (method, setting, reaches) = first.unwrap();
-            // none is run coarser than the coarsest
-            let coarsest = |m: &Method| if m.is_fixed() { COARSEST } else { LOOSEST };
-            let needs = |m: &Method| fake.needs(m, error).max(fake.cost(m, coarsest(m)));
+            // half of the wanted error is aimed at where that costs little, else 0.7 of it
+            let aim = |m: &Method| if m.control == Control::Own { 0.5 } else { 0.7 } * error;
+            let needs = |m: &Method| fake.needs(m, aim(m));
             let best = all().iter().map(needs).fold(f64::INFINITY, f64::min);
-            let is_cut = fake.spent > BUDGET[0];
             let takes = fake.cost(&method, setting);
             assert!(
                 reaches && fake.error(&method, setting) <= error,
                 "{seed} {error}: {}",
                 method.name()
             );
-            // the aim is a share of the wanted error: at second order a time of 1.2
-            assert!(
-                is_cut || takes <= 1.45 * best,
-                "{seed} {error}: {} {takes} {best}",
-                method.name()
-            );
+            assert!(takes <= 1.2 * best, "{seed} {error}: {} {takes} {best}", method.name());
         }
     }
 }

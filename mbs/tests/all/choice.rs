@@ -13,9 +13,9 @@ fn file(name: &str) -> String {
 }
 
 fn read(name: &str) -> (Document, Scene<f64>) {
-    let text = std::fs::read_to_string(file(name)).unwrap();
-    let document = Document::parse(&text, name).unwrap();
-    let scene = document.scene::<f64>().unwrap();
+    let text = std::fs::read_to_string(file(name)).expect("the scene is there");
+    let document = Document::parse(&text, name).expect("it is a document");
+    let scene = document.scene::<f64>().expect("it is a scene");
     (document, scene)
 }
 
@@ -35,8 +35,9 @@ impl Clock for Counted {
 
 fn planned(name: &str, base: &Overrides, goal: Goal) -> Plan {
     let (document, scene) = read(name);
-    let settings = Settings::new(&scene, base).unwrap();
-    plan((&document, &scene), (base, settings), goal, &mut Counted::default()).unwrap()
+    let settings = Settings::new(&scene, base).expect("the settings go together");
+    plan((&document, &scene), (base, settings), goal, &mut Counted::default())
+        .expect("the goal can be meant")
 }
 
 fn error(e: f64) -> Goal {
