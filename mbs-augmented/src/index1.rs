@@ -37,8 +37,13 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w.base = options.penalty.factor();
     begin(model, &rule, options, s, w);
     let (mut last, mut done) = (T::ZERO, None);
-    let goal = norm_inf(model.team(), &s.a).max(norm_inf(model.team(), &s.v) / dt * T::EPSILON)
-        * options.tolerance;
+    let size = norm_inf(model.team(), &s.a);
+    let goal = size.max(norm_inf(model.team(), &s.v) / dt * T::EPSILON) * options.tolerance;
+    // What no longer shrinks is rounding where it is small beside the accelerations, or moves the last digits of the coordinates.
+    let digits = length * T::EPSILON * T::from_f64(64.0) * rule.acceleration;
+    let noise = |size: T, w: &Workspace<T, S>| {
+        size.max(norm_inf(model.team(), &w.a)) * T::tolerance(1e-5) + digits
+    };
     let mut iterations = 0;
     while iterations < options.max_iterations && done.is_none() {
         iterations += 1;
@@ -46,7 +51,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
         let correction = newton(model, &rule, s, w)?;
         done = if correction <= goal || (iterations > 1 && correction * correction <= goal * last) {
             Some(Stop::Converged)
-        } else if iterations > 1 && correction > last * T::HALF {
+        } else if iterations > 1 && correction > last * T::HALF && correction <= noise(size, w) {
             Some(Stop::Rounding)
         } else {
             None
@@ -54,7 +59,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
         last = correction;
     }
     let correction = last / rule.acceleration;
-    if !(correction <= length * options.tolerance.sqrt()) {
+    if done.is_none() && !(last <= noise(size, w)) {
         let relative = (correction / length).to_f64();
         return Err(StepError::NotConverged {
             iterations,

@@ -4,6 +4,7 @@
 //! reductions in a row have not helped; back where it grows beyond twice the threshold. Before each change velocities,
 //! accelerations and multipliers are made consistent at the present positions [P2 (5)].
 
+use crate::history::IndexHistory;
 use crate::options::Options;
 use crate::workspace::Workspace;
 use crate::{index1, index3};
@@ -68,6 +69,19 @@ impl<T: Real> IndexChange<T> {
     #[must_use]
     pub fn changes(&self) -> u32 {
         self.changes
+    }
+
+    /// What the next step goes on from.
+    #[must_use]
+    pub fn history(&self) -> IndexHistory<T> {
+        let Self { index, changes, tried, last, .. } = *self;
+        IndexHistory { index, changes, tried, last }
+    }
+
+    /// Goes on from a [`history`](Self::history).
+    pub fn set_history(&mut self, history: IndexHistory<T>) {
+        let IndexHistory { index, changes, tried, last } = history;
+        (self.index, self.changes, self.tried, self.last) = (index, changes, tried, last);
     }
 
     /// Chooses the index for a trial of length `h` [s] after `reductions` of it in a row. Where the state cannot be made

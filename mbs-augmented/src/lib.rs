@@ -3,6 +3,7 @@
 
 extern crate alloc;
 
+mod history;
 pub mod index1;
 pub mod index3;
 mod index_change;
@@ -11,6 +12,7 @@ mod options;
 mod projection;
 mod workspace;
 
+pub use history::{History, IndexHistory};
 pub use index_change::{Index, IndexChange};
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use multi_index::MultiIndex;

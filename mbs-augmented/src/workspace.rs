@@ -1,5 +1,6 @@
 //! Scratch of a step, made once.
 
+use crate::history::History;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::integrator::Rule;
@@ -110,9 +111,31 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.probe.copy_from_slice(&self.kept.probe);
     }
 
+    /// What the next step goes on from.
+    #[must_use]
+    pub fn history(&self) -> History<T> {
+        let Self { boost, rho, settled, .. } = *self;
+        History { boost, rho, probe: self.probe.clone(), settled }
+    }
+
+    /// Goes on from the history of the same model; says whether it is one, by its length. Else nothing is changed.
+    pub fn set_history(&mut self, history: &History<T>) -> bool {
+        if history.probe.len() != self.probe.len() {
+            return false;
+        }
+        (self.boost, self.rho, self.settled) = (history.boost, history.rho, history.settled);
+        self.probe.copy_from_slice(&history.probe);
+        true
+    }
+
     /// The terms as last evaluated.
     pub fn terms(&self) -> &Terms<T> {
         &self.terms
+    }
+
+    /// The same, to be put back.
+    pub fn terms_mut(&mut self) -> &mut Terms<T> {
+        &mut self.terms
     }
 
     /// The solver.

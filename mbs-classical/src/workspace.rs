@@ -108,6 +108,11 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         &self.terms
     }
 
+    /// The same, to be put back. A step leaves nothing else for the next one beside the state.
+    pub fn terms_mut(&mut self) -> &mut Terms<T> {
+        &mut self.terms
+    }
+
     /// The solver.
     pub fn solver(&self) -> &S {
         &self.solver

@@ -146,6 +146,17 @@ pub fn norm<T: Real, const D: usize>(x: &Vector<T, D>) -> T {
     x.dot(x).sqrt()
 }
 
+/// The unit vector along a vector that is not zero, however long: where its square leaves the range of the scalar, it is first taken
+/// in shares of its largest component.
+#[cfg(feature = "alloc")]
+pub(crate) fn along<T: Real>(x: &Vector<T, 3>) -> Vector<T, 3> {
+    let size = norm_inf(x.as_slice());
+    let is_usual = size > T::from_f64(1e-15) && size < T::from_f64(1e15);
+    // not a product with 1/size, which overflows for the smallest
+    let x = if is_usual { *x } else { x.map(|x| x / size) };
+    x * (T::ONE / norm(&x))
+}
+
 /// Largest absolute value of a slice.
 #[inline]
 pub fn norm_inf<T: Real>(x: &[T]) -> T {
@@ -266,6 +277,18 @@ mod tests {
 
     /// Rounding of a few products of numbers of order one.
     const ROUNDING: f64 = 1e-14;
+
+    #[cfg(feature = "alloc")]
+    #[test]
+    fn the_direction_of_a_vector_does_not_ask_for_its_length() {
+        let near = |x: Vector<f32, 3>| {
+            let along = along(&x);
+            assert!((along - Vector::<f32, 3>::new(0.6, 0.0, -0.8)).norm() < 2e-7, "{x}: {along}");
+        };
+        for size in [1e-32_f32, 1e-25, 1e-14, 1.0, 1e14, 1e20, 4e37] {
+            near(Vector::<f32, 3>::new(3.0 * size, 0.0, -4.0 * size));
+        }
+    }
 
     #[test]
     fn rotation_vector_inverts_rotation_up_to_half_a_turn() {

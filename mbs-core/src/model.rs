@@ -238,21 +238,28 @@ impl<T: Real> State<T> {
         }
     }
 
-    /// Overwrites this state with another of the same model, without allocating.
-    pub fn copy_from(&mut self, other: &Self) {
-        self.t = other.t;
-        self.dt = other.dt;
-        self.q.copy_from_slice(&other.q);
-        self.q_low.copy_from_slice(&other.q_low);
-        self.v.copy_from_slice(&other.v);
-        self.a.copy_from_slice(&other.a);
-        self.a_aux.copy_from_slice(&other.a_aux);
+    /// Overwrites the `n` unknowns, the multipliers and everything else but the constants with another state, of a model with the
+    /// same unknowns and rows, without allocating.
+    ///
+    /// # Panics
+    /// If the models have other numbers of them.
+    pub fn copy_unknowns(&mut self, other: &Self, n: usize) {
+        (self.t, self.dt) = (other.t, other.dt);
+        self.q[..n].copy_from_slice(&other.q[..n]);
+        self.q_low[..n].copy_from_slice(&other.q_low[..n]);
+        self.v[..n].copy_from_slice(&other.v[..n]);
+        self.a[..n].copy_from_slice(&other.a[..n]);
+        self.a_aux[..n].copy_from_slice(&other.a_aux[..n]);
         self.lambda.copy_from_slice(&other.lambda);
         self.lambda_previous.copy_from_slice(&other.lambda_previous);
         self.reaction.copy_from_slice(&other.reaction);
         self.phi.copy_from_slice(&other.phi);
         self.memory.copy_from_slice(&other.memory);
-        self.work = other.work;
-        self.power = other.power;
+        (self.work, self.power) = (other.work, other.power);
+    }
+
+    /// Overwrites this state with another of the same model, without allocating.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.copy_unknowns(other, other.q.len());
     }
 }

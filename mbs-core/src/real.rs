@@ -58,6 +58,17 @@ pub trait Real:
     fn from_decimal(text: &str) -> Option<Self>;
     /// The nearest `f64`.
     fn to_f64(self) -> f64;
+    /// The number as the sum of two `f64`, to the last bit; the second is zero where one holds it.
+    #[inline]
+    fn parts(self) -> [f64; 2] {
+        [self.to_f64(), 0.0]
+    }
+    /// The number whose [`parts`](Self::parts) these are.
+    #[inline]
+    #[must_use]
+    fn from_parts([near, _]: [f64; 2]) -> Self {
+        Self::from_f64(near)
+    }
     /// Square root.
     fn sqrt(self) -> Self;
     /// Sine and cosine of an angle [rad].

@@ -14,6 +14,8 @@ mod evaluate;
 pub mod explicit;
 #[cfg(feature = "alloc")]
 mod graph;
+#[cfg(feature = "alloc")]
+mod history;
 pub mod inverse;
 pub mod joint;
 pub mod ledger;
@@ -45,6 +47,8 @@ mod tree;
 pub use at::Outside;
 #[cfg(feature = "alloc")]
 pub use error::{LoopError, TreeError};
+#[cfg(feature = "alloc")]
+pub use history::History;
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use options::{Closure, Options};
 #[cfg(feature = "alloc")]

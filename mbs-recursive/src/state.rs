@@ -134,6 +134,12 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         }
     }
 
+    /// What stands of the last factorisation: most rows that had an effect so far, and the pivots of the rows.
+    pub(crate) fn last(&self) -> (usize, &[T]) {
+        let rows = self.rows.len();
+        (self.rank, &self.multipliers[3 * rows..4 * rows])
+    }
+
     /// The scratch as slices.
     pub fn store(&mut self) -> Store<'_, T, S> {
         self.parts().0

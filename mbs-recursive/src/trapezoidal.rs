@@ -25,6 +25,9 @@ use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
 use mbs_core::step::{StepError, StepReport, Stop, largest, largest_or_nan};
 
+/// So many iterates in a row that do not halve the least correction, and it falls no more.
+const STALLED: u32 = 4;
+
 /// The state that a step starts from.
 #[derive(Debug, Clone, Copy)]
 pub struct Start<'a, T> {
@@ -92,12 +95,9 @@ fn iterate<T: Real, S: Space<T>>(
 ) -> Result<(u32, T, Stop), StepError> {
     let share = dt * dt * options.integrator.beta;
     let reach = Reach { place: share, speed: dt * options.integrator.gamma };
-    let rounding = T::EPSILON * T::from_f64(64.0);
-    // Coordinates that go into forces are rounded: what moves them less than that says nothing more.
-    let rest = m.length * T::EPSILON;
-    let (passage, enough) = (T::from_f64(0.1), T::from_f64(1e-2));
     let mut mixing = Mixing::default();
     let (mut last, mut is_slow) = (T::ZERO, projects);
+    let (mut best, mut stalled) = (T::from_f64(f64::INFINITY), 0);
     for iterations in 1..=options.max_iterations {
         reach_end(m, (dt, options), &start, s).map_err(|f| failure(m, f.into()))?;
         s.scratch.copy_from_slice(s.zdd);
@@ -120,24 +120,19 @@ fn iterate<T: Real, S: Space<T>>(
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(s.zdd) });
         }
+        let is_best = correction + correction <= best;
+        (best, stalled) = if is_best { (correction, 0) } else { (best, stalled + 1) };
         // The next correction, from the last two, is below the tolerance.
         let goal = scale * options.tolerance;
         let rate = if last > T::ZERO { correction / last } else { T::ONE };
         if correction <= goal || (iterations > 2 && rate < T::HALF && correction * rate <= goal) {
             return Ok((iterations, correction, Stop::Converged));
         }
-        if iterations > 2 && rate >= T::HALF {
-            if correction <= scale * rounding || correction <= rest {
-                return Ok((iterations, correction, Stop::Rounding));
-            }
-            // Near a singular position rounding is amplified: what is left is small against the step.
-            if correction <= scale * passage && note_rank(s) {
-                return Ok((iterations, correction, Stop::Passage));
-            }
-            // What is left is small against scene and step.
-            if correction <= m.length * options.tolerance && correction <= scale * enough {
-                return Ok((iterations, correction, Stop::Tolerance));
-            }
+        if iterations > 2
+            && rate >= T::HALF
+            && let Some(stop) = given_up(m, options, (correction, scale, stalled), s)
+        {
+            return Ok((iterations, correction, stop));
         }
         // Near a singular position accelerations feel what z and v violate: then each iteration projects them.
         let was_slow = is_slow;
@@ -155,6 +150,31 @@ fn iterate<T: Real, S: Space<T>>(
         correction: (last / m.length).to_f64(),
         unknown: largest(s.scratch),
     })
+}
+
+/// Why an iteration that does not contract may end with this correction, beside what accelerations move in the step, if it may.
+fn given_up<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    options: &Options<T>,
+    (correction, scale, stalled): (T, T, u32),
+    s: &mut Store<'_, T, S>,
+) -> Option<Stop> {
+    let rounding = T::EPSILON * T::from_f64(64.0);
+    // Coordinates that go into forces are rounded: what moves them less than that says nothing more.
+    let rest = m.length * T::EPSILON;
+    // A stiff effect makes much of what is left in its place.
+    let enough = if m.loads.is_empty() { T::from_f64(1e-2) } else { T::tolerance(1e-6) };
+    let passage = T::from_f64(0.1);
+    if correction <= scale * rounding || correction <= rest {
+        return Some(Stop::Rounding);
+    }
+    // Near a singular position rounding is amplified: what is left is small against the step.
+    if correction <= scale * passage && note_rank(s) {
+        return Some(Stop::Passage);
+    }
+    // What is left is small against scene and step, and mixed iterates, which do not fall at each turn, have stopped falling.
+    let is_small = correction <= m.length * options.tolerance && correction <= scale * enough;
+    (is_small && (m.loads.is_empty() || stalled >= STALLED)).then_some(Stop::Tolerance)
 }
 
 /// zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁; increments are left in the scratch.

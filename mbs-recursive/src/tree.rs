@@ -327,6 +327,17 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         &self.effects
     }
 
+    /// Are the coordinates, the velocities and the rows of cut joints of another tree those of this one, in the same order? Trees of
+    /// a scene with and without an effect are the same unless the effect chose which joint is cut.
+    #[must_use]
+    pub fn has_same_coordinates(&self, other: &Self) -> bool {
+        let sizes = |tree: &Self| [tree.n_coordinates, tree.n_freedoms, tree.rows.len()];
+        let same = |(a, b): (&Link<T, S>, &Link<T, S>)| (a.kind, a.z, a.v) == (b.kind, b.z, b.v);
+        sizes(self) == sizes(other)
+            && self.seats == other.seats
+            && self.links.iter().zip(&other.links).all(same)
+    }
+
     /// Guides and courses.
     #[must_use]
     pub fn prescribed(&self) -> &Prescribed<T> {

@@ -18,8 +18,9 @@ pub use record::{
 pub use report::{Report, Section};
 pub use write::{
     Absence, Candidate, Change, Choice, Chosen, Contact, ControlSummary, ControllerStep, CsvWriter,
-    EffectEntry, EnergySummary, Explanation, Fallback, GuideEntry, JointGroup, LargestStep,
-    Outputs, PilotReference, Price, Prices, Relative, Rod, RunError, RunSummary, SearchEnd,
-    Simulated, Sizes, TrialEntry, ViolationSummary, long, readable, shortest, write_choice,
+    Degraded, EffectEntry, EnergySummary, Explanation, Fallback, GuideEntry, JointGroup,
+    LargestStep, MarginSummary, Outputs, Overrun, PilotReference, Price, Prices, RealtimeSummary,
+    Relative, Rod, RunError, RunSummary, SearchEnd, Simulated, Sizes, Times, TrialEntry,
+    ViolationSummary, append_steps, long, readable, shortest, write_choice, write_overruns,
     write_steps,
 };

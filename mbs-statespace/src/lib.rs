@@ -7,12 +7,14 @@ mod basis;
 mod chart;
 mod dense;
 pub mod elimination;
+mod history;
 mod jacobian;
 mod options;
 mod place;
 mod step;
 mod workspace;
 
+pub use history::History;
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use options::{Coordinates, Options, Rechoice};
 pub use step::step;

@@ -114,6 +114,11 @@ impl<T: Real> Workspace<T> {
         &self.terms
     }
 
+    /// The same, to be put back.
+    pub fn terms_mut(&mut self) -> &mut Terms<T> {
+        &mut self.terms
+    }
+
     /// The elimination: rank, independent and dependent coordinates, rows that were dropped.
     pub fn elimination(&self) -> &Elimination<T> {
         &self.elimination

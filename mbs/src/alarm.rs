@@ -1,5 +1,6 @@
 //! The alarm of a run: its energy invariant has drifted too far.
 
+use crate::checkpoint::tape::{Tape, Told};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
@@ -20,6 +21,11 @@ pub(crate) struct Alarm {
 impl Alarm {
     pub(crate) fn new(share: f64) -> Self {
         Self { share, off: 0 }
+    }
+
+    /// Writes what it remembers, or reads it back.
+    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+        tape.small(&mut self.off)
     }
 
     /// Has the invariant drifted too far after this step?

@@ -1,5 +1,6 @@
 //! What the channels of a run read: measures, and joint reactions where an output asks for one.
 
+use crate::checkpoint::tape::{Tape, Told, holds};
 use crate::stop::StopError;
 use mbs_core::Real;
 use mbs_core::model::State;
@@ -28,7 +29,23 @@ impl<T: Real, const D: usize> Channels<T, D> {
             Quantity::Reaction { joint } => Some(joint),
             _ => None,
         });
-        Ok(Self { measures, reactions, not_unique: Vec::new(), asked: asked.collect() })
+        let asked: Vec<usize> = asked.collect();
+        Ok(Self { measures, reactions, not_unique: Vec::with_capacity(asked.len()), asked })
+    }
+
+    /// Exchanges what reactions are made of: the same scene with other effects has others.
+    pub(crate) fn exchange(&mut self, reactions: &mut Option<Reactions<T, D>>) {
+        core::mem::swap(&mut self.reactions, reactions);
+    }
+
+    /// Writes what is remembered of them, or reads it back.
+    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+        tape.reals(self.measures.memory_mut())?;
+        let asked = &self.asked;
+        tape.list(&mut self.not_unique, 8, |tape, joint| {
+            tape.index(joint, usize::MAX)?;
+            holds(asked.contains(joint))
+        })
     }
 
     /// Follows angles at every step, so that no turn is lost.

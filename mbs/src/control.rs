@@ -1,5 +1,6 @@
 //! Steps of controlled length, whatever the formulation.
 
+use crate::checkpoint::ControlKept;
 use crate::choice::StepRule;
 use crate::engine::Engine;
 use crate::settings::Settings;
@@ -56,6 +57,26 @@ where
         let mut events = settings.events.then(|| Events::new(scene, model)).transpose()?;
         events.iter_mut().for_each(|events| events.start(state));
         Ok(Some(Self { driver, estimate, events, saved: state.clone() }))
+    }
+
+    /// What the next step goes on from.
+    pub(crate) fn kept(&self) -> ControlKept<T> {
+        let events = self.events.as_ref().map(Events::history);
+        ControlKept { driver: self.driver.history(), events }
+    }
+
+    /// Goes on from what was kept; says whether it is of the same rules and effects.
+    pub(crate) fn go_on(&mut self, kept: &ControlKept<T>) -> bool {
+        let is_ours = match (&mut self.events, &kept.events) {
+            (Some(events), Some(history)) => events.set_history(history),
+            (events, history) => events.is_none() && history.is_none(),
+        };
+        is_ours && self.driver.set_history(kept.driver)
+    }
+
+    /// The state was set from outside: what steps are watched for begins there.
+    pub(crate) fn restart(&mut self, state: &State<T>) {
+        self.events.iter_mut().for_each(|events| events.start(state));
     }
 
     /// One step of at most `rest` [s].

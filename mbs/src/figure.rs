@@ -1,5 +1,6 @@
 //! The stick figure of a scene: which points are drawn and what lines join them.
 
+use crate::checkpoint::tape::{Tape, Told, holds};
 use mbs_core::Real;
 use mbs_core::natural::{Affine, NaturalModel};
 use mbs_core::scene::{BodyRef, Dimension, Inertia, Joint, JointKind, Quantity, Scene};
@@ -18,6 +19,8 @@ pub(crate) struct Figure<T: Real, const D: usize> {
     /// Time between pictures, and of the next one [s].
     every: f64,
     next: f64,
+    /// Room for pictures that must not be allocated when they are taken.
+    spare: Vec<Vec<f64>>,
 }
 
 impl<T: Real, const D: usize> Figure<T, D> {
@@ -44,7 +47,33 @@ impl<T: Real, const D: usize> Figure<T, D> {
         let points = layout.points;
         #[allow(clippy::cast_precision_loss, reason = "numbers of points are far below 2^53")]
         let frames = (MOST_NUMBERS / (points.len() * D).max(1) as f64).clamp(1.0, MOST_FRAMES);
-        Self { points, animation, every: duration / frames, next: 0.0 }
+        Self { points, animation, every: duration / frames, next: 0.0, spare: Vec::new() }
+    }
+
+    /// Makes room for all pictures of a run, so that none is allocated when it is taken.
+    pub(crate) fn reserve(&mut self, duration: f64) {
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "at most the number of pictures"
+        )]
+        let n = (duration / self.every).clamp(0.0, MOST_FRAMES) as usize + 3;
+        let size = self.points.len() * D;
+        self.spare = (0..n).map(|_| Vec::with_capacity(size)).collect();
+        self.animation.frames.reserve(n);
+        self.animation.times.reserve(n);
+    }
+
+    /// Writes the pictures so far, or reads them back.
+    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+        let n = self.points.len() * D;
+        tape.float(&mut self.next)?;
+        tape.list(&mut self.animation.times, 8, Tape::float)?;
+        tape.list(&mut self.animation.frames, 8 * n.max(1), |tape, frame| {
+            frame.resize(n, 0.0);
+            tape.floats(frame)
+        })?;
+        holds(self.animation.times.len() == self.animation.frames.len())
     }
 
     /// Takes a picture where one is due.
@@ -54,7 +83,9 @@ impl<T: Real, const D: usize> Figure<T, D> {
                 let x = p.value(q);
                 (0..D).map(move |i| x[i].to_f64())
             });
-            self.animation.frames.push(numbers.collect());
+            let mut frame = self.spare.pop().unwrap_or_default();
+            frame.extend(numbers);
+            self.animation.frames.push(frame);
             self.animation.times.push(t);
             // Half a hair early: times are rounded.
             self.next = ((t / self.every + 1e-6).floor() + 1.0 - 1e-6) * self.every;

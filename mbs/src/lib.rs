@@ -3,6 +3,7 @@
 mod alarm;
 pub mod auto;
 mod channels;
+mod checkpoint;
 mod choice;
 pub mod cli;
 pub mod compare;
@@ -14,8 +15,10 @@ mod engine;
 pub mod explain;
 pub mod export;
 mod figure;
+mod fingerprint;
 mod journal;
 mod modes;
+pub mod realtime;
 mod recorder;
 mod run;
 mod settings;
@@ -37,16 +40,17 @@ pub use mbs_scene as scene_file;
 pub use mbs_sparse as sparse;
 pub use mbs_statespace as statespace;
 
+pub use checkpoint::{Checkpoint, CheckpointError, FILE as CHECKPOINT, Keeping};
 pub use choice::{
     FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
     StepRule,
 };
-pub use document::run_document;
+pub use document::{run_document, run_document_kept};
 pub use engine::{Engine, Index};
 pub use modes::{Mode, Modes, Place};
-pub use run::{Outcome, Progress, run};
+pub use run::{Outcome, Progress, run, run_kept};
 pub use settings::{Overrides, Settings, SettingsError};
-pub use simulation::Simulation;
+pub use simulation::{Refusal, Simulation};
 pub use statics::{Still, equilibrium_start, settle};
 pub use stop::{Names, StopError};
 pub use tree::{InSpace, Plane, Tree};

@@ -1,7 +1,9 @@
 //! What is kept of a run: rows of channels, energies, violations and counts, thinned to a bounded number; maxima over every
 //! step.
 
+use crate::checkpoint::tape::{Tape, Told, holds};
 use crate::digits::is_finer;
+use crate::words::limit_names;
 use mbs_core::Real;
 use mbs_core::real::DoubleDouble;
 use mbs_scene::{
@@ -60,7 +62,54 @@ pub(crate) enum Keep {
     Last,
 }
 
+impl StepMark {
+    /// Writes it, or reads it back.
+    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+        let Self { t, energies, violation, step } = self;
+        tape.float(t)?;
+        tape.floats(energies)?;
+        tape.floats(violation)?;
+        let StepRow { length, index, iterations, rejected, energy_change, .. } = step;
+        tape.float(length)?;
+        tape.option(index, |tape, index| tape.bytes(core::slice::from_mut(index)))?;
+        tape.small(iterations)?;
+        tape.small(rejected)?;
+        tape.float(energy_change)?;
+        tape.float(&mut step.penalty_energy)?;
+        tape.option(&mut step.error_estimate, Tape::float)?;
+        tape.word_of(&mut step.limit, &limit_names())
+    }
+
+    /// Bytes that one takes at least.
+    const SIZE: usize = 80;
+}
+
 impl Recorder {
+    /// Writes all that is recorded so far, or reads it back; channels and what is kept stay.
+    pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+        tape.list(&mut self.marks, StepMark::SIZE, |tape, mark| mark.walk(tape))?;
+        tape.list(&mut self.rows, 8, Tape::float)?;
+        tape.list(&mut self.rests, 8, Tape::float)?;
+        tape.count(&mut self.every)?;
+        tape.float(&mut self.initial)?;
+        tape.floats(&mut self.max_violation)?;
+        self.recent.walk(tape)?;
+        tape.places(&mut self.ranges, |tape, range| tape.floats(range))?;
+        let (n_marks, n_rows, n_rests) = (self.marks.len(), self.rows.len(), self.rests.len());
+        holds(n_marks > 0 && n_marks as u64 <= 2 * MOST_ROWS && self.every > 0)?;
+        holds(n_rows == n_marks * self.n_columns && (n_rests == 0 || n_rests == n_rows))
+    }
+
+    /// A number that changes where rows are thinned.
+    pub(crate) fn thinning(&self) -> u64 {
+        self.every
+    }
+
+    /// Rows so far.
+    pub(crate) fn n_rows(&self) -> usize {
+        self.marks.len()
+    }
+
     /// For a run of `n_steps`, as far as that is known, from the invariant at the start.
     pub(crate) fn new(channels: Vec<Channel>, n_steps: u64, initial: f64, keep: Keep) -> Self {
         let n_columns: usize = channels.iter().map(|c| c.components.len()).sum();
@@ -77,6 +126,14 @@ impl Recorder {
             keep,
             ranges: vec![[f64::INFINITY, f64::NEG_INFINITY]; n_columns],
         }
+    }
+
+    /// Makes room for all rows of a run whose number of steps was known, so that none is allocated when it is kept.
+    pub(crate) fn reserve(&mut self, n_steps: u64) {
+        let rows = usize::try_from(n_steps.min(MOST_ROWS)).unwrap_or(0) + 3;
+        self.marks.reserve(rows);
+        self.rows.reserve(rows * self.n_columns);
+        self.rests.reserve(rows * self.n_columns);
     }
 
     /// Is step `k` (0: the start) kept as a row?
@@ -242,7 +299,13 @@ impl Recorder {
 
     /// The rows that end a step: all but the start.
     fn steps(&self) -> impl Iterator<Item = &StepMark> {
-        self.marks.iter().filter(|mark| mark.step.length > 0.0)
+        self.steps_from(0)
+    }
+
+    /// Those from a row on.
+    fn steps_from(&self, row: usize) -> impl Iterator<Item = &StepMark> {
+        let marks = self.marks.iter().skip(row);
+        marks.filter(|mark| mark.step.length > 0.0)
     }
 
     pub(crate) fn iterations(&self) -> IterationSeries {
@@ -252,11 +315,12 @@ impl Recorder {
         }
     }
 
-    pub(crate) fn step_series(&self, totals: ControlSummary) -> StepSeries {
+    /// The steps of the rows from one on.
+    pub(crate) fn step_series(&self, row: usize, totals: ControlSummary) -> StepSeries {
         StepSeries {
-            times: self.steps().map(|mark| mark.t).collect(),
-            energy_errors: self.steps().map(|mark| self.error(mark)).collect(),
-            rows: self.steps().map(|mark| mark.step.clone()).collect(),
+            times: self.steps_from(row).map(|mark| mark.t).collect(),
+            energy_errors: self.steps_from(row).map(|mark| self.error(mark)).collect(),
+            rows: self.steps_from(row).map(|mark| mark.step.clone()).collect(),
             totals,
         }
     }

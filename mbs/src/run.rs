@@ -1,7 +1,15 @@
 //! A whole run: from a scene to its summary, rows and page.
 
+mod kept;
+mod outcome;
+mod paced;
+mod summary;
+
+pub(crate) use paced::{Rung, Track, paced};
+
 use crate::alarm::Alarm;
 use crate::channels::Channels;
+use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Keeping};
 use crate::digits::is_finer;
 use crate::figure::Figure;
 use crate::recorder::{Keep, Recorder, StepMark};
@@ -11,18 +19,18 @@ use crate::stop::{Names, StopError};
 use crate::tree::{InSpace, Plane};
 use crate::words::{limit_name, notes, stop_text, summary_rows};
 use core::time::Duration;
-use cpu_time::ProcessTime;
+use kept::{Clock, Kept};
 use mbs_core::Real;
-use mbs_core::control::{Accepted, Invariant};
-use mbs_core::outputs::{self, Contacts};
-use mbs_core::real::DoubleDouble;
-use mbs_core::scene::{EffectKind, Scene};
+use mbs_core::control::Accepted;
+use mbs_core::outputs::Contacts;
+use mbs_core::scene::Scene;
 use mbs_scene::{
-    Channel, Contact, ControlSummary, CsvWriter, EnergySummary, Outputs, Provenance, RunRecord,
-    RunSummary, StepRow, StepSeries,
+    Channel, ControlSummary, Outputs, RealtimeSummary, RunRecord, RunSummary, StepRow,
 };
-use std::io;
 use std::time::Instant;
+use summary::{contact, energy_summary, not_started, plain_summary};
+
+pub use outcome::Outcome;
 
 /// Roundings of the time at the end that are nothing.
 const LAST_ROUNDINGS: f64 = 32.0;
@@ -36,78 +44,6 @@ pub trait Progress {
 }
 
 impl Progress for () {}
-
-/// What a run gives.
-#[derive(Debug)]
-pub struct Outcome {
-    /// The JSON object.
-    pub summary: RunSummary,
-    /// Why it stopped early.
-    pub error: Option<StopError>,
-    record: RunRecord,
-    channels: Vec<Channel>,
-    table: Vec<(f64, Vec<f64>)>,
-    /// The same numbers with all their digits, where there are more than those of `f64`.
-    long_table: Vec<Vec<DoubleDouble>>,
-    ranges: Vec<[f64; 2]>,
-    steps: StepSeries,
-}
-
-impl Outcome {
-    /// Writes the rows as CSV.
-    ///
-    /// # Errors
-    /// Those of the sink.
-    pub fn write_csv(&self, sink: impl io::Write) -> io::Result<()> {
-        let mut csv = CsvWriter::new(sink, &self.channels)?;
-        for (i, (t, row)) in self.table.iter().enumerate() {
-            match self.long_table.get(i) {
-                Some(row) => csv.long_row(*t, row)?,
-                None => csv.row(*t, row)?,
-            }
-        }
-        csv.finish()
-    }
-
-    /// Writes the steps as CSV: their lengths, and what came of them.
-    ///
-    /// # Errors
-    /// Those of the sink.
-    pub fn write_steps(&self, sink: impl io::Write) -> io::Result<()> {
-        mbs_scene::write_steps(sink, &self.steps)
-    }
-
-    /// The steps of the rows.
-    #[must_use]
-    pub fn steps(&self) -> &StepSeries {
-        &self.steps
-    }
-
-    /// The page, with how the run was made.
-    #[must_use]
-    pub fn page(&self, provenance: Provenance) -> String {
-        let record = RunRecord { provenance, ..self.record.clone() };
-        mbs_scene::page(&record)
-    }
-
-    /// The rows: time and all components of all channels.
-    #[must_use]
-    pub fn rows(&self) -> &[(f64, Vec<f64>)] {
-        &self.table
-    }
-
-    /// Least and largest value of each component of each channel, over the rows; empty when the run did not start.
-    #[must_use]
-    pub fn ranges(&self) -> &[[f64; 2]] {
-        &self.ranges
-    }
-
-    /// What the user should know.
-    #[must_use]
-    pub fn notes(&self) -> &[String] {
-        &self.record.notes
-    }
-}
 
 /// Runs a checked scene to its end, or to where it stops.
 pub fn run<T: Real, const D: usize>(
@@ -131,45 +67,36 @@ pub(crate) fn run_keeping<T: Real, const D: usize>(
 where
     Plane<D>: InSpace<T>,
 {
-    let names = Names::new(scene);
-    let channels = Channel::of_scene(scene);
-    let started = Simulation::<T, D>::new(scene, settings);
-    let started = started.and_then(|simulation| {
-        let measures = Channels::new(scene, simulation.model())?;
-        let contacts = Contacts::new(scene, simulation.model());
-        Ok((simulation, measures, contacts.map_err(|e| StopError::Start(e.into()))?))
-    });
-    let (simulation, measures, contacts) = match started {
-        Ok(both) => both,
-        Err(error) => return not_started(scene, settings, &channels, &names, error),
+    match Run::<T, D>::begin(scene, settings, keep) {
+        Ok(run) => run.complete(progress),
+        Err(outcome) => *outcome,
+    }
+}
+
+/// [`run`], from a checkpoint if there is one, and kept while it goes if it is to be.
+///
+/// # Errors
+/// [`CheckpointError`] for a checkpoint of something else.
+pub fn run_kept<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    progress: &mut impl Progress,
+    (from, keeping): (Option<&Checkpoint>, Option<&mut Keeping>),
+) -> Result<Outcome, CheckpointError>
+where
+    Plane<D>: InSpace<T>,
+{
+    let identity = Identity::new(scene, settings);
+    let mut run = match Run::<T, D>::begin(scene, settings, Keep::Rows) {
+        Ok(run) => run,
+        Err(outcome) => return Ok(*outcome),
     };
-    let n_steps = settings.n_steps();
-    let recorder = Recorder::new(channels, n_steps, simulation.invariant().initial(), keep);
-    let figure = Figure::new(scene, simulation.model(), settings.duration);
-    let mut run = Run {
-        scene,
-        settings,
-        lengths: settings.lengths(scene),
-        simulation,
-        measures,
-        contacts,
-        recorder,
-        figure,
-        values: Vec::new(),
-        mark: StepMark::default(),
-        counts: Counts::default(),
-        reached: 0.0,
-        alarm: Alarm::new(settings.energy_alarm),
-    };
-    run.start();
-    let cpu = ProcessTime::now();
-    let error = if run.simulation.is_controlled() {
-        run.controlled_steps(progress).err()
-    } else {
-        run.steps(n_steps, progress).err()
-    };
-    let cpu = cpu.elapsed();
-    run.finish(cpu, error, &names)
+    if let Some(checkpoint) = from {
+        run.resume(checkpoint, &identity)?;
+    }
+    run.kept = keeping.map(|keeping| Kept { keeping, identity });
+    run.keep(run.done);
+    Ok(run.complete(progress))
 }
 
 #[derive(Debug, Default)]
@@ -200,12 +127,84 @@ where
     /// Time reached [s].
     reached: f64,
     alarm: Alarm,
+    /// Steps of the record's count that are made.
+    done: u64,
+    clock: Clock,
+    kept: Option<Kept<'a>>,
+    /// Of a paced run: how it kept up, and the lowest level since the last row where there is a ladder.
+    realtime: Option<RealtimeSummary>,
+    level: Option<f64>,
 }
 
-impl<T: Real, const D: usize> Run<'_, T, D>
+impl<'a, T: Real, const D: usize> Run<'a, T, D>
 where
     Plane<D>: InSpace<T>,
 {
+    /// Builds everything and takes the first row; else the outcome of a run that does not start.
+    fn begin(
+        scene: &'a Scene<T>,
+        settings: &'a Settings,
+        keep: Keep,
+    ) -> Result<Self, Box<Outcome>> {
+        let rows = (settings.n_steps(), keep);
+        let mut run = Self::new(scene, settings, Channel::of_scene(scene), rows)?;
+        run.start();
+        Ok(run)
+    }
+
+    /// Everything that a run needs, for rows after so many steps or intervals; else how it did not start.
+    fn new(
+        scene: &'a Scene<T>,
+        settings: &'a Settings,
+        channels: Vec<Channel>,
+        (n_rows, keep): (u64, Keep),
+    ) -> Result<Self, Box<Outcome>> {
+        let started = Simulation::<T, D>::new(scene, settings);
+        let started = started.and_then(|simulation| {
+            let measures = Channels::new(scene, simulation.model())?;
+            let contacts = Contacts::new(scene, simulation.model());
+            Ok((simulation, measures, contacts.map_err(|e| StopError::Start(e.into()))?))
+        });
+        let (simulation, measures, contacts) = match started {
+            Ok(all) => all,
+            Err(error) => return Err(Box::new(not_started(scene, settings, &channels, error))),
+        };
+        let recorder = Recorder::new(channels, n_rows, simulation.invariant().initial(), keep);
+        let figure = Figure::new(scene, simulation.model(), settings.duration);
+        Ok(Self {
+            scene,
+            settings,
+            lengths: settings.lengths(scene),
+            simulation,
+            measures,
+            contacts,
+            recorder,
+            figure,
+            values: Vec::new(),
+            mark: StepMark::default(),
+            counts: Counts::default(),
+            reached: 0.0,
+            alarm: Alarm::new(settings.energy_alarm),
+            done: 0,
+            clock: Clock::new(),
+            kept: None,
+            realtime: None,
+            level: None,
+        })
+    }
+
+    /// All steps that are left, to the end or to where the run stops.
+    fn complete(mut self, progress: &mut impl Progress) -> Outcome {
+        self.clock.begin();
+        let error = if self.simulation.is_controlled() {
+            self.controlled_steps(progress).err()
+        } else {
+            self.steps(self.settings.n_steps(), progress).err()
+        };
+        let cpu = self.clock.get();
+        self.finish(cpu, error)
+    }
+
     /// The first row.
     fn start(&mut self) {
         let n = self.recorder.channels.iter().map(|c| c.components.len()).sum();
@@ -220,7 +219,12 @@ where
 
     fn row(&mut self, mark: &StepMark, is_last: bool) {
         let state = self.simulation.state();
-        self.measures.write(state, &mut self.values);
+        let n = self.values.len() - usize::from(self.level.is_some());
+        let (values, level) = self.values.split_at_mut(n);
+        self.measures.write(state, values);
+        if let ([level], Some(lowest)) = (level, &mut self.level) {
+            *level = T::from_f64(core::mem::take(lowest));
+        }
         if self.recorder.keeps_all() {
             self.figure.offer(mark.t, &state.q, is_last);
         }
@@ -232,7 +236,7 @@ where
         let (h, end) = (self.settings.step_max, self.settings.duration);
         let Lengths { step_max, duration, .. } = self.lengths;
         let mut clock = Instant::now();
-        for k in 1..=n_steps {
+        for k in self.done + 1..=n_steps {
             let (from, to) = (multiple(k - 1, (step_max, h)), multiple(k, (step_max, h)));
             let is_last = k == n_steps;
             #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
@@ -241,6 +245,9 @@ where
             let dt = if is_full { step_max } else { duration - from };
             self.step(dt, Some(if is_last { duration } else { to }), &mut clock)?;
             self.finish_step((k, is_last), progress)?;
+            if !is_last && self.keep(k) {
+                clock = Instant::now();
+            }
         }
         Ok(())
     }
@@ -249,7 +256,7 @@ where
     fn controlled_steps(&mut self, progress: &mut impl Progress) -> Result<(), StopError> {
         let end = self.lengths.duration;
         let mut clock = Instant::now();
-        let mut k = 0;
+        let mut k = self.done;
         let mut is_last = false;
         while !is_last {
             is_last = self.step(end - self.simulation.state().t, None, &mut clock)?;
@@ -264,6 +271,9 @@ where
             }
             k += 1;
             self.finish_step((k, is_last), progress)?;
+            if !is_last && self.keep(k) {
+                clock = Instant::now();
+            }
         }
         Ok(())
     }
@@ -281,11 +291,16 @@ where
         if let Some(to) = to {
             self.simulation.set_time(to);
         }
-        self.take(&accepted);
+        self.made(&accepted, clock);
+        Ok(accepted.is_last)
+    }
+
+    /// Takes a step that was made since the `clock`.
+    fn made(&mut self, accepted: &Accepted<T>, clock: &mut Instant) {
+        self.take(accepted);
         let now = Instant::now();
         self.counts.worst = self.counts.worst.max(now - *clock);
         *clock = now;
-        Ok(accepted.is_last)
     }
 
     /// A row where one is due, and the alarm.
@@ -346,7 +361,7 @@ where
         self.counts.control.take(&self.mark.step);
     }
 
-    fn finish(self, cpu: Duration, error: Option<StopError>, names: &Names) -> Outcome {
+    fn finish(self, cpu: Duration, error: Option<StopError>) -> Outcome {
         let end_time = self.reached;
         let cpu_seconds = cpu.as_secs_f64();
         let [coordinates, constraints, constraint_rank] = self.simulation.sizes();
@@ -357,7 +372,7 @@ where
         let summary = RunSummary {
             steps: self.counts.steps,
             completed: error.is_none(),
-            error: error.as_ref().map(|e| e.report(end_time, names)),
+            error: error.as_ref().map(|e| e.report(end_time, &Names::new(self.scene))),
             end_time,
             cpu_seconds,
             real_time_factor: if cpu_seconds > 0.0 { end_time / cpu_seconds } else { 0.0 },
@@ -367,6 +382,7 @@ where
             energy: energy_summary(self.simulation.invariant()),
             control: self.simulation.is_controlled().then(|| control.clone()),
             violation: self.recorder.violation_summary(),
+            realtime: self.realtime,
             outputs: Outputs(self.recorder.last()),
             digits: self.recorder.last_long().map(Outputs),
             coordinates,
@@ -378,7 +394,7 @@ where
             contacts_left_out: self.contacts.left_out(),
             ..plain_summary(self.scene, settings)
         };
-        let steps = self.recorder.step_series(control);
+        let steps = self.recorder.step_series(0, control);
         let record = RunRecord {
             scene: self.scene.name.clone(),
             channels: self.recorder.series(),
@@ -406,67 +422,4 @@ fn multiple<T: Real>(k: u64, (step, in_f64): (T, f64)) -> T {
     #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
     let count = k as f64;
     if is_finer::<T>() { T::from_f64(count) * step } else { T::from_f64(count * in_f64) }
-}
-
-/// An instant with the effect's name.
-fn contact<T: Real>(scene: &Scene<T>, instant: &outputs::Instant) -> Contact {
-    let effect = &scene.effects[instant.effect];
-    let is_limit = matches!(effect.kind, EffectKind::Limit { .. });
-    Contact {
-        time: instant.t,
-        effect: effect.name.clone(),
-        end: is_limit.then_some(["lower", "upper"][instant.end]),
-        event: if instant.makes { "made" } else { "broken" },
-    }
-}
-
-/// The invariant over every step.
-fn energy_summary(invariant: &Invariant) -> EnergySummary {
-    EnergySummary {
-        initial: invariant.initial(),
-        max_error: invariant.max_error(),
-        final_error: invariant.error().abs(),
-        turned_over: invariant.turned_over(),
-        scatter: invariant.scatter(),
-        drift: invariant.drift(),
-    }
-}
-
-fn plain_summary<T: Real>(scene: &Scene<T>, settings: &Settings) -> RunSummary {
-    RunSummary {
-        scene: scene.name.clone(),
-        formulation: settings.asked.clone(),
-        precision: settings.precision.name().to_owned(),
-        dimension: scene.dimension.count(),
-        step: settings.step,
-        chosen: settings.chosen(),
-        ..RunSummary::default()
-    }
-}
-
-fn not_started<T: Real>(
-    scene: &Scene<T>,
-    settings: &Settings,
-    channels: &[Channel],
-    names: &Names,
-    error: StopError,
-) -> Outcome {
-    let summary =
-        RunSummary { error: Some(error.report(0.0, names)), ..plain_summary(scene, settings) };
-    let record = RunRecord {
-        scene: scene.name.clone(),
-        summary: summary_rows(&summary),
-        error: summary.error.as_ref().map(stop_text),
-        ..RunRecord::default()
-    };
-    Outcome {
-        summary,
-        error: Some(error),
-        record,
-        channels: channels.to_vec(),
-        table: Vec::new(),
-        long_table: Vec::new(),
-        ranges: Vec::new(),
-        steps: StepSeries::default(),
-    }
 }

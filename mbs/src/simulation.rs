@@ -1,5 +1,10 @@
 //! A scene that can step: model, consistent state and formulation in one place.
 
+mod carry;
+
+pub use carry::Refusal;
+
+use crate::checkpoint::{Kept, inputs};
 use crate::control::Control;
 use crate::engine::Engine;
 use crate::settings::Settings;
@@ -164,6 +169,38 @@ where
     /// The formulation, with its options.
     pub fn engine_mut(&mut self) -> &mut Engine<T, D> {
         &mut self.engine
+    }
+
+    /// All that the next step goes on from.
+    pub(crate) fn kept(&self) -> Kept<T> {
+        Kept {
+            state: self.state.clone(),
+            engine: self.engine.kept(),
+            control: self.control.as_ref().map(|control| control.kept()),
+            invariant: self.invariant.history(),
+            inputs: inputs(self.model.prescribed()),
+        }
+    }
+
+    /// Goes on from what was kept; says whether it is of this simulation.
+    pub(crate) fn go_on(&mut self, kept: &Kept<T>) -> bool {
+        let Kept { state, engine, control, invariant, inputs: [courses, guides] } = kept;
+        let is_ours = match (&mut self.control, control) {
+            (Some(present), Some(control)) => present.go_on(control),
+            (present, control) => present.is_none() && control.is_none(),
+        };
+        if !is_ours || !self.engine.go_on(engine) {
+            return false;
+        }
+        self.state.copy_from(state);
+        self.invariant.set_history(*invariant);
+        for &(effect, value) in courses {
+            self.set_input(effect, value);
+        }
+        for &(guide, motion) in guides {
+            self.set_guide(guide, motion);
+        }
+        true
     }
 
     /// Kinetic energy, potential energy, and work of dampers, guides and courses since the start [J].

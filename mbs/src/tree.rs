@@ -1,5 +1,6 @@
 //! A run in relative coordinates: the tree, its state, and the same state told in natural coordinates for the outputs.
 
+use crate::checkpoint::TreeKept;
 use crate::choice::IntegratorKind;
 use crate::settings::Settings;
 use crate::stop::StopError;
@@ -124,6 +125,22 @@ where
         self.energies = self.saved_energies;
     }
 
+    /// What the next step goes on from.
+    pub(crate) fn kept(&self) -> TreeKept<T> {
+        let (state, energies) = (self.state.clone(), self.energies);
+        TreeKept { state, history: self.workspace.history(), energies }
+    }
+
+    /// Goes on from what was kept; says whether it is of this tree.
+    pub(crate) fn go_on(&mut self, kept: &TreeKept<T>) -> bool {
+        let is_ours = self.workspace.set_history(&kept.history, &self.options);
+        if is_ours {
+            self.state.copy_from(&kept.state);
+            self.energies = kept.energies;
+        }
+        is_ours
+    }
+
     /// Tells the natural state of the tree's.
     fn tell(&mut self, natural: &NaturalModel<T, D>, state: &mut State<T>) {
         self.model.write_motions(&self.state, &mut self.workspace, &mut self.motions);
@@ -138,6 +155,32 @@ where
     pub(crate) fn watch(&mut self) {
         let energies = self.model.energies(&self.state, &mut self.workspace);
         self.energies = energies.map(Real::to_f64);
+    }
+
+    /// May this tree take over the state of another?
+    pub(crate) fn has_same_coordinates(&self, other: &Self) -> bool {
+        self.model.has_same_coordinates(&other.model)
+    }
+
+    /// Takes the coordinates and velocities of another tree over.
+    pub(crate) fn show(&mut self, other: &Self) {
+        self.state.copy_from(&other.state);
+    }
+
+    /// Makes accelerations and multipliers those of this tree's own effects, and tells `natural`'s state.
+    pub(crate) fn settle(
+        &mut self,
+        natural: &NaturalModel<T, D>,
+        state: &mut State<T>,
+    ) -> Result<(), StepError> {
+        self.model.settle(&mut self.state, &mut self.workspace)?;
+        self.tell(natural, state);
+        Ok(())
+    }
+
+    /// Sets the work since the start [J].
+    pub(crate) fn set_work(&mut self, work: T) {
+        self.state.work = work;
     }
 
     /// Sets an effect's input; says whether it has one.

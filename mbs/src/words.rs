@@ -28,6 +28,12 @@ pub(crate) fn limit_name(limit: Limit) -> &'static str {
     }
 }
 
+/// All of them.
+pub(crate) fn limit_names() -> [&'static str; 6] {
+    [Limit::Largest, Limit::Energy, Limit::Error, Limit::Event, Limit::Contact, Limit::Failure]
+        .map(limit_name)
+}
+
 /// The summary table of a page.
 pub(crate) fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
     if s.coordinates == 0 && s.error.is_some() {
@@ -52,6 +58,8 @@ pub(crate) fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
         row("slowest step", duration(s.worst_step_seconds)),
     ];
     rows.extend(s.control.as_ref().map(|c| row("control of the step", control(c))));
+    let paced = s.realtime.iter().flat_map(crate::realtime::rows);
+    rows.extend(paced.map(|(label, value)| row(label, value)));
     rows.extend(contacts(s).map(|text| row("contacts", text)));
     rows
 }
@@ -179,6 +187,7 @@ pub(crate) fn notes<T: Real>(
             few(change)
         ));
     }
+    notes.extend(s.realtime.as_ref().and_then(crate::realtime::note));
     for joint in &s.not_unique {
         notes.push(not_unique(joint));
     }

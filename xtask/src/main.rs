@@ -9,6 +9,7 @@ mod debian;
 mod digits;
 mod documentation;
 mod fuzz;
+mod gauntlet;
 mod grades;
 mod lab;
 mod mbs;
@@ -112,6 +113,15 @@ enum Job {
         #[arg(long, value_name = "N", default_value_t = 1)]
         seed: u64,
     },
+    /// Run hard cases by seed in every formulation; the table of methods by properties under target/gauntlet
+    Gauntlet {
+        /// So many cases
+        #[arg(long, value_name = "N", default_value_t = 10_000)]
+        count: usize,
+        /// In so many processes; left out: one for each core
+        #[arg(long, value_name = "N")]
+        jobs: Option<usize>,
+    },
     /// Watch the lock-free team of mbs-parallel for data races, under ThreadSanitizer
     Races,
     /// Cross-compile the no_std crates for a microcontroller, without and with alloc
@@ -132,6 +142,7 @@ fn main() -> ExitCode {
         Job::Choice { scenes } => choice::choice(&scenes),
         Job::Counts => counts::counts(),
         Job::Fuzz { seconds, seed } => fuzz::fuzz(seconds, seed),
+        Job::Gauntlet { count, jobs } => gauntlet::gauntlet(count, jobs),
         Job::Races => races::races(),
         Job::CheckNostd => nostd::check_nostd(),
     }

@@ -12,6 +12,8 @@ const AFTER_FAILURE: f64 = 0.25;
 const SMALLEST: f64 = 1e-10;
 /// And not shorter than so many roundings of the time.
 const TIME_ROUNDINGS: f64 = 16.0;
+/// Trials within a stretch of the largest step, at most: a run whose steps are shorter than this on average would not end.
+const MOST_TRIALS: u32 = 100_000;
 /// Re-solves of a step that shall end at an event.
 const MOST_LANDINGS: u32 = 12;
 /// Growth of the step where no rule says anything.
@@ -131,6 +133,44 @@ pub struct Driver<T> {
     /// The step that is tried next, and the first one [s].
     next: T,
     first: T,
+    stretch: Stretch<T>,
+}
+
+/// The time of a largest step, or a little more, and the trials in it so far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Stretch<T> {
+    /// Where it began [s]; nothing before the first step.
+    from: Option<T>,
+    trials: u32,
+}
+
+impl<T: Real> Stretch<T> {
+    /// Called before a trial from time `t` [s]; how far a trial comes on average [s], where that is too little.
+    fn count(&mut self, t: T, length: T) -> Result<(), StepError> {
+        let from = *self.from.get_or_insert(t);
+        if t - from >= length {
+            *self = Self { from: Some(t), trials: 0 };
+        }
+        if self.trials >= MOST_TRIALS {
+            let step = ((t - from) / T::from_f64(self.trials.into())).to_f64();
+            return Err(StepError::StepTooSmall { step });
+        }
+        self.trials += 1;
+        Ok(())
+    }
+}
+
+/// What a driver remembers from step to step.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct DriverHistory<T> {
+    /// The step that is tried next [s].
+    pub next: T,
+    /// Of the energy rule, where there is one: the last changes, faded [-], and small changes in a row.
+    pub energy: Option<(f64, u32)>,
+    /// Of the error estimate, where there is one: that of its [`StepControl`].
+    pub error: Option<(Option<f64>, bool)>,
+    /// Where the present stretch of a largest step began [s], and the trials in it.
+    pub stretch: Option<(T, u32)>,
 }
 
 /// The trials of one step so far.
@@ -208,6 +248,7 @@ impl<T: Real> Driver<T> {
             error: rules.error.map(|(tolerance, power)| (tolerance, StepControl::new(power))),
             next: first,
             first,
+            stretch: Stretch { from: None, trials: 0 },
         }
     }
 
@@ -217,13 +258,48 @@ impl<T: Real> Driver<T> {
         self.next
     }
 
+    /// What the next step goes on from.
+    #[must_use]
+    pub fn history(&self) -> DriverHistory<T> {
+        DriverHistory {
+            next: self.next,
+            energy: self.energy.map(|steering| steering.history()),
+            error: self.error.map(|(_, control)| control.history()),
+            stretch: self.stretch.from.map(|from| (from, self.stretch.trials)),
+        }
+    }
+
+    /// Goes on from the history of a driver by the same rules. Says whether it is one; else nothing is changed.
+    pub fn set_history(&mut self, history: DriverHistory<T>) -> bool {
+        let DriverHistory { next, energy, error, stretch } = history;
+        let is_step = next > T::ZERO && next <= self.max_step;
+        if !is_step
+            || energy.is_some() != self.energy.is_some()
+            || error.is_some() != self.error.is_some()
+        {
+            return false;
+        }
+        self.next = next;
+        self.stretch = Stretch {
+            from: stretch.map(|(from, _)| from),
+            trials: stretch.map_or(0, |(_, trials)| trials),
+        };
+        if let (Some(steering), Some(energy)) = (&mut self.energy, energy) {
+            steering.set_history(energy);
+        }
+        if let (Some((_, control)), Some(error)) = (&mut self.error, error) {
+            control.set_history(error);
+        }
+        true
+    }
+
     /// Makes one step of at most `rest` [s] from time `t` [s], with as many trials as it takes; the invariant is marked with it.
     ///
     /// No allocation but what the stepper does.
     ///
     /// # Errors
-    /// That of the last trial, [`StepError::StepTooSmall`] where rules reject steps that no longer matter. The state is then
-    /// that of the last accepted step.
+    /// That of the last trial, [`StepError::StepTooSmall`] where rules reject steps that no longer matter, or where 100,000 trials
+    /// came less far than one largest step. The state is then that of the last accepted step.
     ///
     /// # Panics
     /// If `rest` is not positive.
@@ -237,6 +313,7 @@ impl<T: Real> Driver<T> {
         let (mut h, is_cut) = self.planned(t, rest);
         let mut effort = Effort::default();
         loop {
+            self.stretch.count(t, self.max_step)?;
             stepper.prepare(h, effort.reductions)?;
             let attempt = match stepper.attempt(h) {
                 Ok(attempt) => attempt,

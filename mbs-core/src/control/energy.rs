@@ -95,6 +95,16 @@ impl Steering {
         Ok(factor)
     }
 
+    /// The changes and the count that are remembered.
+    pub(super) fn history(&self) -> (f64, u32) {
+        (self.memory, self.small)
+    }
+
+    /// Goes on from a [`history`](Self::history).
+    pub(super) fn set_history(&mut self, (memory, small): (f64, u32)) {
+        (self.memory, self.small) = (memory, small);
+    }
+
     /// After a step that failed.
     pub(super) fn forget(&mut self) {
         (self.memory, self.small) = (0.0, 0);

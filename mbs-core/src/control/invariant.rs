@@ -148,6 +148,39 @@ impl Invariant {
     }
 }
 
+impl Invariant {
+    /// Numbers of a [`history`](Self::history).
+    pub const N_HISTORY: usize = 16;
+
+    /// What was seen so far, as numbers: what a run that is taken up again goes on from.
+    #[must_use]
+    pub fn history(&self) -> [f64; Self::N_HISTORY] {
+        let Self { initial, last: [k, p, w], error, max_error, max_kinetic, .. } = *self;
+        let ([least, most], gross, l) = (self.potential, self.gross_work, self.line);
+        let seen = [initial, k, p, w, error, max_error, max_kinetic, least, most, gross];
+        let line = [l.n, l.squares, l.t, l.e, l.tt, l.te];
+        core::array::from_fn(|i| if i < seen.len() { seen[i] } else { line[i - seen.len()] })
+    }
+
+    /// Goes on from a [`history`](Self::history) of the same scene.
+    pub fn set_history(&mut self, history: [f64; Self::N_HISTORY]) {
+        let [initial, k, p, w, error, max_error, max_kinetic, least, most, gross, rest @ ..] =
+            history;
+        let [n, squares, t, e, tt, te] = rest;
+        *self = Self {
+            initial,
+            last: [k, p, w],
+            error,
+            max_error,
+            max_kinetic,
+            potential: [least, most],
+            gross_work: gross,
+            line: Line { n, squares, t, e, tt, te },
+            ..*self
+        };
+    }
+}
+
 impl Line {
     /// One more point.
     fn take(&mut self, t: f64, error: f64, change: f64) {

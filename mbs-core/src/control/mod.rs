@@ -44,7 +44,7 @@ mod energy;
 mod estimate;
 mod invariant;
 
-pub use driver::{Accepted, Attempt, Crossing, Driver, Limit, Rules, Stepper};
+pub use driver::{Accepted, Attempt, Crossing, Driver, DriverHistory, Limit, Rules, Stepper};
 pub use energy::EnergyRule;
 pub use estimate::LocalError;
 pub use invariant::Invariant;

@@ -219,6 +219,39 @@ fn failures_shorten_the_step_and_it_grows_again() {
 }
 
 #[test]
+fn a_run_whose_steps_would_never_end_says_so() {
+    let mut pendulum = Pendulum::new(1.0);
+    // No longer trial ever succeeds, so that a largest step takes two hundred thousand.
+    pendulum.fails_from = 5e-7;
+    let (mut driver, mut invariant) =
+        (Driver::new(energy([1e-2, 1e-4]), 0.1), pendulum.invariant());
+    let mut is_resumed = false;
+    let error = loop {
+        let clock = (pendulum.t, 10.0);
+        if let Err(error) = driver.step(&mut pendulum, &mut invariant, clock) {
+            break error;
+        }
+        assert!(pendulum.trials.len() <= 100_000 && pendulum.t < 0.1);
+        if !is_resumed && pendulum.trials.len() > 50_000 {
+            is_resumed = true;
+            // One that goes on from its history counts on.
+            let history = driver.history();
+            driver = Driver::new(energy([1e-2, 1e-4]), 0.1);
+            assert!(driver.set_history(history));
+        }
+    };
+    assert!(
+        matches!(error, StepError::StepTooSmall { step } if step > 1e-7 && step < 5e-7),
+        "the mean step: {error:?}"
+    );
+    assert!(is_resumed && pendulum.t > 0.01, "the state is the last accepted one");
+    // Short steps in one place, as at an impact, are none of these.
+    let mut pendulum = Pendulum::new(1.0);
+    pendulum.event = Some(0.35);
+    assert!(pendulum.run(energy([1e-6, 1e-8]), 0.1, 2.0).len() > 20);
+}
+
+#[test]
 fn what_no_step_can_mend_ends_in_a_typed_error() {
     let mut pendulum = Pendulum::new(1.0);
     pendulum.leak = 1.0;

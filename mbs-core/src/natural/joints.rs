@@ -14,17 +14,14 @@ use super::basis::Combination;
 use super::build::Builder;
 use super::draft::{RowDraft, difference};
 use crate::Real;
-use crate::algebra::{Vector, across, cross, norm, unit};
+use crate::algebra::{Vector, across, along, cross, norm, unit};
 use crate::scene::{Dimension, Joint, JointKind};
 use alloc::vec::Vec;
 
 /// The unit vector along a joint's axis number `i`; +z for a planar revolute.
 pub(crate) fn unit_axis<T: Real>(joint: &Joint<T>, i: usize) -> Vector<T, 3> {
     match joint.axes[i] {
-        Some(a) => {
-            let a = Vector::<T, 3>::from(a);
-            a * (T::ONE / norm(&a))
-        }
+        Some(a) => along(&Vector::from(a)),
         None => unit(2),
     }
 }
@@ -152,7 +149,7 @@ pub fn joint_axes<T: Real>(joint: &Joint<T>, dimension: Dimension) -> [[T; 3]; 2
                 transverse(&n, dimension)[0]
             };
             let d = d - n * n.dot(&d);
-            d * (T::ONE / norm(&d))
+            along(&d)
         }
         _ => unit_axis(joint, 1),
     };
@@ -174,6 +171,6 @@ pub fn angle_directions<T: Real>(
     }
     let (axis, other) = if number == 0 { (n, b) } else { (b, n) };
     let v = other - axis * axis.dot(&other);
-    let v = v * (T::ONE / norm(&v));
+    let v = along(&v);
     [v.into(), cross(&axis, &v).into(), other.into()]
 }

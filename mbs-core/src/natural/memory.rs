@@ -20,4 +20,15 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             _ => None,
         })
     }
+
+    /// The owner of each angle that a state remembers, with its place in [`State::memory`](crate::model::State::memory).
+    pub fn remembered(&self) -> impl Iterator<Item = (Owner, usize)> + '_ {
+        self.groups.iter().flat_map(|group| {
+            let measures = self.measures.get(group.measures.range()).unwrap_or_default();
+            measures.iter().filter_map(|measure| match measure.gauge {
+                Gauge::Angle { memory, .. } => Some((group.owner, memory as usize)),
+                _ => None,
+            })
+        })
+    }
 }

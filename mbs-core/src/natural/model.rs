@@ -99,6 +99,12 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         self.prescribed.set_guide(guide, motion)
     }
 
+    /// Guides and courses, with the inputs as they are set now.
+    #[must_use]
+    pub fn prescribed(&self) -> &Prescribed<T> {
+        &self.prescribed
+    }
+
     /// How many elements stand behind each kind of row: (distance, dot product, linear, guided).
     #[must_use]
     pub fn n_elements_by_kind(&self) -> [usize; 4] {

@@ -5,8 +5,9 @@ use super::model::NaturalModel;
 use super::sharing::{Entity, EntityKind};
 use crate::Real;
 use crate::algebra::Vector;
+use crate::blocks::Cliques;
 use crate::cluster::Clusters;
-use crate::model::State;
+use crate::model::{Model, State};
 use crate::rigid::RigidMotion;
 use alloc::vec::Vec;
 
@@ -44,6 +45,17 @@ pub(super) fn carriers<T: Real>(
 }
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
+    /// Are the unknowns and the constraint rows of another model those of this one, in the same order? Models of a scene with and
+    /// without an effect mostly have the same ones: a state of one is then a state of the other. Constants may differ.
+    #[must_use]
+    pub fn has_same_coordinates(&self, other: &Self) -> bool {
+        let m = self.n_constraints();
+        let sizes = |model: &Self| (model.n_unknowns(), model.n_constraints(), model.n_memory());
+        sizes(self) == sizes(other)
+            && self.carried == other.carried
+            && (0..m).all(|row| self.owner_of_row(row) == other.owner_of_row(row))
+    }
+
     /// Writes positions, velocities and accelerations of all unknowns from the motions of the scene's bodies, one for each.
     ///
     /// Cost: two products of a rotation and a vector and four cross products for each point or direction; no allocation.

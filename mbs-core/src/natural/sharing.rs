@@ -6,7 +6,7 @@
 
 use super::near::Near;
 use crate::Real;
-use crate::algebra::{Vector, cross, norm};
+use crate::algebra::{Vector, along, cross, norm};
 use crate::cluster::{Clusters, root};
 use crate::scene::{Dimension, Joint, JointKind, Scene};
 use alloc::collections::BTreeSet;
@@ -82,10 +82,7 @@ fn common<T: Real>(
     dimension: Dimension,
 ) -> impl Iterator<Item = (EntityKind, Vector<T, 3>)> {
     let point = Some((EntityKind::Point, Vector::from(joint.points[0])));
-    let axis = joint.axes[0].map(|a| {
-        let a = Vector::from(a);
-        (EntityKind::Direction, a * (T::ONE / norm(&a)))
-    });
+    let axis = joint.axes[0].map(|a| (EntityKind::Direction, along(&Vector::from(a))));
     let (point, axis) = match (joint.kind, dimension) {
         (JointKind::Revolute, Dimension::Spatial) => (point, axis),
         (JointKind::Revolute | JointKind::Spherical | JointKind::Universal, _) => (point, None),

@@ -56,6 +56,17 @@ pub struct Counts {
     pub evaluations: u64,
 }
 
+/// What an [`Adaptive`] remembers.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct AdaptiveHistory<T> {
+    /// The step that will be tried next [s].
+    pub step: T,
+    /// That of its [`StepControl`].
+    pub control: (Option<f64>, bool),
+    /// What was done so far.
+    pub counts: Counts,
+}
+
 /// A method with error control: what it remembers from step to step and from call to call.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Adaptive<T, M> {
@@ -88,6 +99,23 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
     #[must_use]
     pub fn counts(&self) -> Counts {
         self.counts
+    }
+
+    /// What the next call goes on from.
+    #[must_use]
+    pub fn history(&self) -> AdaptiveHistory<T> {
+        AdaptiveHistory { step: self.step, control: self.control.history(), counts: self.counts }
+    }
+
+    /// Goes on from the history of a driver of the same method; says whether its step is one: positive and finite.
+    pub fn set_history(&mut self, history: AdaptiveHistory<T>) -> bool {
+        let AdaptiveHistory { step, control, counts } = history;
+        let is_step = step > T::ZERO && step.is_finite();
+        if is_step {
+            (self.step, self.counts) = (step, counts);
+            self.control.set_history(control);
+        }
+        is_step
     }
 
     /// Advances `y` from `t` by exactly `dt` [s], in as many accepted steps as the tolerance asks for.

@@ -42,6 +42,17 @@ impl<T: Real> StepControl<T> {
         }
     }
 
+    /// What is remembered: the error of the last accepted step, where there was one, and whether the last trial was rejected.
+    #[must_use]
+    pub fn history(&self) -> (Option<f64>, bool) {
+        (self.memory, self.was_rejected)
+    }
+
+    /// Goes on from a [`history`](Self::history).
+    pub fn set_history(&mut self, (memory, was_rejected): (Option<f64>, bool)) {
+        (self.memory, self.was_rejected) = (memory, was_rejected);
+    }
+
     /// Factor for the step after an accepted one with this `error`, which is remembered.
     ///
     /// Cost: two powers, in `f64` for every scalar.

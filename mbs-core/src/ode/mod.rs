@@ -20,7 +20,7 @@ mod tableau;
 #[cfg(test)]
 mod tests;
 
-pub use adaptive::{Adaptive, Counts, EndState, Options};
+pub use adaptive::{Adaptive, AdaptiveHistory, Counts, EndState, Options};
 pub use control::StepControl;
 pub use error::OdeError;
 pub use extrapolation::Extrapolation;

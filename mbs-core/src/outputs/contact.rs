@@ -97,6 +97,14 @@ impl<T: Real, const D: usize> Contacts<T, D> {
         self.t = to;
     }
 
+    /// Goes on from a state at which these instants were known, and so many more left out.
+    pub fn resume(&mut self, state: &State<T>, instants: &[Instant], left_out: u64) {
+        self.start(state);
+        self.instants.clear();
+        self.instants.extend(instants.iter().take(MOST_INSTANTS));
+        self.left_out = left_out;
+    }
+
     /// The instants so far, in order; at most [`MOST_INSTANTS`].
     #[must_use]
     pub fn instants(&self) -> &[Instant] {

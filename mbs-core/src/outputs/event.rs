@@ -23,7 +23,7 @@
 //! kinks that come under a wheel in the air; two places of a road that become equally near to a wheel in a hollow as tight as it.
 
 use super::cubic::Cubic;
-use super::load::{Gap, Load, Loads, Reading};
+use super::load::{Gap, Load, Loads, N_READING, Reading};
 use crate::Real;
 use crate::control::Crossing;
 use crate::laws::kink::Kink;
@@ -41,6 +41,17 @@ pub struct Events<T: Real, const D: usize> {
     t: T,
     /// Trials of it so far.
     trials: u32,
+}
+
+/// What [`Events`] know of the beginning of a step.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct EventHistory<T> {
+    /// When it begins [s].
+    pub t: T,
+    /// Trials of it so far.
+    pub trials: u32,
+    /// Gaps and places of each effect that is watched, each with its rate.
+    pub begin: Vec<[T; N_READING]>,
 }
 
 /// What is known of one effect.
@@ -138,6 +149,25 @@ impl<T: Real, const D: usize> Events<T, D> {
     /// [`start`](Self::start).
     pub fn accept(&mut self, state: &State<T>) {
         self.start(state);
+    }
+
+    /// What the next step is compared with.
+    #[must_use]
+    pub fn history(&self) -> EventHistory<T> {
+        let begin = self.watched.iter().map(|watched| watched.begin.numbers()).collect();
+        EventHistory { t: self.t, trials: self.trials, begin }
+    }
+
+    /// Goes on from the history of the same scene; says whether it is one, by its length. Else nothing is changed.
+    pub fn set_history(&mut self, history: &EventHistory<T>) -> bool {
+        if history.begin.len() != self.watched.len() {
+            return false;
+        }
+        (self.t, self.trials) = (history.t, history.trials);
+        for (watched, numbers) in self.watched.iter_mut().zip(&history.begin) {
+            watched.begin = Reading::of_numbers(numbers);
+        }
+        true
     }
 
     fn read(&mut self, state: &State<T>) {

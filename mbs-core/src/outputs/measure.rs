@@ -92,6 +92,17 @@ impl<T: Real, const D: usize> Measures<T, D> {
         self.channels.iter().map(Channel::len)
     }
 
+    /// The last values of the joint coordinates that are followed, with their turns.
+    #[must_use]
+    pub fn memory(&self) -> &[T] {
+        &self.memory
+    }
+
+    /// The same, to go on from others.
+    pub fn memory_mut(&mut self) -> &mut [T] {
+        &mut self.memory
+    }
+
     /// Follows all joint coordinates to `state`, so that no turn is lost. Call it at every step.
     ///
     /// Cost: a few products for each measured joint coordinate, one arc tangent for each angle; no allocation.

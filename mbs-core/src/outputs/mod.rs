@@ -20,7 +20,7 @@ mod wrench;
 
 pub use contact::{Contacts, Instant, MOST_INSTANTS};
 pub use error::ReactionError;
-pub use event::Events;
+pub use event::{EventHistory, Events};
 pub use measure::{Measures, start_values};
 pub use reaction::{LARGEST_BLOCK, Reactions};
 pub use wrench::{Transmission, Wrench};

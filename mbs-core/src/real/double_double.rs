@@ -256,6 +256,14 @@ impl super::Real for DoubleDouble {
         self.hi
     }
     #[inline]
+    fn parts(self) -> [f64; 2] {
+        [self.hi, self.lo]
+    }
+    #[inline]
+    fn from_parts([hi, lo]: [f64; 2]) -> Self {
+        Self { hi, lo }
+    }
+    #[inline]
     fn sqrt(self) -> Self {
         super::functions::sqrt(self)
     }

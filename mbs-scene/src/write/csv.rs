@@ -33,6 +33,12 @@ impl<W: Write> CsvWriter<W> {
         Ok(Self { out, n_columns: header.len(), n_rows: 0 })
     }
 
+    /// Goes on with a file that has its header.
+    pub fn append(sink: W, channels: &[Channel]) -> Self {
+        let n_columns = 1 + channels.iter().map(|channel| channel.components.len()).sum::<usize>();
+        Self { out: csv::Writer::from_writer(sink), n_columns, n_rows: 0 }
+    }
+
     /// Writes one row: the time [s] and the components of all channels in order.
     ///
     /// # Errors
@@ -98,6 +104,18 @@ pub fn write_steps(sink: impl Write, steps: &StepSeries) -> io::Result<()> {
         "limit",
     ];
     out.write_record(header).map_err(io::Error::from)?;
+    write_step_rows(out, steps)
+}
+
+/// Goes on with a file that has the header of [`write_steps`].
+///
+/// # Errors
+/// Those of the sink.
+pub fn append_steps(sink: impl Write, steps: &StepSeries) -> io::Result<()> {
+    write_step_rows(csv::Writer::from_writer(sink), steps)
+}
+
+fn write_step_rows<W: Write>(mut out: csv::Writer<W>, steps: &StepSeries) -> io::Result<()> {
     for ((&t, &error), row) in steps.times.iter().zip(&steps.energy_errors).zip(&steps.rows) {
         let record = [
             shortest(t),

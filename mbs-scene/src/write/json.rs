@@ -1,6 +1,7 @@
 //! JSON: the summary of a run, with the keys of the scene format.
 
 use super::choice::Choice;
+use super::realtime::RealtimeSummary;
 use crate::record::StepRow;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
@@ -33,7 +34,7 @@ pub struct RunSummary {
     pub error: Option<RunError>,
     /// Time reached [s].
     pub end_time: f64,
-    /// CPU time of all threads from the first step to the last [s].
+    /// CPU time of all threads from the first step to the last; of a paced run the time of its periods by the clock [s].
     pub cpu_seconds: f64,
     /// Time reached over the time it took.
     pub real_time_factor: f64,
@@ -50,6 +51,9 @@ pub struct RunSummary {
     /// What the control of the step size did; absent where steps are fixed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub control: Option<ControlSummary>,
+    /// How the run kept up with the clock; absent where it was not paced.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub realtime: Option<RealtimeSummary>,
     /// Channels at `end_time`.
     pub outputs: Outputs,
     /// The same as texts of 32 digits, where the run had them: most readers of JSON keep no more than 17.

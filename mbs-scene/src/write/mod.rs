@@ -5,11 +5,12 @@ mod csv;
 mod explanation;
 mod json;
 mod readable;
+mod realtime;
 #[cfg(test)]
 mod tests;
 
 pub use choice::{Candidate, Choice, Fallback, PilotReference, TrialEntry, write_choice};
-pub use csv::{CsvWriter, long, shortest, write_steps};
+pub use csv::{CsvWriter, append_steps, long, shortest, write_steps};
 pub use explanation::{
     Absence, Change, ControllerStep, EffectEntry, Explanation, GuideEntry, JointGroup, LargestStep,
     Price, Prices, Relative, Rod, SearchEnd, Simulated, Sizes,
@@ -19,3 +20,4 @@ pub use json::{
 };
 pub use readable::readable;
 pub(crate) use readable::rounded;
+pub use realtime::{Degraded, MarginSummary, Overrun, RealtimeSummary, Times, write_overruns};

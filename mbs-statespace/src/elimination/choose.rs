@@ -80,7 +80,7 @@ impl<T: Real> Chooser<T> {
         self.column_counts[c] += 1;
     }
 
-    fn load(&mut self, pattern: &Pattern, values: &[T]) {
+    pub(super) fn load(&mut self, pattern: &Pattern, values: &[T]) {
         self.entries.clear();
         self.row_heads.fill(NONE);
         self.column_heads.fill(NONE);
@@ -149,8 +149,25 @@ impl<T: Real> Chooser<T> {
         best.map(|(_, _, at)| at)
     }
 
+    /// The entry that is left at a place.
+    pub(super) fn entry(&self, row: u32, column: u32) -> Option<u32> {
+        let mut next = self.row_heads[row as usize];
+        while let Some((at, e)) = self.along(next) {
+            if e.column == column {
+                return Some(at);
+            }
+            next = e.next_in_row;
+        }
+        None
+    }
+
     /// Subtracts the pivot's row from every row that has its column.
-    fn eliminate(&mut self, pivot: u32, step: u32, (row_scales, column_scales): (&[T], &[T])) {
+    pub(super) fn eliminate(
+        &mut self,
+        pivot: u32,
+        step: u32,
+        (row_scales, column_scales): (&[T], &[T]),
+    ) {
         let pivot = self.entries[pivot as usize];
         let (p, c) = (pivot.row as usize, pivot.column as usize);
         self.row_steps[p] = step;
@@ -234,15 +251,21 @@ impl<T: Real> Elimination<T> {
         }
         let rest = chooser.rest();
         self.rank = rank;
+        self.close_order();
+        self.refactor(values);
+        self.note_pivots();
+        Choice { rank, last, rest }
+    }
+
+    /// The rows and columns that are left after the pivots, and the patterns of the factors.
+    pub(super) fn close_order(&mut self) {
+        let (m, n, chooser) = (self.pattern.n_rows(), self.pattern.n_columns, &self.chooser);
         self.rows.extend((0..m).filter(|&r| chooser.row_steps[r] == NONE).map(index));
         self.unknowns.extend((0..n).filter(|&c| chooser.column_steps[c] == NONE).map(index));
         for (place, &column) in self.unknowns.iter().enumerate() {
             self.places[column as usize] = index(place);
         }
         self.note_order();
-        self.refactor(values);
-        self.note_pivots();
-        Choice { rank, last, rest }
     }
 
     /// D: rows of D J E have unit length; rows of zeros are left.

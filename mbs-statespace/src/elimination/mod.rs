@@ -10,11 +10,14 @@
 
 mod choose;
 mod factor;
+mod order;
 
 use alloc::vec;
 use alloc::vec::Vec;
 use choose::Chooser;
 use mbs_core::Real;
+
+pub use order::Order;
 
 /// The pattern of a sparse matrix, row by row. The numbers stand in a slice of their own, in the same order.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -19,9 +19,9 @@ use mbs_core::step::StepError;
 use mbs_scene::compare::{output_scales, row_distance};
 use mbs_scene::{Channel, RunError};
 
-/// The clock is read every so many steps where that many take no longer than this [s], and steps are not timed one by one.
+/// The clock is read every so many steps where each takes no longer than this [s], and steps are not timed one by one.
 const STRIDE: u64 = 8;
-const SOON: f64 = 1e-4;
+const SOON: f64 = 1e-5;
 /// The first interval of an integrator that controls its own steps is cut into so many, to see how long it takes.
 const CAUTIOUS: u64 = 4;
 /// A trial is begun where its first interval promises no more than so many times what it may take.
@@ -269,7 +269,8 @@ where
         self.reached = simulation.state().t.to_f64();
         if self.is_fine || self.is_slow || before / STRIDE != self.steps / STRIDE {
             let now = self.clock.seconds();
-            self.is_slow = now - self.last > if self.is_slow { SOON / 8.0 } else { SOON };
+            self.is_slow =
+                now - self.last > SOON * if self.is_slow { 1.0 } else { count(STRIDE as usize) };
             self.slowest = self.slowest.max(now - self.last);
             self.is_late = now > self.until;
             self.last = now;

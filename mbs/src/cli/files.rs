@@ -60,7 +60,7 @@ pub(crate) fn provenance(
     let mut command = format!("mbs {command} {}", scene.display());
     for (key, value) in options {
         if let Some(value) = value {
-            command.push_str(&format!(" --{key} {value}"));
+            command.push_str(format!(" --{key} {value}").trim_end());
         }
     }
     Provenance {

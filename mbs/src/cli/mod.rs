@@ -8,6 +8,8 @@ mod explain;
 mod export;
 mod files;
 mod generate;
+mod keep;
+mod realtime;
 mod run;
 mod sweep;
 mod table;
@@ -34,7 +36,7 @@ kept), there is no equilibrium, or the doctor found a fault.";
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Simulate a scene: summary, and with --out run.csv, run.json and run.html.
-    Run(run::Arguments),
+    Run(Box<run::Arguments>),
     /// What accuracy costs: every method over a range of steps, CPU time against true error; resumable after a kill.
     Compare(compare::Arguments),
     /// What a scene simulates, what it does not, and the measured price of each effect.

@@ -1,15 +1,20 @@
 //! `mbs run SCENE`.
 
 use super::bar::{bar, ticks};
-use super::{STOPPED, files, refuse, table};
-use crate::auto::{Goal, Processor, plan, run_plan, time};
-use crate::{Outcome, Overrides, Settings, words};
+use super::{STOPPED, files, keep, realtime, refuse, table};
+use crate::auto::{Goal, Plan, Processor, plan, run_plan, time};
+use crate::realtime::Pacing;
+use crate::{Outcome, Overrides, Settings, run_document_kept, words};
 use clap::Args;
 use indicatif::ProgressBar;
+use mbs_core::scene::Scene;
 use mbs_scene::{Document, Provenance, RunError, readable};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+
+/// Options that go with one method alone: a run that may fall back on another has none of them.
+const NOT_CHOSEN: [&str; 3] = ["checkpoint", "resume", "realtime"];
 
 /// Arguments of `mbs run`.
 #[derive(Debug, Args)]
@@ -57,9 +62,11 @@ pub(crate) struct Arguments {
     /// The results are the same to the last bit.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// Directory for run.csv, steps.csv, run.json and run.html; made if missing.
+    /// Directory for run.csv, steps.csv, run.json and run.html, with --realtime also realtime.csv; made if missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    keep: keep::Arguments,
     /// One JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
@@ -71,15 +78,14 @@ pub(crate) struct Arguments {
     integrator: Option<String>,
     /// Wanted error: the largest of the outputs over the run, each beside its own range, as in `mbs compare`. A short pilot measures which
     /// formulation, integrator and step reach it in the least time, and says why; --formulation and --integrator narrow the choice.
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", allow_negative_numbers = true, conflicts_with_all = NOT_CHOSEN)]
     error: Option<f64>,
     /// Deadline [s, or 1ms, 500us]: the run is made in frames of this length, each computed within the same time even where its steps
     /// are slowest, as accurately as that allows (with --error: as cheaply as the error allows).
-    #[arg(long, value_name = "S", value_parser = time, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = time, allow_negative_numbers = true, conflicts_with_all = NOT_CHOSEN)]
     deadline: Option<f64>,
-    /// Paced run (not built).
-    #[arg(long, hide = true)]
-    realtime: bool,
+    #[command(flatten)]
+    realtime: realtime::Arguments,
 }
 
 impl Arguments {
@@ -102,30 +108,30 @@ impl Arguments {
         }
     }
 
-    fn provenance(&self, settings: &Settings) -> Provenance {
+    fn provenance(&self, o: &Overrides, settings: &Settings) -> Provenance {
         let options = [
-            ("formulation", self.formulation.clone()),
-            ("step", self.step.map(|x| x.to_string())),
-            ("step-max", self.step_max.map(|x| x.to_string())),
-            ("step-control", self.step_control.clone()),
-            ("energy-tolerance", self.energy_tolerance.map(|[u, l]| format!("{u},{l}"))),
-            ("error-tolerance", self.error_tolerance.map(|x| x.to_string())),
-            ("events", self.events.map(|on| if on { "on" } else { "off" }.to_owned())),
-            ("energy-alarm", self.energy_alarm.map(|x| x.to_string())),
-            ("duration", self.duration.map(|x| x.to_string())),
-            ("penalty", self.penalty.map(|x| x.to_string())),
-            ("tolerance", self.tolerance.map(|x| x.to_string())),
-            ("precision", self.precision.clone()),
-            ("integrator", self.integrator.clone()),
+            ("formulation", o.formulation.clone()),
+            ("step", o.step.map(|x| x.to_string())),
+            ("step-max", o.step_max.map(|x| x.to_string())),
+            ("step-control", o.step_control.clone()),
+            ("energy-tolerance", o.energy_tolerance.map(|[u, l]| format!("{u},{l}"))),
+            ("error-tolerance", o.error_tolerance.map(|x| x.to_string())),
+            ("events", o.events.map(|on| if on { "on" } else { "off" }.to_owned())),
+            ("energy-alarm", o.energy_alarm.map(|x| x.to_string())),
+            ("duration", o.duration.map(|x| x.to_string())),
+            ("penalty", o.penalty.map(|x| x.to_string())),
+            ("tolerance", o.tolerance.map(|x| x.to_string())),
+            ("precision", o.precision.clone()),
+            ("integrator", o.integrator.clone()),
             ("error", self.error.map(|x| x.to_string())),
             ("deadline", self.deadline.map(|x| x.to_string())),
         ];
+        let options: Vec<_> = options.into_iter().chain(self.realtime.options()).collect();
         files::provenance(("run", &self.scene), &options, settings)
     }
 
-    /// The first option that is part of the contract and not built.
-    fn not_built(&self) -> Option<&'static str> {
-        self.realtime.then_some("--realtime")
+    fn goal(&self) -> Goal {
+        Goal { error: self.error, deadline: self.deadline }
     }
 }
 
@@ -147,30 +153,68 @@ fn switch(text: &str) -> Result<bool, String> {
 
 /// Runs the command.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
-    if let Some(option) = arguments.not_built() {
-        return refuse(&format!(
-            "error: {option} is not built yet\nhint: leave it out; give --step instead"
-        ));
+    match begin(arguments) {
+        Ok(begun) => go(arguments, begun),
+        Err(message) => refuse(&message),
     }
-    let place = (arguments.out.as_deref(), "run.csv");
-    let begun = files::begin(&arguments.scene, &arguments.overrides(), place);
-    let (document, scene, settings) = match begun {
-        Ok(begun) => begun,
-        Err(message) => return refuse(&message),
-    };
-    let goal = Goal { error: arguments.error, deadline: arguments.deadline };
+}
+
+/// A run that may begin.
+struct Begun {
+    document: Document,
+    scene: Scene<f64>,
+    plan: Plan,
+    overrides: Overrides,
+    pacing: Option<Pacing>,
+    kept: keep::Kept,
+}
+
+/// Reads what is run, and what it goes on from, and chooses where something is wanted; else the refusal.
+fn begin(arguments: &Arguments) -> Result<Begun, String> {
+    let out = arguments.out.as_deref();
+    let pacing = arguments.realtime.pacing()?;
+    let kept = arguments.keep.begin(out)?;
+    let overrides = kept.overrides(arguments.overrides())?;
+    let begun = files::begin(&arguments.scene, &overrides, (out, kept.trial()))?;
+    let (document, scene, settings) = begun;
+    let settings = kept.settle(settings)?;
     let clock = &mut Processor::new(settings.threads);
-    let plan = plan((&document, &scene), (&arguments.overrides(), settings), goal, clock);
-    let plan = match plan {
-        Ok(plan) => plan,
-        Err(error) => return refuse(&error.render()),
-    };
-    let mut bar = Bar::new(plan.first().duration, arguments.json);
-    let outcome = run_plan((&document, &scene), &plan, &mut |t| bar.reached(t));
+    let chosen = (&overrides, settings);
+    let plan = plan((&document, &scene), chosen, arguments.goal(), clock);
+    let plan = plan.map_err(|error| error.render())?;
+    kept.clear();
+    Ok(Begun { document, scene, plan, overrides, pacing, kept })
+}
+
+fn go(arguments: &Arguments, mut begun: Begun) -> ExitCode {
+    match run(arguments, &mut begun) {
+        Ok((outcome, settings)) => report(&outcome, arguments, (&begun, &settings)),
+        Err(message) => refuse(&message),
+    }
+}
+
+/// Runs it, at the pace of a clock or as fast as it can, and tells with what settings; else the refusal.
+fn run(arguments: &Arguments, begun: &mut Begun) -> Result<(Outcome, Settings), String> {
+    let Begun { document, scene, plan, pacing, kept, .. } = begun;
+    let settings = plan.first();
+    if let Some(pacing) = pacing {
+        let run = realtime::run((document, scene), settings, pacing);
+        return run.map(|outcome| (outcome, settings.clone())).map_err(|error| error.render());
+    }
+    let mut bar = Bar::new(settings.duration, arguments.json);
+    let mut reached = |t| bar.reached(t);
+    if settings.choice.is_some() {
+        let run = run_plan((document, scene), plan, &mut reached);
+        bar.bar.finish_and_clear();
+        return run.map_err(|error| error.render());
+    }
+    let parts = (kept.from.as_ref(), kept.keeping.as_mut());
+    let outcome = run_document_kept((document, scene), settings, &mut reached, parts);
     bar.bar.finish_and_clear();
     match outcome {
-        Ok((outcome, settings)) => report(&outcome, arguments, &settings, &document),
-        Err(error) => refuse(&error.render()),
+        Ok(Ok(outcome)) => Ok((outcome, settings.clone())),
+        Ok(Err(error)) => Err(keep::said(&error)),
+        Err(error) => Err(error.render()),
     }
 }
 
@@ -178,13 +222,14 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 fn report(
     outcome: &Outcome,
     arguments: &Arguments,
-    settings: &Settings,
-    document: &Document,
+    (begun, settings): (&Begun, &Settings),
 ) -> ExitCode {
-    if let Some(out) = &arguments.out
-        && let Err(error) = write_files(outcome, out, arguments, settings)
-    {
-        return refuse(&files::unwritable(out, &error));
+    if let Some(out) = &arguments.out {
+        let provenance = arguments.provenance(&begun.overrides, settings);
+        if let Err(error) = write_files(outcome, out, provenance) {
+            return refuse(&files::unwritable(out, &error));
+        }
+        begun.kept.end();
     }
     let text = if arguments.json {
         outcome.summary.to_json()
@@ -198,7 +243,7 @@ fn report(
     let Some(error) = &outcome.error else { return ExitCode::SUCCESS };
     if !arguments.json {
         let report = outcome.summary.error.as_ref();
-        let text = report.map(|report| stopped("stopped", report, error, document));
+        let text = report.map(|report| stopped("stopped", report, error, &begun.document));
         eprint!("{}", text.unwrap_or_default());
     }
     ExitCode::from(STOPPED)
@@ -222,19 +267,16 @@ pub(crate) fn stopped(
     place.render(document.file(), &message, &report.hint)
 }
 
-fn write_files(
-    outcome: &Outcome,
-    out: &Path,
-    arguments: &Arguments,
-    settings: &Settings,
-) -> std::io::Result<()> {
+fn write_files(outcome: &Outcome, out: &Path, provenance: Provenance) -> std::io::Result<()> {
     outcome.write_csv(std::io::BufWriter::new(std::fs::File::create(out.join("run.csv"))?))?;
     outcome.write_steps(std::io::BufWriter::new(std::fs::File::create(out.join("steps.csv"))?))?;
-    std::fs::write(out.join("run.json"), outcome.summary.to_json() + "\n")?;
-    if let Some(choice) = &settings.choice {
+    realtime::write(out, &outcome.summary)?;
+    let chosen = outcome.summary.chosen.as_ref();
+    if let Some(choice) = chosen.and_then(|chosen| chosen.evidence.as_ref()) {
         files::write_choice(out, choice)?;
     }
-    std::fs::write(out.join("run.html"), outcome.page(arguments.provenance(settings)))
+    std::fs::write(out.join("run.json"), outcome.summary.to_json() + "\n")?;
+    std::fs::write(out.join("run.html"), outcome.page(provenance))
 }
 
 /// A progress bar on a terminal, nothing elsewhere.

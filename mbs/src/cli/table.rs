@@ -27,8 +27,10 @@ pub(crate) fn text(outcome: &Outcome, out: Option<&Path>) -> String {
     }
     if let Some(out) = out {
         let is_measured = s.chosen.as_ref().is_some_and(|c| c.evidence.is_some());
-        let more = if is_measured { ", choice.json, choice.csv" } else { "" };
-        line(format!("wrote run.csv, steps.csv, run.json{more} and run.html to {}", out.display()));
+        let paced = if s.realtime.is_some() { "realtime.csv, " } else { "" };
+        let chosen = if is_measured { "choice.json, choice.csv, " } else { "" };
+        let out = out.display();
+        line(format!("wrote run.csv, steps.csv, {paced}{chosen}run.json and run.html to {out}"));
     }
     text
 }
@@ -76,6 +78,8 @@ fn rows(s: &RunSummary) -> Vec<(&str, String)> {
         ),
     ];
     rows.extend(s.control.as_ref().map(|control| ("control of the step", words::control(control))));
+    let paced = s.realtime.iter().flat_map(crate::realtime::rows);
+    rows.extend(paced.map(|(label, value): (&str, String)| (label, value)));
     for (name, values) in &s.outputs.0 {
         let values: Vec<String> = values.iter().map(|v| fixed(*v)).collect();
         rows.push((name, values.join("  ")));

@@ -1,5 +1,6 @@
 //! CPU times of single steps: their classes, and what most of them stay below.
 
+use mbs_realtime::nearest_rank;
 use mbs_scene::compare::StepTimes;
 
 /// Classes of a decade.
@@ -13,7 +14,6 @@ pub(super) fn step_times(mut times: Vec<f64>, reading: f64) -> Option<StepTimes>
         *time = (*time - reading).max(TICK);
     }
     times.sort_by(f64::total_cmp);
-    let n = times.len();
     let max = *times.last()?;
     let mut classes: Vec<(i32, u64)> = Vec::new();
     for time in &times {
@@ -26,8 +26,8 @@ pub(super) fn step_times(mut times: Vec<f64>, reading: f64) -> Option<StepTimes>
     }
     let edge = |class: i32| 10_f64.powf(f64::from(class) / PER_DECADE);
     Some(StepTimes {
-        p50: times[(n - 1) / 2],
-        p99: times[(n - 1) * 99 / 100],
+        p50: *nearest_rank(&times, 50)?,
+        p99: *nearest_rank(&times, 99)?,
         max,
         classes: classes.into_iter().map(|(class, count)| (edge(class), count)).collect(),
     })

@@ -10,7 +10,7 @@ use mbs_scene::{Change, Channel};
 const ROUNDING: f64 = 1e-9;
 
 /// The outputs of the run with all effects.
-pub(super) struct Outputs<'a> {
+pub(crate) struct Outputs<'a> {
     run: &'a Outcome,
     parts: Vec<Part>,
 }
@@ -27,7 +27,7 @@ struct Part {
 }
 
 impl<'a> Outputs<'a> {
-    pub(super) fn new<T: Real>(scene: &Scene<T>, run: &'a Outcome) -> Self {
+    pub(crate) fn new<T: Real>(scene: &Scene<T>, run: &'a Outcome) -> Self {
         let mut parts: Vec<Part> = Vec::new();
         let mut column = 0;
         for channel in &Channel::of_scene(scene) {
@@ -81,7 +81,7 @@ impl<'a> Outputs<'a> {
     }
 
     /// The largest differences of the rows that both runs have.
-    pub(super) fn changes(&self, other: &Outcome) -> Vec<Change> {
+    pub(crate) fn changes(&self, other: &Outcome) -> Vec<Change> {
         let pairs = || {
             let pairs = self.run.rows().iter().zip(other.rows());
             pairs.take_while(|(a, b)| a.0.total_cmp(&b.0).is_eq())

@@ -4,7 +4,7 @@ use mbs_core::Real;
 use mbs_core::scene::{Course, EffectKind};
 
 /// The name in scene files; `own` for a law in code.
-pub(super) fn name<T>(kind: &EffectKind<T>) -> &'static str {
+pub(crate) fn name<T>(kind: &EffectKind<T>) -> &'static str {
     match kind {
         EffectKind::SpringDamper { .. } => "spring-damper",
         EffectKind::TorsionSpring { .. } => "torsion-spring",

@@ -5,8 +5,8 @@
 //! ```
 
 mod absent;
-mod changes;
-mod kinds;
+pub(crate) mod changes;
+pub(crate) mod kinds;
 mod price;
 mod reach;
 mod report;

@@ -8,6 +8,7 @@ mod retell;
 
 mod analysis;
 mod andrews;
+mod checkpoint;
 mod choice;
 mod command;
 mod compare;
@@ -23,6 +24,7 @@ mod invariants;
 mod modes;
 mod oracle;
 mod random;
+mod realtime;
 mod reference;
 mod sweep;
 mod threads;

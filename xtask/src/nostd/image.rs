@@ -55,43 +55,46 @@ impl Image {
 }
 
 /// The functions that can be reached from `start` in a disassembly: by calls, jumps and falling through. A call through a
-/// register may go anywhere and is refused.
+/// register may go anywhere, and an instruction that is not known may be one: both are refused.
 ///
 /// # Errors
 ///
-/// No such function, or a call through a register.
+/// No such function, or one that may go anywhere.
 pub(super) fn reachable(disassembly: &str, start: &str) -> Result<BTreeSet<String>, String> {
+    let functions = functions(disassembly);
     let mut calls: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
-    let mut here = "";
+    let mut opaque: BTreeMap<&str, &'static str> = BTreeMap::new();
     for line in disassembly.lines() {
-        if let Some((_, name)) = line.strip_suffix(">:").and_then(|line| line.split_once(" <")) {
-            here = name;
-            calls.entry(here).or_default();
+        let Some((address, code)) = line.split_once(':') else { continue };
+        let Some(here) = number(address).and_then(|address| holder(&functions, address)) else {
             continue;
-        }
-        let mut words = line.split_whitespace().skip(1);
-        let (Some(operation), Some(operand)) = (words.next(), words.next()) else { continue };
+        };
+        let mut words = code.split_whitespace();
+        let (operation, operand) = (words.next().unwrap_or(""), words.next().unwrap_or(""));
         let is_branch = operation.starts_with('b')
             && !operation.starts_with("bf")
             && !operation.starts_with("bic")
             && !operation.starts_with("bkpt");
-        if is_branch && operand.starts_with('r') {
-            calls.entry(here).or_default().insert(ANYWHERE);
-        }
-        let target = line.rsplit_once('<').and_then(|(_, name)| name.split_once('>'));
-        let jumps = is_branch || operation.starts_with("cb");
-        if let (true, Some((target, _))) = (jumps, target) {
-            let name = target.split_once('+').map_or(target, |(name, _)| name);
-            calls.entry(here).or_default().insert(name);
+        if operation == "<unknown>" {
+            opaque.insert(here, "has an instruction that the disassembler does not know");
+        } else if (is_branch && operand.starts_with('r'))
+            || (is_load(operation) && operand.starts_with("pc"))
+        {
+            opaque.insert(here, "calls through a register");
+        } else if is_branch || operation.starts_with("cb") {
+            let target =
+                code.split_once('<').and_then(|(before, _)| before.split_whitespace().last());
+            let target = target.and_then(number).and_then(|address| holder(&functions, address));
+            calls.entry(here).or_default().extend(target);
         }
     }
-    if !calls.contains_key(start) {
+    if !functions.values().any(|name| *name == start) {
         return Err(format!("there is no function `{start}`"));
     }
     let (mut seen, mut todo) = (BTreeSet::new(), vec![start]);
     while let Some(name) = todo.pop() {
-        if name == ANYWHERE {
-            return Err("a step calls through a register: what it reaches is unknown".to_owned());
+        if let Some(why) = opaque.get(name) {
+            return Err(format!("`{name}` {why}: what a step reaches is unknown"));
         }
         if seen.insert(name.to_owned()) {
             todo.extend(calls.get(name).into_iter().flatten());
@@ -100,8 +103,28 @@ pub(super) fn reachable(disassembly: &str, start: &str) -> Result<BTreeSet<Strin
     Ok(seen)
 }
 
-/// The target of a call through a register.
-const ANYWHERE: &str = "*";
+/// An instruction that jumps where it has the program counter for its target.
+fn is_load(operation: &str) -> bool {
+    operation.starts_with("ldr") || operation.starts_with("mov")
+}
+
+/// Functions by their addresses; `$t` and `$d` only mark where code and data begin within one.
+fn functions(disassembly: &str) -> BTreeMap<u64, &str> {
+    let headers = disassembly.lines().filter_map(|line| line.strip_suffix(">:")?.split_once(" <"));
+    let functions = headers.filter(|(_, name)| !name.starts_with('$'));
+    functions.filter_map(|(address, name)| Some((number(address)?, name))).collect()
+}
+
+/// The function that an address lies in.
+fn holder<'a>(functions: &BTreeMap<u64, &'a str>, address: u64) -> Option<&'a str> {
+    functions.range(..=address).next_back().map(|(_, name)| *name)
+}
+
+/// An address in hexadecimal digits, with or without `0x`.
+fn number(text: &str) -> Option<u64> {
+    let text = text.trim();
+    u64::from_str_radix(text.strip_prefix("0x").unwrap_or(text), 16).ok()
+}
 
 #[cfg(test)]
 mod tests {
@@ -115,13 +138,26 @@ mod tests {
 
 00000500 <helper>:
      500: bne 0x508 <helper+0x8> @ imm
-     502: b.w 0x600 <_RNv4core9panicking5panic>
+     502: cbz r0, 0x514 <$t> @ imm
+     504: bx lr
+
+00000508 <$d>:
+     508: 00 00 00 20 .word 0x20000000
+
+00000514 <$t>:
+     514: b.w 0x600 <_RNv4core9panicking5panic>
 
 00000600 <_RNv4core9panicking5panic>:
      600: b 0x600 <_RNv4core9panicking5panic>
 
 00000700 <other>:
      700: blx r3
+
+00000800 <another>:
+     800: <unknown>
+
+00000900 <third>:
+     900: ldr pc, [r0, #4]
 ";
 
     #[test]
@@ -129,6 +165,8 @@ mod tests {
         let reached = reachable(TEXT, "start").expect("no call through a register");
         assert!(reached.contains("_RNv4core9panicking5panic") && !reached.contains("other"));
         assert!(reachable(TEXT, "other").is_err(), "a call through a register");
+        assert!(reachable(TEXT, "third").is_err(), "a jump through memory");
+        assert!(reachable(TEXT, "another").is_err(), "an instruction that is not known");
         assert!(reachable(TEXT, "none").is_err());
     }
 }

@@ -42,6 +42,23 @@ pub(in crate::outputs) struct Reading<T> {
     pub(in crate::outputs) place: [Gap<T>; 2],
 }
 
+/// Numbers of a [`Reading`].
+pub(in crate::outputs) const N_READING: usize = 8;
+
+impl<T: Real> Reading<T> {
+    /// Its numbers.
+    pub(in crate::outputs) fn numbers(&self) -> [T; N_READING] {
+        let [[a, b], [c, d]] = [self.gaps, self.place].map(|of| of.map(|g| [g.value, g.rate]));
+        [a[0], a[1], b[0], b[1], c[0], c[1], d[0], d[1]]
+    }
+
+    /// The reading of these [`numbers`](Self::numbers).
+    pub(in crate::outputs) fn of_numbers(numbers: &[T; N_READING]) -> Self {
+        let gap = |i: usize| Gap { value: numbers[2 * i], rate: numbers[2 * i + 1] };
+        Self { gaps: [gap(0), gap(1)], place: [gap(2), gap(3)] }
+    }
+}
+
 impl<T: Real, const D: usize> Load<T, D> {
     /// How many gaps it has; none where it acts always.
     pub(in crate::outputs) fn n_gaps(&self) -> usize {

@@ -4,7 +4,7 @@ mod apply;
 mod gap;
 
 pub(super) use apply::Applied;
-pub(super) use gap::{Gap, MOST_GAPS, Reading};
+pub(super) use gap::{Gap, MOST_GAPS, N_READING, Reading};
 
 use super::coordinate::Coordinate;
 use super::frame::Frame;

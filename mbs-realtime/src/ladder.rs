@@ -1,0 +1,117 @@
+//! Which level the next task runs at: down after an overrun, up after a quiet time, with hysteresis.
+//!
+//! ```text
+//! down: the task was late and took longer than a period, or more than `patience` tasks in a row were late
+//! up:   `tasks` × f tasks in a row were in time and took at most `share` of a period
+//! f:    doubled, up to 64, by a fall that comes before a rise has lasted as long as the quiet time; 1 again after one that has
+//! ```
+//!
+//! A task that is late only because it began late says nothing of its own level: the debt is caught up.
+
+use crate::log::Action;
+use std::time::Duration;
+
+/// The quiet time is never longer than so many times what is asked for.
+const MOST_TIMES: u32 = 64;
+
+/// When a loop that was degraded comes back up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Quiet {
+    /// Tasks in a row that must be in time and light. `≥ 1`.
+    pub tasks: u32,
+    /// A task is light that takes at most so many hundredths of a period. `1 ..= 100`.
+    pub percent: u32,
+    /// Late tasks in a row, each shorter than a period, after which the level goes down nevertheless: the debt does not shrink.
+    pub patience: u32,
+}
+
+impl Default for Quiet {
+    /// 500 tasks of at most 70 % of a period; patience 10.
+    fn default() -> Self {
+        Self { tasks: 500, percent: 70, patience: 10 }
+    }
+}
+
+/// Where on the ladder the loop stands.
+#[derive(Debug, Clone)]
+pub(crate) struct Ladder {
+    quiet: Quiet,
+    period: Duration,
+    last: usize,
+    level: usize,
+    late_in_row: u32,
+    quiet_in_row: u64,
+    /// f.
+    times: u32,
+    /// Tasks since the last rise, until it has proved itself.
+    since_rise: Option<u64>,
+}
+
+impl Ladder {
+    /// `levels` `≥ 1`: 0 is everything, `levels − 1` the least.
+    pub(crate) fn new(quiet: Quiet, period: Duration, levels: usize) -> Self {
+        Self {
+            quiet,
+            period,
+            last: levels.saturating_sub(1),
+            level: 0,
+            late_in_row: 0,
+            quiet_in_row: 0,
+            times: 1,
+            since_rise: None,
+        }
+    }
+
+    pub(crate) fn level(&self) -> usize {
+        self.level
+    }
+
+    /// After a task: what is done about it, if anything.
+    pub(crate) fn after(&mut self, is_late: bool, duration: Duration) -> Option<Action> {
+        self.watch_rise();
+        if is_late { Some(self.late(duration)) } else { self.in_time(duration) }
+    }
+
+    fn late(&mut self, duration: Duration) -> Action {
+        self.quiet_in_row = 0;
+        self.late_in_row += 1;
+        let is_own = duration > self.period || self.late_in_row > self.quiet.patience;
+        if !is_own || self.level == self.last {
+            return Action::Finished;
+        }
+        if self.since_rise.take().is_some() {
+            self.times = (self.times * 2).min(MOST_TIMES);
+        }
+        self.late_in_row = 0;
+        self.level += 1;
+        Action::Down { to: self.level }
+    }
+
+    fn in_time(&mut self, duration: Duration) -> Option<Action> {
+        self.late_in_row = 0;
+        let is_light = duration * 100 <= self.period * self.quiet.percent;
+        self.quiet_in_row = if is_light { self.quiet_in_row + 1 } else { 0 };
+        if self.level == 0 || self.quiet_in_row < self.needed() {
+            return None;
+        }
+        self.quiet_in_row = 0;
+        self.since_rise = Some(0);
+        self.level -= 1;
+        Some(Action::Up { to: self.level })
+    }
+
+    /// A rise that has lasted as long as the quiet time before it has proved itself.
+    fn watch_rise(&mut self) {
+        let needed = self.needed();
+        if let Some(tasks) = &mut self.since_rise {
+            *tasks += 1;
+            if *tasks >= needed {
+                (self.since_rise, self.times) = (None, 1);
+            }
+        }
+    }
+
+    fn needed(&self) -> u64 {
+        u64::from(self.quiet.tasks) * u64::from(self.times)
+    }
+}

@@ -1,0 +1,123 @@
+//! A checkpoint that cannot be gone on from.
+
+use crate::settings::SettingsError;
+use core::fmt::{self, Display, Formatter};
+use std::io;
+
+/// Why.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum CheckpointError {
+    /// It cannot be read.
+    Io(io::Error),
+    /// Another process keeps a run in the directory.
+    Busy,
+    /// The file is something else.
+    NotACheckpoint,
+    /// Another version of mbs has written it: this one.
+    Version(String),
+    /// The file has other than the bytes it says.
+    Torn {
+        /// Bytes after the head, as it says.
+        told: u64,
+        /// Bytes there are, or one more than told where there are more.
+        found: u64,
+    },
+    /// The sum over its bytes is another: they have changed since they were written.
+    Checksum,
+    /// Its bytes are whole, but do not make a state of this scene.
+    Misfit,
+    /// It belongs to another scene; these parts of it differ.
+    Scene(Vec<&'static str>),
+    /// It belongs to a run with another setting.
+    Setting {
+        /// Name of the setting, as on the command line.
+        key: &'static str,
+        /// Its value in the checkpoint.
+        was: String,
+        /// Its value now.
+        is: String,
+    },
+    /// What is given is refused, whatever the checkpoint.
+    Settings(SettingsError),
+    /// It was saved from a `Simulation`; there is no recorded run in it.
+    NoRun,
+}
+
+impl CheckpointError {
+    /// What to do about it.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match self {
+            Self::Io(_) => "give a file that can be read".to_owned(),
+            Self::Busy => "wait for it, or give another directory with --out".to_owned(),
+            Self::NotACheckpoint => "give the checkpoint.mbs of a run".to_owned(),
+            Self::Version(found) => format!(
+                "go on with mbs {found}, or begin anew with --restart: another version may round otherwise"
+            ),
+            Self::Torn { .. } | Self::Checksum | Self::Misfit => {
+                "begin anew with --restart, or give an earlier copy of the file".to_owned()
+            }
+            Self::Scene(_) => {
+                "go on with the scene as it was, or begin anew with --restart".to_owned()
+            }
+            Self::Setting { key, was, .. } if was.is_empty() => {
+                format!("leave --{key} out, or begin anew with --restart")
+            }
+            Self::Setting { key, was, .. } => {
+                format!("leave --{key} out or give {was}, or begin anew with --restart")
+            }
+            Self::Settings(error) => error.hint(),
+            Self::NoRun => "take it back with Simulation::restore".to_owned(),
+        }
+    }
+}
+
+impl Display for CheckpointError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Io(error) => write!(f, "the checkpoint cannot be read: {error}"),
+            Self::Busy => write!(f, "another process keeps a run in the directory"),
+            Self::NotACheckpoint => write!(f, "this is no checkpoint"),
+            Self::Version(found) => write!(
+                f,
+                "the checkpoint was written by mbs {found}, and this is {}",
+                env!("CARGO_PKG_VERSION")
+            ),
+            Self::Torn { told, found } if found > told => {
+                write!(f, "the checkpoint is longer than the {told} bytes it says")
+            }
+            Self::Torn { told, found } => {
+                write!(f, "the checkpoint is torn: {found} of its {told} bytes are there")
+            }
+            Self::Checksum => write!(f, "the checkpoint is damaged: its checksum does not hold"),
+            Self::Misfit => write!(f, "the checkpoint has no state of this scene in it"),
+            Self::Scene(parts) => write!(
+                f,
+                "the checkpoint is of another scene: {} {} not as it was",
+                parts.join(", "),
+                if parts.len() == 1 { "is" } else { "are" }
+            ),
+            Self::Setting { key, was, is } => {
+                let said =
+                    |x: &str| if x.is_empty() { "left out".to_owned() } else { x.to_owned() };
+                write!(
+                    f,
+                    "the checkpoint is of a run with other settings: {key} was {}, and is {}",
+                    said(was),
+                    said(is)
+                )
+            }
+            Self::Settings(error) => write!(f, "{error}"),
+            Self::NoRun => write!(f, "the checkpoint has a state in it, and no recorded run"),
+        }
+    }
+}
+
+impl core::error::Error for CheckpointError {}
+
+impl From<io::Error> for CheckpointError {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}

@@ -1,0 +1,108 @@
+//! How a run is kept while it goes: a checkpoint now and then, and its rows in their files.
+
+use super::CheckpointError;
+use super::rows::Rows;
+use crate::recorder::Recorder;
+use std::fs::{self, File, TryLockError};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// The file of a run's checkpoint in its directory.
+pub const FILE: &str = "checkpoint.mbs";
+
+/// Rows that wait at most until they are written.
+const MOST_WAITING: usize = 256;
+/// Share of the time between two checkpoints that one may be early: times are rounded.
+const EARLY: f64 = 1e-6;
+
+/// The bytes of a checkpoint, or why there are none.
+type Bytes = Result<Vec<u8>, CheckpointError>;
+
+/// Where and how often a run is kept.
+///
+/// At its start, and at the first step that ends at or after each multiple of a simulated time, the checkpoint in the directory is
+/// replaced by a new one: written beside it, synced, renamed. No step is made shorter for it. The rows of `run.csv` and
+/// `steps.csv` are written as the run goes. What cannot be written is tried again the next time, and told in the end.
+#[derive(Debug)]
+pub struct Keeping {
+    out: PathBuf,
+    every: f64,
+    /// When the next one is due [s].
+    next: f64,
+    rows: Rows,
+    failure: Option<io::Error>,
+    /// Holds the lock on the directory.
+    _lock: Option<File>,
+}
+
+impl Keeping {
+    /// Into a directory, made if missing, each `every` [s] of simulated time. The directory is locked until this is dropped.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Busy`] where another process keeps a run there, [`CheckpointError::Io`] where there is no directory.
+    pub fn new(out: &Path, every: f64) -> Result<Self, CheckpointError> {
+        fs::create_dir_all(out)?;
+        // Where directories cannot be opened or locked there is no lock to be had.
+        let lock = File::open(out).ok();
+        if let Some(Err(TryLockError::WouldBlock)) = lock.as_ref().map(File::try_lock) {
+            return Err(CheckpointError::Busy);
+        }
+        let (out, rows) = (out.to_owned(), Rows::default());
+        Ok(Self { out, every, next: f64::NEG_INFINITY, rows, failure: None, _lock: lock })
+    }
+
+    /// Where the checkpoint is.
+    #[must_use]
+    pub fn path(&self) -> PathBuf {
+        self.out.join(FILE)
+    }
+
+    /// What the last attempt to write has failed by; nothing where it has not.
+    #[must_use]
+    pub fn failure(&self) -> Option<&io::Error> {
+        self.failure.as_ref()
+    }
+
+    /// Simulated time between two checkpoints [s].
+    pub(crate) fn every(&self) -> f64 {
+        self.every
+    }
+
+    /// Is a checkpoint due at time `t` [s]?
+    pub(crate) fn is_due(&self, t: f64) -> bool {
+        t >= self.next
+    }
+
+    /// Are there rows enough to be written?
+    pub(crate) fn is_waiting(&self, recorder: &Recorder) -> bool {
+        self.rows.waiting(recorder) >= MOST_WAITING
+    }
+
+    /// Writes the rows so far, and the bytes of a checkpoint at time `t` [s] where there is one.
+    pub(crate) fn write(&mut self, recorder: &Recorder, checkpoint: Option<(f64, Bytes)>) {
+        let mut done = self.rows.write(&self.out, recorder);
+        if let Some((t, bytes)) = checkpoint {
+            let bytes = bytes.map_err(|error| io::Error::other(error.to_string()));
+            done = done.and(bytes.and_then(|bytes| write_whole(&self.path(), &bytes)));
+            self.next = ((t / self.every + EARLY).floor() + 1.0 - EARLY) * self.every;
+        }
+        self.failure = done.err();
+    }
+}
+
+/// Replaces a file by another that is whole: after a kill or a crash it has the old bytes or the new ones.
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut beside = path.as_os_str().to_owned();
+    beside.push(".part");
+    let beside = PathBuf::from(beside);
+    let mut file = File::create(&beside)?;
+    file.write_all(bytes)?;
+    file.sync_all()?;
+    drop(file);
+    fs::rename(&beside, path)?;
+    // The name is in the directory; where directories cannot be synced there is nothing more to do.
+    if let Some(Ok(folder)) = path.parent().map(File::open) {
+        let _ = folder.sync_all();
+    }
+    Ok(())
+}

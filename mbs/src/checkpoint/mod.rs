@@ -1,0 +1,33 @@
+//! Checkpoints: everything that the next step depends on, in one file, to go on from later to the same bits.
+//!
+//! ```text
+//! "mbs-ckpt" format | length checksum | mbs version | scene, settings | time | state, formulation, control, invariant | record
+//! ```
+//!
+//! [`Simulation::save`] and [`Simulation::restore`] are for programs that step themselves; [`Keeping`] is how `mbs run` keeps a run,
+//! its record among it. docs/CHECKPOINT.md says what is in the file and what is not. The numeric crates give plain histories of
+//! what they remember from step to step; the format is here alone.
+
+mod engine;
+mod error;
+mod file;
+mod identity;
+mod keeping;
+mod rows;
+mod simulation;
+pub(crate) mod tape;
+#[cfg(test)]
+mod tests;
+
+pub use error::CheckpointError;
+pub use file::Checkpoint;
+pub use keeping::{FILE, Keeping};
+
+pub(crate) use engine::TreeKept;
+pub(crate) use file::{Kind, whole};
+pub(crate) use identity::Identity;
+pub(crate) use rows::write_rows;
+pub(crate) use simulation::{ControlKept, Kept, inputs};
+
+#[cfg(doc)]
+use crate::Simulation;

@@ -1,0 +1,194 @@
+//! One walk over what is kept, that writes it or reads it back: little-endian numbers, lists after their lengths.
+//!
+//! Whatever the bytes, reading ends in an error at worst: a list is never longer than the bytes that are left allow, a number of the
+//! mechanics is finite, and a count has room to grow.
+
+use super::CheckpointError;
+use crate::digits::is_finer;
+use core::time::Duration;
+use mbs_core::Real;
+
+/// What a walk comes to.
+pub(crate) type Told = Result<(), CheckpointError>;
+
+/// Counts at most: they go on growing.
+const MOST: u64 = 1 << 60;
+const MOST_U32: u32 = 1 << 30;
+
+/// Bytes that are written or read.
+pub(crate) trait Tape: Sized {
+    /// Writes these bytes, or replaces them by those that were written.
+    fn bytes(&mut self, bytes: &mut [u8]) -> Told;
+
+    /// Bytes that are left to be read; nothing where they are written.
+    fn left(&self) -> Option<usize>;
+
+    /// A count.
+    fn count(&mut self, x: &mut u64) -> Told {
+        let mut bytes = x.to_le_bytes();
+        self.bytes(&mut bytes)?;
+        *x = u64::from_le_bytes(bytes);
+        holds(*x <= MOST)
+    }
+
+    /// A number of 64 bits that may be any.
+    fn word(&mut self, x: &mut u64) -> Told {
+        let mut bytes = x.to_le_bytes();
+        self.bytes(&mut bytes)?;
+        *x = u64::from_le_bytes(bytes);
+        Ok(())
+    }
+
+    /// A small count.
+    fn small(&mut self, x: &mut u32) -> Told {
+        let mut bytes = x.to_le_bytes();
+        self.bytes(&mut bytes)?;
+        *x = u32::from_le_bytes(bytes);
+        holds(*x <= MOST_U32)
+    }
+
+    /// An index below a limit.
+    fn index(&mut self, x: &mut usize, below: usize) -> Told {
+        let mut count = *x as u64;
+        self.count(&mut count)?;
+        *x = usize::try_from(count).map_err(|_| CheckpointError::Misfit)?;
+        holds(*x < below)
+    }
+
+    /// Yes or no.
+    fn flag(&mut self, x: &mut bool) -> Told {
+        let mut byte = [u8::from(*x)];
+        self.bytes(&mut byte)?;
+        *x = byte == [1];
+        holds(byte[0] <= 1)
+    }
+
+    /// A number that may be any, infinite ones and NaN among them.
+    fn float(&mut self, x: &mut f64) -> Told {
+        let mut bits = x.to_bits();
+        self.word(&mut bits)?;
+        *x = f64::from_bits(bits);
+        Ok(())
+    }
+
+    /// Several of them.
+    fn floats(&mut self, x: &mut [f64]) -> Told {
+        x.iter_mut().try_for_each(|x| self.float(x))
+    }
+
+    /// A number of the mechanics, to the last bit.
+    fn real<T: Real>(&mut self, x: &mut T) -> Told {
+        let [mut near, mut rest] = x.parts();
+        self.float(&mut near)?;
+        if is_finer::<T>() {
+            self.float(&mut rest)?;
+        }
+        *x = T::from_parts([near, rest]);
+        holds(self.left().is_none() || x.is_finite())
+    }
+
+    /// As many of them as there are places.
+    fn reals<T: Real>(&mut self, x: &mut [T]) -> Told {
+        self.places(x, Self::real)
+    }
+
+    /// A length of time.
+    fn duration(&mut self, x: &mut Duration) -> Told {
+        let mut nanoseconds = u64::try_from(x.as_nanos()).unwrap_or(MOST).min(MOST);
+        self.count(&mut nanoseconds)?;
+        *x = Duration::from_nanos(nanoseconds);
+        Ok(())
+    }
+
+    /// As many things as there are places.
+    fn places<E>(&mut self, x: &mut [E], mut each: impl FnMut(&mut Self, &mut E) -> Told) -> Told {
+        let mut n = x.len() as u64;
+        self.count(&mut n)?;
+        holds(n == x.len() as u64)?;
+        x.iter_mut().try_for_each(|x| each(self, x))
+    }
+
+    /// A list of things that take at least `size` bytes each.
+    fn list<E: Default>(
+        &mut self,
+        list: &mut Vec<E>,
+        size: usize,
+        mut each: impl FnMut(&mut Self, &mut E) -> Told,
+    ) -> Told {
+        let mut n = list.len() as u64;
+        self.count(&mut n)?;
+        if let Some(left) = self.left() {
+            holds(n <= (left / size) as u64)?;
+            list.clear();
+            list.resize_with(usize::try_from(n).unwrap_or(0), E::default);
+        }
+        list.iter_mut().try_for_each(|x| each(self, x))
+    }
+
+    /// Something, or nothing.
+    fn option<E: Default>(
+        &mut self,
+        x: &mut Option<E>,
+        each: impl FnOnce(&mut Self, &mut E) -> Told,
+    ) -> Told {
+        let mut is_some = x.is_some();
+        self.flag(&mut is_some)?;
+        if self.left().is_some() {
+            *x = is_some.then(E::default);
+        }
+        x.as_mut().map_or(Ok(()), |x| each(self, x))
+    }
+
+    /// A text.
+    fn text(&mut self, text: &mut String) -> Told {
+        let mut bytes = core::mem::take(text).into_bytes();
+        self.list(&mut bytes, 1, |tape, byte| tape.bytes(core::slice::from_mut(byte)))?;
+        *text = String::from_utf8(bytes).map_err(|_| CheckpointError::Misfit)?;
+        Ok(())
+    }
+
+    /// One of some words, or none.
+    fn word_of(&mut self, x: &mut Option<&'static str>, words: &[&'static str]) -> Told {
+        let mut place = x.and_then(|x| words.iter().position(|w| *w == x)).unwrap_or(words.len());
+        self.index(&mut place, words.len() + 1)?;
+        *x = words.get(place).copied();
+        Ok(())
+    }
+}
+
+/// What does not hold is a misfit.
+pub(crate) fn holds(does: bool) -> Told {
+    if does { Ok(()) } else { Err(CheckpointError::Misfit) }
+}
+
+/// Writes into memory.
+#[derive(Debug, Default)]
+pub(crate) struct Pen(pub(crate) Vec<u8>);
+
+impl Tape for Pen {
+    fn bytes(&mut self, bytes: &mut [u8]) -> Told {
+        self.0.extend_from_slice(bytes);
+        Ok(())
+    }
+
+    fn left(&self) -> Option<usize> {
+        None
+    }
+}
+
+/// Reads from memory.
+#[derive(Debug)]
+pub(crate) struct Eye<'a>(pub(crate) &'a [u8]);
+
+impl Tape for Eye<'_> {
+    fn bytes(&mut self, bytes: &mut [u8]) -> Told {
+        let (head, rest) = self.0.split_at_checked(bytes.len()).ok_or(CheckpointError::Misfit)?;
+        bytes.copy_from_slice(head);
+        self.0 = rest;
+        Ok(())
+    }
+
+    fn left(&self) -> Option<usize> {
+        Some(self.0.len())
+    }
+}

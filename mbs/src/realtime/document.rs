@@ -1,0 +1,157 @@
+//! A scene document at the pace of a clock.
+
+use super::error::PacingError;
+use super::ladder::{Sought, listed};
+use super::measure::measured;
+use super::{Degrade, Overrun, Pace, Pacer, Pacing};
+use crate::choice::{Precision, StepRule};
+use crate::digits::is_finer;
+use crate::run::{Outcome, Rung, Track, paced};
+use crate::settings::Settings;
+use crate::tree::{InSpace, Plane};
+use core::time::Duration;
+use mbs_core::Real;
+use mbs_core::real::DoubleDouble;
+use mbs_core::scene::{Dimension, Scene};
+use mbs_realtime::Clock;
+use mbs_scene::Document;
+
+/// Runs a scene at the pace of a clock, as [`crate::run_document`] runs one as fast as it goes.
+///
+/// Programs that take what clock comes compile the steps only once.
+///
+/// With [`Overrun::Degrade`] and [`Degrade::Measured`] some seconds pass before the run begins.
+///
+/// Cost of a period beside its steps: the row of outputs and some hundred operations; no allocation.
+///
+/// # Errors
+/// [`PacingError`] for what cannot be paced as it is asked for; a run that stops is an [`Outcome`] with its error.
+pub fn run_document(
+    (document, scene): (&Document, &Scene<f64>),
+    settings: &Settings,
+    pacing: &Pacing,
+    clock: &mut dyn Clock,
+) -> Result<Outcome, PacingError> {
+    let read = |error| PacingError::Read(Box::new(error));
+    match settings.precision {
+        Precision::F64 => in_space(scene, settings, pacing, clock),
+        Precision::F32 => {
+            let scene = document.scene::<f32>().map_err(read)?;
+            in_space(&scene, settings, pacing, clock)
+        }
+        Precision::DoubleDouble => {
+            let scene = document.scene::<DoubleDouble>().map_err(read)?;
+            in_space(&scene, settings, pacing, clock)
+        }
+    }
+}
+
+fn in_space<T: Real>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    pacing: &Pacing,
+    clock: &mut dyn Clock,
+) -> Result<Outcome, PacingError>
+where
+    Plane<2>: InSpace<T>,
+    Plane<3>: InSpace<T>,
+{
+    match scene.dimension {
+        Dimension::Planar => run::<T, 2>(scene, settings, pacing, clock),
+        Dimension::Spatial => run::<T, 3>(scene, settings, pacing, clock),
+    }
+}
+
+fn run<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    pacing: &Pacing,
+    clock: &mut dyn Clock,
+) -> Result<Outcome, PacingError>
+where
+    Plane<D>: InSpace<T>,
+{
+    let (pace, track) = track::<T>(scene, settings, pacing)?;
+    let sought = Sought { scene, settings, track: &track };
+    let rungs = match (&pacing.degrade, pacing.overrun) {
+        (Degrade::Measured, Overrun::Degrade) => measured::<T, D>(&sought)?,
+        (Degrade::Listed(words), Overrun::Degrade) => listed::<T, D>(&sought, words)?,
+        _ => vec![Rung::default()],
+    };
+    let mut pacer = Pacer::new(pace, rungs.len()).map_err(|_| PacingError::Quiet)?;
+    let of_levels = (&mut pacer, &rungs[..]);
+    let run = paced::<T, D>(scene, settings, &track, of_levels, &mut &mut *clock);
+    run.map_err(|(effect, why)| PacingError::Fixed {
+        name: scene.effects[effect].name.clone(),
+        why,
+    })
+}
+
+/// The pace, and how simulated time is cut.
+fn track<T: Real>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    pacing: &Pacing,
+) -> Result<(Pace, Track<T>), PacingError> {
+    let is_controlled = settings.rule != StepRule::Fixed || settings.integrator.controls_its_step();
+    let lengths = settings.lengths(scene);
+    let (step, exact) = if is_controlled {
+        (settings.step_max, lengths.step_max)
+    } else {
+        (settings.step, lengths.step)
+    };
+    let period = pacing.period.unwrap_or(step);
+    let refused = |key, value| PacingError::Time { key, value };
+    let whole = time(period).filter(|time| !time.is_zero());
+    let whole = whole.ok_or_else(|| refused("period", period))?;
+    let awake = time(pacing.awake).filter(|time| *time <= Duration::from_secs(1));
+    let awake = awake.ok_or_else(|| refused("awake", pacing.awake))?;
+    let exact = match pacing.period {
+        None => exact,
+        Some(period) if is_finer::<T>() => {
+            T::from_decimal(&format!("{period:e}")).unwrap_or(T::from_f64(period))
+        }
+        Some(period) => T::from_f64(period),
+    };
+    let of_periods = Settings { step_max: period, ..settings.clone() };
+    let track = Track {
+        period: (exact, period),
+        periods: of_periods.n_steps(),
+        steps: (!is_controlled).then(|| parts(period, step)),
+        tells_level: pacing.overrun == Overrun::Degrade,
+    };
+    let Pacing { overrun, quiet, .. } = *pacing;
+    Ok((Pace { overrun, awake, quiet, ..Pace::every(whole) }, track))
+}
+
+/// A time that a clock can tell.
+fn time(seconds: f64) -> Option<Duration> {
+    Duration::try_from_secs_f64(seconds).ok()
+}
+
+/// Steps of a period: the fewest of equal length that are not longer than the step, but for rounding.
+fn parts(period: f64, step: f64) -> u32 {
+    let n = (period / step * (1.0 - 1e-9)).ceil().clamp(1.0, f64::from(u32::MAX));
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is clamped")]
+    let n = n as u32;
+    n
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_period_is_cut_into_equal_steps_that_are_not_longer_than_the_step() {
+        for (period, step, n) in [
+            (1e-3, 1e-3, 1),
+            (1e-2, 1e-3, 10),
+            (0.3, 0.1, 3),
+            (1e-3, 4e-4, 3),
+            (1e-3, 5e-3, 1),
+            (0.7, 0.07, 10),
+        ] {
+            assert_eq!(parts(period, step), n, "{period} of {step}");
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Why a run cannot be paced as it is asked for.
+
+use crate::simulation::Refusal;
+use mbs_scene::{ReadError, readable, suggestion};
+
+/// A pacing that is refused.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum PacingError {
+    /// A time that must be positive and finite, or not negative.
+    Time {
+        /// `period` or `awake`.
+        key: &'static str,
+        /// What it is [s].
+        value: f64,
+    },
+    /// A quiet time that is none.
+    Quiet,
+    /// A level names an effect that the scene has not, or has switched off.
+    NoEffect {
+        /// The name.
+        name: String,
+        /// Those that it has.
+        known: Vec<String>,
+    },
+    /// Steps cannot be made longer.
+    Steps {
+        /// Their lengths are controlled; else a period has not steps enough.
+        is_controlled: bool,
+    },
+    /// An effect that cannot be switched off while the scene runs.
+    Fixed {
+        /// Its name.
+        name: String,
+        /// Why.
+        why: Refusal,
+    },
+    /// Nothing that may be left out saves time.
+    NoLadder,
+    /// The text is no scene in the precision of the run.
+    Read(Box<ReadError>),
+}
+
+impl PacingError {
+    /// What to do about it.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match self {
+            Self::Time { key: "period", .. } => {
+                "write a number of seconds that is larger than a nanosecond".to_owned()
+            }
+            Self::Time { .. } => "write a number of seconds from 0 to 1".to_owned(),
+            Self::Quiet => "write at least one period".to_owned(),
+            Self::NoEffect { name, known } => suggestion(name, known, "effects that are on"),
+            Self::Steps { is_controlled: true } => {
+                "name effects, or leave --degrade out".to_owned()
+            }
+            Self::Steps { .. } => {
+                "write a shorter --step, so that a period has more of them, or name effects"
+                    .to_owned()
+            }
+            Self::Fixed { why: Refusal::Formulation, .. } => {
+                "take --formulation index-3, index-1, multi-index or recursive, or --degrade steps"
+                    .to_owned()
+            }
+            Self::Fixed { .. } => "name another effect, or write steps".to_owned(),
+            Self::NoLadder => {
+                "write a shorter --step, name effects with --degrade, or take --overrun finish"
+                    .to_owned()
+            }
+            Self::Read(_) => String::new(),
+        }
+    }
+
+    /// The whole message.
+    #[must_use]
+    pub fn render(&self) -> String {
+        match self {
+            Self::Read(error) => error.render(),
+            _ => format!("error: {self}\nhint: {}", self.hint()),
+        }
+    }
+}
+
+impl core::fmt::Display for PacingError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Time { key, value } => write!(f, "{key} cannot be {} s", readable(*value)),
+            Self::Quiet => write!(f, "quiet time cannot be no period"),
+            Self::NoEffect { name, .. } => {
+                write!(f, "degrade: the scene has no effect `{name}` that is on")
+            }
+            Self::Steps { is_controlled: true } => {
+                write!(f, "degrade: steps of controlled length cannot be made longer")
+            }
+            Self::Steps { .. } => {
+                write!(f, "degrade: a period has not steps enough to make them longer")
+            }
+            Self::Fixed { name, why: Refusal::Formulation } => {
+                write!(f, "degrade: this formulation cannot leave `{name}` out while it runs")
+            }
+            Self::Fixed { name, .. } => write!(
+                f,
+                "degrade: `{name}` cannot be left out while the scene runs: coordinates or counted turns depend on it"
+            ),
+            Self::NoLadder => {
+                write!(f, "degrade: nothing that may be left out was measured to save time")
+            }
+            Self::Read(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl core::error::Error for PacingError {}

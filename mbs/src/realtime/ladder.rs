@@ -1,0 +1,90 @@
+//! Levels below the full scene, and whether a running scene can change to them.
+
+use super::error::PacingError;
+use crate::run::{Rung, Track};
+use crate::settings::Settings;
+use crate::simulation::{Refusal, Simulation};
+use crate::tree::{InSpace, Plane};
+use mbs_core::Real;
+use mbs_core::scene::Scene;
+use mbs_scene::Degraded;
+
+/// The word for longer steps.
+const STEPS: &str = "steps";
+
+/// The run whose ladder is sought.
+pub(super) struct Sought<'a, T> {
+    pub(super) scene: &'a Scene<T>,
+    pub(super) settings: &'a Settings,
+    pub(super) track: &'a Track<T>,
+}
+
+impl<T: Real> Sought<'_, T> {
+    /// A level with so many halvings and these effects off.
+    pub(super) fn rung(&self, halvings: u32, off: Vec<usize>) -> Rung {
+        let without = off.iter().map(|&e| self.scene.effects[e].name.clone()).collect();
+        let steps = self.track.steps.unwrap_or(1);
+        let rung = Rung { halvings, off, told: Degraded::default() };
+        let step_times = f64::from(steps) / f64::from(rung.steps(steps));
+        Rung { told: Degraded { step_times, without, ..Degraded::default() }, ..rung }
+    }
+
+    /// Do so many halvings make steps longer than one fewer?
+    pub(super) fn lengthens(&self, halvings: u32) -> bool {
+        let Some(steps) = self.track.steps else { return false };
+        let of = |halvings| Rung { halvings, ..Rung::default() }.steps(steps);
+        halvings == 0 || of(halvings) < of(halvings - 1)
+    }
+
+    /// Can the running scene change between everything and this level, and back?
+    pub(super) fn changes<const D: usize>(&self, rung: &Rung) -> Result<(), Refusal>
+    where
+        Plane<D>: InSpace<T>,
+    {
+        if rung.off.is_empty() {
+            return Ok(());
+        }
+        // What does not start is told by the run itself.
+        let Ok(full) = Simulation::<T, D>::new(self.scene, self.settings) else { return Ok(()) };
+        let less = Simulation::<T, D>::new(&rung.scene(self.scene), self.settings);
+        less.map_err(|_| Refusal::Coordinates)?.takes_over(&full)
+    }
+}
+
+/// The levels that a user names, after that of everything.
+pub(super) fn listed<T: Real, const D: usize>(
+    sought: &Sought<'_, T>,
+    words: &[String],
+) -> Result<Vec<Rung>, PacingError>
+where
+    Plane<D>: InSpace<T>,
+{
+    let effects = &sought.scene.effects;
+    let mut rungs = vec![sought.rung(0, Vec::new())];
+    let (mut halvings, mut off) = (0, Vec::new());
+    for word in words.iter().map(|word| word.trim()) {
+        let is_it = |e: &mbs_core::scene::Effect<T>| e.enabled && e.name == word;
+        match effects.iter().position(is_it) {
+            Some(effect) if !off.contains(&effect) => off.push(effect),
+            Some(_) => continue,
+            None if word == STEPS => {
+                halvings += 1;
+                if !sought.lengthens(halvings) {
+                    let is_controlled = sought.track.steps.is_none();
+                    return Err(PacingError::Steps { is_controlled });
+                }
+            }
+            None => {
+                let known = effects.iter().filter(|e| e.enabled).map(|e| e.name.clone());
+                let mut known: Vec<String> = known.collect();
+                known.push(STEPS.to_owned());
+                return Err(PacingError::NoEffect { name: word.to_owned(), known });
+            }
+        }
+        let rung = sought.rung(halvings, off.clone());
+        let fixed = |why| PacingError::Fixed { name: word.to_owned(), why };
+        sought.changes::<D>(&rung).map_err(fixed)?;
+        rungs.push(rung);
+    }
+    Ok(rungs)
+}

@@ -1,0 +1,235 @@
+//! A ladder by measurement: what saves time and changes the outputs least is left out first.
+//!
+//! ```text
+//! saves   = 1 − (median time of a period without it) / (that of the full scene)
+//! changes = max over outputs of (largest difference of the two runs) / (range of the output)
+//! ```
+//!
+//! Each candidate runs alone over the beginning of the scene, by the loop that is paced later, with a clock that does not wait.
+//! Those that save more than the noise are sorted by what they change; level k leaves the first k out, and is measured again. The
+//! ladder ends where a level changes an output by more than half of its range.
+
+use super::error::PacingError;
+use super::ladder::Sought;
+use super::{Pace, Pacer};
+use crate::explain::changes::Outputs;
+use crate::explain::kinds;
+use crate::run::{Outcome, Rung, Track, paced};
+use crate::settings::Settings;
+use crate::tree::{InSpace, Plane};
+use core::cell::Cell;
+use core::time::Duration;
+use mbs_core::Real;
+use mbs_realtime::{Clock, SystemClock};
+use mbs_scene::Change;
+use std::time::Instant;
+
+/// Time for everything [s], about.
+const SECONDS: f64 = 3.0;
+/// Periods of the first look, and of a measured run at least.
+const FEWEST: u64 = 50;
+/// Each is timed so often, in turn.
+const REPEATS: u32 = 3;
+/// Less is not worth a level.
+const LEAST_SAVING: f64 = 0.02;
+/// Levels below the full scene at most; more effects than that go by their kinds.
+const MOST: usize = 8;
+/// A level whose outputs are off by more than this share of their range tells nothing of them; who wants it names it.
+const MOST_CHANGE: f64 = 0.5;
+/// Halvings of the number of steps: twice and four times as long.
+const HALVINGS: u32 = 2;
+
+/// A clock that passes while there is work and jumps over what is waited for.
+struct Hurried {
+    system: SystemClock,
+    ahead: Cell<Duration>,
+}
+
+impl Clock for Hurried {
+    fn now(&self) -> Duration {
+        self.system.now() + self.ahead.get()
+    }
+
+    fn sleep(&mut self, time: Duration) {
+        self.ahead.set(self.ahead.get() + time);
+    }
+
+    fn pause(&mut self) {}
+}
+
+/// A candidate, or a level: times of its repeats, and its run.
+struct Trial {
+    rung: Rung,
+    times: Vec<f64>,
+    outcome: Option<Outcome>,
+}
+
+impl Trial {
+    fn new(rung: Rung) -> Self {
+        Self { rung, times: Vec::new(), outcome: None }
+    }
+
+    /// The least of the repeats [s per period], and how far the next is from it, as a share.
+    fn best(&self) -> Option<[f64; 2]> {
+        let mut sorted = self.times.clone();
+        sorted.sort_by(f64::total_cmp);
+        let best = *sorted.first().filter(|best| **best > 0.0)?;
+        Some([best, sorted.get(1).map_or(0.0, |next| (next - best) / best)])
+    }
+
+    fn completes(&self) -> bool {
+        self.outcome.as_ref().is_some_and(|outcome| outcome.summary.completed)
+    }
+}
+
+/// The levels, that of everything first, with what was measured of each.
+pub(super) fn measured<T: Real, const D: usize>(
+    sought: &Sought<'_, T>,
+) -> Result<Vec<Rung>, PacingError>
+where
+    Plane<D>: InSpace<T>,
+{
+    let full = sought.rung(0, Vec::new());
+    let candidates = candidates::<T, D>(sought);
+    if candidates.is_empty() {
+        return Err(PacingError::NoLadder);
+    }
+    // Levels are as many as candidates at most.
+    let each = SECONDS / f64::from(REPEATS) / count(2 * candidates.len() + 2);
+    let clock = Instant::now();
+    let first = trial::<T, D>(sought, &full, FEWEST);
+    let one = clock.elapsed().as_secs_f64() / count(FEWEST.min(sought.track.periods) as usize);
+    if first.is_none_or(|outcome| !outcome.summary.completed) {
+        // The run will say why.
+        return Ok(vec![full]);
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+    let periods = ((each / one.max(1e-9)) as u64).max(FEWEST);
+    let alone = run_all::<T, D>(sought, &full, candidates, periods);
+    let levels = run_all::<T, D>(sought, &full, ladder(sought, &alone), periods);
+    let mut rungs = vec![full];
+    let is_near = |trial: &Trial| {
+        trial.completes() && trial.rung.told.changes.is_some_and(|changes| changes <= MOST_CHANGE)
+    };
+    rungs.extend(levels.into_iter().skip(1).take_while(is_near).map(|trial| trial.rung));
+    if rungs.len() == 1 { Err(PacingError::NoLadder) } else { Ok(rungs) }
+}
+
+/// Longer steps, and effects one by one, or by kinds where they are many.
+fn candidates<T: Real, const D: usize>(sought: &Sought<'_, T>) -> Vec<Rung>
+where
+    Plane<D>: InSpace<T>,
+{
+    let effects = sought.scene.effects.iter().enumerate().filter(|(_, effect)| effect.enabled);
+    let can = |off: &Vec<usize>| sought.changes::<D>(&sought.rung(0, off.clone())).is_ok();
+    let alone: Vec<Vec<usize>> = effects.map(|(i, _)| vec![i]).filter(can).collect();
+    let mut groups = alone;
+    if groups.len() > MOST {
+        let mut kinds: Vec<(&str, Vec<usize>)> = Vec::new();
+        for effect in groups.into_iter().flatten() {
+            let kind = kinds::name(&sought.scene.effects[effect].kind);
+            match kinds.iter_mut().find(|(name, _)| *name == kind) {
+                Some((_, of_kind)) => of_kind.push(effect),
+                None => kinds.push((kind, vec![effect])),
+            }
+        }
+        groups = kinds.into_iter().map(|(_, effects)| effects).filter(can).collect();
+    }
+    let longer = (1..=HALVINGS).filter(|&halvings| sought.lengthens(halvings));
+    let longer = longer.map(|halvings| sought.rung(halvings, Vec::new()));
+    longer.chain(groups.into_iter().map(|off| sought.rung(0, off))).collect()
+}
+
+/// The levels below the full scene: those that pay, one more each, in the order of what they change.
+fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<Rung> {
+    let noise = |trial: &Trial| trial.best().map_or(f64::INFINITY, |[_, noise]| noise);
+    let full = alone.first().map_or(f64::INFINITY, noise);
+    let pays = |trial: &&Trial| {
+        let least = LEAST_SAVING.max(full.max(noise(trial)));
+        trial.completes() && trial.rung.told.saves.is_some_and(|saves| saves > least)
+    };
+    let mut paying: Vec<&Trial> = alone.iter().skip(1).filter(pays).collect();
+    let changes = |trial: &Trial| trial.rung.told.changes.unwrap_or(f64::INFINITY);
+    paying.sort_by(|a, b| changes(a).total_cmp(&changes(b)));
+    let (mut halvings, mut off) = (0, Vec::new());
+    let mut rungs = Vec::new();
+    for trial in paying.into_iter().take(MOST) {
+        halvings = trial.rung.halvings.max(halvings);
+        off.extend(&trial.rung.off);
+        rungs.push(sought.rung(halvings, off.clone()));
+    }
+    rungs
+}
+
+/// Runs the full scene and others by turns, and tells of each what it saves and changes.
+fn run_all<T: Real, const D: usize>(
+    sought: &Sought<'_, T>,
+    full: &Rung,
+    others: Vec<Rung>,
+    periods: u64,
+) -> Vec<Trial>
+where
+    Plane<D>: InSpace<T>,
+{
+    let all = core::iter::once(full.clone()).chain(others);
+    let mut trials: Vec<Trial> = all.map(Trial::new).collect();
+    for _ in 0..REPEATS {
+        for of in &mut trials {
+            of.outcome = trial::<T, D>(sought, &of.rung, periods);
+            let realtime = of.outcome.as_ref().and_then(|o| o.summary.realtime.as_ref());
+            of.times.extend(realtime.map(|realtime| realtime.duration.p50));
+        }
+    }
+    let Some((full, others)) = trials.split_first_mut() else { return trials };
+    let outputs = full.outcome.as_ref().map(|outcome| Outputs::new(sought.scene, outcome));
+    for other in others {
+        let saves = full.best().zip(other.best()).map(|([full, _], [less, _])| 1.0 - less / full);
+        other.rung.told.saves = saves;
+        other.rung.told.measured_over = other.outcome.as_ref().map(|o| o.summary.end_time);
+        let outcome = outputs.as_ref().zip(other.outcome.as_ref());
+        let changes = outcome.map(|(outputs, outcome)| outputs.changes(outcome));
+        if let Some((output, share)) = changes.as_deref().and_then(largest) {
+            (other.rung.told.output, other.rung.told.changes) = (Some(output), Some(share));
+        }
+    }
+    trials
+}
+
+/// The output that changes most, and by which share of its range; none where an output without a range changes.
+fn largest(changes: &[Change]) -> Option<(String, f64)> {
+    let share = |change: &Change| match change.relative {
+        Some(share) => Some(share),
+        None => change.is_rounding.then_some(0.0),
+    };
+    let shares: Option<Vec<f64>> = changes.iter().map(share).collect();
+    let shares = shares?;
+    let i = (0..shares.len()).max_by(|&i, &j| shares[i].total_cmp(&shares[j]))?;
+    Some((changes[i].output.clone(), shares[i]))
+}
+
+/// The first periods at one level, without waiting; `None` where the level is none of this scene.
+fn trial<T: Real, const D: usize>(
+    sought: &Sought<'_, T>,
+    rung: &Rung,
+    periods: u64,
+) -> Option<Outcome>
+where
+    Plane<D>: InSpace<T>,
+{
+    let Sought { settings, track, .. } = *sought;
+    let periods = periods.min(track.periods);
+    let duration = settings.duration.min(count(usize::try_from(periods).ok()?) * track.period.1);
+    let settings = Settings { duration, ..settings.clone() };
+    let steps = track.steps.map(|steps| rung.steps(steps));
+    let track = Track { periods, steps, tells_level: false, ..*track };
+    let scene = rung.scene(sought.scene);
+    let mut pacer = Pacer::new(Pace::every(Duration::from_secs_f64(track.period.1)), 1).ok()?;
+    let mut clock = Hurried { system: SystemClock::new(), ahead: Cell::default() };
+    let of_one = (&mut pacer, &[Rung::default()][..]);
+    paced::<T, D>(&scene, &settings, &track, of_one, &mut clock).ok()
+}
+
+#[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
+fn count(n: usize) -> f64 {
+    n as f64
+}

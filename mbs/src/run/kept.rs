@@ -1,0 +1,161 @@
+//! A run that is kept while it goes, and one that goes on from where it was kept.
+
+use super::{Counts, Run};
+use crate::checkpoint::tape::{Tape, Told, holds};
+use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Keeping, Kind, whole};
+use crate::tree::{InSpace, Plane};
+use core::time::Duration;
+use cpu_time::ProcessTime;
+use mbs_core::Real;
+use mbs_core::outputs::{Instant, MOST_INSTANTS};
+use mbs_scene::ControlSummary;
+
+/// How a run is kept, and what it belongs to.
+#[derive(Debug)]
+pub(super) struct Kept<'a> {
+    pub(super) keeping: &'a mut Keeping,
+    pub(super) identity: Identity,
+}
+
+/// CPU time of the steps, over all starts of a run.
+#[derive(Debug)]
+pub(super) struct Clock {
+    begun: ProcessTime,
+    /// Of earlier starts.
+    before: Duration,
+    /// Of writing.
+    apart: Duration,
+}
+
+impl Clock {
+    /// Begins now, after nothing.
+    pub(super) fn new() -> Self {
+        Self { begun: ProcessTime::now(), before: Duration::ZERO, apart: Duration::ZERO }
+    }
+
+    /// Begins now, after what was before.
+    pub(super) fn begin(&mut self) {
+        (self.begun, self.apart) = (ProcessTime::now(), Duration::ZERO);
+    }
+
+    /// The time so far.
+    pub(super) fn get(&self) -> Duration {
+        (self.before + self.begun.elapsed()).saturating_sub(self.apart)
+    }
+
+    /// Takes off what was done since `get` told this.
+    fn take_off(&mut self, since: Duration) {
+        self.apart += self.get().saturating_sub(since);
+    }
+}
+
+impl<T: Real, const D: usize> Run<'_, T, D>
+where
+    Plane<D>: InSpace<T>,
+{
+    /// Writes rows and a checkpoint where they are due after step `k`; says whether it took time.
+    pub(super) fn keep(&mut self, k: u64) -> bool {
+        self.done = k;
+        let Some(kept) = self.kept.take() else { return false };
+        let is_due = kept.keeping.is_due(self.reached);
+        let is_busy = is_due || kept.keeping.is_waiting(&self.recorder);
+        if is_busy {
+            let since = self.clock.get();
+            let bytes = is_due.then(|| self.checkpoint(&kept, since));
+            kept.keeping.write(&self.recorder, bytes.map(|bytes| (self.reached, bytes)));
+            self.clock.take_off(since);
+        }
+        self.kept = Some(kept);
+        is_busy
+    }
+
+    /// The bytes of a checkpoint.
+    fn checkpoint(&mut self, kept: &Kept<'_>, cpu: Duration) -> Result<Vec<u8>, CheckpointError> {
+        let times = [self.reached, kept.keeping.every()];
+        whole(&kept.identity, (Kind::Run, times), |pen| {
+            self.simulation.kept().walk(pen)?;
+            self.walk(pen, cpu)
+        })
+    }
+
+    /// Goes on from a checkpoint. On an error the run is of no use any more.
+    pub(super) fn resume(
+        &mut self,
+        checkpoint: &Checkpoint,
+        identity: &Identity,
+    ) -> Result<(), CheckpointError> {
+        if !checkpoint.is_of_run() {
+            return Err(CheckpointError::NoRun);
+        }
+        checkpoint.check(identity)?;
+        let mut tape = checkpoint.body();
+        self.simulation.restore_from(&mut tape)?;
+        self.walk(&mut tape, Duration::ZERO)?;
+        holds(tape.left() == Some(0))?;
+        let is_controlled = self.simulation.is_controlled();
+        let t = self.simulation.state().t;
+        holds(if is_controlled {
+            t >= T::ZERO && t < self.lengths.duration
+        } else {
+            self.done < self.settings.n_steps()
+        })
+    }
+
+    /// Writes the run beside its simulation, or reads it back. What the last step left in `mark` and `values` the next one replaces.
+    fn walk(&mut self, tape: &mut impl Tape, cpu: Duration) -> Told {
+        tape.count(&mut self.done)?;
+        tape.float(&mut self.reached)?;
+        self.recorder.walk(tape)?;
+        self.figure.walk(tape)?;
+        self.measures.walk(tape)?;
+        self.walk_contacts(tape)?;
+        self.counts.walk(tape)?;
+        self.alarm.walk(tape)?;
+        let mut cpu = cpu;
+        tape.duration(&mut cpu)?;
+        if tape.left().is_some() {
+            self.clock.before = cpu;
+        }
+        Ok(())
+    }
+
+    /// The instants of contact; the gaps are those of the state.
+    fn walk_contacts(&mut self, tape: &mut impl Tape) -> Told {
+        let numbers = |i: &Instant| (i.t, i.effect, i.end, i.makes);
+        let mut instants: Vec<_> = self.contacts.instants().iter().map(numbers).collect();
+        let mut left_out = self.contacts.left_out();
+        let n_effects = self.scene.effects.len();
+        tape.list(&mut instants, 25, |tape, (t, effect, end, makes)| {
+            tape.float(t)?;
+            tape.index(effect, n_effects)?;
+            tape.index(end, 2)?;
+            tape.flag(makes)
+        })?;
+        tape.count(&mut left_out)?;
+        holds(instants.len() <= MOST_INSTANTS)?;
+        if tape.left().is_some() {
+            let instant = |(t, effect, end, makes)| Instant { t, effect, end, makes };
+            let instants: Vec<Instant> = instants.into_iter().map(instant).collect();
+            self.contacts.resume(self.simulation.state(), &instants, left_out);
+        }
+        Ok(())
+    }
+}
+
+impl Counts {
+    fn walk(&mut self, tape: &mut impl Tape) -> Told {
+        let Self { steps, iterations, factorizations, worst, control } = self;
+        [steps, iterations, factorizations].into_iter().try_for_each(|x| tape.count(x))?;
+        tape.duration(worst)?;
+        // Rule and changes of index are those of the settings and of the simulation.
+        let ControlSummary { accepted, rejected, smallest_step, largest_step, .. } = control;
+        [accepted, rejected].into_iter().try_for_each(|x| tape.count(x))?;
+        tape.float(smallest_step)?;
+        tape.float(largest_step)?;
+        tape.count(&mut control.index_1_steps)?;
+        tape.count(&mut control.events)
+    }
+}
+
+#[cfg(test)]
+mod tests;

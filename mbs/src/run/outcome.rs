@@ -1,0 +1,73 @@
+//! What a run gives: its summary, and what its files are made of.
+
+use crate::checkpoint::write_rows;
+use crate::stop::StopError;
+use mbs_core::real::DoubleDouble;
+use mbs_scene::{Channel, Provenance, RunRecord, RunSummary, StepSeries};
+use std::io;
+
+/// What a run gives.
+#[derive(Debug)]
+pub struct Outcome {
+    /// The JSON object.
+    pub summary: RunSummary,
+    /// Why it stopped early.
+    pub error: Option<StopError>,
+    pub(super) record: RunRecord,
+    pub(super) channels: Vec<Channel>,
+    pub(super) table: Vec<(f64, Vec<f64>)>,
+    /// The same numbers with all their digits, where there are more than those of `f64`.
+    pub(super) long_table: Vec<Vec<DoubleDouble>>,
+    pub(super) ranges: Vec<[f64; 2]>,
+    pub(super) steps: StepSeries,
+}
+
+impl Outcome {
+    /// Writes the rows as CSV.
+    ///
+    /// # Errors
+    /// Those of the sink.
+    pub fn write_csv(&self, sink: impl io::Write) -> io::Result<()> {
+        let table = self.table.iter().map(|(t, row)| (*t, &row[..]));
+        write_rows((sink, &self.channels), true, table, self.long_table.iter().cloned())
+    }
+
+    /// Writes the steps as CSV: their lengths, and what came of them.
+    ///
+    /// # Errors
+    /// Those of the sink.
+    pub fn write_steps(&self, sink: impl io::Write) -> io::Result<()> {
+        mbs_scene::write_steps(sink, &self.steps)
+    }
+
+    /// The steps of the rows.
+    #[must_use]
+    pub fn steps(&self) -> &StepSeries {
+        &self.steps
+    }
+
+    /// The page, with how the run was made.
+    #[must_use]
+    pub fn page(&self, provenance: Provenance) -> String {
+        let record = RunRecord { provenance, ..self.record.clone() };
+        mbs_scene::page(&record)
+    }
+
+    /// The rows: time and all components of all channels.
+    #[must_use]
+    pub fn rows(&self) -> &[(f64, Vec<f64>)] {
+        &self.table
+    }
+
+    /// Least and largest value of each component of each channel, over the rows; empty when the run did not start.
+    #[must_use]
+    pub fn ranges(&self) -> &[[f64; 2]] {
+        &self.ranges
+    }
+
+    /// What the user should know.
+    #[must_use]
+    pub fn notes(&self) -> &[String] {
+        &self.record.notes
+    }
+}

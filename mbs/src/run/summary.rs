@@ -1,0 +1,73 @@
+//! Parts of a run's summary.
+
+use super::Outcome;
+use crate::settings::Settings;
+use crate::stop::{Names, StopError};
+use crate::words::{stop_text, summary_rows};
+use mbs_core::Real;
+use mbs_core::control::Invariant;
+use mbs_core::outputs;
+use mbs_core::scene::{EffectKind, Scene};
+use mbs_scene::{Channel, Contact, EnergySummary, RunRecord, RunSummary, StepSeries};
+
+/// An instant with the effect's name.
+pub(super) fn contact<T: Real>(scene: &Scene<T>, instant: &outputs::Instant) -> Contact {
+    let effect = &scene.effects[instant.effect];
+    let is_limit = matches!(effect.kind, EffectKind::Limit { .. });
+    Contact {
+        time: instant.t,
+        effect: effect.name.clone(),
+        end: is_limit.then_some(["lower", "upper"][instant.end]),
+        event: if instant.makes { "made" } else { "broken" },
+    }
+}
+
+/// The invariant over every step.
+pub(super) fn energy_summary(invariant: &Invariant) -> EnergySummary {
+    EnergySummary {
+        initial: invariant.initial(),
+        max_error: invariant.max_error(),
+        final_error: invariant.error().abs(),
+        turned_over: invariant.turned_over(),
+        scatter: invariant.scatter(),
+        drift: invariant.drift(),
+    }
+}
+
+pub(super) fn plain_summary<T: Real>(scene: &Scene<T>, settings: &Settings) -> RunSummary {
+    RunSummary {
+        scene: scene.name.clone(),
+        formulation: settings.asked.clone(),
+        precision: settings.precision.name().to_owned(),
+        dimension: scene.dimension.count(),
+        step: settings.step,
+        chosen: settings.chosen(),
+        ..RunSummary::default()
+    }
+}
+
+pub(super) fn not_started<T: Real>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    channels: &[Channel],
+    error: StopError,
+) -> Outcome {
+    let report = error.report(0.0, &Names::new(scene));
+    let summary = RunSummary { error: Some(report), ..plain_summary(scene, settings) };
+    let record = RunRecord {
+        scene: scene.name.clone(),
+        summary: summary_rows(&summary),
+        error: summary.error.as_ref().map(stop_text),
+        ..RunRecord::default()
+    };
+    Outcome {
+        summary,
+        error: Some(error),
+        record,
+        channels: channels.to_vec(),
+        table: Vec::new(),
+        long_table: Vec::new(),
+        ranges: Vec::new(),
+        steps: StepSeries::default(),
+    }
+}

@@ -1,0 +1,85 @@
+//! A process that is killed, and the one that goes on with its run.
+
+use super::{scratch, without_clocks};
+use crate::common::path;
+use mbs::{CHECKPOINT, Checkpoint};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// A run that is killed is killed in this time, or the test has failed.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+fn mbs(scene: &str, out: &Path, options: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
+    command.arg("run").arg(path(scene)).arg("--out").arg(out).args(options);
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    command
+}
+
+/// Starts a run and kills it once its checkpoint has come to `t` [s]; gives the time that the checkpoint has then.
+fn kill_at(t: f64, out: &Path, mut command: Command) -> f64 {
+    let mut child = command.spawn().expect("the command is built");
+    let begun = Instant::now();
+    let reached = || Checkpoint::open(&out.join(CHECKPOINT)).map_or(-1.0, |c| c.time());
+    while reached() < t {
+        assert!(child.try_wait().expect("a child").is_none(), "the run has ended before {t} s");
+        assert!(begun.elapsed() < PATIENCE, "the run has not come to {t} s");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child.kill().expect("it runs");
+    let status = child.wait().expect("it was started");
+    assert!(!status.success(), "it was killed");
+    reached()
+}
+
+fn read(out: &Path, file: &str) -> String {
+    std::fs::read_to_string(out.join(file)).unwrap_or_else(|e| panic!("{file}: {e}"))
+}
+
+/// Kills a run twice, goes on each time, and compares with one that nobody killed.
+fn survives(name: &str, scene: &str, options: &[&str], [first, second]: [f64; 2]) {
+    let (whole, parts) = (scratch(&format!("{name}-whole")), scratch(&format!("{name}-parts")));
+    let status = mbs(scene, &whole, options).status().expect("the command is built");
+    assert!(status.success());
+    let [rows, steps, json] = ["run.csv", "steps.csv", "run.json"].map(|file| read(&whole, file));
+
+    let begin = [options, &["--checkpoint", "0.05"]].concat();
+    let at = kill_at(first, &parts, mbs(scene, &parts, &begin));
+    for (file, whole) in [("run.csv", &rows), ("steps.csv", &steps)] {
+        let part = read(&parts, file);
+        let last = part.lines().last().and_then(|line| line.split(',').next()).expect("rows");
+        let last: f64 = last.parse().expect("a time");
+        assert!(last > 0.5 * at && part.len() < whole.len(), "{file}: {last} s");
+        assert!(whole.starts_with(&part), "{file}: what is there is what will be there");
+    }
+    let again = kill_at(second, &parts, mbs(scene, &parts, &["--resume"]));
+    assert!(again >= second && second > at, "it has gone on: {again} {at}");
+    let status = mbs(scene, &parts, &["--resume"]).status().expect("the command is built");
+    assert!(status.success());
+
+    assert!(rows == read(&parts, "run.csv"), "run.csv differs");
+    assert!(steps == read(&parts, "steps.csv"), "steps.csv differs");
+    assert_eq!(without_clocks(&json), without_clocks(&read(&parts, "run.json")));
+    let left: Vec<_> = std::fs::read_dir(&parts)
+        .expect("a directory")
+        .map(|entry| entry.expect("an entry").file_name())
+        .filter(|name| {
+            !["run.csv", "steps.csv", "run.json", "run.html"].contains(&&*name.to_string_lossy())
+        })
+        .collect();
+    assert!(left.is_empty(), "nothing else is left: {left:?}");
+}
+
+#[test]
+fn a_killed_run_of_fixed_steps_goes_on_to_the_same_files() {
+    survives("fixed", "double-pendulum", &["--step", "1e-5"], [2.0, 6.0]);
+}
+
+#[test]
+fn a_killed_run_of_controlled_steps_goes_on_to_the_same_files() {
+    let control = ["--formulation", "multi-index", "--step-control", "both"];
+    let steps = ["--step", "1e-4", "--step-max", "1e-3", "--duration", "10"];
+    let options = [&control[..], &steps].concat();
+    survives("controlled", "iltis-stairs", &options, [1.0, 3.0]);
+}

@@ -1,0 +1,199 @@
+//! Checkpoints that a run does not go on from, and what is said then.
+
+use super::scratch;
+use crate::common::{path, scene};
+use mbs::core::scene::{Inertia, Scene};
+use mbs::{CHECKPOINT, Checkpoint, CheckpointError, Overrides, Settings, Simulation};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn settings(scene: &Scene<f64>, overrides: &Overrides) -> Settings {
+    Settings::new(scene, overrides).expect("good settings")
+}
+
+/// A checkpoint of the double pendulum after some steps.
+fn saved() -> Vec<u8> {
+    let scene = scene("double-pendulum");
+    let settings = settings(&scene, &Overrides::default());
+    let mut simulation = Simulation::<f64, 2>::new(&scene, &settings).expect("it starts");
+    for _ in 0..10 {
+        simulation.step(1e-3).expect("a regular step");
+    }
+    let mut bytes = Vec::new();
+    simulation.save((&scene, &settings), &mut bytes).expect("memory");
+    bytes
+}
+
+/// What comes of it in a scene with settings; the state must be as it was on an error.
+fn restored(
+    scene: &Scene<f64>,
+    overrides: &Overrides,
+    bytes: &[u8],
+) -> Result<(), CheckpointError> {
+    let settings = settings(scene, overrides);
+    let mut simulation = Simulation::<f64, 2>::new(scene, &settings).expect("it starts");
+    let before = simulation.state().clone();
+    let restored = simulation.restore((scene, &settings), bytes);
+    assert!(restored.is_ok() || *simulation.state() == before, "nothing has changed");
+    restored
+}
+
+#[test]
+fn another_scene_is_named_by_its_parts() {
+    let bytes = saved();
+    let plain = Overrides::default();
+    let mut other = scene("double-pendulum");
+    assert!(restored(&other, &plain, &bytes).is_ok());
+    other.bodies[1].mass *= 1.0 + f64::EPSILON;
+    match restored(&other, &plain, &bytes) {
+        Err(CheckpointError::Scene(parts)) => assert_eq!(parts, ["[[body]]"]),
+        other => panic!("{other:?}"),
+    }
+    other.gravity = None;
+    if let Inertia::Rod { from, .. } = &mut other.bodies[0].inertia {
+        from[0] = 0.1;
+    }
+    match restored(&other, &plain, &bytes) {
+        Err(CheckpointError::Scene(parts)) => assert_eq!(parts, ["[scene]", "[[body]]"]),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn another_setting_is_named_with_both_values() {
+    let (bytes, scene) = (saved(), scene("double-pendulum"));
+    let plain = Overrides::default();
+    let text = |text: &str| Some(text.to_owned());
+    let others = [
+        ("step", Overrides { step: Some(2e-3), ..plain.clone() }),
+        ("formulation", Overrides { formulation: text("recursive"), ..plain.clone() }),
+        ("integrator", Overrides { integrator: text("hht"), ..plain.clone() }),
+        ("tolerance", Overrides { tolerance: Some(1e-9), ..plain.clone() }),
+        ("penalty", Overrides { penalty: Some(1e7), ..plain.clone() }),
+        ("duration", Overrides { duration: Some(20.0), ..plain.clone() }),
+        ("step-control", Overrides { step_control: text("error"), ..plain.clone() }),
+        ("energy-alarm", Overrides { energy_alarm: Some(0.2), ..plain.clone() }),
+        ("precision", Overrides { precision: text("f32"), ..plain.clone() }),
+    ];
+    for (name, overrides) in others {
+        match restored(&scene, &overrides, &bytes) {
+            Err(CheckpointError::Setting { key, was, is }) => {
+                assert_eq!(key, name);
+                assert_ne!(was, is);
+            }
+            other => panic!("{name}: {other:?}"),
+        }
+    }
+    let threads = Overrides { threads: Some(2), ..plain };
+    assert!(restored(&scene, &threads, &bytes).is_ok(), "threads change no bit");
+}
+
+#[test]
+fn a_file_that_is_not_whole_is_refused_at_every_length() {
+    let bytes = saved();
+    for n in 0..bytes.len() {
+        match Checkpoint::read(&bytes[..n]) {
+            Err(CheckpointError::NotACheckpoint) if n == 0 => {}
+            Err(CheckpointError::Torn { told, found }) => assert!(found < told, "{n}"),
+            other => panic!("{n} bytes: {other:?}"),
+        }
+    }
+    let longer = [&bytes[..], &[0; 3]].concat();
+    assert!(matches!(Checkpoint::read(&longer[..]), Err(CheckpointError::Torn { .. })));
+}
+
+#[test]
+fn a_changed_byte_is_found_wherever_it_is() {
+    let bytes = saved();
+    for place in 0..bytes.len() {
+        let mut changed = bytes.clone();
+        changed[place] ^= 1 << (place % 8);
+        assert!(Checkpoint::read(&changed[..]).is_err(), "byte {place}");
+    }
+}
+
+#[test]
+fn a_length_that_is_claimed_takes_no_memory() {
+    let mut bytes = saved();
+    bytes[12..20].copy_from_slice(&u64::MAX.to_le_bytes());
+    let there = bytes.len() as u64 - 28;
+    match Checkpoint::read(&bytes[..]) {
+        Err(CheckpointError::Torn { told: u64::MAX, found }) => assert_eq!(found, there),
+        other => panic!("{other:?}"),
+    }
+}
+
+fn mbs(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
+    command.arg("run").args(arguments).output().expect("the command is built")
+}
+
+/// The command is refused with exit status 1, and says all of these words.
+fn refused(arguments: &[&str], words: &[&str]) {
+    let output = mbs(arguments);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(1), "{arguments:?}: {said}");
+    assert!(output.stdout.is_empty());
+    for word in words.iter().chain(&["error:", "hint:"]) {
+        assert!(said.contains(word), "{arguments:?}: no `{word}` in {said}");
+    }
+}
+
+/// A directory with the checkpoint that a run has left, and the text of its scene there.
+fn left(name: &str) -> (PathBuf, PathBuf) {
+    let out = scratch(name);
+    let file = out.join("scene.toml");
+    std::fs::copy(path("double-pendulum"), &file).expect("a copy");
+    let read = std::fs::read(&file).expect("it was copied");
+    let document = mbs::scene_file::Document::from_bytes(&read, "scene.toml").expect("TOML");
+    let scene = document.scene::<f64>().expect("a scene");
+    let overrides = Overrides { duration: Some(0.2), ..Overrides::default() };
+    let settings = settings(&scene, &overrides);
+    let mut keeping = mbs::Keeping::new(&out, 0.05).expect("a directory of ours");
+    let done = mbs::run_kept::<f64, 2>(&scene, &settings, &mut (), (None, Some(&mut keeping)));
+    assert!(done.is_ok_and(|outcome| outcome.summary.completed));
+    (out, file)
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().expect("a path of plain letters")
+}
+
+#[test]
+fn the_command_says_what_is_wrong_and_what_to_do() {
+    let (out, file) = left("command");
+    let checkpoint = out.join(CHECKPOINT);
+    let (dir, file) = (text(&out), text(&file));
+    refused(&[file, "--out", dir, "--checkpoint", "0.05"], &["--resume", "--restart", "0.15"]);
+    refused(&[file, "--out", dir, "--resume", "--step", "1e-2"], &["step was 0.001, and is 0.01"]);
+    refused(&[file, "--out", dir, "--resume", "--precision", "dd"], &["precision was f64"]);
+    refused(&[file, "--resume"], &["--out"]);
+    refused(&[file, "--out", dir, "--checkpoint", "0"], &["positive"]);
+    let written = std::fs::read_to_string(file).expect("a scene");
+    std::fs::write(file, written.replacen("mass = 1.0", "mass = 1.5", 1)).expect("written");
+    refused(&[file, "--out", dir, "--resume"], &["another scene", "[[body]]"]);
+    std::fs::write(file, format!("# a comment more\n{written}")).expect("written");
+
+    let bytes = std::fs::read(&checkpoint).expect("it is there");
+    std::fs::write(&checkpoint, &bytes[..bytes.len() / 2]).expect("written");
+    refused(&[file, "--out", dir, "--resume"], &["torn"]);
+    let mut changed = bytes.clone();
+    changed[bytes.len() / 2] ^= 4;
+    std::fs::write(&checkpoint, &changed).expect("written");
+    refused(&[file, "--out", dir, "--resume"], &["damaged"]);
+    std::fs::write(&checkpoint, written.as_bytes()).expect("written");
+    refused(&[file, "--out", dir, "--resume"], &["no checkpoint"]);
+    let mut later = bytes.clone();
+    later[8] += 1;
+    std::fs::write(&checkpoint, &later).expect("written");
+    refused(&[file, "--out", dir, "--resume"], &["written by mbs with format 2"]);
+
+    std::fs::write(&checkpoint, &bytes).expect("written");
+    let rows = std::fs::read(out.join("run.csv")).expect("rows were written");
+    assert!(!rows.is_empty(), "no refusal has emptied the rows");
+    let output = mbs(&[file, "--out", dir, "--resume", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let json: serde_json::Value = serde_json::from_slice(&output.stdout).expect("one object");
+    assert_eq!(json["steps"], 200, "the summary is that of the whole run");
+    refused(&[file, "--out", dir, "--resume"], &["there is no checkpoint"]);
+}

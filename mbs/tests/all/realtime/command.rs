@@ -1,0 +1,120 @@
+//! `mbs run --realtime`: files, JSON, exit status, refusals.
+
+use crate::common;
+use serde_json::Value;
+use std::path::Path;
+use std::process::{Command, Output};
+
+fn run(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
+    command.arg("run").args(arguments).output().expect("the command is built")
+}
+
+fn status(output: &Output) -> i32 {
+    output.status.code().expect("it ended by itself")
+}
+
+fn path(name: &str) -> String {
+    common::path(name).display().to_string()
+}
+
+#[test]
+fn the_command_has_an_object_realtime_and_a_line_for_each_overrun() {
+    let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("realtime-out");
+    let _ = std::fs::remove_dir_all(&out);
+    let output = run(&[
+        &path("double-pendulum"),
+        "--realtime",
+        "--overrun",
+        "hold",
+        "--period",
+        "0.005",
+        "--duration",
+        "0.1",
+        "--json",
+        "--out",
+        out.to_str().expect("a path of plain letters"),
+    ]);
+    assert_eq!(status(&output), 0, "{}", String::from_utf8_lossy(&output.stderr));
+    let value: Value = serde_json::from_slice(&output.stdout).expect("one object");
+    let realtime = &value["realtime"];
+    for key in ["jitter", "duration"] {
+        for of in ["p50", "p99", "max"] {
+            assert!(realtime[key][of].is_number(), "{key}.{of}: {realtime}");
+        }
+    }
+    for key in ["latest", "real_time_factor", "elapsed", "behind", "skipped", "log_left_out"] {
+        assert!(realtime[key].is_number(), "{key}: {realtime}");
+    }
+    assert!(realtime["margin"]["least"].is_number() && realtime["margin"]["p1"].is_number());
+    assert_eq!((&realtime["overrun"], &realtime["period"]), (&"hold".into(), &0.005.into()));
+    assert_eq!((&realtime["periods"], &realtime["degraded_periods"]), (&20.into(), &0.into()));
+    let overruns = realtime["overruns"].as_u64().expect("a count");
+    assert_eq!(realtime["deadline_held"], overruns == 0);
+    let csv = std::fs::read_to_string(out.join("realtime.csv")).expect("it was written");
+    assert_eq!(csv.lines().count() as u64, 1 + overruns, "{csv}");
+    let page = std::fs::read_to_string(out.join("run.html")).expect("it was written");
+    assert!(page.contains("deadline") && page.contains("--realtime --period 0.005 --overrun hold"));
+    assert!(value["outputs"].get("realtime-level").is_none(), "there is no ladder");
+}
+
+#[test]
+fn the_command_runs_in_pairs_of_doubles_and_degrades_what_it_is_told_to() {
+    let output = run(&[
+        &path("double-pendulum"),
+        "--realtime",
+        "--precision",
+        "dd",
+        "--duration",
+        "0.05",
+        "--json",
+    ]);
+    assert_eq!(status(&output), 0, "{}", String::from_utf8_lossy(&output.stderr));
+    let value: Value = serde_json::from_slice(&output.stdout).expect("one object");
+    assert!(value["digits"].is_object() && value["realtime"]["periods"].is_number());
+    let output = run(&[
+        &path("iltis-suspension"),
+        "--realtime",
+        "--overrun",
+        "degrade",
+        "--degrade",
+        "steps,damper",
+        "--step",
+        "1e-3",
+        "--period",
+        "4e-3",
+        "--duration",
+        "0.1",
+        "--json",
+    ]);
+    assert_eq!(status(&output), 0, "{}", String::from_utf8_lossy(&output.stderr));
+    let value: Value = serde_json::from_slice(&output.stdout).expect("one object");
+    let levels = value["realtime"]["levels"].as_array().expect("a ladder");
+    assert_eq!(levels.len(), 3);
+    assert_eq!(
+        (&levels[2]["without"][0], &levels[2]["step_times"]),
+        (&"damper".into(), &2.0.into())
+    );
+    assert!(value["outputs"]["realtime-level"].is_number());
+}
+
+#[test]
+fn the_command_refuses_what_is_no_pace() {
+    let scene = path("double-pendulum");
+    for (arguments, word) in [
+        (&["--realtime", "--period", "0"][..], "period cannot be 0 s"),
+        (&["--realtime", "--period=-1"], "period cannot be -1 s"),
+        (&["--realtime", "--overrun", "panic"], "write finish, hold or degrade"),
+        (&["--period", "0.01"], "--realtime"),
+        (&["--realtime", "--degrade", "steps"], "--overrun"),
+        (&["--realtime", "--overrun", "hold", "--quiet", "9"], "are for --overrun degrade"),
+        (&["--realtime", "--overrun", "degrade", "--degrade", "wind"], "no effect `wind`"),
+    ] {
+        let all: Vec<&str> =
+            [scene.as_str()].into_iter().chain(arguments.iter().copied()).collect();
+        let output = run(&all);
+        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(status(&output), 1, "{arguments:?}: {text}");
+        assert!(text.contains(word), "{arguments:?}: {text}");
+    }
+}
