@@ -187,7 +187,7 @@ fn goals_that_cannot_be_meant_are_refused_with_what_to_write() {
     let scene = file("double-pendulum");
     for (arguments, says) in [
         (&["--error", "0"][..], "more than 0 and less than 1"),
-        (&["--error", "-1e-3"], "more than 0 and less than 1"),
+        (&["--error", "-0.001"], "more than 0 and less than 1"),
         (&["--error", "3"], "more than 0 and less than 1"),
         (&["--error", "small"], "invalid value"),
         (&["--deadline", "-1"], "longer than zero"),
