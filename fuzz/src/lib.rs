@@ -2,10 +2,12 @@
 
 mod mechanism;
 mod mutate;
+mod torn;
 mod trial;
 
 pub use mechanism::mechanism;
 pub use mutate::mutated;
+pub use torn::torn;
 pub use trial::{Verdict, trial};
 
 use rand_pcg::Pcg64;

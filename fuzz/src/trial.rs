@@ -1,5 +1,6 @@
 //! A text through everything that a user's text goes through: reading, building, a few steps in every formulation and precision.
 
+use crate::{Dice, torn};
 use mbs::core::scene::Scene;
 use mbs::scene_file::Document;
 use mbs::{Overrides, Settings};
@@ -75,7 +76,13 @@ pub fn trial(text: &[u8], turn: usize) -> Verdict {
             }
         }
     }
-    Verdict::Ran { completed, stopped }
+    // and what is kept of its state, damaged
+    let mut dice = Dice::new(turn as u64);
+    let formulation = TRIED[turn % ALWAYS][0];
+    match torn(&scene, formulation, &mut dice) {
+        Ok(_) => Verdict::Ran { completed, stopped },
+        Err(why) => Verdict::Wrong(format!("a damaged checkpoint, {formulation}: {why}")),
+    }
 }
 
 /// A refusal must name its place.

@@ -1,0 +1,77 @@
+//! A checkpoint with bytes changed, cut off or added: it is refused, or what goes on from it runs or stops with a reason.
+
+use crate::Dice;
+use mbs::core::scene::{Dimension, Scene};
+use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
+
+/// Steps before a state is kept, and after it is taken up again.
+const STEPS: [usize; 2] = [3, 3];
+const STEP: f64 = 1e-3;
+
+/// Keeps a scene after some steps, damages what was kept, and goes on from it; what was wrong. Nothing where the scene does not get
+/// that far.
+///
+/// # Errors
+/// What must not be: a restored state that is not finite, or a refusal without words.
+pub fn torn(
+    scene: &Scene<f64>,
+    formulation: &str,
+    dice: &mut Dice,
+) -> Result<Option<bool>, String> {
+    let overrides = Overrides {
+        formulation: Some(formulation.to_owned()),
+        step: Some(STEP.min(scene.duration)),
+        ..Overrides::default()
+    };
+    let Ok(settings) = Settings::new(scene, &overrides) else { return Ok(None) };
+    match scene.dimension {
+        Dimension::Planar => go::<2>(scene, &settings, dice),
+        Dimension::Spatial => go::<3>(scene, &settings, dice),
+    }
+}
+
+fn go<const D: usize>(
+    scene: &Scene<f64>,
+    settings: &Settings,
+    dice: &mut Dice,
+) -> Result<Option<bool>, String>
+where
+    Plane<D>: InSpace<f64>,
+{
+    let Ok(mut simulation) = Simulation::<f64, D>::new(scene, settings) else { return Ok(None) };
+    for _ in 0..STEPS[0] {
+        if simulation.step(settings.step).is_err() {
+            return Ok(None);
+        }
+    }
+    let mut bytes = Vec::new();
+    simulation.save((scene, settings), &mut bytes).map_err(|e| format!("cannot be kept: {e}"))?;
+    damage(&mut bytes, dice);
+    if let Err(error) = simulation.restore((scene, settings), &bytes[..]) {
+        let is_told = !error.to_string().is_empty() && !error.hint().is_empty();
+        return if is_told { Ok(Some(false)) } else { Err("a refusal without words".to_owned()) };
+    }
+    for _ in 0..STEPS[1] {
+        if simulation.step(settings.step).is_err() {
+            break;
+        }
+    }
+    let state = simulation.state();
+    let is_finite = state.q.iter().chain(&state.v).all(|x| x.is_finite());
+    is_finite.then_some(Some(true)).ok_or_else(|| "a state that is not finite".to_owned())
+}
+
+/// Some bytes changed, the end cut off, something added, or nothing.
+fn damage(bytes: &mut Vec<u8>, dice: &mut Dice) {
+    match dice.below(4) {
+        0 => bytes.truncate(dice.below(bytes.len())),
+        1 => bytes.extend((0..=dice.below(20)).map(|k| u8::try_from(k).unwrap_or(0))),
+        2 => {
+            for _ in 0..=dice.below(4) {
+                let at = dice.below(bytes.len());
+                bytes[at] ^= 1 << dice.below(8);
+            }
+        }
+        _ => {}
+    }
+}
