@@ -96,8 +96,6 @@ where
         aim: Aim,
         most: f64,
     ) -> Trial {
-        // what comes before the first step is no part of a run's time, but of the pilot's
-        let until = self.clock.seconds() + most;
         let started = self.start(method, setting);
         let (mut simulation, channels, alarm) = match started {
             Ok(started) => started,
@@ -118,7 +116,7 @@ where
             per_iteration: work(1, coordinates + constraints),
             is_fine: aim == Aim::Steps,
             is_slow: true,
-            until,
+            until: begun + most,
             last: begun,
             slowest: 0.0,
             steps: 0,
