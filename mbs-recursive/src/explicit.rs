@@ -19,9 +19,6 @@ use mbs_core::Real;
 use mbs_core::ode::{self, Adaptive, EndState, Method, OdeError, Rates};
 use mbs_core::step::{StepError, StepReport, Stop};
 
-/// Steps that one call with error control may try.
-const MAX_STEPS: u32 = 1_000_000;
-
 /// A mechanism as a system of first order.
 struct System<'r, 'a, 'b, T: Real, S: Space<T>, I> {
     m: &'r Mechanism<'a, T, S>,
@@ -203,7 +200,7 @@ pub fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     begin(m, &start, y);
     let before = driver.counts();
     let mut control = ode::Options::new(options.error);
-    control.max_steps = MAX_STEPS;
+    control.max_steps = options.max_steps;
     let mut system =
         System { m, inputs, options, s, evaluations: 0, is_patient: true, last_failure: None };
     let done =

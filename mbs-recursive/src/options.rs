@@ -21,6 +21,8 @@ pub struct Options<T> {
     pub error: T,
     /// First step tried with error control [s]; the whole length asked for where left out.
     pub first_step: Option<T>,
+    /// Steps tried with error control within the length asked for.
+    pub max_steps: u32,
     /// ε in Λ + ε, relative to the rows' own scale [-].
     pub regularisation: T,
 }
@@ -50,7 +52,8 @@ impl<T: Real> Closure<T> {
 }
 
 impl<T: Real> Default for Options<T> {
-    /// Trapezoidal rule; tolerance 1e-10 (64 roundings in single precision); 50 iterations, 30 sweeps; error 1e-8; ε = √rounding / 256.
+    /// Trapezoidal rule; tolerance 1e-10 (64 roundings in single precision); 50 iterations, 30 sweeps; error 1e-8, a million
+    /// steps; ε = √rounding / 256.
     fn default() -> Self {
         Self {
             integrator: Integrator::trapezoidal(),
@@ -60,6 +63,7 @@ impl<T: Real> Default for Options<T> {
             closure: Closure::Constraints,
             error: T::from_f64(1e-8).max(T::EPSILON * T::from_f64(64.0)),
             first_step: None,
+            max_steps: 1_000_000,
             regularisation: T::EPSILON.sqrt() * T::from_f64(1.0 / 256.0),
         }
     }
@@ -84,9 +88,12 @@ impl<T: Real> Options<T> {
                 return Err(OptionError::NotPositive(name));
             }
         }
-        for (name, count) in
-            [("max_iterations", self.max_iterations), ("max_sweeps", self.max_sweeps)]
-        {
+        let counts = [
+            ("max_iterations", self.max_iterations),
+            ("max_sweeps", self.max_sweeps),
+            ("max_steps", self.max_steps),
+        ];
+        for (name, count) in counts {
             if count == 0 {
                 return Err(OptionError::NotPositive(name));
             }

@@ -90,6 +90,7 @@ fn run(spatial: bool) -> RunRecord {
         ],
         error: spatial
             .then(|| "at t = 9.998 s: Newton did not converge. Hint: try half the step.".into()),
+        choice: Vec::new(),
     }
 }
 

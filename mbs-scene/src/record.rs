@@ -124,6 +124,8 @@ pub struct RunRecord {
     pub summary: Vec<(String, String)>,
     /// What the user should know, such as redundant constraints.
     pub notes: Vec<String>,
+    /// The table of a choice by measurement, its head first.
+    pub choice: Vec<Vec<String>>,
     /// When and why the run stopped early: what follows after "The run stopped".
     pub error: Option<String>,
 }

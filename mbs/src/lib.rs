@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod alarm;
+pub mod auto;
 mod channels;
 mod checkpoint;
 mod choice;

@@ -406,6 +406,7 @@ where
             summary: summary_rows(&summary),
             notes: notes(self.scene, settings, &summary, self.simulation.start.change.to_f64()),
             error: summary.error.as_ref().map(stop_text),
+            choice: settings.choice.as_ref().map(|choice| choice.table()).unwrap_or_default(),
             ..RunRecord::default()
         };
         let long_table = self.recorder.long_table().collect();

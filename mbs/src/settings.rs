@@ -8,7 +8,7 @@ use crate::digits::is_finer;
 use mbs_core::Real;
 use mbs_core::control::EnergyRule;
 use mbs_core::scene::{Scene, SolverChoice};
-use mbs_scene::{Chosen, readable};
+use mbs_scene::{Choice, Chosen, readable};
 
 /// Steps of a run at most: at a microsecond each they take eleven days.
 const MOST_STEPS: f64 = 1e12;
@@ -87,6 +87,8 @@ pub struct Settings {
     pub tolerance: Option<f64>,
     /// Threads that share the work of a step.
     pub threads: usize,
+    /// What a pilot measured, where one chose.
+    pub choice: Option<Box<Choice>>,
 }
 
 /// The lengths of time of a run in its own precision [s].
@@ -262,6 +264,7 @@ impl Settings {
             penalty: checked("penalty", penalty)?,
             tolerance: checked("tolerance", overrides.tolerance.or(of_scene(solver.tolerance)))?,
             threads,
+            choice: None,
         })
     }
 
@@ -285,13 +288,21 @@ impl Settings {
     /// What `auto` chose and why; nothing where a formulation was asked for.
     #[must_use]
     pub fn chosen(&self) -> Option<Chosen> {
+        let formulation = self.formulation.name().to_owned();
+        if let Some(choice) = &self.choice {
+            let (reasons, evidence) = (crate::auto::reasons(choice), Some((**choice).clone()));
+            return Some(Chosen { formulation, reasons, evidence });
+        }
         (self.asked == "auto").then(|| Chosen {
-            formulation: self.formulation.name().to_owned(),
+            formulation,
             reasons: vec![if self.integrator.is_explicit() {
                 format!("integrator {} runs in relative coordinates", self.integrator.name())
             } else {
-                "auto means index-3: no choice by measurement is built yet".to_owned()
+                "without a wanted error or a deadline auto means index-3: nothing is measured, and a scene gives the same numbers \
+                 every time"
+                    .to_owned()
             }],
+            evidence: None,
         })
     }
 

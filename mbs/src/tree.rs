@@ -193,6 +193,11 @@ where
         self.model.set_guide(guide, motion)
     }
 
+    /// Lets an integrator that controls its own steps try no more of them within one length asked for.
+    pub(crate) fn limit_steps(&mut self, most: u32) {
+        self.options.max_steps = most;
+    }
+
     pub(crate) fn set_time(&mut self, t: T) {
         self.state.t = t;
     }

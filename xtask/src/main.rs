@@ -3,6 +3,7 @@
 mod bench;
 mod chart;
 mod check;
+mod choice;
 mod counts;
 mod debian;
 mod digits;
@@ -95,6 +96,12 @@ enum Job {
         #[arg(value_name = "SCENE")]
         scenes: Vec<String>,
     },
+    /// Hold the choice by measurement against the best of all methods, on every scene at three errors: text and CSV under target/choice
+    Choice {
+        /// These scenes alone
+        #[arg(value_name = "SCENE")]
+        scenes: Vec<String>,
+    },
     /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
     Counts,
     /// Try scenes that nobody meant, mutated text and random mechanisms; what breaks or hangs is kept under target/fuzz
@@ -132,6 +139,7 @@ fn main() -> ExitCode {
         Job::Bench { threads, quick, scenes } => {
             bench::bench(&bench::Asked { threads, quick, scenes })
         }
+        Job::Choice { scenes } => choice::choice(&scenes),
         Job::Counts => counts::counts(),
         Job::Fuzz { seconds, seed } => fuzz::fuzz(seconds, seed),
         Job::Gauntlet { count, jobs } => gauntlet::gauntlet(count, jobs),

@@ -26,6 +26,9 @@ pub struct Comparison {
     pub methods: Vec<MethodRuns>,
     /// Who is fastest at which error.
     pub ranking: Vec<RankLevel>,
+    /// What `auto` chooses at which error; empty where that was not asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub choices: Vec<JudgedChoice>,
     /// Where the augmented formulations converge, over step and penalty.
     pub maps: Vec<ConvergenceMap>,
     /// What the reader should know.
@@ -234,6 +237,35 @@ pub struct RankLevel {
     pub ranks: Vec<Rank>,
     /// Those that do not.
     pub not_reached: Vec<String>,
+}
+
+/// A choice by measurement, held against what all methods take.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct JudgedChoice {
+    /// The wanted error.
+    pub error: f64,
+    /// The method that was chosen.
+    pub method: String,
+    /// Its step [s], or tolerance.
+    pub setting: f64,
+    /// CPU time of the run as the pilot predicted it [s].
+    pub predicted_seconds: Option<f64>,
+    /// Its error as the pilot predicted it.
+    pub predicted_error: Option<f64>,
+    /// CPU time of the pilot [s].
+    pub pilot_seconds: f64,
+    /// Choices that stopped before the one that is told, each with its reason.
+    pub stopped: Vec<String>,
+    /// CPU time of the run [s], the least of several; nothing where all stopped.
+    pub cpu_seconds: Option<f64>,
+    /// Its error against the reference.
+    pub true_error: Option<f64>,
+    /// The method that takes least at this error.
+    pub best_method: Option<String>,
+    /// What it takes [s].
+    pub best_seconds: Option<f64>,
+    /// The chosen run's time over that.
+    pub over_best: Option<f64>,
 }
 
 /// A formulation with an integrator, by its fastest control and precision.

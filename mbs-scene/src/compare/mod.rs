@@ -14,8 +14,8 @@ mod text;
 
 pub use csv::write_comparison;
 pub use data::{
-    Cell, Comparison, ConvergenceMap, CrossCheck, Energy, Fit, MethodRuns, Origin, OutputScale,
-    Rank, RankLevel, Reference, RunEntry, Status, StepTimes,
+    Cell, Comparison, ConvergenceMap, CrossCheck, Energy, Fit, JudgedChoice, MethodRuns, Origin,
+    OutputScale, Rank, RankLevel, Reference, RunEntry, Status, StepTimes,
 };
 pub use page::comparison_page;
 pub use scale::{output_scales, row_distance};

@@ -14,6 +14,7 @@ impl Comparison {
     pub fn report(&self) -> Report {
         let mut sections = vec![self.basis()];
         sections.extend(self.ranking.iter().map(|level| self.level(level)));
+        sections.extend(self.choices());
         sections.push(self.by_method());
         sections.extend(self.failures());
         sections.push(self.all_runs());
@@ -166,6 +167,42 @@ impl Comparison {
             ["method", "reason", "step or tolerance: where it stopped"].map(str::to_owned).to_vec();
         let title = "Failures".to_owned();
         (!rows.is_empty()).then(|| Section { title, head, rows, ..Section::default() })
+    }
+
+    /// What `auto` chooses.
+    fn choices(&self) -> Option<Section> {
+        let time = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), seconds);
+        let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| format!("{x:.1e}"));
+        let row = |c: &super::JudgedChoice| {
+            vec![
+                format!("{:.0e}", c.error),
+                format!("{}, {}", c.method, short(c.setting)),
+                number(c.true_error),
+                time(c.cpu_seconds),
+                time(c.best_seconds),
+                c.best_method.clone().unwrap_or_default(),
+                c.over_best.map_or_else(|| "-".to_owned(), |x| format!("{x:.2}")),
+                time(Some(c.pilot_seconds)),
+                c.stopped.join("; "),
+            ]
+        };
+        let head = [
+            "wanted error",
+            "chosen, step or tolerance",
+            "its error",
+            "CPU time",
+            "the best",
+            "which is",
+            "over the best",
+            "pilot",
+            "stopped before",
+        ];
+        (!self.choices.is_empty()).then(|| Section {
+            title: "Choice by measurement".to_owned(),
+            head: head.map(str::to_owned).to_vec(),
+            rows: self.choices.iter().map(row).collect(),
+            ..Section::default()
+        })
     }
 
     fn all_runs(&self) -> Section {

@@ -57,6 +57,19 @@ function fillTable(id, rows) {
   }
 }
 
+function fillChoice(rows) {
+  if (!rows.length) return;
+  document.getElementById("choice-card").hidden = false;
+  const table = document.getElementById("choice");
+  rows.forEach((cells, i) => {
+    const row = i ? table.insertRow() : table.createTHead().insertRow();
+    for (const text of cells) {
+      const cell = i ? row.insertCell() : row.appendChild(document.createElement("th"));
+      cell.textContent = text;
+    }
+  });
+}
+
 (function main() {
   const data = JSON.parse(document.getElementById("data").textContent);
   document.getElementById("scene").textContent = data.scene;
@@ -69,6 +82,7 @@ function fillTable(id, rows) {
   notes.hidden = !data.notes.length;
   for (const note of data.notes) notes.appendChild(document.createElement("li")).textContent = note;
   fillTable("summary", data.summary);
+  fillChoice(data.choice);
   fillTable("provenance", data.provenance);
 
   const clock = makeClock(data), redraws = [];

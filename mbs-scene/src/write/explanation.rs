@@ -1,5 +1,6 @@
 //! What `mbs explain` says of a scene, as plain data with the keys of its JSON object.
 
+use super::choice::Choice;
 use super::json::{Chosen, RunError};
 use serde::Serialize;
 
@@ -13,6 +14,9 @@ pub struct Explanation {
     /// What `auto` chose and why.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chosen: Option<Chosen>,
+    /// The candidates of a choice by measurement: by structure, or with what a pilot measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub choice: Option<Choice>,
     /// Integrator.
     pub integrator: String,
     /// `f32`, `f64`, `dd`.

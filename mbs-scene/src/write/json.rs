@@ -1,5 +1,6 @@
 //! JSON: the summary of a run, with the keys of the scene format.
 
+use super::choice::Choice;
 use super::realtime::RealtimeSummary;
 use crate::record::StepRow;
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -174,12 +175,15 @@ pub struct ViolationSummary {
 }
 
 /// What `auto` chose.
-#[derive(Debug, Clone, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct Chosen {
     /// Formulation that ran.
     pub formulation: String,
     /// Why, one sentence each.
     pub reasons: Vec<String>,
+    /// What was measured; absent where nothing was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub evidence: Option<Choice>,
 }
 
 /// Channels by name, in order; one number is written as a number, several as a list.

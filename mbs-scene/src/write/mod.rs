@@ -1,5 +1,6 @@
 //! Files out: CSV rows as the run goes, JSON at its end.
 
+mod choice;
 mod csv;
 mod explanation;
 mod json;
@@ -8,6 +9,7 @@ mod realtime;
 #[cfg(test)]
 mod tests;
 
+pub use choice::{Candidate, Choice, Fallback, PilotReference, TrialEntry, write_choice};
 pub use csv::{CsvWriter, append_steps, long, shortest, write_steps};
 pub use explanation::{
     Absence, Change, ControllerStep, EffectEntry, Explanation, GuideEntry, JointGroup, LargestStep,

@@ -186,8 +186,9 @@ fn values(settings: &Settings) -> [String; KEYS.len()] {
         duration,
         penalty,
         tolerance,
-        // The bits are the same for any number of them.
+        // The bits are the same for any number of them, and however the rest was chosen.
         threads: _,
+        choice: _,
     } = settings;
     let optional = |x: &Option<f64>| x.map_or_else(String::new, |x| format!("{x:?}"));
     [

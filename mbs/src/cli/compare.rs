@@ -50,6 +50,9 @@ pub(crate) struct Arguments {
     /// Leave out the convergence maps over step and penalty.
     #[arg(long)]
     no_maps: bool,
+    /// Also choose by measurement at each error, as `mbs run --error` does, and hold the choice against the best of all methods.
+    #[arg(long)]
+    choice: bool,
     /// Directory for compare.csv, compare.json, compare.html, and for the journal that a later start goes on from; made if
     /// missing.
     #[arg(long, value_name = "DIR")]
@@ -83,6 +86,7 @@ impl Arguments {
             time_limit: self.time_limit,
             budget: self.budget,
             maps: !self.no_maps,
+            choices: self.choice,
         })
     }
 
@@ -138,7 +142,8 @@ impl Arguments {
                 command.push_str(&format!(" --{key} {value}"));
             }
         }
-        command + if self.no_maps { " --no-maps" } else { "" }
+        let switches = [(self.no_maps, " --no-maps"), (self.choice, " --choice")];
+        switches.into_iter().filter(|(is, _)| *is).fold(command, |text, (_, switch)| text + switch)
     }
 }
 

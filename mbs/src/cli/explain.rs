@@ -1,6 +1,7 @@
 //! `mbs explain SCENE`.
 
 use super::{STOPPED, files, refuse};
+use crate::auto::{Goal, Processor, plan, time};
 use crate::explain::{Effort, explain, report};
 use crate::{Overrides, Precision, Settings, words};
 use clap::Args;
@@ -25,6 +26,12 @@ pub(crate) struct Arguments {
     /// Duration [s].
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     duration: Option<f64>,
+    /// Wanted error, as in `mbs run`: runs the pilot of the choice and tells what each candidate would cost.
+    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    error: Option<f64>,
+    /// Deadline, as in `mbs run`.
+    #[arg(long, value_name = "S", value_parser = time, allow_negative_numbers = true)]
+    deadline: Option<f64>,
     /// Directory for explain.json and explain.html; made if missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -54,7 +61,14 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         Ok(begun) => begun,
         Err(message) => return refuse(&message),
     };
-    let explanation = match settings.precision {
+    let goal = Goal { error: arguments.error, deadline: arguments.deadline };
+    let chosen = (&overrides, settings.clone());
+    let plan = plan((&document, &scene), chosen, goal, &mut Processor::new(settings.threads));
+    let measured = match plan {
+        Ok(plan) => plan.first().choice.clone(),
+        Err(error) => return refuse(&error.render()),
+    };
+    let mut explanation = match settings.precision {
         Precision::F64 => dispatch(&scene, &settings),
         Precision::F32 => match document.scene::<f32>() {
             Ok(scene) => dispatch(&scene, &settings),
@@ -62,6 +76,9 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         },
         Precision::DoubleDouble => return refuse(super::NO_PAIRS),
     };
+    if let Some(choice) = measured {
+        explanation.choice = Some(*choice);
+    }
     tell(&explanation, arguments, &settings)
 }
 
@@ -81,6 +98,8 @@ fn tell(explanation: &Explanation, arguments: &Arguments, settings: &Settings) -
         ("duration", arguments.duration.map(|x| x.to_string())),
         ("precision", arguments.precision.clone()),
         ("integrator", arguments.integrator.clone()),
+        ("error", arguments.error.map(|x| x.to_string())),
+        ("deadline", arguments.deadline.map(|x| x.to_string())),
     ];
     let provenance = files::provenance(("explain", &arguments.scene), &options, settings);
     let report = report(explanation, provenance);

@@ -2,7 +2,7 @@
 
 use crate::{Overrides, Settings, SettingsError};
 use mbs_core::scene::{Entry, Scene};
-use mbs_scene::{Document, Provenance, readable};
+use mbs_scene::{Choice, Document, Provenance, readable};
 use std::path::Path;
 
 /// Reads a scene file and its scene; else the refusal.
@@ -92,6 +92,13 @@ fn unreadable(path: &Path, what: &str, error: &std::io::Error) -> String {
         format!("give the path of a {what}; it ends with .toml")
     };
     format!("error: cannot read `{}`: {}\nhint: {hint}", path.display(), plain(error))
+}
+
+/// The evidence of a choice, as an object and as a table.
+pub(crate) fn write_choice(out: &Path, choice: &Choice) -> std::io::Result<()> {
+    let text = serde_json::to_string_pretty(choice).unwrap_or_default();
+    std::fs::write(out.join("choice.json"), text + "\n")?;
+    mbs_scene::write_choice(std::fs::File::create(out.join("choice.csv"))?, choice)
 }
 
 /// The message for a directory that cannot be written.

@@ -2,6 +2,7 @@
 
 use super::bar::{bar, ticks};
 use super::{STOPPED, files, keep, realtime, refuse, table};
+use crate::auto::{Goal, Plan, Processor, plan, run_plan, time};
 use crate::realtime::Pacing;
 use crate::{Outcome, Overrides, Settings, run_document_kept, words};
 use clap::Args;
@@ -11,6 +12,9 @@ use mbs_scene::{Document, Provenance, RunError, readable};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+
+/// Options that go with one method alone: a run that may fall back on another has none of them.
+const NOT_CHOSEN: [&str; 3] = ["checkpoint", "resume", "realtime"];
 
 /// Arguments of `mbs run`.
 #[derive(Debug, Args)]
@@ -72,12 +76,14 @@ pub(crate) struct Arguments {
     /// trapezoidal, newmark, generalised-alpha, hht; in recursive also rk4, rk54, gbs (extrapolation, for reference runs); else trapezoidal.
     #[arg(long, value_name = "I")]
     integrator: Option<String>,
-    /// Wanted error (not built).
-    #[arg(long, value_name = "E", hide = true)]
-    error: Option<String>,
-    /// Deadline (not built).
-    #[arg(long, value_name = "S", hide = true)]
-    deadline: Option<String>,
+    /// Wanted error: the largest of the outputs over the run, each beside its own range, as in `mbs compare`. A short pilot measures which
+    /// formulation, integrator and step reach it in the least time, and says why; --formulation and --integrator narrow the choice.
+    #[arg(long, value_name = "E", allow_negative_numbers = true, conflicts_with_all = NOT_CHOSEN)]
+    error: Option<f64>,
+    /// Deadline [s, or 1ms, 500us]: the run is made in frames of this length, each computed within the same time even where its steps
+    /// are slowest, as accurately as that allows (with --error: as cheaply as the error allows).
+    #[arg(long, value_name = "S", value_parser = time, allow_negative_numbers = true, conflicts_with_all = NOT_CHOSEN)]
+    deadline: Option<f64>,
     #[command(flatten)]
     realtime: realtime::Arguments,
 }
@@ -117,15 +123,15 @@ impl Arguments {
             ("tolerance", o.tolerance.map(|x| x.to_string())),
             ("precision", o.precision.clone()),
             ("integrator", o.integrator.clone()),
+            ("error", self.error.map(|x| x.to_string())),
+            ("deadline", self.deadline.map(|x| x.to_string())),
         ];
         let options: Vec<_> = options.into_iter().chain(self.realtime.options()).collect();
         files::provenance(("run", &self.scene), &options, settings)
     }
 
-    /// The first option that is part of the contract and not built.
-    fn not_built(&self) -> Option<&'static str> {
-        let options = [(self.error.is_some(), "--error"), (self.deadline.is_some(), "--deadline")];
-        options.into_iter().find(|(given, _)| *given).map(|(_, name)| name)
+    fn goal(&self) -> Goal {
+        Goal { error: self.error, deadline: self.deadline }
     }
 }
 
@@ -147,11 +153,6 @@ fn switch(text: &str) -> Result<bool, String> {
 
 /// Runs the command.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
-    if let Some(option) = arguments.not_built() {
-        return refuse(&format!(
-            "error: {option} is not built yet\nhint: leave it out; give --step instead"
-        ));
-    }
     match begin(arguments) {
         Ok(begun) => go(arguments, begun),
         Err(message) => refuse(&message),
@@ -162,13 +163,13 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 struct Begun {
     document: Document,
     scene: Scene<f64>,
-    settings: Settings,
+    plan: Plan,
     overrides: Overrides,
     pacing: Option<Pacing>,
     kept: keep::Kept,
 }
 
-/// Reads what is run, and what it goes on from; else the refusal.
+/// Reads what is run, and what it goes on from, and chooses where something is wanted; else the refusal.
 fn begin(arguments: &Arguments) -> Result<Begun, String> {
     let out = arguments.out.as_deref();
     let pacing = arguments.realtime.pacing()?;
@@ -177,39 +178,54 @@ fn begin(arguments: &Arguments) -> Result<Begun, String> {
     let begun = files::begin(&arguments.scene, &overrides, (out, kept.trial()))?;
     let (document, scene, settings) = begun;
     let settings = kept.settle(settings)?;
+    let clock = &mut Processor::new(settings.threads);
+    let chosen = (&overrides, settings);
+    let plan = plan((&document, &scene), chosen, arguments.goal(), clock);
+    let plan = plan.map_err(|error| error.render())?;
     kept.clear();
-    Ok(Begun { document, scene, settings, overrides, pacing, kept })
+    Ok(Begun { document, scene, plan, overrides, pacing, kept })
 }
 
 fn go(arguments: &Arguments, mut begun: Begun) -> ExitCode {
     match run(arguments, &mut begun) {
-        Ok(outcome) => report(&outcome, arguments, &begun),
+        Ok((outcome, settings)) => report(&outcome, arguments, (&begun, &settings)),
         Err(message) => refuse(&message),
     }
 }
 
-/// Runs it, at the pace of a clock or as fast as it can; else the refusal.
-fn run(arguments: &Arguments, begun: &mut Begun) -> Result<Outcome, String> {
-    let Begun { document, scene, settings, pacing, kept, .. } = begun;
+/// Runs it, at the pace of a clock or as fast as it can, and tells with what settings; else the refusal.
+fn run(arguments: &Arguments, begun: &mut Begun) -> Result<(Outcome, Settings), String> {
+    let Begun { document, scene, plan, pacing, kept, .. } = begun;
+    let settings = plan.first();
     if let Some(pacing) = pacing {
         let run = realtime::run((document, scene), settings, pacing);
-        return run.map_err(|error| error.render());
+        return run.map(|outcome| (outcome, settings.clone())).map_err(|error| error.render());
     }
     let mut bar = Bar::new(settings.duration, arguments.json);
+    let mut reached = |t| bar.reached(t);
+    if settings.choice.is_some() {
+        let run = run_plan((document, scene), plan, &mut reached);
+        bar.bar.finish_and_clear();
+        return run.map_err(|error| error.render());
+    }
     let parts = (kept.from.as_ref(), kept.keeping.as_mut());
-    let outcome = run_document_kept((document, scene), settings, &mut |t| bar.reached(t), parts);
+    let outcome = run_document_kept((document, scene), settings, &mut reached, parts);
     bar.bar.finish_and_clear();
     match outcome {
-        Ok(Ok(outcome)) => Ok(outcome),
+        Ok(Ok(outcome)) => Ok((outcome, settings.clone())),
         Ok(Err(error)) => Err(keep::said(&error)),
         Err(error) => Err(error.render()),
     }
 }
 
 /// Files, then JSON or table; the exit status says whether the run was completed.
-fn report(outcome: &Outcome, arguments: &Arguments, begun: &Begun) -> ExitCode {
+fn report(
+    outcome: &Outcome,
+    arguments: &Arguments,
+    (begun, settings): (&Begun, &Settings),
+) -> ExitCode {
     if let Some(out) = &arguments.out {
-        let provenance = arguments.provenance(&begun.overrides, &begun.settings);
+        let provenance = arguments.provenance(&begun.overrides, settings);
         if let Err(error) = write_files(outcome, out, provenance) {
             return refuse(&files::unwritable(out, &error));
         }
@@ -255,6 +271,10 @@ fn write_files(outcome: &Outcome, out: &Path, provenance: Provenance) -> std::io
     outcome.write_csv(std::io::BufWriter::new(std::fs::File::create(out.join("run.csv"))?))?;
     outcome.write_steps(std::io::BufWriter::new(std::fs::File::create(out.join("steps.csv"))?))?;
     realtime::write(out, &outcome.summary)?;
+    let chosen = outcome.summary.chosen.as_ref();
+    if let Some(choice) = chosen.and_then(|chosen| chosen.evidence.as_ref()) {
+        files::write_choice(out, choice)?;
+    }
     std::fs::write(out.join("run.json"), outcome.summary.to_json() + "\n")?;
     std::fs::write(out.join("run.html"), outcome.page(provenance))
 }

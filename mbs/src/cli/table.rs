@@ -19,12 +19,18 @@ pub(crate) fn text(outcome: &Outcome, out: Option<&Path>) -> String {
             line(format!("  {label:<24} {value}"));
         }
     }
+    for reason in s.chosen.iter().filter(|c| c.evidence.is_some()).flat_map(|c| &c.reasons) {
+        line(format!("chosen: {reason}"));
+    }
     for note in outcome.notes() {
         line(format!("note: {note}"));
     }
     if let Some(out) = out {
-        let more = if s.realtime.is_some() { "realtime.csv, " } else { "" };
-        line(format!("wrote run.csv, steps.csv, {more}run.json and run.html to {}", out.display()));
+        let is_measured = s.chosen.as_ref().is_some_and(|c| c.evidence.is_some());
+        let paced = if s.realtime.is_some() { "realtime.csv, " } else { "" };
+        let chosen = if is_measured { "choice.json, choice.csv, " } else { "" };
+        let out = out.display();
+        line(format!("wrote run.csv, steps.csv, {paced}{chosen}run.json and run.html to {out}"));
     }
     text
 }

@@ -9,14 +9,14 @@ use mbs_core::control::Accepted;
 
 /// What a run does.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Course {
-    pub(super) instants: Instants,
+pub(crate) struct Course {
+    pub(crate) instants: Instants,
     /// Steps between two instants, where their length is fixed.
-    pub(super) between: Option<u64>,
+    pub(crate) between: Option<u64>,
 }
 
 /// Watches a run; does nothing by default.
-pub(super) trait Watcher<T: Real, const D: usize>
+pub(crate) trait Watcher<T: Real, const D: usize>
 where
     Plane<D>: InSpace<T>,
 {
@@ -47,7 +47,7 @@ impl<T: Real, const D: usize> Watcher<T, D> for () where Plane<D>: InSpace<T> {}
 ///
 /// # Errors
 /// Why it stopped.
-pub(super) fn drive<T: Real, const D: usize>(
+pub(crate) fn drive<T: Real, const D: usize>(
     simulation: &mut Simulation<T, D>,
     course: &Course,
     watcher: &mut impl Watcher<T, D>,

@@ -16,7 +16,7 @@ const PER_UNKNOWN: f64 = 2e-7;
 const PER_ITERATION: f64 = 3e-7;
 
 /// Steps to run, from the longest; those that are longer than a tenth of the run are left out.
-pub(super) fn steps(asked: &[f64], of_scene: f64, duration: f64) -> Vec<f64> {
+pub(crate) fn steps(asked: &[f64], of_scene: f64, duration: f64) -> Vec<f64> {
     let mut steps: Vec<f64> = match asked {
         [] => {
             STEPS.iter().map(|factor| factor * of_scene).filter(|h| *h <= duration / 10.0).collect()
@@ -32,7 +32,7 @@ pub(super) fn steps(asked: &[f64], of_scene: f64, duration: f64) -> Vec<f64> {
 }
 
 /// Tolerances to run, from the largest.
-pub(super) fn tolerances(asked: &[f64]) -> Vec<f64> {
+pub(crate) fn tolerances(asked: &[f64]) -> Vec<f64> {
     let mut tolerances = if asked.is_empty() { TOLERANCES.to_vec() } else { asked.to_vec() };
     tolerances.sort_by(|a, b| b.total_cmp(a));
     tolerances.dedup();
@@ -41,15 +41,15 @@ pub(super) fn tolerances(asked: &[f64]) -> Vec<f64> {
 
 /// Equally spaced instants at which runs are compared; every step ends on one, or is made to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Instants {
-    pub(super) count: usize,
+pub(crate) struct Instants {
+    pub(crate) count: usize,
     /// Their distance [s].
-    pub(super) interval: f64,
+    pub(crate) interval: f64,
 }
 
 impl Instants {
     /// At most 200, no closer than the longest step, and so that the steps fit between them, if that can be had.
-    pub(super) fn new(duration: f64, steps: &[f64]) -> Self {
+    pub(crate) fn new(duration: f64, steps: &[f64]) -> Self {
         let longest = steps.iter().copied().fold(0.0, f64::max);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 1 to 200")]
         let most = (duration / longest * (1.0 + FITS)).floor().clamp(1.0, count(INSTANTS)) as usize;
@@ -66,24 +66,24 @@ impl Instants {
 
     /// Steps between two instants: as many as bring their length nearest to the one that is asked for.
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-    pub(super) fn steps_between(&self, step: f64) -> u64 {
+    pub(crate) fn steps_between(&self, step: f64) -> u64 {
         (self.interval / step).round().max(1.0) as u64
     }
 
     /// Time of an instant, from 0 for the start [s].
-    pub(super) fn time(&self, k: usize) -> f64 {
+    pub(crate) fn time(&self, k: usize) -> f64 {
         count(k) * self.interval
     }
 }
 
 /// The work of so many iterations of a model with so many coordinates and constraints [s, nominal].
 #[allow(clippy::cast_precision_loss, reason = "a rough number")]
-pub(super) fn work(iterations: u64, unknowns: usize) -> f64 {
+pub(crate) fn work(iterations: u64, unknowns: usize) -> f64 {
     iterations as f64 * (PER_ITERATION + PER_UNKNOWN * unknowns as f64)
 }
 
 #[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
-pub(super) fn count(n: usize) -> f64 {
+pub(crate) fn count(n: usize) -> f64 {
     n as f64
 }
 

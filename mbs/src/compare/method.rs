@@ -5,7 +5,7 @@ use crate::settings::Overrides;
 
 /// What chooses the length of the steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Control {
+pub(crate) enum Control {
     /// Nothing: the setting is the step.
     Fixed,
     /// An estimate of the local error; the setting is its tolerance.
@@ -18,11 +18,11 @@ pub(super) enum Control {
 
 /// A method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Method {
-    pub(super) formulation: Formulation,
-    pub(super) integrator: IntegratorKind,
-    pub(super) control: Control,
-    pub(super) precision: Precision,
+pub(crate) struct Method {
+    pub(crate) formulation: Formulation,
+    pub(crate) integrator: IntegratorKind,
+    pub(crate) control: Control,
+    pub(crate) precision: Precision,
 }
 
 /// Formulations in the order in which methods are listed.
@@ -36,7 +36,7 @@ const FORMULATIONS: [Formulation; 6] = [
 ];
 
 /// Precisions that are compared; the last one only where it is asked for.
-pub(super) const PRECISIONS: [Precision; 3] =
+pub(crate) const PRECISIONS: [Precision; 3] =
     [Precision::F64, Precision::F32, Precision::DoubleDouble];
 
 /// Ways to step a formulation.
@@ -61,7 +61,7 @@ fn ways(formulation: Formulation) -> Vec<(IntegratorKind, Control)> {
 
 impl Method {
     /// All that are wanted, by precision; none given means all of that kind.
-    pub(super) fn all(formulations: &[Formulation], precisions: &[Precision]) -> Vec<Self> {
+    pub(crate) fn all(formulations: &[Formulation], precisions: &[Precision]) -> Vec<Self> {
         let mut methods = Vec::new();
         for precision in PRECISIONS {
             let is_usual = precisions.is_empty() && precision != Precision::DoubleDouble;
@@ -85,7 +85,7 @@ impl Method {
     }
 
     /// Its name: what is usual is left out, the precision is not.
-    pub(super) fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         let integrator = match self.integrator {
             IntegratorKind::Trapezoidal => String::new(),
             other => format!(" {}", other.name()),
@@ -99,7 +99,7 @@ impl Method {
     }
 
     /// Word for its control, in tables.
-    pub(super) fn control(&self) -> &'static str {
+    pub(crate) fn control(&self) -> &'static str {
         match self.control {
             Control::Fixed => "fixed",
             Control::Error => "error",
@@ -109,12 +109,12 @@ impl Method {
     }
 
     /// Are its settings steps?
-    pub(super) fn is_fixed(&self) -> bool {
+    pub(crate) fn is_fixed(&self) -> bool {
         self.control == Control::Fixed
     }
 
     /// How much more work the next setting is: for a step that is shorter by `ratio`, or a tolerance smaller by that.
-    pub(super) fn growth(&self, ratio: f64) -> f64 {
+    pub(crate) fn growth(&self, ratio: f64) -> f64 {
         match self.control {
             Control::Fixed => ratio,
             // the local error goes with the cube of the step, in rk54 with the fifth power, in gbs about with the tenth
@@ -125,7 +125,7 @@ impl Method {
     }
 
     /// What a run of it is asked for, between instants `interval` apart, and first (or all) steps of `step` [s].
-    pub(super) fn overrides(&self, setting: f64, step: f64, interval: f64) -> Overrides {
+    pub(crate) fn overrides(&self, setting: f64, step: f64, interval: f64) -> Overrides {
         let control = match self.control {
             Control::Fixed | Control::Own => "fixed",
             Control::Error => "error",

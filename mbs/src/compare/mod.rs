@@ -5,11 +5,12 @@
 //! that two comparisons make the same ones. Each result is in the journal before the next run begins.
 
 mod clocked;
-mod drive;
-mod ladder;
+pub(crate) mod drive;
+mod judged;
+pub(crate) mod ladder;
 mod layout;
 mod map;
-mod method;
+pub(crate) mod method;
 mod pass;
 mod reference;
 mod rounds;
@@ -58,6 +59,8 @@ pub struct Request {
     pub budget: f64,
     /// Are the convergence maps wanted?
     pub maps: bool,
+    /// Is the choice by measurement to be made at each error, and held against all methods?
+    pub choices: bool,
 }
 
 impl Default for Request {
@@ -73,6 +76,7 @@ impl Default for Request {
             time_limit: 30.0,
             budget: 200.0,
             maps: true,
+            choices: false,
         }
     }
 }
@@ -174,6 +178,7 @@ pub fn compare(
     let plan = study.map_plan(&known);
     comparison.methods = study.runs(&known, &mut store, watch)?;
     study.time(&mut comparison, &known, &mut store, watch)?;
+    study.choices((&mut comparison, &known), &mut store, watch)?;
     comparison.maps = study.maps(&plan, &known, &mut store, watch)?;
     comparison.digest(&request.errors);
     Ok(comparison)

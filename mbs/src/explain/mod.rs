@@ -57,6 +57,7 @@ where
         scene: scene.name.clone(),
         formulation: settings.asked.clone(),
         chosen: settings.chosen(),
+        choice: crate::auto::candidates::<T, D>(scene, settings),
         integrator: settings.integrator.name().to_owned(),
         precision: settings.precision.name().to_owned(),
         dimension: scene.dimension.count(),

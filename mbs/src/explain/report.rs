@@ -2,7 +2,7 @@
 
 use crate::words::{duration, few, stop_text};
 use mbs_scene::{
-    ControllerStep, Explanation, LargestStep, Price, Prices, Provenance, Relative, Report,
+    Choice, ControllerStep, Explanation, LargestStep, Price, Prices, Provenance, Relative, Report,
     SearchEnd, Section, Sizes, readable,
 };
 
@@ -12,6 +12,7 @@ pub fn report(explanation: &Explanation, provenance: Provenance) -> Report {
     let mut sections = vec![simulated(explanation)];
     sections.extend(effects(explanation));
     sections.push(absent(explanation));
+    sections.extend(explanation.choice.as_ref().map(candidates));
     if let Some(prices) = &explanation.prices {
         sections.push(whole(prices));
         sections.extend(price_list("Price of each effect", &prices.effects, prices));
@@ -70,6 +71,25 @@ fn simulated(e: &Explanation) -> Section {
     let run = format!("{} s, step {} s", readable(e.duration), readable(e.step));
     rows.push(row("run", run));
     Section { title: "What is simulated".to_owned(), rows, ..Section::default() }
+}
+
+/// Who could run the scene, and what a pilot measured of them.
+fn candidates(choice: &Choice) -> Section {
+    let mut table = choice.table();
+    let head = table.remove(0);
+    let is_measured = choice.error.is_some();
+    let mut caption = choice.structure.join("; ");
+    caption += &match is_measured {
+        true => format!(". {}.", crate::auto::reasons(choice).join(". ")),
+        false => ". With --error E or --deadline S a pilot measures them and chooses; without them auto means index-3.".to_owned(),
+    };
+    Section {
+        title: "Choice of formulation".to_owned(),
+        head,
+        rows: table,
+        caption,
+        ..Section::default()
+    }
 }
 
 fn sizes(n: &Sizes) -> String {

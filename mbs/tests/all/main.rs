@@ -9,6 +9,7 @@ mod retell;
 mod analysis;
 mod andrews;
 mod checkpoint;
+mod choice;
 mod command;
 mod compare;
 mod contact;

@@ -1,0 +1,213 @@
+//! What a choice by measurement was made of: who could run, what the pilot measured of each, who was chosen.
+
+use super::csv::shortest;
+use super::readable::{readable, rounded};
+use serde::Serialize;
+use std::io;
+
+/// The evidence of a choice.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Choice {
+    /// Wanted error of the outputs, each in its scale.
+    pub error: Option<f64>,
+    /// Time for each frame of that length [s].
+    pub deadline: Option<f64>,
+    /// What the scene is, one sentence each.
+    pub structure: Vec<String>,
+    /// Length of the run that the pilot looked at [s].
+    pub span: f64,
+    /// Errors were taken at so many instants.
+    pub instants: usize,
+    /// CPU time of the pilot, and what it was allowed [s].
+    pub pilot_seconds: f64,
+    /// What it was allowed [s].
+    pub pilot_budget: f64,
+    /// What errors were taken against, and how well that is known.
+    pub reference: Option<PilotReference>,
+    /// All that were considered: the chosen one first, then by predicted CPU time, then those that are out.
+    pub candidates: Vec<Candidate>,
+    /// Candidates that were chosen and stopped in the run.
+    pub fallbacks: Vec<Fallback>,
+    /// What the reader should know.
+    pub notes: Vec<String>,
+}
+
+/// The most accurate run of the pilot.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct PilotReference {
+    /// Candidate.
+    pub method: String,
+    /// Step [s], or tolerance.
+    pub setting: f64,
+    /// Its own error, by the distance of its coarser neighbour.
+    pub uncertainty: f64,
+}
+
+/// A way to run the scene.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Candidate {
+    /// 1 for the chosen one; nothing for those that are out.
+    pub rank: Option<usize>,
+    /// Name: formulation, integrator and control, precision.
+    pub method: String,
+    /// Formulation.
+    pub formulation: String,
+    /// Integrator.
+    pub integrator: String,
+    /// What chooses the steps: `fixed`, `error`, `energy`; `own` with an integrator that controls its own.
+    pub control: String,
+    /// Step [s], or tolerance, that it needs.
+    pub setting: Option<f64>,
+    /// CPU time of the whole run with it [s], predicted.
+    pub seconds: Option<f64>,
+    /// That over the same of the chosen one.
+    pub over_chosen: Option<f64>,
+    /// Error with it, predicted.
+    pub error: Option<f64>,
+    /// The slowest step of its trials [s], where steps were timed one by one.
+    pub slowest_step: Option<f64>,
+    /// What the prediction stands on.
+    pub basis: String,
+    /// Why it is out.
+    pub out: Option<String>,
+    /// What was measured.
+    pub trials: Vec<TrialEntry>,
+}
+
+/// A run of the pilot.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct TrialEntry {
+    /// Step [s], or tolerance.
+    pub setting: f64,
+    /// CPU time [s].
+    pub seconds: f64,
+    /// Steps made.
+    pub steps: u64,
+    /// Share of the span that was reached.
+    pub reached: f64,
+    /// Error against the reference, or by its own neighbour.
+    pub error: Option<f64>,
+    /// `completed`, `given up`, or the code of what stopped it.
+    pub outcome: String,
+}
+
+/// A candidate that stopped in the run.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Fallback {
+    /// Candidate.
+    pub method: String,
+    /// Code of what stopped it.
+    pub code: String,
+    /// Message of what stopped it.
+    pub message: String,
+    /// When [s].
+    pub time: f64,
+    /// CPU time that was lost [s].
+    pub cpu_seconds: f64,
+}
+
+/// Head of the table of candidates.
+const HEAD: [&str; 6] = ["", "candidate", "step or tolerance", "CPU time", "error", "why"];
+
+impl Choice {
+    /// The candidates as a table, its head first.
+    #[must_use]
+    pub fn table(&self) -> Vec<Vec<String>> {
+        let number = |x: Option<f64>, unit: &str| {
+            x.map_or_else(|| "-".to_owned(), |x| format!("{}{unit}", readable(rounded(x, 3))))
+        };
+        let row = |c: &Candidate| {
+            let why = match (&c.out, c.over_chosen) {
+                (Some(why), _) => why.clone(),
+                (None, Some(times)) if c.rank != Some(1) => {
+                    format!("{times:.2} times the chosen one; {}", c.basis)
+                }
+                _ => c.basis.clone(),
+            };
+            vec![
+                c.rank.map_or_else(|| "out".to_owned(), |rank| rank.to_string()),
+                c.method.clone(),
+                number(c.setting, if c.control == "fixed" { " s" } else { "" }),
+                number(c.seconds, " s"),
+                c.error.map_or_else(|| "-".to_owned(), |e| format!("{e:.1e}")),
+                why,
+            ]
+        };
+        let head = HEAD.map(str::to_owned).to_vec();
+        core::iter::once(head).chain(self.candidates.iter().map(row)).collect()
+    }
+}
+
+const COLUMNS: [&str; 14] = [
+    "rank",
+    "method",
+    "formulation",
+    "integrator",
+    "control",
+    "setting",
+    "predicted_cpu_seconds",
+    "predicted_error",
+    "out",
+    "trial_setting",
+    "trial_cpu_seconds",
+    "trial_reached",
+    "trial_error",
+    "trial_outcome",
+];
+
+/// Writes a row for each trial of each candidate; one without trials has a row of its own.
+///
+/// # Errors
+/// Those of the sink.
+pub fn write_choice(sink: impl io::Write, choice: &Choice) -> io::Result<()> {
+    let mut out = csv::Writer::from_writer(sink);
+    out.write_record(COLUMNS)?;
+    let number = |x: Option<f64>| x.map(shortest).unwrap_or_default();
+    for c in &choice.candidates {
+        let of_candidate = [
+            c.rank.map(|rank| rank.to_string()).unwrap_or_default(),
+            c.method.clone(),
+            c.formulation.clone(),
+            c.integrator.clone(),
+            c.control.clone(),
+            number(c.setting),
+            number(c.seconds),
+            number(c.error),
+            c.out.clone().unwrap_or_default(),
+        ];
+        let of_trial = |t: &TrialEntry| {
+            let numbers = [Some(t.setting), Some(t.seconds), Some(t.reached), t.error].map(number);
+            numbers.into_iter().chain([t.outcome.clone()])
+        };
+        if c.trials.is_empty() {
+            let none = core::iter::repeat_n(String::new(), COLUMNS.len() - of_candidate.len());
+            out.write_record(of_candidate.iter().cloned().chain(none))?;
+        }
+        for trial in &c.trials {
+            out.write_record(of_candidate.iter().cloned().chain(of_trial(trial)))?;
+        }
+    }
+    out.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_trial_has_a_row_and_a_candidate_without_trials_has_one() {
+        let trial =
+            TrialEntry { setting: 0.5, outcome: "completed".into(), ..TrialEntry::default() };
+        let chosen = Candidate { rank: Some(1), trials: vec![trial; 2], ..Candidate::default() };
+        let out = Candidate { out: Some("no tree".into()), ..Candidate::default() };
+        let choice = Choice { candidates: vec![chosen, out], ..Choice::default() };
+        let mut sink = Vec::new();
+        write_choice(&mut sink, &choice).unwrap();
+        let text = String::from_utf8(sink).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines.len(), 4);
+        assert!(lines[1].starts_with("1,") && lines[1].ends_with("completed"), "{text}");
+        assert!(lines[3].contains("no tree"), "{text}");
+        assert_eq!(choice.table().len(), 3);
+    }
+}

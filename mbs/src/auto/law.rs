@@ -1,0 +1,193 @@
+//! How error and CPU time of a method go with its setting, and what follows for a wanted error.
+//!
+//! ```text
+//! error ~ setting^a,   CPU time ~ setting^-b,   so CPU time ~ error^(-b/a)
+//! ```
+
+use crate::choice::IntegratorKind;
+use crate::compare::method::{Control, Method};
+
+/// Exponents that are measured are believed within these shares of those of theory.
+const BELIEVED: [f64; 2] = [0.5, 1.25];
+
+/// Exponents of a method in its setting: the step, or the tolerance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Law {
+    /// Of the error.
+    pub(crate) error: f64,
+    /// Of the CPU time, its sign changed.
+    pub(crate) cost: f64,
+}
+
+impl Law {
+    /// Theory's.
+    pub(crate) fn of(method: &Method) -> Self {
+        let (error, cost) = match (method.control, method.integrator) {
+            (Control::Fixed, IntegratorKind::Rk4) => (4.0, 1.0),
+            (Control::Fixed, IntegratorKind::Newmark) => (1.0, 1.0),
+            (Control::Fixed, _) => (2.0, 1.0),
+            // the local error goes with the cube of the step, the global one with its square
+            (Control::Error | Control::Energy, _) => (2.0 / 3.0, 1.0 / 3.0),
+            (Control::Own, IntegratorKind::Extrapolation) => (1.0, 0.1),
+            (Control::Own, _) => (1.0, 0.2),
+        };
+        Self { error, cost }
+    }
+
+    /// Order of the error in the mean step; lower than theory's where the order itself is chosen.
+    pub(crate) fn order(method: &Method) -> f64 {
+        match (method.control, method.integrator) {
+            (Control::Own, IntegratorKind::Extrapolation) => 8.0,
+            (Control::Own, _) | (Control::Fixed, IntegratorKind::Rk4) => 4.0,
+            (Control::Fixed, IntegratorKind::Newmark) => 1.0,
+            _ => 2.0,
+        }
+    }
+
+    /// How much the setting changes for an error that is so many times as large.
+    pub(crate) fn setting_for(&self, times_error: f64) -> f64 {
+        times_error.powf(1.0 / self.error)
+    }
+
+    /// How much longer a run takes for an error that is smaller by a factor.
+    pub(crate) fn cost_of(&self, factor: f64) -> f64 {
+        factor.powf(self.cost / self.error)
+    }
+
+    /// The exponents between two runs, as far as they are believed.
+    fn between(&self, coarse: &Point, fine: &Point) -> Self {
+        let span = (coarse.setting / fine.setting).ln();
+        let believed = |x: f64, theory: f64| {
+            if x.is_finite() { x.clamp(BELIEVED[0] * theory, BELIEVED[1] * theory) } else { theory }
+        };
+        Self {
+            error: believed((coarse.error / fine.error).ln() / span, self.error),
+            cost: believed((fine.seconds / coarse.seconds).ln() / span, self.cost),
+        }
+    }
+}
+
+/// A completed run: its setting, its error, its CPU time [s].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Point {
+    pub(crate) setting: f64,
+    pub(crate) error: f64,
+    pub(crate) seconds: f64,
+}
+
+/// What a prediction stands on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Basis {
+    /// Runs on both sides of the wanted error.
+    Between,
+    /// The coarsest setting there is reaches it.
+    Coarsest,
+    /// Every run reaches it: a coarser setting is guessed, for an error larger by this factor.
+    Coarser(f64),
+    /// No run reaches it: a finer setting is guessed, for an error smaller by this factor.
+    Finer(f64),
+}
+
+/// What a wanted error takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Prediction {
+    pub(crate) point: Point,
+    pub(crate) basis: Basis,
+}
+
+/// Predicts from runs, from the coarsest to the finest. An error that is small by luck counts for nothing: a run is credited with
+/// that of the next finer one where it is larger. `coarsest`: no setting is longer than that.
+pub(crate) fn predict(
+    law: &Law,
+    points: &[Point],
+    wanted: f64,
+    coarsest: f64,
+) -> Option<Prediction> {
+    let credited = |i: usize| points[i].error.max(points.get(i + 1).map_or(0.0, |p| p.error));
+    let last = points.last()?;
+    let reaches = (0..points.len()).find(|&i| credited(i) <= wanted);
+    let Some(i) = reaches else {
+        let before = points.len().checked_sub(2).map(|i| &points[i]);
+        let law = before.map_or(*law, |before| law.between(before, last));
+        let factor = last.error / wanted;
+        return Some(Prediction {
+            point: Point {
+                setting: last.setting * law.setting_for(1.0 / factor),
+                error: wanted,
+                seconds: last.seconds * law.cost_of(factor),
+            },
+            basis: Basis::Finer(factor),
+        });
+    };
+    let fine = Point { error: credited(i), ..points[i] };
+    if let Some(coarse) = i.checked_sub(1).map(|k| Point { error: credited(k), ..points[k] }) {
+        // an error of zero lies at the end of every line
+        let share = (coarse.error / wanted).ln() / (coarse.error / fine.error).ln();
+        let share = if fine.error > 0.0 { share.clamp(0.0, 1.0) } else { 1.0 };
+        let mean = |a: f64, b: f64| (a.ln() + share * (b.ln() - a.ln())).exp();
+        let setting = mean(coarse.setting, fine.setting);
+        let point = Point { setting, error: wanted, seconds: mean(coarse.seconds, fine.seconds) };
+        return Some(Prediction { point, basis: Basis::Between });
+    }
+    if fine.setting >= coarsest * (1.0 - 1e-9) {
+        return Some(Prediction { point: fine, basis: Basis::Coarsest });
+    }
+    let setting = fine.setting * law.setting_for(wanted / fine.error.max(f64::MIN_POSITIVE));
+    let setting = setting.min(coarsest);
+    let factor = (setting / fine.setting).powf(law.error);
+    let seconds = fine.seconds / law.cost_of(factor);
+    let point = Point { setting, error: fine.error * factor, seconds };
+    Some(Prediction { point, basis: Basis::Coarser(factor) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SECOND: Law = Law { error: 2.0, cost: 1.0 };
+
+    fn points(steps: &[f64]) -> Vec<Point> {
+        let of = |&h: &f64| Point { setting: h, error: h * h, seconds: 1e-3 / h };
+        steps.iter().map(of).collect()
+    }
+
+    fn near(found: f64, claimed: f64) -> bool {
+        (found / claimed - 1.0).abs() < 1e-9
+    }
+
+    #[test]
+    fn a_method_that_keeps_its_law_is_predicted_exactly_on_either_side_of_its_runs() {
+        for (wanted, basis) in [(1e-5, "finer"), (1e-3, "between"), (0.5e-1, "coarser")] {
+            let found = predict(&SECOND, &points(&[0.1, 0.01]), wanted, 1.0).unwrap();
+            let h = f64::sqrt(wanted);
+            assert!(
+                near(found.point.setting, h) && near(found.point.seconds, 1e-3 / h),
+                "{found:?}"
+            );
+            let is = match found.basis {
+                Basis::Finer(_) => "finer",
+                Basis::Between => "between",
+                Basis::Coarser(_) => "coarser",
+                Basis::Coarsest => "coarsest",
+            };
+            assert_eq!(is, basis);
+        }
+    }
+
+    #[test]
+    fn the_coarsest_setting_is_not_left() {
+        let found = predict(&SECOND, &points(&[0.1]), 0.5, 0.1).unwrap();
+        assert_eq!((found.basis, found.point), (Basis::Coarsest, points(&[0.1])[0]));
+        let found = predict(&SECOND, &points(&[0.1]), 0.5, 0.2).unwrap();
+        assert!(near(found.point.setting, 0.2) && near(found.point.error, 0.04), "{found:?}");
+    }
+
+    #[test]
+    fn an_error_that_is_small_by_luck_does_not_count() {
+        let mut lucky = points(&[0.1, 0.05, 0.025]);
+        lucky[0].error = 1e-6;
+        let found = predict(&SECOND, &lucky, 1e-3, 1.0).unwrap();
+        assert!(found.point.setting < 0.05, "{found:?}");
+        assert_eq!(predict(&SECOND, &[], 1e-3, 1.0), None);
+    }
+}

@@ -1,0 +1,156 @@
+//! What a scene's structure says before anything is run: who cannot run it, and what makes it dear.
+
+use crate::choice::{Formulation, IntegratorKind};
+use crate::compare::method::Method;
+use crate::settings::Settings;
+use crate::simulation::Simulation;
+use crate::stop::{Names, StopError};
+use crate::tree::{InSpace, Plane};
+use mbs_core::Real;
+use mbs_core::scene::{BodyRef, Effect, EffectKind, Scene};
+use mbs_recursive::TreeModel;
+
+/// Steps of an explicit method in each period of the stiffest spring, roughly.
+const STEPS_A_PERIOD: f64 = 2.0;
+
+/// Steps that make explicit methods dear.
+const STIFF: f64 = 3000.0;
+
+/// What is known of a scene without a step.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Structure {
+    pub(crate) dimension: usize,
+    pub(crate) bodies: usize,
+    /// Coordinates, constraints, their rank, in natural coordinates.
+    pub(crate) natural: Option<[usize; 3]>,
+    /// Cut joints of the tree, or why there is none.
+    pub(crate) loops: Result<usize, String>,
+    pub(crate) guides: usize,
+    /// Bumpers, limits and tires.
+    pub(crate) contacts: usize,
+    /// The highest frequency of a spring on the masses beside it, roughly [rad/s].
+    pub(crate) frequency: f64,
+    pub(crate) duration: f64,
+}
+
+/// Looks at a scene.
+pub(crate) fn structure<T: Real, const D: usize>(scene: &Scene<T>, settings: &Settings) -> Structure
+where
+    Plane<D>: InSpace<T>,
+{
+    let natural = Settings {
+        formulation: Formulation::Index3,
+        integrator: IntegratorKind::Trapezoidal,
+        ..settings.clone()
+    };
+    let natural = Simulation::<T, D>::new(scene, &natural).ok().map(|s| s.sizes());
+    let tree = TreeModel::<T, <Plane<D> as InSpace<T>>::Space>::new(scene);
+    let loops = tree.map(|tree| tree.cut_joints().count());
+    let enabled = || scene.effects.iter().filter(|effect| effect.enabled);
+    let is_contact = |effect: &&Effect<T>| {
+        matches!(
+            effect.kind,
+            EffectKind::Bumper { .. } | EffectKind::Limit { .. } | EffectKind::Tire { .. }
+        )
+    };
+    Structure {
+        dimension: D,
+        bodies: scene.bodies.len(),
+        natural,
+        loops: loops.map_err(|e| StopError::tree(e).report(0.0, &Names::new(scene)).message),
+        guides: scene.guides.len(),
+        contacts: enabled().filter(is_contact).count(),
+        frequency: enabled().map(|effect| frequency(scene, effect)).fold(0.0, f64::max),
+        duration: settings.duration,
+    }
+}
+
+/// omega = sqrt(k (1/m1 + 1/m2)) of a spring along a line [rad/s].
+fn frequency<T: Real>(scene: &Scene<T>, effect: &Effect<T>) -> f64 {
+    let of = |body: &BodyRef| match body {
+        BodyRef::Body(i) => scene.bodies.get(*i).map_or(0.0, |body| 1.0 / body.mass.to_f64()),
+        BodyRef::Ground => 0.0,
+    };
+    let (bodies, stiffness) = match &effect.kind {
+        EffectKind::SpringDamper { bodies, stiffness, .. }
+        | EffectKind::Bumper { bodies, stiffness, .. } => (bodies, stiffness.to_f64()),
+        EffectKind::Bushing { bodies, stiffness, .. } => {
+            (bodies, stiffness[..3].iter().map(|k| k.to_f64()).fold(0.0, f64::max))
+        }
+        _ => return 0.0,
+    };
+    let square = stiffness * bodies.iter().map(of).sum::<f64>();
+    if square.is_finite() { square.max(0.0).sqrt() } else { 0.0 }
+}
+
+impl Structure {
+    /// Why a method cannot run the scene.
+    pub(crate) fn refuses(&self, method: &Method) -> Option<String> {
+        match (method.formulation, &self.loops, self.natural) {
+            (Formulation::Recursive, Err(why), _) => Some(why.clone()),
+            (Formulation::Classical, _, Some([_, rows, rank])) if rank < rows => Some(format!(
+                "{} of {rows} constraints are redundant: their multipliers are not unique",
+                rows - rank
+            )),
+            _ => None,
+        }
+    }
+
+    /// Place in the order of trials: those of high order first, where no spring is too stiff for them and no contact kinks the motion; relative coordinates before
+    /// others; what takes about the same steps as another, but more work in each, last.
+    pub(crate) fn promise(&self, method: &Method) -> usize {
+        let steps = STEPS_A_PERIOD * self.frequency * self.duration / core::f64::consts::TAU;
+        let is_stiff = steps > STIFF || self.contacts > 0;
+        let is_controlled = !method.is_fixed();
+        match (method.formulation, method.integrator.is_explicit()) {
+            (Formulation::Recursive, true) if !is_stiff => usize::from(!is_controlled),
+            (Formulation::Recursive, true) => 6,
+            (Formulation::Recursive, false) => 3 - usize::from(is_controlled),
+            (Formulation::Index3, _) => 5 - usize::from(is_controlled),
+            _ => 7,
+        }
+    }
+
+    /// Sentences about it.
+    pub(crate) fn words(&self) -> Vec<String> {
+        let mut words = vec![format!(
+            "{} in {} dimensions",
+            if self.bodies == 1 { "1 body".to_owned() } else { format!("{} bodies", self.bodies) },
+            self.dimension
+        )];
+        if let Some([n, rows, rank]) = self.natural {
+            let redundant = match rows - rank {
+                0 => "none redundant".to_owned(),
+                k => format!("{k} redundant"),
+            };
+            words.push(format!(
+                "{} freedoms: {n} natural coordinates, {rows} constraints, {redundant}",
+                n - rank
+            ));
+        }
+        words.push(match &self.loops {
+            Ok(0) => "a tree: relative coordinates need no constraints".to_owned(),
+            Ok(1) => "one loop is cut in relative coordinates".to_owned(),
+            Ok(n) => format!("{n} loops are cut in relative coordinates"),
+            Err(why) => format!("no relative coordinates: {why}"),
+        });
+        if self.guides > 0 {
+            words.push(format!("{} guided", self.guides));
+        }
+        if self.contacts > 0 {
+            words.push(format!(
+                "{} bumpers, limits or tires: contact comes and goes",
+                self.contacts
+            ));
+        }
+        if self.frequency > 0.0 {
+            let steps = STEPS_A_PERIOD * self.frequency * self.duration / core::f64::consts::TAU;
+            words.push(format!(
+                "its stiffest spring turns at about {} rad/s: explicit integrators need {} steps or more",
+                crate::words::few(self.frequency),
+                crate::words::few(steps.ceil().max(1.0))
+            ));
+        }
+        words
+    }
+}

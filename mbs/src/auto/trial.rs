@@ -1,0 +1,57 @@
+//! What the choice asks of a run, and what a run gives: the border between choosing, which is counted and compared, and running.
+
+use crate::compare::method::Method;
+use mbs_scene::RunError;
+
+/// Outputs at the instants after the start.
+pub(crate) type Rows = Vec<Vec<f64>>;
+
+/// What a trial is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Aim {
+    /// Outputs at all instants.
+    Rows,
+    /// Those, and the time of every step.
+    Steps,
+    /// The time of the whole, as it is without recording.
+    Time,
+}
+
+/// A run of the pilot.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Trial {
+    pub(crate) rows: Rows,
+    /// CPU time of its steps [s].
+    pub(crate) seconds: f64,
+    pub(crate) steps: u64,
+    /// Share of the span that was reached.
+    pub(crate) reached: f64,
+    /// The slowest step [s], where each was timed.
+    pub(crate) slowest: Option<f64>,
+    pub(crate) end: End,
+}
+
+/// How a trial ended.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum End {
+    /// At the end of the span.
+    Done,
+    /// It took longer than it was given.
+    GivenUp,
+    /// It stopped.
+    Stopped(RunError),
+    /// It did not start: no setting helps.
+    NotStarted(RunError),
+}
+
+/// Runs trials. Whoever chooses knows time by this only, so that a choice can be made on any clock.
+pub(crate) trait Bench {
+    /// Runs the span with a setting, for at most so many seconds.
+    fn trial(&mut self, method: &Method, setting: f64, aim: Aim, most: f64) -> Trial;
+
+    /// Seconds since the pilot began, by the clock of the trials.
+    fn spent(&mut self) -> f64;
+
+    /// Largest distance of outputs at the same instants, each in its scale over the first.
+    fn distance(&self, reference: &Rows, rows: &Rows) -> f64;
+}

@@ -1,0 +1,218 @@
+//! The choice by measurement on real scenes. What is timed is not asserted: whatever is chosen must keep what was wanted.
+
+use mbs::auto::{Clock, Goal, Plan, Processor, plan, run_plan};
+use mbs::scene_file::Document;
+use mbs::{Overrides, Settings};
+use mbs_core::scene::Scene;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn file(name: &str) -> String {
+    format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn read(name: &str) -> (Document, Scene<f64>) {
+    let text = std::fs::read_to_string(file(name)).expect("the scene is there");
+    let document = Document::parse(&text, name).expect("it is a document");
+    let scene = document.scene::<f64>().expect("it is a scene");
+    (document, scene)
+}
+
+/// A clock that counts work: the same every time.
+#[derive(Default)]
+struct Counted(f64);
+
+impl Clock for Counted {
+    fn seconds(&mut self) -> f64 {
+        self.0
+    }
+
+    fn worked(&mut self, nominal: f64) {
+        self.0 += nominal;
+    }
+}
+
+fn planned(name: &str, base: &Overrides, goal: Goal) -> Plan {
+    let (document, scene) = read(name);
+    let settings = Settings::new(&scene, base).expect("the settings go together");
+    plan((&document, &scene), (base, settings), goal, &mut Counted::default())
+        .expect("the goal can be meant")
+}
+
+fn error(e: f64) -> Goal {
+    Goal { error: Some(e), deadline: None }
+}
+
+#[test]
+fn on_a_clock_that_counts_work_a_choice_is_the_same_every_time() {
+    for name in ["double-pendulum", "slider-crank", "hammer-blow"] {
+        let base = Overrides { formulation: Some("auto".into()), ..Overrides::default() };
+        let plans = [0, 1].map(|_| planned(name, &base, error(1e-3)));
+        assert_eq!(plans[0], plans[1], "{name}");
+        let choice = plans[0].first().choice.as_ref().unwrap();
+        assert!(choice.candidates.iter().any(|c| c.trials.len() > 1), "{name}: {choice:?}");
+    }
+}
+
+#[test]
+fn the_wanted_error_is_kept_on_the_pendulum_against_its_closed_form() {
+    let table = std::fs::read_to_string(file("references/simple-pendulum").replace("toml", "csv"));
+    let table = table.unwrap();
+    let last: Vec<f64> =
+        table.lines().last().unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
+    for wanted in [1e-2, 1e-4, 1e-6] {
+        let (document, scene) = read("simple-pendulum");
+        let base = Overrides::default();
+        let settings = Settings::new(&scene, &base).unwrap();
+        let clock = &mut Processor::new(1);
+        let plan = plan((&document, &scene), (&base, settings), error(wanted), clock).unwrap();
+        let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
+        let (t, row) = outcome.rows().last().unwrap();
+        assert!((t - last[0]).abs() < 1e-9 && outcome.error.is_none());
+        // the range of both coordinates is more than a metre, so an absolute error is larger than its share
+        let off = (row[0] - last[1]).abs().max((row[1] - last[2]).abs());
+        assert!(off <= 2.0 * wanted, "{wanted}: {off} with {:?}", settings.formulation);
+    }
+}
+
+#[test]
+fn structure_leaves_out_what_cannot_run_and_says_why() {
+    let plan = planned("spatial-four-bar", &Overrides::default(), error(1e-2));
+    let choice = plan.first().choice.clone().unwrap();
+    let classical = choice.candidates.iter().filter(|c| c.formulation == "classical");
+    for candidate in classical {
+        let why = candidate.out.clone().unwrap();
+        assert!(candidate.trials.is_empty() && why.contains("redundant"), "{why}");
+    }
+    assert!(choice.structure.iter().any(|s| s.contains("one loop")), "{:?}", choice.structure);
+}
+
+#[test]
+fn a_formulation_that_is_asked_for_is_kept_and_the_rest_is_chosen() {
+    let base = Overrides { formulation: Some("recursive".into()), ..Overrides::default() };
+    let plan = planned("double-pendulum", &base, error(1e-3));
+    assert!(plan.ranked.iter().all(|s| s.formulation == mbs::Formulation::Recursive));
+    assert_eq!(plan.first().asked, "recursive");
+    let base = Overrides { integrator: Some("hht".into()), ..Overrides::default() };
+    let plan = planned("quarter-car", &base, error(1e-2));
+    assert!(plan.ranked.iter().all(|s| s.integrator == mbs::IntegratorKind::Hht));
+}
+
+#[test]
+fn where_the_first_stops_the_next_runs_and_the_choice_says_so() {
+    // relative coordinates at small steps stop at the four-bar's singular position, index-3 passes it
+    let (document, scene) = read("four-bar");
+    let base = Overrides::default();
+    let settings = Settings::new(&scene, &base).unwrap();
+    let of = |formulation: &str| {
+        let overrides =
+            Overrides { formulation: Some(formulation.into()), step: Some(1e-3), ..base.clone() };
+        let choice =
+            plan((&document, &scene), (&base, settings.clone()), error(1e-2), &mut Counted(0.0));
+        let choice = choice.unwrap().first().choice.clone();
+        Settings { choice, ..Settings::new(&scene, &overrides).unwrap() }
+    };
+    let plan = Plan { ranked: vec![of("recursive"), of("index-3")] };
+    let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
+    assert!(outcome.summary.completed);
+    assert_eq!(settings.formulation, mbs::Formulation::Index3);
+    let lost = &outcome.summary.chosen.unwrap().evidence.unwrap().fallbacks;
+    assert_eq!((lost.len(), lost[0].code.as_str()), (1, "violated"));
+    // none gets to the end: the one that got furthest is told
+    let plan = Plan { ranked: vec![of("recursive"), of("state-space")] };
+    let (outcome, _) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
+    assert!(!outcome.summary.completed && outcome.summary.end_time > 3.0);
+}
+
+#[test]
+fn with_a_deadline_a_frame_is_a_whole_number_of_steps() {
+    let goal = Goal { error: None, deadline: Some(0.01) };
+    let plan = planned("quarter-car", &Overrides::default(), goal);
+    for settings in &plan.ranked {
+        let steps = 0.01 / settings.step;
+        assert!((steps - steps.round()).abs() < 1e-9 && steps >= 1.0, "{steps}");
+        assert!(!settings.integrator.controls_its_step());
+        assert_eq!(settings.rule, mbs::StepRule::Fixed);
+    }
+}
+
+#[test]
+fn without_a_goal_nothing_is_measured_and_auto_is_index_3() {
+    let plan = planned("double-pendulum", &Overrides::default(), Goal::default());
+    assert_eq!((plan.ranked.len(), plan.first().formulation), (1, mbs::Formulation::Index3));
+    assert!(plan.first().choice.is_none());
+    assert!(plan.first().chosen().unwrap().evidence.is_none());
+}
+
+fn mbs(arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
+    command.args(arguments).output().expect("the command is built")
+}
+
+fn scratch(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("choice-{name}"));
+    let _ = std::fs::remove_dir_all(&path);
+    path
+}
+
+#[test]
+fn the_evidence_stands_in_the_json_in_files_and_on_the_page() {
+    let (out, scene) = (scratch("files"), file("double-pendulum"));
+    let folder = out.to_str().unwrap();
+    let output = mbs(&["run", &scene, "--error", "1e-3", "--json", "--out", folder]);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let evidence = &json["chosen"]["evidence"];
+    assert_eq!(json["formulation"], "auto");
+    assert!(json["chosen"]["reasons"][0].as_str().unwrap().contains("for an error of 0.001"));
+    let candidates = evidence["candidates"].as_array().unwrap();
+    assert_eq!(candidates[0]["rank"], 1);
+    for candidate in candidates {
+        // a rank with its price, or a reason
+        let (is_ranked, is_out) = (candidate["rank"].is_u64(), candidate["out"].is_string());
+        assert!(is_ranked != is_out && is_ranked == candidate["seconds"].is_f64(), "{candidate}");
+    }
+    let beside: Value =
+        serde_json::from_slice(&std::fs::read(out.join("choice.json")).unwrap()).unwrap();
+    assert_eq!(&beside, evidence);
+    let csv = std::fs::read_to_string(out.join("choice.csv")).unwrap();
+    assert!(csv.starts_with("rank,method,") && csv.lines().count() > candidates.len());
+    let page = std::fs::read_to_string(out.join("run.html")).unwrap();
+    assert!(page.contains("id=\"choice\"") && page.contains("rk54"));
+}
+
+#[test]
+fn goals_that_cannot_be_meant_are_refused_with_what_to_write() {
+    let scene = file("double-pendulum");
+    for (arguments, says) in [
+        (&["--error", "0"][..], "more than 0 and less than 1"),
+        (&["--error", "-0.001"], "more than 0 and less than 1"),
+        (&["--error", "3"], "more than 0 and less than 1"),
+        (&["--error", "small"], "invalid value"),
+        (&["--deadline", "-1"], "longer than zero"),
+        (&["--deadline", "0"], "longer than zero"),
+        (&["--deadline", "1m"], "1ms or 500us"),
+        (&["--deadline", "20s"], "longer than the run"),
+        (&["--error", "1e-3", "--step", "1e-3"], "--step cannot be given beside"),
+        (&["--deadline", "1ms", "--integrator", "rk54"], "choose their own steps"),
+        (&["--deadline", "1ms", "--formulation", "multi-index"], "no method goes with"),
+        (&["--error", "1e-3", "--formulation", "index-3", "--integrator", "rk4"], "rk4"),
+    ] {
+        let output = mbs(&[&["run", scene.as_str()][..], arguments].concat());
+        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {errors}");
+        assert!(output.stdout.is_empty() && errors.contains(says), "{arguments:?}: {errors}");
+    }
+}
+
+#[test]
+fn explain_tells_candidates_by_structure_and_with_an_error_what_each_costs() {
+    let scene = file("simple-pendulum");
+    let plain = mbs(&["explain", &scene, "--duration", "0.2"]);
+    let text = String::from_utf8_lossy(&plain.stdout).into_owned();
+    assert!(text.contains("Choice of formulation") && text.contains("the pilot decides"), "{text}");
+    let measured = mbs(&["explain", &scene, "--duration", "0.2", "--error", "1e-3", "--json"]);
+    let json: Value = serde_json::from_slice(&measured.stdout).unwrap();
+    assert!(json["choice"]["candidates"][0]["seconds"].is_f64(), "{}", json["choice"]);
+}
