@@ -100,6 +100,7 @@ fn json_is_one_object_with_its_keys() {
         value.as_object().expect("an object").keys().map(String::as_str).collect();
     let wanted = [
         "absent",
+        "choice",
         "chosen",
         "dimension",
         "duration",
