@@ -71,7 +71,8 @@ pub fn trial(text: &[u8], turn: usize) -> Verdict {
         if i >= ALWAYS && other != Some(i) {
             continue;
         }
-        match run((&document, &scene), method, precision) {
+        let share = if i < ALWAYS { 1.0 } else { SHORTER };
+        match run((&document, &scene), method, (precision, share)) {
             Ok(Some(true)) => completed += 1,
             Ok(Some(false)) => stopped += 1,
             Ok(None) => {}
@@ -97,17 +98,12 @@ fn refusal(words: &str) -> Verdict {
     }
 }
 
-/// Runs a scene for some steps: was it completed? Nothing where it is refused.
+/// Runs a scene for some steps, of a share of its own step: was it completed? Nothing where it is refused.
 fn run(
     (document, scene): (&Document, &Scene<f64>),
     [formulation, integrator, control]: [&str; 3],
-    precision: &str,
+    (precision, share): (&str, f64),
 ) -> Result<Option<bool>, String> {
-    let share = if TRIED[..ALWAYS].iter().any(|m| m[2] == control && m[1] == integrator) {
-        1.0
-    } else {
-        SHORTER
-    };
     let step = share * scene.solver.step.unwrap_or(STEP);
     let overrides = Overrides {
         formulation: Some(formulation.to_owned()),

@@ -43,7 +43,8 @@ pub enum Verdict {
     Wrong(String),
 }
 
-type Rows = Vec<(f64, Vec<f64>)>;
+type Row = (f64, Vec<f64>);
+type Rows = Vec<Row>;
 
 /// What is right, and the formulation that says so, if any does.
 struct Reference {
@@ -62,17 +63,14 @@ pub fn judge(case: &Case, about: &mut dyn FnMut(&str)) -> Vec<(&'static str, Ver
         .collect();
     let references = references(case, &ran, about);
     let rule = match &case.truth {
-        Truth::Twin(scene, image) => errors(
-            &runs(scene, &REFERENCES[..3], case.step, about)
-                .into_iter()
-                .map(|(method, rows)| (method, image_of(&rows, image)))
-                .collect::<Vec<_>>(),
-            &references,
-            case.size,
-        ),
+        Truth::Twin(scene, image) => {
+            let twins = runs(scene, &REFERENCES[..3], case.step, about);
+            let twins: Vec<_> = twins.iter().map(|(m, rows)| (*m, image_of(rows, image))).collect();
+            errors(twins.iter().map(|(m, rows)| (*m, &rows[..])), &references, case.size)
+        }
         _ => {
-            let rows = |(method, ran): &(&'static str, Ran)| Some((*method, ran.rows()?.to_vec()));
-            errors(&ran.iter().filter_map(rows).collect::<Vec<_>>(), &references, case.size)
+            let completed = ran.iter().filter_map(|(method, ran)| Some((*method, ran.rows()?)));
+            errors(completed, &references, case.size)
         }
     };
     ran.into_iter()
@@ -119,10 +117,10 @@ fn verdict(
 
 /// Is an error that of a rule of second order: a hundredth, to a factor, at a tenth of the step? A motion that went another way, or an
 /// iteration that ended early, is off by anything else.
-fn is_of_the_rule(case: &Case, method: &str, error: f64, reference: &Rows) -> bool {
+fn is_of_the_rule(case: &Case, method: &str, error: f64, reference: &[Row]) -> bool {
     let fine = run(&case.scene, method, case.step / FINER, case.options);
     let Some(rows) = fine.rows() else { return false };
-    let ratio = error / self::error(&rows.to_vec(), reference, case.size);
+    let ratio = error / self::error(rows, reference, case.size);
     error < COARSE && ratio > FINER * FINER / ORDER && ratio < FINER * FINER * ORDER
 }
 
@@ -174,7 +172,7 @@ fn agreeing(
     let mut found: Vec<(&'static str, Rows)> = Vec::new();
     for method in REFERENCES {
         found.extend(runs(scene, &[method], step, about));
-        let apart = |a: &Rows, b: &Rows| error(a, b, size);
+        let apart = |a: &[Row], b: &[Row]| error(a, b, size);
         let nearest = pairs(found.len())
             .map(|(i, j)| (apart(&found[i].1, &found[j].1), i, j))
             .min_by(|a, b| a.0.total_cmp(&b.0));
@@ -211,20 +209,20 @@ fn runs(
 }
 
 /// What each is off by.
-fn errors(
-    ran: &[(&'static str, Rows)],
+fn errors<'a>(
+    ran: impl Iterator<Item = (&'static str, &'a [Row])>,
     references: &[Reference],
     size: f64,
 ) -> Vec<(&'static str, f64)> {
-    let one = |(method, rows): &(&'static str, Rows)| {
-        Some((*method, error(rows, &of_another(references, method)?.rows, size)))
+    let one = |(method, rows): (&'static str, &[Row])| {
+        Some((method, error(rows, &of_another(references, method)?.rows, size)))
     };
-    ran.iter().filter_map(one).collect()
+    ran.filter_map(one).collect()
 }
 
 /// The largest difference of a point in rows of the same time, in sizes; rows that the other has not are passed over, but not the
 /// last.
-fn error(rows: &Rows, reference: &Rows, size: f64) -> f64 {
+fn error(rows: &[Row], reference: &[Row], size: f64) -> f64 {
     let end = rows.last().map_or(0.0, |(t, _)| *t);
     // a clock of single precision has seven digits
     let near = 3e-7 * end;
@@ -246,7 +244,7 @@ fn error(rows: &Rows, reference: &Rows, size: f64) -> f64 {
     f64::INFINITY
 }
 
-fn image_of(rows: &Rows, image: &Image) -> Rows {
+fn image_of(rows: &[Row], image: &Image) -> Rows {
     rows.iter().map(|(t, row)| (*t, image.of(row))).collect()
 }
 

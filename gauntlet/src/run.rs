@@ -2,7 +2,7 @@
 
 use crate::case::Options;
 use mbs::scene_file::Document;
-use mbs::{Overrides, Settings};
+use mbs::{Formulation, Overrides, Settings};
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -65,7 +65,7 @@ pub fn run(scene: &str, method: &str, step: f64, options: Options) -> Ran {
     let integrator = if method == EXTRAPOLATED { "gbs" } else { "trapezoidal" };
     let is_extrapolated = method == EXTRAPOLATED;
     let formulation = if is_extrapolated { "recursive" } else { method };
-    let is_augmented = ["index-3", "index-1", "multi-index"].contains(&formulation);
+    let is_augmented = Formulation::ALL.iter().any(|f| f.name() == formulation && f.is_augmented());
     let overrides = Overrides {
         formulation: Some(formulation.to_owned()),
         integrator: Some(integrator.to_owned()),

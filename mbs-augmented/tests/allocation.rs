@@ -1,43 +1,16 @@
 //! After [`Workspace::new`] nothing allocates: a counting allocator sees zero calls in a step, with effects and guides.
 
-#![allow(
-    unsafe_code,
-    reason = "an allocator cannot be written without; it only counts and forwards"
-)]
-
 use mbs_augmented::{Options, Workspace, index1, index3};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Scene;
 use mbs_core::start::assemble;
 use mbs_scene::Document;
 use mbs_sparse::Multifrontal;
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 
+#[path = "../../mbs-core/tests/common/allocations.rs"]
+mod allocations;
 #[path = "../../mbs-core/tests/common/mod.rs"]
 mod common;
-
-thread_local! {
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-struct Counting;
-
-// SAFETY: every call is forwarded unchanged to the system's allocator; the counter has no destructor.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.with(|count| count.set(count.get() + 1));
-        // SAFETY: the caller's promise about `layout` is passed on.
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: `pointer` came from `System` with this layout.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static COUNTING: Counting = Counting;
 
 fn check<const D: usize>(text: &str) {
     let document = Document::parse(text, "test.toml").expect("the text is a document");
@@ -56,12 +29,12 @@ fn check<const D: usize>(text: &str) {
         let mut state = start.state.clone();
         let step = if is_index1 { index1::step } else { index3::step };
         let options = if is_index1 { Options::index1() } else { Options::index3() };
-        let before = ALLOCATIONS.with(Cell::get);
+        let before = allocations::count();
         for _ in 0..20 {
             let report = step(&model, (1e-3, model.length()), &options, &mut state, &mut w);
             assert!(report.is_ok(), "{}: {report:?}", scene.name);
         }
-        assert_eq!(ALLOCATIONS.with(Cell::get) - before, 0, "{}", scene.name);
+        assert_eq!(allocations::count() - before, 0, "{}", scene.name);
     }
 }
 

@@ -1,43 +1,16 @@
 //! After the analysis nothing allocates: a counting allocator sees zero calls in factor, solve and assemble.
 
-#![allow(
-    unsafe_code,
-    reason = "an allocator cannot be written without; it only counts and forwards"
-)]
-
+#[path = "../../mbs-core/tests/common/allocations.rs"]
+mod allocations;
 mod common;
 
 use common::{Saddle, Sum};
 use mbs_sparse::{Indefinite, Multifrontal, Options, Pivoting, SpdSolver, SymmetricSolver};
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 
-thread_local! {
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-struct Counting;
-
-// SAFETY: every call is forwarded unchanged to the system's allocator; the counter has no destructor.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.with(|count| count.set(count.get() + 1));
-        // SAFETY: the caller's promise about `layout` is passed on.
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: `pointer` came from `System` with this layout.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static COUNTING: Counting = Counting;
-
-fn allocations(work: impl FnOnce()) -> usize {
-    let before = ALLOCATIONS.with(Cell::get);
+fn allocations(work: impl FnOnce()) -> u64 {
+    let before = allocations::count();
     work();
-    ALLOCATIONS.with(Cell::get) - before
+    allocations::count() - before
 }
 
 #[test]
@@ -60,7 +33,7 @@ fn factor_solve_and_assemble_do_not_allocate() {
 }
 
 /// Allocations of a factorisation with everything that may follow it.
-fn allocations_of(solver: &mut Indefinite<f64>, saddle: &Saddle) -> usize {
+fn allocations_of(solver: &mut Indefinite<f64>, saddle: &Saddle) -> u64 {
     let n = saddle.sum.n;
     let (mut x, mut b, mut scratch) = (vec![0.0; n], vec![1.0; n], vec![0.0; solver.n_scratch()]);
     allocations(|| {

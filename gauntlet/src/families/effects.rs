@@ -69,8 +69,7 @@ pub(super) fn wheel(dice: &mut Dice) -> Case {
     draft.rate(1, dice.between(0.5, 2.0));
     draft.watch(wheel, points[0]);
     draft.watch(car, points[1]);
-    let (step, duration) = time(dice, &STEPS, 1.0);
-    others(&draft, "wheel", step, duration)
+    others(&draft, "wheel", time(dice, &STEPS, 1.0))
 }
 
 /// A mass that falls into a catch, which holds it while its load is small and lets it go when it is not.
@@ -98,8 +97,7 @@ pub(super) fn latch(dice: &mut Dice) -> Case {
     draft.effects.push(Effect::Pieces([GROUND, body], [[0.0; 3], [0.0, 2.0, 0.0]], pieces));
     draft.rate(0, dice.between(-2.0, 1.0));
     draft.watch(body, [0.0, 2.0, 0.0]);
-    let (step, duration) = time(dice, &STEPS, 1.5);
-    others(&draft, "latch", step, duration)
+    others(&draft, "latch", time(dice, &STEPS, 1.5))
 }
 
 /// Two pendulums held together by a stiff link that breaks at a load.
@@ -124,8 +122,7 @@ pub(super) fn breaking(dice: &mut Dice) -> Case {
     ];
     draft.effects.push(Effect::Pieces([1, second], [end, from], pieces));
     draft.watch(second, plus(from, 1.0, [0.0, -0.8, 0.0]));
-    let (step, duration) = time(dice, &STEPS, 0.5);
-    others(&draft, "link", step, duration)
+    others(&draft, "link", time(dice, &STEPS, 0.5))
 }
 
 /// A chain whose joints have stiff ends.
@@ -138,8 +135,7 @@ pub(super) fn limits(dice: &mut Dice) -> Case {
         let damping = if dice.once_in(2) { 0.0 } else { dice.between(0.1, 3.0) };
         draft.effects.push(Effect::Limit(joint, [ends[0], ends[1], stiffness, damping]));
     }
-    let (step, duration) = time(dice, &STEPS, 0.8);
-    others(&draft, "ends", step, duration)
+    others(&draft, "ends", time(dice, &STEPS, 0.8))
 }
 
 /// A chain with dry friction in its joints, which stick and slip.
@@ -150,8 +146,7 @@ pub(super) fn friction(dice: &mut Dice) -> Case {
         let torque = decades(dice, -1.5, 1.0);
         draft.effects.push(Effect::Friction(joint, torque));
     }
-    let (step, duration) = time(dice, &STEPS, 0.8);
-    others(&draft, "friction", step, duration)
+    others(&draft, "friction", time(dice, &STEPS, 0.8))
 }
 
 /// Two pendulums side by side that hit each other.
@@ -170,8 +165,7 @@ pub(super) fn contact(dice: &mut Dice) -> Case {
     let stiffness = decades(dice, 3.0, 7.0);
     let clearance = 0.5 * apart;
     draft.effects.push(Effect::Bumper([1, 2], ends, [stiffness, 0.0, clearance]));
-    let (step, duration) = time(dice, &STEPS, 0.6);
-    others(&draft, "pendulums that meet", step, duration)
+    others(&draft, "pendulums that meet", time(dice, &STEPS, 0.6))
 }
 
 /// A chain or a four-bar with a rod cut in two, which a stiff torsion spring holds: stiff enough, and it is the rod.
@@ -192,7 +186,7 @@ pub(super) fn stiff_hinge(dice: &mut Dice) -> Case {
     let span = time(dice, &STEPS, 0.4);
     // the beam bends by some 10 N m / k
     if stiffness < 3e8 {
-        return others(&draft, "stiff hinge", span.0, span.1);
+        return others(&draft, "stiff hinge", span);
     }
     plain.joint("weld", [body, beam], end, &[]);
     plain.watch(beam, tip);
@@ -212,8 +206,7 @@ pub(super) fn stiff_chain(dice: &mut Dice) -> Case {
         draft.watch(body, place);
         (before, at) = (body, place);
     }
-    let (step, duration) = time(dice, &STEPS, 0.5);
-    others(&draft, "masses and springs", step, duration)
+    others(&draft, "masses and springs", time(dice, &STEPS, 0.5))
 }
 
 #[cfg(test)]

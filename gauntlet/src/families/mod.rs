@@ -96,8 +96,8 @@ pub const SLOW: [Family; 2] = [
 ];
 
 /// A case of a draft whose outputs are judged by other formulations.
-fn others(draft: &Draft, name: &str, step: f64, duration: f64) -> Case {
-    case(draft, name, (step, duration), Truth::Others)
+fn others(draft: &Draft, name: &str, time: (f64, f64)) -> Case {
+    case(draft, name, time, Truth::Others)
 }
 
 fn case(draft: &Draft, name: &str, (step, duration): (f64, f64), truth: Truth) -> Case {

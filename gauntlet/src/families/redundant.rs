@@ -67,8 +67,7 @@ pub(super) fn bennett(dice: &mut Dice) -> Case {
     draft.rate(0, dice.between(-3.0, 3.0));
     draft.watch(bars[0], places[1]);
     draft.watch(bars[2], places[2]);
-    let (step, duration) = time(dice, &STEPS, 0.6);
-    others(&draft, "Bennett", step, duration)
+    others(&draft, "Bennett", time(dice, &STEPS, 0.6))
 }
 
 /// Places and axes of a Bennett linkage with twists alpha, beta and lengths sin alpha, sin beta.
@@ -116,6 +115,5 @@ pub(super) fn bricard(dice: &mut Dice) -> Case {
     let gravity = draft.gravity;
     draft = draft.turned(&turn);
     draft.gravity = gravity;
-    let (step, duration) = time(dice, &STEPS, 0.6);
-    others(&draft, "Bricard", step, duration)
+    others(&draft, "Bricard", time(dice, &STEPS, 0.6))
 }

@@ -36,8 +36,7 @@ pub(super) fn masses(dice: &mut Dice) -> Case {
             inertia.iter_mut().for_each(|x| *x *= ratio);
         }
     }
-    let (step, duration) = time(dice, &STEPS, 0.5);
-    others(&draft, "light and heavy", step, duration)
+    others(&draft, "light and heavy", time(dice, &STEPS, 0.5))
 }
 
 /// Two cranks and a link without mass, or nearly: in the twin it is a constant distance.
@@ -117,6 +116,5 @@ pub(super) fn walker(dice: &mut Dice) -> Case {
         }
     }
     draft.watch(frame, [0.0; 3]);
-    let (step, duration) = time(dice, &[1e-2, 3e-3, 1e-3], 0.3);
-    others(&draft, "walker", step, duration)
+    others(&draft, "walker", time(dice, &[1e-2, 3e-3, 1e-3], 0.3))
 }

@@ -72,8 +72,7 @@ pub(super) fn change_point(dice: &mut Dice) -> Case {
         let closed = loop_on(&mut draft, GROUND, places, [a, b, c], (angle, 1.0), masses);
         if let Some(joints) = closed {
             draft.rate(joints[0], dice.between(-8.0, -3.0));
-            let (step, duration) = time(dice, &STEPS, 1.0);
-            return others(&draft, "change point", step, duration);
+            return others(&draft, "change point", time(dice, &STEPS, 1.0));
         }
     }
 }
@@ -96,8 +95,7 @@ pub(super) fn slider_crank(dice: &mut Dice) -> Case {
     draft.rate(pivot, dice.between(3.0, 12.0));
     draft.watch(crank, pin);
     draft.watch(slider, slide);
-    let (step, duration) = time(dice, &STEPS, 1.0);
-    others(&draft, "slider-crank", step, duration)
+    others(&draft, "slider-crank", time(dice, &STEPS, 1.0))
 }
 
 /// A chain between two fixed places, only just longer than they are apart.
@@ -120,8 +118,7 @@ pub(super) fn straight_chain(dice: &mut Dice) -> Case {
     }
     draft.pin([before, GROUND], at);
     draft.rate(0, dice.between(-1.0, 1.0));
-    let (step, duration) = time(dice, &STEPS, 0.5);
-    others(&draft, "chain", step, duration)
+    others(&draft, "chain", time(dice, &STEPS, 0.5))
 }
 
 /// A rotor in two rings: when the middle axis is a quarter turn from its start, the outer and the inner one are in line.
@@ -144,8 +141,7 @@ pub(super) fn gimbals(dice: &mut Dice) -> Case {
     draft.rate(2, dice.between(-1.0, 1.0));
     draft.watch(rotor, [0.0, 0.3, 0.4]);
     draft.watch(rotor, [0.5, 0.0, 0.0]);
-    let (step, duration) = time(dice, &STEPS, 1.5);
-    others(&draft, "gimbals", step, duration)
+    others(&draft, "gimbals", time(dice, &STEPS, 1.5))
 }
 
 /// Two shafts with a universal joint between, up to a degree from a right angle.
@@ -170,6 +166,5 @@ pub(super) fn cardan(dice: &mut Dice) -> Case {
     draft.rate(pivot, dice.between(1.0, 5.0));
     draft.watch(shaft, [-0.5, 0.3, 0.0]);
     draft.watch(driven, plus(second, 0.3, [0.0, 0.0, 1.0]));
-    let (step, duration) = time(dice, &STEPS, 1.0);
-    others(&draft, "cardan shaft", step, duration)
+    others(&draft, "cardan shaft", time(dice, &STEPS, 1.0))
 }

@@ -133,31 +133,23 @@ pub struct Driver<T> {
     /// The step that is tried next, and the first one [s].
     next: T,
     first: T,
-    stretch: Stretch<T>,
+    /// Where the present stretch of a largest step began [s], and the trials in it; nothing before the first.
+    stretch: Option<(T, u32)>,
 }
 
-/// The time of a largest step, or a little more, and the trials in it so far.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Stretch<T> {
-    /// Where it began [s]; nothing before the first step.
-    from: Option<T>,
-    trials: u32,
-}
-
-impl<T: Real> Stretch<T> {
-    /// Called before a trial from time `t` [s]; how far a trial comes on average [s], where that is too little.
-    fn count(&mut self, t: T, length: T) -> Result<(), StepError> {
-        let from = *self.from.get_or_insert(t);
-        if t - from >= length {
-            *self = Self { from: Some(t), trials: 0 };
-        }
-        if self.trials >= MOST_TRIALS {
-            let step = ((t - from) / T::from_f64(self.trials.into())).to_f64();
-            return Err(StepError::StepTooSmall { step });
-        }
-        self.trials += 1;
-        Ok(())
+/// Counts a trial from time `t` [s] in the stretch of a largest step, or a little more; how far a trial comes on average [s], where that is
+/// too little.
+fn count<T: Real>(stretch: &mut Option<(T, u32)>, t: T, length: T) -> Result<(), StepError> {
+    let (from, trials) = stretch.get_or_insert((t, 0));
+    if t - *from >= length {
+        (*from, *trials) = (t, 0);
     }
+    if *trials >= MOST_TRIALS {
+        let step = ((t - *from) / T::from_f64((*trials).into())).to_f64();
+        return Err(StepError::StepTooSmall { step });
+    }
+    *trials += 1;
+    Ok(())
 }
 
 /// What a driver remembers from step to step.
@@ -248,7 +240,7 @@ impl<T: Real> Driver<T> {
             error: rules.error.map(|(tolerance, power)| (tolerance, StepControl::new(power))),
             next: first,
             first,
-            stretch: Stretch { from: None, trials: 0 },
+            stretch: None,
         }
     }
 
@@ -265,7 +257,7 @@ impl<T: Real> Driver<T> {
             next: self.next,
             energy: self.energy.map(|steering| steering.history()),
             error: self.error.map(|(_, control)| control.history()),
-            stretch: self.stretch.from.map(|from| (from, self.stretch.trials)),
+            stretch: self.stretch,
         }
     }
 
@@ -280,10 +272,7 @@ impl<T: Real> Driver<T> {
             return false;
         }
         self.next = next;
-        self.stretch = Stretch {
-            from: stretch.map(|(from, _)| from),
-            trials: stretch.map_or(0, |(_, trials)| trials),
-        };
+        self.stretch = stretch;
         if let (Some(steering), Some(energy)) = (&mut self.energy, energy) {
             steering.set_history(energy);
         }
@@ -313,7 +302,7 @@ impl<T: Real> Driver<T> {
         let (mut h, is_cut) = self.planned(t, rest);
         let mut effort = Effort::default();
         loop {
-            self.stretch.count(t, self.max_step)?;
+            count(&mut self.stretch, t, self.max_step)?;
             stepper.prepare(h, effort.reductions)?;
             let attempt = match stepper.attempt(h) {
                 Ok(attempt) => attempt,

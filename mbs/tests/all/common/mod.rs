@@ -1,4 +1,5 @@
 //! What the test binaries share: scenes of the repository, and stepping without recording.
+#[path = "../../../../mbs-core/tests/common/allocations.rs"]
 pub(crate) mod allocations;
 pub(crate) mod oracle;
 pub(crate) mod random;
