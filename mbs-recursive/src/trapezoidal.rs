@@ -27,6 +27,8 @@ use mbs_core::step::{StepError, StepReport, Stop, largest, largest_or_nan};
 
 /// So many iterates in a row that do not halve the least correction, and it falls no more.
 const STALLED: u32 = 4;
+/// Mixed iterates that leave over so many times what the last did begin anew, without mixing.
+const LOST: f64 = 4.0;
 
 /// The state that a step starts from.
 #[derive(Debug, Clone, Copy)]
@@ -96,7 +98,7 @@ fn iterate<T: Real, S: Space<T>>(
     let share = dt * dt * options.integrator.beta;
     let reach = Reach { place: share, speed: dt * options.integrator.gamma };
     let mut mixing = Mixing::default();
-    let (mut last, mut is_slow) = (T::ZERO, projects);
+    let ([mut last, mut last_rest], mut is_slow) = ([T::ZERO; 2], projects);
     let (mut best, mut stalled) = (T::from_f64(f64::INFINITY), 0);
     for iterations in 1..=options.max_iterations {
         reach_end(m, (dt, options), &start, s).map_err(|f| failure(m, f.into()))?;
@@ -115,7 +117,12 @@ fn iterate<T: Real, S: Space<T>>(
         for i in 0..start.v.len() {
             s.scratch[i] -= s.zdd[i];
         }
-        let correction = norm_inf(s.scratch) * share;
+        // Where directions contract slowly a correction is a small part of what is missing: the mixed move tells that.
+        let rest = norm_inf(s.scratch) * share;
+        let mut correction = rest;
+        if !m.loads.is_empty() {
+            correction = rest.max(mixing.take(s.scratch, s.zdd, s.history) * share);
+        }
         let scale = norm_inf(s.zdd) * dt * dt * T::HALF;
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(s.zdd) });
@@ -124,25 +131,27 @@ fn iterate<T: Real, S: Space<T>>(
         (best, stalled) = if is_best { (correction, 0) } else { (best, stalled + 1) };
         // The next correction, from the last two, is below the tolerance.
         let goal = scale * options.tolerance;
-        let rate = if last > T::ZERO { correction / last } else { T::ONE };
+        let rate = if last > T::ZERO { (correction / last).max(rest / last_rest) } else { T::ONE };
         if correction <= goal || (iterations > 2 && rate < T::HALF && correction * rate <= goal) {
             return Ok((iterations, correction, Stop::Converged));
         }
         if iterations > 2
             && rate >= T::HALF
-            && let Some(stop) = given_up(m, options, (correction, scale, stalled), s)
+            && let Some(stop) = given_up(m, options, ([rest, correction], scale, stalled), s)
         {
             return Ok((iterations, correction, stop));
         }
         // Near a singular position accelerations feel what z and v violate: then each iteration projects them.
         let was_slow = is_slow;
         is_slow |= iterations > 2 && rate >= T::HALF && options.closure == Closure::Constraints;
-        last = correction;
+        let is_lost = iterations > 1 && rest > last_rest * T::from_f64(LOST);
+        (last, last_rest) = (correction, rest);
         if !m.loads.is_empty() {
-            if is_slow != was_slow {
+            if is_slow != was_slow || is_lost {
                 mixing = Mixing::default();
+            } else {
+                Mixing::mix(s.zdd, s.history);
             }
-            mixing.mix(s.scratch, s.zdd, s.history);
         }
     }
     Err(StepError::NotConverged {
@@ -156,16 +165,16 @@ fn iterate<T: Real, S: Space<T>>(
 fn given_up<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     options: &Options<T>,
-    (correction, scale, stalled): (T, T, u32),
+    ([rest, correction], scale, stalled): ([T; 2], T, u32),
     s: &mut Store<'_, T, S>,
 ) -> Option<Stop> {
     let rounding = T::EPSILON * T::from_f64(64.0);
-    // Coordinates that go into forces are rounded: what moves them less than that says nothing more.
-    let rest = m.length * T::EPSILON;
+    // Coordinates that go into forces are rounded: what they leave over below that says nothing more.
+    let rounded = m.length * T::EPSILON * T::from_f64(8.0);
     // A stiff effect makes much of what is left in its place.
     let enough = if m.loads.is_empty() { T::from_f64(1e-2) } else { T::tolerance(1e-6) };
     let passage = T::from_f64(0.1);
-    if correction <= scale * rounding || correction <= rest {
+    if correction <= scale * rounding || rest <= rounded {
         return Some(Stop::Rounding);
     }
     // Near a singular position rounding is amplified: what is left is small against the step.
