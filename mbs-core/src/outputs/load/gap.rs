@@ -73,6 +73,24 @@ impl<T: Real, const D: usize> Load<T, D> {
         }
     }
 
+    /// The depth over which the damper of its contact fades in [m or rad], if it has one.
+    pub(in crate::outputs) fn fade(&self) -> Option<f64> {
+        let has_damper = match self {
+            #[cfg(feature = "bumper")]
+            Self::Between { law: Law::Bumper { law, .. }, .. } => law[1] > T::ZERO,
+            #[cfg(feature = "limit")]
+            Self::Between { law: Law::Limit(limit), .. } => limit.damping > T::ZERO,
+            #[cfg(feature = "tire")]
+            Self::OnBody { law: BodyLaw::Tire(tire), .. } => tire.radial[1] > T::ZERO,
+            _ => false,
+        };
+        #[cfg(any(feature = "bumper", feature = "limit", feature = "tire"))]
+        if has_damper {
+            return Some(crate::laws::bumper::FADE);
+        }
+        None
+    }
+
     /// Can its law have kinks besides those of its gaps?
     pub(in crate::outputs) fn may_have_kinks(&self) -> bool {
         match self {
