@@ -62,19 +62,23 @@ fn run(names: &[String]) -> Result<bool, String> {
     build.args(["build", "--quiet", "--release", "--package", "mbs", "--bin", "mbs"]);
     process::run(build.current_dir(process::root()))?;
     let mbs = process::target_dir().join("release").join("mbs");
-    let mut rows = Vec::new();
+    let (mut rows, mut failed, mut text) = (Vec::new(), Vec::new(), String::new());
+    let folder = process::target_dir().join("choice");
     for scene in scenes(names)? {
         let name = scene.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         process::progress(&name);
-        rows.extend(measure(&mbs, &scene, &name)?);
+        match measure(&mbs, &scene, &name) {
+            Ok(found) => rows.extend(found),
+            Err(why) => failed.push(format!("{name} was not measured: {why}")),
+        }
+        // after each, so that a job that is cut off leaves what it has
+        text = table(&rows) + &failed.join("\n");
+        process::write(&folder.join("choice.txt"), text.as_bytes())?;
+        process::write(&folder.join("choice.csv"), csv(&rows).as_bytes())?;
     }
     process::progress("");
-    let text = table(&rows);
     println!("{text}");
-    let folder = process::target_dir().join("choice");
-    process::write(&folder.join("choice.txt"), text.as_bytes())?;
-    process::write(&folder.join("choice.csv"), csv(&rows).as_bytes())?;
-    Ok(verdict(&rows))
+    Ok(verdict(&rows) && failed.is_empty())
 }
 
 /// The scene files, in the order of their names.

@@ -7,6 +7,7 @@ use super::layout::moved;
 use crate::alarm::Alarm;
 use crate::channels::Channels;
 use crate::choice::Precision;
+use crate::engine::Engine;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::{Names, StopError};
@@ -24,6 +25,9 @@ use mbs_scene::{Channel, Document, ReadError};
 const SHORT: f64 = 0.01;
 /// But not more often.
 const MOST_FRESH: u32 = 10;
+/// Steps that an integrator with a control of its own may try between two instants: no clock is read within, and one that finds no
+/// way past a kink of a force in 32 digits would go on for hours.
+const MOST_OWN_STEPS: u32 = 2000;
 
 /// A scene in the precisions that run.
 #[derive(Debug)]
@@ -135,6 +139,9 @@ where
             return Recorded { entry, is_not_started: true, ..Recorded::default() };
         }
     };
+    if let Engine::Recursive(tree) = simulation.engine_mut() {
+        tree.limit_steps(MOST_OWN_STEPS);
+    }
     let mut recorder = Recorder {
         channels,
         alarm: Alarm::new(settings.energy_alarm),
