@@ -261,14 +261,14 @@ mod tests {
     #[test]
     fn errors_are_those_of_rows_of_the_same_time_and_the_end_must_be_there() {
         let row = |t: f64, x: f64| (t, vec![x, 0.0]);
-        let right = vec![row(0.0, 0.0), row(0.1, 1.0), row(0.2, 2.0)];
-        let near = |rows: &Rows, expected: f64| {
+        let right = [row(0.0, 0.0), row(0.1, 1.0), row(0.2, 2.0)];
+        let near = |rows: &[Row], expected: f64| {
             let found = error(rows, &right, 2.0);
             assert!((found - expected).abs() < 1e-12, "{found}, not {expected}");
         };
-        near(&vec![row(0.0, 0.0), row(0.15, 9.0), row(0.2, 2.5)], 0.25);
-        near(&vec![row(0.0, 0.8), row(0.2, 2.5)], 0.4);
-        assert!(error(&vec![row(0.0, 0.0), row(0.19, 2.0)], &right, 2.0).is_infinite());
+        near(&[row(0.0, 0.0), row(0.15, 9.0), row(0.2, 2.5)], 0.25);
+        near(&[row(0.0, 0.8), row(0.2, 2.5)], 0.4);
+        assert!(error(&[row(0.0, 0.0), row(0.19, 2.0)], &right, 2.0).is_infinite());
         assert_eq!(lower_median(vec![3.0, 1.0, 2.0, 4.0]), Some(2.0));
         assert_eq!(lower_median(Vec::new()), None);
     }

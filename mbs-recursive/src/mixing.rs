@@ -6,6 +6,7 @@
 //! ```
 //!
 //! In n steps of a linear iteration n slow directions are found and left out; an iteration that contracts fast is hardly changed.
+//! The newest pair takes the place of the oldest. How far the next x goes tells what is missing, where r is a small part of it.
 //! Source: Anderson (1965), in the form of Fang and Saad (2009), type II.
 
 use mbs_core::Real;

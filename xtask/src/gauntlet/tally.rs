@@ -100,7 +100,7 @@ impl Tally {
     pub(super) fn largest_step(&self) -> Option<f64> {
         let sound = self.steps.iter().take_while(|(_, [_, stops])| *stops == 0).last();
         #[allow(clippy::cast_precision_loss, reason = "up to 1e9")]
-        sound.map(|(step, _)| *step as f64 * 1e-9)
+        sound.map(|(step, _)| *step as f64 / 1e9)
     }
 
     /// What a cell says: pass, the largest step, the share of typed errors with their most frequent code, what is wrong.

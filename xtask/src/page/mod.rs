@@ -5,6 +5,9 @@ use crate::chart::{Chart, Room, Series};
 /// The frame of a page, with its style.
 const PAGE: &str = include_str!("page.html");
 
+/// Letters of a cell that is never broken.
+const LONG: usize = 16;
+
 /// A page.
 pub(crate) fn page(title: &str, remark: &str, content: &str) -> String {
     let page = PAGE.replace("{{title}}", &escape(title)).replace("{{remark}}", &escape(remark));
@@ -13,7 +16,12 @@ pub(crate) fn page(title: &str, remark: &str, content: &str) -> String {
 
 /// One cell; its label is shown where the columns do not fit.
 pub(crate) fn cell(label: &str, value: &str, class: &str) -> String {
-    let class = if value.is_empty() { format!("{class} none") } else { class.to_owned() };
+    let class = match value {
+        "" => format!("{class} none"),
+        // words may be broken where the columns do not fit, numbers not
+        _ if value.len() > LONG && value.contains(' ') => format!("{class} said"),
+        _ => class.to_owned(),
+    };
     let (label, value) = (escape(label), words(value));
     format!("<td data-label=\"{label}\" class=\"{}\">{value}</td>", class.trim())
 }
