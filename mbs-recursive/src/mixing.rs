@@ -34,9 +34,9 @@ pub(crate) struct Mixing {
 
 impl Mixing {
     /// Takes an iterate in: how far the next x would go, which is what is missing as far as the pairs know it. `r` is x − g, `history`
-    /// has [`history`] numbers: last r and x, then the pairs; too short, nothing is mixed.
+    /// has [`history`] numbers: last r and x, the pairs, the move; too short, nothing is mixed.
     ///
-    /// Cost: at most `4 DEPTH` products of n numbers, and half of that in [`mix`](Self::mix).
+    /// Cost: at most `5 DEPTH` products of n numbers.
     pub(crate) fn take<T: Real>(&mut self, r: &[T], g: &[T], history: &mut [T]) -> T {
         let n = r.len();
         if n == 0 || history.len() < self::history(n) {
@@ -62,7 +62,7 @@ impl Mixing {
             (last[i], last[n + i]) = (r[i], g[i] + r[i]);
         }
         self.has_last = true;
-        // the move is built up where the next pair will be
+        // the move stands behind the pairs, for [`mix`](Self::mix)
         let (before, rest) = pairs.split_at_mut(2 * n * DEPTH);
         let step = &mut rest[..n];
         for (x, &r) in step.iter_mut().zip(r) {

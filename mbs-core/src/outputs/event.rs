@@ -304,7 +304,7 @@ mod tests {
     #[test]
     fn means_of_the_ends_of_cut_steps_are_the_fade_s_own() {
         let force = |r: f64| r * r * (3.0 - 2.0 * r);
-        // two in three of a step, and so on, to a step that passes the fade forty times
+        // from a little less than half of the fade in a step to forty times all of it
         for way in [0.45, 0.7, 0.85, 1.5, 4.0, 40.0] {
             let (mut at, mut impulse) = (0.0, 0.0);
             while at < 1.0 - 1e-9 {
