@@ -7,6 +7,8 @@ use super::{fit, front, rank};
 const TELLS: f64 = 3.0;
 /// A method may be the fastest of its formulation if it takes less than so many times the least.
 const NEARLY: f64 = 1.15;
+/// Counts of steps are the same where they do not differ by more than a fiftieth.
+const SAME: u64 = 50;
 
 impl Comparison {
     /// The least error that the reference can tell.
@@ -17,14 +19,16 @@ impl Comparison {
 
     /// Fills in what follows from the runs: least times, marks, orders, and the ranking at the errors given.
     pub fn digest(&mut self, levels: &[f64]) {
-        let floor = self.floor();
+        let (floor, instants) = (self.floor(), self.instants as u64);
         for method in &mut self.methods {
             for run in &mut method.runs {
                 run.cpu_least = run.cpu_seconds.iter().copied().min_by(f64::total_cmp);
                 run.is_below_reference = run.error.is_some_and(|error| error < floor);
             }
             method.fit = fit::fit(&method.errors(), floor);
-            let at = |level: &f64| Some(method.at_error(*level).filter(|_| *level >= floor)?[0]);
+            let at = |level: &f64| {
+                Some(method.at_error(*level, instants).filter(|_| *level >= floor)?[0])
+            };
             method.at_error = levels.iter().map(at).collect();
         }
         self.ranking = levels.iter().map(|level| self.ranked(*level)).collect();
@@ -36,8 +40,11 @@ impl Comparison {
     pub fn decisive(&self, levels: &[f64]) -> Vec<(usize, usize)> {
         let mut runs = Vec::new();
         for &level in levels.iter().filter(|level| **level >= self.floor()) {
-            let times: Vec<Option<f64>> =
-                self.methods.iter().map(|m| m.at_error(level).map(|[least, _]| least)).collect();
+            let times: Vec<Option<f64>> = self
+                .methods
+                .iter()
+                .map(|m| Some(m.at_error(level, self.instants as u64)?[0]))
+                .collect();
             for (m, method) in self.methods.iter().enumerate() {
                 let same =
                     self.methods.iter().zip(&times).filter(|(o, _)| o.family() == method.family());
@@ -61,7 +68,7 @@ impl Comparison {
         let (mut reached, mut not_reached) = (Vec::<Rank>::new(), Vec::<String>::new());
         for method in &self.methods {
             let name = method.family();
-            let Some([least, second]) = method.at_error(level) else {
+            let Some([least, second]) = method.at_error(level, self.instants as u64) else {
                 if !not_reached.contains(&name) {
                     not_reached.push(name);
                 }
@@ -102,10 +109,23 @@ impl MethodRuns {
         points.filter(|(h, e)| *h > 0.0 && *e > 0.0).collect()
     }
 
-    /// Least and second CPU time at an error.
-    fn at_error(&self, level: f64) -> Option<[f64; 2]> {
-        let points: Vec<front::Point<2>> = self.timed().map(|(_, point)| point).collect();
-        front::at_error(&points, level)
+    /// Least and second CPU time at an error, of runs whose results have so many instants.
+    fn at_error(&self, level: f64, instants: u64) -> Option<[f64; 2]> {
+        let (places, points): (Vec<usize>, Vec<front::Point<2>>) = self.timed().unzip();
+        let has_between = |coarse: usize, fine: usize| {
+            self.has_between([places[coarse], places[fine]].map(|i| self.runs[i].steps), instants)
+        };
+        front::at_error(&points, level, has_between)
+    }
+
+    /// Is there a run with more steps than the coarse one of two and fewer than the fine one? Fixed steps are whole parts of the
+    /// intervals of the results; where these hold an integrator's own steps, its tolerance changes the order, by stairs.
+    fn has_between(&self, [coarse, fine]: [u64; 2], instants: u64) -> bool {
+        match self.control.as_str() {
+            "fixed" => coarse / instants.max(1) * instants.max(1) + instants < fine,
+            "own" => fine > coarse + coarse / SAME,
+            _ => true,
+        }
     }
 
     /// Indices of the runs beside an error.
@@ -150,6 +170,7 @@ mod tests {
                 setting: h,
                 mean_step: h,
                 status: Status::Completed,
+                steps: (10.0 / h).round() as u64,
                 error: Some(10.0 * h * h),
                 cpu_seconds: vec![1.03 * seconds, seconds, 1.2 * seconds],
                 ..RunEntry::default()
@@ -163,6 +184,18 @@ mod tests {
             runs: (0..8).map(run).collect(),
             ..MethodRuns::default()
         }
+    }
+
+    #[test]
+    fn nothing_lies_between_runs_whose_steps_the_results_hold() {
+        let has = |control: &str, steps, instants| {
+            MethodRuns { control: control.to_owned(), ..MethodRuns::default() }
+                .has_between(steps, instants)
+        };
+        assert!(!has("fixed", [200, 400], 200) && has("fixed", [200, 600], 200));
+        assert!(has("fixed", [400, 800], 200) && has("fixed", [200, 400], 50));
+        assert!(!has("own", [203, 205], 200) && has("own", [203, 230], 200));
+        assert!(has("error", [203, 205], 200));
     }
 
     #[test]

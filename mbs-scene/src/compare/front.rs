@@ -36,12 +36,18 @@ pub(super) fn beside(errors: &[f64], level: f64) -> Option<Beside> {
     Some(Beside { misses, reaches, share })
 }
 
-/// CPU times at an error, by interpolation of logarithms between the runs beside it.
-pub(super) fn at_error<const N: usize>(points: &[Point<N>], level: f64) -> Option<[f64; N]> {
+/// CPU times at an error, by interpolation of logarithms between the runs beside it, where there are others between these two
+/// (`has_between`, of their indices); else those of the run that reaches it.
+pub(super) fn at_error<const N: usize>(
+    points: &[Point<N>],
+    level: f64,
+    has_between: impl Fn(usize, usize) -> bool,
+) -> Option<[f64; N]> {
     let errors: Vec<f64> = points.iter().map(|(error, _)| *error).collect();
     let beside = beside(&errors, level)?;
     let mut times = points[beside.reaches].1;
-    let before = beside.misses.map_or(times, |i| points[i].1);
+    let coarse = beside.misses.filter(|&i| has_between(i, beside.reaches));
+    let before = coarse.map_or(times, |i| points[i].1);
     for (time, start) in times.iter_mut().zip(before) {
         *time = libm::exp(libm::log(start) + beside.share * (libm::log(*time) - libm::log(start)));
     }
@@ -56,11 +62,13 @@ mod tests {
     fn times_are_interpolated_between_the_runs_beside_the_error() {
         // error h^2, time 1/h
         let points: Vec<Point<1>> = [1e-1, 1e-2, 1e-3].map(|h| (h * h, [1.0 / h])).to_vec();
-        let [t] = at_error(&points, 1e-5).unwrap();
+        let [t] = at_error(&points, 1e-5, |_, _| true).unwrap();
         assert!((t - 10.0 * f64::sqrt(10.0) * 10.0).abs() < 1e-9 * t, "{t}");
-        let [t] = at_error(&points, 0.5).unwrap();
+        let [t] = at_error(&points, 0.5, |_, _| true).unwrap();
         assert!((t - 10.0).abs() < 1e-9, "the coarsest run reaches it: {t}");
-        assert_eq!(at_error(&points, 1e-7), None);
+        let [t] = at_error(&points, 1e-5, |_, _| false).unwrap();
+        assert!((t - 1000.0).abs() < 1e-9, "nothing lies between the runs: {t}");
+        assert_eq!(at_error(&points, 1e-7, |_, _| true), None);
     }
 
     #[test]
@@ -72,7 +80,7 @@ mod tests {
         assert_eq!(of(3e-4), Some((Some(3), 4)));
         assert_eq!(of(1.5e-4), None);
         assert_eq!(of(0.5), Some((None, 0)));
-        let [t] = at_error(&[(1e-2, [1.0]), (0.0, [3.0])], 1e-3).unwrap();
+        let [t] = at_error(&[(1e-2, [1.0]), (0.0, [3.0])], 1e-3, |_, _| true).unwrap();
         assert!((t - 3.0).abs() < 1e-12);
     }
 }

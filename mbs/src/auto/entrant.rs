@@ -1,17 +1,17 @@
 //! A candidate in the pilot: its method, its trials, what is known of their errors.
 
-use super::law::{Law, Point, Prediction, predict};
+use super::law::{Law, Point, Prediction, credited, predict};
 use super::trial::{End, Trial};
 use crate::compare::method::Method;
 
 /// Errors above this share of the outputs' ranges have lost the motion: what they become at finer settings is not to be told.
 pub(super) const LOST: f64 = 0.1;
 /// The finer of two neighbours is believed to be better by no more than this factor.
-const BETTER: f64 = 10.0;
+const BETTER: f64 = 100.0;
 /// Settings are not as close as this factor to a coarser one that stopped.
 const CLEAR: f64 = 1.5;
-/// A neighbour is coarser in earnest if it has no more than this share of the steps.
-const COARSER: f64 = 0.85;
+/// A trial is coarser in earnest if it has no more than this share of the steps.
+const COARSER: f64 = 0.95;
 /// A setting is tried if it differs from those that were by more than this share.
 const SAME: f64 = 0.02;
 
@@ -84,11 +84,11 @@ impl Entrant {
         self.tries.iter().filter(|t| t.is_done())
     }
 
-    /// Estimates the own error of every completed trial that has a coarser neighbour with fewer steps: where finer settings change
-    /// nothing, the intervals of the results hold the steps, and nothing is told.
+    /// Estimates the own error of every completed trial by those that are coarser and have fewer steps, each of which bounds it: where
+    /// finer settings change nothing, the intervals of the results hold the steps, and nothing is told.
     ///
     /// ```text
-    /// e = d r/(1 - r),   r = (steps of the coarse / of the fine)^order,   but not less than d/10, and d where the motion is lost
+    /// e = d r/(1 - r),   r = (steps of the coarse / of the fine)^order,   but not less than d/100, and d where the motion is lost
     /// ```
     pub(crate) fn estimate(&mut self, distance: impl Fn(&Trial, &Trial) -> f64) {
         let order = Law::order(&self.method);
@@ -97,27 +97,41 @@ impl Entrant {
             let fine = &self.tries[i];
             let fewer =
                 |&j: &usize| count(self.tries[j].trial.steps) / count(fine.trial.steps.max(1));
-            // the nearest that is coarser in earnest
-            let coarse = done[..k].iter().copied().rev().find(|j| fewer(j) <= COARSER);
-            let Some(j) = coarse.filter(|_| fine.own.is_none()) else { continue };
-            let d = distance(&fine.trial, &self.tries[j].trial);
-            let r = fewer(&j).powf(order);
-            let share = if d > LOST { 1.0 } else { (r / (1.0 - r)).max(1.0 / BETTER) };
-            // outputs that agree to the last digit have its error
-            self.tries[i].own = Some((d * share).max(f64::EPSILON));
+            if fine.own.is_some() {
+                continue;
+            }
+            let own = |&j: &usize| {
+                let d = distance(&fine.trial, &self.tries[j].trial);
+                let r = fewer(&j).powf(order);
+                let share = if d > LOST { 1.0 } else { (r / (1.0 - r)).max(1.0 / BETTER) };
+                // outputs that agree to the last digit have its error
+                (d * share).max(f64::EPSILON)
+            };
+            let coarser = done[..k].iter().filter(|j| fewer(j) <= COARSER);
+            let least = coarser.map(own).reduce(f64::min);
+            self.tries[i].own = least;
         }
     }
 
     /// Completed trials whose error is known, from the coarsest.
     pub(crate) fn points(&self) -> Vec<Point> {
-        let point =
-            |t: &Try| Some(Point { setting: t.setting, error: t.error?, seconds: t.trial.seconds });
+        let point = |t: &Try| {
+            let Trial { steps, seconds, .. } = t.trial;
+            Some(Point { setting: t.setting, steps, error: t.error?, seconds })
+        };
         self.done().filter_map(point).collect()
     }
 
     /// What an error takes, if anything is known.
     pub(crate) fn predict(&self, wanted: f64) -> Option<Prediction> {
         predict(&self.law(), &self.points(), wanted, self.limit())
+    }
+
+    /// The cheapest trial with no more than an error.
+    pub(crate) fn seen(&self, error: f64) -> Option<Point> {
+        let points = self.points();
+        let reaches = (0..points.len()).map(|i| credited(&points, i)).filter(|p| p.error <= error);
+        reaches.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
     }
 
     /// The coarsest setting that may run: well below one that stopped.

@@ -121,7 +121,9 @@ impl Race<'_> {
         let is_lost = entrant.points().last().is_some_and(|point| point.error >= LOST);
         let is_far = matches!(prediction.basis, Basis::Finer(factor)
             if is_lost || entrant.law().cost_of(factor) > FAR);
-        let reaches = prediction.point.error <= worst && !entrant.is_at_its_floor() && !is_far;
+        let is_seen = entrant.seen(worst).is_some();
+        let is_out_of_reach = entrant.is_at_its_floor() && !is_seen;
+        let reaches = prediction.point.error <= worst && !is_out_of_reach && !is_far;
         let is_free = self.wanted.deadline.is_none();
         if !reaches
             && is_free

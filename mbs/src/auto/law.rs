@@ -7,8 +7,14 @@
 use crate::choice::IntegratorKind;
 use crate::compare::method::{Control, Method};
 
-/// Exponents that are measured are believed within these shares of those of theory.
-const BELIEVED: [f64; 2] = [0.5, 1.25];
+/// Between runs whose counts of steps differ by no more than a fiftieth there is no law: the intervals of the results hold their
+/// steps, and the tolerance only changes the order.
+const SAME: u64 = 50;
+/// Exponents that are measured are believed within these shares of those of theory. An error that falls more slowly follows no law
+/// yet, or is the reference's, and this share is taken; steps may well be held by what is no matter of tolerance.
+const ERROR: [f64; 2] = [0.5, 1.25];
+const DOUBTED: f64 = 0.75;
+const COST: [f64; 2] = [0.25, 1.25];
 
 /// Exponents of a method in its setting: the step, or the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,7 +44,8 @@ impl Law {
     pub(crate) fn order(method: &Method) -> f64 {
         match (method.control, method.integrator) {
             (Control::Own, IntegratorKind::Extrapolation) => 8.0,
-            (Control::Own, _) | (Control::Fixed, IntegratorKind::Rk4) => 4.0,
+            (Control::Own, _) => 5.0,
+            (Control::Fixed, IntegratorKind::Rk4) => 4.0,
             (Control::Fixed, IntegratorKind::Newmark) => 1.0,
             _ => 2.0,
         }
@@ -57,20 +64,22 @@ impl Law {
     /// The exponents between two runs, as far as they are believed.
     fn between(&self, coarse: &Point, fine: &Point) -> Self {
         let span = (coarse.setting / fine.setting).ln();
-        let believed = |x: f64, theory: f64| {
-            if x.is_finite() { x.clamp(BELIEVED[0] * theory, BELIEVED[1] * theory) } else { theory }
+        let error = match (coarse.error / fine.error).ln() / span / self.error {
+            q if !q.is_finite() => 1.0,
+            q if q < ERROR[0] => DOUBTED,
+            q => q.min(ERROR[1]),
         };
-        Self {
-            error: believed((coarse.error / fine.error).ln() / span, self.error),
-            cost: believed((fine.seconds / coarse.seconds).ln() / span, self.cost),
-        }
+        let cost = (fine.seconds / coarse.seconds).ln() / span / self.cost;
+        let cost = if cost.is_finite() { cost.clamp(COST[0], COST[1]) } else { 1.0 };
+        Self { error: error * self.error, cost: cost * self.cost }
     }
 }
 
-/// A completed run: its setting, its error, its CPU time [s].
+/// A completed run: its setting, its steps, its error, its CPU time [s].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Point {
     pub(crate) setting: f64,
+    pub(crate) steps: u64,
     pub(crate) error: f64,
     pub(crate) seconds: f64,
 }
@@ -80,7 +89,7 @@ pub(crate) struct Point {
 pub(crate) enum Basis {
     /// Runs on both sides of the wanted error.
     Between,
-    /// The coarsest setting there is reaches it.
+    /// A run reaches it, and no coarser setting is expected to.
     Coarsest,
     /// Every run reaches it: a coarser setting is guessed, for an error larger by this factor.
     Coarser(f64),
@@ -95,17 +104,21 @@ pub(crate) struct Prediction {
     pub(crate) basis: Basis,
 }
 
-/// Predicts from runs, from the coarsest to the finest. An error that is small by luck counts for nothing: a run is credited with
-/// that of the next finer one where it is larger. `coarsest`: no setting is longer than that.
+/// A run as it counts: an error that is small by luck is not believed, but that of the next finer one where it is larger.
+pub(crate) fn credited(points: &[Point], i: usize) -> Point {
+    let finer = points.get(i + 1).map_or(0.0, |p| p.error);
+    Point { error: points[i].error.max(finer), ..points[i] }
+}
+
+/// Predicts from runs, from the coarsest to the finest, each [`credited`]. `coarsest`: no setting is longer than that.
 pub(crate) fn predict(
     law: &Law,
     points: &[Point],
     wanted: f64,
     coarsest: f64,
 ) -> Option<Prediction> {
-    let credited = |i: usize| points[i].error.max(points.get(i + 1).map_or(0.0, |p| p.error));
     let last = points.last()?;
-    let reaches = (0..points.len()).find(|&i| credited(i) <= wanted);
+    let reaches = (0..points.len()).find(|&i| credited(points, i).error <= wanted);
     let Some(i) = reaches else {
         let before = points.len().checked_sub(2).map(|i| &points[i]);
         let law = before.map_or(*law, |before| law.between(before, last));
@@ -115,18 +128,23 @@ pub(crate) fn predict(
                 setting: last.setting * law.setting_for(1.0 / factor),
                 error: wanted,
                 seconds: last.seconds * law.cost_of(factor),
+                ..*last
             },
             basis: Basis::Finer(factor),
         });
     };
-    let fine = Point { error: credited(i), ..points[i] };
-    if let Some(coarse) = i.checked_sub(1).map(|k| Point { error: credited(k), ..points[k] }) {
+    let fine = credited(points, i);
+    if let Some(coarse) = i.checked_sub(1).map(|k| credited(points, k)) {
+        if fine.steps <= coarse.steps + coarse.steps / SAME {
+            return Some(Prediction { point: fine, basis: Basis::Coarsest });
+        }
         // an error of zero lies at the end of every line
         let share = (coarse.error / wanted).ln() / (coarse.error / fine.error).ln();
         let share = if fine.error > 0.0 { share.clamp(0.0, 1.0) } else { 1.0 };
         let mean = |a: f64, b: f64| (a.ln() + share * (b.ln() - a.ln())).exp();
         let setting = mean(coarse.setting, fine.setting);
-        let point = Point { setting, error: wanted, seconds: mean(coarse.seconds, fine.seconds) };
+        let seconds = mean(coarse.seconds, fine.seconds);
+        let point = Point { setting, error: wanted, seconds, ..fine };
         return Some(Prediction { point, basis: Basis::Between });
     }
     if fine.setting >= coarsest * (1.0 - 1e-9) {
@@ -136,7 +154,7 @@ pub(crate) fn predict(
     let setting = setting.min(coarsest);
     let factor = (setting / fine.setting).powf(law.error);
     let seconds = fine.seconds / law.cost_of(factor);
-    let point = Point { setting, error: fine.error * factor, seconds };
+    let point = Point { setting, error: fine.error * factor, seconds, ..fine };
     Some(Prediction { point, basis: Basis::Coarser(factor) })
 }
 
@@ -147,7 +165,12 @@ mod tests {
     const SECOND: Law = Law { error: 2.0, cost: 1.0 };
 
     fn points(steps: &[f64]) -> Vec<Point> {
-        let of = |&h: &f64| Point { setting: h, error: h * h, seconds: 1e-3 / h };
+        let of = |&h: &f64| Point {
+            setting: h,
+            steps: (10.0 / h) as u64,
+            error: h * h,
+            seconds: 1e-3 / h,
+        };
         steps.iter().map(of).collect()
     }
 
@@ -180,6 +203,14 @@ mod tests {
         assert_eq!((found.basis, found.point), (Basis::Coarsest, points(&[0.1])[0]));
         let found = predict(&SECOND, &points(&[0.1]), 0.5, 0.2).unwrap();
         assert!(near(found.point.setting, 0.2) && near(found.point.error, 0.04), "{found:?}");
+    }
+
+    #[test]
+    fn where_finer_runs_have_no_more_steps_the_one_that_reaches_is_taken() {
+        let mut stairs = points(&[0.1, 0.01]);
+        stairs[1].steps = stairs[0].steps + 1;
+        let found = predict(&SECOND, &stairs, 1e-3, 1.0).unwrap();
+        assert_eq!((found.basis, found.point), (Basis::Coarsest, stairs[1]));
     }
 
     #[test]

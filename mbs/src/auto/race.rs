@@ -4,7 +4,7 @@
 //! one whose best case is dearer than what another was measured to take is left alone. All trials go over the whole span, the first
 //! with coarse settings, so that what happens late in the run is seen as well.
 
-use super::entrant::Entrant;
+use super::entrant::{Entrant, LOST};
 use super::law::{Basis, Point, Prediction};
 use super::trial::{Aim, Bench, End, Trial};
 use crate::compare::method::{Control, Method};
@@ -13,13 +13,21 @@ use crate::words::{duration, few};
 /// CPU time of the pilot at least, and as a share of the predicted run [s, 1].
 pub(crate) const BUDGET: [f64; 2] = [0.2, 0.05];
 /// Error that is aimed at beside the wanted one: where a smaller error costs little, and where it costs more.
-const AIMS: [f64; 2] = [0.5, 0.7];
+const AIMS: [f64; 2] = [0.6, 0.8];
+/// A trial is taken as it is where its error is no more than this share of the wanted one.
+const TAKEN: f64 = 0.9;
 /// Cost exponent of the error that parts the two.
 const CHEAP: f64 = 0.3;
 /// A candidate is known well enough if another trial could change its time by no more than this factor.
 const KNOWN: f64 = 1.2;
 /// Trials of a candidate, and those that stop before one is completed, at most.
 const TRIES: [usize; 2] = [9, 5];
+/// Who stops twice before this share of the span is not helped by finer settings.
+const START: f64 = 1e-3;
+/// A candidate is followed alone until it reaches the wanted error, for so many trials at most.
+const LED: usize = 6;
+/// One of second order is followed where it promises to take no more than this share of what is left.
+const FOLLOWED: f64 = 0.4;
 /// Errors are not extrapolated over more than this factor at once where the motion was lost.
 const LEAP: f64 = 30.0;
 /// A trial is given up where it takes so many times what the best does.
@@ -74,12 +82,15 @@ pub(crate) struct Race<'a> {
     pub(crate) best: Option<Best>,
     /// The budget ended it.
     pub(crate) is_cut: bool,
-    is_refined: bool,
+    /// So often a finer run than is wanted was made.
+    pub(super) refined: u32,
+    /// The longest that a trial took beside its steps: to be built, and to be compared [s].
+    beside: f64,
 }
 
 impl<'a> Race<'a> {
     pub(crate) fn new(bench: &'a mut dyn Bench, entrants: Vec<Entrant>, wanted: Wanted) -> Self {
-        Self { bench, entrants, wanted, best: None, is_cut: false, is_refined: false }
+        Self { bench, entrants, wanted, best: None, is_cut: false, refined: 0, beside: 0.0 }
     }
 
     /// Tries candidates until the cheapest is known, or the budget is used up.
@@ -89,13 +100,18 @@ impl<'a> Race<'a> {
             let cheapest = self.cheapest();
             let is_any_done = self.entrants.iter().any(|e| e.done().next().is_some());
             let budget = self.budget() * if is_any_done { 1.0 } else { BLIND };
-            if self.bench.spent() >= budget {
+            if self.bench.spent() + self.beside + SHORTEST >= budget {
                 self.is_cut = true;
                 return;
             }
-            if let (Some(seconds), false) = (cheapest, self.is_refined) {
-                self.is_refined = true;
-                self.refine_reference(seconds);
+            if cheapest.is_some() && self.refine_reference() {
+                continue;
+            }
+            if cheapest.is_none()
+                && let Some((i, setting)) = self.leader()
+            {
+                let most = self.patience(i, setting, cheapest);
+                self.attempt(i, setting, most);
                 continue;
             }
             // who waits for others waits no longer where these want no more trials
@@ -134,6 +150,25 @@ impl<'a> Race<'a> {
         pick.map(|(_, i, setting)| (i, setting))
     }
 
+    /// Before any reaches the wanted error: who is known, and expected to reach it first, if there is time for that; others would be
+    /// looked at for long.
+    fn leader(&mut self) -> Option<(usize, f64)> {
+        let left = self.left();
+        let of = |(i, e): (usize, &Entrant)| {
+            let p = self.prediction(e)?;
+            // what a high order promises is more certain, and others are not likely to come near
+            let share = if e.law().cost / e.law().error < CHEAP { MOST } else { FOLLOWED };
+            let is_near = e.tries.len() < LED && LOSING * p.point.seconds <= share * left;
+            match self.next(e) {
+                Next::Try(setting) if is_near => Some((i, setting, p.point.seconds)),
+                _ => None,
+            }
+        };
+        let known = self.entrants.iter().enumerate().filter(|(_, e)| e.out.is_none());
+        let led = known.filter_map(of).min_by(|a, b| a.2.total_cmp(&b.2))?;
+        Some((led.0, led.1))
+    }
+
     /// Is there a candidate that takes about the same steps, comes first, and is not out?
     fn follows(&self, i: usize) -> bool {
         let method = &self.entrants[i].method;
@@ -149,6 +184,8 @@ impl<'a> Race<'a> {
                 let most = self.fastest().map(|seconds| GLANCE * seconds);
                 Some(most.unwrap_or(GLIMPSE * self.left()))
             }
+            // what is coarser has stopped, or is not known to be good
+            (false, Some(seconds)) if self.entrants[i].done().next().is_none() => Some(seconds),
             (false, Some(seconds)) => Some(LOSING * seconds),
             (false, None) => {
                 // what is likely to get to the end may do so
@@ -166,21 +203,23 @@ impl<'a> Race<'a> {
         BUDGET[0].max(BUDGET[1] * self.expected().unwrap_or(0.0))
     }
 
-    fn left(&mut self) -> f64 {
+    pub(super) fn left(&mut self) -> f64 {
         self.budget() - self.bench.spent()
     }
 
     /// One more trial of a candidate, for at most so many seconds where another is known to take less.
     pub(super) fn attempt(&mut self, i: usize, setting: f64, most: Option<f64>) {
         let left = self.left();
-        let most = most.map_or(SHARE * left, |most| most.min(left)).max(SHORTEST);
+        let most = most.map_or(SHARE * left, |most| most.min(left - self.beside)).max(SHORTEST);
         // a first look leaves another
         let is_last = !self.entrants[i].tries.is_empty();
         let aim = if self.wanted.deadline.is_some() { Aim::Steps } else { Aim::Rows };
         let method = self.entrants[i].method;
         let (is_losing, is_known) =
             (self.cheapest().is_some(), !self.entrants[i].points().is_empty());
+        let begun = self.bench.spent();
         let trial = self.bench.trial(&method, setting, aim, most);
+        self.beside = self.beside.max(self.bench.spent() - begun - trial.seconds);
         let entrant = &mut self.entrants[i];
         entrant.tries.retain(|t| t.trial.end != End::GivenUp);
         // who loses to another is out; whom only the budget stops is judged by what is known
@@ -205,25 +244,6 @@ impl<'a> Race<'a> {
                 );
                 entrant.out.get_or_insert(why);
             }
-        }
-    }
-
-    /// A finer run than is wanted, if there is time: errors are taken against it.
-    fn refine_reference(&mut self, seconds: f64) {
-        let Some(best) = self.best.filter(|best| best.own > 0.25 * self.wanted.error) else {
-            return;
-        };
-        let entrant = &self.entrants[best.entrant];
-        let law = entrant.law();
-        let setting = entrant.fit(best.setting * law.setting_for(0.05));
-        let least = entrant.whole_seconds().unwrap_or(seconds) * law.cost_of(20.0);
-        let finest = entrant.finest;
-        if least < 0.25 * self.left() && setting >= finest {
-            self.attempt(best.entrant, setting, Some(3.0 * least));
-            // a reference that is out of reach says nothing against a coarser setting
-            self.entrants[best.entrant].out = None;
-            let entrant = &mut self.entrants[best.entrant];
-            entrant.tries.retain(|t| t.is_done() || t.setting > setting * (1.0 + 1e-9));
         }
     }
 
@@ -319,7 +339,12 @@ impl<'a> Race<'a> {
 
     /// What its trials so far say of a candidate, where that is enough.
     pub(super) fn prediction(&self, entrant: &Entrant) -> Option<Prediction> {
-        Some(bounded(entrant, entrant.predict(self.aim(entrant))?))
+        let p = bounded(entrant, entrant.predict(self.aim(entrant))?);
+        let seen = entrant.seen(TAKEN * self.wanted.error);
+        let is_better =
+            |seen: &Point| seen.seconds <= p.point.seconds || p.point.error > self.wanted.error;
+        let taken = seen.filter(is_better);
+        Some(taken.map_or(p, |point| Prediction { point, basis: Basis::Coarsest }))
     }
 
     /// What a candidate needs to be known.
@@ -338,6 +363,9 @@ impl<'a> Race<'a> {
             End::Stopped(_) if !is_any_done => {
                 let finer = refine(LEAP);
                 let is_over = entrant.tries.len() >= TRIES[1] || entrant.has_tried(finer);
+                let is_at_the_start = entrant.tries.len() > 1
+                    && entrant.tries.iter().all(|t| t.trial.reached <= START);
+                let is_over = is_over || is_at_the_start;
                 let why = entrant.stopped().unwrap_or_default();
                 return if is_over { Next::Out(why) } else { Next::Try(finer) };
             }
@@ -363,14 +391,21 @@ impl<'a> Race<'a> {
         self.follow(entrant, p)
     }
 
+    /// Is there a trial that errors as small as the wanted one are told against?
+    fn can_tell(&self) -> bool {
+        self.best.is_some_and(|best| best.own <= self.wanted.error)
+    }
+
     /// Another trial where the prediction says, or enough.
     fn follow(&self, entrant: &Entrant, p: Prediction) -> Next {
         let law = entrant.law();
         let setting = match p.basis {
-            // the way to a small error is not known from where the motion was lost
-            Basis::Finer(factor) if factor > LEAP && self.wanted.error * factor > 0.1 => {
-                let leap = p.point.setting * law.setting_for(factor / LEAP);
-                entrant.fit(leap).max(entrant.finest)
+            // the way to a small error is not known from where the motion was lost, nor what is reached far off all that is known
+            Basis::Finer(factor)
+                if factor > LEAP && (self.wanted.error * factor > LOST || !self.can_tell()) =>
+            {
+                let finest = entrant.tries.last().map_or(p.point.setting, |t| t.setting);
+                entrant.fit(finest * law.setting_for(1.0 / LEAP)).max(entrant.finest)
             }
             _ => p.point.setting,
         };
@@ -410,6 +445,7 @@ fn bounded(entrant: &Entrant, p: Prediction) -> Prediction {
         setting,
         error: p.point.error * times.powf(law.error),
         seconds: p.point.seconds / times.powf(law.cost),
+        ..p.point
     };
     Prediction { point, ..p }
 }
