@@ -32,8 +32,8 @@ const FOLLOWED: f64 = 0.4;
 const LEAP: f64 = 30.0;
 /// A trial is given up where it takes so many times what the best does.
 const LOSING: f64 = 1.6;
-/// A first look at a candidate takes this share of the time of the best; where there is none, this share of the fastest trial, or of
-/// what is left, so that each has one; any other trial this share of what is left, or up to
+/// A first look at a candidate takes this share of the time of the best; where there is none, this share of the fastest trial (more
+/// where it is of high order), or of what is left, so that each has one; any other trial this share of what is left, or up to
 /// the next where that is likely to be enough, but not less than so much [s].
 const LOOK: f64 = 0.25;
 const GLANCE: f64 = 0.5;
@@ -157,7 +157,7 @@ impl<'a> Race<'a> {
         let of = |(i, e): (usize, &Entrant)| {
             let p = self.prediction(e)?;
             // what a high order promises is more certain, and others are not likely to come near
-            let share = if e.law().cost / e.law().error < CHEAP { MOST } else { FOLLOWED };
+            let share = if is_cheap(e) { MOST } else { FOLLOWED };
             let is_near = e.tries.len() < LED && LOSING * p.point.seconds <= share * left;
             match self.next(e) {
                 Next::Try(setting) if is_near => Some((i, setting, p.point.seconds)),
@@ -166,6 +166,13 @@ impl<'a> Race<'a> {
         };
         let known = self.entrants.iter().enumerate().filter(|(_, e)| e.out.is_none());
         let led = known.filter_map(of).min_by(|a, b| a.2.total_cmp(&b.2))?;
+        if !is_cheap(&self.entrants[led.0]) {
+            // a small error may cost another much less: those are looked at first
+            let is_unseen = |e: &Entrant| e.out.is_none() && e.tries.is_empty() && is_cheap(e);
+            if let Some(i) = self.entrants.iter().position(is_unseen) {
+                return Some((i, self.entrants[i].first));
+            }
+        }
         Some((led.0, led.1))
     }
 
@@ -181,7 +188,8 @@ impl<'a> Race<'a> {
         match (self.entrants[i].tries.is_empty(), cheapest) {
             (true, Some(seconds)) => Some(LOOK * seconds),
             (true, None) => {
-                let most = self.fastest().map(|seconds| GLANCE * seconds);
+                let share = if is_cheap(&self.entrants[i]) { LOSING } else { GLANCE };
+                let most = self.fastest().map(|seconds| share * seconds);
                 Some(most.unwrap_or(GLIMPSE * self.left()))
             }
             // what is coarser has stopped, or is not known to be good
@@ -278,9 +286,7 @@ impl<'a> Race<'a> {
 
     /// The error that a method is given its setting for.
     pub(super) fn aim(&self, entrant: &Entrant) -> f64 {
-        let law = entrant.law();
-        let is_cheap = law.cost / law.error < CHEAP;
-        self.wanted.error * AIMS[usize::from(!is_cheap)]
+        self.wanted.error * AIMS[usize::from(!is_cheap(entrant))]
     }
 
     /// CPU time that the cheapest takes of the candidates that were seen to reach the wanted error [s].
@@ -434,6 +440,12 @@ impl<'a> Race<'a> {
             Next::Try(setting)
         }
     }
+}
+
+/// Does a smaller error cost it little?
+fn is_cheap(entrant: &Entrant) -> bool {
+    let law = entrant.law();
+    law.cost / law.error < CHEAP
 }
 
 /// No finer than the candidate may be, and what can be had.
