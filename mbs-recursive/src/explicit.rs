@@ -7,12 +7,13 @@
 //! Positions and velocities are projected on the loops after each accepted step, quaternions made unit at the end. The stages
 //! are those of [`mbs_core::ode`].
 
+use crate::at::Outside;
 use crate::evaluate::{Level, accelerations, is_redundant};
 use crate::ledger;
 use crate::link::{Kind, Link};
 use crate::mechanism::{Counts, Inputs, Mechanism, Store};
 use crate::options::{Closure, Options};
-use crate::project::project;
+use crate::project::{self, project};
 use crate::space::{Numbers, Space};
 use crate::trapezoidal::{Start, failure, violations};
 use mbs_core::Real;
@@ -112,6 +113,20 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         dy[nz + nv] =
             ledger::power(self.m, self.s).map_err(|outside| failure(self.m, outside.into()))?;
         Ok(())
+    }
+
+    fn keep(&mut self, error: &mut [T]) -> Result<(), StepError> {
+        if self.m.loops.loops.is_empty() || self.options.closure != Closure::Constraints {
+            return Ok(());
+        }
+        let (nz, nv) = (self.m.n_coordinates, self.m.n_freedoms);
+        let (places, rest) = error.split_at_mut(nz);
+        let failed = |outside: Outside| failure(self.m, outside.into());
+        // coordinates of rotations are not those of freedoms
+        if nz == nv {
+            project::keep(self.m, places, self.s).map_err(failed)?;
+        }
+        project::keep(self.m, &mut rest[..nv], self.s).map_err(failed)
     }
 }
 

@@ -104,6 +104,34 @@ fn settle<T: Real, S: Space<T>>(
     }
 }
 
+/// Takes from an error of velocities, or of freedoms, what a projection takes: δ − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ J δ, with the rows and the
+/// inertias as they were evaluated last, at `s.z` and `s.v`. Beside a singular position constraints leave rounding a large part in
+/// directions that they soon forbid: shorter steps would only go there more often.
+pub(crate) fn keep<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    delta: &mut [T],
+    s: &mut Store<'_, T, S>,
+) -> Result<(), Outside> {
+    for (v, &delta) in s.v.iter_mut().zip(&*delta) {
+        *v += delta;
+    }
+    kinematics(m.links, (s.z, s.v, s.guides), s.trial)?;
+    for lap in m.loops.loops {
+        lap.evaluate(m.loops.rows, s.trial, |k, values| {
+            *at_mut(s.loops.l, k)? = values.rate - at(s.rows, k)?[1];
+            Ok(())
+        })?;
+    }
+    for (v, &delta) in s.v.iter_mut().zip(&*delta) {
+        *v -= delta;
+    }
+    respond(m, s)?;
+    for (delta, &response) in delta.iter_mut().zip(&*s.v_response) {
+        *delta += response;
+    }
+    Ok(())
+}
+
 /// Φ or Φ̇ at the trial state into l; the largest, its row, and what it is small against.
 fn violation<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,

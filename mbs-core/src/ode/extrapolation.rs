@@ -128,8 +128,10 @@ impl<T: Real> Method<T> for Extrapolation {
         let (lower, last) = row[(k - 2) * n..].split_at(n);
         for i in 0..n {
             stage[i] = y[i] + last[i];
+            now[i] = last[i] - lower[i];
         }
-        Ok(method::size((y, stage), options, |i| last[i] - lower[i]))
+        system.keep(now)?;
+        Ok(method::size((y, stage), options, now))
     }
 
     fn new_state<'s>(&self, n: usize, scratch: &'s [T]) -> &'s [T] {

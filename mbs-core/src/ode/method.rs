@@ -45,15 +45,11 @@ pub trait Method<T: Real> {
 /// ```text
 /// √(1/n Σ (errorₖ / (absolute sizeₖ + relative max(|yₖ|, |y'ₖ|)))²)
 /// ```
-pub(super) fn size<T: Real>(
-    (y, end): (&[T], &[T]),
-    options: &Options<'_, T>,
-    error: impl Fn(usize) -> T,
-) -> T {
+pub(super) fn size<T: Real>((y, end): (&[T], &[T]), options: &Options<'_, T>, error: &[T]) -> T {
     let n = y.len();
     let mut sum = T::ZERO;
     for k in 0..n {
-        let error = error(k);
+        let error = error[k];
         let size = options.sizes.get(k).copied().unwrap_or(T::ONE);
         let tolerance = options.absolute * size + options.relative * y[k].abs().max(end[k].abs());
         // No error needs no tolerance; a state that is not finite must not hide in the denominator.

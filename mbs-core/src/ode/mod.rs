@@ -44,4 +44,15 @@ pub trait Rates<T> {
     ///
     /// What makes an answer impossible; the integration ends with it.
     fn rates(&mut self, t: T, y: &[T], dy: &mut [T]) -> Result<(), Self::Error>;
+
+    /// Takes from the error of a trial step what the end of a step takes from the state, such as what a projection removes:
+    /// only what is left says something about the step. Called after the rates of all stages; by default all is left.
+    ///
+    /// # Errors
+    ///
+    /// What makes an answer impossible; the integration ends with it.
+    fn keep(&mut self, error: &mut [T]) -> Result<(), Self::Error> {
+        let _ = error;
+        Ok(())
+    }
 }

@@ -64,16 +64,16 @@ impl<T: Real> Tableau<T, 7> {
 }
 
 impl<T: Real, const S: usize> Tableau<T, S> {
-    /// Numbers of scratch for `n` components: the rates of the stages and one state.
+    /// Numbers of scratch for `n` components: the rates of the stages, one state and an error.
     #[must_use]
     pub const fn scratch(n: usize) -> usize {
-        (S + 1) * n
+        (S + 2) * n
     }
 
     /// Makes one trial step: the rates of all stages, then the new state, both in `scratch`; `y` is not changed.
     ///
     /// With `first_is_known` the rates at (`t`, `y`) stand in the first n numbers of `scratch` already. The new state is
-    /// in its last n numbers ([`Self::end_state`]).
+    /// given by [`Self::end_state`].
     ///
     /// Cost: S evaluations, one less if the first is known; about S²/2 n multiplications.
     ///
@@ -94,8 +94,9 @@ impl<T: Real, const S: usize> Tableau<T, S> {
     ) -> Result<(), R::Error> {
         let n = system.n();
         assert_eq!(y.len(), n, "components of the state");
-        assert_eq!(scratch.len(), Self::scratch(n), "scratch of S + 1 vectors");
-        let (rates, stage) = scratch.split_at_mut(S * n);
+        assert_eq!(scratch.len(), Self::scratch(n), "scratch of S + 2 vectors");
+        let (rates, rest) = scratch.split_at_mut(S * n);
+        let stage = &mut rest[..n];
 
         // kᵢ = f(t + cᵢ h, y + h Σⱼ aᵢⱼ kⱼ)
         for i in usize::from(first_is_known)..S {
@@ -114,25 +115,37 @@ impl<T: Real, const S: usize> Tableau<T, S> {
     /// The new state that [`Self::stages`] left in `scratch`, for `n` components.
     #[must_use]
     pub fn end_state(n: usize, scratch: &[T]) -> &[T] {
-        &scratch[S * n..]
+        &scratch[S * n..][..n]
     }
 
-    /// Size of the error of the trial step in `scratch`, h Σᵢ eᵢ kᵢ: at most one is within the tolerance.
+    /// Size of the error of the trial step in `scratch`, h Σᵢ eᵢ kᵢ, as far as `system` keeps it: at most one is within the tolerance.
     ///
     /// A number that is not finite anywhere in it or in the new state gives NaN or infinity.
     ///
-    /// Cost: (S + 2) n multiplications; no evaluation.
-    #[must_use]
-    pub fn error(&self, h: T, y: &[T], options: &Options<'_, T>, scratch: &[T]) -> T {
+    /// Cost: (S + 2) n multiplications, and [`Rates::keep`]; no evaluation.
+    ///
+    /// # Errors
+    ///
+    /// What [`Rates::keep`] says.
+    pub fn error<R: Rates<T>>(
+        &self,
+        system: &mut R,
+        h: T,
+        y: &[T],
+        (options, scratch): (&Options<'_, T>, &mut [T]),
+    ) -> Result<T, R::Error> {
         let n = y.len();
-        let (rates, end) = scratch.split_at(S * n);
-        method::size((y, end), options, |k| {
-            let mut error = T::ZERO;
+        let (rates, rest) = scratch.split_at_mut(S * n);
+        let (end, error) = rest.split_at_mut(n);
+        for (k, error) in error.iter_mut().enumerate() {
+            *error = T::ZERO;
             for i in 0..S {
-                error += self.e[i] * rates[i * n + k];
+                *error += self.e[i] * rates[i * n + k];
             }
-            error * h
-        })
+            *error *= h;
+        }
+        system.keep(error)?;
+        Ok(method::size((y, end), options, error))
     }
 }
 
@@ -158,7 +171,7 @@ impl<T: Real, const S: usize> Method<T> for Tableau<T, S> {
         (options, scratch): (&Options<'_, T>, &mut [T]),
     ) -> Result<T, R::Error> {
         self.stages(system, (t, h), y, first_is_known, scratch)?;
-        Ok(self.error(h, y, options, scratch))
+        self.error(system, h, y, (options, scratch))
     }
 
     fn new_state<'s>(&self, n: usize, scratch: &'s [T]) -> &'s [T] {
