@@ -38,5 +38,5 @@ build andrews_radau.so /usr/lib/R/site-library/deSolve andrews/radau.c andrews/a
 
 # Simbody without -DNDEBUG: Debian's library was built without it, and classes have another layout with it.
 build simbody /usr/include/simbody/Simbody.h simbody/simbody.cpp -- \
-  g++ -std=c++17 -O3 -march=native -I/usr/include/simbody "$here/simbody/simbody.cpp" -lSimTKsimbody -lSimTKmath -lSimTKcommon
+  g++ -std=c++17 -O3 -march=native -w -I/usr/include/simbody "$here/simbody/simbody.cpp" -lSimTKsimbody -lSimTKmath -lSimTKcommon
 exit $failed

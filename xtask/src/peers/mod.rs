@@ -88,8 +88,14 @@ fn remark(machine: &crate::bench::Machine, effort: Effort) -> String {
          median of the turns' own ratios. mbs {}, built for any x86-64; the peers for this processor. {}",
         effort.turns,
         Who::Ours.version(),
-        machine.told()
+        busy(machine)
     )
+}
+
+/// The processor, and how busy the machine was.
+fn busy(machine: &crate::bench::Machine) -> String {
+    let load = machine.load.map(|x| x.map_or("?".to_owned(), |x| format!("{x:.1}")));
+    format!("{}, load average {} before and {} after.", machine.processor, load[0], load[1])
 }
 
 /// Writes what there is so far, so that a job that is cut off leaves it.

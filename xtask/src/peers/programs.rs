@@ -113,6 +113,7 @@ impl Who {
             Self::RustChains => Some("dynibo 0.5.3, phyz-rigid 0.4.0".to_owned()),
             Self::RustAndrews => Some("0.18.0".to_owned()),
             Self::Ours => process::commit(),
+            Self::PinocchioLoop => Some(Self::PinocchioOpen.version()),
             _ => output(self.command().arg("version")),
         };
         let told = told.unwrap_or_default();
