@@ -16,6 +16,7 @@ mod mbs;
 mod nostd;
 mod page;
 mod pages;
+mod peers;
 mod pick;
 mod process;
 mod races;
@@ -102,6 +103,15 @@ enum Job {
         #[arg(value_name = "SCENE")]
         scenes: Vec<String>,
     },
+    /// Time mbs and its peers on the same problems by turns (docs/PEERS.md): text, Markdown, CSV and HTML under target/peers
+    Peers {
+        /// Fewer and shorter turns
+        #[arg(long)]
+        quick: bool,
+        /// These problems alone: chain, tree, inverse, four-bars, step, double-pendulum, n-four-bars, andrews
+        #[arg(value_name = "PROBLEM")]
+        names: Vec<String>,
+    },
     /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
     Counts,
     /// Try scenes that nobody meant, mutated text and random mechanisms; what breaks or hangs is kept under target/fuzz
@@ -140,6 +150,7 @@ fn main() -> ExitCode {
             bench::bench(&bench::Asked { threads, quick, scenes })
         }
         Job::Choice { scenes } => choice::choice(&scenes),
+        Job::Peers { quick, names } => peers::peers(quick, &names),
         Job::Counts => counts::counts(),
         Job::Fuzz { seconds, seed } => fuzz::fuzz(seconds, seed),
         Job::Gauntlet { count, jobs } => gauntlet::gauntlet(count, jobs),

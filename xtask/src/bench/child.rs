@@ -33,8 +33,12 @@ impl Program {
     }
 }
 
-/// Waits for a command and gives its output.
-fn finish(command: &mut Command, limit: Duration) -> Result<String, String> {
+/// Waits for a command and gives its output; after `limit` it is ended.
+///
+/// # Errors
+///
+/// What it says where it fails, or that it took too long.
+pub(crate) fn finish(command: &mut Command, limit: Duration) -> Result<String, String> {
     let line = process::line(command);
     let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = child.spawn().map_err(|e| format!("cannot start `{line}`: {e}"))?;

@@ -1,0 +1,105 @@
+//! Andrews' squeezing mechanism to 0.03 s by explicit methods with error control, from coarse to fine.
+
+use crate::clock::time_of;
+use crate::space::in_space;
+use crate::{Failure, tell};
+use mbs_core::model::Owner;
+use mbs_core::scene::Scene;
+use mbs_core::step::{StepError, StepReport};
+use mbs_recursive::space::Space;
+use mbs_recursive::{
+    Options, Planar, Spatial, TreeModel, TreeState, Workspace, extrapolated_step, rk54_step,
+};
+use mbs_scene::Document;
+use std::hint::black_box;
+
+const SCENE: &str = include_str!("../../../../scenes/andrews.toml");
+
+/// Length of the run [s].
+const END: f64 = 0.03;
+/// First step tried [s], as the peers' programs are told.
+const FIRST: f64 = 1e-7;
+
+/// Joints of the seven angles in the scene, their starts and their ends [rad].
+const ANGLES: [(&str, f64, f64); 7] = [
+    ("crank-pivot", -0.061_713_890_014_276_5, 15.810_771_195_153_707),
+    ("crank-pin", 0.0, -15.756_371_058_411_84),
+    ("spring-arm-pivot", 0.455_279_819_163_070_4, 0.040_822_240_119_645_8),
+    ("upper-knee", 0.222_668_390_165_885_88, -0.534_730_116_342_079_6),
+    ("upper-arm-pivot", 0.487_364_979_543_842_55, 0.524_409_965_879_954_1),
+    ("lower-knee", -0.222_668_390_165_885_88, 0.534_730_116_342_079_6),
+    ("lower-arm-pivot", 1.230_547_444_549_821_2, 1.048_080_741_041_937_9),
+];
+
+/// A method that goes to the end in as many steps as its error asks for.
+type Method<S> = fn(
+    &TreeModel<f64, S>,
+    f64,
+    &Options<f64>,
+    &mut TreeState<f64>,
+    &mut Workspace<f64, S>,
+) -> Result<StepReport<f64>, StepError>;
+
+/// Two methods in the plane and in space, each at its errors; the value is the number of right digits.
+pub(crate) fn andrews(seconds: f64) -> Result<(), Failure> {
+    let scene = Document::parse(SCENE, "andrews.toml").and_then(|document| document.scene());
+    let scene: Scene<f64> = scene.map_err(|e| e.render())?;
+    runs::<Planar>("planar", &scene, seconds)?;
+    runs::<Spatial>("spatial", &in_space(&scene)?, seconds)
+}
+
+fn runs<S: Space<f64>>(space: &str, scene: &Scene<f64>, seconds: f64) -> Result<(), Failure> {
+    let model = TreeModel::<f64, S>::new(scene)?;
+    let mut start = TreeState::at_rest(&model);
+    model.settle(&mut start, &mut Workspace::new(&model))?;
+    let seats = seats(scene, &model)?;
+    let methods: [(&str, Method<S>); 2] =
+        [("rk54", rk54_step::<f64, S>), ("extrapolation", extrapolated_step::<f64, S>)];
+    for (name, method) in methods {
+        for i in 0..=20 {
+            let error = 10_f64.powf(-2.0 - 0.5 * f64::from(i));
+            let options = Options { error, first_step: Some(FIRST), ..Options::default() };
+            let mut state = start.clone();
+            let mut run = || {
+                state.copy_from(&start);
+                // As fresh as the peers' solvers.
+                method(&model, END, &options, &mut state, &mut Workspace::new(&model))
+            };
+            if let Err(why) = run() {
+                eprintln!("{space} {name} {error:.1e}: {why}");
+                continue;
+            }
+            let time = time_of(seconds, |_| {
+                black_box(run().is_ok());
+            });
+            let digits = digits(&seats, &state);
+            tell(&format!("{space} {name} {error:.1e}"), time, digits, "digits");
+        }
+    }
+    Ok(())
+}
+
+/// Where the seven angles are among the coordinates.
+fn seats<S: Space<f64>>(
+    scene: &Scene<f64>,
+    model: &TreeModel<f64, S>,
+) -> Result<[usize; 7], Failure> {
+    let mut seats = [0; 7];
+    for (seat, (name, _, _)) in seats.iter_mut().zip(ANGLES) {
+        let is_named = |&freedom: &usize| match model.owner_of_unknown(freedom) {
+            Owner::Joint(joint) => scene.joints[joint].name == name,
+            _ => false,
+        };
+        let found = (0..model.n_freedoms()).find(is_named);
+        *seat = found.ok_or_else(|| format!("{name} is cut"))?;
+    }
+    Ok(seats)
+}
+
+/// Right digits: -log10 of the largest relative error of the seven angles.
+fn digits(seats: &[usize; 7], state: &TreeState<f64>) -> f64 {
+    let error = |(&seat, (_, start, end)): (&usize, (&str, f64, f64))| {
+        ((start + state.z[seat] - end) / end).abs()
+    };
+    -seats.iter().zip(ANGLES).map(error).fold(0.0, f64::max).log10()
+}

@@ -1,0 +1,60 @@
+//! mbs on the problems that its peers are timed on: ours PROBLEM N (SECONDS | STEP)
+//!
+//! A line has an algorithm, seconds for one call or run, a value, and what that is compared with. Lines whose algorithm is
+//! `reference` tell the exact value: in closed form, or by the same equations in 32 digits.
+
+mod andrews;
+mod clock;
+mod loops;
+mod open;
+mod runs;
+mod scenes;
+mod space;
+mod step;
+
+use std::error::Error;
+use std::process::ExitCode;
+
+/// Why a problem cannot be run.
+type Failure = Box<dyn Error>;
+
+const USAGE: &str = "ours (chain | tree | inverse | four-bars | step) N SECONDS\n\
+                     ours (double-pendulum | n-four-bars) N STEP\n\
+                     ours andrews 7 SECONDS";
+
+/// The same number in any precision.
+fn exactly<T: mbs_core::Real>(x: f64) -> T {
+    T::from_f64(x)
+}
+
+/// One line.
+fn tell(algorithm: &str, seconds: f64, value: f64, reference: &str) {
+    println!("{algorithm},{seconds:.6e},{value:.17e},{reference}");
+}
+
+fn run() -> Result<(), Failure> {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let [problem, n, number] = &words[..] else { return Err(USAGE.into()) };
+    let (n, number): (usize, f64) = (n.parse()?, number.parse()?);
+    match problem.as_str() {
+        "chain" => open::forward(scenes::Shape::Chain, n, number),
+        "tree" => open::forward(scenes::Shape::Tree, n, number),
+        "inverse" => open::inverse(n, number),
+        "four-bars" => loops::four_bars(n, number),
+        "step" => step::step(n, number),
+        "double-pendulum" => runs::double_pendulum(number),
+        "n-four-bars" => runs::four_bars(n, number),
+        "andrews" => andrews::andrews(number),
+        _ => Err(USAGE.into()),
+    }
+}
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(why) => {
+            eprintln!("{why}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! Whole runs of the repository's scenes with a fixed step, each method in turn; seconds are CPU time of the steps alone.
+
+use crate::space::in_space;
+use crate::{Failure, tell};
+use cpu_time::ProcessTime;
+use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
+use mbs_core::scene::Scene;
+use mbs_recursive::space::Space;
+use mbs_recursive::{Options, Planar, Spatial, TreeModel, Workspace, rk4_step, step};
+use mbs_scene::Document;
+use std::f64::consts::FRAC_PI_2;
+
+/// Formulation and integrator of the runs that are made as `mbs run` makes them.
+const METHODS: [[&str; 2]; 4] = [
+    ["recursive", "trapezoidal"],
+    ["recursive", "rk4"],
+    ["index-3", "trapezoidal"],
+    ["state-space", "trapezoidal"],
+];
+
+/// The scenes, and where the first crank's end is after 10 s, in x [m].
+const DOUBLE_PENDULUM: &str = include_str!("../../../../scenes/double-pendulum.toml");
+const TWO: (&str, f64) =
+    (include_str!("../../../../scenes/two-four-bars.toml"), 0.328_458_111_540_815_4);
+const FORTY: (&str, f64) =
+    (include_str!("../../../../scenes/n-four-bar-40.toml"), 0.180_512_226_686_728_4);
+
+/// How a run is judged.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Judge {
+    /// Largest error of the energy [J].
+    Energy,
+    /// End of the first crank in x [m].
+    CrankEnd,
+}
+
+impl Judge {
+    fn reference(self) -> &'static str {
+        if self == Self::Energy { "zero" } else { "exact" }
+    }
+}
+
+/// The double pendulum; the value is the largest error of the energy [J].
+pub(crate) fn double_pendulum(dt: f64) -> Result<(), Failure> {
+    runs(DOUBLE_PENDULUM, dt, Judge::Energy)
+}
+
+/// Two or forty four-bars; the value is where the first crank ends.
+pub(crate) fn four_bars(n: usize, dt: f64) -> Result<(), Failure> {
+    let (text, exact) = match n {
+        2 => TWO,
+        40 => FORTY,
+        _ => return Err("there are scenes of 2 and of 40 four-bars".into()),
+    };
+    tell("reference", 0.0, exact, "exact");
+    runs(text, dt, Judge::CrankEnd)
+}
+
+/// Runs a scene by every method; one that stops is told and left out.
+fn runs(text: &str, dt: f64, judge: Judge) -> Result<(), Failure> {
+    let scene = Document::parse(text, "scene").and_then(|document| document.scene());
+    let scene: Scene<f64> = scene.map_err(|e| e.render())?;
+    let n = (scene.duration / dt).round() as usize;
+    let spatial = in_space(&scene)?;
+    for (is_explicit, integrator) in [(false, "trapezoidal"), (true, "rk4")] {
+        let planar =
+            |is_watched| kernel::<Planar, 2>(&scene, (dt, n), is_explicit, (judge, is_watched));
+        told(&format!("planar kernel {integrator}"), judge, planar);
+        let spatial =
+            |is_watched| kernel::<Spatial, 3>(&spatial, (dt, n), is_explicit, (judge, is_watched));
+        told(&format!("spatial kernel {integrator}"), judge, spatial);
+    }
+    for method in METHODS {
+        let run = |is_watched| simulated(&scene, (dt, n), method, (judge, is_watched));
+        told(&format!("planar {}", method.join(" ")), judge, run);
+    }
+    Ok(())
+}
+
+/// Times a run without looking at it, then judges another.
+fn told(name: &str, judge: Judge, run: impl Fn(bool) -> Result<[f64; 2], Failure>) {
+    let timed = run(false).and_then(|[seconds, value]| match judge {
+        Judge::Energy => Ok((seconds, run(true)?[1])),
+        Judge::CrankEnd => Ok((seconds, value)),
+    });
+    match timed {
+        Ok((seconds, value)) => tell(name, seconds, value, judge.reference()),
+        Err(why) => eprintln!("{name}: {why}"),
+    }
+}
+
+/// A run by the steps of mbs-recursive alone: seconds and value.
+fn kernel<S: Space<f64>, const D: usize>(
+    scene: &Scene<f64>,
+    (dt, n): (f64, usize),
+    is_explicit: bool,
+    (judge, is_watched): (Judge, bool),
+) -> Result<[f64; 2], Failure>
+where
+    Plane<D>: InSpace<f64>,
+{
+    let model = TreeModel::<f64, S>::new(scene)?;
+    let (options, mut workspace) = (Options::default(), Workspace::new(&model));
+    let start = assembled::<D>(scene, dt, METHODS[0])?;
+    let mut state = model.start(scene, start.model(), start.state())?;
+    let start: f64 = model.energies(&state, &mut workspace).iter().sum();
+    let (clock, mut worst) = (ProcessTime::now(), 0.0_f64);
+    for _ in 0..n {
+        if is_explicit {
+            rk4_step(&model, dt, &options, &mut state, &mut workspace)?;
+        } else {
+            step(&model, dt, &options, &mut state, &mut workspace)?;
+        }
+        if is_watched && judge == Judge::Energy {
+            let energy: f64 = model.energies(&state, &mut workspace).iter().sum();
+            worst = worst.max((energy - start).abs());
+        }
+    }
+    let seconds = clock.elapsed().as_secs_f64();
+    // The first freedom is the first crank's; its reference stands upright.
+    let value = if judge == Judge::Energy { worst } else { (FRAC_PI_2 + state.z[0]).cos() };
+    Ok([seconds, value])
+}
+
+/// A scene assembled, with the options of a run.
+fn assembled<const D: usize>(
+    scene: &Scene<f64>,
+    dt: f64,
+    [formulation, integrator]: [&str; 2],
+) -> Result<Simulation<f64, D>, Failure>
+where
+    Plane<D>: InSpace<f64>,
+{
+    let asked = Overrides {
+        formulation: Some(formulation.to_owned()),
+        integrator: Some(integrator.to_owned()),
+        step: Some(dt),
+        ..Overrides::default()
+    };
+    Ok(Simulation::new(scene, &Settings::new(scene, &asked)?)?)
+}
+
+/// A run as `mbs run` makes it: seconds and value.
+fn simulated(
+    scene: &Scene<f64>,
+    (dt, n): (f64, usize),
+    method: [&str; 2],
+    (judge, is_watched): (Judge, bool),
+) -> Result<[f64; 2], Failure> {
+    let mut simulation = assembled::<2>(scene, dt, method)?;
+    let start: f64 = simulation.initial_energies().iter().sum();
+    let (clock, mut worst) = (ProcessTime::now(), 0.0_f64);
+    for _ in 0..n {
+        simulation.step(dt)?;
+        if is_watched && judge == Judge::Energy {
+            let [kinetic, potential, work] = simulation.energies();
+            worst = worst.max((kinetic + potential - work - start).abs());
+        }
+    }
+    let seconds = clock.elapsed().as_secs_f64();
+    // The first body is a crank on the origin; its centre is in the middle.
+    let center = simulation.model().motion(scene, 0, simulation.state());
+    let value = if judge == Judge::Energy { worst } else { 2.0 * center.position[0] };
+    Ok([seconds, value])
+}

@@ -1,0 +1,122 @@
+//! The mechanisms: uniform rods of 1 m and 1 kg on revolute joints about z, and the states that they are in.
+
+use crate::clock::STATES;
+use crate::exactly;
+use mbs_core::Real;
+use mbs_core::scene::{Body, BodyRef, Dimension, Inertia, Joint, JointKind, Scene, SolverChoice};
+
+/// Gravity in the plane, or none [m/s^2].
+pub(crate) const GRAVITY: f64 = 9.81;
+
+/// A scene without bodies.
+pub(crate) fn empty<T: Real>(dimension: Dimension, gravity: f64) -> Scene<T> {
+    Scene {
+        name: String::new(),
+        dimension,
+        gravity: Some([T::ZERO, exactly(-gravity), T::ZERO]),
+        duration: T::ONE,
+        bodies: Vec::new(),
+        joints: Vec::new(),
+        initials: Vec::new(),
+        guides: Vec::new(),
+        effects: Vec::new(),
+        road: Default::default(),
+        start: Default::default(),
+        outputs: Vec::new(),
+        solver: SolverChoice::default(),
+    }
+}
+
+/// Adds a rod from `from` along (c, s), 0.001 kg m² about its own axis; returns the body.
+pub(crate) fn add_rod<T: Real>(scene: &mut Scene<T>, from: [T; 2], [c, s]: [T; 2]) -> BodyRef {
+    let (thin, thick) = (exactly::<T>(1e-3), exactly::<T>(1.0 / 12.0));
+    let inertia = match scene.dimension {
+        Dimension::Planar => Inertia::Planar(thick),
+        // R diag(thin, thick, thick) Rᵀ
+        Dimension::Spatial => Inertia::Spatial([
+            thin * c * c + thick * s * s,
+            thin * s * s + thick * c * c,
+            thick,
+            (thin - thick) * c * s,
+            T::ZERO,
+            T::ZERO,
+        ]),
+    };
+    let center = [from[0] + T::HALF * c, from[1] + T::HALF * s, T::ZERO];
+    scene.bodies.push(Body { name: String::new(), mass: T::ONE, center, inertia });
+    BodyRef::Body(scene.bodies.len() - 1)
+}
+
+/// Adds a joint at a point.
+pub(crate) fn add_joint<T: Real>(
+    scene: &mut Scene<T>,
+    kind: JointKind,
+    bodies: [BodyRef; 2],
+    [x, y]: [T; 2],
+) {
+    let is_turning = kind == JointKind::Revolute && scene.dimension == Dimension::Spatial;
+    let axis = is_turning.then_some([T::ZERO, T::ZERO, T::ONE]);
+    let points = [[x, y, T::ZERO]; 2];
+    scene.joints.push(Joint { name: String::new(), kind, bodies, points, axes: [axis, None] });
+}
+
+/// Adds a rod along x with its joint, 1 m from its parent's; returns the body.
+fn hang<T: Real>(scene: &mut Scene<T>, parent: BodyRef, x: f64) -> BodyRef {
+    let at = [exactly(x), T::ZERO];
+    let body = add_rod(scene, at, [T::ONE, T::ZERO]);
+    add_joint(scene, JointKind::Revolute, [parent, body], at);
+    body
+}
+
+/// An open mechanism.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Shape {
+    /// Rods one behind the other.
+    Chain,
+    /// A binary tree.
+    Tree,
+}
+
+impl Shape {
+    /// The scene of `n` rods.
+    pub(crate) fn scene<T: Real>(self, n: usize, dimension: Dimension, gravity: f64) -> Scene<T> {
+        match self {
+            Self::Chain => chain(n, dimension, gravity),
+            Self::Tree => tree(n, dimension, gravity),
+        }
+    }
+}
+
+/// `n` rods one behind the other.
+fn chain<T: Real>(n: usize, dimension: Dimension, gravity: f64) -> Scene<T> {
+    let mut scene = empty(dimension, gravity);
+    let mut last = BodyRef::Ground;
+    for i in 0..n {
+        last = hang(&mut scene, last, i as f64);
+    }
+    scene
+}
+
+/// A binary tree of `n` rods, depth first.
+fn tree<T: Real>(n: usize, dimension: Dimension, gravity: f64) -> Scene<T> {
+    fn grow<T: Real>(scene: &mut Scene<T>, (i, n): (usize, usize), parent: BodyRef, x: f64) {
+        let body = hang(scene, parent, x);
+        for child in [2 * i + 1, 2 * i + 2].into_iter().filter(|&child| child < n) {
+            grow(scene, (child, n), body, x + 1.0);
+        }
+    }
+    let mut scene = empty(dimension, gravity);
+    grow(&mut scene, (0, n), BodyRef::Ground, 0.0);
+    scene
+}
+
+/// Angles and rates of `n` joints, the same numbers in every program: a linear congruential generator.
+pub(crate) fn states(n: usize) -> Vec<[Vec<f64>; 2]> {
+    let mut seed: u32 = 1;
+    let mut next = || {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(seed >> 8) / 16_777_216.0 * 2.0 - 1.0
+    };
+    let mut numbers = |scale: f64| (0..n).map(|_| scale * next()).collect();
+    (0..STATES).map(|_| [numbers(3.0), numbers(1.0)]).collect()
+}

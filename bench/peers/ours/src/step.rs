@@ -1,0 +1,46 @@
+//! One step of Runge-Kutta's method of order 4, of 1 ms.
+
+use crate::clock::time_of_steps;
+use crate::open::Open;
+use crate::scenes::{GRAVITY, Shape};
+use crate::{Failure, exactly, tell};
+use mbs_core::Real;
+use mbs_core::real::DoubleDouble;
+use mbs_core::scene::{Dimension, Scene};
+use mbs_recursive::space::Space;
+use mbs_recursive::{Options, Planar, Spatial, extrapolated_step, rk4_step};
+use std::hint::black_box;
+
+/// Length of the step [s].
+const STEP: f64 = 1e-3;
+/// Error of the reference.
+const FINE: f64 = 1e-25;
+
+/// Times a step of a chain in the plane and in space; the value is the angle of the first joint after one step.
+pub(crate) fn step(n: usize, seconds: f64) -> Result<(), Failure> {
+    let mut exact =
+        Open::<DoubleDouble, Spatial>::new(&Shape::Chain.scene(n, Dimension::Spatial, GRAVITY))?;
+    let options = Options { error: exactly(FINE), ..Options::default() };
+    let state = &mut exact.states[0];
+    extrapolated_step(&exact.model, exactly(STEP), &options, state, &mut exact.workspace)?;
+    tell("reference", 0.0, state.z[exact.first].to_f64(), "exact");
+    let scene = |dimension| Shape::Chain.scene(n, dimension, GRAVITY);
+    timed::<Planar>("planar RK4", &scene(Dimension::Planar), seconds)?;
+    timed::<Spatial>("spatial RK4", &scene(Dimension::Spatial), seconds)
+}
+
+fn timed<S: Space<f64>>(name: &str, scene: &Scene<f64>, seconds: f64) -> Result<(), Failure> {
+    let Open { model, states, mut workspace, first } = Open::<f64, S>::new(scene)?;
+    let options = Options::default();
+    let mut state = states[0].clone();
+    rk4_step(&model, STEP, &options, &mut state, &mut workspace)?;
+    let value = state.z[first];
+    let time = time_of_steps(seconds, |n| {
+        state.copy_from(&states[0]);
+        for _ in 0..n {
+            black_box(rk4_step(&model, STEP, &options, &mut state, &mut workspace).is_ok());
+        }
+    });
+    tell(name, time, value, "exact");
+    Ok(())
+}

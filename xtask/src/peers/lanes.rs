@@ -1,0 +1,198 @@
+//! What was measured of a problem: a lane for each algorithm of each program, with its time in every turn.
+
+use super::problems::{Kind, Problem};
+use super::programs::{Line, Who};
+
+/// Ours is right within this of an exact value, relative to it.
+const OURS: f64 = 1e-9;
+/// A peer's evaluation counts within this; iterations that stop early and soft constraints may be farther off.
+const PEERS: f64 = 1e-5;
+/// Errors that differ by this factor, or this much, are the same.
+const SAME: [f64; 2] = [1.1, 1e-12];
+
+/// An algorithm of a program on a problem.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Lane {
+    pub(super) who: Who,
+    pub(super) algorithm: String,
+    /// CPU time in each turn [s].
+    pub(super) seconds: Vec<f64>,
+    /// Right digits, where that is what it tells.
+    pub(super) digits: Option<f64>,
+    /// Distance from the exact value, in its unit, and relative to it where it is not zero.
+    pub(super) error: Option<[f64; 2]>,
+}
+
+impl Lane {
+    /// The program and the algorithm.
+    pub(super) fn told(&self) -> String {
+        match self.who {
+            Who::RustChains | Who::RustAndrews | Who::Radau | Who::Ida => self.algorithm.clone(),
+            _ => format!("{} {}", self.who.name(), self.algorithm),
+        }
+    }
+
+    /// The median of its times [s].
+    pub(super) fn time(&self) -> f64 {
+        median(self.seconds.clone())
+    }
+
+    /// Is it ours, and does it know that the scene is planar?
+    pub(super) fn is_spatial(&self) -> bool {
+        self.algorithm.starts_with("spatial")
+    }
+
+    fn error_of(&self, kind: Kind) -> f64 {
+        self.error.map_or(f64::INFINITY, |[far, relative]| match kind {
+            Kind::Evaluation => relative,
+            _ => far,
+        })
+    }
+}
+
+/// The lanes of a problem.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Measured {
+    pub(super) problem: Problem,
+    pub(super) lanes: Vec<Lane>,
+    /// Exact values by their names.
+    exact: Vec<(String, f64)>,
+    /// Programs that are here and gave nothing, with the reason.
+    pub(super) failed: Vec<(Who, String)>,
+}
+
+impl Measured {
+    /// Nothing yet.
+    pub(super) fn new(problem: Problem) -> Self {
+        Self { problem, lanes: Vec::new(), exact: Vec::new(), failed: Vec::new() }
+    }
+
+    /// Takes what a program printed in a turn; ours comes first, with the exact values.
+    pub(super) fn take(&mut self, who: Who, lines: Vec<Line>) {
+        for line in lines {
+            if line.algorithm == "reference" {
+                if !self.exact.iter().any(|(name, _)| *name == line.reference) {
+                    self.exact.push((line.reference, line.value));
+                }
+                continue;
+            }
+            let is_same = |lane: &&mut Lane| lane.who == who && lane.algorithm == line.algorithm;
+            if let Some(lane) = self.lanes.iter_mut().find(is_same) {
+                lane.seconds.push(line.seconds);
+                continue;
+            }
+            let far = match line.reference.as_str() {
+                "zero" => Some((line.value.abs(), 1.0)),
+                name => self
+                    .exact
+                    .iter()
+                    .find(|(known, _)| known == name)
+                    .map(|(_, exact)| ((line.value - exact).abs(), exact.abs())),
+            };
+            self.lanes.push(Lane {
+                who,
+                algorithm: line.algorithm,
+                seconds: vec![line.seconds],
+                digits: (line.reference == "digits").then_some(line.value),
+                error: far.map(|(far, size)| [far, far / size]),
+            });
+        }
+    }
+
+    /// The lanes of ours or of the peers.
+    pub(super) fn of(&self, is_ours: bool) -> impl Iterator<Item = &Lane> {
+        self.lanes.iter().filter(move |lane| (lane.who == Who::Ours) == is_ours)
+    }
+
+    /// Ours that are farther from the exact value than rounding explains.
+    pub(super) fn wrong(&self) -> Vec<&Lane> {
+        let is_wrong = |lane: &&Lane| !(lane.error_of(Kind::Evaluation) <= OURS);
+        match self.problem.kind {
+            Kind::Evaluation => self.of(true).filter(is_wrong).collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The fastest peer whose value counts.
+    pub(super) fn peer(&self) -> Option<&Lane> {
+        let counts = |lane: &&Lane| match self.problem.kind {
+            Kind::Evaluation => lane.error_of(Kind::Evaluation) <= PEERS,
+            _ => lane.error_of(Kind::Run).is_finite(),
+        };
+        fastest(self.of(false).filter(counts))
+    }
+
+    /// The fastest of ours, in the plane or in space, that errs no more than the peer (or than rounding).
+    pub(super) fn ours(&self, is_spatial: bool) -> Option<&Lane> {
+        let kind = self.problem.kind;
+        let most = match (kind, self.peer()) {
+            (Kind::Evaluation, _) => OURS,
+            (_, Some(peer)) => (SAME[0] * peer.error_of(kind)).max(SAME[1]),
+            (_, None) => f64::INFINITY,
+        };
+        let counts = |lane: &&Lane| lane.is_spatial() == is_spatial && lane.error_of(kind) <= most;
+        fastest(self.of(true).filter(counts))
+    }
+
+    /// The median over the turns of ours over the fastest peer, in the plane or in space.
+    pub(super) fn ratio(&self, is_spatial: bool) -> Option<f64> {
+        Some(ratio(&self.ours(is_spatial)?.seconds, &self.peer()?.seconds))
+    }
+}
+
+/// The median of the turns' ratios.
+pub(super) fn ratio(ours: &[f64], peer: &[f64]) -> f64 {
+    median(ours.iter().zip(peer).map(|(ours, peer)| ours / peer).collect())
+}
+
+/// The median; not a number where there is nothing.
+pub(super) fn median(mut x: Vec<f64>) -> f64 {
+    x.sort_by(f64::total_cmp);
+    let n = x.len();
+    match n {
+        0 => f64::NAN,
+        _ => 0.5 * (x[(n - 1) / 2] + x[n / 2]),
+    }
+}
+
+fn fastest<'a>(lanes: impl Iterator<Item = &'a Lane>) -> Option<&'a Lane> {
+    lanes.min_by(|a, b| a.time().total_cmp(&b.time()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::peers::problems::wanted;
+
+    fn line(algorithm: &str, seconds: f64, value: f64) -> Line {
+        Line { algorithm: algorithm.into(), seconds, value, reference: "exact".into() }
+    }
+
+    #[test]
+    fn ratios_are_taken_turn_by_turn_against_the_fastest_peer_that_is_right() {
+        let mut measured = Measured::new(wanted(&["chain".to_owned()])[0]);
+        for (ours, peer) in [(1.0, 2.0), (4.0, 5.0), (1.0, 4.0)] {
+            let own =
+                [line("reference", 0.0, 3.0), line("planar", ours, 3.0), line("spatial", 9.0, 3.1)];
+            measured.take(Who::Ours, own.to_vec());
+            let others = [line("aba", peer, 3.0 + 1e-9), line("soft", 0.1, 3.3)];
+            measured.take(Who::MuJoCo, others.to_vec());
+        }
+        assert_eq!(measured.peer().map(Lane::told), Some("MuJoCo aba".to_owned()));
+        assert_eq!([measured.ratio(false), measured.ratio(true)], [Some(0.5), None]);
+        assert_eq!(measured.wrong().len(), 1, "3.1 is not 3");
+    }
+
+    #[test]
+    fn a_run_may_err_as_much_as_the_peer_and_no_more() {
+        let mut measured = Measured::new(wanted(&["double-pendulum".to_owned()])[0]);
+        let of = |algorithm, seconds, value| Line {
+            reference: "zero".into(),
+            ..line(algorithm, seconds, value)
+        };
+        measured.take(Who::Ours, vec![of("coarse", 0.1, 0.3), of("fine", 0.2, 0.01)]);
+        measured.take(Who::Exudyn, vec![of("generalised-alpha", 2.0, -0.02)]);
+        assert_eq!(measured.ours(false).map(|lane| lane.algorithm.as_str()), Some("fine"));
+        assert_eq!(measured.ratio(false), Some(0.1));
+    }
+}

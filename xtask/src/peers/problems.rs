@@ -1,0 +1,118 @@
+//! The problems, who is asked to solve them, and what part of the fastest peer's time is wanted.
+
+use super::programs::Who;
+
+/// How the values of a problem are judged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// One evaluation: all are exact but for rounding.
+    Evaluation,
+    /// One step or a whole run with a fixed step: ours may err no more than the peer it is held against.
+    Run,
+    /// Runs from coarse to fine: times at equal digits.
+    Digits,
+}
+
+/// A problem in one size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Problem {
+    /// Its name, as the programs know it.
+    pub(super) name: &'static str,
+    /// What it is.
+    pub(super) title: &'static str,
+    /// Its size.
+    pub(super) n: usize,
+    /// How it is judged.
+    pub(super) kind: Kind,
+    /// Step of a whole run [s]; evaluations are told how long to measure.
+    pub(super) step: Option<f64>,
+    /// Ours over the fastest peer, at most, and what is aimed at.
+    pub(super) limit: [f64; 2],
+    /// The peers that are asked.
+    pub(super) peers: &'static [Who],
+}
+
+impl Problem {
+    /// Its name with its size.
+    pub(super) fn told(&self) -> String {
+        match self.kind {
+            Kind::Digits => self.name.to_owned(),
+            _ => format!("{} {}", self.name, self.n),
+        }
+    }
+}
+
+/// Right digits at which times are compared.
+pub(super) const DIGITS: std::ops::RangeInclusive<u8> = 3..=9;
+
+/// The limit at so many digits: high order pays from six on.
+pub(super) fn limit_at(digits: u8) -> f64 {
+    if digits < 6 { 1.3 } else { 1.0 }
+}
+
+/// The problems that are asked for, or all of them.
+pub(super) fn wanted(names: &[String]) -> Vec<Problem> {
+    let is_wanted = |p: &Problem| names.is_empty() || names.iter().any(|name| name == p.name);
+    all().into_iter().filter(is_wanted).collect()
+}
+
+const CHAINS: &[Who] =
+    &[Who::PinocchioOpen, Who::MuJoCo, Who::RustChains, Who::Simbody, Who::Drake];
+const TREES: &[Who] = &[Who::PinocchioOpen, Who::MuJoCo, Who::Simbody, Who::Drake];
+
+/// All of them.
+fn all() -> Vec<Problem> {
+    let evaluation = |name, title, n, limit, peers| Problem {
+        name,
+        title,
+        n,
+        kind: Kind::Evaluation,
+        step: None,
+        limit,
+        peers,
+    };
+    let run = |name, title, n, limit| {
+        let (kind, step) = (Kind::Run, Some(1e-3));
+        Problem { name, title, n, kind, step, limit, peers: &[Who::Exudyn] }
+    };
+    let mut all = Vec::new();
+    for n in [6, 10, 30, 100, 300] {
+        let title = "accelerations of a chain";
+        all.push(evaluation("chain", title, n, [0.6, 0.45], CHAINS));
+    }
+    all.push(evaluation("tree", "accelerations of a binary tree", 127, [0.75, 0.55], TREES));
+    for n in [6, 10, 30, 100, 300] {
+        let title = "efforts of a chain for given accelerations";
+        all.push(evaluation("inverse", title, n, [0.6, 0.6], &[Who::PinocchioOpen]));
+    }
+    for n in [1, 10, 40, 100] {
+        let (title, peers) = (
+            "accelerations of four-bars in a row",
+            &[Who::PinocchioLoop, Who::MuJoCo, Who::Simbody],
+        );
+        all.push(evaluation("four-bars", title, n, [0.7, 0.7], peers));
+    }
+    let step = evaluation("step", "a step of a chain, order 4", 10, [0.7, 0.7], &[Who::MuJoCo]);
+    all.push(Problem { kind: Kind::Run, ..step });
+    all.push(run("double-pendulum", "10 s of a double pendulum", 2, [1.0 / 12.0, 1.0 / 25.0]));
+    all.push(run("n-four-bars", "10 s of four-bars in a row", 2, [1.0 / 25.0, 1.0 / 50.0]));
+    all.push(run("n-four-bars", "10 s of four-bars in a row", 40, [1.0 / 20.0, 1.0 / 20.0]));
+    let title = "Andrews' squeezing mechanism to 0.03 s";
+    let peers = &[Who::RustAndrews, Who::Radau, Who::Ida];
+    let andrews = evaluation("andrews", title, 7, [1.0, 1.0], peers);
+    all.push(Problem { kind: Kind::Digits, ..andrews });
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn problems_are_asked_for_by_name() {
+        let chains = wanted(&["chain".to_owned(), "step".to_owned()]);
+        assert_eq!(chains.iter().map(|p| p.n).collect::<Vec<_>>(), [6, 10, 30, 100, 300, 10]);
+        assert_eq!(wanted(&[]).len(), 20);
+        assert!(wanted(&[]).iter().all(|p| p.limit[1] <= p.limit[0]));
+    }
+}
