@@ -7,6 +7,7 @@ use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
 use mbs_core::outputs::{Measures, Reactions};
 use mbs_core::scene::{Quantity, Scene};
+use mbs_scene::Channel;
 
 /// Measures and reactions of a scene.
 #[derive(Debug)]
@@ -16,6 +17,8 @@ pub(crate) struct Channels<T: Real, const D: usize> {
     /// Joints whose reaction is an output and was not unique at some row.
     not_unique: Vec<usize>,
     asked: Vec<usize>,
+    /// Where the components of each output end.
+    outputs: Vec<usize>,
 }
 
 impl<T: Real, const D: usize> Channels<T, D> {
@@ -30,7 +33,13 @@ impl<T: Real, const D: usize> Channels<T, D> {
             _ => None,
         });
         let asked: Vec<usize> = asked.collect();
-        Ok(Self { measures, reactions, not_unique: Vec::with_capacity(asked.len()), asked })
+        let outputs = Channel::of_scene(scene).into_iter().scan(0, |end, channel| {
+            *end += channel.components.len();
+            Some(*end)
+        });
+        let outputs = outputs.collect();
+        let not_unique = Vec::with_capacity(asked.len());
+        Ok(Self { measures, reactions, not_unique, asked, outputs })
     }
 
     /// Exchanges what reactions are made of: the same scene with other effects has others.
@@ -54,7 +63,10 @@ impl<T: Real, const D: usize> Channels<T, D> {
     }
 
     /// All components at a state.
-    pub(crate) fn write(&mut self, state: &State<T>, out: &mut [T]) {
+    ///
+    /// # Errors
+    /// [`StopError::Output`] for one that is not finite, as the acceleration of a point beyond all measure.
+    pub(crate) fn write(&mut self, state: &State<T>, out: &mut [T]) -> Result<(), StopError> {
         if let Some(reactions) = &mut self.reactions {
             reactions.update(state);
             for &joint in &self.asked {
@@ -66,6 +78,8 @@ impl<T: Real, const D: usize> Channels<T, D> {
         let reactions = &self.reactions;
         let of = |joint| reactions.as_ref().map_or([T::ZERO; 6], |r| r.reaction(joint));
         self.measures.write(state, of, out);
+        let Some(bad) = out.iter().position(|x| !x.to_f64().is_finite()) else { return Ok(()) };
+        Err(StopError::Output { output: self.outputs.partition_point(|end| *end <= bad) })
     }
 
     /// Names of the joints whose reaction was not unique.

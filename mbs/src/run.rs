@@ -147,9 +147,7 @@ where
         keep: Keep,
     ) -> Result<Self, Box<Outcome>> {
         let rows = (settings.n_steps(), keep);
-        let mut run = Self::new(scene, settings, Channel::of_scene(scene), rows)?;
-        run.start();
-        Ok(run)
+        Self::new(scene, settings, Channel::of_scene(scene), rows)?.started()
     }
 
     /// Everything that a run needs, for rows after so many steps or intervals; else how it did not start.
@@ -205,8 +203,18 @@ where
         self.finish(cpu, error)
     }
 
-    /// The first row.
-    fn start(&mut self) {
+    /// The run with its first row; else the outcome of one that does not start.
+    fn started(mut self) -> Result<Self, Box<Outcome>> {
+        match self.start() {
+            Ok(()) => Ok(self),
+            Err(error) => {
+                let channels = &self.recorder.channels;
+                Err(Box::new(not_started(self.scene, self.settings, channels, error)))
+            }
+        }
+    }
+
+    fn start(&mut self) -> Result<(), StopError> {
         let n = self.recorder.channels.iter().map(|c| c.components.len()).sum();
         self.values = vec![T::ZERO; n];
         let violation = self.simulation.start.residual.map(Real::to_f64);
@@ -214,14 +222,15 @@ where
         let mark = StepMark { energies, violation, ..StepMark::default() };
         self.recorder.mark(&mark);
         self.contacts.start(self.simulation.state());
-        self.row(&mark, false);
+        self.row(&mark, false)
     }
 
-    fn row(&mut self, mark: &StepMark, is_last: bool) {
+    /// Records a row, or no row where an output is not finite.
+    fn row(&mut self, mark: &StepMark, is_last: bool) -> Result<(), StopError> {
         let state = self.simulation.state();
         let n = self.values.len() - usize::from(self.level.is_some());
         let (values, level) = self.values.split_at_mut(n);
-        self.measures.write(state, values);
+        self.measures.write(state, values)?;
         if let ([level], Some(lowest)) = (level, &mut self.level) {
             *level = T::from_f64(core::mem::take(lowest));
         }
@@ -229,6 +238,7 @@ where
             self.figure.offer(mark.t, &state.q, is_last);
         }
         self.recorder.keep(mark, &self.values);
+        Ok(())
     }
 
     /// Steps of fixed length, or intervals over which an explicit method controls its own.
@@ -311,7 +321,7 @@ where
     ) -> Result<(), StopError> {
         if self.recorder.keeps(k) || is_last {
             let mark = self.mark.clone();
-            self.row(&mark, is_last);
+            self.row(&mark, is_last)?;
             progress.reached(mark.t);
         }
         match self.alarm.rings(&self.simulation, is_last) {
@@ -325,7 +335,8 @@ where
         let t = self.reached;
         if self.recorder.last_time().is_none_or(|last| last < t) {
             let energies = self.simulation.invariant().energies();
-            self.row(&StepMark { t, energies, ..StepMark::default() }, true);
+            // a row that cannot be recorded is no other reason to stop
+            let _ = self.row(&StepMark { t, energies, ..StepMark::default() }, true);
         }
         Err(stop)
     }

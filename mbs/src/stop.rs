@@ -75,6 +75,11 @@ pub enum StopError {
     Eigenvalues,
     /// The operating system did not give that many threads.
     NoThreads(usize),
+    /// An output whose value is not finite.
+    Output {
+        /// Its number in the scene.
+        output: usize,
+    },
     /// The energy invariant drifted by more than a tenth of the energy turned over.
     Energy {
         /// |Pi - Pi(0)| [J].
@@ -154,6 +159,7 @@ impl StopError {
             Self::Start(error) => start_owner(error)?,
             Self::Step(_, owner) | Self::Tree(_, owner) | Self::Equilibrium(_, owner) => (*owner)?,
             Self::Energy { owner, .. } => *owner,
+            Self::Output { output } => return Some(Entry::Output(*output)),
             Self::Reaction(_) | Self::Linear(_) | Self::Eigenvalues | Self::NoThreads(_) => {
                 return None;
             }
@@ -185,6 +191,7 @@ impl StopError {
             Self::Reaction(_) => "no-reactions",
             Self::Tree(..) => "no-tree",
             Self::Energy { .. } => "energy-drift",
+            Self::Output { .. } => "output-not-finite",
             Self::Equilibrium(..) => "no-equilibrium",
             Self::Linear(_) => "no-linearisation",
             Self::Eigenvalues => "no-eigenvalues",
@@ -245,6 +252,7 @@ impl StopError {
             }
             Self::Linear(_) | Self::Eigenvalues => "check the data of the effects",
             Self::NoThreads(_) => "ask for fewer threads",
+            Self::Output { .. } => "measure a point nearer to the body, or leave the output out",
             Self::Energy { .. } => {
                 "try a smaller step; if it always stops here, the mechanism locks, or cannot follow its guides"
             }
@@ -259,6 +267,7 @@ impl StopError {
                 &["rate", "velocity", "angular_velocity"]
             }
             Self::Start(AssemblyError::Position { initial: Some(_), .. }) => &["value"],
+            Self::Output { .. } => &["at", "name"],
             _ => &["name"],
         }
     }
@@ -270,7 +279,11 @@ impl StopError {
             Self::Start(error) => start_owner(error),
             Self::Step(_, owner) | Self::Tree(_, owner) | Self::Equilibrium(_, owner) => *owner,
             Self::Energy { owner, .. } => Some(*owner),
-            Self::Reaction(_) | Self::Linear(_) | Self::Eigenvalues | Self::NoThreads(_) => None,
+            Self::Reaction(_)
+            | Self::Output { .. }
+            | Self::Linear(_)
+            | Self::Eigenvalues
+            | Self::NoThreads(_) => None,
         };
         let (joint, body) = owner.map_or((None, None), |o| names.of(o));
         RunError {
@@ -309,6 +322,9 @@ impl core::fmt::Display for StopError {
             Self::Linear(error) => write_linear(error, f),
             Self::Eigenvalues => write!(f, "the iteration for the eigenvalues did not converge"),
             Self::NoThreads(n) => write!(f, "the system gives no {n} threads"),
+            Self::Output { .. } => {
+                write!(f, "the value of an output is larger than numbers can be")
+            }
             Self::Energy { error, turned_over, share, .. } => write!(
                 f,
                 "the energy is off by {} J, more than {} % of the {} J turned over: the motion is not resolved",

@@ -282,14 +282,14 @@ where
         stop.map_or(Ok(()), Err)
     }
 
-    fn instant(&mut self, simulation: &Simulation<T, D>) -> bool {
+    fn instant(&mut self, simulation: &Simulation<T, D>) -> Result<bool, StopError> {
         if let Some(channels) = &mut self.channels {
-            channels.write(simulation.state(), &mut self.row);
+            channels.write(simulation.state(), &mut self.row)?;
             self.rows.push(self.row.iter().copied().map(Real::to_f64).collect());
             if self.is_fine {
                 self.last = self.clock.seconds();
             }
         }
-        !self.is_late
+        Ok(!self.is_late)
     }
 }

@@ -35,9 +35,12 @@ where
     }
 
     /// An instant is reached. Says whether to go on.
-    fn instant(&mut self, simulation: &Simulation<T, D>) -> bool {
+    ///
+    /// # Errors
+    /// What stops the run.
+    fn instant(&mut self, simulation: &Simulation<T, D>) -> Result<bool, StopError> {
         let _ = simulation;
-        true
+        Ok(true)
     }
 }
 
@@ -64,7 +67,7 @@ where
                 controlled(simulation, end, is_last, watcher)?;
             }
         }
-        if !watcher.instant(simulation) {
+        if !watcher.instant(simulation)? {
             return Ok(());
         }
     }

@@ -205,12 +205,12 @@ where
         stop.map_or(Ok(()), Err)
     }
 
-    fn instant(&mut self, simulation: &Simulation<T, D>) -> bool {
-        self.channels.write(simulation.state(), &mut self.row);
+    fn instant(&mut self, simulation: &Simulation<T, D>) -> Result<bool, StopError> {
+        self.channels.write(simulation.state(), &mut self.row)?;
         self.rows.push(self.row.iter().copied().map(Real::to_f64).collect());
         self.last = self.start.elapsed();
         self.is_given_up = self.last > self.most;
-        !self.is_given_up
+        Ok(!self.is_given_up)
     }
 }
 

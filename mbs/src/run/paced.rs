@@ -96,7 +96,10 @@ where
     };
     run.recorder.reserve(track.periods);
     run.figure.reserve(settings.duration);
-    run.start();
+    let run = match run.started() {
+        Ok(run) => run,
+        Err(outcome) => return Ok(*outcome),
+    };
     let mut paced = Paced { run, levels, at: 0, track: *track };
     let error = pacer.run(track.periods, clock, &mut paced).err();
     let report = pacer.report();
