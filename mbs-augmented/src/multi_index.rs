@@ -110,7 +110,8 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Stepper<T> for Trial<'_, T, M, S> {
         let potential = self.model.potential_energy(&s.q, self.w.terms());
         let energies = [self.model.kinetic_energy(&s.v), potential, s.work].map(T::to_f64);
         let error = self.estimate.map_or(T::ZERO, |e| e.of(h, &self.saved.a, &s.a) / self.length);
-        let acceleration_energy = self.model.kinetic_energy(&s.a).to_f64();
+        let acceleration_energy =
+            [&self.saved.a, &s.a].map(|a| self.model.kinetic_energy(a).to_f64());
         self.change.tried(h);
         Ok(Attempt { report, t: s.t, energies, error: error.to_f64(), acceleration_energy })
     }

@@ -146,7 +146,8 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         violation
     }
 
-    /// Chooses the penalties of a step: follows the least felt combination u of constraints by one power iteration,
+    /// Chooses the penalties of a step: follows the least felt combination u of constraints by one power iteration, from the last
+    /// step's and a little of everything,
     ///
     /// ```text
     /// u <- (1 + s H)^-1 u = u - s J T^-1 J^T u,   H = J M^-1 J^T,   rho = |u_new| / |u|
@@ -155,11 +156,13 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     /// and raises s until rho is at most [`FELT`]. A combination that no allowed penalty makes felt is redundant and left.
     /// Returns whether the penalties changed, so that T must be factored anew. Needs T factored. Cost: one solve.
     pub(crate) fn adapt<M: Model<T>>(&mut self, model: &M) -> bool {
-        if self.rho > T::from_f64(FOLLOWED) {
-            let inverse = T::ONE / norm_inf(model.team(), &self.probe);
+        let size = norm_inf(model.team(), &self.probe);
+        if size > T::ZERO {
+            let inverse = T::ONE / size;
             self.probe.iter_mut().for_each(|u| *u *= inverse);
-        } else {
-            spread(&mut self.probe);
+        }
+        if !(self.rho > T::from_f64(FOLLOWED)) {
+            add_spread(&mut self.probe);
         }
         let size = norm_inf(model.team(), &self.probe);
         self.mu.copy_from_slice(&self.probe);
@@ -175,7 +178,11 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             }
         });
         let rho = norm_inf(model.team(), &self.probe) / size;
-        self.rho = if rho.is_finite() { rho } else { T::ZERO };
+        self.rho = rho;
+        if !rho.is_finite() {
+            self.rho = T::ZERO;
+            self.probe.fill(T::ZERO);
+        }
         if !(rho > T::from_f64(FELT)) {
             return false;
         }
@@ -249,11 +256,11 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     }
 }
 
-/// A vector with a little of everything, always the same: no combination of constraints is out of its sight by symmetry.
-fn spread<T: Real>(x: &mut [T]) {
+/// Adds a little of everything, always the same: no combination of constraints is out of sight by symmetry.
+fn add_spread<T: Real>(x: &mut [T]) {
     let mut seed = 1_u32;
     for x in x {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        *x = T::from_f64(f64::from(seed) / f64::from(u32::MAX) - 0.5);
+        *x += T::from_f64(f64::from(seed) / f64::from(u32::MAX) - 0.5);
     }
 }

@@ -129,7 +129,8 @@ where
         let error = self
             .estimate
             .map_or(T::ZERO, |estimate| estimate.of(h, &self.saved.a, &self.state.a) / length);
-        let acceleration_energy = self.model.kinetic_energy(&self.state.a).to_f64();
+        let acceleration_energy =
+            [&self.saved.a, &self.state.a].map(|a| self.model.kinetic_energy(a).to_f64());
         self.engine.tried(h);
         let (t, error) = (self.state.t, error.to_f64());
         Ok(Attempt { report, t, energies, error, acceleration_energy })

@@ -105,7 +105,7 @@ where
         let change = invariant.change(energies);
         invariant.mark(state.t.to_f64(), energies);
         let t = state.t;
-        let attempt = Attempt { report, t, energies, error: 0.0, acceleration_energy: 0.0 };
+        let attempt = Attempt { report, t, energies, error: 0.0, acceleration_energy: [0.0; 2] };
         Ok(Accepted {
             attempt,
             step: rest,

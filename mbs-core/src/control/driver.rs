@@ -60,9 +60,9 @@ pub struct Attempt<T> {
     pub energies: [f64; 3],
     /// Its local error relative to the scene's length; zero where none is asked for [-].
     pub error: f64,
-    /// 1/2 a^T M a at its end [J/s^2]: from rest nothing has moved yet, and what the accelerations give in a first step stands for
-    /// the energy that moves. Zero where it is not known.
-    pub acceleration_energy: f64,
+    /// 1/2 a^T M a at its beginning and at its end [J/s^2]: from rest nothing has moved yet, and what the accelerations give in a
+    /// first step stands for the energy that moves. Zero where it is not known.
+    pub acceleration_energy: [f64; 2],
 }
 
 /// An event within a trial, or at its end.
@@ -396,7 +396,10 @@ impl<T: Real> Driver<T> {
         let mut rejected: Option<(f64, Limit)> = None;
         if let Some(steering) = &mut energy {
             let first = self.first.to_f64();
-            let begun = attempt.acceleration_energy * first * first;
+            let [before, after] = attempt.acceleration_energy;
+            // beside a singular position the accelerations at one end may be rounding of any size
+            let accelerating = if invariant.is_moving() { before.min(after) } else { after };
+            let begun = accelerating * first * first;
             let scale = invariant.scale(attempt.energies).max(begun).max(f64::MIN_POSITIVE);
             let beyond = change.abs() - invariant.rounding();
             match steering.judge(if beyond <= 0.0 { 0.0 } else { beyond / scale }) {

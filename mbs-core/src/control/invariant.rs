@@ -126,13 +126,23 @@ impl Invariant {
         ROUNDINGS * self.epsilon * parts
     }
 
+    /// Has more energy moved so far than what is rounding of the energy that is stored?
+    #[must_use]
+    pub fn is_moving(&self) -> bool {
+        self.scale(self.last) > self.untold()
+    }
+
+    /// Energy that is rounding of what is stored [J].
+    fn untold(&self) -> f64 {
+        (self.last[0] + self.last[1].abs()).max(self.ground) * libm::sqrt(self.epsilon)
+    }
+
     /// Is the invariant off by more than `share` of the energy turned over? Nothing is said while what was turned over is
     /// rounding of what is stored. A NaN is off.
     #[must_use]
     pub fn is_off(&self, share: f64) -> bool {
         let error = self.error.abs();
-        let stored = (self.last[0] + self.last[1].abs()).max(self.ground);
-        !(error <= share * self.turned_over()) && !(error <= stored * libm::sqrt(self.epsilon))
+        !(error <= share * self.turned_over()) && !(error <= self.untold())
     }
 
     /// Root of the mean square of the changes from step to step [J].

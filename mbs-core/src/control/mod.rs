@@ -18,7 +18,7 @@
 //!         let v = self.v - 9.81 * h;
 //!         (self.t, self.y, self.v) = (self.t + h, self.y + 0.5 * h * (self.v + v), v);
 //!         let energies = [0.5 * v * v, 9.81 * self.y, 0.0];
-//!         Ok(Attempt { energies, t: self.t, report: StepReport::default(), error: 0.0, acceleration_energy: 0.0 })
+//!         Ok(Attempt { energies, t: self.t, report: StepReport::default(), error: 0.0, acceleration_energy: [0.0; 2] })
 //!     }
 //!     fn undo(&mut self) {
 //!         [self.t, self.y, self.v] = self.saved;

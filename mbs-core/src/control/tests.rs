@@ -87,7 +87,7 @@ impl Stepper<f64> for Pendulum {
         let error = error.of(h, &[from], &[to]);
         let energies = self.energies();
         let report = StepReport::default();
-        Ok(Attempt { report, t: self.t, energies, error, acceleration_energy: 0.0 })
+        Ok(Attempt { report, t: self.t, energies, error, acceleration_energy: [0.0; 2] })
     }
 
     fn undo(&mut self) {
