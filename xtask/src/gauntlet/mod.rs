@@ -86,7 +86,7 @@ fn section(tallies: &Tallies, (count, jobs): (usize, usize), time: Duration) -> 
     ));
     section.words(
         "Wrong is: off from the reference (a closed form, the same motion without the difficulty, or another formulation at a tenth of the step) by more than \
-         ten times the error of the rule at that step (the lower median of the other formulations' errors, at half the step where that is more) and by more than 1e-7 of the size, or the energy in the end by more than a tenth of what \
+         ten times the error of the rule at that step (the lower median of the other formulations' errors, or what it is at steps down to half of it where that is more) and by more than 1e-7 of the size, or the energy in the end by more than a tenth of what \
          was turned over, without a typed error; a panic; a number that is none; a run of more than two minutes. A cell says pass, or the largest step up to which no run stopped, \
          the share of runs that ended in a typed error, and the error that most of them name.",
     );
