@@ -31,6 +31,8 @@ pub(crate) enum Level {
     Once,
     /// To the tolerance of an iteration that goes on.
     Coarse,
+    /// To a hundredth of the error that steps may make.
+    Rates,
     /// To rounding.
     Fine,
     /// So many sweeps after the first one, whatever is left.
@@ -108,7 +110,7 @@ fn finish<T: Real, S: Space<T>>(
     }
     copy(s.loops.lambda, s.lambda)?;
     match options.closure {
-        Closure::Constraints => sweep(m, level, s),
+        Closure::Constraints => sweep(m, options, level, s),
         Closure::Report { .. } => Ok(residual(m, s)?.0),
     }
 }
@@ -189,9 +191,11 @@ pub(crate) fn is_redundant<T: Real, S: Space<T>>(s: &Store<'_, T, S>) -> bool {
 /// Repeats the affine parts until J a + bias is at its level; returns what is left.
 fn sweep<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
+    options: &Options<T>,
     level: Level,
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Fault<T>> {
+    let rounding = T::EPSILON * T::from_f64(256.0);
     let share = match level {
         Level::Once => return Ok(residual(m, s)?.0),
         Level::Fixed(sweeps) => {
@@ -202,7 +206,8 @@ fn sweep<T: Real, S: Space<T>>(
             return Ok(residual(m, s)?.0);
         }
         Level::Coarse => T::EPSILON.sqrt() * T::from_f64(0.01),
-        Level::Fine => T::EPSILON * T::from_f64(256.0),
+        Level::Rates => (options.error * T::from_f64(0.01)).max(rounding),
+        Level::Fine => rounding,
     };
     // Near a singular position a combination of rows hardly feels its force: a part of its residual may stay.
     let enough = if note_rank(s) { T::from_f64(1e-3) } else { T::EPSILON.sqrt() };

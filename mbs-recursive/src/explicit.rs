@@ -51,7 +51,7 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> System<'_, '_, '_, T, S, I> {
         project(self.m, self.options, self.s).map_err(|fault| failure(self.m, fault))?;
         y[..nz].copy_from_slice(self.s.z);
         y[nz..nz + nv].copy_from_slice(self.s.v);
-        Ok(EndState::Changed)
+        Ok(EndState::Projected)
     }
 
     /// Accelerations at the end, and what was done.
@@ -94,7 +94,8 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         } else {
             Ok(())
         };
-        let done = ready.and_then(|()| accelerations(self.m, self.options, Level::Fine, self.s));
+        let level = if self.is_patient { Level::Rates } else { Level::Fine };
+        let done = ready.and_then(|()| accelerations(self.m, self.options, level, self.s));
         if let Err(fault) = done {
             let failure = failure(self.m, fault);
             // Numbers that follow from a failed stage say nothing.
@@ -120,13 +121,9 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
             return Ok(());
         }
         let (nz, nv) = (self.m.n_coordinates, self.m.n_freedoms);
-        let (places, rest) = error.split_at_mut(nz);
-        let failed = |outside: Outside| failure(self.m, outside.into());
-        // coordinates of rotations are not those of freedoms
-        if nz == nv {
-            project::keep(self.m, places, self.s).map_err(failed)?;
-        }
-        project::keep(self.m, &mut rest[..nv], self.s).map_err(failed)
+        // What is taken from positions is less than that by a step.
+        project::keep(self.m, &mut error[nz..nz + nv], self.s)
+            .map_err(|outside: Outside| failure(self.m, outside.into()))
     }
 }
 

@@ -5,7 +5,7 @@ use crate::space::Space;
 use crate::state::Workspace;
 use alloc::vec::Vec;
 use mbs_core::Real;
-use mbs_core::ode::{Adaptive, AdaptiveHistory, Extrapolation, Tableau};
+use mbs_core::ode::{Adaptive, AdaptiveHistory, Extrapolation, Method, Tableau};
 
 /// What a [`Workspace`] remembers from step to step.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -16,6 +16,8 @@ pub struct History<T> {
     pub pivots: Vec<T>,
     /// Error control of the pair 5(4), if it was asked for.
     pub pair: Option<AdaptiveHistory<T>>,
+    /// The same of the method 8(5,3).
+    pub eighth: Option<AdaptiveHistory<T>>,
     /// The same of extrapolation.
     pub extrapolation: Option<AdaptiveHistory<T>>,
 }
@@ -29,6 +31,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             rank,
             pivots: pivots.to_vec(),
             pair: self.explicit.pair.as_ref().map(Adaptive::history),
+            eighth: self.explicit.eighth.as_ref().map(Adaptive::history),
             extrapolation: self.explicit.extrapolation.as_ref().map(Adaptive::history),
         }
     }
@@ -40,24 +43,27 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         if history.pivots.len() != s.loops.pivots.len() || history.rank > history.pivots.len() {
             return false;
         }
-        let mut is_ours = true;
-        let mut pair = None;
-        if let Some(history) = history.pair {
-            let mut driver = Adaptive::new(Tableau::dormand_prince(), T::ONE);
-            is_ours &= driver.set_history(history);
-            pair = Some(driver);
-        }
-        let mut extrapolation = None;
-        if let Some(history) = history.extrapolation {
-            let mut driver = Adaptive::new(Extrapolation::for_tolerance(options.error), T::ONE);
-            is_ours &= driver.set_history(history);
-            extrapolation = Some(driver);
-        }
-        if is_ours {
-            *s.rank = history.rank;
-            s.loops.pivots.copy_from_slice(&history.pivots);
-            (explicit.pair, explicit.extrapolation) = (pair, extrapolation);
-        }
-        is_ours
+        let pair = driver(history.pair, Tableau::dormand_prince);
+        let eighth = driver(history.eighth, Tableau::dormand_prince_8);
+        let extrapolated = || Extrapolation::for_tolerance(options.error);
+        let extrapolation = driver(history.extrapolation, extrapolated);
+        let (Some(pair), Some(eighth), Some(extrapolation)) = (pair, eighth, extrapolation) else {
+            return false;
+        };
+        *s.rank = history.rank;
+        s.loops.pivots.copy_from_slice(&history.pivots);
+        (explicit.pair, explicit.eighth) = (pair, eighth);
+        explicit.extrapolation = extrapolation;
+        true
     }
+}
+
+/// A driver that goes on from its history, if there is one; nothing where the history is none of its kind.
+fn driver<T: Real, M: Method<T>>(
+    history: Option<AdaptiveHistory<T>>,
+    method: impl FnOnce() -> M,
+) -> Option<Option<Adaptive<T, M>>> {
+    let Some(history) = history else { return Some(None) };
+    let mut driver = Adaptive::new(method(), T::ONE);
+    driver.set_history(history).then_some(Some(driver))
 }

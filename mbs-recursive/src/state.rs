@@ -93,6 +93,8 @@ pub(crate) struct Explicit<T> {
     pub(crate) scratch: Vec<T>,
     /// Error control, from the first step that asks for it.
     pub(crate) pair: Option<Adaptive<T, Tableau<T, 7>>>,
+    /// The same of the method 8(5,3).
+    pub(crate) eighth: Option<Adaptive<T, Tableau<T, 12>>>,
     /// The same of extrapolation.
     pub(crate) extrapolation: Option<Adaptive<T, Extrapolation>>,
 }
@@ -104,7 +106,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         let (links, rows) = (model.links.len(), model.rows.len());
         let n_guides = model.prescribed.n_guides();
         let n = n_components(&model.mechanism());
-        let n_scratch = rk4_scratch(n).max(Tableau::<T, 7>::scratch(n));
+        let n_scratch = rk4_scratch(n).max(Tableau::<T, 12>::scratch(n));
         let n_scratch = n_scratch.max(Extrapolation::most_scratch(n));
         Self {
             placed: vec![Placed::ground(); links],
@@ -129,6 +131,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
                 y: vec![T::ZERO; n],
                 scratch: vec![T::ZERO; n_scratch],
                 pair: None,
+                eighth: None,
                 extrapolation: None,
             },
         }

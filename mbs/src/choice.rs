@@ -7,14 +7,14 @@ use mbs_core::integrator::Integrator;
 pub const FORMULATIONS: [&str; 7] =
     ["auto", "index-1", "index-3", "multi-index", "classical", "state-space", "recursive"];
 /// Integrators that are built.
-pub const INTEGRATORS: [&str; 7] =
-    ["trapezoidal", "newmark", "generalised-alpha", "hht", "rk4", "rk54", "gbs"];
+pub const INTEGRATORS: [&str; 8] =
+    ["trapezoidal", "newmark", "generalised-alpha", "hht", "rk4", "rk54", "rk853", "gbs"];
 /// Precisions that are built.
 pub const PRECISIONS: [&str; 3] = ["f32", "f64", "dd"];
 /// Controls of the step size.
 pub const STEP_RULES: [&str; 5] = ["fixed", "energy", "energy-printed", "error", "both"];
 /// Names of the scene format that are not built yet.
-pub(crate) const NOT_BUILT: [&str; 2] = ["rk853", "radau5"];
+pub(crate) const NOT_BUILT: [&str; 1] = ["radau5"];
 
 /// A formulation that can run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,6 +91,8 @@ pub enum IntegratorKind {
     Rk4,
     /// Explicit Runge-Kutta of order 5 with an estimate of order 4, which controls the step.
     Rk54,
+    /// Explicit Runge-Kutta of order 8 with estimates of orders 5 and 3, which control the step.
+    Rk853,
     /// Extrapolation of the midpoint rule (Gragg, Bulirsch and Stoer): of as high an order as the tolerance is worth, which controls
     /// the step. For reference runs.
     Extrapolation,
@@ -98,13 +100,14 @@ pub enum IntegratorKind {
 
 impl IntegratorKind {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Trapezoidal,
         Self::Newmark,
         Self::GeneralisedAlpha,
         Self::Hht,
         Self::Rk4,
         Self::Rk54,
+        Self::Rk853,
         Self::Extrapolation,
     ];
 
@@ -118,6 +121,7 @@ impl IntegratorKind {
             Self::Hht => "hht",
             Self::Rk4 => "rk4",
             Self::Rk54 => "rk54",
+            Self::Rk853 => "rk853",
             Self::Extrapolation => "gbs",
         }
     }
@@ -131,7 +135,7 @@ impl IntegratorKind {
     /// Does it control its own step by the tolerance?
     #[must_use]
     pub fn controls_its_step(self) -> bool {
-        matches!(self, Self::Rk54 | Self::Extrapolation)
+        matches!(self, Self::Rk54 | Self::Rk853 | Self::Extrapolation)
     }
 
     /// Coefficients of an implicit one-step method; the trapezoidal rule's for the explicit ones.
@@ -141,7 +145,7 @@ impl IntegratorKind {
             Self::Newmark => Integrator::newmark(ratio(121, 400), ratio(3, 5)),
             Self::GeneralisedAlpha => Integrator::generalised_alpha(ratio(4, 5)),
             Self::Hht => Integrator::hht(ratio(1, 20)),
-            Self::Trapezoidal | Self::Rk4 | Self::Rk54 | Self::Extrapolation => {
+            Self::Trapezoidal | Self::Rk4 | Self::Rk54 | Self::Rk853 | Self::Extrapolation => {
                 Integrator::trapezoidal()
             }
         }

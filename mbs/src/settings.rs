@@ -154,7 +154,7 @@ impl SettingsError {
             Self::NotPositive { .. } => "write a number larger than zero".to_owned(),
             Self::LimitOrder(_) => "write the larger one first: U, then L".to_owned(),
             Self::NotTogether { option, .. } if option.starts_with("step control") => {
-                "rk54 and gbs control their own step by --tolerance; the others need an implicit integrator"
+                "rk54, rk853 and gbs control their own step by --tolerance; the others need an implicit integrator"
                     .to_owned()
             }
             Self::NotTogether { option, .. } if option == "threads" => {

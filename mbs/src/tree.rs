@@ -103,6 +103,9 @@ where
             IntegratorKind::Rk54 => {
                 mbs_recursive::rk54_step(model, dt, options, &mut self.state, &mut self.workspace)
             }
+            IntegratorKind::Rk853 => {
+                mbs_recursive::rk853_step(model, dt, options, &mut self.state, &mut self.workspace)
+            }
             IntegratorKind::Extrapolation => {
                 let workspace = &mut self.workspace;
                 mbs_recursive::extrapolated_step(model, dt, options, &mut self.state, workspace)

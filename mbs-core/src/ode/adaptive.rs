@@ -1,10 +1,13 @@
 //! Methods with error control, over given lengths of time.
 
-use super::{Method, OdeError, Rates, StepControl};
+use super::{Method, OdeError, Rates, StepControl, method};
 use crate::Real;
 
 /// A step below this many roundings of the time is refused.
 const SMALLEST_STEP: f64 = 16.0;
+/// Rates that were found before the state was projected hold where the projection moved it by less than this share of the
+/// tolerance: what they are off by enters the state times the step.
+const STILL: f64 = 0.1;
 /// The last step to the end may be this much longer than planned, so that no sliver remains.
 const LAST_STEP: f64 = 1.01;
 
@@ -41,7 +44,10 @@ impl<T: Real> Options<'_, T> {
 pub enum EndState {
     /// It left the state, and whatever else its rates depend on, as they were: the rates found there hold.
     Kept,
-    /// It changed the state, for example by a projection: the rates are evaluated anew.
+    /// It moved the state back to where it belongs, as a projection does, and nothing else: the rates found before are taken where
+    /// it was moved by less than a tenth of the tolerance.
+    Projected,
+    /// It changed the state, or what rates depend on beside it: the rates are evaluated anew.
     Changed,
 }
 
@@ -126,7 +132,7 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
     /// [`Method::n_scratch`] numbers or more.
     ///
     /// Cost, beside the hook: one evaluation, and [`Method::evaluations`] less one for each step tried; where the hook changed
-    /// the state, or the method does not end with the rates there, one more for each accepted step but the last. No
+    /// the state by more than a little, or the method does not end with the rates there, one more for each accepted step but the last. No
     /// allocation.
     ///
     /// # Errors
@@ -193,7 +199,15 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
             let at_end = t + done;
             let end = hook(system, at_end, y)
                 .map_err(|error| OdeError::Rates { time: at_end.to_f64(), error })?;
-            first_is_known = end == EndState::Kept && self.method.carry(n, scratch);
+            let holds = match end {
+                EndState::Kept => true,
+                EndState::Projected => {
+                    let found = self.method.new_state(n, scratch);
+                    method::distance(found, y, options) <= T::from_f64(STILL)
+                }
+                EndState::Changed => false,
+            };
+            first_is_known = holds && self.method.carry(n, scratch);
         }
         Ok(())
     }

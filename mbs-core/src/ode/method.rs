@@ -45,11 +45,24 @@ pub trait Method<T: Real> {
 /// ```text
 /// √(1/n Σ (errorₖ / (absolute sizeₖ + relative max(|yₖ|, |y'ₖ|)))²)
 /// ```
-pub(super) fn size<T: Real>((y, end): (&[T], &[T]), options: &Options<'_, T>, error: &[T]) -> T {
+pub(super) fn size<T: Real>(ends: (&[T], &[T]), options: &Options<'_, T>, error: &[T]) -> T {
+    size_by(ends, options, |k| error[k])
+}
+
+/// Size of the difference of two states beside the tolerance.
+pub(super) fn distance<T: Real>(x: &[T], y: &[T], options: &Options<'_, T>) -> T {
+    size_by((x, y), options, |k| y[k] - x[k])
+}
+
+fn size_by<T: Real>(
+    (y, end): (&[T], &[T]),
+    options: &Options<'_, T>,
+    error: impl Fn(usize) -> T,
+) -> T {
     let n = y.len();
     let mut sum = T::ZERO;
     for k in 0..n {
-        let error = error[k];
+        let error = error(k);
         let size = options.sizes.get(k).copied().unwrap_or(T::ONE);
         let tolerance = options.absolute * size + options.relative * y[k].abs().max(end[k].abs());
         // No error needs no tolerance; a state that is not finite must not hide in the denominator.

@@ -12,6 +12,7 @@
 
 mod adaptive;
 mod control;
+mod eighth;
 mod error;
 mod extrapolation;
 mod method;

@@ -16,7 +16,10 @@ pub struct Tableau<T, const S: usize> {
     pub c: [T; S],
     /// eᵢ = bᵢ − b̂ᵢ: the error estimate.
     pub e: [T; S],
-    /// Power of h in the error estimate: its order plus one.
+    /// A second estimate, of lower order: where it is large too, the first may be small by accident. The size of the error is
+    /// then E²/√(E² + 0.01 C²), E that by `e` and C that by this one.
+    pub coarse: Option<[T; S]>,
+    /// Power of h in the size of the error: the order of the estimate plus one.
     pub power: u32,
     /// Whether the last stage stands at the new state (a of the last row is b), so that its rates serve the next step.
     pub first_same_as_last: bool,
@@ -57,6 +60,7 @@ impl<T: Real> Tableau<T, 7> {
                 [71., 0., -71., 71., -17253., 22., -1.],
                 [57600., 1., 16695., 1920., 339_200., 525., 40.],
             )),
+            coarse: None,
             power: 5,
             first_same_as_last: true,
         }
@@ -122,7 +126,7 @@ impl<T: Real, const S: usize> Tableau<T, S> {
     ///
     /// A number that is not finite anywhere in it or in the new state gives NaN or infinity.
     ///
-    /// Cost: (S + 2) n multiplications, and [`Rates::keep`]; no evaluation.
+    /// Cost: (S + 2) n multiplications and [`Rates::keep`], twice with a second estimate; no evaluation.
     ///
     /// # Errors
     ///
@@ -137,15 +141,17 @@ impl<T: Real, const S: usize> Tableau<T, S> {
         let n = y.len();
         let (rates, rest) = scratch.split_at_mut(S * n);
         let (end, error) = rest.split_at_mut(n);
-        for (k, error) in error.iter_mut().enumerate() {
-            *error = T::ZERO;
-            for i in 0..S {
-                *error += self.e[i] * rates[i * n + k];
-            }
-            *error *= h;
-        }
-        system.keep(error)?;
-        Ok(method::size((y, end), options, error))
+        let mut size = |weights: &[T; S]| {
+            sum(weights, rates, error);
+            error.iter_mut().for_each(|error| *error *= h);
+            system.keep(error)?;
+            Ok(method::size((y, end), options, error))
+        };
+        let fine = size(&self.e)?;
+        let Some(coarse) = &self.coarse else { return Ok(fine) };
+        let coarse = size(coarse)?;
+        let both = fine * fine + T::from_f64(0.01) * coarse * coarse;
+        Ok(if both > T::ZERO { fine * fine / both.sqrt() } else { both })
     }
 }
 
@@ -188,16 +194,20 @@ impl<T: Real, const S: usize> Method<T> for Tableau<T, S> {
 
 /// y + h Σⱼ wⱼ kⱼ into `to`.
 fn combine<T: Real>(weights: &[T], h: T, y: &[T], rates: &[T], to: &mut [T]) {
-    let n = y.len();
+    sum(weights, rates, to);
+    for (to, &y) in to.iter_mut().zip(y) {
+        *to = y + h * *to;
+    }
+}
+
+/// Σⱼ wⱼ kⱼ into `to`.
+fn sum<T: Real>(weights: &[T], rates: &[T], to: &mut [T]) {
     to.fill(T::ZERO);
-    for (j, &weight) in weights.iter().enumerate() {
+    for (rates, &weight) in rates.chunks_exact(to.len().max(1)).zip(weights) {
         if weight != T::ZERO {
-            for k in 0..n {
-                to[k] += weight * rates[j * n + k];
+            for (to, &rate) in to.iter_mut().zip(rates) {
+                *to += weight * rate;
             }
         }
-    }
-    for k in 0..n {
-        to[k] = y[k] + h * to[k];
     }
 }

@@ -128,7 +128,10 @@ impl Display for GoalError {
                 write!(f, "{option} cannot be given beside --error or --deadline")
             }
             Self::OwnSteps => {
-                write!(f, "rk54 and gbs choose their own steps: no deadline can be kept with them")
+                write!(
+                    f,
+                    "rk54, rk853 and gbs choose their own steps: no deadline can be kept with them"
+                )
             }
             Self::NoCandidate => {
                 write!(f, "no method goes with this formulation and this integrator")

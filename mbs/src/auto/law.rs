@@ -35,6 +35,7 @@ impl Law {
             // the local error goes with the cube of the step, the global one with its square
             (Control::Error | Control::Energy, _) => (2.0 / 3.0, 1.0 / 3.0),
             (Control::Own, IntegratorKind::Extrapolation) => (1.0, 0.1),
+            (Control::Own, IntegratorKind::Rk853) => (1.0, 0.125),
             (Control::Own, _) => (1.0, 0.2),
         };
         Self { error, cost }
@@ -43,7 +44,7 @@ impl Law {
     /// Order of the error in the mean step; lower than theory's where the order itself is chosen.
     pub(crate) fn order(method: &Method) -> f64 {
         match (method.control, method.integrator) {
-            (Control::Own, IntegratorKind::Extrapolation) => 8.0,
+            (Control::Own, IntegratorKind::Extrapolation | IntegratorKind::Rk853) => 8.0,
             (Control::Own, _) => 5.0,
             (Control::Fixed, IntegratorKind::Rk4) => 4.0,
             (Control::Fixed, IntegratorKind::Newmark) => 1.0,

@@ -84,6 +84,9 @@ pub(crate) fn methods<T>(
             }
             m.integrator == integrator
         });
+    } else {
+        // rk853 takes less time wherever an error of the outputs can be wanted: gbs is for references
+        methods.retain(|m| m.integrator != IntegratorKind::Extrapolation);
     }
     if goal.deadline.is_some() {
         if methods.iter().all(|m| m.control == Control::Own) && !methods.is_empty() {

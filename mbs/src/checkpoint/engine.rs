@@ -174,10 +174,11 @@ fn walk_tree<T: Real>(kept: &mut TreeKept<T>, tape: &mut impl Tape) -> Told {
     let TreeState { t, z, v, a, lambda, work, power } = state;
     [t, work, power].into_iter().try_for_each(|x| tape.real(x))?;
     [z, v, a, lambda].into_iter().try_for_each(|x| tape.reals(x))?;
-    let recursive::History { rank, pivots, pair, extrapolation } = history;
+    let recursive::History { rank, pivots, pair, eighth, extrapolation } = history;
     tape.index(rank, pivots.len() + 1)?;
     tape.reals(pivots)?;
     tape.option(pair, Parts::adaptive)?;
+    tape.option(eighth, Parts::adaptive)?;
     tape.option(extrapolation, Parts::adaptive)?;
     tape.floats(energies)
 }

@@ -42,7 +42,7 @@ pub(crate) const PRECISIONS: [Precision; 3] =
 /// Ways to step a formulation.
 fn ways(formulation: Formulation) -> Vec<(IntegratorKind, Control)> {
     use Control::{Energy, Error, Fixed, Own};
-    use IntegratorKind::{Extrapolation, Rk4, Rk54, Trapezoidal};
+    use IntegratorKind::{Extrapolation, Rk4, Rk54, Rk853, Trapezoidal};
     match formulation {
         // its index changes with the step
         Formulation::MultiIndex => vec![(Trapezoidal, Error), (Trapezoidal, Energy)],
@@ -52,6 +52,7 @@ fn ways(formulation: Formulation) -> Vec<(IntegratorKind, Control)> {
                 (Trapezoidal, Error),
                 (Rk4, Fixed),
                 (Rk54, Own),
+                (Rk853, Own),
                 (Extrapolation, Own),
             ]
         }
@@ -117,10 +118,14 @@ impl Method {
     pub(crate) fn growth(&self, ratio: f64) -> f64 {
         match self.control {
             Control::Fixed => ratio,
-            // the local error goes with the cube of the step, in rk54 with the fifth power, in gbs about with the tenth
+            // the local error goes with the cube of the step, in rk54 with the fifth power, in rk853 with the eighth, in gbs about
+            // with the tenth
             Control::Error | Control::Energy => ratio.cbrt(),
-            Control::Own if self.integrator == IntegratorKind::Extrapolation => ratio.powf(0.1),
-            Control::Own => ratio.powf(0.2),
+            Control::Own => match self.integrator {
+                IntegratorKind::Extrapolation => ratio.powf(0.1),
+                IntegratorKind::Rk853 => ratio.powf(0.125),
+                _ => ratio.powf(0.2),
+            },
         }
     }
 
