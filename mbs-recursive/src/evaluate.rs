@@ -188,6 +188,11 @@ pub(crate) fn is_redundant<T: Real, S: Space<T>>(s: &Store<'_, T, S>) -> bool {
     s.loops.pivots.iter().any(|&pivot| !(pivot > least))
 }
 
+/// Do rows come near to repeating each other? What a projection moves by little may then turn accelerations by much.
+pub(crate) fn is_tight<T: Real, S: Space<T>>(s: &Store<'_, T, S>) -> bool {
+    s.loops.pivots.iter().any(|&pivot| !(pivot > T::from_f64(1e-4)))
+}
+
 /// Repeats the affine parts until J a + bias is at its level; returns what is left.
 fn sweep<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,

@@ -8,7 +8,7 @@
 //! are those of [`mbs_core::ode`].
 
 use crate::at::Outside;
-use crate::evaluate::{Level, accelerations, is_redundant};
+use crate::evaluate::{Level, accelerations, is_redundant, is_tight};
 use crate::ledger;
 use crate::link::{Kind, Link};
 use crate::mechanism::{Counts, Inputs, Mechanism, Store};
@@ -51,7 +51,7 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> System<'_, '_, '_, T, S, I> {
         project(self.m, self.options, self.s).map_err(|fault| failure(self.m, fault))?;
         y[..nz].copy_from_slice(self.s.z);
         y[nz..nz + nv].copy_from_slice(self.s.v);
-        Ok(EndState::Projected)
+        Ok(if is_tight(self.s) { EndState::Changed } else { EndState::Projected })
     }
 
     /// Accelerations at the end, and what was done.
@@ -121,9 +121,13 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
             return Ok(());
         }
         let (nz, nv) = (self.m.n_coordinates, self.m.n_freedoms);
-        // What is taken from positions is less than that by a step.
-        project::keep(self.m, &mut error[nz..nz + nv], self.s)
-            .map_err(|outside: Outside| failure(self.m, outside.into()))
+        let failed = |outside: Outside| failure(self.m, outside.into());
+        let (places, rest) = error.split_at_mut(nz);
+        // Elsewhere what is taken from positions is less by a step; coordinates of rotations are not those of freedoms.
+        if nz == nv && is_tight(self.s) {
+            project::keep(self.m, places, self.s).map_err(failed)?;
+        }
+        project::keep(self.m, &mut rest[..nv], self.s).map_err(failed)
     }
 }
 

@@ -9,6 +9,7 @@ use mbs_core::step::{StepError, StepReport};
 use mbs_recursive::space::Space;
 use mbs_recursive::{
     Options, Planar, Spatial, TreeModel, TreeState, Workspace, extrapolated_step, rk54_step,
+    rk853_step,
 };
 use mbs_scene::Document;
 use std::hint::black_box;
@@ -40,7 +41,7 @@ type Method<S> = fn(
     &mut Workspace<f64, S>,
 ) -> Result<StepReport<f64>, StepError>;
 
-/// Two methods in the plane and in space, each at its errors; the value is the number of right digits.
+/// Three methods in the plane and in space, each at its errors; the value is the number of right digits.
 pub(crate) fn andrews(seconds: f64) -> Result<(), Failure> {
     let scene = Document::parse(SCENE, "andrews.toml").and_then(|document| document.scene());
     let scene: Scene<f64> = scene.map_err(|e| e.render())?;
@@ -53,8 +54,11 @@ fn runs<S: Space<f64>>(space: &str, scene: &Scene<f64>, seconds: f64) -> Result<
     let mut start = TreeState::at_rest(&model);
     model.settle(&mut start, &mut Workspace::new(&model))?;
     let seats = seats(scene, &model)?;
-    let methods: [(&str, Method<S>); 2] =
-        [("rk54", rk54_step::<f64, S>), ("extrapolation", extrapolated_step::<f64, S>)];
+    let methods: [(&str, Method<S>); 3] = [
+        ("rk54", rk54_step::<f64, S>),
+        ("rk853", rk853_step::<f64, S>),
+        ("extrapolation", extrapolated_step::<f64, S>),
+    ];
     for (name, method) in methods {
         for i in 0..=20 {
             let error = 10_f64.powf(-2.0 - 0.5 * f64::from(i));
