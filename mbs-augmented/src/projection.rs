@@ -18,7 +18,7 @@ use mbs_core::{Real, SpdSolver};
 
 /// What one correction may leave of the multiplier of the least felt combination of constraints.
 const FELT: f64 = 0.003;
-/// A combination of which more than this was left is followed in the next step.
+/// Where less than this was left of the combination that is followed, others are added to it, so that none is overlooked.
 const FOLLOWED: f64 = 0.001;
 /// Most that penalties may be, in effective masses times EPSILON: above, rounding of T^-1 looks like a lost direction.
 const MOST: f64 = 0.2;
@@ -147,7 +147,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     }
 
     /// Chooses the penalties of a step: follows the least felt combination u of constraints by one power iteration, from the last
-    /// step's and a little of everything,
+    /// step's, or where that was felt well from it and a part of all,
     ///
     /// ```text
     /// u <- (1 + s H)^-1 u = u - s J T^-1 J^T u,   H = J M^-1 J^T,   rho = |u_new| / |u|
@@ -256,7 +256,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     }
 }
 
-/// Adds a little of everything, always the same: no combination of constraints is out of sight by symmetry.
+/// Adds a part of all, up to a half, always the same: no combination of constraints is out of sight by symmetry.
 fn add_spread<T: Real>(x: &mut [T]) {
     let mut seed = 1_u32;
     for x in x {

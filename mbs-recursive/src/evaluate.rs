@@ -190,7 +190,8 @@ pub(crate) fn is_redundant<T: Real, S: Space<T>>(s: &Store<'_, T, S>) -> bool {
 
 /// Do rows come near to repeating each other? What a projection moves by little may then turn accelerations by much.
 pub(crate) fn is_tight<T: Real, S: Space<T>>(s: &Store<'_, T, S>) -> bool {
-    s.loops.pivots.iter().any(|&pivot| !(pivot > T::from_f64(1e-4)))
+    let near = T::from_f64(1e-4).max(T::EPSILON.sqrt());
+    s.loops.pivots.iter().any(|&pivot| !(pivot > near))
 }
 
 /// Repeats the affine parts until J a + bias is at its level; returns what is left.

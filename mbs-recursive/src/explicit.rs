@@ -1,4 +1,4 @@
-//! Explicit steps: Runge-Kutta of order 4 with a fixed step; the pair 5(4) and extrapolation with error control.
+//! Explicit steps: Runge-Kutta of order 4 with a fixed step; the pair 5(4), the method 8(5,3) and extrapolation with error control.
 //!
 //! ```text
 //! y = (z, ż, W),   y' = (ż or ½ q ω for rotations, z̈, power)
@@ -27,7 +27,7 @@ struct System<'r, 'a, 'b, T: Real, S: Space<T>, I> {
     options: &'r Options<T>,
     s: &'r mut Store<'b, T, S>,
     evaluations: u32,
-    /// Error control tries a shorter step where an evaluation fails.
+    /// Error control tries a shorter step where an evaluation fails, and takes accelerations to a hundredth of its error.
     is_patient: bool,
     last_failure: Option<StepError>,
 }

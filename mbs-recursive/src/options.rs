@@ -17,7 +17,7 @@ pub struct Options<T> {
     pub max_sweeps: u32,
     /// How loops are closed.
     pub closure: Closure<T>,
-    /// Error of one step with error control, relative and absolute [-].
+    /// Error of one step with error control, relative and absolute [-]; loops hold within its stages to a hundredth of it.
     pub error: T,
     /// First step tried with error control [s]; the whole length asked for where left out.
     pub first_step: Option<T>,

@@ -50,6 +50,23 @@ fn a_tighter_error_makes_a_smaller_energy_error() {
 }
 
 #[test]
+fn order_8_takes_half_the_evaluations_of_order_5_for_ten_digits() {
+    let run = |is_eighth: bool, error: f64| {
+        let mut run = Run::<Planar>::new::<2>(&file("double-pendulum"));
+        run.options.error = error;
+        let (start, mut evaluations) = (run.invariant(), 0);
+        for _ in 0..10 {
+            let report = if is_eighth { run.rk853(1.0) } else { run.rk54(1.0) };
+            evaluations += report.expect("a step").iterations;
+        }
+        ((run.invariant() - start).abs(), evaluations)
+    };
+    let (fifth, eighth) = (run(false, 1e-12), run(true, 1e-12));
+    assert!(fifth.0 < 1e-9 && eighth.0 < 1e-9, "{fifth:?} {eighth:?}");
+    assert!(2 * eighth.1 < fifth.1, "{fifth:?} {eighth:?}");
+}
+
+#[test]
 fn error_control_begins_with_the_first_step_and_stays_within_the_length_asked_for() {
     let steps = |first_step| {
         let mut run = Run::<Planar>::new::<2>(&file("double-pendulum"));

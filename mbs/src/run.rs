@@ -319,14 +319,16 @@ where
         (k, is_last): (u64, bool),
         progress: &mut impl Progress,
     ) -> Result<(), StopError> {
+        let mut recorded = Ok(());
         if self.recorder.keeps(k) || is_last {
             let mark = self.mark.clone();
-            self.row(&mark, is_last)?;
+            recorded = self.row(&mark, is_last);
             progress.reached(mark.t);
         }
+        // energy that is lost says more than an output that is not finite for it
         match self.alarm.rings(&self.simulation, is_last) {
             Some(stop) => self.stop(stop),
-            None => Ok(()),
+            None => recorded,
         }
     }
 

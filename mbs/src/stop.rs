@@ -19,6 +19,7 @@ pub struct Names {
     bodies: Vec<String>,
     joints: Vec<String>,
     effects: Vec<String>,
+    outputs: Vec<String>,
     /// First joint in the file that touches each body.
     joint_of_body: Vec<Option<usize>>,
 }
@@ -38,6 +39,7 @@ impl Names {
             bodies: scene.bodies.iter().map(|b| b.name.clone()).collect(),
             joints: scene.joints.iter().map(|j| j.name.clone()).collect(),
             effects: scene.effects.iter().map(|e| e.name.clone()).collect(),
+            outputs: scene.outputs.iter().map(|o| o.name.clone()).collect(),
             joint_of_body,
         }
     }
@@ -252,7 +254,9 @@ impl StopError {
             }
             Self::Linear(_) | Self::Eigenvalues => "check the data of the effects",
             Self::NoThreads(_) => "ask for fewer threads",
-            Self::Output { .. } => "measure a point nearer to the body, or leave the output out",
+            Self::Output { .. } => {
+                "measure a point nearer to the body, try a smaller step, or leave the output out"
+            }
             Self::Energy { .. } => {
                 "try a smaller step; if it always stops here, the mechanism locks, or cannot follow its guides"
             }
@@ -286,9 +290,16 @@ impl StopError {
             | Self::NoThreads(_) => None,
         };
         let (joint, body) = owner.map_or((None, None), |o| names.of(o));
+        let message = match self {
+            Self::Output { output } => match names.outputs.get(*output) {
+                Some(name) => format!("`{name}`: {self}"),
+                None => self.to_string(),
+            },
+            _ => self.to_string(),
+        };
         RunError {
             code: self.code().to_owned(),
-            message: self.to_string(),
+            message,
             time,
             joint,
             body,
@@ -323,7 +334,7 @@ impl core::fmt::Display for StopError {
             Self::Eigenvalues => write!(f, "the iteration for the eigenvalues did not converge"),
             Self::NoThreads(n) => write!(f, "the system gives no {n} threads"),
             Self::Output { .. } => {
-                write!(f, "the value of an output is larger than numbers can be")
+                write!(f, "an output is not finite: it is larger than numbers can be")
             }
             Self::Energy { error, turned_over, share, .. } => write!(
                 f,

@@ -19,6 +19,8 @@ struct Pendulum {
     trials: Vec<(f64, bool)>,
     /// Change of the energy that no step makes smaller [J].
     leak: f64,
+    /// What it says of its accelerations at both ends of a step.
+    accelerating: [f64; 2],
 }
 
 extern crate std;
@@ -28,7 +30,16 @@ impl Pendulum {
     fn new(angle: f64) -> Self {
         let x = [angle, 0.0];
         let (fails_from, trials) = (f64::INFINITY, Vec::new());
-        Self { t: 0.0, x, saved: (0.0, x), fails_from, event: None, trials, leak: 0.0 }
+        Self {
+            t: 0.0,
+            x,
+            saved: (0.0, x),
+            fails_from,
+            event: None,
+            trials,
+            leak: 0.0,
+            accelerating: [0.0; 2],
+        }
     }
 
     fn acceleration(angle: f64) -> f64 {
@@ -87,7 +98,7 @@ impl Stepper<f64> for Pendulum {
         let error = error.of(h, &[from], &[to]);
         let energies = self.energies();
         let report = StepReport::default();
-        Ok(Attempt { report, t: self.t, energies, error, acceleration_energy: [0.0; 2] })
+        Ok(Attempt { report, t: self.t, energies, error, acceleration_energy: self.accelerating })
     }
 
     fn undo(&mut self) {
@@ -145,6 +156,23 @@ fn every_kept_step_changes_the_invariant_by_less_than_its_limit_and_none_is_long
     let lengths = steps[1..steps.len() - 1].iter().map(|s| s.step);
     let (least, most) = lengths.fold((1.0_f64, 0.0_f64), |(a, b), h| (a.min(h), b.max(h)));
     assert!(most > 3.0 * least, "{least} {most}");
+}
+
+#[test]
+fn accelerations_that_are_huge_at_one_end_loosen_no_limit_once_energy_moves() {
+    let steps = |accelerating| {
+        let mut pendulum = Pendulum { accelerating, ..Pendulum::new(3.0) };
+        pendulum.run(energy([1e-5, 1e-7]), 0.1, 20.0)
+    };
+    let plain = steps([0.0; 2]);
+    for accelerating in [[0.0, 1e12], [1e12, 0.0]] {
+        let (first, limit) = (usize::from(accelerating[1] > 0.0), 1e-5 * 4.0 * G);
+        let steps = steps(accelerating);
+        // the first step begins at rest, and is measured by what accelerations give at its end
+        assert!(steps[first..].iter().all(|s| s.change.abs() <= limit), "{accelerating:?}");
+        assert!(steps.len() + 10 > plain.len(), "{accelerating:?}: {}", steps.len());
+    }
+    assert!(steps([1e12; 2]).len() * 2 < plain.len(), "huge at both ends they do");
 }
 
 #[test]

@@ -126,8 +126,8 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
 
     /// Advances `y` from `t` by exactly `dt` [s], in as many accepted steps as the tolerance asks for.
     ///
-    /// After each accepted step `hook` gets the system, the time and the state, which it may change, and says whether
-    /// it did: rates at a changed state are evaluated again. The last step is shortened to end at `t + dt`; what the step
+    /// After each accepted step `hook` gets the system, the time and the state, which it may change, and says what it
+    /// did, see [`EndState`]. The last step is shortened to end at `t + dt`; what the step
     /// would have been is remembered for the next call. `scratch` is
     /// [`Method::n_scratch`] numbers or more.
     ///

@@ -7,7 +7,7 @@ use crate::Real;
 ///
 /// Its scratch begins with the rates at the start of the step, n numbers, and holds the new state after a trial.
 pub trait Method<T: Real> {
-    /// Power of h in the error estimate: its order plus one.
+    /// Power of h in the size of the error.
     fn power(&self) -> u32;
 
     /// Numbers of scratch for `n` components.

@@ -4,7 +4,7 @@
 //! kᵢ = f(t + cᵢ h, y + h Σⱼ aᵢⱼ kⱼ),   y(t + h) = y + h Σᵢ bᵢ kᵢ,   error = h Σᵢ eᵢ kᵢ
 //! ```
 //!
-//! [`rk4_step`] is the classical method of order 4 with a fixed step. [`Tableau`] holds an embedded pair, and [`Adaptive`]
+//! [`rk4_step`] is the classical method of order 4 with a fixed step. [`Tableau`] holds an embedded pair, or the method 8(5,3) with two estimates, and [`Adaptive`]
 //! drives it or an [`Extrapolation`] of any even order with error control: [`StepControl`] chooses the steps, and a hook after
 //! each accepted step may project the state onto its constraints.
 //!
@@ -47,7 +47,8 @@ pub trait Rates<T> {
     fn rates(&mut self, t: T, y: &[T], dy: &mut [T]) -> Result<(), Self::Error>;
 
     /// Takes from the error of a trial step what the end of a step takes from the state, such as what a projection removes:
-    /// only what is left says something about the step. Called after the rates of all stages; by default all is left.
+    /// only what is left says something about the step. Called after the rates of all stages, once for each estimate; by default all
+    /// is left.
     ///
     /// # Errors
     ///

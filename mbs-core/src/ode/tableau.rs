@@ -19,7 +19,8 @@ pub struct Tableau<T, const S: usize> {
     /// A second estimate, of lower order: where it is large too, the first may be small by accident. The size of the error is
     /// then E²/√(E² + 0.01 C²), E that by `e` and C that by this one.
     pub coarse: Option<[T; S]>,
-    /// Power of h in the size of the error: the order of the estimate plus one.
+    /// Power of h in the size of the error: the order of the estimate plus one; with two estimates twice that of the first less
+    /// that of the second.
     pub power: u32,
     /// Whether the last stage stands at the new state (a of the last row is b), so that its rates serve the next step.
     pub first_same_as_last: bool,
@@ -122,7 +123,8 @@ impl<T: Real, const S: usize> Tableau<T, S> {
         &scratch[S * n..][..n]
     }
 
-    /// Size of the error of the trial step in `scratch`, h Σᵢ eᵢ kᵢ, as far as `system` keeps it: at most one is within the tolerance.
+    /// Size of the error of the trial step in `scratch`, h Σᵢ eᵢ kᵢ, as far as `system` keeps it, with a second estimate
+    /// as told at [`Self::coarse`]: at most one is within the tolerance.
     ///
     /// A number that is not finite anywhere in it or in the new state gives NaN or infinity.
     ///

@@ -181,6 +181,30 @@ fn counts_are_those_of_the_rates() {
     assert_eq!(changed.evaluations, evaluations + accepted - 1);
 }
 
+/// A hook that moves the second component by so many tolerances and calls that a projection; evaluations per accepted step.
+fn projected_by(tolerances: f64) -> u64 {
+    let (mut problem, mut y, mut scratch) = (oscillator(), OSCILLATOR, [0.0; 18]);
+    let mut driver = Adaptive::new(Tableau::dormand_prince(), 0.1);
+    let options = Options { relative: 0.0, max_step: 0.1, ..Options::new(1e-4) };
+    driver
+        .advance(&mut problem, (0.0, 1.0), (&mut y, &mut scratch), &options, |_, _, y| {
+            y[1] += tolerances * 1e-4;
+            Ok(EndState::Projected)
+        })
+        .unwrap();
+    assert_eq!(driver.counts().evaluations, problem.evaluations);
+    assert_eq!((driver.counts().accepted, driver.counts().rejected), (10, 0));
+    problem.evaluations
+}
+
+/// The size of a move is its root mean square over both components.
+#[test]
+fn rates_are_found_anew_where_a_projection_moved_the_state_by_more_than_a_tenth_of_the_tolerance() {
+    let tenth = 0.1 * 2.0_f64.sqrt();
+    assert_eq!(projected_by(0.9 * tenth), 1 + 6 * 10);
+    assert_eq!(projected_by(1.1 * tenth), 1 + 6 * 10 + 9);
+}
+
 #[test]
 fn calls_end_exactly_and_the_planned_step_survives_them() {
     let (mut problem, mut y, mut scratch) = (oscillator(), OSCILLATOR, [0.0; 18]);

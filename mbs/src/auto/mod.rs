@@ -22,7 +22,7 @@ pub use goal::{Goal, GoalError, time};
 pub use plan::{Plan, PlanError, Processor, plan, run_plan};
 pub(crate) use report::reasons;
 
-use crate::choice::IntegratorKind;
+use crate::choice::{IntegratorKind, Precision};
 use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, Method};
 use crate::settings::{Overrides, Settings};
@@ -84,8 +84,8 @@ pub(crate) fn methods<T>(
             }
             m.integrator == integrator
         });
-    } else {
-        // rk853 takes less time wherever an error of the outputs can be wanted: gbs is for references
+    } else if settings.precision != Precision::DoubleDouble {
+        // rk853 takes less time for every error that can be told in these digits: gbs is for references
         methods.retain(|m| m.integrator != IntegratorKind::Extrapolation);
     }
     if goal.deadline.is_some() {

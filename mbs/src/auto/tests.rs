@@ -1,11 +1,13 @@
 //! Choices on a bench whose costs and errors are given: no clock, no scene.
 
 use super::entrant::Entrant;
+use super::goal::Goal;
 use super::law::Law;
 use super::race::{BUDGET, Race, Wanted};
 use super::trial::{Aim, Bench, End, Rows, Trial};
 use crate::choice::{Formulation, Precision};
 use crate::compare::method::{Control, Method};
+use crate::settings::{Overrides, Settings};
 use mbs_scene::RunError;
 
 /// Coarsest step [s], and tolerance.
@@ -88,6 +90,28 @@ impl<F: Fn(&Method) -> Nature> Bench for Fake<F> {
     fn distance(&self, a: &Rows, b: &Rows) -> f64 {
         a.iter().zip(b).map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f64::max)
     }
+}
+
+#[test]
+fn extrapolation_is_a_candidate_where_it_is_asked_for_and_in_pairs() {
+    let text = std::fs::read_to_string(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../scenes/double-pendulum.toml"
+    ));
+    let document = mbs_scene::Document::parse(&text.expect("a scene"), "scene").expect("TOML");
+    let scene = document.scene::<f64>().expect("a scene");
+    let has = |integrator: Option<&str>, precision: &str| {
+        let base = Overrides {
+            formulation: Some("auto".to_owned()),
+            integrator: integrator.map(str::to_owned),
+            precision: Some(precision.to_owned()),
+            ..Overrides::default()
+        };
+        let settings = Settings::new(&scene, &base).expect("settings");
+        let methods = super::methods(&scene, &base, &settings, &Goal::default());
+        methods.expect("candidates").iter().any(|m| m.integrator.name() == "gbs")
+    };
+    assert_eq!([has(None, "f64"), has(None, "dd"), has(Some("gbs"), "f64")], [false, true, true]);
 }
 
 fn all() -> Vec<Method> {

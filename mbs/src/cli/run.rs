@@ -55,7 +55,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     penalty: Option<f64>,
     /// Corrections of an iteration are small below this share of what accelerations move in a step, else 1e-10; with rk54, rk853 and gbs the
-    /// error of a step, else 1e-8.
+    /// error of a step, else 1e-8, with gbs 2e-10.
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
     tolerance: Option<f64>,
     /// Threads that share the work of a step in index-3, index-1, multi-index and classical; worth it above some hundred bodies.

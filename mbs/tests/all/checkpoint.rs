@@ -119,7 +119,7 @@ fn every_formulation_goes_on_to_the_same_bits() {
 #[test]
 fn every_integrator_goes_on_to_the_same_bits() {
     let implicit = ["newmark", "generalised-alpha", "hht"];
-    let explicit = ["rk4", "rk54", "gbs"];
+    let explicit = ["rk4", "rk54", "rk853", "gbs"];
     let pairs = implicit.map(|i| ("index-3", i)).into_iter();
     for (formulation, integrator) in pairs.chain(explicit.map(|i| ("recursive", i))) {
         for name in ["double-pendulum", "spatial-four-bar", "iltis-suspension"] {
