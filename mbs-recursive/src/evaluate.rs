@@ -201,7 +201,6 @@ fn sweep<T: Real, S: Space<T>>(
     level: Level,
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Fault<T>> {
-    let rounding = T::EPSILON * T::from_f64(256.0);
     let share = match level {
         Level::Once => return Ok(residual(m, s)?.0),
         Level::Fixed(sweeps) => {
@@ -212,8 +211,8 @@ fn sweep<T: Real, S: Space<T>>(
             return Ok(residual(m, s)?.0);
         }
         Level::Coarse => T::EPSILON.sqrt() * T::from_f64(0.01),
-        Level::Rates => (options.error * T::from_f64(0.01)).max(rounding),
-        Level::Fine => rounding,
+        Level::Rates => (options.error * T::from_f64(0.01)).max(T::EPSILON * T::from_f64(256.0)),
+        Level::Fine => T::EPSILON * T::from_f64(256.0),
     };
     // Near a singular position a combination of rows hardly feels its force: a part of its residual may stay.
     let enough = if note_rank(s) { T::from_f64(1e-3) } else { T::EPSILON.sqrt() };
