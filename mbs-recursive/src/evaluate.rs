@@ -184,14 +184,17 @@ pub(crate) fn note_rank<T: Real, S: Space<T>>(s: &mut Store<'_, T, S>) -> bool {
 /// Do rows repeat each other, or stand near a singular position? Away from Φ = 0 such rows contradict each other, so that
 /// positions and velocities are projected before accelerations are evaluated.
 pub(crate) fn is_redundant<T: Real, S: Space<T>>(s: &Store<'_, T, S>) -> bool {
-    let least = T::EPSILON.sqrt();
-    s.loops.pivots.iter().any(|&pivot| !(pivot > least))
+    has_pivot_below(T::EPSILON.sqrt(), s)
 }
 
 /// Do rows come near to repeating each other? What a projection moves by little may then turn accelerations by much.
 pub(crate) fn is_tight<T: Real, S: Space<T>>(s: &Store<'_, T, S>) -> bool {
-    let near = T::from_f64(1e-4).max(T::EPSILON.sqrt());
-    s.loops.pivots.iter().any(|&pivot| !(pivot > near))
+    has_pivot_below(T::from_f64(1e-4).max(T::EPSILON.sqrt()), s)
+}
+
+/// Is a pivot of the last factorisation no more than `least`, or no number?
+fn has_pivot_below<T: Real, S: Space<T>>(least: T, s: &Store<'_, T, S>) -> bool {
+    s.loops.pivots.iter().any(|&pivot| !(pivot > least))
 }
 
 /// Repeats the affine parts until J a + bias is at its level; returns what is left.

@@ -11,7 +11,7 @@ use crate::mechanism::{Inputs, Store};
 use crate::options::Options;
 use crate::passes::kinematics;
 use crate::space::{Numbers, Space};
-use crate::state::{TreeState, Workspace};
+use crate::state::{Explicit, TreeState, Workspace};
 use crate::trapezoidal::{self, Start, failure};
 use crate::tree::TreeModel;
 use alloc::vec;
@@ -112,12 +112,7 @@ pub fn rk54_step<T: Real, S: Space<T>>(
     state: &mut TreeState<T>,
     workspace: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
-    let first = options.first_step.unwrap_or(dt);
-    let known = workspace.explicit.pair.take();
-    let mut driver = known.unwrap_or_else(|| Adaptive::new(Tableau::dormand_prince(), first));
-    let report = controlled(model, (dt, options, &mut driver), state, workspace);
-    workspace.explicit.pair = Some(driver);
-    report
+    controlled(model, (dt, options), (state, workspace), |e| &mut e.pair, Tableau::dormand_prince)
 }
 
 /// Advances `state` by exactly `dt` [s] with the method 8(5,3) of Dormand and Prince, in as many steps as `options.error` asks for.
@@ -138,12 +133,13 @@ pub fn rk853_step<T: Real, S: Space<T>>(
     state: &mut TreeState<T>,
     workspace: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
-    let first = options.first_step.unwrap_or(dt);
-    let known = workspace.explicit.eighth.take();
-    let mut driver = known.unwrap_or_else(|| Adaptive::new(Tableau::dormand_prince_8(), first));
-    let report = controlled(model, (dt, options, &mut driver), state, workspace);
-    workspace.explicit.eighth = Some(driver);
-    report
+    controlled(
+        model,
+        (dt, options),
+        (state, workspace),
+        |e| &mut e.eighth,
+        Tableau::dormand_prince_8,
+    )
 }
 
 /// Advances `state` by exactly `dt` [s] by extrapolation, in as many steps as `options.error` asks for, of the order that it is
@@ -165,27 +161,28 @@ pub fn extrapolated_step<T: Real, S: Space<T>>(
     state: &mut TreeState<T>,
     workspace: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
-    let first = options.first_step.unwrap_or(dt);
-    let method = Extrapolation::for_tolerance(options.error);
-    let known = workspace.explicit.extrapolation.take();
-    let mut driver = known.unwrap_or_else(|| Adaptive::new(method, first));
-    let report = controlled(model, (dt, options, &mut driver), state, workspace);
-    workspace.explicit.extrapolation = Some(driver);
-    report
+    let method = || Extrapolation::for_tolerance(options.error);
+    controlled(model, (dt, options), (state, workspace), |e| &mut e.extrapolation, method)
 }
 
-/// Advances by the driver's method.
+/// Advances by a method whose driver is remembered in `slot`, and made by the first call.
 fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     model: &TreeModel<T, S>,
-    (dt, options, driver): (T, &Options<T>, &mut Adaptive<T, M>),
-    state: &mut TreeState<T>,
-    workspace: &mut Workspace<T, S>,
+    (dt, options): (T, &Options<T>),
+    (state, workspace): (&mut TreeState<T>, &mut Workspace<T, S>),
+    slot: impl Fn(&mut Explicit<T>) -> &mut Option<Adaptive<T, M>>,
+    method: impl FnOnce() -> M,
 ) -> Result<StepReport<T>, StepError> {
+    let first = options.first_step.unwrap_or(dt);
+    let known = slot(&mut workspace.explicit).take();
+    let mut driver = known.unwrap_or_else(|| Adaptive::new(method(), first));
     let m = model.mechanism();
     let (mut s, scratch) = workspace.parts();
     let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
     let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
-    let report = explicit::controlled(&m, model, (dt, options, driver), memory, &mut s)?;
+    let report = explicit::controlled(&m, model, (dt, options, &mut driver), memory, &mut s);
+    *slot(scratch) = Some(driver);
+    let report = report?;
     state.work += work(scratch);
     let power = own(ledger::power(&m, &mut s));
     take(dt, power, &s, state);
@@ -193,7 +190,7 @@ fn controlled<T: Real, S: Space<T>, M: Method<T>>(
 }
 
 /// The work of an explicit step.
-fn work<T: Real>(scratch: &crate::state::Explicit<T>) -> T {
+fn work<T: Real>(scratch: &Explicit<T>) -> T {
     scratch.y.last().copied().unwrap_or(T::ZERO)
 }
 

@@ -290,13 +290,11 @@ impl StopError {
             | Self::NoThreads(_) => None,
         };
         let (joint, body) = owner.map_or((None, None), |o| names.of(o));
-        let message = match self {
-            Self::Output { output } => match names.outputs.get(*output) {
-                Some(name) => format!("`{name}`: {self}"),
-                None => self.to_string(),
-            },
-            _ => self.to_string(),
+        let named = match self {
+            Self::Output { output } => names.outputs.get(*output),
+            _ => None,
         };
+        let message = named.map_or_else(|| self.to_string(), |name| format!("`{name}`: {self}"));
         RunError {
             code: self.code().to_owned(),
             message,

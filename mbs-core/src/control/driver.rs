@@ -61,8 +61,8 @@ pub struct Attempt<T> {
     /// Its local error relative to the scene's length; zero where none is asked for [-].
     pub error: f64,
     /// 1/2 a^T M a at its beginning and at its end [J/s^2]: from rest nothing has moved yet, and what the accelerations give in a
-    /// first step stands for the energy that moves. Once energy moves ([`Invariant::is_moving`]) the smaller of the two counts, before that the one at the end.
-    /// Zero where they are not known.
+    /// first step stands for the energy that moves. Once energy moves ([`Invariant::is_moving`]) the smaller of the two counts,
+    /// before that the one at the end. Zero where they are not known.
     pub acceleration_energy: [f64; 2],
 }
 

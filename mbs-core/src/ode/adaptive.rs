@@ -127,13 +127,12 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
     /// Advances `y` from `t` by exactly `dt` [s], in as many accepted steps as the tolerance asks for.
     ///
     /// After each accepted step `hook` gets the system, the time and the state, which it may change, and says what it
-    /// did, see [`EndState`]. The last step is shortened to end at `t + dt`; what the step
-    /// would have been is remembered for the next call. `scratch` is
-    /// [`Method::n_scratch`] numbers or more.
+    /// did, see [`EndState`]. The last step is shortened to end at `t + dt`; what the step would have been is remembered for the
+    /// next call. `scratch` is [`Method::n_scratch`] numbers or more.
     ///
     /// Cost, beside the hook: one evaluation, and [`Method::evaluations`] less one for each step tried; where the hook changed
-    /// the state by more than a little, or the method does not end with the rates there, one more for each accepted step but the last. No
-    /// allocation.
+    /// the state by more than a little, or the method does not end with the rates there, one more for each accepted step but the
+    /// last. No allocation.
     ///
     /// # Errors
     ///

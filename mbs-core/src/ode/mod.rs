@@ -4,8 +4,8 @@
 //! kᵢ = f(t + cᵢ h, y + h Σⱼ aᵢⱼ kⱼ),   y(t + h) = y + h Σᵢ bᵢ kᵢ,   error = h Σᵢ eᵢ kᵢ
 //! ```
 //!
-//! [`rk4_step`] is the classical method of order 4 with a fixed step. [`Tableau`] holds an embedded pair, or the method 8(5,3) with two estimates, and [`Adaptive`]
-//! drives it or an [`Extrapolation`] of any even order with error control: [`StepControl`] chooses the steps, and a hook after
+//! [`rk4_step`] is the classical method of order 4 with a fixed step. [`Tableau`] holds an embedded pair, or the
+//! method 8(5,3) with two estimates, and [`Adaptive`] drives it or an [`Extrapolation`] of any even order with error control: [`StepControl`] chooses the steps, and a hook after
 //! each accepted step may project the state onto its constraints.
 //!
 //! All storage is in slices of the caller; the module is built without `alloc`, so nothing here can allocate.
