@@ -8,6 +8,7 @@ pub mod index1;
 pub mod index3;
 mod index_change;
 mod multi_index;
+mod nearby;
 mod options;
 mod projection;
 mod workspace;

@@ -61,10 +61,26 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         (goal, limit): (T, T),
         max_sweeps: u32,
     ) -> Result<T, StepError> {
+        self.begin();
+        self.project_on(model, level, (goal, limit), (0, max_sweeps))
+    }
+
+    /// sigma = 0, x = x*.
+    pub(crate) fn begin(&mut self) {
         self.sigma.fill(T::ZERO);
         self.change.fill(T::ZERO);
+    }
+
+    /// Goes on with a projection after so many sweeps.
+    pub(crate) fn project_on<M: Model<T>>(
+        &mut self,
+        model: &M,
+        level: Level,
+        (goal, limit): (T, T),
+        (done, max_sweeps): (u32, u32),
+    ) -> Result<T, StepError> {
         let mut violation = self.violation(model, level);
-        for sweeps in 0..max_sweeps {
+        for sweeps in done..max_sweeps {
             if violation <= goal {
                 return Ok(violation);
             }
@@ -191,6 +207,11 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         rho / (T::ONE - rho).max(T::EPSILON) < room * T::from_f64(FELT) && self.stiffen(rho, room)
     }
 
+    /// Do the constraints feed every combination of multipliers, so that there is nothing to filter?
+    pub(crate) fn is_all_felt(&self) -> bool {
+        self.boost <= T::ONE && self.rho <= T::from_f64(FOLLOWED)
+    }
+
     /// What a step begins with: raised penalties fall by a factor of four where the last step felt all combinations well.
     pub(crate) fn kept_boost(&self) -> T {
         let is_felt = self.rho < T::from_f64(0.1 * FELT);
@@ -240,6 +261,11 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         set_sum(model.team(), &mut self.mu, &self.sigma, (&self.penalty, &self.rates));
         self.assemble(model, if is_changed { Mass::Change } else { Mass::None }, T::ZERO);
         self.solve();
+        self.take(model, level);
+    }
+
+    /// x += d and change += d with d = -f.
+    pub(crate) fn take<M: Model<T>>(&mut self, model: &M, level: Level) {
         let x = match level {
             Level::Velocity => &mut self.v,
             Level::Acceleration => &mut self.a,

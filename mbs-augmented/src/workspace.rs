@@ -14,6 +14,8 @@ use mbs_core::{Real, SpdSolver};
 pub struct Workspace<T, S> {
     pub(crate) solver: S,
     pub(crate) terms: Terms<T>,
+    /// The Jacobian that the factored matrix was made with.
+    pub(crate) factored: Vec<T>,
     /// q_(n+1) - q_n and q_(n+1), v, a/a' (index-3) or a (index-1), extended.
     pub(crate) dq: Vec<T>,
     pub(crate) q: Vec<T>,
@@ -71,9 +73,11 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         let mut masses = zeros(m);
         model.effective_masses(&terms, &mut masses);
         let scratch = zeros(solver.n_scratch());
+        let factored = terms.jacobian.clone();
         Self {
             solver,
             terms,
+            factored,
             dq: zeros(e),
             q,
             v: zeros(e),
@@ -151,6 +155,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         geometric: bool,
     ) -> Result<(), mbs_core::FactorError> {
         self.counts.factorizations += 1;
+        self.factored.copy_from_slice(&self.terms.jacobian);
         let geometric = geometric.then_some(&self.lambda[..]);
         let tangent = Tangent { stiffness, damping, penalty: &self.penalty, geometric };
         let load = Load { mass: None, multipliers: None, force: T::ZERO };

@@ -160,15 +160,19 @@ pub(crate) fn along<T: Real>(x: &Vector<T, 3>) -> Vector<T, 3> {
 /// Largest absolute value of a slice.
 #[inline]
 pub fn norm_inf<T: Real>(x: &[T]) -> T {
-    let mut largest = T::ZERO;
-    for &xi in x {
-        let size = xi.abs();
-        // A NaN is taken, and then nothing is larger.
-        if size > largest || !(size >= T::ZERO) {
-            largest = size;
+    // A NaN is taken, and then nothing is larger.
+    let larger = |largest: T, size: T| {
+        if (size > largest) | !(size >= T::ZERO) { size } else { largest }
+    };
+    let (fours, rest) = x.as_chunks::<4>();
+    let mut lanes = [T::ZERO; 4];
+    for four in fours {
+        for k in 0..4 {
+            lanes[k] = larger(lanes[k], four[k].abs());
         }
     }
-    largest
+    let largest = rest.iter().fold(lanes[0], |largest, x| larger(largest, x.abs()));
+    lanes[1..].iter().fold(largest, |largest, &size| larger(largest, size))
 }
 
 /// a x b.

@@ -33,6 +33,12 @@ pub trait BlockSource<T: Real>: Sync {
     fn write_block(&self, element: usize, block: &mut [T]);
     /// Writes the residual of `element` in the order of its clique; `residual` has k places, all are written.
     fn write_residual(&self, element: usize, residual: &mut [T]);
+    /// Sums the residuals of all elements into `f` (overwritten), in the order of the elements, where the source has a way of its
+    /// own that gives the same bits; else `false`, and `f` is anything.
+    #[inline]
+    fn sum_residuals(&self, _f: &mut [T]) -> bool {
+        false
+    }
 }
 
 /// `out[u]` = `start` joined with what every element writes for u, in the order of the elements.

@@ -89,6 +89,15 @@ macro_rules! forward_model {
         ) {
             self.$model.write_residual(terms, load, element, residual);
         }
+        #[inline]
+        fn sum_residuals(
+            &self,
+            terms: &$crate::model::Terms<$T>,
+            load: &$crate::model::Load<'_, $T>,
+            f: &mut [$T],
+        ) -> bool {
+            self.$model.sum_residuals(terms, load, f)
+        }
         fn power(&self, q: &[$T], v: &[$T], lambda: &[$T], terms: &$crate::model::Terms<$T>) -> $T {
             self.$model.power(q, v, lambda, terms)
         }

@@ -117,6 +117,11 @@ pub trait Model<T: Real>: Cliques + Sync {
         element: usize,
         residual: &mut [T],
     );
+    /// The residual of all elements: see [`BlockSource::sum_residuals`].
+    #[inline]
+    fn sum_residuals(&self, _terms: &Terms<T>, _load: &Load<'_, T>, _f: &mut [T]) -> bool {
+        false
+    }
     /// Kinetic energy [J].
     fn kinetic_energy(&self, v: &[T]) -> T;
     /// Potential energy of gravity, constant forces and springs [J]; springs as last evaluated in `terms`.
@@ -163,6 +168,10 @@ impl<T: Real, M: Model<T>> BlockSource<T> for System<'_, T, M> {
     #[inline]
     fn write_residual(&self, element: usize, residual: &mut [T]) {
         self.model.write_residual(self.terms, &self.load, element, residual);
+    }
+    #[inline]
+    fn sum_residuals(&self, f: &mut [T]) -> bool {
+        self.model.sum_residuals(self.terms, &self.load, f)
     }
 }
 

@@ -114,6 +114,9 @@ impl<T: Real> Scatter<T> {
         source: &S,
         f: &mut [T],
     ) {
+        if self.cuts.is_none() && source.sum_residuals(f) {
+            return;
+        }
         let write = |e: usize, residual: &mut [T]| source.write_residual(e, residual);
         self.combine(team, cliques, f, write, |sum, x| sum + x);
     }

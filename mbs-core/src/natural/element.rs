@@ -30,37 +30,6 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         diagonal
     }
 
-    /// The rates of the rows of a group of `K` unknowns; `K` = 0: of any number, known at run time only.
-    #[inline(always)]
-    pub(super) fn multiply_sized_jacobian<const K: usize>(
-        &self,
-        group: &Group,
-        terms: &Terms<T>,
-        x: &[T],
-        rates: &mut [T],
-    ) {
-        let slots = &group.slots.of(&self.slots)[..group.n_unknown as usize];
-        let width = group.width as usize;
-        let jacobian = &terms.jacobian[group.jacobian as usize..][..width * rates.len()];
-        if K == 0 {
-            for (rate, g) in rates.iter_mut().zip(jacobian.chunks_exact(width.max(1))) {
-                let terms = slots.iter().zip(g.chunks_exact(D));
-                *rate = terms.fold(T::ZERO, |sum, (&slot, g)| {
-                    (0..D).fold(sum, |sum, i| sum + g[i] * x[slot as usize + i])
-                });
-            }
-            return;
-        }
-        let mut local = [T::ZERO; K];
-        for (to, &slot) in local.chunks_exact_mut(D).zip(slots) {
-            to.copy_from_slice(&x[slot as usize..slot as usize + D]);
-        }
-        for (rate, g) in rates.iter_mut().zip(jacobian.chunks_exact(width.max(1))) {
-            let g = &g[..K];
-            *rate = (0..K).fold(T::ZERO, |sum, i| sum + g[i] * local[i]);
-        }
-    }
-
     /// The block of a group of `K` unknowns; `K` = 0: of any number, known at run time only.
     #[inline(always)]
     pub(super) fn write_sized_block<const K: usize>(
@@ -144,6 +113,39 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
         for (r, &f) in residual.iter_mut().zip(group.force.of(&terms.force)) {
             *r -= f * load.force;
+        }
+    }
+
+    /// Adds the residual of a group of `K` unknowns to `f`.
+    #[inline(always)]
+    pub(super) fn add_sized_residual<const K: usize>(
+        &self,
+        terms: &Terms<T>,
+        load: &Load<'_, T>,
+        group: &Group,
+        f: &mut [T],
+    ) {
+        let mut residual = [T::ZERO; K];
+        if let (None, Some(mu), true) = (load.mass, load.multipliers, load.force == T::ZERO) {
+            // J^T mu alone, row by row
+            let width = group.width as usize;
+            let mut rows = &terms.jacobian[group.jacobian as usize..];
+            for &mu in group.rows.of(mu) {
+                let g = &rows[..K];
+                for i in 0..K {
+                    residual[i] += g[i] * mu;
+                }
+                rows = &rows[width..];
+            }
+        } else {
+            self.write_sized_residual::<K>(terms, load, group, &mut residual);
+        }
+        let slots = &group.slots.of(&self.slots)[..K / D];
+        for (&slot, r) in slots.iter().zip(residual.chunks_exact(D)) {
+            let f = &mut f[slot as usize..][..D];
+            for i in 0..D {
+                f[i] += r[i];
+            }
         }
     }
 

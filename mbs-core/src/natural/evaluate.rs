@@ -154,6 +154,22 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         }
     }
 
+    fn sum_residuals(&self, terms: &Terms<T>, load: &Load<'_, T>, f: &mut [T]) -> bool {
+        f.fill(T::ZERO);
+        self.is_sized
+            && self.groups.iter().all(|group| {
+                match group.clique.len() {
+                    2 => self.add_sized_residual::<2>(terms, load, group, f),
+                    4 => self.add_sized_residual::<4>(terms, load, group, f),
+                    6 => self.add_sized_residual::<6>(terms, load, group, f),
+                    9 => self.add_sized_residual::<9>(terms, load, group, f),
+                    12 => self.add_sized_residual::<12>(terms, load, group, f),
+                    _ => return false,
+                }
+                true
+            })
+    }
+
     fn kinetic_energy(&self, v: &[T]) -> T {
         self.kinetic_energy_on(&Alone, v)
     }

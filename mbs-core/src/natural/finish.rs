@@ -10,6 +10,7 @@ use super::motion::carriers;
 use super::on_body::BodyElement;
 use super::reach::Reach;
 use super::sharing::Entity;
+use super::touches::Touches;
 use crate::Real;
 use crate::actions::Actions;
 use crate::algebra::{Coef, Vector};
@@ -45,6 +46,8 @@ pub(super) fn finish<T: Real, const D: usize>(
     let mut model = layout.model;
     number_measures(&mut model);
     model.marks = model.marks();
+    model.touches = Touches::of(&model);
+    model.is_sized = model.groups.iter().all(|g| matches!(g.clique.len(), 2 | 4 | 6 | 9 | 12));
     let owners = (&model.clusters, bases.as_slice(), shared.as_slice());
     model.carried = carriers(&layout.entities, owners, &model.entity_at);
     model.bases = bases;
@@ -137,7 +140,9 @@ impl<T: Real, const D: usize> Layout<T, D> {
             entity_at,
             carried: Vec::new(),
             length,
+            touches: Touches::default(),
             marks: Vec::new(),
+            is_sized: false,
         };
         Self { model, entities, masses: Vec::new() }
     }

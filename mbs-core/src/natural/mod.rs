@@ -26,6 +26,7 @@ mod rigid;
 mod rods;
 mod sharing;
 mod teamed;
+mod touches;
 
 pub use affine::Affine;
 pub use basis::INDEPENDENCE;

@@ -7,6 +7,7 @@ use super::motion::Carried;
 use super::on_body::BodyElement;
 use super::parts::Mark;
 use super::reach::Reach;
+use super::touches::Touches;
 use crate::Real;
 use crate::actions::Tables;
 use crate::algebra::Coef;
@@ -62,8 +63,11 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) carried: Vec<Carried<T>>,
     /// The scene's length [m].
     pub(super) length: T,
+    pub(super) touches: Touches,
     /// Where parts begin, and the end.
     pub(super) marks: Vec<Mark>,
+    /// The clique of every group has a length that the compiler was told.
+    pub(super) is_sized: bool,
 }
 
 impl<T: Real, const D: usize> Cliques for NaturalModel<T, D> {

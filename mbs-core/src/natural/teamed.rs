@@ -137,18 +137,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     ) {
         let out = Out { rows: rates, ..Out::default() };
         self.on_parts(team, out, |part, Out { rows: rates, .. }| {
-            for group in part.groups(&self.groups) {
-                let first = part.from.row;
-                let rates = &mut rates[group.rows.start as usize - first..][..group.rows.len()];
-                match group.clique.len() {
-                    2 => self.multiply_sized_jacobian::<2>(group, terms, x, rates),
-                    4 => self.multiply_sized_jacobian::<4>(group, terms, x, rates),
-                    6 => self.multiply_sized_jacobian::<6>(group, terms, x, rates),
-                    9 => self.multiply_sized_jacobian::<9>(group, terms, x, rates),
-                    12 => self.multiply_sized_jacobian::<12>(group, terms, x, rates),
-                    _ => self.multiply_sized_jacobian::<0>(group, terms, x, rates),
-                }
-            }
+            self.touches.multiply::<T, D>((&terms.jacobian, x), part.from.row, rates);
         });
     }
 

@@ -2,7 +2,7 @@
 
 use super::law::{Law, Point, Prediction, credited, predict};
 use super::trial::{End, Trial};
-use crate::compare::method::Method;
+use crate::compare::method::{Control, Method};
 
 /// Errors above this share of the outputs' ranges have lost the motion: what they become at finer settings is not to be told.
 pub(super) const LOST: f64 = 0.1;
@@ -156,6 +156,11 @@ impl Entrant {
         let finest = self.tries.last()?;
         let reached = finest.trial.reached;
         (reached > 0.0).then(|| finest.trial.seconds / reached)
+    }
+
+    /// It controls its own steps, and those of its finest trial are no matter of its tolerance yet.
+    pub(crate) fn is_held(&self) -> bool {
+        self.method.control == Control::Own && self.tries.last().is_some_and(|t| t.trial.is_held())
     }
 
     /// The slowest step of all trials [s].

@@ -334,6 +334,8 @@ impl<'a> Race<'a> {
     fn least_of(&self, entrant: &Entrant, seconds: f64) -> f64 {
         let is_partial = entrant.tries.last().is_some_and(|t| t.trial.end == End::GivenUp);
         match entrant.predict(self.aim(entrant)) {
+            // what is finer may cost nothing
+            Some(Prediction { basis: Basis::Finer(_), .. }) if entrant.is_held() => seconds,
             Some(Prediction { basis: Basis::Finer(factor), .. }) => {
                 seconds * entrant.law().cost_of((0.25 * factor).max(1.0))
             }

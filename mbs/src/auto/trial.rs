@@ -31,6 +31,16 @@ pub(crate) struct Trial {
     pub(crate) end: End,
 }
 
+/// Steps per row, as a quotient, up to which the rows are what holds them.
+const HELD: [u64; 2] = [5, 4];
+
+impl Trial {
+    /// Are its steps those between the instants of its rows? A finer tolerance costs nothing until it asks for shorter ones.
+    pub(crate) fn is_held(&self) -> bool {
+        HELD[1] * self.steps <= HELD[0] * self.rows.len() as u64
+    }
+}
+
 /// How a trial ended.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum End {

@@ -97,6 +97,8 @@ pub enum CompareError {
     NoReference(String),
     /// A number that must be positive and finite.
     NotPositive(&'static str),
+    /// Runs are to be timed so often, which tells nothing of how far times differ.
+    Repeats(u32),
 }
 
 /// Called as results come; does nothing by default.
@@ -195,7 +197,7 @@ fn check(request: &Request) -> Result<(), CompareError> {
     let bad = |numbers: &[f64]| numbers.iter().any(|x| !(*x > 0.0 && x.is_finite()));
     match lists.into_iter().find(|(_, numbers)| bad(numbers)) {
         Some((name, _)) => Err(CompareError::NotPositive(name)),
-        None if request.repeats < 2 => Err(CompareError::NotPositive("repeat - 1")),
+        None if request.repeats < 2 => Err(CompareError::Repeats(request.repeats)),
         None => Ok(()),
     }
 }
@@ -321,6 +323,7 @@ impl CompareError {
                 "give a table with --reference, a shorter --duration, or a longer --time-limit".to_owned()
             }
             Self::NotPositive(_) => "write numbers larger than zero".to_owned(),
+            Self::Repeats(_) => "write --repeats 2 or more".to_owned(),
         }
     }
 }
@@ -337,6 +340,9 @@ impl Display for CompareError {
                 "no method that is accurate enough for a reference runs the scene to its end; the last one: {why}"
             ),
             Self::NotPositive(name) => write!(f, "{name} must be positive and finite"),
+            Self::Repeats(n) => {
+                write!(f, "each run must be timed twice at least, but repeats are {n}")
+            }
         }
     }
 }

@@ -177,6 +177,9 @@ fn finished_runs_are_not_lost_by_mistake_and_others_are_not_taken() {
     json(&short(&out, &["--restart"]));
     refused(&compare("double-pendulum", &["--formulation", "index3"]), "did you mean `index-3`?");
     refused(&compare("double-pendulum", &["--steps", "-1"]), "steps must be positive");
+    let mut once = Command::new(env!("CARGO_BIN_EXE_mbs"));
+    let once = once.arg("compare").arg(scene("double-pendulum")).args(["--repeats", "1"]).output();
+    refused(&once.expect("the command is built"), "must be timed twice at least");
     refused(&compare("double-pendulum", &["--resume"]), "--out");
 }
 

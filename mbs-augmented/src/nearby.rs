@@ -1,0 +1,140 @@
+//! Mass-orthogonal projection with a factor that was made nearby, by one sweep.
+//!
+//! ```text
+//! T' d = -J'^T s (J x + b),   x += d,   sigma += s (J x* + b + J' d),     T' = M + J'^T s J'
+//! ```
+//!
+//! J' are the rows that the factor was made with, J those of now. With J^T on the right d has a part s (J - J')^T (J x + b) / m
+//! along free directions, which s multiplies and only a second sweep takes back; with J'^T it has none. What is left is the
+//! violation times what the penalties leave and times the turn of the rows, and d is orthogonal to directions that are off by the
+//! turn: that is why the factor has to be from before a correction that was small already.
+
+use crate::projection::Level;
+use crate::workspace::{Mass, Workspace};
+use core::mem::swap;
+use mbs_core::model::Model;
+use mbs_core::step::StepError;
+use mbs_core::team::{add_product, norm_inf, on_stretches, sum};
+use mbs_core::{Real, SpdSolver};
+
+/// Of a violation may be left, in EPSILON of what it stands beside: of velocities, and of accelerations, which enter the motion times
+/// the square of the step.
+const LEFT: [f64; 2] = [8_192.0, 2_097_152.0];
+/// But no more than this share, or in any precision so many EPSILON of rounding.
+const MOST: f64 = 5e-10;
+const ROUNDING: f64 = 1024.0;
+/// A sweep that leaves more than this share of a violation is followed by those with the rows of now.
+const SLOW: f64 = 0.01;
+
+impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
+    /// Projects v or a, nearby or with the rows of now; `size` is what a violation stands beside, with and without what keeps it
+    /// from zero. Returns the violation left.
+    pub(crate) fn clean<M: Model<T>>(
+        &mut self,
+        model: &M,
+        (level, is_nearby): (Level, bool),
+        [size, bare]: [T; 2],
+        max_sweeps: u32,
+    ) -> Result<T, StepError> {
+        let rounding = T::EPSILON * T::from_f64(ROUNDING);
+        let limit = size * T::from_f64(MOST).max(rounding);
+        let k = usize::from(level == Level::Acceleration);
+        let goal = bare * T::EPSILON * T::from_f64([16.0, ROUNDING][k]);
+        if !is_nearby {
+            return self.project(model, level, (goal, limit), max_sweeps);
+        }
+        let enough = (size * T::EPSILON * T::from_f64(LEFT[k])).min(limit);
+        self.project_nearby(model, level, (goal, enough, limit), max_sweeps)
+    }
+
+    /// Projects v or a, once unless the violation is at most `goal`, then by sweeps of this kind while they shrink it until it is
+    /// `enough`, else as [`project`](Self::project) does. The multipliers of accelerations are left in `sigma`. Returns the violation
+    /// left.
+    ///
+    /// Cost: a solve and three products of the Jacobian for each sweep, with velocities mostly two; mostly there is one.
+    fn project_nearby<M: Model<T>>(
+        &mut self,
+        model: &M,
+        level: Level,
+        (goal, enough, limit): (T, T, T),
+        max_sweeps: u32,
+    ) -> Result<T, StepError> {
+        self.begin();
+        let mut violation = self.violation(model, level);
+        let (mut sweeps, mut most) = (0, goal);
+        // a NaN is no violation that may be left
+        while !(violation <= most) {
+            most = enough;
+            self.sweep_nearby(model, level);
+            sweeps += 1;
+            let mut left = self.violation(model, level);
+            if left > enough && sweeps == 1 {
+                left = self.lengthen(model, level);
+            }
+            let is_slow = !(left <= violation * T::from_f64(SLOW));
+            if is_slow && !(left <= enough) {
+                return self.project_on(model, level, (goal, limit), (sweeps, max_sweeps));
+            }
+            violation = left;
+        }
+        Ok(violation)
+    }
+
+    fn sweep_nearby<M: Model<T>>(&mut self, model: &M, level: Level) {
+        let (penalty, rates) = (&self.penalty, &self.rates);
+        on_stretches(model.team(), [&mut self.mu], |first, [mu]| {
+            for k in 0..mu.len() {
+                mu[k] = penalty[first + k] * rates[first + k];
+            }
+        });
+        swap(&mut self.terms.jacobian, &mut self.factored);
+        self.assemble(model, Mass::None, T::ZERO);
+        self.solve();
+        if level == Level::Acceleration {
+            let n = self.f.len();
+            self.dq_predicted[..n].copy_from_slice(&self.f);
+            model.multiply_jacobian(&self.terms, &self.dq_predicted, &mut self.mu);
+            let (mu, rates) = (&self.mu, &mut self.rates);
+            on_stretches(model.team(), [rates], |first, [rates]| {
+                for k in 0..rates.len() {
+                    rates[k] -= mu[first + k];
+                }
+            });
+            add_product(model.team(), &mut self.sigma, (&self.penalty, &self.rates));
+        }
+        swap(&mut self.terms.jacobian, &mut self.factored);
+        self.take(model, level);
+    }
+
+    /// After the first sweep x += k d, sigma += k sigma with the k that leaves least of the violation: d is short by what the penalties
+    /// leave, much the same share in all rows. Needs the last `f` = -d, of accelerations with J' f in `mu`. Returns the violation left.
+    ///
+    /// ```text
+    /// k = -(r . J d) / (J d . J d),   r += k J d
+    /// ```
+    fn lengthen<M: Model<T>>(&mut self, model: &M, level: Level) -> T {
+        if level == Level::Velocity {
+            let n = self.f.len();
+            self.dq_predicted[..n].copy_from_slice(&self.f);
+            model.multiply_jacobian(&self.terms, &self.dq_predicted, &mut self.mu);
+        }
+        let (team, mu, rates) = (model.team(), &self.mu, &self.rates);
+        let dot = |x: &[T]| {
+            sum(team, mu.len(), |from, to| {
+                let pairs = x[from..to].iter().zip(&mu[from..to]);
+                pairs.fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
+            })
+        };
+        let k = dot(rates) / dot(mu);
+        let by = T::ONE + k;
+        on_stretches(team, [&mut self.rates, &mut self.sigma], |first, [rates, sigma]| {
+            for i in 0..rates.len() {
+                rates[i] -= k * mu[first + i];
+                sigma[i] *= by;
+            }
+        });
+        on_stretches(team, [&mut self.f], |_, [f]| f.iter_mut().for_each(|f| *f *= k));
+        self.take(model, level);
+        norm_inf(model.team(), &self.rates)
+    }
+}

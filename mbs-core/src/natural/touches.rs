@@ -1,0 +1,72 @@
+//! The Jacobian by rows: where the numbers stand that may differ from zero, and which unknowns they belong to.
+//!
+//! ```text
+//! rate_r = sum over the unknown entities e that row r touches of g_re . x_e
+//! ```
+
+use super::finish::index;
+use super::model::NaturalModel;
+use crate::Real;
+use alloc::vec::Vec;
+
+/// An entity that a row touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Touch {
+    /// Its first coordinate.
+    slot: u32,
+    /// Where its gradient stands in the Jacobian store.
+    place: u32,
+}
+
+/// What each row touches.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Touches {
+    /// Where each row begins in the list, and the end.
+    start: Vec<u32>,
+    list: Vec<Touch>,
+}
+
+impl Touches {
+    /// Of the rows of a model that has all its groups.
+    pub(super) fn of<T: Real, const D: usize>(model: &NaturalModel<T, D>) -> Self {
+        let mut touches = Self { start: Vec::from([0]), list: Vec::new() };
+        for group in &model.groups {
+            let slots = &group.slots.of(&model.slots)[..group.n_unknown as usize];
+            for (k, reach) in group.rows.of(&model.reach).iter().enumerate() {
+                let row = group.jacobian as usize + k * group.width as usize;
+                for (e, &slot) in slots.iter().enumerate() {
+                    if reach.pair().is_none_or(|pair| pair.contains(&(e * D))) {
+                        touches.list.push(Touch { slot, place: index(row + e * D) });
+                    }
+                }
+                touches.start.push(index(touches.list.len()));
+            }
+        }
+        touches
+    }
+
+    /// rates = J x of the rows from `first` on, one for each rate.
+    #[inline(always)]
+    pub(super) fn multiply<T: Real, const D: usize>(
+        &self,
+        (jacobian, x): (&[T], &[T]),
+        first: usize,
+        rates: &mut [T],
+    ) {
+        let ends = &self.start[first..][..=rates.len()];
+        let mut rest = &self.list[ends[0] as usize..ends[rates.len()] as usize];
+        for (rate, ends) in rates.iter_mut().zip(ends.windows(2)) {
+            let (own, others) = rest.split_at((ends[1] - ends[0]) as usize);
+            rest = others;
+            let mut sum = T::ZERO;
+            for touch in own {
+                let (g, x) = (&jacobian[touch.place as usize..], &x[touch.slot as usize..]);
+                let (g, x) = (&g[..D], &x[..D]);
+                for i in 0..D {
+                    sum += g[i] * x[i];
+                }
+            }
+            *rate = sum;
+        }
+    }
+}
