@@ -101,11 +101,8 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 order.push(e);
             }
         }
-        let reference: Vec<T> = order
-            .iter()
-            .flat_map(|&e| (0..D).map(move |i| (e, i)))
-            .map(|(e, i)| entities[e].at[i])
-            .collect();
+        let at = |&e: &usize| entities[e].at.iter().copied().take(D);
+        let reference: Vec<T> = order.iter().flat_map(at).collect();
         let weight = vec![T::ZERO; reference.len()];
         let model = NaturalModel {
             n_unknowns,
