@@ -2,7 +2,6 @@
 
 use crate::choice::Formulation;
 use crate::settings::Settings;
-use crate::simulation::rank;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane, Tree};
 use mbs_augmented::{IndexChange, Penalty, index1, index3};
@@ -270,11 +269,11 @@ where
         }
     }
 
-    /// Coordinates, constraints and their rank at a state, of the formulation that runs.
-    pub(crate) fn sizes(&self, model: &NaturalModel<T, D>, state: &State<T>) -> [usize; 3] {
+    /// Coordinates, constraints and their rank at the start; nothing in natural coordinates, which are the same for all.
+    pub(crate) fn sizes(&self) -> Option<[usize; 3]> {
         match self {
-            Self::Recursive(tree) => tree.sizes(),
-            _ => [model.n_unknowns(), model.n_constraints(), rank(model, state)],
+            Self::Recursive(tree) => Some(tree.sizes()),
+            _ => None,
         }
     }
 

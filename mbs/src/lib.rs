@@ -18,6 +18,7 @@ mod figure;
 mod fingerprint;
 mod journal;
 mod modes;
+mod ready;
 pub mod realtime;
 mod recorder;
 mod run;

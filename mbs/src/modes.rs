@@ -4,7 +4,8 @@
 //! lambda = -zeta omega_0 +- i omega_0 sqrt(1 - zeta^2):   omega_0 = |lambda|,  zeta = -Re lambda / |lambda|
 //! ```
 
-use crate::statics::{assembled, at_rest, equilibrium_start, settle, workspace};
+use crate::ready::Ready;
+use crate::statics::{at_rest, equilibrium_start, settle, workspace};
 use crate::stop::StopError;
 use core::f64::consts::TAU;
 use faer::Mat;
@@ -100,7 +101,7 @@ impl Modes {
     pub fn new<const D: usize>(scene: &Scene<f64>, place: Place) -> Result<Self, StopError> {
         let still = at_rest(scene);
         let scene = if place == Place::Equilibrium { &still } else { scene };
-        let (model, mut solver, mut start) = assembled::<f64, D>(scene)?;
+        let Ready { model, mut solver, mut start, .. } = Ready::<f64, D>::assembled(scene)?;
         let (found, instant) = match place {
             Place::Equilibrium => (Some(settle(scene, &model, &mut start.state)?), Instant::Rest),
             Place::Initial => (None, Instant::Motion),

@@ -5,17 +5,18 @@ mod carry;
 pub use carry::Refusal;
 
 use crate::checkpoint::{Kept, inputs};
+use crate::choice::Formulation;
 use crate::control::Control;
 use crate::engine::Engine;
+use crate::ready::Ready;
 use crate::settings::Settings;
-use crate::statics::{assembled, equilibrium_start};
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::control::{Accepted, Attempt, Invariant, Limit};
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{Scene, Start};
+use mbs_core::scene::Scene;
 use mbs_core::start::Assembled;
 use mbs_core::step::{StepError, StepReport, largest};
 
@@ -47,13 +48,20 @@ where
     /// # Errors
     /// [`StopError`] when there is no model, no consistent start, or the formulation cannot run the scene.
     pub fn new(scene: &Scene<T>, settings: &Settings) -> Result<Self, StopError> {
-        let (model, mut solver, mut start) = assembled::<T, D>(scene)?;
-        if scene.start == Start::Equilibrium {
-            equilibrium_start(scene, &model, &mut solver, &mut start)?;
-        }
+        Self::of(scene, settings, Ready::new(scene)?)
+    }
+
+    /// The same of a scene that is ready.
+    pub(crate) fn of(
+        scene: &Scene<T>,
+        settings: &Settings,
+        mut ready: Ready<T, D>,
+    ) -> Result<Self, StopError> {
+        let natural = (settings.formulation != Formulation::Recursive).then(|| ready.sizes());
+        let Ready { model, solver, start, .. } = ready;
         let mut state = start.state.clone();
         let engine = Engine::new(scene, settings, &model, solver, &mut state)?;
-        let sizes = engine.sizes(&model, &state);
+        let sizes = engine.sizes().or(natural).unwrap_or_default();
         let initial_energy = engine.start_energies(&model, &state);
         let control = Control::new(scene, settings, &model, &state);
         let control = control.map_err(|e| StopError::Start(e.into()))?.map(Box::new);

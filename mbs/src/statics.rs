@@ -2,13 +2,14 @@
 
 use crate::channels::Channels;
 use crate::modes::{eigenvalues, neutral_directions};
+use crate::ready::Ready;
 use crate::simulation::rank;
 use crate::stop::StopError;
 use crate::tree;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{EffectKind, Output, Quantity, Scene};
-use mbs_core::start::{Assembled, assemble, restart};
+use mbs_core::start::{Assembled, restart};
 use mbs_core::{Cliques, Real, SpdSolver};
 use mbs_linear::{
     Equilibrium, Instant, LinearOptions, Options, Saddle, Workspace, equilibrium, linearise,
@@ -116,23 +117,6 @@ pub fn equilibrium_start<T: Real, const D: usize>(
     Ok(found)
 }
 
-/// A model, its solver, and its assembled start.
-pub(crate) type Ready<T, const D: usize> = (NaturalModel<T, D>, Multifrontal<T>, Assembled<T>);
-
-/// Builds the model of a scene and assembles it.
-///
-/// # Errors
-/// [`StopError::Start`] when there is no model or no consistent start.
-pub(crate) fn assembled<T: Real, const D: usize>(
-    scene: &Scene<T>,
-) -> Result<Ready<T, D>, StopError> {
-    let model = NaturalModel::new(scene).map_err(|e| StopError::Start(e.into()))?;
-    let analyse = mbs_sparse::Options::default();
-    let mut solver = Multifrontal::analyse(&model, analyse);
-    let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver);
-    Ok((model, solver, start.map_err(StopError::Start)?))
-}
-
 /// A static equilibrium, told.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Still {
@@ -165,7 +149,7 @@ impl Still {
     /// [`StopError`] when there is no model, no consistent start or no equilibrium.
     pub fn new<const D: usize>(scene: &Scene<f64>) -> Result<Self, StopError> {
         let scene = &at_rest(scene);
-        let (model, _, start) = assembled::<f64, D>(scene)?;
+        let Ready { model, start, .. } = Ready::<f64, D>::assembled(scene)?;
         let mut state = start.state;
         let found = settle(scene, &model, &mut state)?;
         let joints = (0..scene.joints.len())

@@ -262,7 +262,7 @@ pub struct JudgedChoice {
     pub true_error: Option<f64>,
     /// The method that takes least at this error.
     pub best_method: Option<String>,
-    /// What it takes [s].
+    /// What it takes, timed by turns with the chosen run [s].
     pub best_seconds: Option<f64>,
     /// The chosen run's time over that.
     pub over_best: Option<f64>,

@@ -118,6 +118,28 @@ impl MethodRuns {
         front::at_error(&points, level, has_between)
     }
 
+    /// Least CPU time at an error [s], of runs whose results have so many instants; nothing where no timed run reaches it.
+    #[must_use]
+    pub fn seconds_at(&self, level: f64, instants: u64) -> Option<f64> {
+        Some(self.at_error(level, instants)?[0])
+    }
+
+    /// The same method with its timed runs beside an error alone, each with the error that it counts with, whose times are left out:
+    /// to be timed again.
+    #[must_use]
+    pub fn beside_alone(&self, level: f64) -> Self {
+        let (places, errors): (Vec<usize>, Vec<f64>) =
+            self.timed().map(|(i, (error, _))| (i, error)).unzip();
+        let beside = front::beside(&errors, level);
+        let both = beside.into_iter().flat_map(|b| b.misses.into_iter().chain([b.reaches]));
+        let untimed = |i: usize| RunEntry {
+            error: Some(front::credited(&errors, i)),
+            cpu_seconds: Vec::new(),
+            ..self.runs[places[i]].clone()
+        };
+        Self { runs: both.map(untimed).collect(), ..self.clone() }
+    }
+
     /// Is there a run with more steps than the coarse one of two and fewer than the fine one? Fixed steps are whole parts of the
     /// intervals of the results; where these hold an integrator's own steps, its tolerance changes the order, by stairs.
     fn has_between(&self, [coarse, fine]: [u64; 2], instants: u64) -> bool {
@@ -219,8 +241,27 @@ mod tests {
             comparison.decisive(&[1e-3, 1e-5]),
             [(1, 0), (1, 3), (1, 4), (2, 0), (2, 3), (2, 4)]
         );
+        let mut alone = comparison.methods[1].beside_alone(1e-5);
+        assert_eq!((alone.runs.len(), alone.seconds_at(1e-5, 0)), (2, None));
+        // all take twice as long as they did
+        alone.runs.iter_mut().for_each(|run| run.cpu_seconds.push(2e-5 / run.setting));
+        assert!((alone.seconds_at(1e-5, 0).unwrap() - 0.02).abs() < 1e-9);
         // h = 1e-3 at an error of 1e-5
         assert!((comparison.methods[0].at_error[1].unwrap() - 0.02).abs() < 1e-9);
+    }
+
+    #[test]
+    fn runs_that_are_timed_again_count_with_the_errors_they_counted_with() {
+        let mut lucky = method("index-3", "error", 1.0);
+        lucky.runs[2].error = Some(1e-9);
+        let alone = lucky.beside_alone(1e-4);
+        let errors: Vec<f64> = alone.runs.iter().map(|run| run.error.unwrap()).collect();
+        assert_eq!(errors, [lucky.runs[1].error.unwrap(), lucky.runs[3].error.unwrap()]);
+        let mut again = alone;
+        for (run, i) in again.runs.iter_mut().zip([1, 2]) {
+            run.cpu_seconds.clone_from(&lucky.runs[i].cpu_seconds);
+        }
+        assert_eq!(again.seconds_at(1e-4, 0), lucky.seconds_at(1e-4, 0));
     }
 
     #[test]

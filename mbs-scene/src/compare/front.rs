@@ -18,7 +18,7 @@ pub(super) struct Beside {
 /// An error that is smaller by luck counts for nothing: a run is credited with that of the next finer one if that is larger. The
 /// front is chosen by the errors and by that order alone: times have noise, and would choose another one each time.
 pub(super) fn beside(errors: &[f64], level: f64) -> Option<Beside> {
-    let credited = |i: usize| errors[i].max(errors.get(i + 1).copied().unwrap_or(0.0));
+    let credited = |i: usize| credited(errors, i);
     let mut front: Vec<usize> = Vec::new();
     for i in 0..errors.len() {
         if front.last().is_none_or(|&best| credited(i) < credited(best)) {
@@ -34,6 +34,11 @@ pub(super) fn beside(errors: &[f64], level: f64) -> Option<Beside> {
         if fine > 0.0 { libm::log(coarse / level) / libm::log(coarse / fine) } else { 1.0 }
     });
     Some(Beside { misses, reaches, share })
+}
+
+/// The error that a run counts with.
+pub(super) fn credited(errors: &[f64], i: usize) -> f64 {
+    errors[i].max(errors.get(i + 1).copied().unwrap_or(0.0))
 }
 
 /// CPU times at an error, by interpolation of logarithms between the runs beside it, where there are others between these two

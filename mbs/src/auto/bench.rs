@@ -7,6 +7,7 @@ use crate::compare::drive::{Course, Watcher, drive};
 use crate::compare::ladder::{Instants, count, work};
 use crate::compare::method::{Control, Method};
 use crate::engine::Engine;
+use crate::ready::Ready;
 use crate::settings::{Overrides, Settings, SettingsError};
 use crate::simulation::Simulation;
 use crate::stop::{Names, StopError};
@@ -49,6 +50,8 @@ pub(crate) struct SceneBench<'a, T: Real, const D: usize> {
     instants: Instants,
     channels: Vec<Channel>,
     length: f64,
+    /// What all trials begin from, or why none can.
+    ready: &'a Result<Ready<T, D>, Box<RunError>>,
     clock: &'a mut dyn Clock,
     begun: f64,
     /// Steps that an integrator of its own control may try in an interval.
@@ -61,15 +64,15 @@ where
 {
     /// A bench on which so many seconds were spent before.
     pub(crate) fn new(
-        scene: &'a Scene<T>,
-        base: &'a Overrides,
+        (scene, base): (&'a Scene<T>, &'a Overrides),
+        ready: &'a Result<Ready<T, D>, Box<RunError>>,
         instants: Instants,
         (clock, spent): (&'a mut dyn Clock, f64),
     ) -> Self {
         let begun = clock.seconds() - spent;
         let channels = Channel::of_scene(scene);
         let length = scene_length(scene).to_f64();
-        Self { scene, base, instants, channels, length, clock, begun, most_steps: None }
+        Self { scene, base, instants, channels, length, ready, clock, begun, most_steps: None }
     }
 
     /// A simulation ready to step, with its outputs and its alarm.
@@ -80,7 +83,8 @@ where
     ) -> Result<(Simulation<T, D>, Channels<T, D>, f64), Box<RunError>> {
         let settings = settings(self.scene, self.base, method, (setting, self.instants));
         let settings = settings.map_err(|e| Box::new(refused(&e)))?;
-        let simulation = Simulation::<T, D>::new(self.scene, &settings);
+        let ready = self.ready.as_ref().map_err(Clone::clone)?;
+        let simulation = Simulation::<T, D>::of(self.scene, &settings, ready.clone());
         let both = simulation.and_then(|simulation| {
             let channels = Channels::new(self.scene, simulation.model())?;
             Ok((simulation, channels, settings.energy_alarm))
@@ -259,7 +263,7 @@ where
         simulation: &Simulation<T, D>,
         accepted: &Accepted<T>,
         is_last: bool,
-    ) -> Result<(), StopError> {
+    ) -> Result<bool, StopError> {
         let report = &accepted.attempt.report;
         self.clock.worked(f64::from(report.iterations) * self.per_iteration);
         let before = self.steps;
@@ -273,13 +277,13 @@ where
             self.is_late = now > self.until;
             self.last = now;
         }
-        let Some(channels) = &mut self.channels else { return Ok(()) };
+        let Some(channels) = &mut self.channels else { return Ok(!self.is_late) };
         channels.track(simulation.state());
         let stop = self.alarm.rings(simulation, is_last);
         if self.is_fine {
             self.last = self.clock.seconds();
         }
-        stop.map_or(Ok(()), Err)
+        stop.map_or(Ok(!self.is_late), Err)
     }
 
     fn instant(&mut self, simulation: &Simulation<T, D>) -> Result<bool, StopError> {

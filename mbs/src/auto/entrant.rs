@@ -22,6 +22,9 @@ pub(crate) struct Try {
     pub(crate) trial: Trial,
     /// Its error by the distance of its coarser neighbour.
     pub(crate) own: Option<f64>,
+    /// Its least distance from a trial with another rule, and has it met all that there are?
+    pub(crate) agreed: Option<f64>,
+    pub(crate) is_met: bool,
     /// Its error against the best of all trials.
     pub(crate) error: Option<f64>,
 }
@@ -29,6 +32,11 @@ pub(crate) struct Try {
 impl Try {
     pub(crate) fn is_done(&self) -> bool {
         self.trial.end == End::Done
+    }
+
+    /// Its error as far as it is known without a better trial.
+    pub(crate) fn known(&self) -> Option<f64> {
+        self.own.into_iter().chain(self.agreed).reduce(f64::min)
     }
 }
 
@@ -72,7 +80,10 @@ impl Entrant {
     /// Takes a trial in.
     pub(crate) fn take(&mut self, setting: f64, trial: Trial) {
         let place = self.tries.iter().position(|t| t.setting < setting).unwrap_or(self.tries.len());
-        self.tries.insert(place, Try { setting, trial, own: None, error: None });
+        self.tries.insert(
+            place,
+            Try { setting, trial, own: None, agreed: None, is_met: false, error: None },
+        );
     }
 
     /// Was a setting tried that is about the same?
@@ -117,7 +128,8 @@ impl Entrant {
     pub(crate) fn points(&self) -> Vec<Point> {
         let point = |t: &Try| {
             let Trial { steps, seconds, .. } = t.trial;
-            Some(Point { setting: t.setting, steps, error: t.error?, seconds })
+            let held = self.held(t);
+            Some(Point { setting: t.setting, steps, error: t.error?, seconds, held })
         };
         self.done().filter_map(point).collect()
     }
@@ -161,6 +173,12 @@ impl Entrant {
     /// It controls its own steps, and those of its finest trial are no matter of its tolerance yet.
     pub(crate) fn is_held(&self) -> bool {
         self.method.control == Control::Own && self.tries.last().is_some_and(|t| t.trial.is_held())
+    }
+
+    /// Share of the steps of a trial with controlled steps that end at the instants of its rows.
+    pub(crate) fn held(&self, t: &Try) -> f64 {
+        let rows = if self.method.is_fixed() { 0 } else { t.trial.rows.len() as u64 };
+        (count(rows) / count(t.trial.steps.max(1))).min(1.0)
     }
 
     /// The slowest step of all trials [s].

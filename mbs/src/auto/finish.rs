@@ -9,6 +9,10 @@ use super::trial::{Aim, End};
 const FAR: f64 = 30.0;
 /// A finalist is given up where it takes so many times what was predicted.
 const SLOW: f64 = 3.0;
+/// It is tried where this many times its prediction is left.
+const LATE: f64 = 1.5;
+/// A setting coarser than its own tells something new where it is finer than this share of what was tried.
+const NEWS: f64 = 0.5;
 /// Those within this factor of the cheapest are tried with their own settings and timed again.
 const CLOSE: f64 = 1.6;
 /// So many of them at most, and so often.
@@ -67,15 +71,20 @@ impl Race<'_> {
         places
     }
 
-    /// Tries a finalist with its own setting: does it get to the end, and with the error that was predicted? Once more if not.
+    /// Tries a finalist with its own setting: does it get to the end, and with the error that was predicted? Once more if not. Where
+    /// there is no time for that setting, the finest that there is time for still makes the prediction a better one.
     fn confirm(&mut self, i: usize) {
         for _ in 0..2 {
             let Some(p) = self.place(i).map(|place| place.prediction) else { return };
-            let has = self.entrants[i].has_tried(p.point.setting);
-            if has || 1.5 * p.point.seconds > self.budget() - self.bench.spent() {
+            let (left, entrant) = (self.left(), &self.entrants[i]);
+            let most = (left / (LATE * p.point.seconds)).min(1.0);
+            let setting = p.point.setting * most.powf(-1.0 / entrant.law().cost);
+            let is_new = most >= 1.0
+                || entrant.tries.last().is_some_and(|finest| setting < NEWS * finest.setting);
+            if left <= 0.0 || entrant.has_tried(setting) || !is_new {
                 return;
             }
-            self.attempt(i, p.point.setting, Some(SLOW * p.point.seconds));
+            self.attempt(i, setting, Some(SLOW * p.point.seconds));
             self.judge();
             let finest = self.entrants[i].tries.last();
             if finest.is_some_and(|t| matches!(t.trial.end, End::Stopped(_))) {

@@ -16,6 +16,9 @@ const ERROR: [f64; 2] = [0.5, 1.25];
 const DOUBTED: f64 = 0.75;
 const COST: [f64; 2] = [0.25, 1.25];
 
+/// A coarser setting gains little where the instants of the results hold this share of the steps.
+const HELD: f64 = 0.85;
+
 /// Exponents of a method in its setting: the step, or the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Law {
@@ -62,6 +65,12 @@ impl Law {
         factor.powf(self.cost / self.error)
     }
 
+    /// The same of a run of which `held` is the share of steps that end at the instants of the results whatever the setting is: these
+    /// stay as they are.
+    pub(crate) fn longer(&self, held: f64, factor: f64) -> f64 {
+        held + (1.0 - held) * self.cost_of(factor)
+    }
+
     /// The exponents between two runs, as far as they are believed.
     fn between(&self, coarse: &Point, fine: &Point) -> Self {
         let span = (coarse.setting / fine.setting).ln();
@@ -83,6 +92,8 @@ pub(crate) struct Point {
     pub(crate) steps: u64,
     pub(crate) error: f64,
     pub(crate) seconds: f64,
+    /// Share of its steps that the instants of the results hold.
+    pub(crate) held: f64,
 }
 
 /// What a prediction stands on.
@@ -122,13 +133,15 @@ pub(crate) fn predict(
     let reaches = (0..points.len()).find(|&i| credited(points, i).error <= wanted);
     let Some(i) = reaches else {
         let before = points.len().checked_sub(2).map(|i| &points[i]);
+        // between two runs the time is measured, and what is held is in it
+        let held = before.map_or(last.held, |_| 0.0);
         let law = before.map_or(*law, |before| law.between(before, last));
         let factor = last.error / wanted;
         return Some(Prediction {
             point: Point {
                 setting: last.setting * law.setting_for(1.0 / factor),
                 error: wanted,
-                seconds: last.seconds * law.cost_of(factor),
+                seconds: last.seconds * law.longer(held, factor),
                 ..*last
             },
             basis: Basis::Finer(factor),
@@ -148,7 +161,7 @@ pub(crate) fn predict(
         let point = Point { setting, error: wanted, seconds, ..fine };
         return Some(Prediction { point, basis: Basis::Between });
     }
-    if fine.setting >= coarsest * (1.0 - 1e-9) {
+    if fine.setting >= coarsest * (1.0 - 1e-9) || fine.held >= HELD {
         return Some(Prediction { point: fine, basis: Basis::Coarsest });
     }
     let setting = fine.setting * law.setting_for(wanted / fine.error.max(f64::MIN_POSITIVE));
@@ -171,6 +184,7 @@ mod tests {
             steps: (10.0 / h) as u64,
             error: h * h,
             seconds: 1e-3 / h,
+            held: 0.0,
         };
         steps.iter().map(of).collect()
     }
@@ -196,6 +210,14 @@ mod tests {
             };
             assert_eq!(is, basis);
         }
+    }
+
+    #[test]
+    fn steps_that_the_results_hold_take_no_longer_with_finer_settings() {
+        let mut held = points(&[0.1]);
+        held[0].held = 0.75;
+        let found = predict(&SECOND, &held, 1e-4, 1.0).unwrap();
+        assert!(near(found.point.seconds, (0.75 + 0.25 * 10.0) * 1e-2), "{found:?}");
     }
 
     #[test]

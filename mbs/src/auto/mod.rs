@@ -8,6 +8,7 @@ mod entrant;
 mod finish;
 mod goal;
 mod law;
+mod patience;
 mod plan;
 mod race;
 mod reference;
@@ -25,7 +26,9 @@ pub(crate) use report::reasons;
 use crate::choice::{IntegratorKind, Precision};
 use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, Method};
+use crate::ready::Ready;
 use crate::settings::{Overrides, Settings};
+use crate::stop::Names;
 use crate::tree::{InSpace, Plane};
 use bench::SceneBench;
 use entrant::Entrant;
@@ -135,11 +138,15 @@ fn in_space<T: Real, const D: usize>(
 where
     Plane<D>: InSpace<T>,
 {
-    let structure = structure::structure::<T, D>(scene, task.settings);
+    let begun = clock.seconds();
+    let ready = Ready::<T, D>::new(scene);
+    let mut ready = ready.map_err(|e| Box::new(e.report(0.0, &Names::new(scene))));
+    let structure = structure::structure(scene, task.settings.duration, ready.as_mut().ok());
     let (wanted, mut instants) = (wanted(&task.goal), task.instants);
-    let (mut spent, mut before) = (0.0, 0.0);
+    let mut spent = clock.seconds() - begun;
+    let mut before = spent;
     for cut in 0..=CUTS {
-        let mut bench = SceneBench::<T, D>::new(scene, task.base, instants, (&mut *clock, spent));
+        let mut bench = SceneBench::new((scene, task.base), &ready, instants, (&mut *clock, spent));
         let mut entrants: Vec<Entrant> =
             methods.iter().map(|m| entrant(*m, &structure, (wanted, instants))).collect();
         entrants.sort_by_key(|e| structure.promise(&e.method));
@@ -226,7 +233,8 @@ where
     Plane<D>: InSpace<T>,
 {
     let methods = methods(scene, &Overrides::default(), settings, &Goal::default()).ok()?;
-    let structure = structure::structure::<T, D>(scene, settings);
+    let mut ready = Ready::<T, D>::new(scene).ok();
+    let structure = structure::structure(scene, settings.duration, ready.as_mut());
     let candidate = |method: &Method| Candidate {
         out: structure.refuses(method),
         basis: "the pilot decides".to_owned(),

@@ -7,6 +7,7 @@
 use super::entrant::{Entrant, LOST};
 use super::law::{Basis, Point, Prediction};
 use super::trial::{Aim, Bench, End, Trial};
+use crate::choice::Formulation;
 use crate::compare::method::{Control, Method};
 use crate::words::{duration, few};
 
@@ -28,19 +29,16 @@ const START: f64 = 1e-3;
 const LED: usize = 6;
 /// One of second order is followed where it promises to take no more than this share of what is left.
 const FOLLOWED: f64 = 0.4;
-/// Errors are not extrapolated over more than this factor at once where the motion was lost.
-const LEAP: f64 = 30.0;
+/// Errors are not extrapolated over more than this factor at once where the motion was lost: where a smaller error costs little, and
+/// where it costs more, which then takes no more than about three times as long.
+const LEAP: [f64; 2] = [30.0, 8.0];
 /// A trial is given up where it takes so many times what the best does.
-const LOSING: f64 = 1.6;
-/// A first look at a candidate takes this share of the time of the best; where there is none, this share of the fastest trial (more
-/// where it is of high order), or of what is left, so that each has one; any other trial this share of what is left, or up to
-/// the next where that is likely to be enough, but not less than so much [s].
-const LOOK: f64 = 0.25;
-const GLANCE: f64 = 0.5;
-const GLIMPSE: f64 = 0.125;
-const SHARE: f64 = 0.3;
-const MOST: f64 = 0.7;
+pub(super) const LOSING: f64 = 1.6;
+/// Any trial takes no less than this [s], and no more than this share of what is left, or up to the next where that is likely to be
+/// enough.
 const SHORTEST: f64 = 2e-3;
+pub(super) const SHARE: f64 = 0.3;
+pub(super) const MOST: f64 = 0.7;
 /// Where no trial has got to the end after this share of the budget, the span is too long for it.
 const BLIND: f64 = 0.7;
 /// Twins are believed to need no less than this share of each other's steps, and of the time of each.
@@ -125,12 +123,14 @@ impl<'a> Race<'a> {
     /// Who is tried next, and with what: the one that could be the cheapest.
     fn pick(&mut self, cheapest: Option<f64>, may_wait: bool) -> Option<(usize, f64)> {
         let mut pick: Option<(f64, usize, f64)> = None;
-        let is_blind = self.best.is_none() && self.fastest().is_some();
+        let most_done = self.entrants.iter().map(|e| e.done().count()).max();
+        let is_blind = self.best.is_none() && most_done == Some(1);
         for i in 0..self.entrants.len() {
             if self.entrants[i].out.is_some() {
                 continue;
             }
-            // before anything else one neighbour tells errors; those that follow a leader wait until one has reached the goal
+            // before anything else one neighbour tells errors, unless it takes the same steps; those that follow a leader wait
+            // until one has reached the goal
             let is_early = is_blind && self.entrants[i].done().next().is_none();
             if may_wait && (is_early || (cheapest.is_none() && self.follows(i))) {
                 continue;
@@ -176,34 +176,12 @@ impl<'a> Race<'a> {
         Some((led.0, led.1))
     }
 
-    /// Is there a candidate that takes about the same steps, comes first, and is not out?
+    /// Is there a candidate that takes about the same steps, comes first, and is not out, or only because it takes too long?
     fn follows(&self, i: usize) -> bool {
         let method = &self.entrants[i].method;
-        let leaders = self.entrants[..i].iter().filter(|e| e.out.is_none());
+        let is_slow = |e: &Entrant| e.tries.last().is_some_and(|t| t.trial.end == End::GivenUp);
+        let leaders = self.entrants[..i].iter().filter(|e| e.out.is_none() || is_slow(e));
         leaders.into_iter().any(|e| is_twin(&e.method, method))
-    }
-
-    /// How long the next trial of a candidate may take [s]: the first is a look.
-    fn patience(&mut self, i: usize, setting: f64, cheapest: Option<f64>) -> Option<f64> {
-        match (self.entrants[i].tries.is_empty(), cheapest) {
-            (true, Some(seconds)) => Some(LOOK * seconds),
-            (true, None) => {
-                let share = if is_cheap(&self.entrants[i]) { LOSING } else { GLANCE };
-                let most = self.fastest().map(|seconds| share * seconds);
-                Some(most.unwrap_or(GLIMPSE * self.left()))
-            }
-            // what is coarser has stopped, or is not known to be good
-            (false, Some(seconds)) if self.entrants[i].done().next().is_none() => Some(seconds),
-            (false, Some(seconds)) => Some(LOSING * seconds),
-            (false, None) => {
-                // what is likely to get to the end may do so
-                let (left, entrant) = (self.left(), &self.entrants[i]);
-                let last = entrant.tries.last().map_or(setting, |t| t.setting);
-                let finer = (last / setting).powf(entrant.law().cost);
-                let enough = LOSING * entrant.whole_seconds()? * finer;
-                Some((SHARE * left).max(if enough <= MOST * left { enough } else { 0.0 }))
-            }
-        }
     }
 
     /// What the pilot may take [s].
@@ -262,8 +240,11 @@ impl<'a> Race<'a> {
             entrant
                 .estimate(|fine: &Trial, coarse: &Trial| bench.distance(&fine.rows, &coarse.rows));
         }
+        self.agree();
+        let bench = &*self.bench;
         let known = self.entrants.iter().enumerate().flat_map(|(entrant, e)| {
-            e.done().filter_map(move |t| Some(Best { entrant, setting: t.setting, own: t.own? }))
+            e.done()
+                .filter_map(move |t| Some(Best { entrant, setting: t.setting, own: t.known()? }))
         });
         let best = known.min_by(|a, b| a.own.total_cmp(&b.own));
         let is_new = best != self.best;
@@ -281,6 +262,33 @@ impl<'a> Race<'a> {
                     t.error = Some(if error.is_nan() { f64::INFINITY } else { error });
                 }
             }
+        }
+    }
+
+    /// Two rules have different errors: where their outputs agree, that bounds the errors of both.
+    fn agree(&mut self) {
+        let places = self.entrants.iter().enumerate().flat_map(|(i, e)| {
+            (0..e.tries.len()).filter(move |&k| e.tries[k].is_done()).map(move |k| (i, k))
+        });
+        let places: Vec<(usize, usize)> = places.collect();
+        let met = |e: &[Entrant], (i, k): (usize, usize)| e[i].tries[k].is_met;
+        for (n, &a) in places.iter().enumerate() {
+            for &b in &places[..n] {
+                let (one, other) = (&self.entrants[a.0], &self.entrants[b.0]);
+                let is_same = one.method.integrator == other.method.integrator;
+                if is_same || (met(&self.entrants, a) && met(&self.entrants, b)) {
+                    continue;
+                }
+                let rows = [&one.tries[a.1].trial.rows, &other.tries[b.1].trial.rows];
+                let apart = self.bench.distance(rows[0], rows[1]).max(f64::EPSILON);
+                for (i, k) in [a, b].into_iter().filter(|_| apart <= LOST) {
+                    let agreed = &mut self.entrants[i].tries[k].agreed;
+                    *agreed = Some(agreed.map_or(apart, |least| least.min(apart)));
+                }
+            }
+        }
+        for (i, k) in places {
+            self.entrants[i].tries[k].is_met = true;
         }
     }
 
@@ -304,7 +312,7 @@ impl<'a> Race<'a> {
     }
 
     /// CPU time of the fastest trial that got to the end [s].
-    fn fastest(&self) -> Option<f64> {
+    pub(super) fn fastest(&self) -> Option<f64> {
         let done = self.entrants.iter().flat_map(|e| e.done().map(|t| t.trial.seconds));
         done.min_by(f64::total_cmp)
     }
@@ -337,7 +345,8 @@ impl<'a> Race<'a> {
             // what is finer may cost nothing
             Some(Prediction { basis: Basis::Finer(_), .. }) if entrant.is_held() => seconds,
             Some(Prediction { basis: Basis::Finer(factor), .. }) => {
-                seconds * entrant.law().cost_of((0.25 * factor).max(1.0))
+                let held = entrant.tries.last().map_or(0.0, |t| entrant.held(t));
+                seconds * entrant.law().longer(held, (0.25 * factor).max(1.0))
             }
             Some(p) => p.point.seconds / KNOWN,
             None if is_partial => seconds / KNOWN,
@@ -365,11 +374,12 @@ impl<'a> Race<'a> {
             entrant.fit(entrant.law().setting_for(1.0 / factor) * last.setting).max(entrant.finest)
         };
         let is_any_done = entrant.done().next().is_some();
+        let leap = LEAP[usize::from(!is_cheap(entrant))];
         match &last.trial.end {
             End::NotStarted(e) => return Next::Out(format!("{}: {}", e.code, e.message)),
             End::GivenUp => return Next::Try(last.setting),
             End::Stopped(_) if !is_any_done => {
-                let finer = refine(LEAP);
+                let finer = refine(LEAP[0]);
                 let is_over = entrant.tries.len() >= TRIES[1] || entrant.has_tried(finer);
                 let is_at_the_start = entrant.tries.len() > 1
                     && entrant.tries.iter().all(|t| t.trial.reached <= START);
@@ -380,7 +390,7 @@ impl<'a> Race<'a> {
             _ => {}
         }
         let Some(p) = self.prediction(entrant) else {
-            let finer = refine(if entrant.law().cost < 1.0 { LEAP } else { 4.0 });
+            let finer = refine(if entrant.law().cost < 1.0 { leap } else { 4.0 });
             let is_over = !is_any_done || entrant.has_tried(finer);
             return if is_over {
                 Next::Out("its error is not known".into())
@@ -407,13 +417,14 @@ impl<'a> Race<'a> {
     /// Another trial where the prediction says, or enough.
     fn follow(&self, entrant: &Entrant, p: Prediction) -> Next {
         let law = entrant.law();
+        let leap = LEAP[usize::from(!is_cheap(entrant))];
         let setting = match p.basis {
             // the way to a small error is not known from where the motion was lost, nor what is reached far off all that is known
             Basis::Finer(factor)
-                if factor > LEAP && (self.wanted.error * factor > LOST || !self.can_tell()) =>
+                if factor > leap && (self.wanted.error * factor > LOST || !self.can_tell()) =>
             {
                 let finest = entrant.tries.last().map_or(p.point.setting, |t| t.setting);
-                entrant.fit(finest * law.setting_for(1.0 / LEAP)).max(entrant.finest)
+                entrant.fit(finest * law.setting_for(1.0 / leap)).max(entrant.finest)
             }
             _ => p.point.setting,
         };
@@ -445,7 +456,7 @@ impl<'a> Race<'a> {
 }
 
 /// Does a smaller error cost it little?
-fn is_cheap(entrant: &Entrant) -> bool {
+pub(super) fn is_cheap(entrant: &Entrant) -> bool {
     let law = entrant.law();
     law.cost / law.error < CHEAP
 }
@@ -466,12 +477,15 @@ fn bounded(entrant: &Entrant, p: Prediction) -> Prediction {
 
 /// The same rule in coordinates of the same kind: they need about the same steps.
 fn is_twin(a: &Method, b: &Method) -> bool {
-    use crate::choice::Formulation::Recursive;
     let is_same = a.formulation == b.formulation;
     let is_controlled = |m: &Method| m.control != Control::Fixed;
     !is_same
         && a.integrator == b.integrator
         && is_controlled(a) == is_controlled(b)
         && (a.control == b.control)
-        && (a.formulation == Recursive) == (b.formulation == Recursive)
+        && is_relative(a) == is_relative(b)
+}
+
+pub(super) fn is_relative(method: &Method) -> bool {
+    method.formulation == Formulation::Recursive
 }

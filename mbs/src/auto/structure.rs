@@ -1,9 +1,8 @@
 //! What a scene's structure says before anything is run: who cannot run it, and what makes it dear.
 
-use crate::choice::{Formulation, IntegratorKind};
+use crate::choice::Formulation;
 use crate::compare::method::Method;
-use crate::settings::Settings;
-use crate::simulation::Simulation;
+use crate::ready::Ready;
 use crate::stop::{Names, StopError};
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
@@ -33,17 +32,16 @@ pub(crate) struct Structure {
     pub(crate) duration: f64,
 }
 
-/// Looks at a scene.
-pub(crate) fn structure<T: Real, const D: usize>(scene: &Scene<T>, settings: &Settings) -> Structure
+/// Looks at a scene that runs for `duration` [s].
+pub(crate) fn structure<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    duration: f64,
+    ready: Option<&mut Ready<T, D>>,
+) -> Structure
 where
     Plane<D>: InSpace<T>,
 {
-    let natural = Settings {
-        formulation: Formulation::Index3,
-        integrator: IntegratorKind::Trapezoidal,
-        ..settings.clone()
-    };
-    let natural = Simulation::<T, D>::new(scene, &natural).ok().map(|s| s.sizes());
+    let natural = ready.map(Ready::sizes);
     let tree = TreeModel::<T, <Plane<D> as InSpace<T>>::Space>::new(scene);
     let loops = tree.map(|tree| tree.cut_joints().count());
     let enabled = || scene.effects.iter().filter(|effect| effect.enabled);
@@ -61,7 +59,7 @@ where
         guides: scene.guides.len(),
         contacts: enabled().filter(is_contact).count(),
         frequency: enabled().map(|effect| frequency(scene, effect)).fold(0.0, f64::max),
-        duration: settings.duration,
+        duration,
     }
 }
 

@@ -20,7 +20,7 @@ pub(crate) trait Watcher<T: Real, const D: usize>
 where
     Plane<D>: InSpace<T>,
 {
-    /// A step was made; `is_last`: it ends the run.
+    /// A step was made; `is_last`: it ends the run. Says whether to go on.
     ///
     /// # Errors
     /// What stops the run.
@@ -29,9 +29,9 @@ where
         simulation: &Simulation<T, D>,
         accepted: &Accepted<T>,
         is_last: bool,
-    ) -> Result<(), StopError> {
+    ) -> Result<bool, StopError> {
         let _ = (simulation, accepted, is_last);
-        Ok(())
+        Ok(true)
     }
 
     /// An instant is reached. Says whether to go on.
@@ -60,27 +60,27 @@ where
 {
     for k in 0..course.instants.count {
         let is_last = k + 1 == course.instants.count;
-        match course.between {
+        let goes_on = match course.between {
             Some(n) => fixed(simulation, (course.instants, n), k, watcher)?,
             None => {
                 let end = T::from_f64(course.instants.time(k + 1));
-                controlled(simulation, end, is_last, watcher)?;
+                controlled(simulation, end, is_last, watcher)?
             }
-        }
-        if !watcher.instant(simulation)? {
+        };
+        if !goes_on || !watcher.instant(simulation)? {
             return Ok(());
         }
     }
     Ok(())
 }
 
-/// The steps of fixed length after instant `k`.
+/// The steps of fixed length after instant `k`. Says whether to go on.
 fn fixed<T: Real, const D: usize>(
     simulation: &mut Simulation<T, D>,
     (instants, n): (Instants, u64),
     k: usize,
     watcher: &mut impl Watcher<T, D>,
-) -> Result<(), StopError>
+) -> Result<bool, StopError>
 where
     Plane<D>: InSpace<T>,
 {
@@ -93,18 +93,21 @@ where
         let accepted = simulation.advance(dt).map_err(|error| simulation.explain(error))?;
         let t = if j == n { end } else { instants.time(k) + float(j) * h };
         simulation.set_time(T::from_f64(t));
-        watcher.step(simulation, &accepted, j == n && k + 1 == instants.count)?;
+        if !watcher.step(simulation, &accepted, j == n && k + 1 == instants.count)? {
+            return Ok(false);
+        }
     }
-    Ok(())
+    Ok(true)
 }
 
-/// Steps of controlled length up to `end` [s]. An integrator that controls its own takes them within one.
+/// Steps of controlled length up to `end` [s]. An integrator that controls its own takes them within one. Says
+/// whether to go on.
 fn controlled<T: Real, const D: usize>(
     simulation: &mut Simulation<T, D>,
     end: T,
     is_last: bool,
     watcher: &mut impl Watcher<T, D>,
-) -> Result<(), StopError>
+) -> Result<bool, StopError>
 where
     Plane<D>: InSpace<T>,
 {
@@ -112,15 +115,15 @@ where
         let rest = end - simulation.state().t;
         if rest <= T::ZERO {
             simulation.set_time(end);
-            return Ok(());
+            return Ok(true);
         }
         let accepted = simulation.advance(rest).map_err(|error| simulation.explain(error))?;
         if accepted.is_last {
             simulation.set_time(end);
         }
-        watcher.step(simulation, &accepted, is_last && accepted.is_last)?;
-        if accepted.is_last {
-            return Ok(());
+        let goes_on = watcher.step(simulation, &accepted, is_last && accepted.is_last)?;
+        if accepted.is_last || !goes_on {
+            return Ok(goes_on);
         }
     }
 }

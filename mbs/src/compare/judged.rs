@@ -6,7 +6,7 @@ use super::store::Store;
 use super::{CompareError, Study, Watch};
 use crate::auto::{Goal, Pick, Processor, Task, choose, methods};
 use crate::settings::{Overrides, Settings};
-use mbs_scene::compare::{Comparison, JudgedChoice, Status};
+use mbs_scene::compare::{Comparison, JudgedChoice, MethodRuns, Status};
 
 /// A chosen run is timed so often.
 const TURNS: u32 = 9;
@@ -27,22 +27,21 @@ impl Study<'_> {
         comparison.digest(&self.request.errors);
         for (level, &error) in self.request.errors.iter().enumerate() {
             watch.doing(DONE, "choice by measurement");
+            let best = Rival::new(comparison, level);
             let key = format!("choice {error:e}");
-            let run = || serde_json::to_value(self.choice(error, known)).unwrap_or_default();
+            let run = || {
+                let choice = self.choice(error, known, best.as_ref());
+                serde_json::to_value(choice).unwrap_or_default()
+            };
             let value = store.get(&key, run).map_err(CompareError::Journal)?;
-            let mut choice = serde_json::from_value::<JudgedChoice>(value).unwrap_or_default();
-            let ranks = comparison.ranking.get(level).map_or(&[][..], |level| &level.ranks);
-            let best = ranks.iter().min_by(|a, b| a.seconds.total_cmp(&b.seconds));
-            choice.best_method = best.map(|rank| rank.method.clone());
-            choice.best_seconds = best.map(|rank| rank.seconds);
-            choice.over_best = choice.cpu_seconds.zip(choice.best_seconds).map(|(a, b)| a / b);
-            comparison.choices.push(choice);
+            comparison.choices.push(serde_json::from_value(value).unwrap_or_default());
         }
         Ok(())
     }
 
-    fn choice(&self, error: f64, known: &Known) -> JudgedChoice {
+    fn choice(&self, error: f64, known: &Known, best: Option<&Rival>) -> JudgedChoice {
         let mut judged = JudgedChoice { error, ..JudgedChoice::default() };
+        judged.best_method = best.map(|best| best.runs.name.clone());
         let scene = &self.scenes.double;
         let instants = super::Instants { count: known.rows.len(), ..self.instants };
         let duration = Some(instants.time(instants.count));
@@ -59,10 +58,12 @@ impl Study<'_> {
             judged.setting = pick.setting;
             judged.predicted_seconds = candidate.seconds;
             judged.predicted_error = candidate.error;
-            match self.chosen_run(pick, (instants, known)) {
-                Ok((true_error, cpu_seconds)) => {
-                    judged.true_error = true_error;
-                    judged.cpu_seconds = cpu_seconds;
+            match self.chosen_run(pick, (instants, known), best) {
+                Ok(held) => {
+                    judged.true_error = held.true_error;
+                    judged.cpu_seconds = held.seconds;
+                    judged.best_seconds = held.best_seconds;
+                    judged.over_best = held.seconds.zip(held.best_seconds).map(|(a, b)| a / b);
                     break;
                 }
                 Err(why) => judged.stopped.push(format!("{}: {why}", pick.method.name())),
@@ -71,12 +72,13 @@ impl Study<'_> {
         judged
     }
 
-    /// True error and least CPU time of a chosen run [s].
+    /// A chosen run, timed by turns with the runs of the best of all beside the error: what slows the machine for a while slows both.
     fn chosen_run(
         &self,
         pick: &Pick,
         (instants, known): (super::Instants, &Known),
-    ) -> Result<(Option<f64>, Option<f64>), String> {
+        best: Option<&Rival>,
+    ) -> Result<Held, String> {
         let between = pick.method.is_fixed().then(|| instants.steps_between(pick.setting));
         #[allow(clippy::cast_precision_loss, reason = "a count of steps")]
         let step = between.map_or(self.of_scene, |n| instants.interval / n as f64);
@@ -87,7 +89,44 @@ impl Study<'_> {
             return Err(recorded.entry.failure.map_or_else(String::new, |e| e.code));
         }
         let true_error = known.errors(&recorded.rows).map(|[largest, _]| largest);
-        let times = (0..TURNS).filter_map(|turn| self.scenes.timed(&settings, &course, turn));
-        Ok((true_error, times.min_by(f64::total_cmp)))
+        let mut seconds = None::<f64>;
+        let mut best = best.cloned();
+        for turn in 0..TURNS {
+            let time = self.scenes.timed(&settings, &course, turn);
+            seconds = seconds.into_iter().chain(time).reduce(f64::min);
+            let Some(Rival { method, runs, .. }) = &mut best else { continue };
+            for run in &mut runs.runs {
+                let (settings, course) = self.course(&self.methods[*method], run.setting, known)?;
+                run.cpu_seconds.extend(self.scenes.timed(&settings, &course, turn));
+            }
+        }
+        let best_seconds = best.and_then(|best| best.runs.seconds_at(best.error, best.instants));
+        Ok(Held { true_error, seconds, best_seconds })
+    }
+}
+
+/// True error and least CPU time of a chosen run [s], and of the best at the wanted error [s].
+struct Held {
+    true_error: Option<f64>,
+    seconds: Option<f64>,
+    best_seconds: Option<f64>,
+}
+
+/// The best of all methods at an error, with its runs beside that error alone, not timed yet.
+#[derive(Clone)]
+struct Rival {
+    method: usize,
+    runs: MethodRuns,
+    error: f64,
+    instants: u64,
+}
+
+impl Rival {
+    fn new(comparison: &Comparison, level: usize) -> Option<Self> {
+        let level = comparison.ranking.get(level)?;
+        let best = level.ranks.iter().min_by(|a, b| a.seconds.total_cmp(&b.seconds))?;
+        let method = comparison.methods.iter().position(|m| m.name == best.method)?;
+        let runs = comparison.methods[method].beside_alone(level.error);
+        Some(Self { method, runs, error: level.error, instants: comparison.instants as u64 })
     }
 }

@@ -188,7 +188,7 @@ where
         simulation: &Simulation<T, D>,
         accepted: &Accepted<T>,
         is_last: bool,
-    ) -> Result<(), StopError> {
+    ) -> Result<bool, StopError> {
         let now = self.start.elapsed();
         let report = &accepted.attempt.report;
         let steps = report.steps.max(1);
@@ -202,7 +202,7 @@ where
         self.channels.track(simulation.state());
         let stop = self.alarm.rings(simulation, is_last);
         self.last = self.start.elapsed();
-        stop.map_or(Ok(()), Err)
+        stop.map_or(Ok(true), Err)
     }
 
     fn instant(&mut self, simulation: &Simulation<T, D>) -> Result<bool, StopError> {

@@ -21,16 +21,16 @@ pub use motion::{Motion, Nearest, Straight};
 pub use report::report;
 pub use start::Moved;
 
+use crate::ready::Ready;
 use crate::settings::Settings;
 use crate::simulation::rank;
-use crate::statics::{assembled, equilibrium_start};
 use crate::stop::{Names, StopError};
 use crate::tree::{InSpace, Plane};
 use mbs_core::Cliques;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{Scene, Start};
+use mbs_core::scene::Scene;
 use mbs_core::start::Assembled;
 use mbs_doctor::{
     Diagnosis, Drive, Linkage, Loop, Massless, Rank, diagnose, drives, loops, reference,
@@ -176,10 +176,7 @@ fn begin<const D: usize>(scene: &Scene<f64>) -> Result<Begun<D>, StopError>
 where
     Plane<D>: InSpace<f64>,
 {
-    let (model, mut solver, mut start) = assembled::<f64, D>(scene)?;
-    if scene.start == Start::Equilibrium {
-        equilibrium_start(scene, &model, &mut solver, &mut start)?;
-    }
+    let Ready { model, start, .. } = Ready::new(scene)?;
     let poses = places(scene, &model, &start.state);
     Ok(Begun { model, start, poses })
 }

@@ -1,0 +1,54 @@
+//! What every way to simulate a scene begins from.
+
+use crate::simulation;
+use crate::statics::equilibrium_start;
+use crate::stop::StopError;
+use mbs_core::model::Model;
+use mbs_core::natural::NaturalModel;
+use mbs_core::scene::{Scene, Start};
+use mbs_core::start::{Assembled, assemble};
+use mbs_core::{Cliques, Real};
+use mbs_sparse::Multifrontal;
+
+/// A model, its solver, and its consistent start.
+#[derive(Debug, Clone)]
+pub(crate) struct Ready<T: Real, const D: usize> {
+    pub(crate) model: NaturalModel<T, D>,
+    pub(crate) solver: Multifrontal<T>,
+    pub(crate) start: Assembled<T>,
+    rank: Option<usize>,
+}
+
+impl<T: Real, const D: usize> Ready<T, D> {
+    /// Builds the model of a scene and assembles it; it settles where the scene asks for it.
+    ///
+    /// # Errors
+    /// [`StopError`] when there is no model, no consistent start or no equilibrium.
+    pub(crate) fn new(scene: &Scene<T>) -> Result<Self, StopError> {
+        let mut ready = Self::assembled(scene)?;
+        if scene.start == Start::Equilibrium {
+            let Self { model, solver, start, .. } = &mut ready;
+            equilibrium_start(scene, model, solver, start)?;
+        }
+        Ok(ready)
+    }
+
+    /// Builds the model of a scene and assembles it, no more.
+    ///
+    /// # Errors
+    /// [`StopError::Start`] when there is no model or no consistent start.
+    pub(crate) fn assembled(scene: &Scene<T>) -> Result<Self, StopError> {
+        let model = NaturalModel::new(scene).map_err(|e| StopError::Start(e.into()))?;
+        let analyse = mbs_sparse::Options::default();
+        let mut solver = Multifrontal::analyse(&model, analyse);
+        let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver);
+        Ok(Self { start: start.map_err(StopError::Start)?, model, solver, rank: None })
+    }
+
+    /// Coordinates, constraints, and their rank at the start, which is found once.
+    pub(crate) fn sizes(&mut self) -> [usize; 3] {
+        let Self { model, start, rank, .. } = self;
+        let rank = *rank.get_or_insert_with(|| simulation::rank(model, &start.state));
+        [model.n_unknowns(), model.n_constraints(), rank]
+    }
+}
