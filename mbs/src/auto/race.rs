@@ -166,12 +166,10 @@ impl<'a> Race<'a> {
         };
         let known = self.entrants.iter().enumerate().filter(|(_, e)| e.out.is_none());
         let led = known.filter_map(of).min_by(|a, b| a.2.total_cmp(&b.2))?;
-        if !is_cheap(&self.entrants[led.0]) {
-            // a small error may cost another much less: those are looked at first
-            let is_unseen = |e: &Entrant| e.out.is_none() && e.tries.is_empty() && is_cheap(e);
-            if let Some(i) = self.entrants.iter().position(is_unseen) {
-                return Some((i, self.entrants[i].first));
-            }
+        // a small error may cost another much less: those are looked at first
+        let is_unseen = |e: &Entrant| e.out.is_none() && e.tries.is_empty() && is_cheap(e);
+        if let Some(i) = self.entrants.iter().position(is_unseen) {
+            return Some((i, self.entrants[i].first));
         }
         Some((led.0, led.1))
     }
