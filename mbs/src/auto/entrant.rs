@@ -22,7 +22,7 @@ pub(crate) struct Try {
     pub(crate) trial: Trial,
     /// Its error by the distance of its coarser neighbour.
     pub(crate) own: Option<f64>,
-    /// Its least distance from a trial with another rule, and has it met all that there are?
+    /// Its least distance from a trial with another rule, where the results hold its steps; has it met all that there are?
     pub(crate) agreed: Option<f64>,
     pub(crate) is_met: bool,
     /// Its error against the best of all trials.

@@ -17,7 +17,7 @@ const DOUBTED: f64 = 0.75;
 const COST: [f64; 2] = [0.25, 1.25];
 
 /// A coarser setting gains little where the instants of the results hold this share of the steps.
-const HELD: f64 = 0.85;
+pub(super) const HELD: f64 = 0.85;
 
 /// Exponents of a method in its setting: the step, or the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,10 +5,11 @@ use super::race::{LOSING, MOST, Race, SHARE, is_cheap, is_relative};
 use super::trial::End;
 
 /// A first look at a candidate takes this share of the time of the best; where there is none, this share of the fastest trial (more
-/// where it is of high order, or in relative coordinates), or of what is left, so that each has one.
+/// where it is of high order, or in relative coordinates), or of what is left, so that each has one; the first of all, which promises
+/// most, has more of it.
 const LOOK: f64 = 0.25;
 const GLANCE: f64 = 0.5;
-const GLIMPSE: f64 = 0.2;
+const GLIMPSE: [f64; 2] = [0.2, 0.125];
 /// What a stop leaves of it to who has not completed a trial.
 const STOPPED: f64 = 0.6;
 /// Natural coordinates take about the same steps as relative ones with the same rule, and longer for each in all but small scenes: so
@@ -37,7 +38,8 @@ impl Race<'_> {
                 let is_likely = is_cheap(entrant) || is_relative(&entrant.method);
                 let share = if is_likely { LOSING } else { GLANCE };
                 let most = self.fastest().map(|seconds| share * seconds);
-                Some(most.unwrap_or(GLIMPSE * self.left()))
+                let is_any_tried = self.entrants.iter().any(|e| !e.tries.is_empty());
+                Some(most.unwrap_or(GLIMPSE[usize::from(is_any_tried)] * self.left()))
             }
             // what is coarser has stopped, or is not known to be good
             (false, Some(seconds)) if self.entrants[i].done().next().is_none() => Some(seconds),

@@ -5,7 +5,7 @@
 //! with coarse settings, so that what happens late in the run is seen as well.
 
 use super::entrant::{Entrant, LOST};
-use super::law::{Basis, Point, Prediction};
+use super::law::{Basis, HELD, Point, Prediction};
 use super::trial::{Aim, Bench, End, Trial};
 use crate::choice::Formulation;
 use crate::compare::method::{Control, Method};
@@ -263,23 +263,28 @@ impl<'a> Race<'a> {
         }
     }
 
-    /// Two rules have different errors: where their outputs agree, that bounds the errors of both.
+    /// Where the results hold the steps, no coarser neighbour tells an error. Two rules have different ones: where their outputs agree,
+    /// that bounds both.
     fn agree(&mut self) {
         let places = self.entrants.iter().enumerate().flat_map(|(i, e)| {
             (0..e.tries.len()).filter(move |&k| e.tries[k].is_done()).map(move |k| (i, k))
         });
         let places: Vec<(usize, usize)> = places.collect();
-        let met = |e: &[Entrant], (i, k): (usize, usize)| e[i].tries[k].is_met;
-        for (n, &a) in places.iter().enumerate() {
-            for &b in &places[..n] {
-                let (one, other) = (&self.entrants[a.0], &self.entrants[b.0]);
+        let is_held = |(i, k): (usize, usize)| {
+            let entrant = &self.entrants[i];
+            entrant.held(&entrant.tries[k]) >= HELD
+        };
+        let held: Vec<(usize, usize)> = places.iter().copied().filter(|p| is_held(*p)).collect();
+        for (i, k) in held {
+            for &(j, l) in &places {
+                let (one, other) = (&self.entrants[i], &self.entrants[j]);
                 let is_same = one.method.integrator == other.method.integrator;
-                if is_same || (met(&self.entrants, a) && met(&self.entrants, b)) {
+                if is_same || (one.tries[k].is_met && other.tries[l].is_met) {
                     continue;
                 }
-                let rows = [&one.tries[a.1].trial.rows, &other.tries[b.1].trial.rows];
+                let rows = [&one.tries[k].trial.rows, &other.tries[l].trial.rows];
                 let apart = self.bench.distance(rows[0], rows[1]).max(f64::EPSILON);
-                for (i, k) in [a, b].into_iter().filter(|_| apart <= LOST) {
+                if apart <= LOST {
                     let agreed = &mut self.entrants[i].tries[k].agreed;
                     *agreed = Some(agreed.map_or(apart, |least| least.min(apart)));
                 }

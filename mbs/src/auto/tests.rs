@@ -250,6 +250,27 @@ fn a_method_whose_steps_are_held_by_the_rows_is_tried_with_what_may_cost_it_noth
 }
 
 #[test]
+fn where_the_rows_hold_all_steps_two_rules_that_agree_tell_the_error() {
+    // whatever the tolerance, both make one step to each row: no neighbour has fewer
+    let nature = |m: &Method| match m.integrator.name() {
+        "rk54" => Nature { seconds: 1e-6, error: 1e-6, held: 1e-2, ..TAME },
+        "rk853" => Nature { seconds: 1e-6, error: 1e-7, held: 1.2e-2, ..TAME },
+        _ => Nature { seconds: 50.0, error: 1e-3, ..TAME },
+    };
+    let (first, fake) = chosen(nature, 1e-2, None);
+    let (method, _, reaches) = first.unwrap();
+    assert!(reaches && method.name() == "recursive rk54, f64", "{}", method.name());
+    // a neighbour of the first is tried before another rule is, and takes the same steps
+    for (rule, most) in [("rk54", 2), ("rk853", 1)] {
+        let mut settings: Vec<f64> = Vec::new();
+        settings.extend(fake.trials.iter().filter(|(name, _)| name.contains(rule)).map(|t| t.1));
+        settings.sort_by(f64::total_cmp);
+        settings.dedup();
+        assert_eq!(settings.len(), most, "{:?}", fake.trials);
+    }
+}
+
+#[test]
 fn the_pilot_keeps_to_its_budget() {
     for seconds in [1e-3, 1e-2, 0.1, 1.0] {
         let (_, fake) = chosen(|_: &Method| Nature { seconds, ..TAME }, 1e-6, None);
