@@ -4,7 +4,7 @@
 //! one whose best case is dearer than what another was measured to take is left alone. All trials go over the whole span, the first
 //! with coarse settings, so that what happens late in the run is seen as well.
 
-use super::entrant::{Entrant, LOST};
+use super::entrant::{Entrant, LOST, Try};
 use super::law::{Basis, HELD, Point, Prediction};
 use super::trial::{Aim, Bench, End, Trial};
 use crate::choice::Formulation;
@@ -39,6 +39,8 @@ pub(super) const LOSING: f64 = 1.6;
 const SHORTEST: f64 = 2e-3;
 pub(super) const SHARE: f64 = 0.3;
 pub(super) const MOST: f64 = 0.7;
+/// A tolerance that is so many times as large should need fewer steps.
+const COARSER: f64 = 10.0;
 /// Where no trial has got to the end after this share of the budget, the span is too long for it.
 const BLIND: f64 = 0.7;
 /// Twins are believed to need no less than this share of each other's steps, and of the time of each.
@@ -263,7 +265,7 @@ impl<'a> Race<'a> {
         }
     }
 
-    /// Where the results hold the steps, no coarser neighbour tells an error. Two rules have different ones: where their outputs agree,
+    /// Where the results, or stability, hold the steps, no coarser neighbour tells an error. Two rules have different ones: where their outputs agree,
     /// that bounds both.
     fn agree(&mut self) {
         let places = self.entrants.iter().enumerate().flat_map(|(i, e)| {
@@ -271,8 +273,12 @@ impl<'a> Race<'a> {
         });
         let places: Vec<(usize, usize)> = places.collect();
         let is_held = |(i, k): (usize, usize)| {
-            let entrant = &self.entrants[i];
-            entrant.held(&entrant.tries[k]) >= HELD
+            let (entrant, fine) = (&self.entrants[i], &self.entrants[i].tries[k]);
+            let is_coarser = |t: &Try| t.is_done() && t.setting >= COARSER * fine.setting;
+            let is_untold = entrant.method.control == Control::Own
+                && fine.own.is_none()
+                && entrant.tries.iter().any(is_coarser);
+            is_untold || entrant.held(fine) >= HELD
         };
         let held: Vec<(usize, usize)> = places.iter().copied().filter(|p| is_held(*p)).collect();
         for (i, k) in held {
