@@ -50,7 +50,7 @@ impl Comparison {
                     self.methods.iter().zip(&times).filter(|(o, _)| o.family() == method.family());
                 let best = same.filter_map(|(_, time)| *time).fold(f64::INFINITY, f64::min);
                 if times[m].is_some_and(|time| time <= NEARLY * best) {
-                    runs.extend(method.beside(level).into_iter().map(|r| (m, r)));
+                    runs.extend(method.beside(level).into_iter().map(|(r, _)| (m, r)));
                 }
             }
         }
@@ -128,16 +128,12 @@ impl MethodRuns {
     /// to be timed again.
     #[must_use]
     pub fn beside_alone(&self, level: f64) -> Self {
-        let (places, errors): (Vec<usize>, Vec<f64>) =
-            self.timed().map(|(i, (error, _))| (i, error)).unzip();
-        let beside = front::beside(&errors, level);
-        let both = beside.into_iter().flat_map(|b| b.misses.into_iter().chain([b.reaches]));
-        let untimed = |i: usize| RunEntry {
-            error: Some(front::credited(&errors, i)),
+        let untimed = |(i, error): (usize, f64)| RunEntry {
+            error: Some(error),
             cpu_seconds: Vec::new(),
-            ..self.runs[places[i]].clone()
+            ..self.runs[i].clone()
         };
-        Self { runs: both.map(untimed).collect(), ..self.clone() }
+        Self { runs: self.beside(level).into_iter().map(untimed).collect(), ..self.clone() }
     }
 
     /// Is there a run with more steps than the coarse one of two and fewer than the fine one? Fixed steps are whole parts of the
@@ -150,13 +146,13 @@ impl MethodRuns {
         }
     }
 
-    /// Indices of the runs beside an error.
-    fn beside(&self, level: f64) -> Vec<usize> {
+    /// Indices of the runs beside an error, each with the error that it counts with.
+    fn beside(&self, level: f64) -> Vec<(usize, f64)> {
         let (places, errors): (Vec<usize>, Vec<f64>) =
             self.timed().map(|(i, (error, _))| (i, error)).unzip();
         let beside = front::beside(&errors, level);
         let both = beside.into_iter().flat_map(|b| b.misses.into_iter().chain([b.reaches]));
-        both.map(|i| places[i]).collect()
+        both.map(|i| (places[i], front::credited(&errors, i))).collect()
     }
 
     /// Completed runs that were timed, from the coarsest, with their indices.

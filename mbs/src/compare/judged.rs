@@ -1,6 +1,5 @@
 //! What `mbs run --error` would choose on the scene, held against what all methods were measured to take.
 
-use super::drive::Course;
 use super::reference::Known;
 use super::store::Store;
 use super::{CompareError, Study, Watch};
@@ -58,7 +57,7 @@ impl Study<'_> {
             judged.setting = pick.setting;
             judged.predicted_seconds = candidate.seconds;
             judged.predicted_error = candidate.error;
-            match self.chosen_run(pick, (instants, known), best) {
+            match self.chosen_run(pick, known, best) {
                 Ok(held) => {
                     judged.true_error = held.true_error;
                     judged.cpu_seconds = held.seconds;
@@ -73,17 +72,8 @@ impl Study<'_> {
     }
 
     /// A chosen run, timed by turns with the runs of the best of all beside the error: what slows the machine for a while slows both.
-    fn chosen_run(
-        &self,
-        pick: &Pick,
-        (instants, known): (super::Instants, &Known),
-        best: Option<&Rival>,
-    ) -> Result<Held, String> {
-        let between = pick.method.is_fixed().then(|| instants.steps_between(pick.setting));
-        #[allow(clippy::cast_precision_loss, reason = "a count of steps")]
-        let step = between.map_or(self.of_scene, |n| instants.interval / n as f64);
-        let settings = self.settings(&pick.method, pick.setting, step)?;
-        let course = Course { instants, between };
+    fn chosen_run(&self, pick: &Pick, known: &Known, best: Option<&Rival>) -> Result<Held, String> {
+        let (settings, course) = self.course(&pick.method, pick.setting, known)?;
         let recorded = self.scenes.recorded(&settings, &course, f64::from(u16::MAX));
         if recorded.entry.status != Status::Completed {
             return Err(recorded.entry.failure.map_or_else(String::new, |e| e.code));
