@@ -1,6 +1,6 @@
 //! `cargo xtask fuzz`: scenes that nobody meant, tried in a process of their own; what breaks it, or takes too long, is kept.
 
-use crate::process::{self, cargo};
+use crate::process;
 use crate::summary::Outcome;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -41,14 +41,11 @@ pub(crate) fn check() -> Result<Outcome, String> {
 }
 
 fn run(seconds: u64, seed: u64, count: u64) -> Result<String, String> {
-    let mut build = cargo();
-    // as the tests are built: fast, with every check of a debug build
-    build.args(["build", "--quiet", "--profile", "test", "--package", "fuzz"]);
-    process::run(build.current_dir(process::root()))?;
+    let program = process::tested("fuzz", "kept")?;
     let folder = process::target_dir().join("fuzz");
     fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let current = folder.join("current.toml");
-    let mut command = Command::new(process::target_dir().join("debug").join("fuzz"));
+    let mut command = Command::new(program);
     command.args([seconds.to_string(), seed.to_string(), count.to_string()]);
     command.args([process::root().join("scenes"), process::root().join("fuzz").join("corpus")]);
     command.arg(&current).stdin(Stdio::null()).stdout(Stdio::piped());

@@ -25,6 +25,19 @@ pub(crate) fn cargo() -> Command {
     Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
+/// Builds a program as `cargo test --workspace` does, so that nothing is built twice for other features of what it stands on: fast, with
+/// every check of a debug build. It is named by a test of its package.
+///
+/// # Errors
+///
+/// What cargo came to.
+pub(crate) fn tested(program: &str, test: &str) -> Result<PathBuf, String> {
+    let mut build = cargo();
+    build.args(["test", "--workspace", "--no-run", "--quiet", "--test", test]);
+    run(build.current_dir(root()))?;
+    Ok(target_dir().join("debug").join(program))
+}
+
 /// Runs a command that shows its own output, and says whether it succeeded.
 ///
 /// # Errors

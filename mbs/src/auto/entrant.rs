@@ -2,6 +2,7 @@
 
 use super::law::{Law, Point, Prediction, credited, predict};
 use super::trial::{End, Trial};
+use crate::choice::Formulation;
 use crate::compare::method::{Control, Method};
 
 /// Errors above this share of the outputs' ranges have lost the motion: what they become at finer settings is not to be told.
@@ -10,6 +11,8 @@ pub(super) const LOST: f64 = 0.1;
 const BETTER: f64 = 100.0;
 /// Settings are not as close as this factor to a coarser one that stopped.
 const CLEAR: f64 = 1.5;
+/// Where the instants of the results end no more than this share of the steps, the others alone tell how much finer they are.
+const FEW: f64 = 0.5;
 /// A trial is coarser in earnest if it has no more than this share of the steps.
 const COARSER: f64 = 0.95;
 /// A setting is tried if it differs from those that were by more than this share.
@@ -101,6 +104,9 @@ impl Entrant {
     /// ```text
     /// e = d r/(1 - r),   r = (steps of the coarse / of the fine)^order,   but not less than d/100, and d where the motion is lost
     /// ```
+    ///
+    /// Of controlled steps of second order, those that end at instants of the results are in both, and are not counted where they are the
+    /// fewer; r is then not less than the tolerances say.
     pub(crate) fn estimate(&mut self, distance: impl Fn(&Trial, &Trial) -> f64) {
         let order = Law::order(&self.method);
         let done: Vec<usize> = (0..self.tries.len()).filter(|&i| self.tries[i].is_done()).collect();
@@ -111,9 +117,18 @@ impl Entrant {
             if fine.own.is_some() {
                 continue;
             }
+            let ratio = |j: &usize| {
+                let coarse = &self.tries[*j];
+                let is_free = self.method.control == Control::Error && self.held(fine) <= FEW;
+                let rows = if is_free { fine.trial.rows.len() as u64 } else { 0 };
+                let free = |t: &Try| count(t.trial.steps.saturating_sub(rows));
+                let told = (fine.setting / coarse.setting).powf(self.law().error);
+                let counted = (free(coarse) / free(fine).max(1.0)).powf(order);
+                if is_free { counted.max(told) } else { counted }
+            };
             let own = |&j: &usize| {
                 let d = distance(&fine.trial, &self.tries[j].trial);
-                let r = fewer(&j).powf(order);
+                let r = ratio(&j);
                 let share = if d > LOST { 1.0 } else { (r / (1.0 - r)).max(1.0 / BETTER) };
                 // outputs that agree to the last digit have its error
                 (d * share).max(f64::EPSILON)
@@ -199,6 +214,21 @@ impl Entrant {
             _ => None,
         }
     }
+}
+
+/// The same rule in coordinates of the same kind: they need about the same steps.
+pub(super) fn is_twin(a: &Method, b: &Method) -> bool {
+    let is_same = a.formulation == b.formulation;
+    let is_controlled = |m: &Method| m.control != Control::Fixed;
+    !is_same
+        && a.integrator == b.integrator
+        && is_controlled(a) == is_controlled(b)
+        && (a.control == b.control)
+        && is_relative(a) == is_relative(b)
+}
+
+pub(super) fn is_relative(method: &Method) -> bool {
+    method.formulation == Formulation::Recursive
 }
 
 #[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]

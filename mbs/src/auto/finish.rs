@@ -18,8 +18,10 @@ const CLOSE: f64 = 1.6;
 /// So many of them at most, and so often.
 const FINALISTS: usize = 4;
 const ROUNDS: usize = 5;
-/// Times that differ by less than this factor are the same; then the order of the candidates decides.
+/// Times that differ by less than this factor are the same; then those come first that were seen, or nearly, up to this factor in the
+/// error, and of these the order of the candidates decides.
 const SAME: f64 = 1.05;
+const NEAR: f64 = 10.0;
 
 /// A place in the ranking.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -161,7 +163,11 @@ impl Race<'_> {
             let same =
                 places.iter().take_while(|p| p.reaches && p.prediction.point.seconds <= bound);
             let n = same.count();
-            places[..n].sort_by_key(|p| p.entrant);
+            let is_guessed = |p: &Place| match p.prediction.basis {
+                Basis::Finer(factor) => !p.is_timed && factor > NEAR,
+                _ => false,
+            };
+            places[..n].sort_by_key(|p| (is_guessed(p), p.entrant));
         }
         places
     }

@@ -41,10 +41,12 @@ use race::{Race, Wanted};
 /// Instants at which errors are taken, where the caller has none.
 const INSTANTS: f64 = 200.0;
 /// Tolerances: what is looser controls nothing any more; the first of an error estimate, whose runs are short with it; the first of
-/// an integrator that controls its own steps, which rows of results may keep far shorter than its tolerance does.
+/// an integrator that controls its own steps, which rows of results may keep far shorter than its tolerance does, and how many times the
+/// wanted error it is at most.
 const LOOSEST: f64 = 0.1;
 const FIRST: f64 = 1e-4;
 const FIRST_OWN: f64 = 1e-2;
+const LOOSER: f64 = 10.0;
 /// With a deadline alone, no smaller error is aimed at.
 const ACCURATE: f64 = 1e-6;
 /// The span is cut by this factor where no candidate is run to its end within the budget, at most so often.
@@ -207,7 +209,7 @@ fn entrant(
     };
     let first = match method.control {
         Control::Fixed => coarsest,
-        Control::Own => (100.0 * wanted.error).min(FIRST_OWN).max(wanted.error).min(coarsest),
+        Control::Own => (LOOSER * wanted.error).min(FIRST_OWN).max(wanted.error).min(coarsest),
         Control::Error | Control::Energy => FIRST.max(0.01 * wanted.error).min(coarsest),
     };
     let entrant = Entrant::new(method, first, coarsest);

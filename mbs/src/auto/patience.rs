@@ -1,7 +1,7 @@
 //! How long a trial may take before it is given up.
 
-use super::entrant::Entrant;
-use super::race::{LOSING, MOST, Race, SHARE, is_cheap, is_relative};
+use super::entrant::{Entrant, is_relative};
+use super::race::{LOSING, MOST, Race, SHARE, is_cheap};
 use super::trial::End;
 
 /// A first look at a candidate takes this share of the time of the best; where there is none, this share of the fastest trial (more
@@ -35,11 +35,16 @@ impl Race<'_> {
             (true, Some(seconds)) => Some(LOOK * seconds),
             (true, None) => {
                 let entrant = &self.entrants[i];
-                let is_likely = is_cheap(entrant) || is_relative(&entrant.method);
+                let is_high = is_cheap(entrant);
+                let is_likely = is_high || is_relative(&entrant.method);
                 let share = if is_likely { LOSING } else { GLANCE };
-                let most = self.fastest().map(|seconds| share * seconds);
                 let is_any_tried = self.entrants.iter().any(|e| !e.tries.is_empty());
-                Some(most.unwrap_or(GLIMPSE[usize::from(is_any_tried)] * self.left()))
+                let glimpse = GLIMPSE[usize::from(is_any_tried)] * self.left();
+                let Some(fastest) = self.fastest(|_| true) else { return Some(glimpse) };
+                // coarse steps of second order are soon done, and tell nothing of what a small error takes by others
+                let alike = self.fastest(is_cheap).filter(|_| is_high);
+                let alike = alike.map_or(0.0, |seconds| (share * seconds).min(glimpse));
+                Some((share * fastest).max(alike))
             }
             // what is coarser has stopped, or is not known to be good
             (false, Some(seconds)) if self.entrants[i].done().next().is_none() => Some(seconds),
@@ -60,7 +65,7 @@ impl Race<'_> {
                 // who was nowhere may take no longer than another did, and each stop makes that less
                 let stops = entrant.tries.iter().filter(|t| matches!(t.trial.end, End::Stopped(_)));
                 let most = SHARE * left * STOPPED.powi(i32::try_from(stops.count()).unwrap_or(0));
-                let fastest = self.fastest().filter(|_| !is_cheap(entrant));
+                let fastest = self.fastest(|_| true).filter(|_| !is_cheap(entrant));
                 Some(fastest.map_or(most, |fastest| most.min(LOSING * fastest)))
             }
         }

@@ -4,11 +4,10 @@
 //! one whose best case is dearer than what another was measured to take is left alone. All trials go over the whole span, the first
 //! with coarse settings, so that what happens late in the run is seen as well.
 
-use super::entrant::{Entrant, LOST, Try};
+use super::entrant::{Entrant, LOST, Try, is_twin};
 use super::law::{Basis, HELD, Point, Prediction};
 use super::trial::{Aim, Bench, End, Trial};
-use crate::choice::Formulation;
-use crate::compare::method::{Control, Method};
+use crate::compare::method::Control;
 use crate::words::{duration, few};
 
 /// CPU time of the pilot at least, and as a share of the predicted run [s, 1].
@@ -201,17 +200,18 @@ impl<'a> Race<'a> {
         let is_last = !self.entrants[i].tries.is_empty();
         let aim = if self.wanted.deadline.is_some() { Aim::Steps } else { Aim::Rows };
         let method = self.entrants[i].method;
-        let (is_losing, is_known) =
-            (self.cheapest().is_some(), !self.entrants[i].points().is_empty());
+        let (cheapest, is_known) = (self.cheapest(), !self.entrants[i].points().is_empty());
         let begun = self.bench.spent();
         let trial = self.bench.trial(&method, setting, aim, most);
         self.beside = self.beside.max(self.bench.spent() - begun - trial.seconds);
         let entrant = &mut self.entrants[i];
         entrant.tries.retain(|t| t.trial.end != End::GivenUp);
-        // who loses to another is out; whom only the budget stops is judged by what is known
-        entrant.is_spent |= trial.end == End::GivenUp && is_last && !is_losing && is_known;
-        if trial.end == End::GivenUp && (is_last || trial.reached <= 0.0) && !entrant.is_spent {
-            let whole = trial.seconds / trial.reached.max(1e-9);
+        let whole = trial.seconds / trial.reached.max(1e-9);
+        let is_given_up = trial.end == End::GivenUp;
+        // who loses is out; whom only the budget stops is judged by what is known
+        let is_losing = cheapest.is_some_and(|seconds| whole > LOSING * seconds);
+        entrant.is_spent |= is_given_up && is_last && !is_losing && is_known;
+        if is_given_up && (is_last || trial.reached <= 0.0) && !entrant.is_spent {
             entrant.out = Some(match trial.reached > 0.0 {
                 true => format!("with {} it would take about {}", few(setting), duration(whole)),
                 false => {
@@ -320,10 +320,10 @@ impl<'a> Race<'a> {
         self.cheapest().or_else(|| seconds.min_by(f64::total_cmp))
     }
 
-    /// CPU time of the fastest trial that got to the end [s].
-    pub(super) fn fastest(&self) -> Option<f64> {
-        let done = self.entrants.iter().flat_map(|e| e.done().map(|t| t.trial.seconds));
-        done.min_by(f64::total_cmp)
+    /// CPU time of the fastest trial that got to the end, of some candidates [s].
+    pub(super) fn fastest(&self, of: impl Fn(&Entrant) -> bool) -> Option<f64> {
+        let some = self.entrants.iter().filter(|e| of(e));
+        some.flat_map(|e| e.done().map(|t| t.trial.seconds)).min_by(f64::total_cmp)
     }
 
     /// What a candidate takes in the best case [s].
@@ -482,19 +482,4 @@ fn bounded(entrant: &Entrant, p: Prediction) -> Prediction {
         ..p.point
     };
     Prediction { point, ..p }
-}
-
-/// The same rule in coordinates of the same kind: they need about the same steps.
-fn is_twin(a: &Method, b: &Method) -> bool {
-    let is_same = a.formulation == b.formulation;
-    let is_controlled = |m: &Method| m.control != Control::Fixed;
-    !is_same
-        && a.integrator == b.integrator
-        && is_controlled(a) == is_controlled(b)
-        && (a.control == b.control)
-        && is_relative(a) == is_relative(b)
-}
-
-pub(super) fn is_relative(method: &Method) -> bool {
-    method.formulation == Formulation::Recursive
 }

@@ -6,7 +6,7 @@ mod workers;
 
 use crate::lab::section::Section;
 use crate::page::page;
-use crate::process::{self, cargo, write};
+use crate::process::{self, write};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
@@ -32,11 +32,7 @@ pub(crate) fn gauntlet(count: usize, jobs: Option<usize>) -> ExitCode {
 }
 
 fn run(count: usize, jobs: Option<usize>) -> Result<(Section, bool), String> {
-    let mut build = cargo();
-    // as the tests are built: fast, with every check of a debug build
-    build.args(["build", "--quiet", "--profile", "test", "--package", "gauntlet"]);
-    process::run(build.current_dir(process::root()))?;
-    let program = process::target_dir().join("debug").join("gauntlet");
+    let program = process::tested("gauntlet", "short")?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let stride = jobs.unwrap_or(cores).clamp(1, count.max(1));
     let (start, n_done) = (Instant::now(), AtomicUsize::new(0));

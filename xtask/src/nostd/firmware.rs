@@ -73,7 +73,6 @@ const CASES: &[Case] = &[
 pub(super) fn check(toolchain: Toolchain, lld: Option<&Path>) -> Result<Vec<String>, String> {
     let models = process::target_dir().join("nostd/models");
     std::fs::create_dir_all(&models).map_err(|e| format!("{}: {e}", models.display()))?;
-    run(cargo().args(["build", "--quiet", "--package", "mbs"]).current_dir(process::root()))?;
     let mut lines = vec![fresh_export(&models)?];
     for case in CASES {
         lines.push(case.check(toolchain, lld, &models)?);
@@ -136,9 +135,12 @@ impl Case {
 /// Writes a scene as a table of Rust; where.
 pub(super) fn export(scene: &str, precision: &str, models: &Path) -> Result<PathBuf, String> {
     let file = models.join(format!("{scene}-{precision}.rs"));
-    let mut command = cargo();
-    command.args(["run", "--quiet", "--package", "mbs", "--", "export"]);
-    command.arg(format!("scenes/{scene}.toml")).args(["--precision", precision, "--rust"]);
+    let mut command = Command::new(process::tested("mbs", "all")?);
+    command.arg("export").arg(format!("scenes/{scene}.toml")).args([
+        "--precision",
+        precision,
+        "--rust",
+    ]);
     command.arg(&file).arg("--binary").arg(file.with_extension("mbs"));
     run(command.current_dir(process::root()))?;
     Ok(file)

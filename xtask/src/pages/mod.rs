@@ -2,7 +2,7 @@
 //! cut off, what does not answer to pointer and buttons, pictures that cannot be exported.
 
 use crate::debian;
-use crate::process::{self, cargo, output};
+use crate::process::{self, output};
 use crate::summary::{LeftOut, Outcome};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -122,8 +122,7 @@ fn absolute(path: &Path) -> PathBuf {
 
 /// Runs `mbs` as the tests have it, without its words.
 fn mbs(arguments: &[&str]) -> Result<(), String> {
-    let mut command = cargo();
-    command.args(["run", "--quiet", "--profile", "test", "--package", "mbs", "--bin", "mbs", "--"]);
+    let mut command = Command::new(process::tested("mbs", "all")?);
     command.args(arguments).current_dir(process::root()).stdout(Stdio::null());
     process::run(&mut command)
 }
