@@ -1,6 +1,6 @@
 //! Trials of a scene, on a clock that is given.
 
-use super::trial::{Aim, Bench, End, Rows, Trial};
+use super::trial::{Aim, Bench, End, Rows, Time, Trial};
 use crate::alarm::Alarm;
 use crate::channels::Channels;
 use crate::compare::drive::{Course, Watcher, drive};
@@ -98,7 +98,7 @@ where
         (method, between): (&Method, Option<u64>),
         setting: f64,
         aim: Aim,
-        most: f64,
+        time: Time,
     ) -> Trial {
         let started = self.start(method, setting);
         let (mut simulation, channels, alarm) = match started {
@@ -120,7 +120,9 @@ where
             per_iteration: work(1, coordinates + constraints),
             is_fine: aim == Aim::Steps,
             is_slow: true,
-            until: begun + most,
+            time,
+            begun,
+            span: self.instants.time(self.instants.count),
             last: begun,
             slowest: 0.0,
             steps: 0,
@@ -129,9 +131,8 @@ where
         };
         let course = Course { instants: self.instants, between };
         let end = drive(&mut simulation, &course, &mut recorder);
-        let Recorder { rows, steps, reached, slowest, is_late, .. } = recorder;
+        let Recorder { rows, steps, reached, slowest, is_late, span, .. } = recorder;
         let seconds = self.clock.seconds() - begun;
-        let span = self.instants.time(self.instants.count);
         let end = match end {
             Err(_) if is_late => End::GivenUp,
             Err(StopError::Step(StepError::StepTooSmall { .. }, _))
@@ -152,32 +153,33 @@ impl<T: Real, const D: usize> Bench for SceneBench<'_, T, D>
 where
     Plane<D>: InSpace<T>,
 {
-    fn trial(&mut self, method: &Method, setting: f64, aim: Aim, most: f64) -> Trial {
+    fn trial(&mut self, method: &Method, setting: f64, aim: Aim, time: Time) -> Trial {
         if method.control == Control::Own && aim == Aim::Rows {
             // one step of it may be a whole interval, which nothing interrupts
             let whole = self.instants;
             self.instants = Instants { count: 1, ..whole };
             self.most_steps = Some(FEW);
-            let probe = self.run((method, Some(CAUTIOUS)), setting, Aim::Time, most);
+            let probe =
+                self.run((method, Some(CAUTIOUS)), setting, Aim::Time, Time::strictly(time.most));
             self.instants = whole;
             let share = 1.0 / count(whole.count);
             // pieces take more steps, and the first ones the search for their length
-            if probe.end != End::Done || probe.seconds > DOUBT * share * most {
+            if probe.end != End::Done || probe.seconds > DOUBT * share * time.most {
                 let reached = probe.reached * share * DOUBT;
                 return Trial { reached, end: late(probe.end), ..probe };
             }
             #[allow(clippy::cast_precision_loss, reason = "a rough number")]
             let a_step = probe.seconds / probe.steps.max(1) as f64;
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "capped")]
-            let steps = (most / a_step).clamp(f64::from(FEW), 1e6) as u32;
+            let steps = (time.at_last / a_step).clamp(f64::from(FEW), 1e6) as u32;
             self.most_steps = Some(steps);
-            let trial = self.run((method, None), setting, aim, most);
+            let trial = self.run((method, None), setting, aim, time);
             self.most_steps = None;
             return trial;
         }
         self.most_steps = None;
         let between = method.is_fixed().then(|| self.instants.steps_between(setting));
-        self.run((method, between), setting, aim, most)
+        self.run((method, between), setting, aim, time)
     }
 
     fn spent(&mut self) -> f64 {
@@ -246,7 +248,9 @@ struct Recorder<'a, T: Real, const D: usize> {
     is_fine: bool,
     /// Do a few steps take so long that the clock is read after each?
     is_slow: bool,
-    until: f64,
+    time: Time,
+    begun: f64,
+    span: f64,
     last: f64,
     slowest: f64,
     steps: u64,
@@ -274,7 +278,7 @@ where
             self.is_slow =
                 now - self.last > SOON * if self.is_slow { 1.0 } else { count(STRIDE as usize) };
             self.slowest = self.slowest.max(now - self.last);
-            self.is_late = now > self.until;
+            self.is_late = self.time.is_over(now - self.begun, self.reached / self.span);
             self.last = now;
         }
         let Some(channels) = &mut self.channels else { return Ok(!self.is_late) };

@@ -3,7 +3,7 @@
 use super::entrant::{Entrant, LOST};
 use super::law::{Basis, Prediction};
 use super::race::Race;
-use super::trial::{Aim, End};
+use super::trial::{Aim, End, Time};
 
 /// Errors are not predicted where they take more than so many times the longest trial.
 const FAR: f64 = 30.0;
@@ -109,7 +109,8 @@ impl Race<'_> {
                     continue;
                 }
                 let method = self.entrants[i].method;
-                let trial = self.bench.trial(&method, point.setting, Aim::Time, left);
+                let trial =
+                    self.bench.trial(&method, point.setting, Aim::Time, Time::strictly(left));
                 if trial.end != End::Done {
                     continue;
                 }

@@ -6,7 +6,7 @@
 
 use super::entrant::{Entrant, LOST, Try, is_twin};
 use super::law::{Basis, HELD, Point, Prediction};
-use super::trial::{Aim, Bench, End, Trial};
+use super::trial::{Aim, Bench, End, Time, Trial};
 use crate::compare::method::Control;
 use crate::words::{duration, few};
 
@@ -38,6 +38,8 @@ pub(super) const LOSING: f64 = 1.6;
 const SHORTEST: f64 = 2e-3;
 pub(super) const SHARE: f64 = 0.3;
 pub(super) const MOST: f64 = 0.7;
+/// What is likely to be at its end after so many times what a trial is given may go there.
+const NEARLY: f64 = 1.25;
 /// A tolerance that is so many times as large should need fewer steps.
 const COARSER: f64 = 10.0;
 /// Where no trial has got to the end after this share of the budget, the span is too long for it.
@@ -202,7 +204,8 @@ impl<'a> Race<'a> {
         let method = self.entrants[i].method;
         let (cheapest, is_known) = (self.cheapest(), !self.entrants[i].points().is_empty());
         let begun = self.bench.spent();
-        let trial = self.bench.trial(&method, setting, aim, most);
+        let at_last = (NEARLY * most).min(left - self.beside).max(most);
+        let trial = self.bench.trial(&method, setting, aim, Time { most, at_last });
         self.beside = self.beside.max(self.bench.spent() - begun - trial.seconds);
         let entrant = &mut self.entrants[i];
         entrant.tries.retain(|t| t.trial.end != End::GivenUp);

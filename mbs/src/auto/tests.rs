@@ -4,7 +4,7 @@ use super::entrant::Entrant;
 use super::goal::Goal;
 use super::law::Law;
 use super::race::{BUDGET, Race, Wanted};
-use super::trial::{Aim, Bench, End, Rows, Trial};
+use super::trial::{Aim, Bench, End, Rows, Time, Trial};
 use crate::choice::{Formulation, Precision};
 use crate::compare::method::{Control, Method};
 use crate::settings::{Overrides, Settings};
@@ -58,11 +58,13 @@ impl<F: Fn(&Method) -> Nature> Fake<F> {
 }
 
 impl<F: Fn(&Method) -> Nature> Bench for Fake<F> {
-    fn trial(&mut self, method: &Method, setting: f64, aim: Aim, most: f64) -> Trial {
+    fn trial(&mut self, method: &Method, setting: f64, aim: Aim, time: Time) -> Trial {
         self.trials.push((method.name(), setting));
         let nature = (self.nature)(method);
         let whole = self.cost(method, setting);
-        let reached = if whole > most { most / whole } else { 1.0 };
+        // its pace is the same throughout
+        let is_late = whole > time.at_last;
+        let reached = if is_late { time.most / whole } else { 1.0 };
         let stops = setting > nature.stops_above || setting < nature.stops_below;
         let reached = if stops { reached.min(0.5) } else { reached };
         self.spent += whole * reached;
@@ -81,7 +83,7 @@ impl<F: Fn(&Method) -> Nature> Bench for Fake<F> {
             },
             reached,
             slowest: (aim == Aim::Steps).then_some(whole * setting),
-            end: match (stops, whole > most) {
+            end: match (stops, is_late) {
                 (true, _) => End::Stopped(error),
                 (_, true) => End::GivenUp,
                 _ => End::Done,

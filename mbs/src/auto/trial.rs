@@ -17,6 +17,26 @@ pub(crate) enum Aim {
     Time,
 }
 
+/// How long a trial may take [s].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Time {
+    pub(crate) most: f64,
+    /// So long where it goes at a pace that brings it to its end by then.
+    pub(crate) at_last: f64,
+}
+
+impl Time {
+    /// No longer than that.
+    pub(crate) fn strictly(most: f64) -> Self {
+        Self { most, at_last: most }
+    }
+
+    /// Is a trial given up that has taken so long for a share of the span?
+    pub(crate) fn is_over(&self, seconds: f64, reached: f64) -> bool {
+        seconds > self.most && (seconds > self.at_last || seconds > reached * self.at_last)
+    }
+}
+
 /// A run of the pilot.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Trial {
@@ -56,8 +76,8 @@ pub(crate) enum End {
 
 /// Runs trials. Whoever chooses knows time by this only, so that a choice can be made on any clock.
 pub(crate) trait Bench {
-    /// Runs the span with a setting, for at most so many seconds.
-    fn trial(&mut self, method: &Method, setting: f64, aim: Aim, most: f64) -> Trial;
+    /// Runs the span with a setting, for no longer than is given.
+    fn trial(&mut self, method: &Method, setting: f64, aim: Aim, time: Time) -> Trial;
 
     /// Seconds since the pilot began, by the clock of the trials.
     fn spent(&mut self) -> f64;
