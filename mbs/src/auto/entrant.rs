@@ -1,6 +1,6 @@
 //! A candidate in the pilot: its method, its trials, what is known of their errors.
 
-use super::law::{Law, Point, Prediction, credited, predict};
+use super::law::{HELD, Law, Point, Prediction, credited, predict};
 use super::trial::{End, Trial};
 use crate::choice::Formulation;
 use crate::compare::method::{Control, Method};
@@ -159,6 +159,13 @@ impl Entrant {
         let points = self.points();
         let reaches = (0..points.len()).map(|i| credited(&points, i)).filter(|p| p.error <= error);
         reaches.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+    }
+
+    /// Do the instants of the results hold the steps of the next coarser trial? Its error is then far from where the law begins, and
+    /// nothing is interpolated from it.
+    pub(crate) fn is_beside_held(&self, setting: f64) -> bool {
+        let coarser = self.points().into_iter().rfind(|p| p.setting > setting);
+        !self.has_tried(setting) && coarser.is_some_and(|p| p.held >= HELD)
     }
 
     /// The coarsest setting that may run: well below one that stopped.

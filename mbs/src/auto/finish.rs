@@ -147,10 +147,24 @@ impl Race<'_> {
         Some(Place { entrant: i, prediction, reaches, is_timed: false })
     }
 
+    /// The same with nothing but what was seen where errors do not go by a law.
+    fn sure(&self, i: usize) -> Option<Place> {
+        let mut place = self.place(i)?;
+        let entrant = &self.entrants[i];
+        let is_between = place.reaches && place.prediction.basis == Basis::Between;
+        if is_between
+            && entrant.is_beside_held(place.prediction.point.setting)
+            && let Some(point) = entrant.seen(self.wanted.error)
+        {
+            place.prediction = Prediction { point, basis: Basis::Coarsest };
+        }
+        Some(place)
+    }
+
     /// Those that are not out, by rank; the times given count for those that are close.
     fn ranked(&self, timed: &[(usize, f64)]) -> Vec<Place> {
         let mut places: Vec<Place> =
-            (0..self.entrants.len()).filter_map(|i| self.place(i)).collect();
+            (0..self.entrants.len()).filter_map(|i| self.sure(i)).collect();
         for place in &mut places {
             if let Some((_, seconds)) = timed.iter().find(|(i, _)| *i == place.entrant) {
                 place.prediction.point.seconds = *seconds;
