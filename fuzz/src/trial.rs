@@ -14,7 +14,7 @@ const OTHER_PRECISIONS: usize = 5;
 /// Larger mechanisms take too long in double-double.
 const SMALL: usize = 8;
 /// Formulations, integrators and controls of the step.
-const TRIED: [[&str; 3]; 11] = [
+const TRIED: [[&str; 3]; 12] = [
     ["index-1", "trapezoidal", "fixed"],
     ["index-3", "trapezoidal", "fixed"],
     ["classical", "trapezoidal", "fixed"],
@@ -26,6 +26,7 @@ const TRIED: [[&str; 3]; 11] = [
     ["recursive", "rk54", "fixed"],
     ["recursive", "gbs", "fixed"],
     ["recursive", "rk853", "fixed"],
+    ["recursive", "radau5", "fixed"],
 ];
 /// Of these the first are tried with every text, and one of the others with every second one that is not in double-double: where a
 /// motion is hopeless, control takes a hundred thousand trials to say so.

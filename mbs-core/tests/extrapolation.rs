@@ -29,7 +29,7 @@ fn off(t: Pair, y: &[Pair]) -> f64 {
 
 /// Error of one step with `k` columns, and its estimate in tolerances of one.
 fn one_step(k: usize, h: f64) -> [f64; 2] {
-    let (method, h) = (Extrapolation::new(k), Pair::from_f64(h));
+    let (mut method, h) = (Extrapolation::new(k), Pair::from_f64(h));
     let mut scratch = vec![Pair::ZERO; Method::<Pair>::n_scratch(&method, 2)];
     let (mut system, options) =
         (Oscillator(0), Options { relative: Pair::ZERO, ..Options::new(Pair::ONE) });

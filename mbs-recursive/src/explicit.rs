@@ -1,4 +1,5 @@
-//! Explicit steps: Runge-Kutta of order 4 with a fixed step; the pair 5(4), the method 8(5,3) and extrapolation with error control.
+//! Steps of a first-order system: explicit Runge-Kutta of order 4 with a fixed step; the pair 5(4), the method 8(5,3), extrapolation
+//! and the implicit collocation at Radau points with error control.
 //!
 //! ```text
 //! y = (z, ż, W),   y' = (ż or ½ q ω for rotations, z̈, power)
@@ -27,12 +28,25 @@ struct System<'r, 'a, 'b, T: Real, S: Space<T>, I> {
     options: &'r Options<T>,
     s: &'r mut Store<'b, T, S>,
     evaluations: u32,
-    /// Error control tries a shorter step where an evaluation fails, and takes accelerations to a hundredth of its error.
+    /// Error control tries a shorter step where an evaluation fails.
     is_patient: bool,
+    /// How far accelerations are taken: with error control to a hundredth of its error.
+    level: Level,
     last_failure: Option<StepError>,
 }
 
-impl<T: Real, S: Space<T>, I: Inputs<T>> System<'_, '_, '_, T, S, I> {
+impl<'r, 'a, 'b, T: Real, S: Space<T>, I: Inputs<T>> System<'r, 'a, 'b, T, S, I> {
+    /// Level of accelerations: to rounding with a fixed step, else to the error's.
+    fn new(
+        m: &'r Mechanism<'a, T, S>,
+        inputs: &'r I,
+        (options, level): (&'r Options<T>, Level),
+        s: &'r mut Store<'b, T, S>,
+    ) -> Self {
+        let is_patient = level == Level::Rates;
+        Self { m, inputs, options, s, evaluations: 0, is_patient, level, last_failure: None }
+    }
+
     /// Takes over time and state.
     fn set(&mut self, t: T, y: &[T]) {
         let (nz, nv) = (self.m.n_coordinates, self.m.n_freedoms);
@@ -94,8 +108,7 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         } else {
             Ok(())
         };
-        let level = if self.is_patient { Level::Rates } else { Level::Fine };
-        let done = ready.and_then(|()| accelerations(self.m, self.options, level, self.s));
+        let done = ready.and_then(|()| accelerations(self.m, self.options, self.level, self.s));
         if let Err(fault) = done {
             let failure = failure(self.m, fault);
             // Numbers that follow from a failed stage say nothing.
@@ -114,6 +127,17 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         dy[nz + nv] =
             ledger::power(self.m, self.s).map_err(|outside| failure(self.m, outside.into()))?;
         Ok(())
+    }
+
+    fn fine_rates(&mut self, t: T, y: &[T], dy: &mut [T]) -> Result<(), StepError> {
+        let level = core::mem::replace(&mut self.level, Level::Fine);
+        let done = self.rates(t, y, dy);
+        self.level = level;
+        done
+    }
+
+    fn n_leading(&self) -> usize {
+        self.m.n_coordinates
     }
 
     fn keep(&mut self, error: &mut [T]) -> Result<(), StepError> {
@@ -190,8 +214,7 @@ pub fn rk4<T: Real, S: Space<T>>(
 ) -> Result<StepReport<T>, StepError> {
     s.counts = Counts::default();
     begin(m, &start, y);
-    let mut system =
-        System { m, inputs, options, s, evaluations: 0, is_patient: false, last_failure: None };
+    let mut system = System::new(m, inputs, (options, Level::Fine), s);
     ode::rk4_step(&mut system, start.t, dt, y, scratch)?;
     system.clean(start.t + dt, y)?;
     system.finish(start.t + dt, y)
@@ -217,8 +240,7 @@ pub fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     let before = driver.counts();
     let mut control = ode::Options::new(options.error);
     control.max_steps = options.max_steps;
-    let mut system =
-        System { m, inputs, options, s, evaluations: 0, is_patient: true, last_failure: None };
+    let mut system = System::new(m, inputs, (options, Level::Rates), s);
     let done =
         driver.advance(&mut system, (start.t, dt), (y, scratch), &control, |system, t, y| {
             system.last_failure = None;

@@ -5,7 +5,9 @@ use crate::space::Space;
 use crate::state::Workspace;
 use alloc::vec::Vec;
 use mbs_core::Real;
-use mbs_core::ode::{Adaptive, AdaptiveHistory, Extrapolation, Method, Tableau};
+use mbs_core::ode::{
+    Adaptive, AdaptiveHistory, Extrapolation, Method, Radau, RadauHistory, Tableau,
+};
 
 /// What a [`Workspace`] remembers from step to step.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -20,6 +22,8 @@ pub struct History<T> {
     pub eighth: Option<AdaptiveHistory<T>>,
     /// The same of extrapolation.
     pub extrapolation: Option<AdaptiveHistory<T>>,
+    /// The same of the collocation at Radau points, with its slopes.
+    pub radau: Option<(AdaptiveHistory<T>, RadauHistory<T>)>,
 }
 
 impl<T: Real, S: Space<T>> Workspace<T, S> {
@@ -33,12 +37,14 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
             pair: self.explicit.pair.as_ref().map(Adaptive::history),
             eighth: self.explicit.eighth.as_ref().map(Adaptive::history),
             extrapolation: self.explicit.extrapolation.as_ref().map(Adaptive::history),
+            radau: self.explicit.radau.as_ref().map(|r| (r.history(), r.method().history())),
         }
     }
 
     /// Goes on from the history of the same model, stepped with the same `options`. Says whether it is one; else nothing is
     /// changed.
     pub fn set_history(&mut self, history: &History<T>, options: &Options<T>) -> bool {
+        let n = self.explicit.y.len();
         let (s, explicit) = self.parts();
         if history.pivots.len() != s.loops.pivots.len() || history.rank > history.pivots.len() {
             return false;
@@ -47,9 +53,20 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         let eighth = driver(history.eighth, Tableau::dormand_prince_8);
         let extrapolated = || Extrapolation::for_tolerance(options.error);
         let extrapolation = driver(history.extrapolation, extrapolated);
+        let own = || Radau::new(n, s.z.len());
+        let Some(radau) = driver(history.radau.as_ref().map(|(steps, _)| *steps), own) else {
+            return false;
+        };
         let (Some(pair), Some(eighth), Some(extrapolation)) = (pair, eighth, extrapolation) else {
             return false;
         };
+        let mut radau = radau;
+        if let (Some(driver), Some((_, slopes))) = (&mut radau, &history.radau)
+            && !driver.method_mut().set_history(slopes)
+        {
+            return false;
+        }
+        explicit.radau = radau;
         *s.rank = history.rank;
         s.loops.pivots.copy_from_slice(&history.pivots);
         (explicit.pair, explicit.eighth) = (pair, eighth);

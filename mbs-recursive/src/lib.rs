@@ -52,7 +52,9 @@ pub use history::History;
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use options::{Closure, Options};
 #[cfg(feature = "alloc")]
-pub use run::{bounded_step, extrapolated_step, rk4_step, rk54_step, rk853_step, step};
+pub use run::{
+    bounded_step, extrapolated_step, radau5_step, rk4_step, rk54_step, rk853_step, step,
+};
 pub use space::{Planar, Spatial};
 #[cfg(feature = "alloc")]
 pub use start::StartError;

@@ -18,7 +18,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross};
-use mbs_core::ode::{Adaptive, Extrapolation, Method, Tableau};
+use mbs_core::ode::{Adaptive, Extrapolation, Method, Radau, Tableau};
 use mbs_core::step::{StepError, StepReport};
 
 /// Advances `state` by one step of length `dt` [s] of the trapezoidal rule or another of the Newmark family.
@@ -163,6 +163,31 @@ pub fn extrapolated_step<T: Real, S: Space<T>>(
 ) -> Result<StepReport<T>, StepError> {
     let method = || Extrapolation::for_tolerance(options.error);
     controlled(model, (dt, options), (state, workspace), |e| &mut e.extrapolation, method)
+}
+
+/// Advances `state` by exactly `dt` [s] with collocation at three Radau points, implicit and of order 5, in as many steps as
+/// `options.error` asks for.
+///
+/// Steps are chosen as in [`rk54_step`], of one length as far as they can be. For stiff effects, which do not hold the step.
+///
+/// Cost: about ten evaluations for each step; for n components n + 1 more where slopes are found anew, and (n/2)³ products five
+/// times where the step changes. The first call allocates 4 n² numbers, others nothing.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+///
+/// # Panics
+/// If `dt` or the first step is not positive and finite.
+pub fn radau5_step<T: Real, S: Space<T>>(
+    model: &TreeModel<T, S>,
+    dt: T,
+    options: &Options<T>,
+    state: &mut TreeState<T>,
+    workspace: &mut Workspace<T, S>,
+) -> Result<StepReport<T>, StepError> {
+    let (n, leading) = (workspace.explicit.y.len(), model.n_coordinates);
+    let method = || Radau::new(n, leading);
+    controlled(model, (dt, options), (state, workspace), |e| &mut e.radau, method)
 }
 
 /// Advances by a method whose driver is remembered in `slot`, and made by the first call.

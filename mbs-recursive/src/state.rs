@@ -10,7 +10,7 @@ use crate::tree::TreeModel;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
-use mbs_core::ode::{Adaptive, Extrapolation, Tableau, rk4_scratch};
+use mbs_core::ode::{Adaptive, Extrapolation, Radau, Tableau, rk4_scratch};
 
 /// Position, velocity and acceleration of a tree at a time.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,7 +61,8 @@ impl<T: Real> TreeState<T> {
     }
 }
 
-/// Scratch of the steps of one model. Nothing is allocated after [`Workspace::new`].
+/// Scratch of the steps of one model. Nothing is allocated after [`Workspace::new`], but for the matrices of
+/// [`radau5_step`](crate::radau5_step) by the first call of it.
 #[derive(Debug, Clone)]
 pub struct Workspace<T: Real, S: Space<T>> {
     placed: Vec<Placed<T, S>>,
@@ -97,6 +98,8 @@ pub(crate) struct Explicit<T> {
     pub(crate) eighth: Option<Adaptive<T, Tableau<T, 12>>>,
     /// The same of extrapolation.
     pub(crate) extrapolation: Option<Adaptive<T, Extrapolation>>,
+    /// The same of the collocation at Radau points, with its matrices.
+    pub(crate) radau: Option<Adaptive<T, Radau<T>>>,
 }
 
 impl<T: Real, S: Space<T>> Workspace<T, S> {
@@ -133,6 +136,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
                 pair: None,
                 eighth: None,
                 extrapolation: None,
+                radau: None,
             },
         }
     }

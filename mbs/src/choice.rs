@@ -7,14 +7,12 @@ use mbs_core::integrator::Integrator;
 pub const FORMULATIONS: [&str; 7] =
     ["auto", "index-1", "index-3", "multi-index", "classical", "state-space", "recursive"];
 /// Integrators that are built.
-pub const INTEGRATORS: [&str; 8] =
-    ["trapezoidal", "newmark", "generalised-alpha", "hht", "rk4", "rk54", "rk853", "gbs"];
+pub const INTEGRATORS: [&str; 9] =
+    ["trapezoidal", "newmark", "generalised-alpha", "hht", "rk4", "rk54", "rk853", "gbs", "radau5"];
 /// Precisions that are built.
 pub const PRECISIONS: [&str; 3] = ["f32", "f64", "dd"];
 /// Controls of the step size.
 pub const STEP_RULES: [&str; 5] = ["fixed", "energy", "energy-printed", "error", "both"];
-/// Names of the scene format that are not built yet.
-pub(crate) const NOT_BUILT: [&str; 1] = ["radau5"];
 
 /// A formulation that can run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,7 +70,7 @@ impl Formulation {
     /// Does it run with this integrator?
     #[must_use]
     pub fn runs_with(self, integrator: IntegratorKind) -> bool {
-        self == Self::Recursive || !integrator.is_explicit()
+        self == Self::Recursive || !integrator.is_of_first_order()
     }
 }
 
@@ -96,11 +94,13 @@ pub enum IntegratorKind {
     /// Extrapolation of the midpoint rule (Gragg, Bulirsch and Stoer): of as high an order as the tolerance is worth, which controls
     /// the step. For reference runs.
     Extrapolation,
+    /// Implicit Runge-Kutta of order 5, collocation at three Radau points, which controls the step. For stiff effects.
+    Radau5,
 }
 
 impl IntegratorKind {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Trapezoidal,
         Self::Newmark,
         Self::GeneralisedAlpha,
@@ -109,6 +109,7 @@ impl IntegratorKind {
         Self::Rk54,
         Self::Rk853,
         Self::Extrapolation,
+        Self::Radau5,
     ];
 
     /// Its name.
@@ -123,31 +124,36 @@ impl IntegratorKind {
             Self::Rk54 => "rk54",
             Self::Rk853 => "rk853",
             Self::Extrapolation => "gbs",
+            Self::Radau5 => "radau5",
         }
     }
 
     /// Explicit?
     #[must_use]
     pub fn is_explicit(self) -> bool {
-        self == Self::Rk4 || self.controls_its_step()
+        matches!(self, Self::Rk4 | Self::Rk54 | Self::Rk853 | Self::Extrapolation)
+    }
+
+    /// Is it one for systems of first order, which relative coordinates alone make?
+    #[must_use]
+    pub fn is_of_first_order(self) -> bool {
+        self.is_explicit() || self.controls_its_step()
     }
 
     /// Does it control its own step by the tolerance?
     #[must_use]
     pub fn controls_its_step(self) -> bool {
-        matches!(self, Self::Rk54 | Self::Rk853 | Self::Extrapolation)
+        matches!(self, Self::Rk54 | Self::Rk853 | Self::Extrapolation | Self::Radau5)
     }
 
-    /// Coefficients of an implicit one-step method; the trapezoidal rule's for the explicit ones.
+    /// Coefficients of a method of the Newmark family; the trapezoidal rule's for the others.
     #[must_use]
     pub fn coefficients<T: Real>(self) -> Integrator<T> {
         match self {
             Self::Newmark => Integrator::newmark(ratio(121, 400), ratio(3, 5)),
             Self::GeneralisedAlpha => Integrator::generalised_alpha(ratio(4, 5)),
             Self::Hht => Integrator::hht(ratio(1, 20)),
-            Self::Trapezoidal | Self::Rk4 | Self::Rk54 | Self::Rk853 | Self::Extrapolation => {
-                Integrator::trapezoidal()
-            }
+            _ => Integrator::trapezoidal(),
         }
     }
 }

@@ -1,8 +1,8 @@
 //! What is asked of a run: the scene's `[solver]` table, overridden by the command line, checked against what is built.
 
 use crate::choice::{
-    FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, NOT_BUILT, PRECISIONS, Precision,
-    STEP_RULES, StepRule,
+    FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
+    StepRule,
 };
 use crate::digits::is_finer;
 use mbs_core::Real;
@@ -147,14 +147,11 @@ impl SettingsError {
     #[must_use]
     pub fn hint(&self) -> String {
         match self {
-            Self::NotBuilt { value, built, .. } if NOT_BUILT.contains(&value.as_str()) => {
-                format!("built are: {}", built.join(", "))
-            }
             Self::NotBuilt { value, built, .. } => mbs_scene::suggestion(value, built, "built are"),
             Self::NotPositive { .. } => "write a number larger than zero".to_owned(),
             Self::LimitOrder(_) => "write the larger one first: U, then L".to_owned(),
             Self::NotTogether { option, .. } if option.starts_with("step control") => {
-                "rk54, rk853 and gbs control their own step by --tolerance; the others need an implicit integrator"
+                "rk54, rk853, gbs and radau5 control their own step by --tolerance; the others need one of the Newmark family"
                     .to_owned()
             }
             Self::NotTogether { option, .. } if option == "threads" => {
@@ -164,7 +161,7 @@ impl SettingsError {
                 "leave the penalty out".to_owned()
             }
             Self::NotTogether { .. } => {
-                "explicit integrators need formulation `recursive`".to_owned()
+                "rk4, rk54, rk853, gbs and radau5 need formulation `recursive`".to_owned()
             }
             Self::TooManySteps { .. } => "write a longer step, or a shorter duration".to_owned(),
         }
@@ -174,9 +171,6 @@ impl SettingsError {
 impl core::fmt::Display for SettingsError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::NotBuilt { key, value, .. } if NOT_BUILT.contains(&value.as_str()) => {
-                write!(f, "{key} `{value}` is not built yet")
-            }
             Self::NotBuilt { key, value, .. } => write!(f, "unknown {key} `{value}`"),
             Self::NotPositive { key, value } => {
                 write!(f, "{key} must be positive and finite, but is {}", readable(*value))
@@ -295,7 +289,7 @@ impl Settings {
         }
         (self.asked == "auto").then(|| Chosen {
             formulation,
-            reasons: vec![if self.integrator.is_explicit() {
+            reasons: vec![if self.integrator.is_of_first_order() {
                 format!("integrator {} runs in relative coordinates", self.integrator.name())
             } else {
                 "without a wanted error or a deadline auto means index-3: nothing is measured, and a scene gives the same numbers \
@@ -345,7 +339,7 @@ fn method<T>(
     )?;
     let formulation = match formulation {
         Some(formulation) => formulation,
-        None if integrator.is_explicit() => Formulation::Recursive,
+        None if integrator.is_of_first_order() => Formulation::Recursive,
         None => Formulation::Index3,
     };
     if !formulation.runs_with(integrator) {
@@ -378,7 +372,7 @@ fn step_rule<T>(
     };
     let names = (&from_caller, &solver.step_control, default.name());
     let (_, rule) = named("step_control", names, &STEP_RULES, StepRule::ALL)?;
-    if rule == StepRule::Fixed || !integrator.is_explicit() {
+    if rule == StepRule::Fixed || !integrator.is_of_first_order() {
         return Ok(rule);
     }
     // A tolerance in the scene is for integrators that can use it.

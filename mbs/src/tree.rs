@@ -110,6 +110,9 @@ where
                 let workspace = &mut self.workspace;
                 mbs_recursive::extrapolated_step(model, dt, options, &mut self.state, workspace)
             }
+            IntegratorKind::Radau5 => {
+                mbs_recursive::radau5_step(model, dt, options, &mut self.state, &mut self.workspace)
+            }
             _ => mbs_recursive::step(model, dt, options, &mut self.state, &mut self.workspace),
         }?;
         self.tell(natural, state);
@@ -255,7 +258,7 @@ fn not_started<T: Real, S: Space<T>>(error: StartError, model: &TreeModel<T, S>)
 fn options<T: Real>(scene: &Scene<T>, settings: &Settings) -> Options<T> {
     let first_step = Some(settings.lengths(scene).step);
     let mut options = Options { first_step, ..Options::default() };
-    if !settings.integrator.is_explicit() {
+    if !settings.integrator.is_of_first_order() {
         options.integrator = settings.integrator.coefficients();
     }
     if let Some(alpha) = settings.penalty {

@@ -101,6 +101,17 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
         self.step
     }
 
+    /// The method.
+    #[must_use]
+    pub fn method(&self) -> &M {
+        &self.method
+    }
+
+    /// The method, to go on from its own history.
+    pub fn method_mut(&mut self) -> &mut M {
+        &mut self.method
+    }
+
     /// What was done, over all calls.
     #[must_use]
     pub fn counts(&self) -> Counts {
@@ -122,6 +133,14 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
             self.control.set_history(control);
         }
         is_step
+    }
+
+    /// The step to make of what is left, which is longer than the planned one.
+    fn share(&self, rest: T, planned: T) -> T {
+        if !self.method.shares() {
+            return planned;
+        }
+        rest / T::from_f64(libm::ceil((rest / (planned * T::from_f64(LAST_STEP))).to_f64()))
     }
 
     /// Advances `y` from `t` by exactly `dt` [s], in as many accepted steps as the tolerance asks for.
@@ -163,18 +182,17 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
             let rest = dt - done;
             let planned = self.step.min(options.max_step);
             let is_last = rest <= planned * T::from_f64(LAST_STEP);
-            let h = if is_last { rest } else { planned };
+            let h = if is_last { rest } else { self.share(rest, planned) };
             if tried == options.max_steps {
                 return Err(OdeError::TooManySteps { time: time.to_f64(), steps: tried });
             }
             tried += 1;
 
-            let evaluations = self.method.evaluations(first_is_known);
             let error = self
                 .method
                 .trial(system, (time, h), y, first_is_known, (options, scratch))
                 .map_err(|error| OdeError::Rates { time: time.to_f64(), error })?;
-            self.counts.evaluations += evaluations;
+            self.counts.evaluations += self.method.evaluations(first_is_known);
             first_is_known = true;
 
             // A NaN is no error within the tolerance.
@@ -191,9 +209,13 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
             self.counts.accepted += 1;
             y.copy_from_slice(self.method.new_state(n, scratch));
             done = if is_last { dt } else { done + h };
-            // A step cut short at the end says nothing about the step that was planned.
+            // A step cut short at the end says nothing about the step that was planned, unless it is the shorter one.
             if h >= planned {
-                self.step = h * self.control.accepted(error);
+                let factor = self.control.accepted(error);
+                self.step = h * self.method.worth(factor);
+            } else if self.method.shares() {
+                let wish = h * self.control.accepted(error);
+                self.step = if wish < planned && h < planned * T::HALF { planned } else { wish };
             }
             let at_end = t + done;
             let end = hook(system, at_end, y)

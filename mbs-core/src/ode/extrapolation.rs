@@ -95,7 +95,7 @@ impl<T: Real> Method<T> for Extrapolation {
     }
 
     fn trial<R: Rates<T>>(
-        &self,
+        &mut self,
         system: &mut R,
         (t, h): (T, T),
         y: &[T],

@@ -13,7 +13,7 @@ pub trait Method<T: Real> {
     /// Numbers of scratch for `n` components.
     fn n_scratch(&self, n: usize) -> usize;
 
-    /// Evaluations of one trial step.
+    /// Evaluations of the last trial step.
     fn evaluations(&self, first_is_known: bool) -> u64;
 
     /// Makes one trial step and returns the size of its error: at most one is within the tolerance. `y` is not changed.
@@ -25,7 +25,7 @@ pub trait Method<T: Real> {
     ///
     /// What the rates say.
     fn trial<R: Rates<T>>(
-        &self,
+        &mut self,
         system: &mut R,
         step: (T, T),
         y: &[T],
@@ -38,6 +38,30 @@ pub trait Method<T: Real> {
 
     /// Brings the rates at the new state to the beginning of `scratch`, if the trial found them; says whether it did.
     fn carry(&self, n: usize, scratch: &mut [T]) -> bool;
+
+    /// Does the method want what is left of a length of time in steps of one length, since a step of another costs it a factorisation?
+    fn shares(&self) -> bool {
+        false
+    }
+
+    /// What the method makes of the factor by which its next step may be longer: a change may not be worth its cost.
+    fn worth(&self, factor: T) -> T {
+        factor
+    }
+}
+
+/// One over the tolerance of each component, as far as it is known at the beginning of a step.
+#[cfg(feature = "alloc")]
+pub(super) fn weights<T: Real>(y: &[T], options: &Options<'_, T>, weights: &mut [T]) {
+    for (k, weight) in weights.iter_mut().enumerate() {
+        *weight = T::ONE / tolerance(k, y[k].abs(), options);
+    }
+}
+
+/// The tolerance of component k of this size.
+fn tolerance<T: Real>(k: usize, size: T, options: &Options<'_, T>) -> T {
+    let unit = options.sizes.get(k).copied().unwrap_or(T::ONE);
+    options.absolute * unit + options.relative * size
 }
 
 /// Size of an error beside the tolerance.
@@ -63,8 +87,7 @@ fn size_by<T: Real>(
     let mut sum = T::ZERO;
     for k in 0..n {
         let error = error(k);
-        let size = options.sizes.get(k).copied().unwrap_or(T::ONE);
-        let tolerance = options.absolute * size + options.relative * y[k].abs().max(end[k].abs());
+        let tolerance = tolerance(k, y[k].abs().max(end[k].abs()), options);
         // No error needs no tolerance; a state that is not finite must not hide in the denominator.
         let share = if error == T::ZERO { T::ZERO } else { error / tolerance };
         sum += share * share + end[k] * T::ZERO;

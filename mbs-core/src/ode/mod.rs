@@ -1,4 +1,4 @@
-//! Explicit Runge-Kutta methods for y' = f(t, y), of any formulation whose state is a vector of numbers.
+//! Runge-Kutta methods for y' = f(t, y), of any formulation whose state is a vector of numbers.
 //!
 //! ```text
 //! kᵢ = f(t + cᵢ h, y + h Σⱼ aᵢⱼ kⱼ),   y(t + h) = y + h Σᵢ bᵢ kᵢ,   error = h Σᵢ eᵢ kᵢ
@@ -8,7 +8,8 @@
 //! method 8(5,3) with two estimates, and [`Adaptive`] drives it or an [`Extrapolation`] of any even order with error control: [`StepControl`] chooses the steps, and a hook after
 //! each accepted step may project the state onto its constraints.
 //!
-//! All storage is in slices of the caller; the module is built without `alloc`, so nothing here can allocate.
+//! All storage is in slices of the caller; the explicit methods are built without `alloc`, so nothing in them can allocate.
+//! [`Radau`] is implicit, for stiff systems, and makes its matrices with the feature `alloc`, when it is made.
 
 mod adaptive;
 mod control;
@@ -16,6 +17,8 @@ mod eighth;
 mod error;
 mod extrapolation;
 mod method;
+#[cfg(feature = "alloc")]
+mod radau;
 mod rk4;
 mod tableau;
 #[cfg(test)]
@@ -26,6 +29,8 @@ pub use control::StepControl;
 pub use error::OdeError;
 pub use extrapolation::Extrapolation;
 pub use method::Method;
+#[cfg(feature = "alloc")]
+pub use radau::{Radau, RadauHistory};
 pub use rk4::{rk4_scratch, rk4_step};
 pub use tableau::Tableau;
 
@@ -45,6 +50,21 @@ pub trait Rates<T> {
     ///
     /// What makes an answer impossible; the integration ends with it.
     fn rates(&mut self, t: T, y: &[T], dy: &mut [T]) -> Result<(), Self::Error>;
+
+    /// The same with as few roundings as can be had, for slopes by differences. By default [`Self::rates`].
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::rates`].
+    fn fine_rates(&mut self, t: T, y: &[T], dy: &mut [T]) -> Result<(), Self::Error> {
+        self.rates(t, y, dy)
+    }
+
+    /// How many of the first components have rates that depend little on each other, such as positions, whose rates are velocities:
+    /// an implicit method eliminates them without exchange of rows. By default none.
+    fn n_leading(&self) -> usize {
+        0
+    }
 
     /// Takes from the error of a trial step what the end of a step takes from the state, such as what a projection removes:
     /// only what is left says something about the step. Called after the rates of all stages, once for each estimate; by default all

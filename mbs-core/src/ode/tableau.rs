@@ -171,7 +171,7 @@ impl<T: Real, const S: usize> Method<T> for Tableau<T, S> {
     }
 
     fn trial<R: Rates<T>>(
-        &self,
+        &mut self,
         system: &mut R,
         (t, h): (T, T),
         y: &[T],

@@ -157,6 +157,17 @@ impl<S: Space<f64>> Run<S> {
         )
     }
 
+    /// The same by collocation at Radau points.
+    pub fn radau5(&mut self, dt: f64) -> Result<StepReport<f64>, StepError> {
+        mbs_recursive::radau5_step(
+            &self.model,
+            dt,
+            &self.options,
+            &mut self.state,
+            &mut self.workspace,
+        )
+    }
+
     /// The motions of the bodies.
     pub fn motions(&mut self, n: usize) -> Vec<RigidMotion<f64>> {
         let mut motions = vec![RigidMotion::at_rest(Vector3::zeros()); n];

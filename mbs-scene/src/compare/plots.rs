@@ -63,7 +63,7 @@ pub(super) fn looks(comparison: &Comparison) -> Vec<Look> {
         kind: FORMULATIONS.iter().position(|f| *f == m.formulation).unwrap_or_default(),
         dash: match (m.integrator.as_str(), m.control.as_str()) {
             ("rk4", _) => 3,
-            ("rk853" | "gbs", _) => 4,
+            ("rk853" | "gbs" | "radau5", _) => 4,
             ("rk54", _) | (_, "energy") => 2,
             (_, "error") => 1,
             _ => 0,

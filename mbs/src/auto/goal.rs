@@ -130,7 +130,7 @@ impl Display for GoalError {
             Self::OwnSteps => {
                 write!(
                     f,
-                    "rk54, rk853 and gbs choose their own steps: no deadline can be kept with them"
+                    "rk54, rk853, gbs and radau5 choose their own steps: no deadline can be kept with them"
                 )
             }
             Self::NoCandidate => {

@@ -39,6 +39,7 @@ impl Law {
             (Control::Error | Control::Energy, _) => (2.0 / 3.0, 1.0 / 3.0),
             (Control::Own, IntegratorKind::Extrapolation) => (1.0, 0.1),
             (Control::Own, IntegratorKind::Rk853) => (1.0, 0.125),
+            (Control::Own, IntegratorKind::Radau5) => (1.0, 0.25),
             (Control::Own, _) => (1.0, 0.2),
         };
         Self { error, cost }

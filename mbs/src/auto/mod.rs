@@ -83,7 +83,7 @@ pub(crate) fn methods<T>(
     if let Some(integrator) = integrator {
         methods.retain_mut(|m| {
             let is_other_rule =
-                !integrator.is_explicit() && m.integrator == IntegratorKind::Trapezoidal;
+                !integrator.is_of_first_order() && m.integrator == IntegratorKind::Trapezoidal;
             if is_other_rule {
                 m.integrator = integrator;
             }

@@ -6,7 +6,7 @@ use crate::tree::{InSpace, Plane};
 use mbs_augmented as augmented;
 use mbs_core::Real;
 use mbs_core::model::{Measure, State, Terms};
-use mbs_core::ode::AdaptiveHistory;
+use mbs_core::ode::{AdaptiveHistory, RadauHistory};
 use mbs_recursive as recursive;
 use mbs_recursive::TreeState;
 use mbs_statespace as statespace;
@@ -174,13 +174,28 @@ fn walk_tree<T: Real>(kept: &mut TreeKept<T>, tape: &mut impl Tape) -> Told {
     let TreeState { t, z, v, a, lambda, work, power } = state;
     [t, work, power].into_iter().try_for_each(|x| tape.real(x))?;
     [z, v, a, lambda].into_iter().try_for_each(|x| tape.reals(x))?;
-    let recursive::History { rank, pivots, pair, eighth, extrapolation } = history;
+    let recursive::History { rank, pivots, pair, eighth, extrapolation, radau } = history;
     tape.index(rank, pivots.len() + 1)?;
     tape.reals(pivots)?;
     tape.option(pair, Parts::adaptive)?;
     tape.option(eighth, Parts::adaptive)?;
     tape.option(extrapolation, Parts::adaptive)?;
+    tape.option(radau, |tape, (steps, slopes)| {
+        tape.adaptive(steps)?;
+        walk_slopes(slopes, tape)
+    })?;
     tape.floats(energies)
+}
+
+fn walk_slopes<T: Real>(history: &mut RadauHistory<T>, tape: &mut impl Tape) -> Told {
+    let RadauHistory { jacobian, has_jacobian, factored, stages, step, rest } = history;
+    [jacobian, stages].into_iter().try_for_each(|x| {
+        // a number takes at least eight bytes
+        tape.list(x, 8, |tape, x| tape.real(x))
+    })?;
+    tape.flag(has_jacobian)?;
+    [factored, step].into_iter().try_for_each(|x| tape.option(x, |tape, x| tape.real(x)))?;
+    tape.real(rest)
 }
 
 /// Parts that several have.

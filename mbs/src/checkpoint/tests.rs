@@ -327,12 +327,12 @@ fn what_relative_coordinates_keep_matters() {
     every_item_matters::<3>(Case { scene: "spatial-four-bar", ..case }, &items);
     let items: [(&str, Leave); 1] = [("pivots", |k, _| tree(k).history.pivots.fill(0.0))];
     every_item_matters::<2>(Case { scene: "two-four-bars", ..case }, &items);
-    for integrator in ["rk54", "rk853", "gbs"] {
+    for integrator in ["rk54", "rk853", "gbs", "radau5"] {
         let items: [(&str, Leave); 1] = [("error control", |k, f| {
             let fresh = &tree(&mut f.clone()).history.clone();
             let history = &mut tree(k).history;
             (history.pair, history.eighth) = (fresh.pair, fresh.eighth);
-            history.extrapolation = fresh.extrapolation;
+            (history.extrapolation, history.radau) = (fresh.extrapolation, fresh.radau.clone());
         })];
         let step = 0.1;
         every_item_matters::<2>(Case { integrator, step, ..case }, &items);

@@ -54,7 +54,7 @@ pub(crate) struct Arguments {
     /// of 1/alpha, in recursive the report's closing forces (left out: neither).
     #[arg(long, value_name = "A", allow_negative_numbers = true)]
     penalty: Option<f64>,
-    /// Corrections of an iteration are small below this share of what accelerations move in a step, else 1e-10; with rk54, rk853 and gbs the
+    /// Corrections of an iteration are small below this share of what accelerations move in a step, else 1e-10; with rk54, rk853, gbs and radau5 the
     /// error of a step, else 1e-8, with gbs 2e-10.
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
     tolerance: Option<f64>,
@@ -73,7 +73,7 @@ pub(crate) struct Arguments {
     /// f32, f64, dd (pairs of doubles: 32 digits, for reference runs); left out: f64.
     #[arg(long, value_name = "P")]
     precision: Option<String>,
-    /// trapezoidal, newmark, generalised-alpha, hht; in recursive also rk4, rk54, rk853 (order 8), gbs (extrapolation, for reference runs); else trapezoidal.
+    /// trapezoidal, newmark, generalised-alpha, hht; in recursive also rk4, rk54, rk853 (order 8), gbs (extrapolation, for reference runs), radau5 (implicit, for stiff effects); else trapezoidal.
     #[arg(long, value_name = "I")]
     integrator: Option<String>,
     /// Wanted error: the largest of the outputs over the run, each beside its own range, as in `mbs compare`. A short pilot measures which

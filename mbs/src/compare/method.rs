@@ -42,7 +42,7 @@ pub(crate) const PRECISIONS: [Precision; 3] =
 /// Ways to step a formulation.
 fn ways(formulation: Formulation) -> Vec<(IntegratorKind, Control)> {
     use Control::{Energy, Error, Fixed, Own};
-    use IntegratorKind::{Extrapolation, Rk4, Rk54, Rk853, Trapezoidal};
+    use IntegratorKind::{Extrapolation, Radau5, Rk4, Rk54, Rk853, Trapezoidal};
     match formulation {
         // its index changes with the step
         Formulation::MultiIndex => vec![(Trapezoidal, Error), (Trapezoidal, Energy)],
@@ -54,6 +54,7 @@ fn ways(formulation: Formulation) -> Vec<(IntegratorKind, Control)> {
                 (Rk54, Own),
                 (Rk853, Own),
                 (Extrapolation, Own),
+                (Radau5, Own),
             ]
         }
         _ => vec![(Trapezoidal, Fixed), (Trapezoidal, Error)],
@@ -119,11 +120,12 @@ impl Method {
         match self.control {
             Control::Fixed => ratio,
             // the local error goes with the cube of the step, in rk54 with the fifth power, in rk853 with the eighth, in gbs about
-            // with the tenth
+            // with the tenth, in radau5 with the fourth
             Control::Error | Control::Energy => ratio.cbrt(),
             Control::Own => match self.integrator {
                 IntegratorKind::Extrapolation => ratio.powf(0.1),
                 IntegratorKind::Rk853 => ratio.powf(0.125),
+                IntegratorKind::Radau5 => ratio.powf(0.25),
                 _ => ratio.powf(0.2),
             },
         }

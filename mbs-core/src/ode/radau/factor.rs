@@ -1,0 +1,123 @@
+//! Factors of x − J for a real or complex number x.
+
+use super::complex::Number;
+use crate::Real;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::marker::PhantomData;
+
+/// L U = P (x − J), row by row in one array.
+///
+/// The leading unknowns, whose rates hardly depend on each other, are eliminated on the diagonal, and the zeros of their rows
+/// passed over; the others by the largest pivot in their column.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Factor<T, N> {
+    n: usize,
+    leading: usize,
+    entries: Vec<N>,
+    /// The row that was brought to each place.
+    pivots: Vec<usize>,
+    /// Columns that a row has, for the time of its elimination.
+    columns: Vec<usize>,
+    scalar: PhantomData<T>,
+}
+
+impl<T: Real, N: Number<T>> Factor<T, N> {
+    pub(super) fn new(n: usize, leading: usize) -> Self {
+        Self {
+            n,
+            leading: leading.min(n),
+            entries: vec![N::of(T::ZERO); n * n],
+            pivots: (0..n).collect(),
+            columns: Vec::with_capacity(n),
+            scalar: PhantomData,
+        }
+    }
+
+    /// Factors x − J; says whether all pivots are numbers other than zero.
+    ///
+    /// Cost: for n − l unknowns that do not lead (n − l)³/3 products, and less than (n − l)² l for the others where each is the rate of
+    /// few.
+    pub(super) fn factor(&mut self, x: N, jacobian: &[T]) -> bool {
+        let n = self.n;
+        for (entry, &slope) in self.entries.iter_mut().zip(jacobian) {
+            *entry = N::of(-slope);
+        }
+        for k in 0..n {
+            self.entries[k * n + k] = x - N::of(jacobian[k * n + k]);
+        }
+        (0..n).all(|k| {
+            if k >= self.leading {
+                self.exchange(k);
+            }
+            let pivot = self.entries[k * n + k].size();
+            let is_sound = pivot > T::ZERO && pivot.is_finite();
+            if is_sound {
+                self.eliminate(k);
+            }
+            is_sound
+        })
+    }
+
+    /// Brings the row with the largest entry of column k to its place.
+    fn exchange(&mut self, k: usize) {
+        let n = self.n;
+        let mut largest = (k, T::ZERO);
+        for i in k..n {
+            let size = self.entries[i * n + k].size();
+            if size > largest.1 {
+                largest = (i, size);
+            }
+        }
+        self.pivots[k] = largest.0;
+        if largest.0 > k {
+            let (above, below) = self.entries.split_at_mut(largest.0 * n);
+            above[k * n..][..n].swap_with_slice(&mut below[..n]);
+        }
+    }
+
+    /// Takes row k from those below.
+    fn eliminate(&mut self, k: usize) {
+        let n = self.n;
+        let (above, below) = self.entries.split_at_mut((k + 1) * n);
+        let row = &above[k * n..][..n];
+        let is_sparse = k < self.leading;
+        if is_sparse {
+            self.columns.clear();
+            self.columns.extend((k + 1..n).filter(|&j| row[j].size() > T::ZERO));
+        }
+        for other in below.chunks_exact_mut(n) {
+            if !(other[k].size() > T::ZERO) {
+                continue;
+            }
+            let share = other[k] / row[k];
+            other[k] = share;
+            if is_sparse {
+                for &j in &self.columns {
+                    other[j] = other[j] - share * row[j];
+                }
+            } else {
+                for (entry, &above) in other[k + 1..].iter_mut().zip(&row[k + 1..]) {
+                    *entry = *entry - share * above;
+                }
+            }
+        }
+    }
+
+    /// b ← (x − J)⁻¹ b. Cost: n² products.
+    pub(super) fn solve(&self, b: &mut [N]) {
+        let n = self.n;
+        for k in self.leading..n {
+            b.swap(k, self.pivots[k]);
+        }
+        for i in 1..n {
+            let row = &self.entries[i * n..][..i];
+            b[i] = row.iter().zip(&*b).fold(b[i], |rest, (&entry, &b)| rest - entry * b);
+        }
+        for i in (0..n).rev() {
+            let row = &self.entries[i * n..][..n];
+            let known = row[i + 1..].iter().zip(&b[i + 1..]);
+            b[i] = known.fold(b[i], |rest, (&entry, &b)| rest - entry * b) / row[i];
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! Implicit Runge-Kutta steps of order 5 for stiff systems: collocation at three Radau points.
+
+mod coefficients;
+mod complex;
+mod factor;
+mod newton;
+#[cfg(test)]
+mod tests;
+
+use super::{Method, Options, Rates, method};
+use crate::Real;
+use alloc::vec;
+use alloc::vec::Vec;
+use coefficients::Coefficients;
+use complex::Complex;
+use factor::Factor;
+use newton::{End, Newton};
+
+/// The size of error that stands for an iteration that did not converge: a step of half the length is tried.
+const DIVERGED: f64 = 10.0;
+/// A step that would grow by less than this share is left as it is, and its factors with it.
+const WORTH_IT: f64 = 1.2;
+/// Slopes are kept for the next step where each iteration left less than this share of the error.
+const FAST: f64 = 0.05;
+/// Factors of a step that is longer or shorter by less than this share serve as well.
+const SAME_STEP: f64 = 1e-3;
+
+/// Radau IIA with three stages (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.8): order 5, L-stable.
+///
+/// ```text
+/// zᵢ = h Σⱼ aᵢⱼ f(t + cⱼ h, y + zⱼ),   y(t + h) = y + z₃
+/// error = (γ/h − J)⁻¹ (f(t, y) + Σᵢ dᵢ zᵢ / h)
+/// ```
+///
+/// The stages are found by Newton's method with slopes J by differences, which are kept while it converges fast. In the basis
+/// where A⁻¹ is diagonal its matrices are γ/h − J and (α + iβ)/h − J. The iteration begins from the polynomial of the step before.
+///
+/// All memory is made by [`Radau::new`]; nothing is allocated in a step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Radau<T> {
+    coefficients: Coefficients<T>,
+    memory: RadauHistory<T>,
+    real: Factor<T, T>,
+    complex: Factor<T, Complex<T>>,
+    /// The step that the factors are of; none where the slopes have changed since.
+    factored: Option<T>,
+    newton: Newton<T>,
+    evaluations: u64,
+}
+
+/// What a [`Radau`] remembers from step to step.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct RadauHistory<T> {
+    /// J, row by row.
+    pub jacobian: Vec<T>,
+    /// Is J one that the next step may use?
+    pub has_jacobian: bool,
+    /// The step that the factors are of [s], if they are of these slopes.
+    pub factored: Option<T>,
+    /// z₁, z₂, z₃ of the last step.
+    pub stages: Vec<T>,
+    /// The length of that step [s], if its iteration converged.
+    pub step: Option<T>,
+    /// How much more than the last correction was left after it.
+    pub rest: T,
+}
+
+impl<T: Real> Radau<T> {
+    /// A method for systems of `n` components, of which the first `leading` need no pivots ([`Rates::n_leading`]).
+    #[must_use]
+    pub fn new(n: usize, leading: usize) -> Self {
+        Self {
+            coefficients: Coefficients::new(),
+            memory: RadauHistory {
+                jacobian: vec![T::ZERO; n * n],
+                has_jacobian: false,
+                factored: None,
+                stages: vec![T::ZERO; 3 * n],
+                step: None,
+                rest: T::ONE,
+            },
+            real: Factor::new(n, leading),
+            complex: Factor::new(n, leading),
+            factored: None,
+            newton: Newton::new(n),
+            evaluations: 0,
+        }
+    }
+
+    /// What the next step goes on from.
+    #[must_use]
+    pub fn history(&self) -> RadauHistory<T> {
+        RadauHistory { factored: self.factored, ..self.memory.clone() }
+    }
+
+    /// Goes on from the history of a method for as many components; says whether it is one. Else nothing is changed.
+    ///
+    /// Cost: the factorisations that the history is of.
+    pub fn set_history(&mut self, history: &RadauHistory<T>) -> bool {
+        let lengths = |memory: &RadauHistory<T>| (memory.jacobian.len(), memory.stages.len());
+        if lengths(history) != lengths(&self.memory) {
+            return false;
+        }
+        self.memory.clone_from(history);
+        self.factored = None;
+        history.factored.is_none_or(|h| self.factor(h))
+    }
+
+    /// Factors both matrices for a step; says whether they are sound.
+    fn factor(&mut self, h: T) -> bool {
+        let Complex { re, im } = self.coefficients.complex;
+        let jacobian = &self.memory.jacobian;
+        let is_sound = self.real.factor(self.coefficients.real / h, jacobian)
+            && self.complex.factor(Complex::new(re / h, im / h), jacobian);
+        self.factored = is_sound.then_some(h);
+        is_sound
+    }
+
+    /// J by differences of the rates at (t, y), column by column. Cost: n + 1 evaluations.
+    fn differentiate<R: Rates<T>>(
+        &mut self,
+        system: &mut R,
+        t: T,
+        y: &[T],
+    ) -> Result<(), R::Error> {
+        let n = y.len();
+        let Newton { stage, z, .. } = &mut self.newton;
+        let (base, moved) = z.split_at_mut(n);
+        let moved = &mut moved[..n];
+        stage.copy_from_slice(y);
+        system.fine_rates(t, stage, base)?;
+        for k in 0..n {
+            // What the sum is larger by, not what was added.
+            stage[k] = y[k] + T::EPSILON.sqrt() * y[k].abs().max(T::ONE);
+            let step = stage[k] - y[k];
+            system.fine_rates(t, stage, moved)?;
+            for i in 0..n {
+                self.memory.jacobian[i * n + k] = (moved[i] - base[i]) / step;
+            }
+            stage[k] = y[k];
+        }
+        self.evaluations += n as u64 + 1;
+        self.memory.has_jacobian = true;
+        self.factored = None;
+        Ok(())
+    }
+
+    /// Brings slopes and factors up to what a step needs; says whether the slopes are of its very beginning, or nothing where the
+    /// matrices are not regular.
+    fn prepare<R: Rates<T>>(
+        &mut self,
+        system: &mut R,
+        (t, h): (T, T),
+        y: &[T],
+    ) -> Result<Option<bool>, R::Error> {
+        let is_new = !self.memory.has_jacobian;
+        if is_new {
+            self.differentiate(system, t, y)?;
+        }
+        let is_near = |of: T| (h - of).abs() <= T::from_f64(SAME_STEP) * h;
+        let is_sound = self.factored.is_some_and(is_near) || self.factor(h);
+        Ok(is_sound.then_some(is_new))
+    }
+
+    /// Size of the error of the stages found, in tolerances; `first` are the rates at the beginning, `end` the new state.
+    ///
+    /// Cost: n² products; where a step after a rejected one would be rejected as well, one evaluation and as many products again.
+    fn error<R: Rates<T>>(
+        &mut self,
+        system: &mut R,
+        (t, h, is_repeated): (T, T, bool),
+        (y, end): (&[T], &[T]),
+        (options, first): (&Options<'_, T>, &[T]),
+    ) -> Result<T, R::Error> {
+        let (n, d) = (y.len(), self.coefficients.error);
+        let Newton { stage, z, one, rates, .. } = &mut self.newton;
+        let real = &self.real;
+        let estimate = |rates: &[T], to: &mut [T]| {
+            for k in 0..n {
+                to[k] = rates[k] + (d[0] * z[k] + d[1] * z[n + k] + d[2] * z[2 * n + k]) / h;
+            }
+            real.solve(to);
+        };
+        estimate(first, one);
+        stage.copy_from_slice(one);
+        system.keep(stage)?;
+        let error = method::size((y, end), options, stage);
+        if error <= T::ONE || !is_repeated {
+            return Ok(error);
+        }
+        // What a stiff system damps at once is no error: rates are taken where it has.
+        for k in 0..n {
+            one[k] += y[k];
+        }
+        let rates = &mut rates[..n];
+        system.rates(t, one, rates)?;
+        self.evaluations += 1;
+        estimate(rates, stage);
+        system.keep(stage)?;
+        Ok(method::size((y, end), options, stage))
+    }
+}
+
+impl<T: Real> Method<T> for Radau<T> {
+    fn power(&self) -> u32 {
+        4
+    }
+
+    fn n_scratch(&self, n: usize) -> usize {
+        2 * n
+    }
+
+    fn evaluations(&self, _: bool) -> u64 {
+        self.evaluations
+    }
+
+    fn trial<R: Rates<T>>(
+        &mut self,
+        system: &mut R,
+        (t, h): (T, T),
+        y: &[T],
+        first_is_known: bool,
+        (options, scratch): (&Options<'_, T>, &mut [T]),
+    ) -> Result<T, R::Error> {
+        let n = y.len();
+        let (first, end) = scratch.split_at_mut(n);
+        self.evaluations = 0;
+        if !first_is_known {
+            system.rates(t, y, first)?;
+            self.evaluations += 1;
+        }
+        if !first.iter().all(|rate| rate.is_finite()) {
+            return Ok(T::from_f64(f64::NAN));
+        }
+        method::weights(y, options, &mut self.newton.weights);
+        loop {
+            let Some(is_new) = self.prepare(system, (t, h), y)? else {
+                self.memory.has_jacobian = false;
+                return Ok(T::from_f64(f64::NAN));
+            };
+            // A trial after a rejected one begins where that began.
+            let from = if first_is_known { T::ZERO } else { T::ONE };
+            let nodes = self.coefficients.nodes;
+            let before = self.memory.step.map(|old| {
+                (&self.memory.stages[..], nodes.map(|node| from + node * h / old), from)
+            });
+            if before.is_none() {
+                self.memory.rest = T::ONE;
+            }
+            self.newton.begin(&self.coefficients, before);
+            let solvers = (&self.coefficients, &self.real, &self.complex);
+            let told = (&mut self.memory.rest, &mut self.evaluations);
+            let end = self.newton.solve(system, solvers, (t, h), y, told)?;
+            if end == End::Converged {
+                break;
+            }
+            self.memory.step = None;
+            if is_new || end == End::NotFinite {
+                let size = if end == End::NotFinite { f64::NAN } else { DIVERGED };
+                return Ok(T::from_f64(size));
+            }
+            self.memory.has_jacobian = false;
+        }
+        self.memory.stages.copy_from_slice(&self.newton.z);
+        self.memory.step = Some(h);
+        for k in 0..n {
+            end[k] = y[k] + self.newton.z[2 * n + k];
+        }
+        let error = self.error(system, (t, h, first_is_known), (y, end), (options, first))?;
+        // A trial that is rejected is repeated with the same slopes.
+        let is_fast = self.newton.contraction <= T::from_f64(FAST);
+        self.memory.has_jacobian = is_fast || !(error <= T::ONE);
+        Ok(error)
+    }
+
+    fn new_state<'s>(&self, n: usize, scratch: &'s [T]) -> &'s [T] {
+        &scratch[n..][..n]
+    }
+
+    fn carry(&self, _: usize, _: &mut [T]) -> bool {
+        false
+    }
+
+    fn shares(&self) -> bool {
+        true
+    }
+
+    fn worth(&self, factor: T) -> T {
+        let is_worth_it = factor < T::ONE || factor > T::from_f64(WORTH_IT);
+        if is_worth_it { factor } else { T::ONE }
+    }
+}
