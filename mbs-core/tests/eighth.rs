@@ -54,7 +54,7 @@ fn witch(t: Pair) -> Pair {
 
 /// Error and estimate of one step from t = 0.3.
 fn one_step(h: f64) -> [f64; 2] {
-    let (tableau, start, h) =
+    let (mut tableau, start, h) =
         (Tableau::<Pair, 12>::dormand_prince_8(), Pair::from_f64(0.3), Pair::from_f64(h));
     let (y, mut scratch) = ([witch(start)], [Pair::ZERO; Tableau::<Pair, 12>::scratch(1)]);
     let options = Options { relative: Pair::ZERO, ..Options::new(Pair::ONE) };

@@ -17,7 +17,7 @@ pub(crate) enum EngineKept<T> {
     Augmented(augmented::History<T>, Option<augmented::IndexHistory<T>>, Springs<T>),
     Classical(Springs<T>),
     StateSpace(statespace::History<T>, Springs<T>),
-    Recursive(TreeKept<T>),
+    Recursive(Box<TreeKept<T>>),
 }
 
 /// What energies are told of: the springs as last evaluated, and the courses.
@@ -77,7 +77,7 @@ where
             Self::StateSpace { workspace, .. } => {
                 EngineKept::StateSpace(workspace.history(), Springs::of(workspace.terms()))
             }
-            Self::Recursive(tree) => EngineKept::Recursive(tree.kept()),
+            Self::Recursive(tree) => EngineKept::Recursive(Box::new(tree.kept())),
         }
     }
 

@@ -1,10 +1,31 @@
 //! Factors of x − J for a real or complex number x.
 
-use super::complex::Number;
+use super::coefficients::Coefficients;
+use super::complex::{Complex, Number};
 use crate::Real;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::marker::PhantomData;
+
+/// The two matrices of an iteration, γ/h − J and (α + iβ)/h − J.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Matrices<T> {
+    pub(super) real: Factor<T, T>,
+    pub(super) complex: Factor<T, Complex<T>>,
+}
+
+impl<T: Real> Matrices<T> {
+    pub(super) fn new(n: usize, leading: usize) -> Self {
+        Self { real: Factor::new(n, leading), complex: Factor::new(n, leading) }
+    }
+
+    /// Factors both for a step; says whether they are regular.
+    pub(super) fn factor(&mut self, of: &Coefficients<T>, h: T, jacobian: &[T]) -> bool {
+        let Complex { re, im } = of.complex;
+        self.real.factor(of.real / h, jacobian)
+            && self.complex.factor(Complex::new(re / h, im / h), jacobian)
+    }
+}
 
 /// L U = P (x − J), row by row in one array.
 ///

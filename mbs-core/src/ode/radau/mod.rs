@@ -12,8 +12,7 @@ use crate::Real;
 use alloc::vec;
 use alloc::vec::Vec;
 use coefficients::Coefficients;
-use complex::Complex;
-use factor::Factor;
+use factor::Matrices;
 use newton::{End, Newton};
 
 /// The size of error that stands for an iteration that did not converge: a step of half the length is tried.
@@ -40,8 +39,7 @@ const SAME_STEP: f64 = 1e-3;
 pub struct Radau<T> {
     coefficients: Coefficients<T>,
     memory: RadauHistory<T>,
-    real: Factor<T, T>,
-    complex: Factor<T, Complex<T>>,
+    matrices: Matrices<T>,
     /// The step that the factors are of; none where the slopes have changed since.
     factored: Option<T>,
     newton: Newton<T>,
@@ -79,8 +77,7 @@ impl<T: Real> Radau<T> {
                 step: None,
                 rest: T::ONE,
             },
-            real: Factor::new(n, leading),
-            complex: Factor::new(n, leading),
+            matrices: Matrices::new(n, leading),
             factored: None,
             newton: Newton::new(n),
             evaluations: 0,
@@ -108,10 +105,7 @@ impl<T: Real> Radau<T> {
 
     /// Factors both matrices for a step; says whether they are sound.
     fn factor(&mut self, h: T) -> bool {
-        let Complex { re, im } = self.coefficients.complex;
-        let jacobian = &self.memory.jacobian;
-        let is_sound = self.real.factor(self.coefficients.real / h, jacobian)
-            && self.complex.factor(Complex::new(re / h, im / h), jacobian);
+        let is_sound = self.matrices.factor(&self.coefficients, h, &self.memory.jacobian);
         self.factored = is_sound.then_some(h);
         is_sound
     }
@@ -174,7 +168,7 @@ impl<T: Real> Radau<T> {
     ) -> Result<T, R::Error> {
         let (n, d) = (y.len(), self.coefficients.error);
         let Newton { stage, z, one, rates, .. } = &mut self.newton;
-        let real = &self.real;
+        let real = &self.matrices.real;
         let estimate = |rates: &[T], to: &mut [T]| {
             for k in 0..n {
                 to[k] = rates[k] + (d[0] * z[k] + d[1] * z[n + k] + d[2] * z[2 * n + k]) / h;
@@ -248,7 +242,7 @@ impl<T: Real> Method<T> for Radau<T> {
                 self.memory.rest = T::ONE;
             }
             self.newton.begin(&self.coefficients, before);
-            let solvers = (&self.coefficients, &self.real, &self.complex);
+            let solvers = (&self.coefficients, &self.matrices);
             let told = (&mut self.memory.rest, &mut self.evaluations);
             let end = self.newton.solve(system, solvers, (t, h), y, told)?;
             if end == End::Converged {

@@ -2,7 +2,7 @@
 
 use super::coefficients::Coefficients;
 use super::complex::Complex;
-use super::factor::Factor;
+use super::factor::Matrices;
 use crate::Real;
 use crate::ode::Rates;
 use alloc::vec;
@@ -93,7 +93,7 @@ impl<T: Real> Newton<T> {
     pub(super) fn solve<R: Rates<T>>(
         &mut self,
         system: &mut R,
-        (coefficients, real, complex): (&Coefficients<T>, &Factor<T, T>, &Factor<T, Complex<T>>),
+        (coefficients, matrices): (&Coefficients<T>, &Matrices<T>),
         (t, h): (T, T),
         y: &[T],
         (rest, evaluations): (&mut T, &mut u64),
@@ -114,7 +114,7 @@ impl<T: Real> Newton<T> {
                     return Ok(End::NotFinite);
                 }
             }
-            self.correct((coefficients, real, complex), h);
+            self.correct((coefficients, matrices), h);
             let size = self.take(coefficients);
             if !size.is_finite() {
                 return Ok(End::NotFinite);
@@ -143,11 +143,7 @@ impl<T: Real> Newton<T> {
     }
 
     /// (Λ/h − J) Δw = T⁻¹ f − Λ/h w, which is left in `one` and `pair`.
-    fn correct(
-        &mut self,
-        (coefficients, real, complex): (&Coefficients<T>, &Factor<T, T>, &Factor<T, Complex<T>>),
-        h: T,
-    ) {
+    fn correct(&mut self, (coefficients, matrices): (&Coefficients<T>, &Matrices<T>), h: T) {
         let n = self.one.len();
         let (gamma, alpha) = (coefficients.real / h, coefficients.complex.re / h);
         let beta = coefficients.complex.im / h;
@@ -159,8 +155,8 @@ impl<T: Real> Newton<T> {
             self.pair[k] =
                 Complex::new(f2 - (alpha * w2 - beta * w3), f3 - (beta * w2 + alpha * w3));
         }
-        real.solve(&mut self.one);
-        complex.solve(&mut self.pair);
+        matrices.real.solve(&mut self.one);
+        matrices.complex.solve(&mut self.pair);
     }
 
     /// w += Δw, z = T w; returns the size of Δw in tolerances.

@@ -1,14 +1,17 @@
 //! Coefficients, order, stiffness, counts and memory of the implicit method, on problems with closed forms.
 
+use super::complex::Complex;
 use super::*;
 use crate::ode::{Adaptive, EndState, OdeError};
 use crate::real::DoubleDouble as Pair;
 use alloc::boxed::Box;
 use core::convert::Infallible;
 
+type Law<T> = dyn Fn(T, &[T], &mut [T]);
+
 /// A problem by its rates, which counts how often they are asked for.
 struct Problem<T> {
-    rates: Box<dyn Fn(T, &[T], &mut [T])>,
+    rates: Box<Law<T>>,
     evaluations: u64,
 }
 
