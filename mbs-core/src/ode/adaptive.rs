@@ -140,7 +140,8 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
         if !self.method.shares() {
             return planned;
         }
-        rest / T::from_f64(libm::ceil((rest / (planned * T::from_f64(LAST_STEP))).to_f64()))
+        let steps = libm::ceil((rest / (planned * T::from_f64(LAST_STEP))).to_f64());
+        rest / T::from_f64(steps.max(2.0))
     }
 
     /// Advances `y` from `t` by exactly `dt` [s], in as many accepted steps as the tolerance asks for.
@@ -214,8 +215,10 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
                 let factor = self.control.accepted(error);
                 self.step = h * self.method.worth(factor);
             } else if self.method.shares() {
-                let wish = h * self.control.accepted(error);
-                self.step = if wish < planned && h < planned * T::HALF { planned } else { wish };
+                let factor = self.control.accepted(error);
+                let wish = h * self.method.worth(factor);
+                let is_too_long = factor < T::ONE && h >= planned * T::HALF;
+                self.step = if is_too_long { wish } else { planned.max(wish) };
             }
             let at_end = t + done;
             let end = hook(system, at_end, y)

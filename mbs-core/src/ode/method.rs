@@ -50,11 +50,12 @@ pub trait Method<T: Real> {
     }
 }
 
-/// One over the tolerance of each component, as far as it is known at the beginning of a step.
+/// One over the tolerance of each component, as far as it is known at the beginning of a step; zero where there is none yet.
 #[cfg(feature = "alloc")]
 pub(super) fn weights<T: Real>(y: &[T], options: &Options<'_, T>, weights: &mut [T]) {
     for (k, weight) in weights.iter_mut().enumerate() {
-        *weight = T::ONE / tolerance(k, y[k].abs(), options);
+        let tolerance = tolerance(k, y[k].abs(), options);
+        *weight = if tolerance > T::ZERO { T::ONE / tolerance } else { T::ZERO };
     }
 }
 

@@ -19,6 +19,12 @@ use newton::{End, Newton};
 const DIVERGED: f64 = 10.0;
 /// A step that would grow by less than this share is left as it is, and its factors with it.
 const WORTH_IT: f64 = 1.2;
+/// A correction that leaves more than this share of what a stage was off by was made with slopes of another motion.
+const HIDDEN: f64 = 0.5;
+/// But for so many roundings.
+const ROUNDINGS: f64 = 16.0;
+/// Differences are taken over the root of this share of a rounding and of a component's size, at least.
+const LEAST: f64 = 1e-5;
 /// Slopes are kept for the next step where each iteration left less than this share of the error.
 const FAST: f64 = 0.05;
 /// Factors of a step that is longer or shorter by less than this share serve as well.
@@ -34,6 +40,10 @@ const SAME_STEP: f64 = 1e-3;
 /// The stages are found by Newton's method with slopes J by differences, which are kept while it converges fast. In the basis
 /// where A⁻¹ is diagonal its matrices are γ/h − J and (α + iβ)/h − J. The iteration begins from the polynomial of the step before.
 ///
+/// A step is refused where slopes hide from the iteration what its stages are off by, as those of a spring do that has let go within
+/// the step. What begins and ends within a step, or moves the state by less than the tolerance, is not seen: [`Options::max_step`].
+/// In `f32` the rounding of positions, times the slopes of very stiff springs, keeps the iteration from small tolerances, and steps short.
+///
 /// All memory is made by [`Radau::new`]; nothing is allocated in a step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Radau<T> {
@@ -43,6 +53,10 @@ pub struct Radau<T> {
     /// The step that the factors are of; none where the slopes have changed since.
     factored: Option<T>,
     newton: Newton<T>,
+    /// When the last trial began [s].
+    begun: Option<T>,
+    /// When the slopes were found [s].
+    found: Option<T>,
     evaluations: u64,
 }
 
@@ -80,6 +94,8 @@ impl<T: Real> Radau<T> {
             matrices: Matrices::new(n, leading),
             factored: None,
             newton: Newton::new(n),
+            begun: None,
+            found: None,
             evaluations: 0,
         }
     }
@@ -90,7 +106,8 @@ impl<T: Real> Radau<T> {
         RadauHistory { factored: self.factored, ..self.memory.clone() }
     }
 
-    /// Goes on from the history of a method for as many components; says whether it is one. Else nothing is changed.
+    /// Goes on from the history of a method for as many components; says whether it is one. Else no more is changed than that slopes
+    /// are found anew.
     ///
     /// Cost: the factorisations that the history is of.
     pub fn set_history(&mut self, history: &RadauHistory<T>) -> bool {
@@ -98,9 +115,14 @@ impl<T: Real> Radau<T> {
         if lengths(history) != lengths(&self.memory) {
             return false;
         }
-        self.memory.clone_from(history);
-        self.factored = None;
-        history.factored.is_none_or(|h| self.factor(h))
+        let before = core::mem::replace(&mut self.memory, history.clone());
+        (self.factored, self.begun, self.found) = (None, None, None);
+        let is_sound = history.factored.is_none_or(|h| self.factor(h));
+        if !is_sound {
+            self.memory = before;
+            self.memory.has_jacobian = false;
+        }
+        is_sound
     }
 
     /// Factors both matrices for a step; says whether they are sound.
@@ -110,12 +132,12 @@ impl<T: Real> Radau<T> {
         is_sound
     }
 
-    /// J by differences of the rates at (t, y), column by column. Cost: n + 1 evaluations.
+    /// J by differences of the rates at (t, y), column by column; zero where they are no numbers on both sides. Cost: n + 1 evaluations.
     fn differentiate<R: Rates<T>>(
         &mut self,
         system: &mut R,
         t: T,
-        y: &[T],
+        (y, options): (&[T], &Options<'_, T>),
     ) -> Result<(), R::Error> {
         let n = y.len();
         let Newton { stage, z, .. } = &mut self.newton;
@@ -124,18 +146,29 @@ impl<T: Real> Radau<T> {
         stage.copy_from_slice(y);
         system.fine_rates(t, stage, base)?;
         for k in 0..n {
-            // What the sum is larger by, not what was added.
-            stage[k] = y[k] + T::EPSILON.sqrt() * y[k].abs().max(T::ONE);
-            let step = stage[k] - y[k];
-            system.fine_rates(t, stage, moved)?;
-            for i in 0..n {
-                self.memory.jacobian[i * n + k] = (moved[i] - base[i]) / step;
+            let unit = options.sizes.get(k).copied().unwrap_or(T::ONE);
+            let size = y[k].abs().max(T::from_f64(LEAST) * unit);
+            let root = (T::EPSILON * size * unit).sqrt();
+            for by in [root, -root] {
+                // What the sum is larger by, not what was added.
+                stage[k] = y[k] + by;
+                let step = stage[k] - y[k];
+                system.fine_rates(t, stage, moved)?;
+                self.evaluations += 1;
+                let is_told = moved.iter().all(|rate| rate.is_finite());
+                for i in 0..n {
+                    let slope = if is_told { (moved[i] - base[i]) / step } else { T::ZERO };
+                    self.memory.jacobian[i * n + k] = slope;
+                }
+                if is_told {
+                    break;
+                }
             }
             stage[k] = y[k];
         }
-        self.evaluations += n as u64 + 1;
+        self.evaluations += 1;
         self.memory.has_jacobian = true;
-        self.factored = None;
+        (self.factored, self.found) = (None, Some(t));
         Ok(())
     }
 
@@ -145,15 +178,37 @@ impl<T: Real> Radau<T> {
         &mut self,
         system: &mut R,
         (t, h): (T, T),
-        y: &[T],
+        (y, options): (&[T], &Options<'_, T>),
     ) -> Result<Option<bool>, R::Error> {
-        let is_new = !self.memory.has_jacobian;
-        if is_new {
-            self.differentiate(system, t, y)?;
+        if !self.memory.has_jacobian {
+            self.differentiate(system, t, (y, options))?;
         }
+        let is_new = self.found == Some(t);
         let is_near = |of: T| (h - of).abs() <= T::from_f64(SAME_STEP) * h;
         let is_sound = self.factored.is_some_and(is_near) || self.factor(h);
         Ok(is_sound.then_some(is_new))
+    }
+
+    /// Was the last correction one? `last` are the rates at the end.
+    ///
+    /// Cost: 6 n products; where what is left is in doubt, n² more.
+    fn judge(&self, h: T, y: &[T], last: &[T]) -> End {
+        if !last.iter().all(|rate| rate.is_finite()) {
+            return End::NotFinite;
+        }
+        let (newton, n) = (&self.newton, y.len());
+        let after = newton.defect(&self.coefficients, h, last);
+        if after <= T::ONE || after <= T::from_f64(HIDDEN) * newton.before {
+            return End::Converged;
+        }
+        // What the rounding of the state makes of rates through these slopes.
+        let mut sum = T::ZERO;
+        for (row, &weight) in self.memory.jacobian.chunks_exact(n.max(1)).zip(&newton.weights) {
+            let products = row.iter().zip(y).fold(T::ZERO, |sum, (j, y)| sum + j.abs() * y.abs());
+            sum += (products * weight) * (products * weight);
+        }
+        let noise = h * T::EPSILON * (sum / T::from_f64(n.max(1) as f64)).sqrt();
+        if after <= T::from_f64(ROUNDINGS) * noise { End::Converged } else { End::Diverged }
     }
 
     /// Size of the error of the stages found, in tolerances; `first` are the rates at the beginning, `end` the new state.
@@ -201,7 +256,7 @@ impl<T: Real> Method<T> for Radau<T> {
     }
 
     fn n_scratch(&self, n: usize) -> usize {
-        2 * n
+        3 * n
     }
 
     fn evaluations(&self, _: bool) -> u64 {
@@ -217,7 +272,8 @@ impl<T: Real> Method<T> for Radau<T> {
         (options, scratch): (&Options<'_, T>, &mut [T]),
     ) -> Result<T, R::Error> {
         let n = y.len();
-        let (first, end) = scratch.split_at_mut(n);
+        let (first, rest) = scratch.split_at_mut(n);
+        let (end, last) = rest.split_at_mut(n);
         self.evaluations = 0;
         if !first_is_known {
             system.rates(t, y, first)?;
@@ -227,13 +283,16 @@ impl<T: Real> Method<T> for Radau<T> {
             return Ok(T::from_f64(f64::NAN));
         }
         method::weights(y, options, &mut self.newton.weights);
+        let is_repeated = self.begun == Some(t);
+        self.begun = Some(t);
         loop {
-            let Some(is_new) = self.prepare(system, (t, h), y)? else {
+            let Some(is_new) = self.prepare(system, (t, h), (y, options))? else {
                 self.memory.has_jacobian = false;
+                self.memory.step = None;
                 return Ok(T::from_f64(f64::NAN));
             };
             // A trial after a rejected one begins where that began.
-            let from = if first_is_known { T::ZERO } else { T::ONE };
+            let from = if is_repeated { T::ZERO } else { T::ONE };
             let nodes = self.coefficients.nodes;
             let before = self.memory.step.map(|old| {
                 (&self.memory.stages[..], nodes.map(|node| from + node * h / old), from)
@@ -244,23 +303,28 @@ impl<T: Real> Method<T> for Radau<T> {
             self.newton.begin(&self.coefficients, before);
             let solvers = (&self.coefficients, &self.matrices);
             let told = (&mut self.memory.rest, &mut self.evaluations);
-            let end = self.newton.solve(system, solvers, (t, h), y, told)?;
-            if end == End::Converged {
+            let mut how = self.newton.solve(system, solvers, (t, h), y, told)?;
+            if how == End::Converged {
+                for k in 0..n {
+                    end[k] = y[k] + self.newton.z[2 * n + k];
+                }
+                system.rates(t + h, end, last)?;
+                self.evaluations += 1;
+                how = self.judge(h, y, last);
+            }
+            if how == End::Converged {
                 break;
             }
             self.memory.step = None;
-            if is_new || end == End::NotFinite {
-                let size = if end == End::NotFinite { f64::NAN } else { DIVERGED };
+            if is_new || how == End::NotFinite {
+                let size = if how == End::NotFinite { f64::NAN } else { DIVERGED };
                 return Ok(T::from_f64(size));
             }
             self.memory.has_jacobian = false;
         }
         self.memory.stages.copy_from_slice(&self.newton.z);
         self.memory.step = Some(h);
-        for k in 0..n {
-            end[k] = y[k] + self.newton.z[2 * n + k];
-        }
-        let error = self.error(system, (t, h, first_is_known), (y, end), (options, first))?;
+        let error = self.error(system, (t, h, is_repeated), (y, end), (options, first))?;
         // A trial that is rejected is repeated with the same slopes.
         let is_fast = self.newton.contraction <= T::from_f64(FAST);
         self.memory.has_jacobian = is_fast || !(error <= T::ONE);
@@ -271,8 +335,9 @@ impl<T: Real> Method<T> for Radau<T> {
         &scratch[n..][..n]
     }
 
-    fn carry(&self, _: usize, _: &mut [T]) -> bool {
-        false
+    fn carry(&self, n: usize, scratch: &mut [T]) -> bool {
+        scratch.copy_within(2 * n..3 * n, 0);
+        true
     }
 
     fn shares(&self) -> bool {

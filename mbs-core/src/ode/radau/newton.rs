@@ -41,6 +41,8 @@ pub(super) struct Newton<T> {
     pub(super) weights: Vec<T>,
     /// The share of the error that the last iteration left.
     pub(super) contraction: T,
+    /// How far the third stage was from its equation before the last correction, see [`Self::defect`].
+    pub(super) before: T,
 }
 
 impl<T: Real> Newton<T> {
@@ -55,7 +57,26 @@ impl<T: Real> Newton<T> {
             pair: vec![Complex::new(T::ZERO, T::ZERO); n],
             weights: zeros(n),
             contraction: T::ZERO,
+            before: T::ZERO,
         }
+    }
+
+    /// How far the third stage is from its equation, h f − (A⁻¹ z)₃, in tolerances, with these rates there.
+    ///
+    /// Corrections are small where the slopes are steep, whatever the rates are: a spring that is in the slopes but not in the motion
+    /// any more hides what is wrong from them. Here it is seen.
+    pub(super) fn defect(&self, coefficients: &Coefficients<T>, h: T, rates: &[T]) -> T {
+        let n = self.one.len();
+        let (gamma, Complex { re, im }) = (coefficients.real, coefficients.complex);
+        let row = &coefficients.basis[2];
+        let mut sum = T::ZERO;
+        for k in 0..n {
+            let [w1, w2, w3] = core::array::from_fn(|i| self.w[i * n + k]);
+            let slope = product(row, &[gamma * w1, re * w2 - im * w3, im * w2 + re * w3]);
+            let share = (h * rates[k] - slope) * self.weights[k];
+            sum += share * share;
+        }
+        (sum / T::from_f64(n.max(1) as f64)).sqrt()
     }
 
     /// Begins from stages of zero, or from the polynomial of the step before: `places` has the stages' places in that step, and
@@ -114,6 +135,7 @@ impl<T: Real> Newton<T> {
                     return Ok(End::NotFinite);
                 }
             }
+            self.before = self.defect(coefficients, h, &self.rates[2 * n..]);
             self.correct((coefficients, matrices), h);
             let size = self.take(coefficients);
             if !size.is_finite() {

@@ -58,7 +58,7 @@ fn run<T: Real>(
 ) -> Result<Adaptive<T, Radau<T>>, OdeError<Infallible>> {
     let mut driver = Adaptive::new(Radau::new(2, 1), T::from_f64(first));
     let options = Options::new(T::from_f64(tolerance));
-    let mut scratch = [T::ZERO; 4];
+    let mut scratch = [T::ZERO; 6];
     let dt = T::from_f64(end / f64::from(parts));
     for k in 0..parts {
         let from = T::from_f64(f64::from(k)) * dt;
@@ -72,7 +72,7 @@ fn run<T: Real>(
 /// Error of x'' = −x after one step of h from (1, 0), whose stages are found to rounding.
 fn one_step(h: f64) -> f64 {
     let mut problem = Problem::new(|_, y: &[Pair], dy: &mut [Pair]| (dy[0], dy[1]) = (y[1], -y[0]));
-    let (mut method, mut scratch) = (Radau::new(2, 1), [Pair::ZERO; 4]);
+    let (mut method, mut scratch) = (Radau::new(2, 1), [Pair::ZERO; 6]);
     let options = Options::new(Pair::from_f64(1e-25));
     let (h, start) = (Pair::from_f64(h), [Pair::ONE, Pair::ZERO]);
     let step = (Pair::ZERO, h);
@@ -174,7 +174,7 @@ fn a_history_makes_the_same_step() {
     let mut twin = Radau::new(2, 1);
     assert!(twin.set_history(&history) && !Radau::<f64>::new(3, 1).set_history(&history));
     let ends = [driver.method().clone(), twin].map(|mut method| {
-        let mut scratch = [0.0; 4];
+        let mut scratch = [0.0; 6];
         let options = Options::new(1e-7);
         let Ok(error) =
             method.trial(&mut duffing(), (2.0, 0.1), &y, false, (&options, &mut scratch));
@@ -193,4 +193,33 @@ fn a_wall_of_no_numbers_is_told() {
     let error = run(&mut problem, (1e-6, 0.01), (1.0, 1), &mut y).expect_err("a wall");
     assert!(matches!(error, OdeError::StepTooSmall { .. }), "{error}");
     assert!((y[0] - 0.5).abs() < 1e-3, "{y:?} {error}");
+}
+
+/// A mass that is pressed on a stiff stop and pulled off it: x'' = p(t) + k max(−x, 0) − 2 √k v there. At rest the steps grow, and the
+/// slopes of the stop stand in the matrices when it is gone: all that it hides must be seen. It lifts off where the pull is zero and
+/// falls freely from then on; the way after that is the integral of the pull, but for what a stop of k lets through.
+#[test]
+fn a_stiff_contact_that_ends_is_not_held_by_its_slopes() {
+    for (k, tolerance, most) in [(1e6, 1e-6, 1e-3), (1e8, 1e-8, 1e-4)] {
+        let mut problem = Problem::new(move |t: f64, y: &[f64], dy: &mut [f64]| {
+            let stop = if y[0] < 0.0 { -k * y[0] - 2.0 * libm::sqrt(k) * y[1] } else { 0.0 };
+            (dy[0], dy[1]) = (y[1], t - 2.0 + stop.max(0.0));
+        });
+        let mut y = [-2.0 / k, 0.0];
+        run(&mut problem, (tolerance, 1e-3), (5.0, 1), &mut y).expect("a run");
+        // (t − 2)³/6 at t = 5
+        assert!((y[0] - 4.5).abs() < most, "k = {k:e}, {tolerance:e}: {} m", y[0]);
+    }
+}
+
+/// Where nothing is absolute, a component that begins with nothing has no tolerance yet.
+#[test]
+fn a_relative_tolerance_alone_is_one() {
+    let (mut driver, mut y) = (Adaptive::new(Radau::new(2, 1), 1e-3), [1.0, 0.0]);
+    let options = Options { absolute: 0.0, ..Options::new(1e-6) };
+    let memory = (&mut y[..], &mut [0.0; 6][..]);
+    let kept = |_: &mut Problem<f64>, _, _: &mut [f64]| Ok(EndState::Kept);
+    driver.advance(&mut duffing(), (0.0, 1.0), memory, &options, kept).expect("a run");
+    let energy: f64 = 0.5 * y[1] * y[1] + 0.25 * libm::pow(y[0], 4.0);
+    assert!((energy - 0.25).abs() < 1e-5, "{energy}");
 }
