@@ -151,7 +151,7 @@ impl SettingsError {
             Self::NotPositive { .. } => "write a number larger than zero".to_owned(),
             Self::LimitOrder(_) => "write the larger one first: U, then L".to_owned(),
             Self::NotTogether { option, .. } if option.starts_with("step control") => {
-                "rk54, rk853, gbs and radau5 control their own step by --tolerance; the others need one of the Newmark family"
+                "rk54, rk853, gbs and radau5 control their own step by --tolerance; the others need an implicit one-step rule"
                     .to_owned()
             }
             Self::NotTogether { option, .. } if option == "threads" => {

@@ -17,7 +17,7 @@ const ROUNDING: f64 = 1e-7;
 pub(crate) struct Method(pub(crate) &'static str, pub(crate) &'static str);
 
 /// All that are compared; the first is what the others are held against.
-pub(crate) const METHODS: [Method; 9] = [
+pub(crate) const METHODS: [Method; 8] = [
     Method("index-3", "trapezoidal"),
     Method("index-1", "trapezoidal"),
     Method("classical", "trapezoidal"),
@@ -26,7 +26,6 @@ pub(crate) const METHODS: [Method; 9] = [
     Method("recursive", "rk4"),
     Method("recursive", "rk54"),
     Method("recursive", "rk853"),
-    Method("recursive", "radau5"),
 ];
 
 /// Rows of a run: times and components.
