@@ -136,10 +136,6 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         done
     }
 
-    fn n_leading(&self) -> usize {
-        self.m.n_coordinates
-    }
-
     fn keep(&mut self, error: &mut [T]) -> Result<(), StepError> {
         if self.m.loops.loops.is_empty() || self.options.closure != Closure::Constraints {
             return Ok(());

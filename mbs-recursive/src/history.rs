@@ -54,13 +54,12 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         let extrapolated = || Extrapolation::for_tolerance(options.error);
         let extrapolation = driver(history.extrapolation, extrapolated);
         let own = || Radau::new(n, s.z.len());
-        let Some(radau) = driver(history.radau.as_ref().map(|(steps, _)| *steps), own) else {
+        let Some(mut radau) = driver(history.radau.as_ref().map(|(steps, _)| *steps), own) else {
             return false;
         };
         let (Some(pair), Some(eighth), Some(extrapolation)) = (pair, eighth, extrapolation) else {
             return false;
         };
-        let mut radau = radau;
         if let (Some(driver), Some((_, slopes))) = (&mut radau, &history.radau)
             && !driver.method_mut().set_history(slopes)
         {

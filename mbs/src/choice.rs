@@ -153,7 +153,12 @@ impl IntegratorKind {
             Self::Newmark => Integrator::newmark(ratio(121, 400), ratio(3, 5)),
             Self::GeneralisedAlpha => Integrator::generalised_alpha(ratio(4, 5)),
             Self::Hht => Integrator::hht(ratio(1, 20)),
-            _ => Integrator::trapezoidal(),
+            Self::Trapezoidal
+            | Self::Rk4
+            | Self::Rk54
+            | Self::Rk853
+            | Self::Extrapolation
+            | Self::Radau5 => Integrator::trapezoidal(),
         }
     }
 }

@@ -211,14 +211,11 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
             y.copy_from_slice(self.method.new_state(n, scratch));
             done = if is_last { dt } else { done + h };
             // A step cut short at the end says nothing about the step that was planned, unless it is the shorter one.
-            if h >= planned {
-                let factor = self.control.accepted(error);
-                self.step = h * self.method.worth(factor);
-            } else if self.method.shares() {
+            if h >= planned || self.method.shares() {
                 let factor = self.control.accepted(error);
                 let wish = h * self.method.worth(factor);
-                let is_too_long = factor < T::ONE && h >= planned * T::HALF;
-                self.step = if is_too_long { wish } else { planned.max(wish) };
+                let is_told = h >= planned || factor < T::ONE && h >= planned * T::HALF;
+                self.step = if is_told { wish } else { planned.max(wish) };
             }
             let at_end = t + done;
             let end = hook(system, at_end, y)

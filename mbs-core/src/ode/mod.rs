@@ -60,12 +60,6 @@ pub trait Rates<T> {
         self.rates(t, y, dy)
     }
 
-    /// How many of the first components have rates that depend little on each other, such as positions, whose rates are velocities:
-    /// an implicit method eliminates them without exchange of rows. By default none.
-    fn n_leading(&self) -> usize {
-        0
-    }
-
     /// Takes from the error of a trial step what the end of a step takes from the state, such as what a projection removes:
     /// only what is left says something about the step. Called after the rates of all stages, once for each estimate; by default all
     /// is left.

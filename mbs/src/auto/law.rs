@@ -31,18 +31,15 @@ pub(crate) struct Law {
 impl Law {
     /// Theory's.
     pub(crate) fn of(method: &Method) -> Self {
-        let (error, cost) = match (method.control, method.integrator) {
-            (Control::Fixed, IntegratorKind::Rk4) => (4.0, 1.0),
-            (Control::Fixed, IntegratorKind::Newmark) => (1.0, 1.0),
-            (Control::Fixed, _) => (2.0, 1.0),
+        let error = match (method.control, method.integrator) {
+            (Control::Fixed, IntegratorKind::Rk4) => 4.0,
+            (Control::Fixed, IntegratorKind::Newmark) => 1.0,
+            (Control::Fixed, _) => 2.0,
             // the local error goes with the cube of the step, the global one with its square
-            (Control::Error | Control::Energy, _) => (2.0 / 3.0, 1.0 / 3.0),
-            (Control::Own, IntegratorKind::Extrapolation) => (1.0, 0.1),
-            (Control::Own, IntegratorKind::Rk853) => (1.0, 0.125),
-            (Control::Own, IntegratorKind::Radau5) => (1.0, 0.25),
-            (Control::Own, _) => (1.0, 0.2),
+            (Control::Error | Control::Energy, _) => 2.0 / 3.0,
+            (Control::Own, _) => 1.0,
         };
-        Self { error, cost }
+        Self { error, cost: method.cost() }
     }
 
     /// Order of the error in the mean step; lower than theory's where the order itself is chosen.

@@ -117,17 +117,20 @@ impl Method {
 
     /// How much more work the next setting is: for a step that is shorter by `ratio`, or a tolerance smaller by that.
     pub(crate) fn growth(&self, ratio: f64) -> f64 {
-        match self.control {
-            Control::Fixed => ratio,
+        ratio.powf(self.cost())
+    }
+
+    /// Exponent of the CPU time in the setting, its sign changed.
+    pub(crate) fn cost(&self) -> f64 {
+        match (self.control, self.integrator) {
+            (Control::Fixed, _) => 1.0,
             // the local error goes with the cube of the step, in rk54 with the fifth power, in rk853 with the eighth, in gbs about
             // with the tenth, in radau5 with the fourth
-            Control::Error | Control::Energy => ratio.cbrt(),
-            Control::Own => match self.integrator {
-                IntegratorKind::Extrapolation => ratio.powf(0.1),
-                IntegratorKind::Rk853 => ratio.powf(0.125),
-                IntegratorKind::Radau5 => ratio.powf(0.25),
-                _ => ratio.powf(0.2),
-            },
+            (Control::Error | Control::Energy, _) => 1.0 / 3.0,
+            (Control::Own, IntegratorKind::Extrapolation) => 0.1,
+            (Control::Own, IntegratorKind::Rk853) => 0.125,
+            (Control::Own, IntegratorKind::Radau5) => 0.25,
+            (Control::Own, _) => 0.2,
         }
     }
 

@@ -50,8 +50,6 @@ pub struct Radau<T> {
     coefficients: Coefficients<T>,
     memory: RadauHistory<T>,
     matrices: Matrices<T>,
-    /// The step that the factors are of; none where the slopes have changed since.
-    factored: Option<T>,
     newton: Newton<T>,
     /// When the last trial began [s].
     begun: Option<T>,
@@ -78,7 +76,8 @@ pub struct RadauHistory<T> {
 }
 
 impl<T: Real> Radau<T> {
-    /// A method for systems of `n` components, of which the first `leading` need no pivots ([`Rates::n_leading`]).
+    /// A method for systems of `n` components. The rates of the first `leading` depend little on each other, as those of positions do,
+    /// which are velocities: they are eliminated without exchange of rows.
     #[must_use]
     pub fn new(n: usize, leading: usize) -> Self {
         Self {
@@ -92,7 +91,6 @@ impl<T: Real> Radau<T> {
                 rest: T::ONE,
             },
             matrices: Matrices::new(n, leading),
-            factored: None,
             newton: Newton::new(n),
             begun: None,
             found: None,
@@ -103,7 +101,7 @@ impl<T: Real> Radau<T> {
     /// What the next step goes on from.
     #[must_use]
     pub fn history(&self) -> RadauHistory<T> {
-        RadauHistory { factored: self.factored, ..self.memory.clone() }
+        self.memory.clone()
     }
 
     /// Goes on from the history of a method for as many components; says whether it is one. Else no more is changed than that slopes
@@ -116,11 +114,10 @@ impl<T: Real> Radau<T> {
             return false;
         }
         let before = core::mem::replace(&mut self.memory, history.clone());
-        (self.factored, self.begun, self.found) = (None, None, None);
+        (self.begun, self.found) = (None, None);
         let is_sound = history.factored.is_none_or(|h| self.factor(h));
         if !is_sound {
-            self.memory = before;
-            self.memory.has_jacobian = false;
+            self.memory = RadauHistory { has_jacobian: false, factored: None, ..before };
         }
         is_sound
     }
@@ -128,7 +125,7 @@ impl<T: Real> Radau<T> {
     /// Factors both matrices for a step; says whether they are sound.
     fn factor(&mut self, h: T) -> bool {
         let is_sound = self.matrices.factor(&self.coefficients, h, &self.memory.jacobian);
-        self.factored = is_sound.then_some(h);
+        self.memory.factored = is_sound.then_some(h);
         is_sound
     }
 
@@ -168,7 +165,7 @@ impl<T: Real> Radau<T> {
         }
         self.evaluations += 1;
         self.memory.has_jacobian = true;
-        (self.factored, self.found) = (None, Some(t));
+        (self.memory.factored, self.found) = (None, Some(t));
         Ok(())
     }
 
@@ -185,7 +182,7 @@ impl<T: Real> Radau<T> {
         }
         let is_new = self.found == Some(t);
         let is_near = |of: T| (h - of).abs() <= T::from_f64(SAME_STEP) * h;
-        let is_sound = self.factored.is_some_and(is_near) || self.factor(h);
+        let is_sound = self.memory.factored.is_some_and(is_near) || self.factor(h);
         Ok(is_sound.then_some(is_new))
     }
 

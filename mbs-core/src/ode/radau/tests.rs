@@ -31,9 +31,6 @@ impl<T: Real> Rates<T> for Problem<T> {
         (self.rates)(t, y, dy);
         Ok(())
     }
-    fn n_leading(&self) -> usize {
-        1
-    }
 }
 
 /// A pendulum's oscillation written with position and velocity, x'' = −x³: no closed form is needed, its energy is kept.
