@@ -12,7 +12,7 @@
 //! projections after the step, as printed, the method fails at the first singular position.
 
 use crate::options::{Options, Penalty};
-use crate::projection::Level;
+use crate::projection::{Left, Level};
 use crate::workspace::{Mass, Workspace};
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
@@ -73,8 +73,9 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let size = norm_inf(model.team(), &w.a).max(norm_inf(model.team(), &w.terms.phi_bias));
     let rounding = T::EPSILON * T::from_f64(1024.0);
     let limit = (T::ONE + size) * T::from_f64(5e-10).max(rounding);
-    let acceleration =
-        w.project(model, Level::Acceleration, (size * rounding, limit), options.max_sweeps)?;
+    let goal = size * rounding;
+    let left = Left { goal, enough: goal, limit };
+    let acceleration = w.project(model, Level::Acceleration, left, options.max_sweeps)?;
     w.commit(model, &rule, options.compensated, T::ONE, s);
     let violation = [norm_inf(model.team(), &w.terms.phi), velocity, acceleration];
     let newton = (iterations, correction, done.unwrap_or(Stop::Tolerance));
@@ -226,7 +227,9 @@ fn velocities<T: Real, M: Model<T>, S: SpdSolver<T>>(
         w.penalty_energy = w.stored(model.team(), &w.rates);
     }
     let limit = (length + speed) * T::from_f64(5e-10).max(rounding * T::from_f64(64.0));
-    let left = w.project(model, Level::Velocity, (speed * rounding, limit), options.max_sweeps)?;
+    let goal = speed * rounding;
+    let left = Left { goal, enough: goal, limit };
+    let left = w.project(model, Level::Velocity, left, options.max_sweeps)?;
     if w.restore_penalties() {
         w.factor(model, (T::ZERO, T::ZERO), false)?;
     }

@@ -12,6 +12,7 @@
 //! in correction form, by one sweep where nothing but constraints acts. The printed forms are options.
 
 use crate::options::{Multipliers, Options, Penalty, Projection};
+use crate::pace::Pace;
 use crate::projection::Level;
 use crate::workspace::{Mass, Workspace};
 use mbs_core::integrator::Rule;
@@ -108,9 +109,6 @@ fn evaluate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     }
 }
 
-/// A factor is kept after corrections that shrank to this share: the next ones shrink as fast, and a new one costs more.
-const REUSE: f64 = 1e-3;
-
 /// The Newton loop. Returns iterations, the last correction and the sum of those since the factor, and what ended it.
 fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
@@ -122,13 +120,12 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<((u32, T, Stop), T), StepError> {
     let inverse = T::ONE / rule.acceleration;
     let scale = step_scale(model.team(), rule.dt, &s.a);
-    let mut last = T::ZERO;
-    // Corrections since the matrix was factored, and the contraction of the last two.
-    let (mut since, mut contraction) = (T::ZERO, T::ONE);
+    let mut pace = Pace::new(length);
     for iterations in 1..=options.max_iterations {
-        if !(contraction <= T::from_f64(REUSE)) {
+        let is_kept = pace.keeps_factor(rule, options, w);
+        if !is_kept {
             factor(model, rule, options, w)?;
-            since = T::ZERO;
+            pace.since = T::ZERO;
         }
         if iterations == 1 {
             if options.adaptive_penalty && w.adapt(model) {
@@ -142,8 +139,12 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         }
 
         // f = M a/a' + J^T (s phi + lambda/a') - Q/a'   [P3 (9)]
-        set_sum(model.team(), &mut w.mu, &w.lambda, (&w.penalty, &w.terms.phi));
-        w.assemble(model, Mass::Acceleration, inverse);
+        if is_kept {
+            w.balance_nearby(model, inverse);
+        } else {
+            set_sum(model.team(), &mut w.mu, &w.lambda, (&w.penalty, &w.terms.phi));
+            w.assemble(model, Mass::Acceleration, inverse);
+        }
 
         // T d = -f,   q += d,   v += v' d,   a += a' d   [P3 (8), (4), (5)]
         w.solve();
@@ -160,20 +161,22 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         if !correction.is_finite() {
             return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f) });
         }
-        since += correction;
+        pace.since += correction;
         // the first correction, and a small one, are not measured by rounding
         let is_measured = iterations > 1 && !(correction <= scale * options.tolerance);
         let moved = (options.compensated && is_measured).then(|| norm_inf(model.team(), &w.dq));
         let measures = (scale, options.tolerance);
         let yardstick = Yardstick::of_coordinates(iterations, measures, length, moved);
-        if let Some(stop) = stopping(iterations, correction, last, &yardstick) {
-            return Ok(((iterations, correction, stop), since));
+        let stop = stopping(iterations, correction, pace.last(), &yardstick);
+        let stop = stop.or(pace.is_enough(correction, options).then_some(Stop::Converged));
+        if let Some(stop) = stop {
+            return Ok(((iterations, correction, stop), pace.since));
         }
-        contraction = if iterations > 1 { correction / last } else { T::ONE };
-        last = correction;
+        pace.note(correction, norm_inf(model.team(), &w.terms.phi));
     }
+    let last = pace.last();
     if last <= scale * T::from_f64(1e-6) {
-        return Ok(((options.max_iterations, last, Stop::Tolerance), since));
+        return Ok(((options.max_iterations, last, Stop::Tolerance), pace.since));
     }
     let (iterations, unknown) = (options.max_iterations, largest(&w.f));
     Err(StepError::NotConverged { iterations, correction: (last / length).to_f64(), unknown })
@@ -262,7 +265,12 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
     }
     let is_stale = is_taken_back || since > length * T::from_f64(1e-7);
     if options.projection == Projection::Correction && is_stale {
-        factor(model, rule, options, w)?;
+        if is_nearby {
+            factor(model, rule, options, w)?;
+        } else {
+            // Nothing but the mass and the rows: a sweep leaves what the penalties leave.
+            w.factor(model, (T::ZERO, T::ZERO), false)?;
+        }
     }
     if model.has_guides() {
         model.evaluate_phi_t(&w.q, &mut w.terms);

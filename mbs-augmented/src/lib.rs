@@ -10,6 +10,7 @@ mod index_change;
 mod multi_index;
 mod nearby;
 mod options;
+mod pace;
 mod projection;
 mod workspace;
 

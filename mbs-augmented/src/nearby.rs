@@ -9,12 +9,12 @@
 //! violation times what the penalties leave and times the turn of the rows, and d is orthogonal to directions that are off by the
 //! turn: that is why the factor has to be from before a correction that was small already.
 
-use crate::projection::Level;
+use crate::projection::{Left, Level};
 use crate::workspace::{Mass, Workspace};
 use core::mem::swap;
 use mbs_core::model::Model;
 use mbs_core::step::StepError;
-use mbs_core::team::{add_product, norm_inf, on_stretches, sum};
+use mbs_core::team::{add, add_product, norm_inf, on_stretches, set_product, sum};
 use mbs_core::{Real, SpdSolver};
 
 /// Of a violation may be left, in EPSILON of what it stands beside: of velocities, and of accelerations, which enter the motion times
@@ -40,11 +40,13 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         let limit = size * T::from_f64(MOST).max(rounding);
         let k = usize::from(level == Level::Acceleration);
         let goal = bare * T::EPSILON * T::from_f64([16.0, ROUNDING][k]);
-        if !is_nearby {
-            return self.project(model, level, (goal, limit), max_sweeps);
-        }
         let enough = (size * T::EPSILON * T::from_f64(LEFT[k])).min(limit);
-        self.project_nearby(model, level, (goal, enough, limit), max_sweeps)
+        let left = Left { goal, enough, limit };
+        if is_nearby {
+            self.project_nearby(model, level, left, max_sweeps)
+        } else {
+            self.project(model, level, left, max_sweeps)
+        }
     }
 
     /// Projects v or a, once unless the violation is at most `goal`, then by sweeps of this kind while they shrink it until it is
@@ -56,9 +58,10 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         &mut self,
         model: &M,
         level: Level,
-        (goal, enough, limit): (T, T, T),
+        allowed: Left<T>,
         max_sweeps: u32,
     ) -> Result<T, StepError> {
+        let Left { goal, enough, .. } = allowed;
         self.begin();
         let mut violation = self.violation(model, level);
         let (mut sweeps, mut most) = (0, goal);
@@ -73,20 +76,28 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             }
             let is_slow = !(left <= violation * T::from_f64(SLOW));
             if is_slow && !(left <= enough) {
-                return self.project_on(model, level, (goal, limit), (sweeps, max_sweeps));
+                return self.project_on(model, level, allowed, (sweeps, max_sweeps));
             }
             violation = left;
         }
         Ok(violation)
     }
 
+    /// f = M a + J^T lambda - force Q + J'^T s phi: the residual of a step for a factor that is kept.
+    pub(crate) fn balance_nearby<M: Model<T>>(&mut self, model: &M, force: T) {
+        let n = self.f.len();
+        self.mu.copy_from_slice(&self.lambda);
+        self.assemble(model, Mass::Acceleration, force);
+        self.dq_predicted[..n].copy_from_slice(&self.f);
+        set_product(model.team(), &mut self.mu, (&self.penalty, &self.terms.phi));
+        swap(&mut self.terms.jacobian, &mut self.factored);
+        self.assemble(model, Mass::None, T::ZERO);
+        swap(&mut self.terms.jacobian, &mut self.factored);
+        add(model.team(), &mut self.f, &self.dq_predicted);
+    }
+
     fn sweep_nearby<M: Model<T>>(&mut self, model: &M, level: Level) {
-        let (penalty, rates) = (&self.penalty, &self.rates);
-        on_stretches(model.team(), [&mut self.mu], |first, [mu]| {
-            for k in 0..mu.len() {
-                mu[k] = penalty[first + k] * rates[first + k];
-            }
-        });
+        set_product(model.team(), &mut self.mu, (&self.penalty, &self.rates));
         swap(&mut self.terms.jacobian, &mut self.factored);
         self.assemble(model, Mass::None, T::ZERO);
         self.solve();

@@ -13,6 +13,9 @@ pub struct Options<T> {
     pub penalty: Penalty<T>,
     /// A correction below this times what accelerations move in a step is small; in index-1, times the accelerations [-].
     pub tolerance: T,
+    /// A correction of index-3 below this share of the step's first one is small too: the first is three times what the trapezoidal
+    /// rule errs by in the step [-].
+    pub share: T,
     /// Iterations allowed in one step.
     pub max_iterations: u32,
     /// Sweeps of a projection after which its level must be reached.
@@ -80,7 +83,8 @@ impl<T: Real> Options<T> {
     /// Defaults of index-3.
     ///
     /// Penalty 1e6 effective masses in double precision (methods: 1e2 to 1e8 work in regular motion), the square root of
-    /// 1/eps in others; tolerance 1e-10; at most 40 iterations: passages of singular positions take up to 20.
+    /// 1/eps in others; tolerance 1e-10, or 1e-6 of the first correction; at most 40 iterations: passages of singular positions take up
+    /// to 20.
     #[must_use]
     pub fn index3() -> Self {
         let scale =
@@ -89,6 +93,7 @@ impl<T: Real> Options<T> {
             integrator: Integrator::trapezoidal(),
             penalty: Penalty::Scaled(scale),
             tolerance: T::tolerance(1e-10).max(T::EPSILON * T::from_f64(64.0)),
+            share: T::tolerance(1e-6),
             max_iterations: 40,
             max_sweeps: 12,
             multipliers: Multipliers::Filtered,
@@ -116,6 +121,7 @@ impl<T: Real> Options<T> {
             compensated: false,
             adaptive_penalty: false,
             max_iterations: 20,
+            share: T::ZERO,
             ..Self::index3()
         }
     }
@@ -130,6 +136,9 @@ impl<T: Real> Options<T> {
             if !(value > T::ZERO && value.is_finite()) {
                 return Err(OptionError::NotPositive(name));
             }
+        }
+        if !(self.share >= T::ZERO && self.share.is_finite()) {
+            return Err(OptionError::NotPositive("share"));
         }
         if self.max_iterations == 0 {
             return Err(OptionError::NotPositive("max_iterations"));

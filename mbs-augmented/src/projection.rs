@@ -23,6 +23,17 @@ const FOLLOWED: f64 = 0.001;
 /// Most that penalties may be, in effective masses times EPSILON: above, rounding of T^-1 looks like a lost direction.
 const MOST: f64 = 0.2;
 
+/// How much of a violation may be left by a projection.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Left<T> {
+    /// A violation that is not swept at all.
+    pub(crate) goal: T,
+    /// What sweeps may leave.
+    pub(crate) enough: T,
+    /// What they may leave where they no longer shrink it.
+    pub(crate) limit: T,
+}
+
 /// Which vector is projected, with its right-hand side b.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Level {
@@ -52,17 +63,16 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
 
     /// Projects v or a with the factored matrix; the multipliers are left in `sigma`. Returns the violation left.
     ///
-    /// Sweeps at least once unless the level holds already, until the violation is at most `goal`, or stops shrinking below
-    /// `limit`.
+    /// Sweeps at least once unless the level holds already, until the violation is `enough`, or stops shrinking below `limit`.
     pub(crate) fn project<M: Model<T>>(
         &mut self,
         model: &M,
         level: Level,
-        (goal, limit): (T, T),
+        left: Left<T>,
         max_sweeps: u32,
     ) -> Result<T, StepError> {
         self.begin();
-        self.project_on(model, level, (goal, limit), (0, max_sweeps))
+        self.project_on(model, level, left, (0, max_sweeps))
     }
 
     /// sigma = 0, x = x*.
@@ -76,12 +86,12 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         &mut self,
         model: &M,
         level: Level,
-        (goal, limit): (T, T),
+        Left { goal, enough, limit }: Left<T>,
         (done, max_sweeps): (u32, u32),
     ) -> Result<T, StepError> {
         let mut violation = self.violation(model, level);
         for sweeps in done..max_sweeps {
-            if violation <= goal {
+            if violation <= if sweeps == 0 { goal } else { enough } {
                 return Ok(violation);
             }
             self.sweep(model, level, sweeps > 0);

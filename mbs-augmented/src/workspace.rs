@@ -9,6 +9,10 @@ use mbs_core::step::{Counts, StepReport, Stop, add_work, take_coordinates};
 use mbs_core::team::{Team, on_stretches, sum};
 use mbs_core::{Real, SpdSolver};
 
+/// A law's tangent is like another that differs by this share at most; slight ones, beside the largest, are not looked at.
+const LIKE: f64 = 0.1;
+const SLIGHT: f64 = 1e-3;
+
 /// Scratch of the augmented Lagrangian steps over a solver `S`. Nothing is allocated after [`Workspace::new`].
 #[derive(Debug, Clone)]
 pub struct Workspace<T, S> {
@@ -16,6 +20,8 @@ pub struct Workspace<T, S> {
     pub(crate) terms: Terms<T>,
     /// The Jacobian that the factored matrix was made with.
     pub(crate) factored: Vec<T>,
+    /// Stiffness and damping of each scalar measure in it.
+    factored_laws: Vec<[T; 2]>,
     /// q_(n+1) - q_n and q_(n+1), v, a/a' (index-3) or a (index-1), extended.
     pub(crate) dq: Vec<T>,
     pub(crate) q: Vec<T>,
@@ -74,10 +80,12 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         model.effective_masses(&terms, &mut masses);
         let scratch = zeros(solver.n_scratch());
         let factored = terms.jacobian.clone();
+        let factored_laws = vec![[T::ZERO; 2]; terms.measures.len()];
         Self {
             solver,
             terms,
             factored,
+            factored_laws,
             dq: zeros(e),
             q,
             v: zeros(e),
@@ -156,11 +164,30 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     ) -> Result<(), mbs_core::FactorError> {
         self.counts.factorizations += 1;
         self.factored.copy_from_slice(&self.terms.jacobian);
+        for (kept, measure) in self.factored_laws.iter_mut().zip(&self.terms.measures) {
+            *kept = [measure.stiffness, measure.damping];
+        }
         let geometric = geometric.then_some(&self.lambda[..]);
         let tangent = Tangent { stiffness, damping, penalty: &self.penalty, geometric };
         let load = Load { mass: None, multipliers: None, force: T::ZERO };
         let system = mbs_core::model::System { model, terms: &self.terms, tangent, load };
         self.solver.factor(&system)
+    }
+
+    /// Are the laws' tangents nearly those of the factored matrix? A wheel that has left its road, or a stop that was met, is another
+    /// law.
+    pub(crate) fn has_like_laws(&self, rule: &Rule<T>) -> bool {
+        let weight = |[stiffness, damping]: [T; 2]| stiffness + damping * rule.velocity;
+        let (mut largest, mut change) = (T::ZERO, T::ZERO);
+        for (&kept, measure) in self.factored_laws.iter().zip(&self.terms.measures) {
+            let (before, now) = (weight(kept), weight([measure.stiffness, measure.damping]));
+            let size = before.abs().max(now.abs());
+            largest = largest.max(size);
+            if !((now - before).abs() <= size * T::from_f64(LIKE)) {
+                change = change.max(size);
+            }
+        }
+        !(change > largest * T::from_f64(SLIGHT))
     }
 
     /// Takes the finished step over; `unit` turns `lambda` into multipliers of the equations of motion.

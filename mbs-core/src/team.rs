@@ -158,6 +158,26 @@ pub fn add_product<W: Team, T: Real>(team: &W, out: &mut [T], (weight, x): (&[T]
     });
 }
 
+/// out = weight x, entry by entry.
+pub fn set_product<W: Team, T: Real>(team: &W, out: &mut [T], (weight, x): (&[T], &[T])) {
+    on_stretches(team, [out], |first, [out]| {
+        let n = out.len();
+        let (weight, x) = (&weight[first..][..n], &x[first..][..n]);
+        for k in 0..n {
+            out[k] = weight[k] * x[k];
+        }
+    });
+}
+
+/// out += x, entry by entry.
+pub fn add<W: Team, T: Real>(team: &W, out: &mut [T], x: &[T]) {
+    on_stretches(team, [out], |first, [out]| {
+        for (out, &x) in out.iter_mut().zip(&x[first..]) {
+            *out += x;
+        }
+    });
+}
+
 /// out -= x, entry by entry.
 pub fn subtract<W: Team, T: Real>(team: &W, out: &mut [T], x: &[T]) {
     on_stretches(team, [out], |first, [out]| {

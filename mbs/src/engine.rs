@@ -316,7 +316,7 @@ fn augmented_options<T: Real>(settings: &Settings) -> [mbs_augmented::Options<T>
             options.adaptive_penalty = false;
         }
         if let Some(tolerance) = settings.tolerance {
-            options.tolerance = T::from_f64(tolerance);
+            (options.tolerance, options.share) = (T::from_f64(tolerance), T::ZERO);
         }
         options
     })

@@ -11,6 +11,9 @@ use crate::elements::combine;
 use crate::model::{Load, Tangent, Terms};
 use alloc::vec;
 
+/// Unknowns of a group whose residual stands on the stack: an effect between two bodies has at most so many.
+pub(super) const ROOM: usize = 24;
+
 impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// Diagonal of M, lifted where it is (nearly) zero so that it can scale: by 1e-6 of the largest entry.
     pub(crate) fn mass_diagonal(&self) -> alloc::vec::Vec<T> {
@@ -140,7 +143,31 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         } else {
             self.write_sized_residual::<K>(terms, load, group, &mut residual);
         }
-        let slots = &group.slots.of(&self.slots)[..K / D];
+        self.scatter(group, &residual, f);
+    }
+
+    /// Adds the residual of a group of any number of unknowns up to [`ROOM`] to `f`; says whether it had room.
+    pub(super) fn add_other_residual(
+        &self,
+        terms: &Terms<T>,
+        load: &Load<'_, T>,
+        group: &Group,
+        f: &mut [T],
+    ) -> bool {
+        let is_silent = load.force == T::ZERO && group.rows.is_empty() && group.mass.is_empty();
+        let mut room = [T::ZERO; ROOM];
+        let Some(residual) = room.get_mut(..group.clique.len()) else { return false };
+        if !is_silent {
+            self.write_sized_residual::<0>(terms, load, group, residual);
+            self.scatter(group, residual, f);
+        }
+        true
+    }
+
+    /// f += the residual of a group.
+    #[inline(always)]
+    fn scatter(&self, group: &Group, residual: &[T], f: &mut [T]) {
+        let slots = &group.slots.of(&self.slots)[..residual.len() / D];
         for (&slot, r) in slots.iter().zip(residual.chunks_exact(D)) {
             let f = &mut f[slot as usize..][..D];
             for i in 0..D {

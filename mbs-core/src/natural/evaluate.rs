@@ -156,7 +156,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
 
     fn sum_residuals(&self, terms: &Terms<T>, load: &Load<'_, T>, f: &mut [T]) -> bool {
         f.fill(T::ZERO);
-        self.is_sized
+        self.is_small
             && self.groups.iter().all(|group| {
                 match group.clique.len() {
                     2 => self.add_sized_residual::<2>(terms, load, group, f),
@@ -164,7 +164,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
                     6 => self.add_sized_residual::<6>(terms, load, group, f),
                     9 => self.add_sized_residual::<9>(terms, load, group, f),
                     12 => self.add_sized_residual::<12>(terms, load, group, f),
-                    _ => return false,
+                    _ => return self.add_other_residual(terms, load, group, f),
                 }
                 true
             })

@@ -3,6 +3,7 @@
 use super::basis::Combination;
 use super::build::Builder;
 use super::draft::{EffectDraft, GroupDraft, RowDraft};
+use super::element::ROOM;
 use super::forces::{BodyTorque, Gauge, MeasureElement, PointForce};
 use super::group::{Group, packed};
 use super::model::NaturalModel;
@@ -47,7 +48,7 @@ pub(super) fn finish<T: Real, const D: usize>(
     number_measures(&mut model);
     model.marks = model.marks();
     model.touches = Touches::of(&model);
-    model.is_sized = model.groups.iter().all(|g| matches!(g.clique.len(), 2 | 4 | 6 | 9 | 12));
+    model.is_small = model.groups.iter().all(|g| g.clique.len() <= ROOM);
     let owners = (&model.clusters, bases.as_slice(), shared.as_slice());
     model.carried = carriers(&layout.entities, owners, &model.entity_at);
     model.bases = bases;
@@ -139,7 +140,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             length,
             touches: Touches::default(),
             marks: Vec::new(),
-            is_sized: false,
+            is_small: false,
         };
         Self { model, entities, masses: Vec::new() }
     }

@@ -66,8 +66,8 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) touches: Touches,
     /// Where parts begin, and the end.
     pub(super) marks: Vec<Mark>,
-    /// The clique of every group has a length that the compiler was told.
-    pub(super) is_sized: bool,
+    /// The residual of every group has room on the stack.
+    pub(super) is_small: bool,
 }
 
 impl<T: Real, const D: usize> Cliques for NaturalModel<T, D> {
