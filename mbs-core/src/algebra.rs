@@ -157,22 +157,25 @@ pub(crate) fn along<T: Real>(x: &Vector<T, 3>) -> Vector<T, 3> {
     x * (T::ONE / norm(&x))
 }
 
-/// Largest absolute value of a slice.
+/// Largest absolute value of a slice; not a number when one of its numbers is not finite.
 #[inline]
 pub fn norm_inf<T: Real>(x: &[T]) -> T {
-    // A NaN is taken, and then nothing is larger.
-    let larger = |largest: T, size: T| {
-        if (size > largest) | !(size >= T::ZERO) { size } else { largest }
-    };
-    let (fours, rest) = x.as_chunks::<4>();
-    let mut lanes = [T::ZERO; 4];
-    for four in fours {
-        for k in 0..4 {
-            lanes[k] = larger(lanes[k], four[k].abs());
+    // Zero times a number that is not finite is not a number.
+    let (mut largest, mut probe) = ([T::ZERO; 2], [T::ZERO; 2]);
+    let (pairs, rest) = x.as_chunks::<2>();
+    for pair in pairs {
+        for k in 0..2 {
+            let size = pair[k].abs();
+            largest[k] = if largest[k] < size { size } else { largest[k] };
+            probe[k] += size * T::ZERO;
         }
     }
-    let largest = rest.iter().fold(lanes[0], |largest, x| larger(largest, x.abs()));
-    lanes[1..].iter().fold(largest, |largest, &size| larger(largest, size))
+    for x in rest {
+        largest[0] = largest[0].max(x.abs());
+        probe[0] += *x * T::ZERO;
+    }
+    let probe = probe[0] + probe[1];
+    if probe.is_zero() { largest[0].max(largest[1]) } else { probe }
 }
 
 /// a x b.

@@ -136,6 +136,10 @@ impl Real for f64 {
     fn atan2(self, x: Self) -> Self {
         libm::atan2(self, x)
     }
+    #[inline]
+    fn abs(self) -> Self {
+        Self::abs(self)
+    }
 }
 
 impl Real for f32 {
@@ -169,5 +173,9 @@ impl Real for f32 {
     #[inline]
     fn atan2(self, x: Self) -> Self {
         libm::atan2f(self, x)
+    }
+    #[inline]
+    fn abs(self) -> Self {
+        Self::abs(self)
     }
 }

@@ -106,12 +106,21 @@ pub(crate) struct GroupDraft<T: Real> {
     /// Constant generalised forces of gravity and constant point forces: entity, force.
     pub(crate) forces: Vec<(usize, Vector<T, 3>)>,
     pub(crate) rows: Vec<RowDraft<T>>,
+    /// Whose each row is; the group's where there is none.
+    pub(crate) row_owners: Vec<Owner>,
     pub(crate) effects: Vec<EffectDraft<T>>,
 }
 
 impl<T: Real> GroupDraft<T> {
     pub(crate) fn new(owner: Owner) -> Self {
-        Self { owner, mass: None, forces: Vec::new(), rows: Vec::new(), effects: Vec::new() }
+        Self {
+            owner,
+            mass: None,
+            forces: Vec::new(),
+            rows: Vec::new(),
+            row_owners: Vec::new(),
+            effects: Vec::new(),
+        }
     }
 
     /// The distinct entities of the group, unknown ones first, each part in order of first use.

@@ -11,6 +11,9 @@ use crate::elements::combine;
 use crate::model::{Load, Tangent, Terms};
 use alloc::vec;
 
+/// Unknowns of a group whose rows are taken as dense.
+const DENSE: usize = 8;
+
 /// Unknowns of a group whose residual stands on the stack: an effect between two bodies has at most so many.
 pub(super) const ROOM: usize = 24;
 
@@ -55,8 +58,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             jacobian = &jacobian[width * group.rows.len()..];
         } else {
             let penalty = group.rows.of(tangent.penalty);
-            // In a group of two entities every row touches all.
-            let is_small = K > 0 && K <= 2 * D;
+            // In a group of two entities every row touches all; in a small one the rest is as soon added as left out.
+            let is_small = K > 0 && K <= DENSE;
             let reach = if is_small { &[][..] } else { group.rows.of(&self.reach) };
             add_rows::<T, D>(block, k, (jacobian, width), (penalty, reach));
             jacobian = &jacobian[width * penalty.len()..];

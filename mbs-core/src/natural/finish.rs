@@ -6,6 +6,7 @@ use super::draft::{EffectDraft, GroupDraft, RowDraft};
 use super::element::ROOM;
 use super::forces::{BodyTorque, Gauge, MeasureElement, PointForce};
 use super::group::{Group, packed};
+use super::merge::merged;
 use super::model::NaturalModel;
 use super::motion::carriers;
 use super::on_body::BodyElement;
@@ -18,6 +19,7 @@ use crate::algebra::{Coef, Vector};
 use crate::cluster::Clusters;
 use crate::elements::{Distance, Dot, Guided, GuidedMotion, Linear, Span, Term};
 use crate::laws::scalar::Law;
+use crate::model::Owner;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -40,14 +42,17 @@ pub(super) fn finish<T: Real, const D: usize>(
     actions: Actions<T>,
 ) -> NaturalModel<T, D> {
     let Builder { entities, groups, clusters, bases, shared, length, .. } = builder;
+    let groups = merged(groups, &entities, D);
     let mut layout = Layout::<T, D>::new(entities, &groups, (clusters, length), actions);
     for group in layout.near_their_bodies(&groups) {
         layout.add(group);
     }
     let mut model = layout.model;
     number_measures(&mut model);
+    model.angles.sort_by_key(|&(owner, _)| effect_of(owner));
     model.marks = model.marks();
     model.touches = Touches::of(&model);
+    model.is_whole = is_whole(&model);
     model.is_small = model.groups.iter().all(|g| g.clique.len() <= ROOM);
     let owners = (&model.clusters, bases.as_slice(), shared.as_slice());
     model.carried = carriers(&layout.entities, owners, &model.entity_at);
@@ -104,13 +109,12 @@ impl<T: Real, const D: usize> Layout<T, D> {
         }
         let at = |&e: &usize| entities[e].at.iter().copied().take(D);
         let reference: Vec<T> = order.iter().flat_map(at).collect();
-        let weight = vec![T::ZERO; reference.len()];
         let model = NaturalModel {
             n_unknowns,
             n_rows: 0,
             n_jacobian: 0,
+            weight: vec![T::ZERO; reference.len()],
             reference,
-            weight,
             pool: Vec::new(),
             distances: Vec::new(),
             dots: Vec::new(),
@@ -128,6 +132,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             tables: actions.tables,
             prescribed: actions.prescribed,
             n_memory: 0,
+            angles: Vec::new(),
             point_forces: Vec::new(),
             torques: Vec::new(),
             row_owner: Vec::new(),
@@ -141,6 +146,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             touches: Touches::default(),
             marks: Vec::new(),
             is_small: false,
+            is_whole: false,
         };
         Self { model, entities, masses: Vec::new() }
     }
@@ -192,9 +198,10 @@ impl<T: Real, const D: usize> Layout<T, D> {
             has_body_law: false,
             owner: draft.owner,
         };
-        for row in &draft.rows {
+        for (k, row) in draft.rows.iter().enumerate() {
             if self.is_live(row) {
-                self.add_row(row, &columns, &mut group);
+                let owner = draft.row_owners.get(k).copied().unwrap_or(draft.owner);
+                self.add_row((row, owner), &columns, &group);
             }
         }
         self.add_mass(draft, unknowns, &mut group);
@@ -234,18 +241,23 @@ impl<T: Real, const D: usize> Layout<T, D> {
     }
 
     /// Claims `n` rows and their place in the Jacobian store.
-    fn claim(&mut self, n: usize, group: &Group) -> (u32, Span) {
+    fn claim(&mut self, n: usize, owner: Owner, group: &Group) -> (u32, Span) {
         let m = &mut self.model;
         let (row, start) = (m.n_rows, m.n_jacobian);
         m.n_rows += n;
         m.n_jacobian += n * group.width as usize;
-        m.row_owner.extend(core::iter::repeat_n(group.owner, n));
+        m.row_owner.extend(core::iter::repeat_n(owner, n));
         (index(row), Span { start: index(start), end: index(m.n_jacobian) })
     }
 
-    fn add_row(&mut self, draft: &RowDraft<T>, columns: &Columns<'_>, group: &mut Group) {
+    fn add_row(
+        &mut self,
+        (draft, owner): (&RowDraft<T>, Owner),
+        columns: &Columns<'_>,
+        group: &Group,
+    ) {
         let n = if matches!(draft, RowDraft::Linear { .. }) { D } else { 1 };
-        let (row, place) = self.claim(n, group);
+        let (row, place) = self.claim(n, owner, group);
         let n_unknown = group.n_unknown as usize;
         let touched = draft.entities().into_iter().map(|e| columns.of(e));
         let reach = Reach::of(touched.filter(|&at| at < n_unknown), n_unknown, D);
@@ -359,6 +371,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 let y = self.span(y, columns);
                 let memory = index(self.model.n_memory);
                 self.model.n_memory += 1;
+                self.model.angles.push((group.owner, memory));
                 self.add_measure(Gauge::Angle { x1, x2, y, memory }, *law, group);
             }
             EffectDraft::Force { point, frame, course } => {
@@ -413,6 +426,20 @@ impl<T: Real, const D: usize> Layout<T, D> {
         let place = Span { start: index(start), end: index(m.n_jacobian) };
         m.measures.push(MeasureElement { gauge, law, place });
     }
+}
+
+/// Is there one group, of all unknowns in their order, with rows that are taken as dense?
+fn is_whole<T: Real, const D: usize>(model: &NaturalModel<T, D>) -> bool {
+    let [group] = &model.groups[..] else { return false };
+    let clique = group.clique.of(&model.cliques);
+    matches!(clique.len(), 2 | 4 | 6 | 8)
+        && clique.len() == model.n_unknowns
+        && clique.iter().enumerate().all(|(k, &u)| k == u as usize)
+}
+
+/// The number of an effect; those of others are no effects' numbers.
+pub(super) fn effect_of(owner: Owner) -> usize {
+    if let Owner::Effect(effect) = owner { effect } else { usize::MAX }
 }
 
 /// Measures of laws on one body stand behind those of scalar laws.

@@ -16,6 +16,7 @@ mod forces;
 mod group;
 mod joints;
 mod memory;
+mod merge;
 mod model;
 mod motion;
 mod near;

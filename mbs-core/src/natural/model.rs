@@ -49,6 +49,8 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) tables: Tables<T>,
     pub(super) prescribed: Prescribed<T>,
     pub(super) n_memory: usize,
+    /// Whose each remembered angle is, with its place, in the order of the effects.
+    pub(super) angles: Vec<(Owner, u32)>,
     pub(super) point_forces: Vec<PointForce>,
     pub(super) torques: Vec<BodyTorque>,
     pub(super) row_owner: Vec<Owner>,
@@ -68,6 +70,8 @@ pub struct NaturalModel<T: Real, const D: usize> {
     pub(super) marks: Vec<Mark>,
     /// The residual of every group has room on the stack.
     pub(super) is_small: bool,
+    /// There is one group, of all unknowns in their order, few enough that its rows are taken as dense.
+    pub(super) is_whole: bool,
 }
 
 impl<T: Real, const D: usize> Cliques for NaturalModel<T, D> {

@@ -1,6 +1,7 @@
 //! The evaluation of a [`NaturalModel`] by a team, part by part; and the model that brings its team along.
 
 use super::forces::{add_terms, add_torque};
+use super::group::Group;
 use super::model::NaturalModel;
 use super::parts::Out;
 use crate::Real;
@@ -135,6 +136,14 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         x: &[T],
         rates: &mut [T],
     ) {
+        if let ([group], true) = (&self.groups[..], self.is_whole) {
+            return match group.clique.len() {
+                2 => multiply_dense::<T, 2>(group, terms, x, rates),
+                4 => multiply_dense::<T, 4>(group, terms, x, rates),
+                6 => multiply_dense::<T, 6>(group, terms, x, rates),
+                _ => multiply_dense::<T, 8>(group, terms, x, rates),
+            };
+        }
         let out = Out { rows: rates, ..Out::default() };
         self.on_parts(team, out, |part, Out { rows: rates, .. }| {
             self.touches.multiply::<T, D>((&terms.jacobian, x), part.from.row, rates);
@@ -143,21 +152,36 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
 
     pub(super) fn kinetic_energy_on<W: Team>(&self, team: &W, v: &[T]) -> T {
         let twice = self.sum_of_parts(team, |part| {
-            let mut twice = T::ZERO;
-            for group in part.groups(&self.groups) {
-                let (g, slots) = (group.mass.of(&self.mass), group.slots.of(&self.slots));
-                let nb = if g.is_empty() { 0 } else { group.n_unknown as usize };
-                for i in 0..nb {
-                    let mut sum = Vector::<T, D>::zeros();
-                    for j in 0..nb {
-                        sum += g[i * nb + j].apply(&crate::algebra::load::<T, D>(v, slots[j]));
+            let groups = part.groups(&self.groups).iter().filter(|group| !group.mass.is_empty());
+            groups.fold(T::ZERO, |twice, group| {
+                twice
+                    + match group.clique.len() {
+                        4 => self.twice_kinetic_energy::<4>(group, v),
+                        6 => self.twice_kinetic_energy::<6>(group, v),
+                        8 => self.twice_kinetic_energy::<8>(group, v),
+                        12 => self.twice_kinetic_energy::<12>(group, v),
+                        _ => self.twice_kinetic_energy::<0>(group, v),
                     }
-                    twice += sum.dot(&crate::algebra::load::<T, D>(v, slots[i]));
-                }
-            }
-            twice
+            })
         });
         twice * T::HALF
+    }
+
+    /// v^T M v of a group of `K` unknowns with mass; `K` = 0: of any number, known at run time only.
+    fn twice_kinetic_energy<const K: usize>(&self, group: &Group, v: &[T]) -> T {
+        let (g, clique) = (group.mass.of(&self.mass), group.clique.of(&self.cliques));
+        let k = if K == 0 { clique.len() } else { K };
+        let (nb, clique) = (k / D, &clique[..k]);
+        let g = &g[..nb * nb];
+        let mut twice = T::ZERO;
+        for i in 0..nb {
+            let mut sum = Vector::<T, D>::zeros();
+            for j in 0..nb {
+                sum += g[i * nb + j].apply(&crate::algebra::load::<T, D>(v, clique[j * D]));
+            }
+            twice += sum.dot(&crate::algebra::load::<T, D>(v, clique[i * D]));
+        }
+        twice
     }
 
     pub(super) fn potential_energy_on<W: Team>(&self, team: &W, q: &[T], terms: &Terms<T>) -> T {
@@ -175,6 +199,27 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             energy += element.energy(&terms.measures);
         }
         energy
+    }
+}
+
+/// rates = J x of a group of all `K` unknowns in their order.
+#[inline(always)]
+fn multiply_dense<T: Real, const K: usize>(
+    group: &Group,
+    terms: &Terms<T>,
+    x: &[T],
+    rates: &mut [T],
+) {
+    let (width, x) = (group.width as usize, &x[..K]);
+    let mut rows = &terms.jacobian[group.jacobian as usize..];
+    for rate in rates {
+        let g = &rows[..K];
+        let mut sum = T::ZERO;
+        for i in 0..K {
+            sum += g[i] * x[i];
+        }
+        *rate = sum;
+        rows = &rows[width..];
     }
 }
 

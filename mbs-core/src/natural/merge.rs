@@ -1,0 +1,74 @@
+//! Bodies and joints of a small mechanism as one element: a dense block that the compiler knows the size of is done sooner than the
+//! blocks of its parts are told apart.
+
+use super::draft::GroupDraft;
+use super::sharing::Entity;
+use crate::Real;
+use crate::algebra::Coef;
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// Unknowns of a mechanism whose bodies and joints are one element. The work of a dense row grows like the square of their number:
+/// at eight it is that of telling parts of two and four apart.
+const MOST: usize = 8;
+
+/// Puts the groups of bodies and joints of a small mechanism together; effects stay what they are.
+pub(super) fn merged<T: Real>(
+    groups: Vec<GroupDraft<T>>,
+    entities: &[Entity<T>],
+    dimension: usize,
+) -> Vec<GroupDraft<T>> {
+    let mut unknown = Vec::new();
+    for e in groups.iter().flat_map(|group| group.slots(entities)) {
+        if !entities[e].is_constant && !unknown.contains(&e) {
+            unknown.push(e);
+        }
+        if unknown.len() * dimension > MOST {
+            return groups;
+        }
+    }
+    let (parts, others): (Vec<_>, Vec<_>) =
+        groups.into_iter().partition(|group| group.effects.is_empty());
+    let mut all: Vec<GroupDraft<T>> = Vec::with_capacity(1 + others.len());
+    all.extend(parts.into_iter().reduce(joined));
+    all.extend(others);
+    all
+}
+
+/// Two groups as one.
+fn joined<T: Real>(mut one: GroupDraft<T>, other: GroupDraft<T>) -> GroupDraft<T> {
+    one.row_owners.resize(one.rows.len(), one.owner);
+    let mut owners = other.row_owners;
+    owners.resize(other.rows.len(), other.owner);
+    one.row_owners.extend(owners);
+    one.rows.extend(other.rows);
+    one.forces.extend(other.forces);
+    one.mass = match (one.mass, other.mass) {
+        (Some(a), Some(b)) => Some(sum(&a, &b)),
+        (a, b) => a.or(b),
+    };
+    one
+}
+
+/// The sum of two mass matrices, each over its own entities.
+fn sum<T: Real>(
+    a: &(Vec<usize>, Vec<Coef<T>>),
+    b: &(Vec<usize>, Vec<Coef<T>>),
+) -> (Vec<usize>, Vec<Coef<T>>) {
+    let mut basis = a.0.clone();
+    basis.extend(b.0.iter().filter(|e| !a.0.contains(e)));
+    let n = basis.len();
+    let mut g = vec![Coef::zero(); n * n];
+    for (part, coefs) in [a, b] {
+        let place = |e: usize| basis.iter().position(|&other| other == e);
+        for (i, &ei) in part.iter().enumerate() {
+            for (j, &ej) in part.iter().enumerate() {
+                if let (Some(row), Some(column)) = (place(ei), place(ej)) {
+                    let entry = &mut g[row * n + column];
+                    *entry = entry.plus(coefs[i * part.len() + j]);
+                }
+            }
+        }
+    }
+    (basis, g)
+}
