@@ -83,7 +83,7 @@ impl<T: Real> Options<T> {
     /// Defaults of index-3.
     ///
     /// Penalty 1e6 effective masses in double precision (methods: 1e2 to 1e8 work in regular motion), the square root of
-    /// 1/eps in others; tolerance 1e-10, or 1e-6 of the first correction; at most 40 iterations: passages of singular positions take up
+    /// 1/eps in others; tolerance 1e-10, or up to double precision 1e-6 of the first correction; at most 40 iterations: passages of singular positions take up
     /// to 20.
     #[must_use]
     pub fn index3() -> Self {
@@ -93,7 +93,8 @@ impl<T: Real> Options<T> {
             integrator: Integrator::trapezoidal(),
             penalty: Penalty::Scaled(scale),
             tolerance: T::tolerance(1e-10).max(T::EPSILON * T::from_f64(64.0)),
-            share: T::tolerance(1e-6),
+            // in finer scalars than double what is wanted is the rule's own solution, to rounding
+            share: if T::EPSILON < T::from_f64(f64::EPSILON) { T::ZERO } else { T::from_f64(1e-6) },
             max_iterations: 40,
             max_sweeps: 12,
             multipliers: Multipliers::Filtered,

@@ -14,11 +14,13 @@ use num_traits::{One, Zero};
 mod decimal;
 mod double_double;
 mod functions;
+mod lanes;
 mod show;
 mod transforms;
 mod wide;
 
 pub use double_double::DoubleDouble;
+pub use lanes::Lanes;
 
 /// A real number type the mechanics can be computed in: `f32`, `f64`, [`DoubleDouble`].
 pub trait Real:
@@ -130,7 +132,7 @@ impl Real for f64 {
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
-        libm::sincos(self)
+        turn::double::sin_cos(self)
     }
     #[inline]
     fn atan2(self, x: Self) -> Self {
@@ -168,7 +170,7 @@ impl Real for f32 {
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
-        turn::sin_cos(self)
+        turn::single::sin_cos(self)
     }
     #[inline]
     fn atan2(self, x: Self) -> Self {
