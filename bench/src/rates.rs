@@ -17,7 +17,7 @@ const NUMBERS: usize = 28;
 const DEPTH: usize = 3;
 /// Rounds in a measurement, and measurements.
 const ROUNDS: u32 = 50_000;
-const TURNS: usize = 50;
+const TURNS: usize = 300;
 
 /// Caches, where the system does not tell them: the second, and the last [B].
 const CACHES: [usize; 2] = [1 << 20, 32 << 20];

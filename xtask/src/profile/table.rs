@@ -94,7 +94,7 @@ pub(crate) fn markdown(profiles: &[Profile], rates: &Value, remark: &str) -> Str
         "sums",
         "quotients",
         "roots",
-        "turns",
+        "sines, angles",
     ];
     let rows = profiles.iter().map(counts);
     text.push_str(&grid(&heading, rows));
@@ -102,11 +102,11 @@ pub(crate) fn markdown(profiles: &[Profile], rates: &Value, remark: &str) -> Str
         "scene",
         "CPU time [us]",
         "operations",
-        "at two at a time [us]",
-        "at one at a time [us]",
+        "floor by operations [us]",
+        "one operation at a time [us]",
         "set [KiB]",
         "moved [KiB]",
-        "at the second cache's rate [us]",
+        "floor by bytes [us]",
         "floor [us]",
         "time over floor",
         "instructions an operation",
