@@ -1,15 +1,15 @@
-//! A model and a solver that delegate and read the clock: the very step is timed, and the library has no clock.
+//! A model and a solver that delegate and read a clock, or another meter: the very step is timed, and the library has no clock.
 
 use mbs_core::model::{Model, Terms};
 use mbs_core::team::Team;
-use mbs_core::{BlockSource, Cliques, FactorError, SpdSolver};
+use mbs_core::{BlockSource, Cliques, FactorError, Real, SpdSolver};
 use serde_json::{Map, Value, json};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use std::time::Instant;
 
 /// What a step does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Phase {
+pub(crate) enum Phase {
     Evaluation,
     Forces,
     Bias,
@@ -20,8 +20,14 @@ enum Phase {
 }
 
 /// Their names, in that order.
-const NAMES: [&str; 7] =
+pub(crate) const NAMES: [&str; 7] =
     ["evaluation", "forces", "bias", "residuals", "factorisation", "solves", "products"];
+
+/// What is read before and after each phase.
+pub(crate) trait Meter: Sync {
+    /// Does the work of a phase, and takes what it cost.
+    fn read<R>(&self, phase: Phase, work: impl FnOnce() -> R) -> R;
+}
 
 /// Time of each phase, of whole steps, and of what comes after the iteration's last evaluation, in nanoseconds.
 #[derive(Debug)]
@@ -74,22 +80,6 @@ impl Clock {
         self.after.fetch_add(now - self.evaluated.load(Relaxed), Relaxed);
     }
 
-    fn read<R>(&self, phase: Phase, work: impl FnOnce() -> R) -> R {
-        let start = self.now();
-        let result = work();
-        let end = self.now();
-        self.phases[phase as usize].fetch_add(end - start, Relaxed);
-        self.readings.fetch_add(2, Relaxed);
-        match phase {
-            Phase::Evaluation | Phase::Forces if self.is_iterating.load(Relaxed) => {
-                self.evaluated.store(end, Relaxed);
-            }
-            Phase::Bias => self.is_iterating.store(false, Relaxed),
-            _ => {}
-        }
-        result
-    }
-
     /// Seconds of each phase in one of `steps` steps, with what is left of the step, and what comes after the last evaluation.
     pub(crate) fn told(&self, steps: u64) -> Value {
         #[allow(clippy::cast_precision_loss, reason = "nanoseconds of minutes")]
@@ -108,27 +98,45 @@ impl Clock {
     }
 }
 
-/// A solver whose calls are timed.
-#[derive(Debug)]
-pub(crate) struct ClockedSolver<'a, S> {
-    pub(crate) solver: S,
-    pub(crate) clock: &'a Clock,
+impl Meter for Clock {
+    fn read<R>(&self, phase: Phase, work: impl FnOnce() -> R) -> R {
+        let start = self.now();
+        let result = work();
+        let end = self.now();
+        self.phases[phase as usize].fetch_add(end - start, Relaxed);
+        self.readings.fetch_add(2, Relaxed);
+        match phase {
+            Phase::Evaluation | Phase::Forces if self.is_iterating.load(Relaxed) => {
+                self.evaluated.store(end, Relaxed);
+            }
+            Phase::Bias => self.is_iterating.store(false, Relaxed),
+            _ => {}
+        }
+        result
+    }
 }
 
-impl<S: SpdSolver<f64>> SpdSolver<f64> for ClockedSolver<'_, S> {
-    fn factor<B: BlockSource<f64>>(&mut self, source: &B) -> Result<(), FactorError> {
+/// A solver whose calls are timed.
+#[derive(Debug)]
+pub(crate) struct ClockedSolver<'a, S, C = Clock> {
+    pub(crate) solver: S,
+    pub(crate) clock: &'a C,
+}
+
+impl<T: Real, S: SpdSolver<T>, C: Meter> SpdSolver<T> for ClockedSolver<'_, S, C> {
+    fn factor<B: BlockSource<T>>(&mut self, source: &B) -> Result<(), FactorError> {
         self.clock.read(Phase::Factorisation, || self.solver.factor(source))
     }
-    fn solve(&self, x: &mut [f64], scratch: &mut [f64]) {
+    fn solve(&self, x: &mut [T], scratch: &mut [T]) {
         self.clock.read(Phase::Solves, || self.solver.solve(x, scratch));
     }
     fn n_scratch(&self) -> usize {
         self.solver.n_scratch()
     }
-    fn assemble<B: BlockSource<f64>>(&mut self, source: &B, f: &mut [f64]) {
+    fn assemble<B: BlockSource<T>>(&mut self, source: &B, f: &mut [T]) {
         self.clock.read(Phase::Residuals, || self.solver.assemble(source, f));
     }
-    fn pivots(&self) -> &[f64] {
+    fn pivots(&self) -> &[T] {
         self.solver.pivots()
     }
     fn elimination_order(&self) -> &[u32] {
@@ -138,39 +146,39 @@ impl<S: SpdSolver<f64>> SpdSolver<f64> for ClockedSolver<'_, S> {
 
 /// A model whose evaluations and products are timed; blocks and residuals of elements are in the solver's time.
 #[derive(Debug)]
-pub(crate) struct ClockedModel<'a, M> {
+pub(crate) struct ClockedModel<'a, M, C = Clock> {
     pub(crate) model: M,
-    pub(crate) clock: &'a Clock,
+    pub(crate) clock: &'a C,
 }
 
-impl<M: Cliques> Cliques for ClockedModel<'_, M> {
+impl<M: Cliques, C> Cliques for ClockedModel<'_, M, C> {
     mbs_core::forward_cliques!(model);
 }
 
-impl<M: Model<f64>> Model<f64> for ClockedModel<'_, M> {
-    mbs_core::forward_model!(f64, model);
+impl<T: Real, M: Model<T>, C: Meter> Model<T> for ClockedModel<'_, M, C> {
+    mbs_core::forward_model!(T, model);
     fn team(&self) -> &impl Team {
         self.model.team()
     }
-    fn evaluate(&self, q: &[f64], terms: &mut Terms<f64>) {
+    fn evaluate(&self, q: &[T], terms: &mut Terms<T>) {
         self.clock.read(Phase::Evaluation, || self.model.evaluate(q, terms));
     }
-    fn advance(&self, q: &[f64], dq: &[f64], phi_n: &[f64], terms: &mut Terms<f64>) {
+    fn advance(&self, q: &[T], dq: &[T], phi_n: &[T], terms: &mut Terms<T>) {
         self.clock.read(Phase::Evaluation, || self.model.advance(q, dq, phi_n, terms));
     }
-    fn evaluate_forces(&self, q: &[f64], v: &[f64], memory: &[f64], terms: &mut Terms<f64>) {
+    fn evaluate_forces(&self, q: &[T], v: &[T], memory: &[T], terms: &mut Terms<T>) {
         self.clock.read(Phase::Forces, || self.model.evaluate_forces(q, v, memory, terms));
     }
-    fn evaluate_bias(&self, q: &[f64], v: &[f64], terms: &mut Terms<f64>) {
+    fn evaluate_bias(&self, q: &[T], v: &[T], terms: &mut Terms<T>) {
         self.clock.read(Phase::Bias, || self.model.evaluate_bias(q, v, terms));
     }
-    fn multiply_jacobian(&self, terms: &Terms<f64>, x: &[f64], rates: &mut [f64]) {
+    fn multiply_jacobian(&self, terms: &Terms<T>, x: &[T], rates: &mut [T]) {
         self.clock.read(Phase::Products, || self.model.multiply_jacobian(terms, x, rates));
     }
-    fn kinetic_energy(&self, v: &[f64]) -> f64 {
+    fn kinetic_energy(&self, v: &[T]) -> T {
         self.model.kinetic_energy(v)
     }
-    fn potential_energy(&self, q: &[f64], terms: &Terms<f64>) -> f64 {
+    fn potential_energy(&self, q: &[T], terms: &Terms<T>) -> T {
         self.model.potential_energy(q, terms)
     }
 }

@@ -4,10 +4,10 @@ use crate::clocked::{Clock, ClockedModel, ClockedSolver, watched};
 use crate::race::{Runner, timed};
 use crate::scenes::Prepared;
 use mbs_augmented::{IndexChange, Options, Workspace, index1, index3};
-use mbs_core::SpdSolver;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{StepError, StepReport};
 use mbs_core::team::{Alone, Team};
+use mbs_core::{Real, SpdSolver};
 use mbs_parallel::Pool;
 use mbs_sparse::Multifrontal;
 use serde_json::{Value, json};
@@ -62,7 +62,7 @@ pub(crate) struct Sums {
 }
 
 impl Sums {
-    pub(crate) fn add(&mut self, report: &StepReport<f64>) {
+    pub(crate) fn add<T: Real>(&mut self, report: &StepReport<T>) {
         self.steps += 1;
         self.iterations += u64::from(report.iterations);
         self.factorizations += u64::from(report.factorizations);

@@ -4,12 +4,15 @@
 //! bench forks [--threads 2,3] [--seconds S]
 //! bench SCENE FORMULATION[,FORMULATION] [--threads 1,2] [--seconds S]
 //! bench digits SCENE FORM DIGITS STEP SPAN ALPHA
+//! bench profile rates | told SCENE FROM TO | bare SCENE N
 //! ```
 //!
 //! Clocks live here alone: what is timed is the step of the library, through a model and a solver that delegate to its own.
 
 mod augmented;
 mod clocked;
+#[path = "../../mbs-nostd/tests/support/counted.rs"]
+mod counted;
 mod digits;
 mod faer_beside;
 #[path = "../../mbs-sparse/benches/factor/faer_rival.rs"]
@@ -17,8 +20,11 @@ mod faer_rival;
 mod forks;
 mod lane;
 mod others;
+mod profile;
 mod race;
+mod rates;
 mod scenes;
+mod tally;
 
 use mbs_core::scene::Dimension;
 use scenes::Prepared;
@@ -56,6 +62,7 @@ fn run(words: &[String]) -> Result<(), String> {
     match &places[..] {
         [word] if word == "forks" => forks::measure(&request),
         [word, words @ ..] if word == "digits" => digits::measure(words),
+        [word, words @ ..] if word == "profile" => profile::measure(words),
         [scene, formulations] => {
             let scene = scenes::read(scene)?;
             match scene.dimension {
@@ -63,7 +70,7 @@ fn run(words: &[String]) -> Result<(), String> {
                 Dimension::Spatial => measure::<3>(scene, formulations, &request),
             }
         }
-        _ => Err("expected `forks`, `digits`, or a scene and formulations".to_owned()),
+        _ => Err("expected `forks`, `digits`, `profile`, or a scene and formulations".to_owned()),
     }
 }
 

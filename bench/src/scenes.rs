@@ -59,10 +59,10 @@ fn file(name: &str) -> Result<Document, String> {
 
 /// A scene's model at its assembled start.
 #[derive(Debug)]
-pub(crate) struct Prepared<const D: usize> {
-    pub(crate) scene: Scene<f64>,
-    pub(crate) model: NaturalModel<f64, D>,
-    pub(crate) start: State<f64>,
+pub(crate) struct Prepared<const D: usize, T: Real = f64> {
+    pub(crate) scene: Scene<T>,
+    pub(crate) model: NaturalModel<T, D>,
+    pub(crate) start: State<T>,
     /// Step of the scene [s], and how many make its run.
     pub(crate) dt: f64,
     pub(crate) n_steps: u32,
@@ -70,11 +70,11 @@ pub(crate) struct Prepared<const D: usize> {
     seconds: f64,
 }
 
-impl<const D: usize> Prepared<D> {
+impl<const D: usize, T: Real> Prepared<D, T> {
     /// Builds the model and assembles it.
-    pub(crate) fn new(scene: Scene<f64>) -> Result<Self, String> {
+    pub(crate) fn new(scene: Scene<T>) -> Result<Self, String> {
         let clock = Instant::now();
-        let model = NaturalModel::<f64, D>::new(&scene).map_err(|e| e.to_string())?;
+        let model = NaturalModel::<T, D>::new(&scene).map_err(|e| e.to_string())?;
         let analyse = Options::default();
         let mut solver = Multifrontal::analyse(&model, analyse);
         let mut start =
@@ -88,7 +88,9 @@ impl<const D: usize> Prepared<D> {
         let seconds = clock.elapsed().as_secs_f64();
         Ok(Self { scene, model, start: start.state, dt, n_steps, seconds })
     }
+}
 
+impl<const D: usize> Prepared<D> {
     /// Sizes as a line.
     pub(crate) fn told(&self) -> Value {
         let scene = &self.scene;
@@ -107,10 +109,10 @@ impl<const D: usize> Prepared<D> {
 }
 
 /// Step of a scene [s], and how many make its run.
-pub(crate) fn steps(scene: &Scene<f64>) -> (f64, u32) {
-    let dt = scene.solver.step.unwrap_or(STEP);
+pub(crate) fn steps<T: Real>(scene: &Scene<T>) -> (f64, u32) {
+    let dt = scene.solver.step.map_or(STEP, T::to_f64);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of steps")]
-    let n = (scene.duration / dt).round().clamp(1.0, 1e9) as u32;
+    let n = (scene.duration.to_f64() / dt).round().clamp(1.0, 1e9) as u32;
     (dt, n)
 }
 

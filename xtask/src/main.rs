@@ -19,6 +19,7 @@ mod pages;
 mod peers;
 mod pick;
 mod process;
+mod profile;
 mod races;
 mod report;
 mod simulate;
@@ -114,6 +115,16 @@ enum Job {
     },
     /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
     Counts,
+    /// Profile steps of index-3: instructions by parts under callgrind, operations, and the time beside the floor that the machine's own
+    /// rates give (docs/PROFILES.md): text and Markdown under target/profile
+    Profile {
+        /// Put the tables into docs/PROFILES.md too
+        #[arg(long)]
+        keep: bool,
+        /// These scenes alone; left out: the five whose steps take most time
+        #[arg(value_name = "SCENE")]
+        scenes: Vec<String>,
+    },
     /// Try scenes that nobody meant, mutated text and random mechanisms; what breaks or hangs is kept under target/fuzz
     Fuzz {
         /// For so long [s]
@@ -152,6 +163,7 @@ fn main() -> ExitCode {
         Job::Choice { scenes } => choice::choice(&scenes),
         Job::Peers { quick, names } => peers::peers(quick, &names),
         Job::Counts => counts::counts(),
+        Job::Profile { keep, scenes } => profile::profile(keep, &scenes),
         Job::Fuzz { seconds, seed } => fuzz::fuzz(seconds, seed),
         Job::Gauntlet { count, jobs } => gauntlet::gauntlet(count, jobs),
         Job::Races => races::races(),

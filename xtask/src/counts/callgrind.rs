@@ -19,14 +19,14 @@ pub(crate) struct Case {
     pub(crate) functions: BTreeSet<String>,
 }
 
-/// What to do where there is no valgrind; `None`: there is one.
-pub(crate) fn missing() -> Option<LeftOut> {
+/// What to do where there is no valgrind, which a job needs; `None`: there is one.
+pub(crate) fn missing(job: &str) -> Option<LeftOut> {
     output(Command::new("valgrind").arg("--version")).is_none().then(|| LeftOut {
         why: "`valgrind` is not installed".to_owned(),
-        remedy:
+        remedy: format!(
             "Get it on Debian, as root, with `apt-get install --no-install-recommends valgrind`;\n\
-                 then run `cargo xtask counts`."
-                .to_owned(),
+             then run `cargo xtask {job}`."
+        ),
     })
 }
 

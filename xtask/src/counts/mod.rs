@@ -10,6 +10,7 @@ mod claims;
 use crate::process::{self, cargo};
 use crate::summary::Outcome;
 use callgrind::Case;
+pub(crate) use callgrind::missing as missing_valgrind;
 use claims::{Claim, Runs};
 use serde_json::{Value, json};
 use std::fs;
@@ -56,7 +57,7 @@ const WITH_FEATURE: [(&str, &str); 10] = [
 /// Runs the job by itself: prints the table, writes it as JSON.
 #[allow(clippy::print_stdout, reason = "the table is what this job is for")]
 pub(crate) fn counts() -> ExitCode {
-    if let Some(left_out) = callgrind::missing() {
+    if let Some(left_out) = callgrind::missing("counts") {
         eprintln!("counts did not run: {}\n{}", left_out.why, left_out.remedy);
         return ExitCode::FAILURE;
     }
@@ -82,7 +83,7 @@ pub(crate) fn counts() -> ExitCode {
 ///
 /// The claims that do not hold, or what could not be built or run.
 pub(crate) fn check() -> Result<Outcome, String> {
-    if let Some(left_out) = callgrind::missing() {
+    if let Some(left_out) = callgrind::missing("counts") {
         return Ok(Outcome::LeftOut(left_out));
     }
     let (runs, claims) = count()?;

@@ -1,0 +1,147 @@
+//! What this machine does in a second at best, as this program is compiled: products and sums, and bytes read.
+//!
+//! ```text
+//! packed:   x <- x p + s for 28 numbers in registers, none waiting for another
+//! scalar:   the same three times over for one number after another, each found by its place, which the compiler cannot pack
+//! bytes:    the sum of an array that fits the second cache, and of one that fits none
+//! ```
+
+use serde_json::{Value, json};
+use std::fs::read_to_string;
+use std::hint::black_box;
+use std::time::Instant;
+
+/// Numbers in registers: two in each of fourteen.
+const NUMBERS: usize = 28;
+/// Products with their sums for a number that is read and written.
+const DEPTH: usize = 3;
+/// Rounds in a measurement, and measurements.
+const ROUNDS: u32 = 50_000;
+const TURNS: usize = 300;
+
+/// Caches, where the system does not tell them: the second, and the last [B].
+const CACHES: [usize; 2] = [1 << 20, 32 << 20];
+/// Most that is read beyond the last cache [B].
+const MOST: usize = 256 << 20;
+
+/// The line of rates.
+pub(crate) fn measure() -> Value {
+    let [second, last] = caches();
+    let [near, far] = [second / 2, (4 * last).min(MOST)];
+    json!({
+        "kind": "rates", "scalar": scalar(), "packed": packed(),
+        "near": bytes(near), "far": bytes(far), "near_size": near, "far_size": far,
+        "second_cache": second, "last_cache": last,
+    })
+}
+
+/// The least time of some work [s].
+fn least(mut work: impl FnMut()) -> f64 {
+    let mut turn = || {
+        let clock = Instant::now();
+        work();
+        clock.elapsed().as_secs_f64()
+    };
+    (0..TURNS).map(|_| turn()).fold(f64::INFINITY, f64::min)
+}
+
+/// Products and sums in a second, two at a time.
+fn packed() -> f64 {
+    let seconds = least(|| _ = black_box(in_registers(ROUNDS, black_box([0.5, 1.0]))));
+    #[allow(clippy::cast_precision_loss, reason = "a small count")]
+    let n = (2 * NUMBERS) as f64;
+    f64::from(ROUNDS) * n / seconds
+}
+
+#[inline(never)]
+fn in_registers(rounds: u32, [p, s]: [f64; 2]) -> [f64; NUMBERS] {
+    let mut x = [s; NUMBERS];
+    for _ in 0..rounds {
+        x.iter_mut().for_each(|x| *x *= p);
+        x.iter_mut().for_each(|x| *x += s);
+    }
+    x
+}
+
+/// Products and sums in a second, one at a time.
+fn scalar() -> f64 {
+    let mut x = [1.0; 64];
+    let places: Vec<u8> = (0..ROUNDS).map(|i| (i % 64) as u8).collect();
+    let seconds = least(|| by_place(&mut x, black_box(&places), black_box([0.5, 1.0])));
+    black_box(&x);
+    #[allow(clippy::cast_precision_loss, reason = "a small count")]
+    let n = (2 * DEPTH) as f64;
+    f64::from(ROUNDS) * n / seconds
+}
+
+#[inline(never)]
+fn by_place(x: &mut [f64; 64], places: &[u8], [p, s]: [f64; 2]) {
+    for &at in places {
+        let x = &mut x[usize::from(at % 64)];
+        let mut y = *x;
+        for _ in 0..DEPTH {
+            y = y * p + s;
+        }
+        *x = y;
+    }
+}
+
+/// Bytes in a second of reading an array of so many.
+fn bytes(size: usize) -> f64 {
+    let array = vec![1.0; size / size_of::<f64>()];
+    let times = (MOST / 16 / size).max(1);
+    let seconds = least(|| (0..times).for_each(|_| _ = black_box(sum(black_box(&array)))));
+    #[allow(clippy::cast_precision_loss, reason = "far below 2^53")]
+    let read = (times * size) as f64;
+    read / seconds
+}
+
+#[inline(never)]
+fn sum(array: &[f64]) -> f64 {
+    let mut sums = [0.0; 16];
+    for chunk in array.chunks_exact(16) {
+        for i in 0..16 {
+            sums[i] += chunk[i];
+        }
+    }
+    sums.iter().sum()
+}
+
+/// Sizes of the second cache and of the last one [B].
+fn caches() -> [usize; 2] {
+    let folder = "/sys/devices/system/cpu/cpu0/cache";
+    let told = |i: usize, what: &str| read_to_string(format!("{folder}/index{i}/{what}")).ok();
+    let mut found = CACHES;
+    for i in 0..8 {
+        let level = told(i, "level").and_then(|text| text.trim().parse::<u32>().ok());
+        let size = told(i, "size").and_then(|text| size(text.trim()));
+        match (level, size) {
+            (Some(2), Some(size)) => found = [size, size],
+            (Some(3..), Some(size)) => found[1] = size,
+            _ => {}
+        }
+    }
+    found
+}
+
+/// 1024K or 32M [B].
+fn size(text: &str) -> Option<usize> {
+    let (number, unit) = text.split_at(text.len().checked_sub(1)?);
+    let unit = match unit {
+        "K" => 1 << 10,
+        "M" => 1 << 20,
+        _ => return text.parse().ok(),
+    };
+    Some(number.parse::<usize>().ok()? * unit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_of_caches_have_units() {
+        let told = |text| size(text);
+        assert_eq!([told("32768K"), told("2M"), told("x")], [Some(32 << 20), Some(2 << 20), None]);
+    }
+}
