@@ -3,16 +3,18 @@
 //! `cargo bench -p mbs-recursive`; the throughput line gives bodies (or loops) per second.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use mbs_core::Real;
+use mbs_core::real::Lanes;
 use mbs_core::scene::{Body, BodyRef, Dimension, Inertia, Joint, JointKind, Scene, SolverChoice};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Options, Planar, Spatial, TreeModel, TreeState, Workspace};
 
-fn scene(dimension: Dimension) -> Scene<f64> {
+fn scene<T: Real>(dimension: Dimension) -> Scene<T> {
     Scene {
         name: String::new(),
         dimension,
-        gravity: Some([0.0, -9.81, 0.0]),
-        duration: 1.0,
+        gravity: Some([0.0, -9.81, 0.0].map(T::from_f64)),
+        duration: T::ONE,
         bodies: Vec::new(),
         joints: Vec::new(),
         initials: Vec::new(),
@@ -25,7 +27,8 @@ fn scene(dimension: Dimension) -> Scene<f64> {
     }
 }
 
-fn revolute(bodies: [BodyRef; 2], at: [f64; 3], axis: Option<[f64; 3]>) -> Joint<f64> {
+fn revolute<T: Real>(bodies: [BodyRef; 2], at: [f64; 3], axis: Option<[f64; 3]>) -> Joint<T> {
+    let (at, axis) = (at.map(T::from_f64), axis.map(|axis| axis.map(T::from_f64)));
     Joint {
         name: String::new(),
         kind: JointKind::Revolute,
@@ -36,17 +39,20 @@ fn revolute(bodies: [BodyRef; 2], at: [f64; 3], axis: Option<[f64; 3]>) -> Joint
 }
 
 /// `n` bodies one behind the other, axes turning from joint to joint.
-fn chain(n: usize, dimension: Dimension) -> Scene<f64> {
+fn chain<T: Real>(n: usize, dimension: Dimension) -> Scene<T> {
     let mut scene = scene(dimension);
     let mut last = BodyRef::Ground;
     for i in 0..n {
         let x = 0.1 * i as f64;
         let inertia = match dimension {
-            Dimension::Planar => Inertia::Planar(1e-3),
-            Dimension::Spatial => Inertia::Spatial([2e-4, 1e-3, 1.1e-3, 1e-5, 2e-5, -1e-5]),
+            Dimension::Planar => Inertia::Planar(T::from_f64(1e-3)),
+            Dimension::Spatial => {
+                let tensor = [2e-4, 1e-3, 1.1e-3, 1e-5, 2e-5, -1e-5];
+                Inertia::Spatial(tensor.map(T::from_f64))
+            }
         };
-        let center = [x + 0.05, 0.01, 0.0];
-        scene.bodies.push(Body { name: String::new(), mass: 1.0, center, inertia });
+        let center = [x + 0.05, 0.01, 0.0].map(T::from_f64);
+        scene.bodies.push(Body { name: String::new(), mass: T::ONE, center, inertia });
         let body = BodyRef::Body(i);
         let axis = [[0.0, 0.0, 1.0], [0.0, 0.6, 0.8], [0.1, 0.9, -0.2]][i % 3];
         let axis = (dimension == Dimension::Spatial).then_some(axis);
@@ -112,11 +118,54 @@ fn evaluations<S: Space<f64>>(
     group.finish();
 }
 
+/// As many states as lanes, one after the other and at once.
+fn lanes<S: Space<f64> + Space<Lanes<N>>, const N: usize>(
+    criterion: &mut Criterion,
+    name: &str,
+    dimension: Dimension,
+) {
+    const BODIES: usize = 30;
+    let mut group = criterion.benchmark_group(format!("{name} chain of {BODIES}, {N} states"));
+    group.throughput(Throughput::Elements((N * BODIES) as u64));
+    let model = TreeModel::<f64, S>::new(&chain(BODIES, dimension)).expect("a tree");
+    let wide = TreeModel::<Lanes<N>, S>::in_lanes(&chain(BODIES, dimension)).expect("a tree");
+    let mut states: Vec<_> = (0..N).map(|_| TreeState::at_rest(&model)).collect();
+    let mut together = TreeState::at_rest(&wide);
+    for (lane, state) in states.iter_mut().enumerate() {
+        for (i, (z, v)) in state.z.iter_mut().zip(&mut state.v).enumerate() {
+            *z = 0.3 * ((i + lane) as f64).sin();
+            *v = (2.0 * (i + lane) as f64).cos();
+        }
+        together.set_lane(lane, &state.z, &state.v);
+    }
+    let (mut own, mut wide_own) = (Workspace::new(&model), Workspace::new(&wide));
+    let (options, wide_options) = (Options::default(), Options::default());
+    group.bench_function("one by one", |bencher| {
+        bencher.iter(|| {
+            for state in &mut states {
+                model.accelerate(&options, state, &mut own).expect("regular");
+            }
+        });
+    });
+    group.bench_function("at once", |bencher| {
+        bencher.iter(|| {
+            wide.accelerate(&wide_options, &mut together, &mut wide_own).expect("regular");
+        });
+    });
+    group.finish();
+}
+
 fn benches(criterion: &mut Criterion) {
     let sizes = [10, 30, 100, 300, 1000];
     evaluations::<Planar>(criterion, "planar chain", |n| chain(n, Dimension::Planar), &sizes);
     evaluations::<Spatial>(criterion, "spatial chain", |n| chain(n, Dimension::Spatial), &sizes);
     evaluations::<Planar>(criterion, "four-bars", four_bars, &[1, 2, 10, 40, 100]);
+    lanes::<Planar, 2>(criterion, "planar", Dimension::Planar);
+    lanes::<Planar, 4>(criterion, "planar", Dimension::Planar);
+    lanes::<Planar, 8>(criterion, "planar", Dimension::Planar);
+    lanes::<Spatial, 2>(criterion, "spatial", Dimension::Spatial);
+    lanes::<Spatial, 4>(criterion, "spatial", Dimension::Spatial);
+    lanes::<Spatial, 8>(criterion, "spatial", Dimension::Spatial);
 }
 
 criterion_group! {

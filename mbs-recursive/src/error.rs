@@ -34,6 +34,42 @@ pub enum TreeError {
     },
 }
 
+/// Why several states of a mechanism are not evaluated at once.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LanesError {
+    /// There is no tree.
+    Tree(TreeError),
+    /// Loops are swept until they close, each as often as it needs.
+    Closed {
+        /// Number of loop rows.
+        rows: usize,
+    },
+    /// A law with pieces, or one whose branches are not known.
+    Effect {
+        /// `scene.effects[effect]`.
+        effect: usize,
+    },
+}
+
+impl core::fmt::Display for LanesError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Tree(error) => write!(f, "{error}"),
+            Self::Closed { rows } => write!(
+                f,
+                "the mechanism has loops ({rows} rows), each of which takes sweeps of its own: evaluate its states one by one"
+            ),
+            Self::Effect { effect } => write!(
+                f,
+                "effect {effect} acts by pieces, which lanes would not take alike: leave it out, or evaluate states one by one"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for LanesError {}
+
 impl core::fmt::Display for TreeError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {

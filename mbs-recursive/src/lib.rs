@@ -18,6 +18,8 @@ mod graph;
 mod history;
 pub mod inverse;
 pub mod joint;
+#[cfg(feature = "alloc")]
+mod lanes;
 pub mod ledger;
 pub mod link;
 pub mod loads;
@@ -46,7 +48,7 @@ mod tree;
 
 pub use at::Outside;
 #[cfg(feature = "alloc")]
-pub use error::{LoopError, TreeError};
+pub use error::{LanesError, LoopError, TreeError};
 #[cfg(feature = "alloc")]
 pub use history::History;
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
