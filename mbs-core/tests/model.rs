@@ -372,3 +372,33 @@ fn the_elements_of_a_hub_stay_small_however_many_joints_it_has() {
     let (n, m, r) = rank::<2>(&scene);
     assert_eq!((n - r, m - r), (203, 0));
 }
+
+/// A chain whose effects stand with the bodies that they act on: the angle of each is found, in whatever order they are told.
+#[test]
+fn remembered_angles_are_found_where_effects_act_along_a_chain() {
+    let mut text = String::from("[scene]\nname = \"chain\"\ndimension = 2\nduration = 1.0\n");
+    for i in 0..9 {
+        text += &format!(
+            "[[body]]\nname = \"rod-{i}\"\nrod = {{ from = [{i}.0, 0.0], to = [{}.0, 0.0] }}\nmass = 1.0\n",
+            i + 1
+        );
+    }
+    for i in 0..9 {
+        let before = if i == 0 { "ground".to_owned() } else { format!("rod-{}", i - 1) };
+        text += &format!(
+            "[[joint]]\nname = \"pin-{i}\"\nkind = \"revolute\"\nbodies = [\"{before}\", \"rod-{i}\"]\nat = [{i}.0, 0.0]\n"
+        );
+    }
+    for i in [7, 2, 0, 5] {
+        text += &format!(
+            "[[effect]]\nname = \"spring-{i}\"\nkind = \"torsion-spring\"\njoint = \"pin-{i}\"\nstiffness = 1.0\n"
+        );
+    }
+    let model: NaturalModel<f64, 2> = common::model(&common::scene(&text));
+    let mut found: Vec<usize> = (0..4).filter_map(|e| model.memory_of_effect(e)).collect();
+    found.sort_unstable();
+    assert_eq!(found, [0, 1, 2, 3], "four angles, each with a place of its own");
+    assert_eq!(model.memory_of_effect(4), None);
+    let owners: Vec<_> = model.remembered().map(|(owner, _)| owner).collect();
+    assert_eq!(owners, (0..4).map(mbs_core::model::Owner::Effect).collect::<Vec<_>>());
+}

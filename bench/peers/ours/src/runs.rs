@@ -71,9 +71,12 @@ fn runs(text: &str, dt: f64, judge: Judge) -> Result<(), Failure> {
         told(&format!("spatial kernel {integrator}"), judge, spatial);
     }
     for method in METHODS {
-        let run = |is_watched| simulated(&scene, (dt, n), method, (judge, is_watched));
+        let run = |is_watched| simulated::<2>(&scene, (dt, n), method, (judge, is_watched));
         told(&format!("planar {}", method.join(" ")), judge, run);
     }
+    let method = METHODS[2];
+    let run = |is_watched| simulated::<3>(&spatial, (dt, n), method, (judge, is_watched));
+    told(&format!("spatial {}", method.join(" ")), judge, run);
     Ok(())
 }
 
@@ -141,13 +144,16 @@ where
 }
 
 /// A run as `mbs run` makes it: seconds and value.
-fn simulated(
+fn simulated<const D: usize>(
     scene: &Scene<f64>,
     (dt, n): (f64, usize),
     method: [&str; 2],
     (judge, is_watched): (Judge, bool),
-) -> Result<[f64; 2], Failure> {
-    let mut simulation = assembled::<2>(scene, dt, method)?;
+) -> Result<[f64; 2], Failure>
+where
+    Plane<D>: InSpace<f64>,
+{
+    let mut simulation = assembled::<D>(scene, dt, method)?;
     let start: f64 = simulation.initial_energies().iter().sum();
     let (clock, mut worst) = (ProcessTime::now(), 0.0_f64);
     for _ in 0..n {

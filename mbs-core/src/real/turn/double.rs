@@ -122,7 +122,7 @@ mod tests {
         })
     }
 
-    // 0.5 is rounding of the result, the polynomials add 0.03 of sums and 2⁻⁵⁸ of their own; looked at for 20 million numbers: 0.78.
+    // 0.5 is rounding of the result, the rest that of sums before it; looked at for 20 million numbers the largest error was 0.781.
     #[test]
     fn sine_and_cosine_are_right_to_the_last_place() {
         let worst =
