@@ -83,8 +83,8 @@ impl<T: Real> Options<T> {
     /// Defaults of index-3.
     ///
     /// Penalty 1e6 effective masses in double precision (methods: 1e2 to 1e8 work in regular motion), the square root of
-    /// 1/eps in others; tolerance 1e-10, or up to double precision 1e-6 of the first correction; at most 40 iterations: passages of singular positions take up
-    /// to 20.
+    /// 1/eps in others; tolerance 1e-10, or up to double precision 1e-6 of the first correction; at most 40 iterations: passages of
+    /// singular positions take up to 20.
     #[must_use]
     pub fn index3() -> Self {
         let scale =
