@@ -255,7 +255,7 @@ mod tests {
     #[test]
     fn one_angle_beyond_the_range_of_the_kernel_leaves_the_others_their_bits() {
         let (sine, _) = Lanes([1.0, 5.0e8]).sin_cos();
-        let alone = [1.0, 5.0e8].map(|x| Real::sin_cos(x).0.to_bits());
+        let alone = [1.0_f64, 5.0e8].map(|x| Real::sin_cos(x).0.to_bits());
         assert_eq!(sine.0.map(f64::to_bits), alone);
     }
 }
