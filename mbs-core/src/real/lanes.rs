@@ -242,7 +242,9 @@ mod tests {
     #[test]
     fn a_comparison_holds_when_it_holds_in_every_lane() {
         let (low, high, mixed) = (Lanes([1.0, 2.0]), Lanes([1.5, 3.0]), Lanes([0.0, 3.0]));
-        assert!(low < high && high > low);
+        for holds in [low < high, high > low, low <= low, high >= low] {
+            assert!(holds, "in every lane");
+        }
         for holds in
             [low < mixed, low > mixed, mixed >= low, Lanes([1.0, f64::NAN]) > Lanes([0.0; 2])]
         {
