@@ -132,7 +132,7 @@ impl Real for f64 {
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
-        turn::double::sin_cos(self)
+        libm::sincos(self)
     }
     #[inline]
     fn atan2(self, x: Self) -> Self {
@@ -170,7 +170,7 @@ impl Real for f32 {
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
-        turn::single::sin_cos(self)
+        turn::sin_cos(self)
     }
     #[inline]
     fn atan2(self, x: Self) -> Self {

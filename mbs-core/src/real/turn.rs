@@ -26,7 +26,7 @@ const C: [f32; 3] = [0.041_666_647, -0.001_388_736_7, 0.000_024_438_416];
 
 /// Sine and cosine of an angle [rad]. Cost: 16 products and 15 sums; beyond the limit that of libm.
 #[inline]
-pub(in crate::real) fn sin_cos(x: f32) -> (f32, f32) {
+pub(super) fn sin_cos(x: f32) -> (f32, f32) {
     // Not a number is beyond it too.
     if !(x.abs() <= LIMIT) {
         return far(x);
