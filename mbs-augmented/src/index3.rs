@@ -122,7 +122,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let scale = step_scale(model.team(), rule.dt, &s.a);
     let mut pace = Pace::new(length);
     for iterations in 1..=options.max_iterations {
-        let is_kept = pace.keeps_factor(rule, options, w);
+        let is_kept = pace.keeps_factor(model, rule, options, w);
         if !is_kept {
             factor(model, rule, options, w)?;
             pace.since = T::ZERO;
@@ -139,7 +139,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         }
 
         // f = M a/a' + J^T (s phi + lambda/a') - Q/a'   [P3 (9)]
-        if is_kept {
+        if is_kept && model.has_forces() {
             w.balance_nearby(model, inverse);
         } else {
             set_sum(model.team(), &mut w.mu, &w.lambda, (&w.penalty, &w.terms.phi));

@@ -11,11 +11,14 @@
 use crate::options::{Options, Penalty};
 use crate::workspace::Workspace;
 use mbs_core::integrator::Rule;
+use mbs_core::model::Model;
 use mbs_core::{Real, SpdSolver};
 
-/// A factor made after the first correction is kept while corrections shrink to this share or less: a new one costs two iterations.
+/// Where effects act, a factor made after the first correction is kept while corrections shrink to this share or less: a new one costs
+/// two iterations.
 const REUSE: f64 = 0.2;
-/// The same with a fixed alpha, of which it is not known what it is in effective masses.
+/// The same where constraints act alone, which a new factor takes in all, and with a fixed alpha, of which it is not known what it is
+/// in effective masses.
 const FAST: f64 = 1e-3;
 /// The next correction is taken to be no less than this share of the last, however much that shrank.
 const SLOWEST: f64 = 0.1;
@@ -70,8 +73,9 @@ impl<T: Real> Pace<T> {
     ///
     /// Its rows are off by the turn since. Of s phi, which the multipliers carry along, that turn stands along free directions, where
     /// only the mass is in its way: it must be small beside the correction. And laws must be like those that were factored.
-    pub(crate) fn keeps_factor<S: SpdSolver<T>>(
+    pub(crate) fn keeps_factor<M: Model<T>, S: SpdSolver<T>>(
         &self,
+        model: &M,
         rule: &Rule<T>,
         options: &Options<T>,
         w: &Workspace<T, S>,
@@ -80,7 +84,7 @@ impl<T: Real> Pace<T> {
         if before == T::ZERO {
             return false;
         }
-        if let Penalty::Fixed(_) = options.penalty {
+        if matches!(options.penalty, Penalty::Fixed(_)) || !model.has_forces() {
             return last <= before * T::from_f64(FAST);
         }
         let astray = w.base * w.boost * phi.max(phi_before) * self.since / self.length;
