@@ -41,12 +41,11 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         let k = usize::from(level == Level::Acceleration);
         let goal = bare * T::EPSILON * T::from_f64([16.0, ROUNDING][k]);
         let enough = (size * T::EPSILON * T::from_f64(LEFT[k])).min(limit);
-        let left = Left { goal, enough, limit };
         if is_nearby {
-            self.project_nearby(model, level, left, max_sweeps)
-        } else {
-            self.project(model, level, left, max_sweeps)
+            return self.project_nearby(model, level, Left { goal, enough, limit }, max_sweeps);
         }
+        let enough = if model.has_forces() { enough } else { goal };
+        self.project(model, level, Left { goal, enough, limit }, max_sweeps)
     }
 
     /// Projects v or a, once unless the violation is at most `goal`, then by sweeps of this kind while they shrink it until it is

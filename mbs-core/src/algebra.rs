@@ -166,7 +166,7 @@ pub fn norm_inf<T: Real>(x: &[T]) -> T {
     for pair in pairs {
         for k in 0..2 {
             let size = pair[k].abs();
-            largest[k] = if largest[k] < size { size } else { largest[k] };
+            largest[k] = largest[k].max(size);
             probe[k] += size * T::ZERO;
         }
     }

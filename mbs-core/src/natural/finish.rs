@@ -42,8 +42,13 @@ pub(super) fn finish<T: Real, const D: usize>(
     actions: Actions<T>,
 ) -> NaturalModel<T, D> {
     let Builder { entities, groups, clusters, bases, shared, length, .. } = builder;
+    let owners = owners(&groups, &entities);
     let groups = merged(groups, &entities, D);
     let mut layout = Layout::<T, D>::new(entities, &groups, (clusters, length), actions);
+    for (e, owner) in owners {
+        let at = layout.model.entity_at[e] as usize / D;
+        layout.model.unknown_owner[at] = owner;
+    }
     for group in layout.near_their_bodies(&groups) {
         layout.add(group);
     }
@@ -426,6 +431,20 @@ impl<T: Real, const D: usize> Layout<T, D> {
         let place = Span { start: index(start), end: index(m.n_jacobian) };
         m.measures.push(MeasureElement { gauge, law, place });
     }
+}
+
+/// The unknown entities with the owner of the first group that uses each, before groups are put together.
+fn owners<T: Real>(groups: &[GroupDraft<T>], entities: &[Entity<T>]) -> Vec<(usize, Owner)> {
+    let mut is_seen = vec![false; entities.len()];
+    let mut owners = Vec::new();
+    for group in groups {
+        for e in group.slots(entities).into_iter().filter(|&e| !entities[e].is_constant) {
+            if !core::mem::replace(&mut is_seen[e], true) {
+                owners.push((e, group.owner));
+            }
+        }
+    }
+    owners
 }
 
 /// Is there one group, of all unknowns in their order, with rows that are taken as dense?
