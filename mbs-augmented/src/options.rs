@@ -13,8 +13,8 @@ pub struct Options<T> {
     pub penalty: Penalty<T>,
     /// A correction below this times what accelerations move in a step is small; in index-1, times the accelerations [-].
     pub tolerance: T,
-    /// A correction of index-3 below this share of the step's first one is small too: the first is three times what the trapezoidal
-    /// rule errs by in the step [-].
+    /// What a correction of index-3 leaves, taken to be a tenth of it at least, is small too where it is below this share of the step's
+    /// first one, which is three times what the trapezoidal rule errs by in the step; zero: the tolerance alone [-].
     pub share: T,
     /// Iterations allowed in one step.
     pub max_iterations: u32,

@@ -2,7 +2,8 @@
 //!
 //! A tree in [`Lanes`] evaluates accelerations, efforts, energies and mass matrices of `N` states at once, each with the bits that it
 //! would have alone. Branches that numbers decide would be taken for all lanes: loops, which are swept until they close, and effects
-//! whose laws have pieces are refused.
+//! whose laws have pieces are refused. A spring must have a length in every lane. Steps decide by numbers for all lanes at once: integrate
+//! lane by lane, or by steps of fixed length around [`TreeModel::accelerate`].
 
 use crate::error::LanesError;
 use crate::space::Space;

@@ -105,7 +105,7 @@ fn what_branches_by_numbers_is_refused_in_lanes() {
 }
 
 #[test]
-fn one_lane_without_inertia_refuses_all() {
+fn one_lane_with_an_angle_that_is_no_number_refuses_all() {
     let wide = TreeModel::<Lanes<2>, Planar>::in_lanes(&scene("double-pendulum")).expect("a tree");
     let mut state = TreeState::at_rest(&wide);
     let n = state.z.len();

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Each lane has the bits that a double alone would have. That is so only where no branch is taken by numbers but to refuse them:
-//! `!(x > limit)` refuses all lanes if one is beyond the limit.
+//! `!(x > limit)` refuses all lanes if one is not above the limit.
 
 use super::Real;
 use core::cmp::Ordering;
