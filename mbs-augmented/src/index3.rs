@@ -139,7 +139,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         }
 
         // f = M a/a' + J^T (s phi + lambda/a') - Q/a'   [P3 (9)]
-        if is_kept && model.has_forces() {
+        if is_kept && options.share > T::ZERO && model.has_forces() {
             w.balance_nearby(model, inverse);
         } else {
             set_sum(model.team(), &mut w.mu, &w.lambda, (&w.penalty, &w.terms.phi));

@@ -17,8 +17,8 @@ use mbs_core::{Real, SpdSolver};
 /// Where effects act, a factor made after the first correction is kept while corrections shrink to this share or less: a new one costs
 /// two iterations.
 const REUSE: f64 = 0.2;
-/// The same where constraints act alone, which a new factor takes in all, and with a fixed alpha, of which it is not known what it is
-/// in effective masses.
+/// The same where constraints act alone, which a new factor takes in all, where the tolerance alone ends the iteration, and with a fixed
+/// alpha, of which it is not known what it is in effective masses.
 const FAST: f64 = 1e-3;
 /// The next correction is taken to be no less than this share of the last, however much that shrank.
 const SLOWEST: f64 = 0.1;
@@ -84,7 +84,8 @@ impl<T: Real> Pace<T> {
         if before == T::ZERO {
             return false;
         }
-        if matches!(options.penalty, Penalty::Fixed(_)) || !model.has_forces() {
+        let is_exact = matches!(options.penalty, Penalty::Fixed(_)) || !(options.share > T::ZERO);
+        if is_exact || !model.has_forces() {
             return last <= before * T::from_f64(FAST);
         }
         let astray = w.base * w.boost * phi.max(phi_before) * self.since / self.length;
