@@ -120,9 +120,9 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<((u32, T, Stop), T), StepError> {
     let inverse = T::ONE / rule.acceleration;
     let scale = step_scale(model.team(), rule.dt, &s.a);
-    let mut pace = Pace::new(length);
+    let mut pace = Pace::new(model, options, length);
     for iterations in 1..=options.max_iterations {
-        let is_kept = pace.keeps_factor(model, rule, options, w);
+        let is_kept = pace.keeps_factor(rule, w);
         if !is_kept {
             factor(model, rule, options, w)?;
             pace.since = T::ZERO;
@@ -139,7 +139,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         }
 
         // f = M a/a' + J^T (s phi + lambda/a') - Q/a'   [P3 (9)]
-        if is_kept && options.share > T::ZERO && model.has_forces() {
+        if is_kept && pace.has_share() {
             w.balance_nearby(model, inverse);
         } else {
             set_sum(model.team(), &mut w.mu, &w.lambda, (&w.penalty, &w.terms.phi));
@@ -168,7 +168,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         let measures = (scale, options.tolerance);
         let yardstick = Yardstick::of_coordinates(iterations, measures, length, moved);
         let stop = stopping(iterations, correction, pace.last(), &yardstick);
-        let stop = stop.or(pace.is_enough(correction, options).then_some(Stop::Converged));
+        let stop = stop.or(pace.is_enough(correction).then_some(Stop::Converged));
         if let Some(stop) = stop {
             return Ok(((iterations, correction, stop), pace.since));
         }

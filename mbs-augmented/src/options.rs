@@ -13,8 +13,8 @@ pub struct Options<T> {
     pub penalty: Penalty<T>,
     /// A correction below this times what accelerations move in a step is small; in index-1, times the accelerations [-].
     pub tolerance: T,
-    /// What a correction of index-3 leaves, taken to be a tenth of it at least, is small too where it is below this share of the step's
-    /// first one, which is three times what the trapezoidal rule errs by in the step; zero: the tolerance alone [-].
+    /// Where effects act, what a correction of index-3 leaves, taken to be a tenth of it at least, is small too where it is below this
+    /// share of the step's first one, which is three times what the trapezoidal rule errs by in the step; zero: the tolerance alone [-].
     pub share: T,
     /// Iterations allowed in one step.
     pub max_iterations: u32,
@@ -83,7 +83,7 @@ impl<T: Real> Options<T> {
     /// Defaults of index-3.
     ///
     /// Penalty 1e6 effective masses in double precision (methods: 1e2 to 1e8 work in regular motion), the square root of
-    /// 1/eps in others; tolerance 1e-10, or up to double precision 1e-6 of the first correction; at most 40 iterations: passages of
+    /// 1/eps in others; tolerance 1e-10, or where effects act, up to double precision, 1e-6 of the first correction; at most 40 iterations: passages of
     /// singular positions take up to 20.
     #[must_use]
     pub fn index3() -> Self {
@@ -139,7 +139,7 @@ impl<T: Real> Options<T> {
             }
         }
         if !(self.share >= T::ZERO && self.share.is_finite()) {
-            return Err(OptionError::NotPositive("share"));
+            return Err(OptionError::Negative("share"));
         }
         if self.max_iterations == 0 {
             return Err(OptionError::NotPositive("max_iterations"));

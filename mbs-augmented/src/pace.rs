@@ -17,8 +17,7 @@ use mbs_core::{Real, SpdSolver};
 /// Where effects act, a factor made after the first correction is kept while corrections shrink to this share or less: a new one costs
 /// two iterations.
 const REUSE: f64 = 0.2;
-/// The same where constraints act alone, which a new factor takes in all, where the tolerance alone ends the iteration, and with a fixed
-/// alpha, of which it is not known what it is in effective masses.
+/// The same where the tolerance alone ends the iteration.
 const FAST: f64 = 1e-3;
 /// The next correction is taken to be no less than this share of the last, however much that shrank.
 const SLOWEST: f64 = 0.1;
@@ -28,6 +27,8 @@ const SLOWEST: f64 = 0.1;
 pub(crate) struct Pace<T> {
     /// The scene's length [m].
     length: T,
+    /// What may be left of the first correction [-]; zero where the tolerance alone ends the iteration.
+    share: T,
     /// The first correction, and the last two with the violations that they left [m].
     first: T,
     corrections: [T; 2],
@@ -38,9 +39,16 @@ pub(crate) struct Pace<T> {
 
 impl<T: Real> Pace<T> {
     /// Before the first correction, in a scene of the given length [m].
-    pub(crate) fn new(length: T) -> Self {
+    ///
+    /// The tolerance alone ends the iteration where constraints act alone: a new factor takes in all of them, and first corrections go
+    /// mostly across the motion, so that shares of them tell nothing of the error along it. So it does with a fixed alpha, of which it
+    /// is not known what it is in effective masses.
+    pub(crate) fn new<M: Model<T>>(model: &M, options: &Options<T>, length: T) -> Self {
+        let is_scaled = matches!(options.penalty, Penalty::Scaled(_));
+        let share = if is_scaled && model.has_forces() { options.share } else { T::ZERO };
         Self {
             length,
+            share,
             first: T::ZERO,
             corrections: [T::ZERO; 2],
             violations: [T::ZERO; 2],
@@ -62,30 +70,31 @@ impl<T: Real> Pace<T> {
         self.violations = [self.violations[1], violation];
     }
 
-    /// Is what a correction leaves below the share of the first one that the options allow?
-    pub(crate) fn is_enough(&self, correction: T, options: &Options<T>) -> bool {
+    /// Is what a correction leaves below the share of the first one that may be left?
+    pub(crate) fn is_enough(&self, correction: T) -> bool {
         let last = self.last();
         let shrinking = (correction / last).max(T::from_f64(SLOWEST));
-        last > T::ZERO && correction * shrinking <= self.first * options.share
+        last > T::ZERO && correction * shrinking <= self.first * self.share
+    }
+
+    /// Is there a share of the first correction that may be left? A kept factor then has a residual with its own rows.
+    pub(crate) fn has_share(&self) -> bool {
+        self.share > T::ZERO
     }
 
     /// May the next correction be made with the factor there is?
     ///
     /// Its rows are off by the turn since. Of s phi, which the multipliers carry along, that turn stands along free directions, where
     /// only the mass is in its way: it must be small beside the correction. And laws must be like those that were factored.
-    pub(crate) fn keeps_factor<M: Model<T>, S: SpdSolver<T>>(
-        &self,
-        model: &M,
-        rule: &Rule<T>,
-        options: &Options<T>,
-        w: &Workspace<T, S>,
-    ) -> bool {
+    pub(crate) fn keeps_factor<S>(&self, rule: &Rule<T>, w: &Workspace<T, S>) -> bool
+    where
+        S: SpdSolver<T>,
+    {
         let ([before, last], [phi_before, phi]) = (self.corrections, self.violations);
         if before == T::ZERO {
             return false;
         }
-        let is_exact = matches!(options.penalty, Penalty::Fixed(_)) || !(options.share > T::ZERO);
-        if is_exact || !model.has_forces() {
+        if !self.has_share() {
             return last <= before * T::from_f64(FAST);
         }
         let astray = w.base * w.boost * phi.max(phi_before) * self.since / self.length;

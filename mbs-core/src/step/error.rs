@@ -108,6 +108,8 @@ impl From<FactorError> for StepError {
 pub enum OptionError {
     /// Must be positive and finite.
     NotPositive(&'static str),
+    /// Must be finite and not negative.
+    Negative(&'static str),
     /// The combination is not built.
     NotBuilt(&'static str),
 }
@@ -116,6 +118,7 @@ impl core::fmt::Display for OptionError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::NotPositive(name) => write!(f, "option `{name}` must be positive and finite"),
+            Self::Negative(name) => write!(f, "option `{name}` must be finite and not negative"),
             Self::NotBuilt(name) => write!(f, "option `{name}`: this combination is not built"),
         }
     }
