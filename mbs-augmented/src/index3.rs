@@ -9,7 +9,9 @@
 //!
 //! Differs from the source: unknowns are increments; s is in proportion to the mass, so that conditioning does not depend on the
 //! step; the start value of lambda is filtered, lambda <- s J T^-1 J^T lambda, where the constraints do not feel all of it; projections are
-//! in correction form, by one sweep where nothing but constraints acts. The printed forms are options.
+//! in correction form, by one sweep where nothing but constraints acts; where effects act a factor is kept while laws are like those
+//! that were factored, with its own rows J' beside s phi, lambda <- lambda + s (phi + J' d), and a share of the first correction may be
+//! left. The printed forms are options.
 
 use crate::options::{Multipliers, Options, Penalty, Projection};
 use crate::pace::Pace;
@@ -27,7 +29,7 @@ use mbs_core::{Real, SpdSolver};
 /// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
 ///
 /// Cost: about three evaluations, a factorisation and five back-substitutions where nothing but constraints acts and all of them
-/// are felt; else two factorisations and eight back-substitutions. No allocation.
+/// are felt; else two factorisations and eight back-substitutions or more. No allocation.
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
@@ -120,7 +122,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
 ) -> Result<((u32, T, Stop), T), StepError> {
     let inverse = T::ONE / rule.acceleration;
     let scale = step_scale(model.team(), rule.dt, &s.a);
-    let mut pace = Pace::new(model, options, length);
+    let mut pace = Pace::new(model, options);
     for iterations in 1..=options.max_iterations {
         let is_kept = pace.keeps_factor(rule, w);
         if !is_kept {
@@ -148,6 +150,9 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
 
         // T d = -f,   q += d,   v += v' d,   a += a' d   [P3 (8), (4), (5)]
         w.solve();
+        if pace.has_share() {
+            w.take_multipliers(model);
+        }
         correct(model, rule, s, w);
         evaluate(model, options, s, w);
         if iterations == 1 {
@@ -155,7 +160,9 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         }
 
         // lambda <- lambda + alpha phi   [P3 (2)]
-        add_product(model.team(), &mut w.lambda, (&w.penalty, &w.terms.phi));
+        if !pace.has_share() {
+            add_product(model.team(), &mut w.lambda, (&w.penalty, &w.terms.phi));
+        }
 
         let correction = norm_inf(model.team(), &w.f);
         if !correction.is_finite() {
@@ -172,7 +179,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         if let Some(stop) = stop {
             return Ok(((iterations, correction, stop), pace.since));
         }
-        pace.note(correction, norm_inf(model.team(), &w.terms.phi));
+        pace.note(correction);
     }
     let last = pace.last();
     if last <= scale * T::from_f64(1e-6) {
@@ -263,7 +270,14 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
     if is_taken_back {
         w.scale_penalties(T::ONE / raised);
     }
-    let is_stale = is_taken_back || since > length * T::from_f64(1e-7);
+    // With rows of now and a factor that has others, s times their turn of a violation would go along free directions.
+    let turn = since / length;
+    let is_turned = if is_nearby {
+        turn > T::from_f64(1e-7)
+    } else {
+        turn * w.base * w.boost > T::from_f64(1e-6)
+    };
+    let is_stale = is_taken_back || is_turned;
     if options.projection == Projection::Correction && is_stale {
         if is_nearby {
             factor(model, rule, options, w)?;

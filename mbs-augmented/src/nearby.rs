@@ -14,7 +14,7 @@ use crate::workspace::{Mass, Workspace};
 use core::mem::swap;
 use mbs_core::model::Model;
 use mbs_core::step::StepError;
-use mbs_core::team::{add, add_product, norm_inf, on_stretches, set_product, sum};
+use mbs_core::team::{add, add_product, on_stretches, set_product};
 use mbs_core::{Real, SpdSolver};
 
 /// Of a violation may be left, in EPSILON of what it stands beside: of velocities, and of accelerations, which enter the motion times
@@ -71,7 +71,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             sweeps += 1;
             let mut left = self.violation(model, level);
             if left > enough && sweeps == 1 {
-                left = self.lengthen(model, level);
+                left = self.lengthen_first(model, level);
             }
             let is_slow = !(left <= violation * T::from_f64(SLOW));
             if is_slow && !(left <= enough) {
@@ -82,7 +82,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         Ok(violation)
     }
 
-    /// f = M a + J^T lambda - force Q + J'^T s phi: the residual of a step for a factor that is kept.
+    /// f = M a + J^T lambda - force Q + J'^T s phi: the residual of a step for a factor that is kept. Cost: two residuals.
     pub(crate) fn balance_nearby<M: Model<T>>(&mut self, model: &M, force: T) {
         let n = self.f.len();
         self.mu.copy_from_slice(&self.lambda);
@@ -93,6 +93,23 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.assemble(model, Mass::None, T::ZERO);
         swap(&mut self.terms.jacobian, &mut self.factored);
         add(model.team(), &mut self.f, &self.dq_predicted);
+    }
+
+    /// lambda <- lambda + s (phi + J' d) with d = -f: the multipliers that are in balance with the correction. Cost: a product of the
+    /// Jacobian.
+    pub(crate) fn take_multipliers<M: Model<T>>(&mut self, model: &M) {
+        let n = self.f.len();
+        self.change[..n].copy_from_slice(&self.f);
+        swap(&mut self.terms.jacobian, &mut self.factored);
+        model.multiply_jacobian(&self.terms, &self.change, &mut self.mu);
+        swap(&mut self.terms.jacobian, &mut self.factored);
+        let (penalty, phi, mu) = (&self.penalty, &self.terms.phi, &self.mu);
+        on_stretches(model.team(), [&mut self.lambda], |first, [lambda]| {
+            for (i, lambda) in lambda.iter_mut().enumerate() {
+                let k = first + i;
+                *lambda += penalty[k] * (phi[k] - mu[k]);
+            }
+        });
     }
 
     fn sweep_nearby<M: Model<T>>(&mut self, model: &M, level: Level) {
@@ -116,35 +133,19 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.take(model, level);
     }
 
-    /// After the first sweep x += k d, sigma += k sigma with the k that leaves least of the violation: d is short by what the penalties
-    /// leave, much the same share in all rows. Needs the last `f` = -d, of accelerations with J' f in `mu`. Returns the violation left.
-    ///
-    /// ```text
-    /// k = -(r . J d) / (J d . J d),   r += k J d
-    /// ```
-    fn lengthen<M: Model<T>>(&mut self, model: &M, level: Level) -> T {
+    /// After the first sweep x += k d, sigma += k sigma with the best k: d is short by what the penalties leave, much the same share in
+    /// all rows. Needs the last `f` = -d, of accelerations with J' f in `mu`. Returns the violation left.
+    fn lengthen_first<M: Model<T>>(&mut self, model: &M, level: Level) -> T {
         if level == Level::Velocity {
             let n = self.f.len();
             self.dq_predicted[..n].copy_from_slice(&self.f);
             model.multiply_jacobian(&self.terms, &self.dq_predicted, &mut self.mu);
         }
-        let (team, mu, rates) = (model.team(), &self.mu, &self.rates);
-        let dot = |x: &[T]| {
-            sum(team, mu.len(), |from, to| {
-                let pairs = x[from..to].iter().zip(&mu[from..to]);
-                pairs.fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
-            })
-        };
-        let k = dot(rates) / dot(mu);
+        let k = self.best_length(model);
         let by = T::ONE + k;
-        on_stretches(team, [&mut self.rates, &mut self.sigma], |first, [rates, sigma]| {
-            for i in 0..rates.len() {
-                rates[i] -= k * mu[first + i];
-                sigma[i] *= by;
-            }
+        on_stretches(model.team(), [&mut self.sigma], |_, [sigma]| {
+            sigma.iter_mut().for_each(|sigma| *sigma *= by);
         });
-        on_stretches(team, [&mut self.f], |_, [f]| f.iter_mut().for_each(|f| *f *= k));
-        self.take(model, level);
-        norm_inf(model.team(), &self.rates)
+        self.lengthen(model, level, k)
     }
 }

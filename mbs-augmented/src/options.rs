@@ -83,7 +83,7 @@ impl<T: Real> Options<T> {
     /// Defaults of index-3.
     ///
     /// Penalty 1e6 effective masses in double precision (methods: 1e2 to 1e8 work in regular motion), the square root of
-    /// 1/eps in others; tolerance 1e-10, or where effects act, up to double precision, 1e-6 of the first correction; at most 40 iterations: passages of
+    /// 1/eps in others; tolerance 1e-10, or where effects act, up to double precision, 3e-7 of the first correction; at most 40 iterations: passages of
     /// singular positions take up to 20.
     #[must_use]
     pub fn index3() -> Self {
@@ -94,7 +94,7 @@ impl<T: Real> Options<T> {
             penalty: Penalty::Scaled(scale),
             tolerance: T::tolerance(1e-10).max(T::EPSILON * T::from_f64(64.0)),
             // in finer scalars than double what is wanted is the rule's own solution, to rounding
-            share: if T::EPSILON < T::from_f64(f64::EPSILON) { T::ZERO } else { T::from_f64(1e-6) },
+            share: if T::EPSILON < T::from_f64(f64::EPSILON) { T::ZERO } else { T::from_f64(3e-7) },
             max_iterations: 40,
             max_sweeps: 12,
             multipliers: Multipliers::Filtered,

@@ -13,7 +13,7 @@
 use crate::workspace::{Mass, Workspace};
 use mbs_core::model::Model;
 use mbs_core::step::{StepError, largest};
-use mbs_core::team::{add_product, norm_inf, on_stretches, set_sum};
+use mbs_core::team::{add_product, norm_inf, on_stretches, set_sum, sum};
 use mbs_core::{Real, SpdSolver};
 
 /// What one correction may leave of the multiplier of the least felt combination of constraints.
@@ -22,6 +22,10 @@ const FELT: f64 = 0.003;
 const FOLLOWED: f64 = 0.001;
 /// Most that penalties may be, in effective masses times EPSILON: above, rounding of T^-1 looks like a lost direction.
 const MOST: f64 = 0.2;
+
+/// A sweep that leaves more than the first of these shares of a violation, and less than the second, has met combinations of constraints
+/// that are felt little, of which it takes in the same share each: it is lengthened.
+const SHORT: [f64; 2] = [0.01, 0.7];
 
 /// How much of a violation may be left by a projection.
 #[derive(Debug, Clone, Copy)]
@@ -95,8 +99,13 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
                 return Ok(violation);
             }
             self.sweep(model, level, sweeps > 0);
-            let left = self.violation(model, level);
+            self.mu.copy_from_slice(&self.rates);
+            let mut left = self.violation(model, level);
             add_product(model.team(), &mut self.sigma, (&self.penalty, &self.rates));
+            let is_short = left > violation * T::from_f64(SHORT[0]);
+            if is_short && left > enough && left < violation * T::from_f64(SHORT[1]) {
+                left = self.lengthen_last(model, level);
+            }
             let contraction = left / violation;
             violation = left;
             if contraction > T::HALF && violation <= limit {
@@ -264,6 +273,55 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             *p *= factor;
         }
         self.boost *= factor;
+    }
+
+    /// x += k d, sigma += k s (J x + b), and the violation with them, for the last sweep, after which x, sigma and d are in balance,
+    /// M d + J^T s (J x + b) = 0. Needs the violation before it in `mu`. Returns the violation left.
+    fn lengthen_last<M: Model<T>>(&mut self, model: &M, level: Level) -> T {
+        let rates = &self.rates;
+        on_stretches(model.team(), [&mut self.mu], |first, [mu]| {
+            for (mu, &after) in mu.iter_mut().zip(&rates[first..]) {
+                *mu -= after;
+            }
+        });
+        let k = self.best_length(model);
+        let (penalty, rates) = (&self.penalty, &self.rates);
+        on_stretches(model.team(), [&mut self.sigma], |first, [sigma]| {
+            for (i, sigma) in sigma.iter_mut().enumerate() {
+                *sigma += k * penalty[first + i] * rates[first + i];
+            }
+        });
+        self.lengthen(model, level, k)
+    }
+
+    /// The k with which a further k d leaves least of a violation; zero where d does nothing. Needs J f = -J d in `mu`.
+    ///
+    /// ```text
+    /// k = -(r . J d) / (J d . J d)
+    /// ```
+    pub(crate) fn best_length<M: Model<T>>(&self, model: &M) -> T {
+        let (mu, rates) = (&self.mu, &self.rates);
+        let dot = |x: &[T]| {
+            sum(model.team(), mu.len(), |from, to| {
+                let pairs = x[from..to].iter().zip(&mu[from..to]);
+                pairs.fold(T::ZERO, |sum, (&x, &y)| sum + x * y)
+            })
+        };
+        let k = dot(rates) / dot(mu);
+        if k.is_finite() { k } else { T::ZERO }
+    }
+
+    /// x += k d, r += k J d for the last sweep. Needs `f` = -d, which is lost, and J f in `mu`. Returns the violation left.
+    pub(crate) fn lengthen<M: Model<T>>(&mut self, model: &M, level: Level, k: T) -> T {
+        let mu = &self.mu;
+        on_stretches(model.team(), [&mut self.rates], |first, [rates]| {
+            for (i, rates) in rates.iter_mut().enumerate() {
+                *rates -= k * mu[first + i];
+            }
+        });
+        on_stretches(model.team(), [&mut self.f], |_, [f]| f.iter_mut().for_each(|f| *f *= k));
+        self.take(model, level);
+        norm_inf(model.team(), &self.rates)
     }
 
     /// One sweep; as long as nothing `is_changed` the mass has no part in it.

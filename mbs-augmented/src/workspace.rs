@@ -27,7 +27,7 @@ pub struct Workspace<T, S> {
     pub(crate) q: Vec<T>,
     pub(crate) v: Vec<T>,
     pub(crate) a: Vec<T>,
-    /// Predicted increment of the position (index-1), extended.
+    /// Predicted increment of the position (index-1); room for a vector (index-3); extended.
     pub(crate) dq_predicted: Vec<T>,
     /// x - x* of a projection, extended.
     pub(crate) change: Vec<T>,
@@ -175,7 +175,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     }
 
     /// Are the laws' tangents nearly those of the factored matrix? A wheel that has left its road, or a stop that was met, is another
-    /// law.
+    /// law. Stiffness and damping are looked at, of lengths and angles by the same measure; not what a tension adds across its line.
     pub(crate) fn has_like_laws(&self, rule: &Rule<T>) -> bool {
         let weight = |[stiffness, damping]: [T; 2]| stiffness + damping * rule.velocity;
         let (mut largest, mut change) = (T::ZERO, T::ZERO);

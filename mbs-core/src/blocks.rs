@@ -33,6 +33,11 @@ pub trait BlockSource<T: Real>: Sync {
     fn write_block(&self, element: usize, block: &mut [T]);
     /// Writes the residual of `element` in the order of its clique; `residual` has k places, all are written.
     fn write_residual(&self, element: usize, residual: &mut [T]);
+    /// Has the block of `element` a number that is not zero? One that has none need not be written and added.
+    #[inline]
+    fn has_block(&self, _element: usize) -> bool {
+        true
+    }
     /// Sums the residuals of all elements into `f` (overwritten), in the order of the elements, where the source has a way of its
     /// own that gives the same bits; else `false`, and `f` is anything.
     #[inline]

@@ -80,6 +80,15 @@ macro_rules! forward_model {
             self.$model.write_block(terms, tangent, element, block);
         }
         #[inline]
+        fn has_block(
+            &self,
+            terms: &$crate::model::Terms<$T>,
+            tangent: &$crate::model::Tangent<'_, $T>,
+            element: usize,
+        ) -> bool {
+            self.$model.has_block(terms, tangent, element)
+        }
+        #[inline]
         fn write_residual(
             &self,
             terms: &$crate::model::Terms<$T>,

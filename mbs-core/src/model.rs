@@ -48,6 +48,20 @@ pub struct Tangent<'a, T> {
     pub geometric: Option<&'a [T]>,
 }
 
+impl<T: Real> Tangent<'_, T> {
+    /// What the square of a scalar law's gradient weighs in it.
+    #[inline(always)]
+    pub(crate) fn weight(&self, law: &Measure<T>) -> T {
+        self.stiffness * (law.stiffness - law.transverse) + self.damping * law.damping
+    }
+
+    /// Has a scalar law a part in it?
+    #[inline(always)]
+    pub(crate) fn has(&self, law: &Measure<T>) -> bool {
+        self.weight(law) != T::ZERO || self.stiffness * law.transverse != T::ZERO
+    }
+}
+
 /// A residual f = M x + J^T mu - force Q.
 #[derive(Debug, Clone, Copy)]
 pub struct Load<'a, T> {
@@ -109,6 +123,11 @@ pub trait Model<T: Real>: Cliques + Sync {
         element: usize,
         block: &mut [T],
     );
+    /// See [`BlockSource::has_block`].
+    #[inline]
+    fn has_block(&self, _terms: &Terms<T>, _tangent: &Tangent<'_, T>, _element: usize) -> bool {
+        true
+    }
     /// The residual of one element.
     fn write_residual(
         &self,
@@ -164,6 +183,10 @@ impl<T: Real, M: Model<T>> BlockSource<T> for System<'_, T, M> {
     #[inline]
     fn write_block(&self, element: usize, block: &mut [T]) {
         self.model.write_block(self.terms, &self.tangent, element, block);
+    }
+    #[inline]
+    fn has_block(&self, element: usize) -> bool {
+        self.model.has_block(self.terms, &self.tangent, element)
     }
     #[inline]
     fn write_residual(&self, element: usize, residual: &mut [T]) {

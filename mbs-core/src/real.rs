@@ -22,7 +22,7 @@ mod wide;
 pub use double_double::DoubleDouble;
 pub use lanes::Lanes;
 
-/// A real number type the mechanics can be computed in: `f32`, `f64`, [`DoubleDouble`].
+/// A real number type the mechanics can be computed in: `f32`, `f64`, [`DoubleDouble`], several doubles at once ([`Lanes`]).
 pub trait Real:
     Scalar
     + Copy

@@ -140,7 +140,7 @@ fn assemble<T: Real, S: BlockSource<T>>(
         }
         _ => a.fill(T::ZERO),
     }
-    for element in elements {
+    for element in elements.iter().filter(|element| source.has_block(element.source)) {
         let block = &mut block[..element.len()];
         source.write_block(element.source, block);
         part::add(a, f, element, &plan.targets, block);

@@ -100,6 +100,7 @@ impl<T: Real> EffectDraft<T> {
 /// A group being built.
 #[derive(Debug, Clone)]
 pub(crate) struct GroupDraft<T: Real> {
+    /// Whose it is; of parts that were put together, the first one's.
     pub(crate) owner: Owner,
     /// Entities with mass and their G.
     pub(crate) mass: Option<(Vec<usize>, Vec<Coef<T>>)>,

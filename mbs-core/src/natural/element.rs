@@ -2,7 +2,9 @@
 //! curvature parts of its tangent.
 
 use super::forces::Gauge;
-use super::group::{Group, add_curvature, add_mass_product, add_multiples, add_squares};
+use super::group::{
+    Group, add_curvature, add_mass_product, add_multiples, add_squares, write_square,
+};
 use super::model::NaturalModel;
 use super::reach::add_rows;
 use crate::Real;
@@ -11,8 +13,9 @@ use crate::elements::combine;
 use crate::model::{Load, Tangent, Terms};
 use alloc::vec;
 
-/// Unknowns of a group whose rows are taken as dense.
-const DENSE: usize = 8;
+/// Unknowns of a group whose rows are taken as dense, and of a mechanism whose bodies and joints are one element. The work of a dense
+/// row grows like the square of their number: at eight it is that of telling parts of two and four apart.
+pub(super) const DENSE: usize = 8;
 
 /// Unknowns of a group whose residual stands on the stack: an effect between two bodies has at most so many.
 pub(super) const ROOM: usize = 24;
@@ -47,6 +50,9 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     ) {
         let k = if K == 0 { group.clique.len() } else { K };
         let block = &mut block[..k * (k + 1) / 2];
+        if group.block.is_empty() && group.rows.is_empty() {
+            return self.write_effect_block(terms, tangent, group, (block, k));
+        }
         if group.block.is_empty() {
             block.fill(T::ZERO);
         } else {
@@ -66,9 +72,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
         if !group.measures.is_empty() {
             for measure in group.measures.of(&terms.measures) {
-                let stiffness = measure.stiffness - measure.transverse;
-                let w = tangent.stiffness * stiffness + tangent.damping * measure.damping;
-                add_squares(block, k, [jacobian], [w]);
+                add_squares(block, k, [jacobian], [tangent.weight(measure)]);
                 jacobian = &jacobian[width..];
             }
             self.add_transverse(terms, tangent, group, block);
@@ -76,6 +80,28 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         if let Some(lambda) = tangent.geometric {
             self.add_geometric(lambda, group, block);
         }
+    }
+
+    /// The block of an effect with `k` unknowns, which has neither mass nor rows: the first square is written and not added.
+    #[inline(always)]
+    fn write_effect_block(
+        &self,
+        terms: &Terms<T>,
+        tangent: &Tangent<'_, T>,
+        group: &Group,
+        (block, k): (&mut [T], usize),
+    ) {
+        let width = group.width as usize;
+        let mut gradient = &terms.jacobian[group.jacobian as usize..];
+        let [first, others @ ..] = group.measures.of(&terms.measures) else {
+            return block.fill(T::ZERO);
+        };
+        write_square(block, k, gradient, tangent.weight(first));
+        for measure in others {
+            gradient = &gradient[width..];
+            add_squares(block, k, [gradient], [tangent.weight(measure)]);
+        }
+        self.add_transverse(terms, tangent, group, block);
     }
 
     /// The residual of a group of `K` unknowns; `K` = 0: of any number, known at run time only.
@@ -122,7 +148,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         }
     }
 
-    /// Adds the residual of a group of `K` unknowns to `f`.
+    /// Adds the residual of a group of `K` unknowns to `f`; `K` = 0: of at most [`ROOM`], known at run time only.
     #[inline(always)]
     pub(super) fn add_sized_residual<const K: usize>(
         &self,
@@ -131,6 +157,12 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         group: &Group,
         f: &mut [T],
     ) {
+        if K == 0 {
+            let mut room = [T::ZERO; ROOM];
+            let residual = &mut room[..group.clique.len()];
+            self.write_sized_residual::<0>(terms, load, group, residual);
+            return self.scatter(group, residual, f);
+        }
         let mut residual = [T::ZERO; K];
         if let (None, Some(mu), true) = (load.mass, load.multipliers, load.force == T::ZERO) {
             // J^T mu alone, row by row
@@ -147,24 +179,6 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             self.write_sized_residual::<K>(terms, load, group, &mut residual);
         }
         self.scatter(group, &residual, f);
-    }
-
-    /// Adds the residual of a group of any number of unknowns up to [`ROOM`] to `f`; says whether it had room.
-    pub(super) fn add_other_residual(
-        &self,
-        terms: &Terms<T>,
-        load: &Load<'_, T>,
-        group: &Group,
-        f: &mut [T],
-    ) -> bool {
-        let is_silent = load.force == T::ZERO && group.rows.is_empty() && group.mass.is_empty();
-        let mut room = [T::ZERO; ROOM];
-        let Some(residual) = room.get_mut(..group.clique.len()) else { return false };
-        if !is_silent {
-            self.write_sized_residual::<0>(terms, load, group, residual);
-            self.scatter(group, residual, f);
-        }
-        true
     }
 
     /// f += the residual of a group.

@@ -9,6 +9,26 @@ use crate::team::Alone;
 use alloc::vec;
 use core::ops::Range;
 
+/// Calls a kernel with the number of unknowns of a group known to the compiler, where it is one that bodies, joints and effects
+/// between two bodies have most often; else with zero.
+macro_rules! sized {
+    ($k:expr, $self:ident.$kernel:ident($($argument:expr),*)) => {
+        match $k {
+            2 => $self.$kernel::<2>($($argument),*),
+            4 => $self.$kernel::<4>($($argument),*),
+            6 => $self.$kernel::<6>($($argument),*),
+            8 => $self.$kernel::<8>($($argument),*),
+            9 => $self.$kernel::<9>($($argument),*),
+            12 => $self.$kernel::<12>($($argument),*),
+            15 => $self.$kernel::<15>($($argument),*),
+            18 => $self.$kernel::<18>($($argument),*),
+            21 => $self.$kernel::<21>($($argument),*),
+            24 => $self.$kernel::<24>($($argument),*),
+            _ => $self.$kernel::<0>($($argument),*),
+        }
+    };
+}
+
 impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     fn n_extended(&self) -> usize {
         self.reference.len()
@@ -125,15 +145,16 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         block: &mut [T],
     ) {
         let group = &self.groups[element];
-        match group.clique.len() {
-            2 => self.write_sized_block::<2>(terms, tangent, group, block),
-            4 => self.write_sized_block::<4>(terms, tangent, group, block),
-            6 => self.write_sized_block::<6>(terms, tangent, group, block),
-            8 => self.write_sized_block::<8>(terms, tangent, group, block),
-            9 => self.write_sized_block::<9>(terms, tangent, group, block),
-            12 => self.write_sized_block::<12>(terms, tangent, group, block),
-            _ => self.write_sized_block::<0>(terms, tangent, group, block),
-        }
+        sized!(group.clique.len(), self.write_sized_block(terms, tangent, group, block));
+    }
+
+    #[inline]
+    fn has_block(&self, terms: &Terms<T>, tangent: &Tangent<'_, T>, element: usize) -> bool {
+        let group = &self.groups[element];
+        let has_rows = !group.rows.is_empty();
+        !group.block.is_empty()
+            || (has_rows && !(tangent.penalty.is_empty() && tangent.geometric.is_none()))
+            || group.measures.of(&terms.measures).iter().any(|m| tangent.has(m))
     }
 
     #[inline]
@@ -145,32 +166,21 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         residual: &mut [T],
     ) {
         let group = &self.groups[element];
-        match group.clique.len() {
-            2 => self.write_sized_residual::<2>(terms, load, group, residual),
-            4 => self.write_sized_residual::<4>(terms, load, group, residual),
-            6 => self.write_sized_residual::<6>(terms, load, group, residual),
-            8 => self.write_sized_residual::<8>(terms, load, group, residual),
-            9 => self.write_sized_residual::<9>(terms, load, group, residual),
-            12 => self.write_sized_residual::<12>(terms, load, group, residual),
-            _ => self.write_sized_residual::<0>(terms, load, group, residual),
-        }
+        sized!(group.clique.len(), self.write_sized_residual(terms, load, group, residual));
     }
 
     fn sum_residuals(&self, terms: &Terms<T>, load: &Load<'_, T>, f: &mut [T]) -> bool {
         f.fill(T::ZERO);
-        self.is_small
-            && self.groups.iter().all(|group| {
-                match group.clique.len() {
-                    2 => self.add_sized_residual::<2>(terms, load, group, f),
-                    4 => self.add_sized_residual::<4>(terms, load, group, f),
-                    6 => self.add_sized_residual::<6>(terms, load, group, f),
-                    8 => self.add_sized_residual::<8>(terms, load, group, f),
-                    9 => self.add_sized_residual::<9>(terms, load, group, f),
-                    12 => self.add_sized_residual::<12>(terms, load, group, f),
-                    _ => return self.add_other_residual(terms, load, group, f),
-                }
-                true
-            })
+        if !self.is_small {
+            return false;
+        }
+        for group in &self.groups {
+            if load.force == T::ZERO && group.rows.is_empty() && group.mass.is_empty() {
+                continue;
+            }
+            sized!(group.clique.len(), self.add_sized_residual(terms, load, group, f));
+        }
+        true
     }
 
     fn kinetic_energy(&self, v: &[T]) -> T {

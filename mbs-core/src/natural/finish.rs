@@ -3,7 +3,7 @@
 use super::basis::Combination;
 use super::build::Builder;
 use super::draft::{EffectDraft, GroupDraft, RowDraft};
-use super::element::ROOM;
+use super::element::{DENSE, ROOM};
 use super::forces::{BodyTorque, Gauge, MeasureElement, PointForce};
 use super::group::{Group, packed};
 use super::merge::merged;
@@ -44,11 +44,7 @@ pub(super) fn finish<T: Real, const D: usize>(
     let Builder { entities, groups, clusters, bases, shared, length, .. } = builder;
     let owners = owners(&groups, &entities);
     let groups = merged(groups, &entities, D);
-    let mut layout = Layout::<T, D>::new(entities, &groups, (clusters, length), actions);
-    for (e, owner) in owners {
-        let at = layout.model.entity_at[e] as usize / D;
-        layout.model.unknown_owner[at] = owner;
-    }
+    let mut layout = Layout::<T, D>::new((entities, &owners), &groups, (clusters, length), actions);
     for group in layout.near_their_bodies(&groups) {
         layout.add(group);
     }
@@ -89,7 +85,7 @@ impl Columns<'_> {
 impl<T: Real, const D: usize> Layout<T, D> {
     /// Unknown entities first, in the order in which the groups use them, then constants.
     fn new(
-        entities: Vec<Entity<T>>,
+        (entities, owners): (Vec<Entity<T>>, &[Owner]),
         groups: &[GroupDraft<T>],
         (clusters, length): (Clusters<T>, T),
         actions: Actions<T>,
@@ -101,7 +97,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 if entity_at[e] == u32::MAX {
                     entity_at[e] = index(order.len() * D);
                     order.push(e);
-                    unknown_owner.push(group.owner);
+                    unknown_owner.push(owners[e]);
                 }
             }
         }
@@ -433,25 +429,23 @@ impl<T: Real, const D: usize> Layout<T, D> {
     }
 }
 
-/// The unknown entities with the owner of the first group that uses each, before groups are put together.
-fn owners<T: Real>(groups: &[GroupDraft<T>], entities: &[Entity<T>]) -> Vec<(usize, Owner)> {
-    let mut is_seen = vec![false; entities.len()];
-    let mut owners = Vec::new();
+/// The owner of the first group that uses each entity, before groups are put together; anything for one that none uses.
+fn owners<T: Real>(groups: &[GroupDraft<T>], entities: &[Entity<T>]) -> Vec<Owner> {
+    let mut owners = vec![None; entities.len()];
     for group in groups {
-        for e in group.slots(entities).into_iter().filter(|&e| !entities[e].is_constant) {
-            if !core::mem::replace(&mut is_seen[e], true) {
-                owners.push((e, group.owner));
-            }
+        for e in group.slots(entities) {
+            owners[e].get_or_insert(group.owner);
         }
     }
-    owners
+    owners.into_iter().map(|owner| owner.unwrap_or(Owner::Body(0))).collect()
 }
 
 /// Is there one group, of all unknowns in their order, with rows that are taken as dense?
 fn is_whole<T: Real, const D: usize>(model: &NaturalModel<T, D>) -> bool {
     let [group] = &model.groups[..] else { return false };
     let clique = group.clique.of(&model.cliques);
-    matches!(clique.len(), 2 | 4 | 6 | 8)
+    clique.len() <= DENSE
+        && clique.len().is_multiple_of(2)
         && clique.len() == model.n_unknowns
         && clique.iter().enumerate().all(|(k, &u)| k == u as usize)
 }

@@ -35,7 +35,7 @@ pub(crate) struct Group {
     pub(crate) measures: Span,
     /// Are its measures those of a law on one body?
     pub(crate) has_body_law: bool,
-    /// Whose it is.
+    /// Whose it is; of bodies and joints that were put together, the first one's.
     pub(crate) owner: Owner,
 }
 
@@ -101,6 +101,21 @@ pub(crate) fn add_squares<T: Real, const R: usize>(
                 sum += g[r][i] * t[r];
             }
             column[i] = sum;
+        }
+    }
+}
+
+/// block = w g g^T for the first k entries of g.
+#[inline(always)]
+pub(crate) fn write_square<T: Real>(block: &mut [T], k: usize, g: &[T], w: T) {
+    let g = &g[..k];
+    let mut rest = block;
+    for c in 0..k {
+        let (column, next) = rest.split_at_mut(k - c);
+        rest = next;
+        let (g, t) = (&g[c..], g[c] * w);
+        for i in 0..k - c {
+            column[i] = g[i] * t;
         }
     }
 }

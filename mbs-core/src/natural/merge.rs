@@ -2,15 +2,12 @@
 //! blocks of its parts are told apart.
 
 use super::draft::GroupDraft;
+use super::element::DENSE;
 use super::sharing::Entity;
 use crate::Real;
 use crate::algebra::Coef;
 use alloc::vec;
 use alloc::vec::Vec;
-
-/// Unknowns of a mechanism whose bodies and joints are one element. The work of a dense row grows like the square of their number:
-/// at eight it is that of telling parts of two and four apart.
-const MOST: usize = 8;
 
 /// Puts the groups of bodies and joints of a small mechanism together; effects stay what they are.
 pub(super) fn merged<T: Real>(
@@ -23,7 +20,7 @@ pub(super) fn merged<T: Real>(
         if !entities[e].is_constant && !unknown.contains(&e) {
             unknown.push(e);
         }
-        if unknown.len() * dimension > MOST {
+        if unknown.len() * dimension > DENSE {
             return groups;
         }
     }

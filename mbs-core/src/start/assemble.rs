@@ -300,11 +300,11 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
     }
 
     fn largest_position(&self) -> T {
-        norm_inf(&self.problem.terms.phi).max(norm_inf(&self.problem.residuals))
+        norm_inf(&[norm_inf(&self.problem.terms.phi), norm_inf(&self.problem.residuals)])
     }
 
     fn worst(&self) -> T {
-        norm_inf(&self.rates).max(norm_inf(&self.problem.residuals))
+        norm_inf(&[norm_inf(&self.rates), norm_inf(&self.problem.residuals)])
     }
 
     /// f = W^-1 of the residual.
