@@ -141,7 +141,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         }
 
         // f = M a/a' + J^T (s phi + lambda/a') - Q/a'   [P3 (9)]
-        if is_kept && pace.has_share() {
+        if is_kept && pace.is_balanced {
             w.balance_nearby(model, inverse);
         } else {
             set_sum(model.team(), &mut w.mu, &w.lambda, (&w.penalty, &w.terms.phi));
@@ -150,7 +150,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
 
         // T d = -f,   q += d,   v += v' d,   a += a' d   [P3 (8), (4), (5)]
         w.solve();
-        if pace.has_share() {
+        if pace.is_balanced {
             w.take_multipliers(model);
         }
         correct(model, rule, s, w);
@@ -160,7 +160,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         }
 
         // lambda <- lambda + alpha phi   [P3 (2)]
-        if !pace.has_share() {
+        if !pace.is_balanced {
             add_product(model.team(), &mut w.lambda, (&w.penalty, &w.terms.phi));
         }
 

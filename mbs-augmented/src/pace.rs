@@ -17,9 +17,10 @@ use mbs_core::integrator::Rule;
 use mbs_core::model::Model;
 use mbs_core::{Real, SpdSolver};
 
-/// Where effects act, a factor is kept while corrections shrink to this share or less: a new one costs two iterations.
+/// A factor is kept while corrections shrink to this share or less, where a share of the first may be left: a new one costs two
+/// iterations.
 const REUSE: f64 = 0.2;
-/// The same where the tolerance alone ends the iteration.
+/// The same where the tolerance alone ends the iteration: a new factor takes in nearly all of what constraints alone leave.
 const FAST: f64 = 1e-3;
 /// The next correction is taken to be no less than this share of the last, however much that shrank.
 const SLOWEST: f64 = 0.1;
@@ -27,6 +28,8 @@ const SLOWEST: f64 = 0.1;
 /// What is known of the iteration of a step.
 #[derive(Debug)]
 pub(crate) struct Pace<T> {
+    /// Do multipliers grow by what a correction is in balance with, and not as printed?
+    pub(crate) is_balanced: bool,
     /// What may be left of the first correction [-]; zero where the tolerance alone ends the iteration.
     share: T,
     /// The first correction, and the last two [m].
@@ -39,13 +42,12 @@ pub(crate) struct Pace<T> {
 impl<T: Real> Pace<T> {
     /// Before the first correction.
     ///
-    /// The tolerance alone ends the iteration where constraints act alone: a new factor takes in all of them, and first corrections go
-    /// mostly across the motion, so that shares of them tell nothing of the error along it. So it does with a fixed alpha, of which it
-    /// is not known what it is in effective masses.
+    /// The tolerance alone ends the iteration where constraints act alone: first corrections go mostly across the motion there, so that
+    /// shares of them tell nothing of the error along it. So it does with a fixed alpha, with which multipliers grow as printed.
     pub(crate) fn new<M: Model<T>>(model: &M, options: &Options<T>) -> Self {
-        let is_scaled = matches!(options.penalty, Penalty::Scaled(_));
-        let share = if is_scaled && model.has_forces() { options.share } else { T::ZERO };
-        Self { share, first: T::ZERO, corrections: [T::ZERO; 2], since: T::ZERO }
+        let is_balanced = matches!(options.penalty, Penalty::Scaled(_));
+        let share = if is_balanced && model.has_forces() { options.share } else { T::ZERO };
+        Self { is_balanced, share, first: T::ZERO, corrections: [T::ZERO; 2], since: T::ZERO }
     }
 
     /// The last correction [m].
@@ -68,11 +70,6 @@ impl<T: Real> Pace<T> {
         last > T::ZERO && correction * shrinking <= self.first * self.share
     }
 
-    /// Is there a share of the first correction that may be left? A kept factor then has a residual with its own rows.
-    pub(crate) fn has_share(&self) -> bool {
-        self.share > T::ZERO
-    }
-
     /// May the next correction be made with the factor there is? It is one of the matrix as it was while laws are like those that were
     /// factored; rows that have turned since cost little, for its residual takes s phi by the rows that it was made with.
     pub(crate) fn keeps_factor<S>(&self, rule: &Rule<T>, w: &Workspace<T, S>) -> bool
@@ -83,11 +80,10 @@ impl<T: Real> Pace<T> {
         if last == T::ZERO {
             return false;
         }
-        let (is_first, shrinking) = (before == T::ZERO, last / before);
-        if self.has_share() {
-            (is_first || shrinking <= T::from_f64(REUSE)) && w.has_like_laws(rule)
-        } else {
-            !is_first && shrinking <= T::from_f64(FAST)
+        if before == T::ZERO {
+            return self.is_balanced && w.has_like_laws(rule);
         }
+        let most = T::from_f64(if self.share > T::ZERO { REUSE } else { FAST });
+        last <= before * most && (!self.is_balanced || w.has_like_laws(rule))
     }
 }
