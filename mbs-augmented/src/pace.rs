@@ -11,7 +11,7 @@
 //! correction is in balance with, and not by s phi after it [P3 (2)]: that has the square of the correction in it, which the next
 //! correction would have to take back while s phi asks for it once more, and once the rows have turned it acts along the motion.
 
-use crate::options::{Options, Penalty};
+use crate::options::{Options, Penalty, Projection};
 use crate::workspace::Workspace;
 use mbs_core::integrator::Rule;
 use mbs_core::model::Model;
@@ -43,9 +43,11 @@ impl<T: Real> Pace<T> {
     /// Before the first correction.
     ///
     /// The tolerance alone ends the iteration where constraints act alone: first corrections go mostly across the motion there, so that
-    /// shares of them tell nothing of the error along it. So it does with a fixed alpha, with which multipliers grow as printed.
+    /// shares of them tell nothing of the error along it. So it does with a fixed alpha and with printed projections, which take the tangent as
+    /// the iteration leaves it; multipliers then grow as printed.
     pub(crate) fn new<M: Model<T>>(model: &M, options: &Options<T>) -> Self {
-        let is_balanced = matches!(options.penalty, Penalty::Scaled(_));
+        let is_balanced = matches!(options.penalty, Penalty::Scaled(_))
+            && options.projection == Projection::Correction;
         let share = if is_balanced && model.has_forces() { options.share } else { T::ZERO };
         Self { is_balanced, share, first: T::ZERO, corrections: [T::ZERO; 2], since: T::ZERO }
     }

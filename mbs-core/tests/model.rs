@@ -402,3 +402,19 @@ fn remembered_angles_are_found_where_effects_act_along_a_chain() {
     let owners: Vec<_> = model.remembered().map(|(owner, _)| owner).collect();
     assert_eq!(owners, (0..4).map(mbs_core::model::Owner::Effect).collect::<Vec<_>>());
 }
+
+/// The bodies of a small mechanism are one element: its unknowns and rows still belong to the bodies and joints that brought them.
+#[test]
+fn unknowns_of_a_small_mechanism_belong_to_their_bodies() {
+    use mbs_core::model::Owner::Body;
+    let text = "[scene]\nname = \"two rods\"\ndimension = 2\nduration = 1.0\n\
+        [[body]]\nname = \"upper\"\nrod = { from = [0.0, 0.0], to = [1.0, 0.0] }\nmass = 1.0\n\
+        [[body]]\nname = \"lower\"\nrod = { from = [1.0, 0.0], to = [2.0, 0.0] }\nmass = 1.0\n\
+        [[joint]]\nname = \"pin\"\nkind = \"revolute\"\nbodies = [\"ground\", \"upper\"]\nat = [0.0, 0.0]\n\
+        [[joint]]\nname = \"knee\"\nkind = \"revolute\"\nbodies = [\"upper\", \"lower\"]\nat = [1.0, 0.0]\n";
+    let model: NaturalModel<f64, 2> = common::model(&common::scene(text));
+    assert_eq!(model.n_elements(), 1);
+    let unknowns: Vec<_> = (0..4).map(|u| model.owner_of_unknown(u)).collect();
+    assert_eq!(unknowns, [Body(0), Body(0), Body(1), Body(1)]);
+    assert_eq!([0, 1].map(|row| model.owner_of_row(row)), [Body(0), Body(1)]);
+}
