@@ -9,8 +9,8 @@
 //!
 //! Differs from the source: unknowns are increments; s is in proportion to the mass, so that conditioning does not depend on the
 //! step; the start value of lambda is filtered, lambda <- s J T^-1 J^T lambda, where the constraints do not feel all of it; projections are
-//! in correction form, by one sweep where nothing but constraints acts; where effects act a factor is kept while laws are like those
-//! that were factored, with its own rows J' beside s phi, lambda <- lambda + s (phi + J' d), and a share of the first correction may be
+//! in correction form, by one sweep where nothing but constraints acts; a factor is kept while laws are like those that were factored,
+//! with its own rows J' beside s phi and lambda <- lambda + s (phi + J' d); where effects act a share of the first correction may be
 //! left. The printed forms are options.
 
 use crate::options::{Multipliers, Options, Penalty, Projection};
@@ -270,14 +270,9 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
     if is_taken_back {
         w.scale_penalties(T::ONE / raised);
     }
-    // With rows of now and a factor that has others, s times their turn of a violation would go along free directions.
-    let turn = since / length;
-    let is_turned = if is_nearby {
-        turn > T::from_f64(1e-7)
-    } else {
-        turn * w.base * w.boost > T::from_f64(1e-6)
-    };
-    let is_stale = is_taken_back || is_turned;
+    // With rows of now and a factor that has others, s times their turn of a violation would go along free directions; with a factor that
+    // has stiffness and damping, what their share of the mass is.
+    let is_stale = is_taken_back || !is_nearby || since > length * T::from_f64(1e-7);
     if options.projection == Projection::Correction && is_stale {
         if is_nearby {
             factor(model, rule, options, w)?;
@@ -326,7 +321,8 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
 
 /// sigma <- sigma - s J T^-1 (M a + J^T (lambda + sigma) - Q): multipliers in balance with the projected accelerations.
 ///
-/// alpha times the rounding of phi stands in lambda (4e-4 N for 1 kg at 1 ms), and with it in the power of guides.
+/// What the last correction left stands in lambda, and with it in the power of guides; where multipliers grow as printed, alpha times the
+/// rounding of phi (4e-4 N for 1 kg at 1 ms).
 fn balance<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     rule: &Rule<T>,

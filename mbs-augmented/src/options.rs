@@ -14,7 +14,8 @@ pub struct Options<T> {
     /// A correction below this times what accelerations move in a step is small; in index-1, times the accelerations [-].
     pub tolerance: T,
     /// Where effects act, what a correction of index-3 leaves, taken to be a tenth of it at least, is small too where it is below this
-    /// share of the step's first one, which is three times what the trapezoidal rule errs by in the step; zero: the tolerance alone [-].
+    /// share of the step's first one, which is three times what the trapezoidal rule errs by in the step; zero, and with a fixed alpha or
+    /// printed projections: the tolerance alone [-].
     pub share: T,
     /// Iterations allowed in one step.
     pub max_iterations: u32,

@@ -275,8 +275,9 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.boost *= factor;
     }
 
-    /// x += k d, sigma += k s (J x + b), and the violation with them, for the last sweep, after which x, sigma and d are in balance,
-    /// M d + J^T s (J x + b) = 0. Needs the violation before it in `mu`. Returns the violation left.
+    /// x += k d, sigma += k s (J x + b), and the violation with them, for the last sweep: with the factor of W, and in balance before it, they
+    /// are in balance, M d + J^T s (J x + b) = 0, and stay so. With a nearby factor what is off grows by 1 + k in a first sweep, and what a
+    /// later one found stays by k. Needs the violation before it in `mu`. Returns the violation left.
     fn lengthen_last<M: Model<T>>(&mut self, model: &M, level: Level) -> T {
         let rates = &self.rates;
         on_stretches(model.team(), [&mut self.mu], |first, [mu]| {

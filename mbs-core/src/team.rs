@@ -137,6 +137,7 @@ fn write_elements<W: Team, T: Send>(
 }
 
 /// out = base + weight x, entry by entry.
+#[inline]
 pub fn set_sum<W: Team, T: Real>(team: &W, out: &mut [T], base: &[T], (weight, x): (&[T], &[T])) {
     on_stretches(team, [out], |first, [out]| {
         let n = out.len();
@@ -148,6 +149,7 @@ pub fn set_sum<W: Team, T: Real>(team: &W, out: &mut [T], base: &[T], (weight, x
 }
 
 /// out += weight x, entry by entry.
+#[inline]
 pub fn add_product<W: Team, T: Real>(team: &W, out: &mut [T], (weight, x): (&[T], &[T])) {
     on_stretches(team, [out], |first, [out]| {
         let n = out.len();
@@ -159,6 +161,7 @@ pub fn add_product<W: Team, T: Real>(team: &W, out: &mut [T], (weight, x): (&[T]
 }
 
 /// out = weight x, entry by entry.
+#[inline]
 pub fn set_product<W: Team, T: Real>(team: &W, out: &mut [T], (weight, x): (&[T], &[T])) {
     on_stretches(team, [out], |first, [out]| {
         let n = out.len();
@@ -170,6 +173,7 @@ pub fn set_product<W: Team, T: Real>(team: &W, out: &mut [T], (weight, x): (&[T]
 }
 
 /// out += x, entry by entry.
+#[inline]
 pub fn add<W: Team, T: Real>(team: &W, out: &mut [T], x: &[T]) {
     on_stretches(team, [out], |first, [out]| {
         for (out, &x) in out.iter_mut().zip(&x[first..]) {
@@ -188,11 +192,16 @@ pub fn subtract<W: Team, T: Real>(team: &W, out: &mut [T], x: &[T]) {
 }
 
 /// The sum of `part(from, to)` over stretches of 0..`n`, added pair by pair: the same bits for every team.
+#[inline]
 pub fn sum<W: Team, T: Real>(team: &W, n: usize, part: impl Fn(usize, usize) -> T + Sync) -> T {
+    if n <= STRETCH {
+        return part(0, n);
+    }
     fold(team, (0, n), &part, &|a, b| a + b)
 }
 
 /// The largest absolute value of a vector; not finite when one of its numbers is not. The same for every team.
+#[inline]
 pub fn norm_inf<W: Team, T: Real>(team: &W, x: &[T]) -> T {
     if team.size() == 1 {
         return crate::algebra::norm_inf(x);

@@ -312,3 +312,34 @@ fn what_acts_between_two_bodies_does_no_work_when_they_move_as_one() {
     }
     for_every_effect!(check);
 }
+
+/// An element that says it has no block is left out by solvers: whatever the weights, what it would write is zero.
+#[test]
+fn elements_without_a_block_would_write_zeros() {
+    fn check<const D: usize>(what: &str, _: &EffectKind<f64>, scene: &Scene<f64>) {
+        let at = At::<D>::new(scene, 7, [0.2, 1.0]);
+        let m = at.model.n_constraints();
+        let (rows, lambda) = (vec![3.0; m], vec![2.0; m]);
+        let mut n_silent = 0;
+        for (penalty, geometric) in
+            [(&rows[..], None), (&[], None), (&[], Some(&lambda[..])), (&rows, Some(&lambda))]
+        {
+            for [stiffness, damping] in [[0.0, 0.0], [0.7, 0.0], [0.0, 0.3], [0.7, 0.3]] {
+                let tangent = Tangent { stiffness, damping, penalty, geometric };
+                for e in 0..at.model.n_elements() {
+                    if at.model.has_block(&at.terms, &tangent, e) {
+                        continue;
+                    }
+                    let k = at.model.clique(e).len();
+                    let mut block = vec![f64::NAN; k * (k + 1) / 2];
+                    at.model.write_block(&at.terms, &tangent, e, &mut block);
+                    assert!(block.iter().all(|x| *x == 0.0), "{what}, {D}, element {e}: {block:?}");
+                    n_silent += 1;
+                }
+            }
+        }
+        // Without weights no effect is in the matrix, and these scenes have one.
+        assert!(n_silent > 0, "{what}, {D}");
+    }
+    for_every_effect!(check);
+}

@@ -12,8 +12,8 @@ use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::laws::scalar::{Law, Measure};
 
-/// Less than any length [m], and its inverse a number in every precision.
-const NO_LENGTH: f64 = 1e-30;
+/// Less than any length [m]; above it squares are numbers in every precision.
+const NO_LENGTH: f64 = 1e-18;
 
 /// What a law measures; points from their links' origins, reference axes.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -122,9 +122,12 @@ impl Frame<'_> {
 }
 
 /// Functions of what their files share.
-const BLOCKS: [&str; 7] = [
+const BLOCKS: [&str; 10] = [
     "write_block",
     "write_sized_block",
+    "write_effect_block",
+    "write_square",
+    "has_block",
     "add_transverse",
     "add_geometric",
     "add_pairs",
@@ -140,7 +143,17 @@ const RESIDUALS: [&str; 6] = [
     "add_multiples",
 ];
 const SWEEPS: [&str; 6] = ["visit", "solve", "forward", "forward_all", "backward", "backward_all"];
-const PROJECTIONS: [&str; 6] = ["violation", "project", "project_on", "begin", "sweep", "take"];
+const PROJECTIONS: [&str; 9] = [
+    "violation",
+    "project",
+    "project_on",
+    "begin",
+    "sweep",
+    "take",
+    "best_length",
+    "lengthen",
+    "lengthen_last",
+];
 
 /// The chains of functions at addresses, as `addr2line -a -f -i -C` tells them: innermost first.
 pub(crate) fn chains(told: &str) -> BTreeMap<u64, Vec<Frame<'_>>> {
