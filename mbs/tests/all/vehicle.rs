@@ -232,7 +232,7 @@ fn formulations_agree_on_the_ramp_of_the_stairs() {
 /// in each of hundreds of steps: nanometres. A projection that is not orthogonal in the mass adds what grows to centimetres.
 #[test]
 fn a_vehicle_that_is_the_same_on_both_sides_stays_in_its_plane() {
-    for name in ["iltis-stairs", "iltis-jump"] {
+    for name in ["iltis-stairs", "iltis-jump", "iltis-stairs-stiff"] {
         let scene = common::scene(name);
         let index3 = Overrides { formulation: Some("index-3".to_owned()), ..Overrides::default() };
         let settings = Settings::new(&scene, &index3).expect("the settings are built");

@@ -70,14 +70,19 @@ fn read(mut points: Vec<[f64; 2]>, digits: f64) -> Option<f64> {
     None
 }
 
-/// The fastest of ours in the plane or in space and the fastest peer at so many digits, and the median of the turns' ratios.
-pub(super) fn against(
-    solvers: &[Solver],
+/// The fastest of ours in the plane or in space and the fastest of the peers with `name` in their names at so many digits, and the median
+/// of the turns' ratios.
+pub(super) fn against<'a>(
+    solvers: &'a [Solver],
     digits: u8,
     is_spatial: bool,
-) -> Option<(&Solver, &Solver, f64)> {
+    name: &str,
+) -> Option<(&'a Solver, &'a Solver, f64)> {
     let fastest = |is_ours: bool| {
-        let counts = |s: &&Solver| s.is_ours == is_ours && (!is_ours || s.is_spatial == is_spatial);
+        let counts = |s: &&Solver| {
+            let is_meant = if is_ours { s.is_spatial == is_spatial } else { s.name.contains(name) };
+            s.is_ours == is_ours && is_meant
+        };
         let of = solvers.iter().filter(counts).filter(|s| s.time(digits).is_some());
         of.min_by(|a, b| {
             a.time(digits).partial_cmp(&b.time(digits)).unwrap_or(std::cmp::Ordering::Equal)

@@ -45,6 +45,10 @@ impl Problem {
 /// Right digits at which times are compared.
 pub(super) const DIGITS: std::ops::RangeInclusive<u8> = 3..=9;
 
+/// Solvers of differential-algebraic equations, which mbs is to leave further behind, and the limit for these.
+pub(super) const ALGEBRAIC: [&str; 2] = ["RADAU5", "IDA"];
+pub(super) const LIMIT_ALGEBRAIC: f64 = 0.5;
+
 /// The limit at so many digits: high order pays from six on.
 pub(super) fn limit_at(digits: u8) -> f64 {
     if digits < 6 { 1.3 } else { 1.0 }

@@ -2,7 +2,7 @@
 
 use super::digits::{against, solvers};
 use super::lanes::{Lane, Measured};
-use super::problems::{DIGITS, Kind, limit_at};
+use super::problems::{ALGEBRAIC, DIGITS, Kind, LIMIT_ALGEBRAIC, limit_at};
 use super::programs::Who;
 use crate::lab::section::Section;
 use crate::tell::{error, paragraph, ratio};
@@ -23,8 +23,18 @@ const HEAD: [&str; 10] = [
     "in space",
     "limit",
 ];
-const DIGITS_HEAD: [&str; 8] =
-    ["right digits", "mbs", "time", "peer", "its time", "ratio", "in space", "limit"];
+const DIGITS_HEAD: [&str; 10] = [
+    "right digits",
+    "mbs",
+    "time",
+    "peer",
+    "its time",
+    "ratio",
+    "in space",
+    "limit",
+    "over RADAU5",
+    "over IDA",
+];
 const ALL_HEAD: [&str; 5] = ["problem", "program", "time", "error", "right digits"];
 
 /// A time with three digits and its unit.
@@ -69,10 +79,13 @@ fn beside(measured: &[Measured]) -> Table {
 fn at_digits(measured: &Measured) -> Table {
     let solvers = solvers(measured);
     let row = |digits: u8| {
-        let Some((ours, peer, quotient)) = against(&solvers, digits, false) else {
+        let Some((ours, peer, quotient)) = against(&solvers, digits, false, "") else {
             return vec![digits.to_string(), "mbs or every peer does not reach them".to_owned()];
         };
-        let in_space = against(&solvers, digits, true).map(|(_, _, quotient)| quotient);
+        let over = |is_spatial, name| {
+            told_ratio(against(&solvers, digits, is_spatial, name).map(|(_, _, quotient)| quotient))
+        };
+        let [radau, ida] = ALGEBRAIC.map(|name| over(false, name));
         let took = |x: Option<f64>| x.map_or_else(String::new, time);
         vec![
             digits.to_string(),
@@ -81,8 +94,10 @@ fn at_digits(measured: &Measured) -> Table {
             peer.name.clone(),
             took(peer.time(digits)),
             ratio(quotient),
-            told_ratio(in_space),
+            over(true, ""),
             ratio(limit_at(digits)),
+            radau,
+            ida,
         ]
     };
     (DIGITS_HEAD.to_vec(), DIGITS.map(row).collect())
@@ -134,6 +149,7 @@ pub(super) fn sections(measured: &[Measured]) -> Vec<Section> {
         let mut section = Section::new("digits", m.problem.title);
         let (head, rows) = at_digits(m);
         section.table(&head, rows);
+        claims_at_digits(&mut section, m);
         told.push(section);
     }
     let mut section = Section::new("programs", "The programs");
@@ -156,6 +172,23 @@ fn claims(section: &mut Section, measured: &[Measured]) {
     }
     for lane in measured.iter().flat_map(Measured::wrong) {
         section.claim(format!("{} is exact", lane.told()), told_error(lane), Some(false));
+    }
+}
+
+/// What is wanted at equal digits, and whether it holds where both reach them.
+fn claims_at_digits(section: &mut Section, measured: &Measured) {
+    let solvers = solvers(measured);
+    let mut claim = |digits: u8, name: &str, limit: f64| {
+        let Some((ours, peer, quotient)) = against(&solvers, digits, false, name) else { return };
+        let what =
+            format!("{digits} digits, {} over {}: at most {}", ours.name, peer.name, ratio(limit));
+        section.claim(what, ratio(quotient), Some(quotient <= limit));
+    };
+    for digits in DIGITS {
+        claim(digits, "", limit_at(digits));
+        for name in ALGEBRAIC {
+            claim(digits, name, LIMIT_ALGEBRAIC);
+        }
     }
 }
 
