@@ -202,7 +202,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     }
 }
 
-/// rates = J x of a group of all `K` unknowns in their order, an even number: two sums side by side.
+/// rates = J x of a group of all `K` unknowns in their order, summed one by one: two sums side by side are a hundredth of a step
+/// faster on `two-four-bars`, and drift by half more in ten million steps of 1e-6 s.
 #[inline(always)]
 fn multiply_dense<T: Real, const K: usize>(
     group: &Group,
@@ -214,12 +215,11 @@ fn multiply_dense<T: Real, const K: usize>(
     let mut rows = &terms.jacobian[group.jacobian as usize..];
     for rate in rates {
         let g = &rows[..K];
-        let (mut even, mut odd) = (T::ZERO, T::ZERO);
-        for i in 0..K / 2 {
-            even += g[2 * i] * x[2 * i];
-            odd += g[2 * i + 1] * x[2 * i + 1];
+        let mut sum = T::ZERO;
+        for i in 0..K {
+            sum += g[i] * x[i];
         }
-        *rate = even + odd;
+        *rate = sum;
         rows = &rows[width..];
     }
 }
