@@ -113,22 +113,3 @@ fn one_lane_with_an_angle_that_is_no_number_refuses_all() {
     let done = wide.accelerate(&Options::default(), &mut state, &mut Workspace::new(&wide));
     assert!(done.is_err(), "an angle that is no number");
 }
-
-/// A spring whose ends meet in one lane has no direction there, and its own in the other.
-#[test]
-fn a_length_of_zero_in_one_lane_leaves_the_others_alone() {
-    let text = "[scene]\nname = \"slider\"\ndimension = 2\nduration = 1.0\n\
-        [[body]]\nname = \"mass\"\nmass = 1.0\ncenter = [0.0, 0.0]\ninertia = 0.1\n\
-        [[joint]]\nname = \"rail\"\nkind = \"prismatic\"\nbodies = [\"ground\", \"mass\"]\nat = [0.0, 0.0]\naxis = [1.0, 0.0]\n\
-        [[effect]]\nname = \"spring\"\nkind = \"spring-damper\"\nbodies = [\"ground\", \"mass\"]\n\
-        points = [[0.0, 0.0], [0.0, 0.0]]\nstiffness = 8.0\ndamping = 0.0\nfree_length = 0.0\n";
-    let document = mbs_scene::Document::parse(text, "slider").expect("a document");
-    let scene: Scene<Lanes<2>> = document.scene().expect("a scene");
-    let wide = TreeModel::<Lanes<2>, Planar>::in_lanes(&scene).expect("a tree");
-    let mut state = TreeState::at_rest(&wide);
-    state.set_lane(0, &[0.0], &[0.0]);
-    state.set_lane(1, &[0.25], &[0.0]);
-    wide.accelerate(&Options::default(), &mut state, &mut Workspace::new(&wide)).expect("regular");
-    // mass 1 kg, stiffness 8 N/m, 0.25 m
-    assert_eq!(state.a[0].0.map(|a| (a + 0.0).to_bits()), [0.0, -2.0].map(f64::to_bits));
-}

@@ -12,9 +12,6 @@ use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::laws::scalar::{Law, Measure};
 
-/// Less than any length [m]; above it squares are numbers in every precision.
-const NO_LENGTH: f64 = 1e-18;
-
 /// What a law measures; points from their links' origins, reference axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Gauge<T: Real, S: Space<T>> {
@@ -51,8 +48,8 @@ impl<T: Real, S: Space<T>> Gauge<T, S> {
             Self::Length { points } => {
                 let (arms, gap) = between(at, links, points)?;
                 let value = gap.dot(&gap).sqrt();
-                // At length zero the line has no direction: the gap is zero then. Not by a branch, for lanes go different ways.
-                let n = gap * (T::ONE / value.max(T::from_f64(NO_LENGTH)));
+                // At length zero the line has no direction.
+                let n = if value > T::ZERO { gap * (T::ONE / value) } else { S::Point::zero() };
                 (value, [-S::wrench(&arms[0], &n), S::wrench(&arms[1], &n)])
             }
             Self::Along { points, direction, offset } => {
