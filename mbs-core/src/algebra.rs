@@ -157,25 +157,18 @@ pub(crate) fn along<T: Real>(x: &Vector<T, 3>) -> Vector<T, 3> {
     x * (T::ONE / norm(&x))
 }
 
-/// Largest absolute value of a slice; not a number when one of its numbers is not finite.
+/// Largest absolute value of a slice; not finite when one of its numbers is not. Without arithmetic: bounds of operations count it.
 #[inline]
 pub fn norm_inf<T: Real>(x: &[T]) -> T {
-    // Zero times a number that is not finite is not a number.
-    let (mut largest, mut probe) = ([T::ZERO; 2], [T::ZERO; 2]);
-    let (pairs, rest) = x.as_chunks::<2>();
-    for pair in pairs {
-        for k in 0..2 {
-            let size = pair[k].abs();
-            largest[k] = largest[k].max(size);
-            probe[k] += size * T::ZERO;
+    let mut largest = T::ZERO;
+    for &xi in x {
+        let size = xi.abs();
+        // A NaN is taken, and then nothing is larger.
+        if size > largest || !(size >= T::ZERO) {
+            largest = size;
         }
     }
-    for x in rest {
-        largest[0] = largest[0].max(x.abs());
-        probe[0] += *x * T::ZERO;
-    }
-    let probe = probe[0] + probe[1];
-    if probe.is_zero() { largest[0].max(largest[1]) } else { probe }
+    largest
 }
 
 /// a x b.
