@@ -14,7 +14,7 @@ use crate::workspace::{Mass, Workspace};
 use core::mem::swap;
 use mbs_core::model::Model;
 use mbs_core::step::StepError;
-use mbs_core::team::{add, add_product, on_stretches, set_product};
+use mbs_core::team::{add, add_product, on_stretches, set_product, subtract};
 use mbs_core::{Real, SpdSolver};
 
 /// Of a violation may be left, in EPSILON of what it stands beside: of velocities, and of accelerations, which enter the motion times
@@ -89,20 +89,14 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.assemble(model, Mass::Acceleration, force);
         self.dq_predicted[..n].copy_from_slice(&self.f);
         set_product(model.team(), &mut self.mu, (&self.penalty, &self.terms.phi));
-        swap(&mut self.terms.jacobian, &mut self.factored);
-        self.assemble(model, Mass::None, T::ZERO);
-        swap(&mut self.terms.jacobian, &mut self.factored);
+        self.assemble_factored(model);
         add(model.team(), &mut self.f, &self.dq_predicted);
     }
 
     /// lambda <- lambda + s (phi + J' d) with d = -f: the multipliers that are in balance with the correction. Cost: a product of the
     /// Jacobian.
     pub(crate) fn take_multipliers<M: Model<T>>(&mut self, model: &M) {
-        let n = self.f.len();
-        self.change[..n].copy_from_slice(&self.f);
-        swap(&mut self.terms.jacobian, &mut self.factored);
-        model.multiply_jacobian(&self.terms, &self.change, &mut self.mu);
-        swap(&mut self.terms.jacobian, &mut self.factored);
+        self.multiply_factored(model);
         let (penalty, phi, mu) = (&self.penalty, &self.terms.phi, &self.mu);
         on_stretches(model.team(), [&mut self.lambda], |first, [lambda]| {
             for (i, lambda) in lambda.iter_mut().enumerate() {
@@ -112,24 +106,36 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         });
     }
 
-    fn sweep_nearby<M: Model<T>>(&mut self, model: &M, level: Level) {
-        set_product(model.team(), &mut self.mu, (&self.penalty, &self.rates));
+    /// f = J'^T mu with the rows of the factor.
+    fn assemble_factored<M: Model<T>>(&mut self, model: &M) {
         swap(&mut self.terms.jacobian, &mut self.factored);
         self.assemble(model, Mass::None, T::ZERO);
+        swap(&mut self.terms.jacobian, &mut self.factored);
+    }
+
+    /// mu = J' f with the rows of the factor.
+    fn multiply_factored<M: Model<T>>(&mut self, model: &M) {
+        swap(&mut self.terms.jacobian, &mut self.factored);
+        self.multiply_correction(model);
+        swap(&mut self.terms.jacobian, &mut self.factored);
+    }
+
+    /// mu = J f.
+    fn multiply_correction<M: Model<T>>(&mut self, model: &M) {
+        let n = self.f.len();
+        self.dq_predicted[..n].copy_from_slice(&self.f);
+        model.multiply_jacobian(&self.terms, &self.dq_predicted, &mut self.mu);
+    }
+
+    fn sweep_nearby<M: Model<T>>(&mut self, model: &M, level: Level) {
+        set_product(model.team(), &mut self.mu, (&self.penalty, &self.rates));
+        self.assemble_factored(model);
         self.solve();
         if level == Level::Acceleration {
-            let n = self.f.len();
-            self.dq_predicted[..n].copy_from_slice(&self.f);
-            model.multiply_jacobian(&self.terms, &self.dq_predicted, &mut self.mu);
-            let (mu, rates) = (&self.mu, &mut self.rates);
-            on_stretches(model.team(), [rates], |first, [rates]| {
-                for k in 0..rates.len() {
-                    rates[k] -= mu[first + k];
-                }
-            });
+            self.multiply_factored(model);
+            subtract(model.team(), &mut self.rates, &self.mu);
             add_product(model.team(), &mut self.sigma, (&self.penalty, &self.rates));
         }
-        swap(&mut self.terms.jacobian, &mut self.factored);
         self.take(model, level);
     }
 
@@ -137,9 +143,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     /// all rows. Needs the last `f` = -d, of accelerations with J' f in `mu`. Returns the violation left.
     fn lengthen_first<M: Model<T>>(&mut self, model: &M, level: Level) -> T {
         if level == Level::Velocity {
-            let n = self.f.len();
-            self.dq_predicted[..n].copy_from_slice(&self.f);
-            model.multiply_jacobian(&self.terms, &self.dq_predicted, &mut self.mu);
+            self.multiply_correction(model);
         }
         let k = self.best_length(model);
         let by = T::ONE + k;

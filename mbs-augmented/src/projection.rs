@@ -13,7 +13,7 @@
 use crate::workspace::{Mass, Workspace};
 use mbs_core::model::Model;
 use mbs_core::step::{StepError, largest};
-use mbs_core::team::{add_product, norm_inf, on_stretches, set_sum, sum};
+use mbs_core::team::{add_product, norm_inf, on_stretches, set_sum, subtract, sum};
 use mbs_core::{Real, SpdSolver};
 
 /// What one correction may leave of the multiplier of the least felt combination of constraints.
@@ -279,12 +279,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     /// are in balance, M d + J^T s (J x + b) = 0, and stay so. With a nearby factor what is off grows by 1 + k in a first sweep, and what a
     /// later one found stays by k. Needs the violation before it in `mu`. Returns the violation left.
     fn lengthen_last<M: Model<T>>(&mut self, model: &M, level: Level) -> T {
-        let rates = &self.rates;
-        on_stretches(model.team(), [&mut self.mu], |first, [mu]| {
-            for (mu, &after) in mu.iter_mut().zip(&rates[first..]) {
-                *mu -= after;
-            }
-        });
+        subtract(model.team(), &mut self.mu, &self.rates);
         let k = self.best_length(model);
         let (penalty, rates) = (&self.penalty, &self.rates);
         on_stretches(model.team(), [&mut self.sigma], |first, [sigma]| {

@@ -10,7 +10,7 @@ use super::reach::add_rows;
 use crate::Real;
 use crate::algebra::{Vector, cross, raised};
 use crate::elements::combine;
-use crate::model::{Load, Tangent, Terms};
+use crate::model::{Load, Measure, Tangent, Terms};
 use alloc::vec;
 
 /// Unknowns of a group whose rows are taken as dense, and of a mechanism whose bodies and joints are one element. The work of a dense
@@ -71,10 +71,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             jacobian = &jacobian[width * penalty.len()..];
         }
         if !group.measures.is_empty() {
-            for measure in group.measures.of(&terms.measures) {
-                add_squares(block, k, [jacobian], [tangent.weight(measure)]);
-                jacobian = &jacobian[width..];
-            }
+            let laws = group.measures.of(&terms.measures);
+            add_laws(tangent, (block, k), laws, (jacobian, width));
             self.add_transverse(terms, tangent, group, block);
         }
         if let Some(lambda) = tangent.geometric {
@@ -91,16 +89,12 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         group: &Group,
         (block, k): (&mut [T], usize),
     ) {
-        let width = group.width as usize;
-        let mut gradient = &terms.jacobian[group.jacobian as usize..];
+        let (gradients, width) = (&terms.jacobian[group.jacobian as usize..], group.width as usize);
         let [first, others @ ..] = group.measures.of(&terms.measures) else {
             return block.fill(T::ZERO);
         };
-        write_square(block, k, gradient, tangent.weight(first));
-        for measure in others {
-            gradient = &gradient[width..];
-            add_squares(block, k, [gradient], [tangent.weight(measure)]);
-        }
+        write_square(block, k, gradients, tangent.weight(first));
+        add_laws(tangent, (block, k), others, (&gradients[width..], width));
         self.add_transverse(terms, tangent, group, block);
     }
 
@@ -288,5 +282,19 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         let u = raised(&combine::<T, D>(span.of(&self.pool), q));
         let w = raised(&combine::<T, D>(span.of(&self.pool), v));
         cross(&tau, &u).dot(&w) * T::HALF
+    }
+}
+
+/// block += sum w g g^T over scalar laws, whose gradients are `width` long; the block has `k` unknowns.
+#[inline(always)]
+fn add_laws<T: Real>(
+    tangent: &Tangent<'_, T>,
+    (block, k): (&mut [T], usize),
+    laws: &[Measure<T>],
+    (mut gradients, width): (&[T], usize),
+) {
+    for law in laws {
+        add_squares(block, k, [gradients], [tangent.weight(law)]);
+        gradients = &gradients[width..];
     }
 }

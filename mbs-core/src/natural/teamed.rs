@@ -202,8 +202,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     }
 }
 
-/// rates = J x of a group of all `K` unknowns in their order, summed one by one: two sums side by side are a hundredth of a step
-/// faster on `two-four-bars`, and drift by half more in ten million steps of 1e-6 s.
+/// rates = J x of a group of all `K` unknowns in their order, summed one by one: with two sums side by side the energy of
+/// `two-four-bars` drifts by half more in ten million steps of 1e-6 s.
 #[inline(always)]
 fn multiply_dense<T: Real, const K: usize>(
     group: &Group,

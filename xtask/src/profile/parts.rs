@@ -122,11 +122,12 @@ impl Frame<'_> {
 }
 
 /// Functions of what their files share.
-const BLOCKS: [&str; 10] = [
+const BLOCKS: [&str; 11] = [
     "write_block",
     "write_sized_block",
     "write_effect_block",
     "write_square",
+    "add_laws",
     "has_block",
     "add_transverse",
     "add_geometric",
