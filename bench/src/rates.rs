@@ -19,9 +19,9 @@ const DEPTH: usize = 3;
 const ROUNDS: u32 = 50_000;
 const TURNS: usize = 300;
 
-/// Caches, where the system does not tell them: the second, and the last [B].
+/// Caches, where the system does not tell them: the second, and the last, in bytes.
 const CACHES: [usize; 2] = [1 << 20, 32 << 20];
-/// Most that is read beyond the last cache [B].
+/// Most that is read beyond the last cache, in bytes.
 const MOST: usize = 256 << 20;
 
 /// The line of rates.
@@ -107,7 +107,7 @@ fn sum(array: &[f64]) -> f64 {
     sums.iter().sum()
 }
 
-/// Sizes of the second cache and of the last one [B].
+/// Sizes of the second cache and of the last one, in bytes.
 fn caches() -> [usize; 2] {
     let folder = "/sys/devices/system/cpu/cpu0/cache";
     let told = |i: usize, what: &str| read_to_string(format!("{folder}/index{i}/{what}")).ok();
@@ -124,7 +124,7 @@ fn caches() -> [usize; 2] {
     found
 }
 
-/// 1024K or 32M [B].
+/// 1024K or 32M, in bytes.
 fn size(text: &str) -> Option<usize> {
     let (number, unit) = text.split_at(text.len().checked_sub(1)?);
     let unit = match unit {
