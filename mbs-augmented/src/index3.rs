@@ -121,7 +121,7 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<((u32, T, Stop), T), StepError> {
     let inverse = T::ONE / rule.acceleration;
-    let scale = step_scale(model.team(), rule.dt, &s.a);
+    let scale = step_scale(model.team(), rule.dt, &s.a[..w.f.len()]);
     let mut pace = Pace::new(model, options);
     for iterations in 1..=options.max_iterations {
         let is_kept = pace.keeps_factor(rule, w);
@@ -170,8 +170,9 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         }
         pace.since += correction;
         // the first correction, and a small one, are not measured by rounding
-        let is_measured = iterations > 1 && !(correction <= scale * options.tolerance);
-        let moved = (options.compensated && is_measured).then(|| norm_inf(model.team(), &w.dq));
+        let is_small = correction <= scale * options.tolerance;
+        let is_measured = options.compensated && iterations > 1 && !is_small;
+        let moved = is_measured.then(|| norm_inf(model.team(), &w.dq[..w.f.len()]));
         let measures = (scale, options.tolerance);
         let yardstick = Yardstick::of_coordinates(iterations, measures, length, moved);
         let stop = stopping(iterations, correction, pace.last(), &yardstick);
@@ -264,9 +265,10 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
     // The factor belongs to the configuration before the last corrections: near enough when they were small.
     let is_nearby = is_nearby(model, options, w);
     // A combination of constraints that is almost lost must not be enforced on velocities and accelerations beyond need: they
-    // would grow like 1 / sigma there. Penalties raised far for the iteration are taken back.
+    // would grow like 1 / sigma there. Penalties raised far for the iteration are taken back, but where its own factor projects.
     let raised = w.boost;
-    let is_taken_back = raised > T::from_f64(MILD);
+    let is_taken_back =
+        raised > T::from_f64(MILD) && options.projection != Projection::PrintedTangent;
     if is_taken_back {
         w.scale_penalties(T::ONE / raised);
     }
@@ -286,7 +288,8 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
         check_guides(model, &w.q, &w.terms)?;
     }
     let sweeps = options.max_sweeps;
-    let speed = norm_inf(model.team(), &w.v);
+    let n = w.f.len();
+    let speed = norm_inf(model.team(), &w.v[..n]);
     let velocity = match options.projection {
         Projection::Correction => {
             let size = [length + speed, speed];
@@ -303,7 +306,7 @@ fn clean<T: Real, M: Model<T>, S: SpdSolver<T>>(
         Projection::PrintedTangent => w.project_with_tangent(model, Level::Velocity),
     };
     model.evaluate_bias(&w.q, &w.v, &mut w.terms);
-    let size = norm_inf(model.team(), &w.a).max(norm_inf(model.team(), &w.terms.phi_bias));
+    let size = norm_inf(model.team(), &w.a[..n]).max(norm_inf(model.team(), &w.terms.phi_bias));
     let acceleration = match options.projection {
         Projection::Correction => {
             let size = [T::ONE + size, size];

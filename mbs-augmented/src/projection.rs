@@ -11,9 +11,10 @@
 //! the level is reached. Any factored matrix near W will do: the fixed point does not depend on it.
 
 use crate::workspace::{Mass, Workspace};
+use alloc::vec::Vec;
 use mbs_core::model::Model;
 use mbs_core::step::{StepError, largest};
-use mbs_core::team::{add_product, norm_inf, on_stretches, set_sum, subtract, sum};
+use mbs_core::team::{add, add_product, norm_inf, on_stretches, set_sum, subtract, sum};
 use mbs_core::{Real, SpdSolver};
 
 /// What one correction may leave of the multiplier of the least felt combination of constraints.
@@ -197,7 +198,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             self.probe.iter_mut().for_each(|u| *u *= inverse);
         }
         if !(self.rho > T::from_f64(FOLLOWED)) {
-            add_spread(&mut self.probe);
+            add(model.team(), &mut self.probe, &self.spread);
         }
         let size = norm_inf(model.team(), &self.probe);
         self.mu.copy_from_slice(&self.probe);
@@ -346,11 +347,12 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     }
 }
 
-/// Adds a part of all, up to a half, always the same: no combination of constraints is out of sight by symmetry.
-fn add_spread<T: Real>(x: &mut [T]) {
+/// A part of all, up to a half, always the same: with it no combination of constraints is out of sight by symmetry.
+pub(crate) fn spread<T: Real>(m: usize) -> Vec<T> {
     let mut seed = 1_u32;
-    for x in x {
+    let next = |_| {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        *x += T::from_f64(f64::from(seed) / f64::from(u32::MAX) - 0.5);
-    }
+        T::from_f64(f64::from(seed) / f64::from(u32::MAX) - 0.5)
+    };
+    (0..m).map(next).collect()
 }

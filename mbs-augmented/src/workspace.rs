@@ -1,6 +1,7 @@
 //! Scratch of a step, made once.
 
 use crate::history::History;
+use crate::projection::spread;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::integrator::Rule;
@@ -48,6 +49,8 @@ pub struct Workspace<T, S> {
     pub(crate) base: T,
     /// The combination of constraints that the mechanism feels least, followed from step to step, m.
     pub(crate) probe: Vec<T>,
+    /// What is added to it where it is felt well, m.
+    pub(crate) spread: Vec<T>,
     /// What one correction left of it in the last step.
     pub(crate) rho: T,
     pub(crate) counts: Counts,
@@ -103,6 +106,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             boost: T::ONE,
             base: T::ONE,
             probe: vec![T::ONE; m],
+            spread: spread(m),
             rho: T::ZERO,
             counts: Counts::default(),
             penalty_energy: T::ZERO,

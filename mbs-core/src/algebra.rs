@@ -111,6 +111,16 @@ pub(crate) fn load<T: Real, const D: usize>(x: &[T], at: u32) -> Vector<T, D> {
     Vector::from_fn(|i, _| x[i])
 }
 
+/// Writes D numbers at `at`.
+#[inline(always)]
+pub(crate) fn store<T: Real, const D: usize>(x: &mut [T], at: u32, y: &Vector<T, D>) {
+    let at = at as usize;
+    let x = &mut x[at..at + D];
+    for i in 0..D {
+        x[i] = y[i];
+    }
+}
+
 /// Adds D numbers at `at`.
 #[inline(always)]
 pub(crate) fn add_to<T: Real, const D: usize>(x: &mut [T], at: usize, y: &Vector<T, D>) {
@@ -157,18 +167,17 @@ pub(crate) fn along<T: Real>(x: &Vector<T, 3>) -> Vector<T, 3> {
     x * (T::ONE / norm(&x))
 }
 
-/// Largest absolute value of a slice; not finite when one of its numbers is not. Without arithmetic: bounds of operations count it.
+/// Largest absolute value of a slice; NaN when one of its numbers is. Without arithmetic, which bounds of operations count, and without
+/// branches.
 #[inline]
 pub fn norm_inf<T: Real>(x: &[T]) -> T {
-    let mut largest = T::ZERO;
+    let (mut largest, mut are_numbers) = (T::ZERO, true);
     for &xi in x {
         let size = xi.abs();
-        // A NaN is taken, and then nothing is larger.
-        if size > largest || !(size >= T::ZERO) {
-            largest = size;
-        }
+        largest = largest.max(size);
+        are_numbers &= size >= T::ZERO;
     }
-    largest
+    if are_numbers { largest } else { T::from_f64(f64::NAN) }
 }
 
 /// a x b.

@@ -183,6 +183,7 @@ pub fn add<W: Team, T: Real>(team: &W, out: &mut [T], x: &[T]) {
 }
 
 /// out -= x, entry by entry.
+#[inline]
 pub fn subtract<W: Team, T: Real>(team: &W, out: &mut [T], x: &[T]) {
     on_stretches(team, [out], |first, [out]| {
         for (out, &x) in out.iter_mut().zip(&x[first..]) {

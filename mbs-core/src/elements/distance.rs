@@ -5,7 +5,7 @@
 //! ```
 
 use crate::Real;
-use crate::algebra::{Vector, load};
+use crate::algebra::{Vector, load, store};
 
 /// A constant-distance row.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,13 +31,9 @@ impl<T: Real> Distance<T> {
     #[inline(always)]
     fn write_gradient<const D: usize>(&self, d: &Vector<T, D>, jacobian: &mut [T]) {
         let g = d * self.inverse;
-        let (a, b) = (self.places[0] as usize, self.places[1] as usize);
-        for i in 0..D {
-            jacobian[a + i] = -g[i];
-        }
-        for i in 0..D {
-            jacobian[b + i] = g[i];
-        }
+        let [a, b] = self.places;
+        store(jacobian, a, &-g);
+        store(jacobian, b, &g);
     }
 
     /// Value and gradient at `q`.

@@ -112,7 +112,12 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         let (clique, residual) = (&clique[..k], &mut residual[..k]);
         residual.fill(T::ZERO);
         if let (Some(x), false) = (load.mass, group.mass.is_empty()) {
-            add_mass_product::<T, D>(group.mass.of(&self.mass), clique, x, residual);
+            let g = group.mass.of(&self.mass);
+            if D == 2 && group.is_mass_turned {
+                add_mass_product::<T, D>((g, true), clique, x, residual);
+            } else {
+                add_mass_product::<T, D>((g, false), clique, x, residual);
+            }
         }
         let width = group.width as usize;
         let mut jacobian = &terms.jacobian[group.jacobian as usize..];
@@ -157,6 +162,30 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             self.write_sized_residual::<0>(terms, load, group, residual);
             return self.scatter(group, residual, f);
         }
+        self.scatter(group, &self.sized_residual::<K>(terms, load, group), f);
+    }
+
+    /// f = the residual of the one group of all `K` unknowns. A function by itself: what the loop over groups keeps at hand costs more than
+    /// the arithmetic of one small group.
+    #[inline(never)]
+    pub(super) fn write_whole_residual<const K: usize>(
+        &self,
+        terms: &Terms<T>,
+        load: &Load<'_, T>,
+        group: &Group,
+        f: &mut [T],
+    ) {
+        f[..K].copy_from_slice(&self.sized_residual::<K>(terms, load, group));
+    }
+
+    /// The residual of a group of `K` unknowns.
+    #[inline(always)]
+    fn sized_residual<const K: usize>(
+        &self,
+        terms: &Terms<T>,
+        load: &Load<'_, T>,
+        group: &Group,
+    ) -> [T; K] {
         let mut residual = [T::ZERO; K];
         if let (None, Some(mu), true) = (load.mass, load.multipliers, load.force == T::ZERO) {
             // J^T mu alone, row by row
@@ -172,7 +201,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         } else {
             self.write_sized_residual::<K>(terms, load, group, &mut residual);
         }
-        self.scatter(group, &residual, f);
+        residual
     }
 
     /// f += the residual of a group.

@@ -170,6 +170,15 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     }
 
     fn sum_residuals(&self, terms: &Terms<T>, load: &Load<'_, T>, f: &mut [T]) -> bool {
+        if let ([group], true) = (&self.groups[..], self.is_whole) {
+            match group.clique.len() {
+                2 => self.write_whole_residual::<2>(terms, load, group, f),
+                4 => self.write_whole_residual::<4>(terms, load, group, f),
+                6 => self.write_whole_residual::<6>(terms, load, group, f),
+                _ => self.write_whole_residual::<8>(terms, load, group, f),
+            }
+            return true;
+        }
         f.fill(T::ZERO);
         if !self.is_small {
             return false;

@@ -191,6 +191,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             jacobian: index(m.n_jacobian),
             width: index(slots.len() * D),
             mass: Span::default(),
+            is_mass_turned: false,
             block: Span::default(),
             force: Span::default(),
             distances: empty(m.distances.len()),
@@ -319,6 +320,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 }
             }
         }
+        group.is_mass_turned = coefs.iter().any(|c| !c.im.is_zero());
         let m = &mut self.model;
         let is_like = |other: &&(Span, Span)| {
             other.0.of(&m.mass) == coefs.as_slice() && other.1.of(&m.blocks) == block.as_slice()

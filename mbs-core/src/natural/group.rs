@@ -23,6 +23,8 @@ pub(crate) struct Group {
     pub(crate) width: u32,
     /// Its G in the coefficient table (n_unknown squared), empty without mass.
     pub(crate) mass: Span,
+    /// Does some coefficient of its G turn, as where the mass lies beside the line of two points?
+    pub(crate) is_mass_turned: bool,
     /// Its constant mass block in the block table (packed k (k + 1) / 2), empty without mass.
     pub(crate) block: Span,
     /// Its force vector in the force store, k long; empty when nothing applies.
@@ -39,10 +41,10 @@ pub(crate) struct Group {
     pub(crate) owner: Owner,
 }
 
-/// y += G x over the entities of a group, x and y local.
+/// y += G x over the entities of a group, y local; what turns is left out where nothing of G `is_turned`.
 #[inline(always)]
 pub(crate) fn add_mass_product<T: Real, const D: usize>(
-    g: &[Coef<T>],
+    (g, is_turned): (&[Coef<T>], bool),
     clique: &[u32],
     x: &[T],
     y: &mut [T],
@@ -59,7 +61,7 @@ pub(crate) fn add_mass_product<T: Real, const D: usize>(
             for a in 0..D {
                 y[i * D + a] += c.re * x[a];
             }
-            if D == 2 {
+            if D == 2 && is_turned {
                 y[i * D] += c.im * x[1];
                 y[i * D + 1] -= c.im * x[0];
             }
