@@ -20,6 +20,8 @@ run <- function(tolerance, end = 0.03) {
         dllname = "andrews_radau", initfunc = NULL, mass = mass, massup = 0, massdown = 0, nind = c(7, 7, 13),
         rtol = tolerance, atol = tolerance, hini = min(tolerance, end), maxsteps = 1e5)
 }
+# proc.time() tells milliseconds; a batch takes so long that one is a fiftieth of it at most [s].
+least_seconds <- 0.05
 time_of <- function(f) {
   cpu <- function(n) {
     start <- proc.time()
@@ -27,7 +29,7 @@ time_of <- function(f) {
     sum((proc.time() - start)[c("user.self", "sys.self")])
   }
   n <- 1
-  while (cpu(n) < batch_seconds / 6) n <- n * 2
+  while (cpu(n) < max(batch_seconds / 6, least_seconds)) n <- n * 2
   median(replicate(5, cpu(n) / n))
 }
 

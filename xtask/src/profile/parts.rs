@@ -135,11 +135,14 @@ const BLOCKS: [&str; 11] = [
     "add_squares",
     "add_curvature",
 ];
-const RESIDUALS: [&str; 6] = [
+const RESIDUALS: [&str; 9] = [
     "write_residual",
     "sum_residuals",
     "write_sized_residual",
     "add_sized_residual",
+    "sized_residual",
+    "write_whole_residual",
+    "scatter",
     "add_mass_product",
     "add_multiples",
 ];
