@@ -67,6 +67,8 @@ fn block<T: Real, const P: usize>(a: &mut [T], d: &mut [T], f: usize) -> Result<
         6 if P > 1 => fixed::<T, P, 6>(a, d),
         9 if P.is_multiple_of(3) => fixed::<T, P, 9>(a, d),
         12 if P.is_multiple_of(3) => fixed::<T, P, 12>(a, d),
+        15 if P.is_multiple_of(3) => fixed::<T, P, 15>(a, d),
+        18 if P.is_multiple_of(3) => fixed::<T, P, 18>(a, d),
         _ => block_sized::<T, P>(a, d, f),
     }
 }
