@@ -184,15 +184,18 @@ fn rssr_rocker_follows_the_crank_in_closed_form() {
     }
 }
 
+/// The options of a bench in index-3.
+fn index_three(bench: &mut Bench<2>) -> &mut Options<f64> {
+    match bench.simulation.engine_mut() {
+        mbs::Engine::Augmented { index: mbs::Index::Three(options), .. } => options,
+        _ => panic!("index-3 is an augmented Lagrangian"),
+    }
+}
+
 /// Outcome of the double pendulum in the printed form to 10 s: largest energy error, or the error of the step that failed.
 fn printed(alpha: f64, step: f64, projection: Projection) -> Result<f64, (f64, StepError)> {
     let mut bench = Bench::<2>::new("double-pendulum", "index-3", step);
-    let mbs::Engine::Augmented { index: mbs::Index::Three(options), .. } =
-        bench.simulation.engine_mut()
-    else {
-        panic!("index-3 is an augmented Lagrangian");
-    };
-    *options = Options { projection, ..Options::printed(alpha) };
+    *index_three(&mut bench) = Options { projection, ..Options::printed(alpha) };
     let mut error = 0.0;
     let outcome = bench.run(10.0, |b| error = worst(error, b.energy_error()));
     println!("printed alpha {alpha:e} dt {step:e} {projection:?}: {outcome:?}, {error:.3e} J");
@@ -239,12 +242,7 @@ const SWEPT: f64 = 1e-9;
 #[test]
 fn sweeps_with_the_tangent_as_it_is_hold_where_penalties_were_raised() {
     let mut bench = Bench::<2>::new("two-four-bars", "index-3", 1e-3);
-    let mbs::Engine::Augmented { index: mbs::Index::Three(options), .. } =
-        bench.simulation.engine_mut()
-    else {
-        panic!("index-3 is an augmented Lagrangian");
-    };
-    options.projection = Projection::PrintedTangent;
+    index_three(&mut bench).projection = Projection::PrintedTangent;
     let mut off = 0.0;
     for _ in 0..2000 {
         off = worst(off, bench.step().expect("passes singular positions").violation[1]);
