@@ -23,7 +23,7 @@ use mbs_core::step::{
     Counts, StepError, StepReport, Stop, Yardstick, check_guides, largest, largest_or_nan,
     step_scale, stopping,
 };
-use mbs_core::team::{add_product, norm_inf, on_stretches, set_sum};
+use mbs_core::team::{add_product, norm_inf, on_stretches, set_product, set_sum};
 use mbs_core::{Real, SpdSolver};
 
 /// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
@@ -240,15 +240,8 @@ fn filter<T: Real, M: Model<T>, S: SpdSolver<T>>(model: &M, w: &mut Workspace<T,
     w.mu.copy_from_slice(&w.lambda);
     w.assemble(model, Mass::None, T::ZERO);
     w.solve();
-    let n = w.f.len();
-    w.change[..n].copy_from_slice(&w.f);
-    model.multiply_jacobian(&w.terms, &w.change, &mut w.lambda);
-    let penalty = &w.penalty;
-    on_stretches(model.team(), [&mut w.lambda], |first, [lambda]| {
-        for (lambda, &s) in lambda.iter_mut().zip(&penalty[first..]) {
-            *lambda *= s;
-        }
-    });
+    w.multiply_correction(model);
+    set_product(model.team(), &mut w.lambda, (&w.penalty, &w.mu));
 }
 
 /// Penalties raised by more than this are taken back before velocities and accelerations are projected.
@@ -336,10 +329,8 @@ fn balance<T: Real, M: Model<T>, S: SpdSolver<T>>(
     }
     w.assemble(model, Mass::Acceleration, T::ONE);
     w.solve();
-    let n = w.f.len();
-    w.change[..n].copy_from_slice(&w.f);
-    model.multiply_jacobian(&w.terms, &w.change, &mut w.rates);
+    w.multiply_correction(model);
     for k in 0..w.sigma.len() {
-        w.sigma[k] -= w.penalty[k] * w.rates[k];
+        w.sigma[k] -= w.penalty[k] * w.mu[k];
     }
 }

@@ -121,7 +121,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     }
 
     /// mu = J f.
-    fn multiply_correction<M: Model<T>>(&mut self, model: &M) {
+    pub(crate) fn multiply_correction<M: Model<T>>(&mut self, model: &M) {
         let n = self.f.len();
         self.dq_predicted[..n].copy_from_slice(&self.f);
         model.multiply_jacobian(&self.terms, &self.dq_predicted, &mut self.mu);

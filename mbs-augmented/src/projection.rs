@@ -204,13 +204,11 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.mu.copy_from_slice(&self.probe);
         self.assemble(model, Mass::None, T::ZERO);
         self.solve();
-        let n = self.f.len();
-        self.change[..n].copy_from_slice(&self.f);
-        model.multiply_jacobian(&self.terms, &self.change, &mut self.rates);
-        let (penalty, rates) = (&self.penalty, &self.rates);
+        self.multiply_correction(model);
+        let (penalty, mu) = (&self.penalty, &self.mu);
         on_stretches(model.team(), [&mut self.probe], |first, [probe]| {
             for k in 0..probe.len() {
-                probe[k] -= penalty[first + k] * rates[first + k];
+                probe[k] -= penalty[first + k] * mu[first + k];
             }
         });
         let rho = norm_inf(model.team(), &self.probe) / size;
