@@ -31,6 +31,22 @@ pub(crate) fn part_mut<X>(table: &mut [X], first: usize, n: usize) -> Result<&mu
     table.get_mut(first..).and_then(|rest| rest.get_mut(..n)).ok_or(Outside)
 }
 
+/// Some entries, and others to be written, which are all before or all behind them.
+#[inline(always)]
+pub(crate) fn apart<X>(
+    table: &mut [X],
+    (first, n): (usize, usize),
+    (first_written, n_written): (usize, usize),
+) -> Result<(&[X], &mut [X]), Outside> {
+    if first < first_written {
+        let (before, from) = table.split_at_mut_checked(first_written).ok_or(Outside)?;
+        Ok((part(before, first, n)?, part_mut(from, 0, n_written)?))
+    } else {
+        let (before, from) = table.split_at_mut_checked(first).ok_or(Outside)?;
+        Ok((part(from, 0, n)?, part_mut(before, first_written, n_written)?))
+    }
+}
+
 /// The entries of a range.
 #[inline(always)]
 pub(crate) fn range<X>(table: &[X], range: core::ops::Range<usize>) -> Result<&[X], Outside> {

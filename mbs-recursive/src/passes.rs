@@ -105,7 +105,7 @@ pub fn condense<T: Real, S: Space<T>>(
         let (inertia, force) = joint::eliminate(link.kind, p, c)
             .map_err(|pivot| Fault::NoInertia(NoInertia { link: index(i), pivot }))?;
         if has_loops {
-            loops::pass(m, i, link.kind, (p, c), st)?;
+            loops::pass(m, (i, (link.kind, p, c)), st)?;
         }
         if link.parent > 0 {
             let parent = at_mut(before, link.parent as usize)?;
@@ -139,7 +139,7 @@ pub fn condense_again<T: Real, S: Space<T>>(
         let c = at_mut(from, 0)?;
         loops::close_again(m, i, c, st)?;
         let force = joint::impulse(link.kind, p, c);
-        loops::pass_again(m, i, link.kind, c, st)?;
+        loops::pass_again(m, (i, link.kind), c, st)?;
         if link.parent > 0 {
             at_mut(before, link.parent as usize)?.force += S::gathered(&force, &p.arm);
         }
@@ -170,7 +170,7 @@ pub fn accelerate<T: Real, S: Space<T>>(
     let ground = *at(a, 0)?;
     for (i, link) in links.iter().enumerate().skip(1) {
         let (p, c) = (at(placed, i)?, at(condensed, i)?);
-        let held = if has_loops { loops::held(m, i, link.kind, st)? } else { S::Motion::zero() };
+        let held = if has_loops { loops::held(m, (i, link.kind), st)? } else { S::Motion::zero() };
         // Ż = Żₚ + b z̈ + d   [P3 (27)],   z̈ as in [P3 (35)]
         let mut carried = match link.kind {
             Kind::Free => ground,

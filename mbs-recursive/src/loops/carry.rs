@@ -1,0 +1,170 @@
+//! Rows carried over a joint: inward with their gains, and what they hold back there, outward.
+
+use super::{LoopStore, Loops, inner};
+use crate::at::{Outside, at, at_mut, part, part_mut, range};
+use crate::joint;
+use crate::link::{Condensed, Kind, Placed};
+use crate::plan::{Pair, Pass};
+use crate::rows::Loop;
+use crate::space::{Numbers, Space};
+use mbs_core::Real;
+
+/// A joint that is passed: its kind, where it is, and what its elimination left.
+type Joint<'s, T, S> = (Kind, &'s Placed<T, S>, &'s Condensed<T, S>);
+
+/// Carries all rows over the joint of link `i`.
+#[inline]
+pub(crate) fn pass<T: Real, S: Space<T>>(
+    m: &Loops<'_, T, S>,
+    (i, joint): (usize, Joint<'_, T, S>),
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let station = at(m.plan.stations, i)?;
+    let n_rows = m.rows.len();
+    let freedoms = joint.0.n_freedoms::<T, S>();
+    for pass in range(m.plan.passes, station.passes.range())? {
+        let lap = at(m.loops, pass.lap as usize)?;
+        sized!(
+            (lap.n as usize, freedoms),
+            often(S::Point::N, 1),
+            carry(n_rows, (lap, pass), joint, st)
+        )?;
+    }
+    for pair in range(m.plan.pairs, station.pairs.range())? {
+        let x = at(m.plan.passes, pair.row as usize)?;
+        let y = at(m.plan.passes, pair.column as usize)?;
+        let rows = at(m.loops, x.lap as usize)?.n as usize;
+        let columns = at(m.loops, y.lap as usize)?.n as usize;
+        sized!(
+            (rows, columns, freedoms),
+            often(S::Point::N, S::Point::N, 1),
+            meet([x, y], pair, st)
+        )?;
+    }
+    Ok(())
+}
+
+/// Carries the rows of one side of a loop over a joint.
+#[inline(always)]
+fn carry<T: Real, S: Space<T>>(
+    (n, freedoms): (usize, usize),
+    n_rows: usize,
+    (lap, pass): (&Loop<T, S>, &Pass),
+    (kind, p, c): Joint<'_, T, S>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let (first, gain) = (lap.first as usize, pass.gain as usize);
+    let k = part_mut(st.k, pass.side as usize * n_rows + first, n)?;
+    let (l, scales) = (part_mut(st.l, first, n)?, part_mut(st.scales, first, n)?);
+    let heads = part_mut(st.heads, gain, n * freedoms)?;
+    let gains = part_mut(st.gains, gain, n * freedoms)?;
+    for r in 0..n {
+        let h = part_mut(heads, r * freedoms, freedoms)?;
+        let g = part_mut(gains, r * freedoms, freedoms)?;
+        let k = at_mut(k, r)?;
+        let passed = joint::pass(kind, p, c, k, (h, g))?;
+        *at_mut(l, r)? += passed.dot(&p.bias) + driven(&c.drive, g);
+        *k = S::gathered(&passed, &p.arm);
+        *at_mut(scales, r)? += inner(h, g);
+    }
+    Ok(())
+}
+
+/// Adds the mobility that a joint gives the rows of two passes.
+#[inline(always)]
+fn meet<T: Real, S: Space<T>>(
+    (rows, columns, freedoms): (usize, usize, usize),
+    [x, y]: [&Pass; 2],
+    pair: &Pair,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let block = part_mut(st.blocks, pair.block as usize, rows * columns)?;
+    let heads = part(st.heads, x.gain as usize, rows * freedoms)?;
+    let gains = part(st.gains, y.gain as usize, columns * freedoms)?;
+    for r in 0..rows {
+        let head = part(heads, r * freedoms, freedoms)?;
+        for s in 0..columns {
+            *at_mut(block, r * columns + s)? += inner(head, part(gains, s * freedoms, freedoms)?);
+        }
+    }
+    Ok(())
+}
+
+/// Carries l alone over the joint of link `i`, whose drive changed.
+#[inline]
+pub(crate) fn pass_again<T: Real, S: Space<T>>(
+    m: &Loops<'_, T, S>,
+    (i, kind): (usize, Kind),
+    c: &Condensed<T, S>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let freedoms = kind.n_freedoms::<T, S>();
+    for pass in range(m.plan.passes, at(m.plan.stations, i)?.passes.range())? {
+        let lap = at(m.loops, pass.lap as usize)?;
+        sized!((lap.n as usize, freedoms), often(S::Point::N, 1), carry_again((lap, pass), c, st))?;
+    }
+    Ok(())
+}
+
+#[inline(always)]
+fn carry_again<T: Real, S: Space<T>>(
+    (n, freedoms): (usize, usize),
+    (lap, pass): (&Loop<T, S>, &Pass),
+    c: &Condensed<T, S>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let l = part_mut(st.l, lap.first as usize, n)?;
+    let gains = part(st.gains, pass.gain as usize, n * freedoms)?;
+    for r in 0..n {
+        *at_mut(l, r)? += driven(&c.drive, part(gains, r * freedoms, freedoms)?);
+    }
+    Ok(())
+}
+
+/// D⁻¹ (K b)ᵀ λ at the joint of link `i`.
+#[inline]
+pub(crate) fn held<T: Real, S: Space<T>>(
+    m: &Loops<'_, T, S>,
+    (i, kind): (usize, Kind),
+    st: &LoopStore<'_, T, S>,
+) -> Result<S::Motion, Outside> {
+    let freedoms = kind.n_freedoms::<T, S>();
+    let mut held = S::Motion::zero();
+    for pass in range(m.plan.passes, at(m.plan.stations, i)?.passes.range())? {
+        let lap = at(m.loops, pass.lap as usize)?;
+        sized!(
+            (lap.n as usize, freedoms),
+            often(S::Point::N, 1),
+            hold((lap, pass), st, &mut held)
+        )?;
+    }
+    Ok(held)
+}
+
+#[inline(always)]
+fn hold<T: Real, S: Space<T>>(
+    (n, freedoms): (usize, usize),
+    (lap, pass): (&Loop<T, S>, &Pass),
+    st: &LoopStore<'_, T, S>,
+    held: &mut S::Motion,
+) -> Result<(), Outside> {
+    let lambda = part(st.lambda, lap.first as usize, n)?;
+    let gains = part(st.gains, pass.gain as usize, n * freedoms)?;
+    for (r, &lambda) in lambda.iter().enumerate() {
+        let gain = part(gains, r * freedoms, freedoms)?;
+        for (f, &g) in gain.iter().take(S::Motion::N).enumerate() {
+            held[f] += g * lambda;
+        }
+    }
+    Ok(())
+}
+
+/// g·u over the joint's freedoms.
+#[inline(always)]
+fn driven<T: Real, M: Numbers<T>>(drive: &M, gain: &[T]) -> T {
+    let mut sum = T::ZERO;
+    for (f, &g) in gain.iter().take(M::N).enumerate() {
+        sum += g * drive[f];
+    }
+    sum
+}

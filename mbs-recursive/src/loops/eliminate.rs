@@ -1,0 +1,290 @@
+//! Loops eliminated at the link where their two sides meet.
+
+use super::{LoopStore, Loops, RankLost, Regularisation, index, inner};
+use crate::at::{Outside, apart, at, at_mut, part, part_mut, range};
+use crate::link::Condensed;
+use crate::passes::Fault;
+use crate::plan::{Coupling, End, Update};
+use crate::rows::Loop;
+use crate::space::{Numbers, Space};
+use mbs_core::Real;
+
+/// Eliminates the loops that end at link `i`; `a_ground` is the acceleration of the ground.
+#[inline]
+pub(crate) fn close<T: Real, S: Space<T>>(
+    m: &Loops<'_, T, S>,
+    (i, regularisation, a_ground): (usize, Regularisation<T>, &S::Motion),
+    c: &mut Condensed<T, S>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Fault<T>> {
+    let ends = range(m.plan.ends, at(m.plan.stations, i)?.ends.range())?;
+    let ground = (i == 0).then_some(a_ground);
+    for end in ends {
+        let lap = at(m.loops, end.lap as usize)?;
+        sized!(lap.n as usize, often S::Point::N, meet(m.rows.len(), lap, ground, st))?;
+    }
+    for end in ends {
+        let lap = at(m.loops, end.lap as usize)?;
+        let body = if i == 0 { None } else { Some(&mut *c) };
+        sized!(lap.n as usize, often S::Point::N, regularise(m, lap, regularisation, st))?;
+        sized!(lap.n as usize, often S::Point::N, eliminate(lap, body, st))?;
+        couple_all(m, end, i > 0, st)?;
+    }
+    Ok(())
+}
+
+/// K of both sides become one; at the ground, whose acceleration is known, a part of l.
+#[inline(always)]
+fn meet<T: Real, S: Space<T>>(
+    n: usize,
+    n_rows: usize,
+    lap: &Loop<T, S>,
+    a_ground: Option<&S::Motion>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let first = lap.first as usize;
+    let (firsts, seconds) = st.k.split_at_mut_checked(n_rows).ok_or(Outside)?;
+    let (both, seconds) = (part_mut(firsts, first, n)?, part(seconds, first, n)?);
+    for (both, &second) in both.iter_mut().zip(seconds) {
+        *both += second;
+    }
+    if let Some(a) = a_ground {
+        for (l, both) in part_mut(st.l, first, n)?.iter_mut().zip(&*both) {
+            *l += both.dot(a);
+        }
+    }
+    Ok(())
+}
+
+/// Adds ε times the rows' scale to Λ and factors it: Λ = C Cᵀ, in place, lower triangle, the diagonal's inverses on the diagonal.
+#[inline(always)]
+fn regularise<T: Real, S: Space<T>>(
+    n: usize,
+    m: &Loops<'_, T, S>,
+    lap: &Loop<T, S>,
+    regularisation: Regularisation<T>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Fault<T>> {
+    let first = lap.first as usize;
+    let block = part_mut(st.blocks, lap.block as usize, n * n)?;
+    let (rows, scales) = (part(m.rows, first, n)?, part(st.scales, first, n)?);
+    let pivots = part_mut(st.pivots, first, n)?;
+    let mut scale = m.floor;
+    for (row, &own) in rows.iter().zip(scales) {
+        let of = at_mut(&mut scale, usize::from(row.is_angle()))?;
+        *of = of.max(own);
+    }
+    for (r, row) in rows.iter().enumerate() {
+        let scale = *at(&scale, usize::from(row.is_angle()))?;
+        let (above, here) = block.split_at_mut_checked(r * n).ok_or(Outside)?;
+        let here = part_mut(here, 0, r + 1)?;
+        for s in 0..r {
+            let other = part(above, s * n, s + 1)?;
+            let mut x = *at(here, s)?;
+            for (&a, &b) in part(here, 0, s)?.iter().zip(other) {
+                x -= a * b;
+            }
+            *at_mut(here, s)? = x * *at(other, s)?;
+        }
+        let added = match regularisation {
+            Regularisation::Scaled(share) => share * scale,
+            Regularisation::Fixed(added) => added,
+        };
+        let (left, own) = here.split_at_mut_checked(r).ok_or(Outside)?;
+        let own = at_mut(own, 0)?;
+        let mut pivot = *own + added;
+        for &x in left.iter() {
+            pivot -= x * x;
+        }
+        *at_mut(pivots, r)? = pivot / scale;
+        if !(pivot > T::ZERO) {
+            let row = lap.first + index(r);
+            return Err(Fault::RankLost(RankLost { row, pivot: pivot / scale }));
+        }
+        *own = T::ONE / pivot.sqrt();
+    }
+    Ok(())
+}
+
+/// l̃ = C⁻¹ l, and on a body K̃ = C⁻¹ K, I += K̃ᵀ K̃, p += K̃ᵀ l̃.
+#[inline(always)]
+fn eliminate<T: Real, S: Space<T>>(
+    n: usize,
+    lap: &Loop<T, S>,
+    body: Option<&mut Condensed<T, S>>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let first = lap.first as usize;
+    let factor = part(st.blocks, lap.block as usize, n * n)?;
+    let l = part_mut(st.l, first, n)?;
+    solve(n, factor, l)?;
+    let Some(c) = body else { return Ok(()) };
+    let k = part_mut(st.k, first, n)?;
+    for r in 0..n {
+        let factor = part(factor, r * n, r + 1)?;
+        let (before, here) = k.split_at_mut_checked(r).ok_or(Outside)?;
+        let here = at_mut(here, 0)?;
+        for (&before, &x) in before.iter().zip(factor) {
+            *here -= before * x;
+        }
+        *here = *here * *at(factor, r)?;
+        S::add_square(&mut c.inertia, here);
+        c.force += *here * *at(l, r)?;
+    }
+    Ok(())
+}
+
+/// l ← C⁻¹ l.
+#[inline(always)]
+fn solve<T: Real>(n: usize, factor: &[T], l: &mut [T]) -> Result<(), Outside> {
+    for r in 0..n {
+        let factor = part(factor, r * n, r + 1)?;
+        let (before, here) = l.split_at_mut_checked(r).ok_or(Outside)?;
+        let here = at_mut(here, 0)?;
+        for (&before, &x) in before.iter().zip(factor) {
+            *here -= before * x;
+        }
+        *here *= *at(factor, r)?;
+    }
+    Ok(())
+}
+
+/// Takes what an elimination changes from all later loops that are coupled with it.
+fn couple_all<T: Real, S: Space<T>>(
+    m: &Loops<'_, T, S>,
+    end: &End,
+    has_body: bool,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let lap = at(m.loops, end.lap as usize)?;
+    let n = lap.n as usize;
+    for coupling in range(m.plan.couplings, end.couplings.range())? {
+        let later = at(m.loops, coupling.lap as usize)?;
+        let sizes = (later.n as usize, n);
+        sized!(
+            sizes,
+            often(S::Point::N, S::Point::N),
+            couple((m.rows.len(), has_body), [lap, later], coupling, st)
+        )?;
+    }
+    for update in range(m.plan.updates, end.updates.range())? {
+        let x = at(m.plan.couplings, update.row as usize)?;
+        let y = at(m.plan.couplings, update.column as usize)?;
+        let rows = at(m.loops, x.lap as usize)?.n as usize;
+        let columns = at(m.loops, y.lap as usize)?.n as usize;
+        sized!(
+            (rows, columns, n),
+            often(S::Point::N, S::Point::N, S::Point::N),
+            take([x, y], update, st)
+        )?;
+    }
+    Ok(())
+}
+
+/// W = Λₗₖ C⁻ᵀ, Kₗ −= W K̃, lₗ −= W l̃ for a later loop l.
+#[inline(always)]
+fn couple<T: Real, S: Space<T>>(
+    (rows, n): (usize, usize),
+    (n_rows, has_body): (usize, bool),
+    [lap, later]: [&Loop<T, S>; 2],
+    coupling: &Coupling,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let (own, block) = (lap.block as usize, coupling.block as usize);
+    let (factor, w) = apart(st.blocks, (own, n * n), (block, rows * n))?;
+    for r in 0..rows {
+        solve(n, factor, part_mut(w, r * n, n)?)?;
+    }
+    let (first, place) = (lap.first as usize, later.first as usize);
+    let (l, l_later) = apart(st.l, (first, n), (place, rows))?;
+    for (r, l_r) in l_later.iter_mut().enumerate() {
+        *l_r -= inner(part(w, r * n, n)?, l);
+    }
+    if has_body {
+        let place = coupling.side as usize * n_rows + place;
+        let (k, k_later) = apart(st.k, (first, n), (place, rows))?;
+        for (r, k_r) in k_later.iter_mut().enumerate() {
+            for (&k, &w) in k.iter().zip(part(w, r * n, n)?) {
+                *k_r -= k * w;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Λₗₗ' −= W W'ᵀ.
+#[inline(always)]
+fn take<T: Real, S: Space<T>>(
+    (rows, columns, n): (usize, usize, usize),
+    [x, y]: [&Coupling; 2],
+    update: &Update,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    for r in 0..rows {
+        for s in 0..columns {
+            let w = part(st.blocks, x.block as usize + r * n, n)?;
+            let v = part(st.blocks, y.block as usize + s * n, n)?;
+            let change = inner(w, v);
+            *at_mut(st.blocks, update.block as usize + r * columns + s)? -= change;
+        }
+    }
+    Ok(())
+}
+
+/// The same elimination for l alone.
+#[inline]
+pub(crate) fn close_again<T: Real, S: Space<T>>(
+    m: &Loops<'_, T, S>,
+    i: usize,
+    c: &mut Condensed<T, S>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    for end in range(m.plan.ends, at(m.plan.stations, i)?.ends.range())? {
+        let lap = at(m.loops, end.lap as usize)?;
+        let body = if i == 0 { None } else { Some(&mut *c) };
+        sized!(lap.n as usize, often S::Point::N, eliminate_again(lap, body, st))?;
+        for coupling in range(m.plan.couplings, end.couplings.range())? {
+            let later = at(m.loops, coupling.lap as usize)?;
+            let sizes = (later.n as usize, lap.n as usize);
+            sized!(
+                sizes,
+                often(S::Point::N, S::Point::N),
+                couple_again([lap, later], coupling, st)
+            )?;
+        }
+    }
+    Ok(())
+}
+
+#[inline(always)]
+fn eliminate_again<T: Real, S: Space<T>>(
+    n: usize,
+    lap: &Loop<T, S>,
+    body: Option<&mut Condensed<T, S>>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let first = lap.first as usize;
+    let l = part_mut(st.l, first, n)?;
+    solve(n, part(st.blocks, lap.block as usize, n * n)?, l)?;
+    if let Some(c) = body {
+        for (&k, &l) in part(st.k, first, n)?.iter().zip(&*l) {
+            c.force += k * l;
+        }
+    }
+    Ok(())
+}
+
+#[inline(always)]
+fn couple_again<T: Real, S: Space<T>>(
+    (rows, n): (usize, usize),
+    [lap, later]: [&Loop<T, S>; 2],
+    coupling: &Coupling,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let w = part(st.blocks, coupling.block as usize, rows * n)?;
+    let (l, later) = apart(st.l, (lap.first as usize, n), (later.first as usize, rows))?;
+    for (r, l_r) in later.iter_mut().enumerate() {
+        *l_r -= inner(part(w, r * n, n)?, l);
+    }
+    Ok(())
+}

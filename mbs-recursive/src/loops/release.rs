@@ -1,0 +1,88 @@
+//! Multipliers of the loops, outward.
+
+use super::{LoopStore, Loops};
+use crate::at::{Outside, apart, at, at_mut, part, part_mut, range};
+use crate::plan::Coupling;
+use crate::rows::Loop;
+use crate::space::{Numbers, Space};
+use mbs_core::Real;
+
+/// λ of the loops that end at link `i`, whose acceleration is `a` (`None` for the ground, where it is in l already).
+#[inline]
+pub(crate) fn open<T: Real, S: Space<T>>(
+    m: &Loops<'_, T, S>,
+    i: usize,
+    a: Option<&S::Motion>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    for end in range(m.plan.ends, at(m.plan.stations, i)?.ends.range())?.iter().rev() {
+        let lap = at(m.loops, end.lap as usize)?;
+        sized!(lap.n as usize, often S::Point::N, begin(lap, a, st))?;
+        for coupling in range(m.plan.couplings, end.couplings.range())? {
+            let later = at(m.loops, coupling.lap as usize)?;
+            let sizes = (later.n as usize, lap.n as usize);
+            sized!(sizes, often(S::Point::N, S::Point::N), take([lap, later], coupling, st))?;
+        }
+        sized!(lap.n as usize, often S::Point::N, solve_back(lap, st))?;
+    }
+    Ok(())
+}
+
+/// K̃ a + l̃.
+#[inline(always)]
+fn begin<T: Real, S: Space<T>>(
+    n: usize,
+    lap: &Loop<T, S>,
+    a: Option<&S::Motion>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let first = lap.first as usize;
+    let lambda = part_mut(st.lambda, first, n)?;
+    for (lambda, &l) in lambda.iter_mut().zip(part(st.l, first, n)?) {
+        *lambda = l;
+    }
+    if let Some(a) = a {
+        for (lambda, k) in lambda.iter_mut().zip(part(st.k, first, n)?) {
+            *lambda += k.dot(a);
+        }
+    }
+    Ok(())
+}
+
+/// − Wᵀ λ of a later loop.
+#[inline(always)]
+fn take<T: Real, S: Space<T>>(
+    (rows, n): (usize, usize),
+    [lap, later]: [&Loop<T, S>; 2],
+    coupling: &Coupling,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let w = part(st.blocks, coupling.block as usize, rows * n)?;
+    let places = ((later.first as usize, rows), (lap.first as usize, n));
+    let (known, lambda) = apart(st.lambda, places.0, places.1)?;
+    for (r, &x) in known.iter().enumerate() {
+        for (lambda, &w) in lambda.iter_mut().zip(part(w, r * n, n)?) {
+            *lambda -= w * x;
+        }
+    }
+    Ok(())
+}
+
+/// λ ← C⁻ᵀ λ.
+#[inline(always)]
+fn solve_back<T: Real, S: Space<T>>(
+    n: usize,
+    lap: &Loop<T, S>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    let factor = part(st.blocks, lap.block as usize, n * n)?;
+    let lambda = part_mut(st.lambda, lap.first as usize, n)?;
+    for r in (0..n).rev() {
+        let mut x = *at(lambda, r)?;
+        for s in r + 1..n {
+            x -= *at(factor, s * n + r)? * *at(lambda, s)?;
+        }
+        *at_mut(lambda, r)? = x * *at(factor, r * n + r)?;
+    }
+    Ok(())
+}
