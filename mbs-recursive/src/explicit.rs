@@ -55,14 +55,14 @@ impl<'r, 'a, 'b, T: Real, S: Space<T>, I: Inputs<T>> System<'r, 'a, 'b, T, S, I>
         self.s.v.copy_from_slice(&y[nz..nz + nv]);
     }
 
-    /// Projects the end of a step, with the inertias of its last stage.
-    fn clean(&mut self, t: T, y: &mut [T]) -> Result<EndState, StepError> {
+    /// Projects the end of a step until no more than this share is left, with the inertias of its last stage.
+    fn clean(&mut self, t: T, y: &mut [T], share: T) -> Result<EndState, StepError> {
         if self.m.loops.loops.is_empty() || self.options.closure != Closure::Constraints {
             return Ok(EndState::Kept);
         }
         let (nz, nv) = (self.m.n_coordinates, self.m.n_freedoms);
         self.set(t, y);
-        project(self.m, self.options, self.s).map_err(|fault| failure(self.m, fault))?;
+        project(self.m, (self.options, share), self.s).map_err(|fault| failure(self.m, fault))?;
         y[..nz].copy_from_slice(self.s.z);
         y[nz..nz + nv].copy_from_slice(self.s.v);
         Ok(if is_tight(self.s) { EndState::Changed } else { EndState::Projected })
@@ -103,7 +103,7 @@ impl<T: Real, S: Space<T>, I: Inputs<T>> Rates<T> for System<'_, '_, '_, T, S, I
         let ready = if projects {
             // With the inertias of this very stage, so that the projected rates are a smooth function of y.
             accelerations(self.m, self.options, Level::Once, self.s)
-                .and_then(|_| project(self.m, self.options, self.s))
+                .and_then(|_| project(self.m, (self.options, project::rounding()), self.s))
                 .map(|_| ())
         } else {
             Ok(())
@@ -212,7 +212,7 @@ pub fn rk4<T: Real, S: Space<T>>(
     begin(m, &start, y);
     let mut system = System::new(m, inputs, (options, Level::Fine), s);
     ode::rk4_step(&mut system, start.t, dt, y, scratch)?;
-    system.clean(start.t + dt, y)?;
+    system.clean(start.t + dt, y, project::rounding())?;
     system.finish(start.t + dt, y)
 }
 
@@ -240,7 +240,12 @@ pub fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     let done =
         driver.advance(&mut system, (start.t, dt), (y, scratch), &control, |system, t, y| {
             system.last_failure = None;
-            system.clean(t, y)
+            let is_end = t == start.t + dt;
+            system.clean(
+                t,
+                y,
+                if is_end { project::rounding() } else { project::share_of(options.error) },
+            )
         });
     match done {
         Ok(()) => {}

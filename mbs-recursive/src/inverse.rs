@@ -24,14 +24,28 @@ pub fn spread<T: Real, S: Space<T>>(
     zdd: &[T],
     a: &mut [S::Motion],
 ) -> Result<(), Outside> {
+    spread_each(links, (placed, true), zdd, a)
+}
+
+/// Motions of the links for given joint motions, with velocity products where they are accelerations; `a[0]` is given.
+#[inline(always)]
+pub(crate) fn spread_each<T: Real, S: Space<T>>(
+    links: &[Link<T, S>],
+    (placed, has_bias): (&[Placed<T, S>], bool),
+    zdd: &[T],
+    a: &mut [S::Motion],
+) -> Result<(), Outside> {
     let ground = *at(a, 0)?;
     for (i, link) in links.iter().enumerate().skip(1) {
         let (p, first) = (at(placed, i)?, link.v as usize);
         // Ż = Żₚ + b z̈ + d   [P3 (27)]
-        let carried = match link.kind {
+        let mut carried = match link.kind {
             Kind::Free => ground,
             _ => S::carried(at(a, link.parent as usize)?, &p.arm),
-        } + p.bias;
+        };
+        if has_bias {
+            carried += p.bias;
+        }
         let own = match link.kind {
             Kind::Revolute | Kind::Prismatic => p.freedom * *at(zdd, first)?,
             Kind::Ball => {

@@ -11,6 +11,7 @@
 
 use crate::at::{Outside, at, at_mut, part, part_mut};
 use crate::evaluate::{note_rank, respond};
+use crate::inverse::spread_each;
 use crate::link::{Kind, Link};
 use crate::loops::index;
 use crate::mechanism::{Mechanism, Store};
@@ -49,34 +50,44 @@ pub(crate) fn advance<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Projects the positions and velocities of the store; returns the largest |Φ| and |Φ̇| left.
+/// What may be left of Φ and Φ̇ beside their scales: rounding.
+pub(crate) fn rounding<T: Real>() -> T {
+    T::EPSILON * T::from_f64(16.0)
+}
+
+/// What may be left within a call of a method with this error: a hundredth of it.
+pub(crate) fn share_of<T: Real>(error: T) -> T {
+    (error * T::from_f64(0.01)).min(T::EPSILON.sqrt()).max(rounding())
+}
+
+/// Projects the positions and velocities of the store until no more than this share of their scales is left; returns the largest
+/// |Φ| and |Φ̇| left.
 pub(crate) fn project<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
-    options: &Options<T>,
+    (options, share): (&Options<T>, T),
     s: &mut Store<'_, T, S>,
 ) -> Result<[T; 2], Fault<T>> {
     if m.loops.loops.is_empty() {
         return Ok([T::ZERO; 2]);
     }
-    let position = settle(m, options, 0, s)?;
-    let velocity = settle(m, options, 1, s)?;
+    kinematics(m.links, (s.z, s.v, s.guides), s.trial)?;
+    let position = settle(m, (options, share), 0, s)?;
+    let velocity = settle(m, (options, share), 1, s)?;
     Ok([position, velocity])
 }
 
-/// Sweeps one level until it is at rounding.
+/// Sweeps one level until no more than the share is left; `s.trial` is at the state before and after.
 fn settle<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
-    options: &Options<T>,
+    (options, share): (&Options<T>, T),
     level: u8,
     s: &mut Store<'_, T, S>,
 ) -> Result<T, Fault<T>> {
-    let share = T::EPSILON * T::from_f64(16.0);
     // Near a singular position a combination of rows hardly moves anything: a part of it may stay.
     let leave = if note_rank(s) { T::from_f64(1e2) } else { T::from_f64(0.1) };
     let enough = T::EPSILON.sqrt() * leave;
     let mut last: Option<T> = None;
     for _ in 0..=options.max_sweeps {
-        kinematics(m.links, (s.z, s.v, s.guides), s.trial)?;
         let (worst, row, scale) = violation(m, level, s)?;
         let is_stuck = last.is_some_and(|last| !(worst < last * T::HALF));
         if worst <= share * scale || (is_stuck && worst <= enough * scale) {
@@ -95,6 +106,7 @@ fn settle<T: Real, S: Space<T>>(
                 *v += response;
             }
         }
+        kinematics(m.links, (s.z, s.v, s.guides), s.trial)?;
     }
     let (worst, row, scale) = violation(m, level, s)?;
     if worst <= enough * scale {
@@ -112,18 +124,16 @@ pub(crate) fn keep<T: Real, S: Space<T>>(
     delta: &mut [T],
     s: &mut Store<'_, T, S>,
 ) -> Result<(), Outside> {
-    for (v, &delta) in s.v.iter_mut().zip(&*delta) {
-        *v += delta;
-    }
-    kinematics(m.links, (s.z, s.v, s.guides), s.trial)?;
+    *at_mut(s.a_response, 0)? = S::Motion::zero();
+    spread_each(m.links, (s.placed, false), delta, s.a_response)?;
+    let n = m.loops.rows.len();
     for lap in m.loops.loops {
-        lap.evaluate(m.loops.rows, s.trial, |k, values| {
-            *at_mut(s.loops.l, k)? = values.rate - at(s.rows, k)?[1];
-            Ok(())
-        })?;
-    }
-    for (v, &delta) in s.v.iter_mut().zip(&*delta) {
-        *v -= delta;
+        let [a, b] = lap.links;
+        let (a, b) = (at(s.a_response, a as usize)?, at(s.a_response, b as usize)?);
+        for k in lap.range() {
+            let (first, second) = (at(s.gradient, k)?, at(s.gradient, n + k)?);
+            *at_mut(s.loops.l, k)? = first.dot(a) + second.dot(b);
+        }
     }
     respond(m, s)?;
     for (delta, &response) in delta.iter_mut().zip(&*s.v_response) {

@@ -52,6 +52,11 @@ impl<T: Real, S: Space<T>> Row<T, S> {
     pub fn is_angle(&self) -> bool {
         matches!(self, Self::Dot { .. })
     }
+
+    /// Does it hold points together along this world axis?
+    fn is_along(&self, world_axis: usize) -> bool {
+        matches!(self, Self::Coincidence { axis } if *axis as usize == world_axis)
+    }
 }
 
 /// A cut joint: a loop of the mechanism.
@@ -115,18 +120,27 @@ impl<T: Real, S: Space<T>> Loop<T, S> {
             - (S::point(&a.velocity) + S::cross(&spins[0], &arms[0]));
         let gap_bias = S::centrifugal(&spins[1], &arms[1]) - S::centrifugal(&spins[0], &arms[0]);
         let own = part(rows, self.first as usize, self.n as usize)?;
+        let coincidence = |axis: usize| {
+            let mut e = S::Point::zero();
+            e[axis] = T::ONE;
+            let gradient = [-S::wrench(&arms[0], &e), S::wrench(&arms[1], &e)];
+            (gap[axis], gap_bias[axis], gradient)
+        };
+        let mut give = |k: usize, (value, bias, gradient): (T, T, [S::Motion; 2])| {
+            let rate = gradient[0].dot(&a.velocity) + gradient[1].dot(&b.velocity);
+            take(k, RowValue { gradient, value, rate, bias })
+        };
+        // Most loops: the axes one after the other, so that their numbers are constants.
+        if own.len() == S::Point::N && own.iter().enumerate().all(|(i, row)| row.is_along(i)) {
+            for axis in 0..S::Point::N {
+                give(self.first as usize + axis, coincidence(axis))?;
+            }
+            return Ok(());
+        }
         for (k, row) in self.range().zip(own) {
             let (value, bias, gradient) = match row {
-                Row::Coincidence { axis } => {
-                    let axis = *axis as usize;
-                    if axis >= S::Point::N {
-                        return Err(Outside);
-                    }
-                    let mut e = S::Point::zero();
-                    e[axis] = T::ONE;
-                    let gradient = [-S::wrench(&arms[0], &e), S::wrench(&arms[1], &e)];
-                    (gap[axis], gap_bias[axis], gradient)
-                }
+                Row::Coincidence { axis } if *axis as usize >= S::Point::N => return Err(Outside),
+                Row::Coincidence { axis } => coincidence(*axis as usize),
                 Row::Gap { direction, constant } => {
                     // Φ̈: g̈·d + 2 ġ·ḋ + g·d̈
                     let d = S::rotate(&a.rotation, direction);
@@ -154,8 +168,7 @@ impl<T: Real, S: Space<T>> Loop<T, S> {
                     (value, bias, [-S::wrench(&arms[0], &d), S::wrench(&arms[1], &d)])
                 }
             };
-            let rate = gradient[0].dot(&a.velocity) + gradient[1].dot(&b.velocity);
-            take(k, RowValue { gradient, value, rate, bias })?;
+            give(k, (value, bias, gradient))?;
         }
         Ok(())
     }

@@ -9,7 +9,7 @@ use crate::link::{Kind, Placed};
 use crate::mechanism::Inputs;
 use crate::options::{Closure, Options};
 use crate::passes::kinematics;
-use crate::project::project;
+use crate::project::{project, rounding};
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
 use crate::trapezoidal::failure;
@@ -116,7 +116,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let fault = |fault| failure(&m, fault);
         if !self.rows.is_empty() {
             accelerations(&m, &options, Level::Once, &mut s).map_err(fault)?;
-            project(&m, &options, &mut s).map_err(fault)?;
+            project(&m, (&options, rounding()), &mut s).map_err(fault)?;
         }
         accelerations(&m, &options, Level::Fine, &mut s).map_err(fault)?;
         state.power = own(crate::ledger::power(&m, &mut s));

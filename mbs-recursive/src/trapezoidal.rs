@@ -19,7 +19,7 @@ use crate::mechanism::{Inputs, Mechanism, Store};
 use crate::mixing::Mixing;
 use crate::options::{Closure, Options};
 use crate::passes::Fault;
-use crate::project::{advance, project};
+use crate::project::{advance, project, rounding};
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
@@ -71,7 +71,8 @@ pub fn step<T: Real, S: Space<T>>(
     let (iterations, correction, stop) = iterate(m, (dt, options), (start, projects), s)?;
     let mut violation = [T::ZERO; 3];
     if options.closure == Closure::Constraints && !m.loops.loops.is_empty() {
-        let [position, velocity] = project(m, options, s).map_err(|f| failure(m, f))?;
+        let [position, velocity] =
+            project(m, (options, rounding()), s).map_err(|f| failure(m, f))?;
         violation = [position, velocity, T::ZERO];
         violation[2] = accelerations(m, options, Level::Fine, s).map_err(|f| failure(m, f))?;
     } else if !m.loops.loops.is_empty() {
@@ -104,7 +105,7 @@ fn iterate<T: Real, S: Space<T>>(
         reach_end(m, (dt, options), &start, s).map_err(|f| failure(m, f.into()))?;
         s.scratch.copy_from_slice(s.zdd);
         if is_slow {
-            project(m, options, s).map_err(|f| failure(m, f))?;
+            project(m, (options, rounding()), s).map_err(|f| failure(m, f))?;
         }
 
         // z̈ₙ₊₁ by the three passes

@@ -10,15 +10,35 @@ use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
 /// Eliminates the loops that end at link `i`; `a_ground` is the acceleration of the ground.
-#[inline]
+#[inline(always)]
 pub(crate) fn close<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
     (i, regularisation, a_ground): (usize, Regularisation<T>, &S::Motion),
     c: &mut Condensed<T, S>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Fault<T>> {
-    let ends = range(m.plan.ends, at(m.plan.stations, i)?.ends.range())?;
-    let ground = (i == 0).then_some(a_ground);
+    let ends = ends_at(m, i)?;
+    // Most links have none.
+    if ends.is_empty() { Ok(()) } else { close_some(m, ends, (i, regularisation, a_ground), c, st) }
+}
+
+/// The loops that end at link `i`.
+#[inline(always)]
+pub(crate) fn ends_at<'a, T: Real, S: Space<T>>(
+    m: &Loops<'a, T, S>,
+    i: usize,
+) -> Result<&'a [End], Outside> {
+    range(m.plan.ends, at(m.plan.stations, i)?.ends.range())
+}
+
+fn close_some<T: Real, S: Space<T>>(
+    m: &Loops<'_, T, S>,
+    ends: &[End],
+    (i, regularisation, a_ground): (usize, Regularisation<T>, &S::Motion),
+    c: &mut Condensed<T, S>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Fault<T>> {
+    let ground = if i == 0 { Some(a_ground) } else { None };
     for end in ends {
         let lap = at(m.loops, end.lap as usize)?;
         sized!(lap.n as usize, often S::Point::N, meet(m.rows.len(), lap, ground, st))?;
@@ -232,14 +252,24 @@ fn take<T: Real, S: Space<T>>(
 }
 
 /// The same elimination for l alone.
-#[inline]
+#[inline(always)]
 pub(crate) fn close_again<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
     i: usize,
     c: &mut Condensed<T, S>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
-    for end in range(m.plan.ends, at(m.plan.stations, i)?.ends.range())? {
+    let ends = ends_at(m, i)?;
+    if ends.is_empty() { Ok(()) } else { close_some_again(m, (ends, i), c, st) }
+}
+
+fn close_some_again<T: Real, S: Space<T>>(
+    m: &Loops<'_, T, S>,
+    (ends, i): (&[End], usize),
+    c: &mut Condensed<T, S>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    for end in ends {
         let lap = at(m.loops, end.lap as usize)?;
         let body = if i == 0 { None } else { Some(&mut *c) };
         sized!(lap.n as usize, often S::Point::N, eliminate_again(lap, body, st))?;

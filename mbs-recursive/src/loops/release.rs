@@ -1,21 +1,33 @@
 //! Multipliers of the loops, outward.
 
+use super::eliminate::ends_at;
 use super::{LoopStore, Loops};
 use crate::at::{Outside, apart, at, at_mut, part, part_mut, range};
-use crate::plan::Coupling;
+use crate::plan::{Coupling, End};
 use crate::rows::Loop;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 
 /// λ of the loops that end at link `i`, whose acceleration is `a` (`None` for the ground, where it is in l already).
-#[inline]
+#[inline(always)]
 pub(crate) fn open<T: Real, S: Space<T>>(
     m: &Loops<'_, T, S>,
     i: usize,
     a: Option<&S::Motion>,
     st: &mut LoopStore<'_, T, S>,
 ) -> Result<(), Outside> {
-    for end in range(m.plan.ends, at(m.plan.stations, i)?.ends.range())?.iter().rev() {
+    let ends = ends_at(m, i)?;
+    // Most links have none.
+    if ends.is_empty() { Ok(()) } else { open_some(m, ends, a, st) }
+}
+
+fn open_some<T: Real, S: Space<T>>(
+    m: &Loops<'_, T, S>,
+    ends: &[End],
+    a: Option<&S::Motion>,
+    st: &mut LoopStore<'_, T, S>,
+) -> Result<(), Outside> {
+    for end in ends.iter().rev() {
         let lap = at(m.loops, end.lap as usize)?;
         sized!(lap.n as usize, often S::Point::N, begin(lap, a, st))?;
         for coupling in range(m.plan.couplings, end.couplings.range())? {
