@@ -25,6 +25,11 @@ const fn below(n: u64) -> u64 {
     n * n.saturating_sub(1) / 2
 }
 
+/// A triangular system with the inverses of its diagonal.
+const fn solve(rows: u64) -> Operations {
+    ops(below(rows) + rows, below(rows))
+}
+
 /// J a + bias of so many rows, with the scale of its parts.
 pub(super) fn residual<T: Real, S: Space<T>>(rows: u64) -> Operations {
     let n = motion::<T, S>();
@@ -77,16 +82,20 @@ pub(super) fn evaluation<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Opera
             let rows = lap_rows(end.lap);
             let pairs = below(rows);
             sum += ops(0, n) * rows;
-            // Λ = C Cᵀ: 1 + ... of the inner products, pivots, quotients.
+            // Λ = C Cᵀ: the inner products, products with inverses, pivots.
             let inner = rows * (rows + 1) * rows.saturating_sub(1) / 6;
-            sum += ops(inner + rows, inner + rows).and(pairs + rows, rows, 0);
-            sum += ops(n + 1, n + 1) * pairs + ops(n + 1, 0).and(1, 0, 0) * rows;
-            sum += if i == 0 { ops(n, n) * rows } else { (square + ops(n, n)) * rows };
+            sum += ops(inner + pairs + rows, inner + rows).and(2 * rows, rows, 0);
+            sum += solve(rows);
+            sum += if i == 0 {
+                ops(n, n) * rows
+            } else {
+                ops(n, n) * pairs + (ops(n, 0) + square + ops(n, n)) * rows
+            };
             for coupling in plan.couplings.get(end.couplings.range()).unwrap_or(&[]) {
                 let later = lap_rows(coupling.lap);
                 let carried = if i == 0 { Operations::NONE } else { ops(n, n) };
-                sum += ops(pairs, pairs) * later;
-                let entry = ops(1, 1).and(1, 0, 0) + Operations::entries(1);
+                sum += (solve(rows) + ops(0, 1)) * later;
+                let entry = ops(1, 1) + Operations::entries(1);
                 sum += (carried + entry) * (later * rows);
             }
             for update in plan.updates.get(end.updates.range()).unwrap_or(&[]) {
@@ -114,7 +123,7 @@ pub(super) fn response<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operati
         }
         for end in plan.ends.get(station.ends.range()).unwrap_or(&[]) {
             let rows = lap_rows(end.lap);
-            sum += ops(below(rows), below(rows)).and(rows, 0, 0);
+            sum += solve(rows);
             if i > 0 {
                 sum += ops(n, n) * rows;
             }
@@ -139,8 +148,10 @@ fn opening<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>) -> Operations {
         }
         for end in plan.ends.get(station.ends.range()).unwrap_or(&[]) {
             let rows = lap_rows(end.lap);
-            sum += if i == 0 { ops(0, 1) } else { ops(n, n) } * rows;
-            sum += ops(below(rows), below(rows)).and(rows, 0, 0);
+            if i > 0 {
+                sum += ops(n, n) * rows;
+            }
+            sum += solve(rows);
             for coupling in plan.couplings.get(end.couplings.range()).unwrap_or(&[]) {
                 sum += ops(1, 1) * (rows * lap_rows(coupling.lap));
             }
