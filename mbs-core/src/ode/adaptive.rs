@@ -8,6 +8,9 @@ const SMALLEST_STEP: f64 = 16.0;
 /// Rates that were found before the state was projected hold where the projection moved it by less than this share of the
 /// tolerance: what they are off by enters the state times the step.
 const STILL: f64 = 0.1;
+/// After a hundredth of the steps that a call may try it ends if, with steps as long as the next one, the rest would take ten times
+/// as many as it may try: an explicit method on a system whose stiffness is out of all proportion is told so at once.
+const FORETOLD: (u32, f64) = (100, 10.0);
 /// The last step to the end may be this much longer than planned, so that no sliver remains.
 const LAST_STEP: f64 = 1.01;
 
@@ -157,7 +160,8 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
     /// # Errors
     ///
     /// [`OdeError::Rates`] with what the rates or the hook say, [`OdeError::StepTooSmall`] where the error stays too large
-    /// or is no number at the smallest step, [`OdeError::TooManySteps`]. `y` is then the last accepted state (if the hook
+    /// or is no number at the smallest step, [`OdeError::TooManySteps`] where they are used up, or a hundredth of them and the rest would take
+    /// more than ten times as many. `y` is then the last accepted state (if the hook
     /// failed, as the hook left it).
     ///
     /// # Panics
@@ -184,7 +188,7 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
             let planned = self.step.min(options.max_step);
             let is_last = rest <= planned * T::from_f64(LAST_STEP);
             let h = if is_last { rest } else { self.share(rest, planned) };
-            if tried == options.max_steps {
+            if tried == options.max_steps || is_hopeless(tried, rest / h, options.max_steps) {
                 return Err(OdeError::TooManySteps { time: time.to_f64(), steps: tried });
             }
             tried += 1;
@@ -232,4 +236,10 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
         }
         Ok(())
     }
+}
+
+/// Will the steps that are left not do by far, with so many tried and so many more of the next one's length wanted?
+fn is_hopeless<T: Real>(tried: u32, wanted: T, max_steps: u32) -> bool {
+    let (share, times) = FORETOLD;
+    tried > max_steps / share && wanted > T::from_f64(times * f64::from(max_steps))
 }

@@ -18,7 +18,7 @@ pub enum OdeError<E> {
         /// Step that would have been tried next [s].
         step: f64,
     },
-    /// The steps that one call may try are used up.
+    /// The steps that one call may try are used up, or it can be told that they will not do by far.
     TooManySteps {
         /// Time of the last accepted state [s].
         time: f64,
