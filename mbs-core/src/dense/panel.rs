@@ -92,17 +92,47 @@ pub fn subtract_products<T: Real, const P: usize>(
 }
 
 /// target_i <- target_i - sum_m w_m column_m,i
+///
+/// Four rows at a time, then two, then one, each a block of numbers that the compiler knows the size of: a loop over rows is
+/// left scalar in some of the functions this is inlined into.
 #[inline(always)]
 pub fn subtract<T: Real, const M: usize>(target: &mut [T], mut columns: [&[T]; M], w: [T; M]) {
     let len = target.len();
     for c in &mut columns {
         *c = &c[..len];
     }
-    for i in 0..len {
-        let mut sum = columns[0][i] * w[0];
-        for m in 1..M {
-            sum += columns[m][i] * w[m];
+    let mut i = 0;
+    while i + 4 <= len {
+        subtract_rows::<T, M, 4>(target, &columns, &w, i);
+        i += 4;
+    }
+    if i + 2 <= len {
+        subtract_rows::<T, M, 2>(target, &columns, &w, i);
+        i += 2;
+    }
+    if i < len {
+        subtract_rows::<T, M, 1>(target, &columns, &w, i);
+    }
+}
+
+/// Rows i, ..., i + R - 1 of it.
+#[inline(always)]
+fn subtract_rows<T: Real, const M: usize, const R: usize>(
+    target: &mut [T],
+    columns: &[&[T]; M],
+    w: &[T; M],
+    i: usize,
+) {
+    let mut sum = [T::ZERO; R];
+    for m in 0..M {
+        let column = &columns[m][i..][..R];
+        for lane in 0..R {
+            let product = column[lane] * w[m];
+            sum[lane] = if m == 0 { product } else { sum[lane] + product };
         }
-        target[i] -= sum;
+    }
+    let target = &mut target[i..][..R];
+    for lane in 0..R {
+        target[lane] -= sum[lane];
     }
 }
