@@ -8,9 +8,10 @@ const SMALLEST_STEP: f64 = 16.0;
 /// Rates that were found before the state was projected hold where the projection moved it by less than this share of the
 /// tolerance: what they are off by enters the state times the step.
 const STILL: f64 = 0.1;
-/// After a hundredth of the steps that a call may try it ends if, with steps as long as the next one, the rest would take ten times
-/// as many as it may try: an explicit method on a system whose stiffness is out of all proportion is told so at once.
-const FORETOLD: (u32, f64) = (100, 10.0);
+/// After a tenth of the steps that a call may try it ends if, with steps as long as the next one, the rest would take ten times
+/// as many as it may try: an explicit method on a system whose stiffness is out of all proportion is told so early. Beside a change
+/// point steps are as short for a while, a hundredth of these.
+const FORETOLD: (u32, f64) = (10, 10.0);
 /// The last step to the end may be this much longer than planned, so that no sliver remains.
 const LAST_STEP: f64 = 1.01;
 
@@ -160,7 +161,7 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
     /// # Errors
     ///
     /// [`OdeError::Rates`] with what the rates or the hook say, [`OdeError::StepTooSmall`] where the error stays too large
-    /// or is no number at the smallest step, [`OdeError::TooManySteps`] where they are used up, or a hundredth of them and the rest would take
+    /// or is no number at the smallest step, [`OdeError::TooManySteps`] where they are used up, or a tenth of them and the rest would take
     /// more than ten times as many. `y` is then the last accepted state (if the hook
     /// failed, as the hook left it).
     ///
