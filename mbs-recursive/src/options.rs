@@ -21,8 +21,7 @@ pub struct Options<T> {
     pub error: T,
     /// First step tried with error control [s]; the whole length asked for where left out.
     pub first_step: Option<T>,
-    /// Steps tried with error control within the length asked for; a call ends at a tenth of them where at their pace ten times as many
-    /// would not do.
+    /// Steps tried with error control within the length asked for.
     pub max_steps: u32,
     /// ε in Λ + ε, relative to the rows' own scale [-].
     pub regularisation: T,

@@ -1,8 +1,8 @@
 //! Positions and velocities brought back to the loops' equations by the smallest mass-weighted change.
 //!
 //! ```text
-//! δ = −M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ,   z ← z ⊕ δ       until Φ is at rounding, within a
-//! v ← v − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ̇                 call at a share of the error
+//! δ = −M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ,   z ← z ⊕ δ       until Φ is at rounding
+//! v ← v − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ̇                 until Φ̇ is
 //! ```
 //!
 //! Both are responses of the tree as it was factored last, which is near enough after a step: the residuals are always those of the

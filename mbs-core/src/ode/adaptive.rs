@@ -8,10 +8,10 @@ const SMALLEST_STEP: f64 = 16.0;
 /// Rates that were found before the state was projected hold where the projection moved it by less than this share of the
 /// tolerance: what they are off by enters the state times the step.
 const STILL: f64 = 0.1;
-/// After each tenth of the steps that a call may try, but not before so many, it is asked how far these came. It ends where at their
-/// pace the rest would take ten times as many as it may try: an explicit method on a system whose stiffness is out of all proportion is
-/// told so early. (Beside a change point ten thousand steps may be as short, and then it goes on.)
-const ASKED: u32 = 10_000;
+/// After a tenth of the steps that a call may try it ends if, with steps as long as the next one, the rest would take ten times
+/// as many as it may try: an explicit method on a system whose stiffness is out of all proportion is told so early. Beside a change
+/// point steps are as short for a while, a hundredth of these.
+const FORETOLD: (u32, f64) = (10, 10.0);
 /// The last step to the end may be this much longer than planned, so that no sliver remains.
 const LAST_STEP: f64 = 1.01;
 
@@ -161,8 +161,8 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
     /// # Errors
     ///
     /// [`OdeError::Rates`] with what the rates or the hook say, [`OdeError::StepTooSmall`] where the error stays too large
-    /// or is no number at the smallest step, [`OdeError::TooManySteps`] where they are used up, or a tenth of them and at their pace the rest would
-    /// take more than ten times as many. `y` is then the last accepted state (if the hook
+    /// or is no number at the smallest step, [`OdeError::TooManySteps`] where they are used up, or a tenth of them and the rest would take
+    /// more than ten times as many. `y` is then the last accepted state (if the hook
     /// failed, as the hook left it).
     ///
     /// # Panics
@@ -183,14 +183,13 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
         let scratch = &mut scratch[..n_scratch];
         let smallest = T::from_f64(SMALLEST_STEP) * T::EPSILON * (t.abs() + dt);
         let (mut done, mut tried, mut first_is_known) = (T::ZERO, 0, false);
-        let mut pace = Pace::new(options.max_steps);
         while done < dt {
             let time = t + done;
             let rest = dt - done;
             let planned = self.step.min(options.max_step);
             let is_last = rest <= planned * T::from_f64(LAST_STEP);
             let h = if is_last { rest } else { self.share(rest, planned) };
-            if tried == options.max_steps || pace.is_hopeless(tried, (done, rest)) {
+            if tried == options.max_steps || is_hopeless(tried, rest / h, options.max_steps) {
                 return Err(OdeError::TooManySteps { time: time.to_f64(), steps: tried });
             }
             tried += 1;
@@ -240,27 +239,8 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
     }
 }
 
-/// How far the last steps came, a tenth of those that a call may try.
-struct Pace<T> {
-    /// Steps that are looked at together, and how many may be tried.
-    steps: u32,
-    max_steps: u32,
-    /// What was done when they began [s].
-    from: T,
-}
-
-impl<T: Real> Pace<T> {
-    fn new(max_steps: u32) -> Self {
-        Self { steps: (max_steps / 10).max(ASKED), max_steps, from: T::ZERO }
-    }
-
-    /// Would what is left, at the pace of these steps, take ten times as many as may be tried? Where they are not complete: no.
-    fn is_hopeless(&mut self, tried: u32, (done, rest): (T, T)) -> bool {
-        if tried == 0 || !tried.is_multiple_of(self.steps) {
-            return false;
-        }
-        let came = done - core::mem::replace(&mut self.from, done);
-        let most = T::from_f64(10.0 * f64::from(self.max_steps));
-        rest * T::from_f64(f64::from(self.steps)) > most * came
-    }
+/// Will the steps that are left not do by far, with so many tried and so many more of the next one's length wanted?
+fn is_hopeless<T: Real>(tried: u32, wanted: T, max_steps: u32) -> bool {
+    let (share, times) = FORETOLD;
+    tried > max_steps / share && wanted > T::from_f64(times * f64::from(max_steps))
 }
