@@ -8,10 +8,10 @@ const SMALLEST_STEP: f64 = 16.0;
 /// Rates that were found before the state was projected hold where the projection moved it by less than this share of the
 /// tolerance: what they are off by enters the state times the step.
 const STILL: f64 = 0.1;
-/// After a tenth of the steps that a call may try it ends if, with steps as long as the next one, the rest would take ten times
-/// as many as it may try: an explicit method on a system whose stiffness is out of all proportion is told so early. Beside a change
-/// point steps are as short for a while, a hundredth of these.
-const FORETOLD: (u32, f64) = (10, 10.0);
+/// After a tenth of the steps that a call may try, but not before this many, it ends if with steps as long as the next one the rest
+/// would take ten times as many as it may try: an explicit method on a system whose stiffness is out of all proportion is told so
+/// early. Fewer are soon used up, and beside a change point some ten thousand are as short.
+const FORETOLD: u32 = 10_000;
 /// The last step to the end may be this much longer than planned, so that no sliver remains.
 const LAST_STEP: f64 = 1.01;
 
@@ -161,9 +161,9 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
     /// # Errors
     ///
     /// [`OdeError::Rates`] with what the rates or the hook say, [`OdeError::StepTooSmall`] where the error stays too large
-    /// or is no number at the smallest step, [`OdeError::TooManySteps`] where they are used up, or a tenth of them and the rest would take
-    /// more than ten times as many. `y` is then the last accepted state (if the hook
-    /// failed, as the hook left it).
+    /// or is no number at the smallest step, [`OdeError::TooManySteps`] where the steps are used up, or a tenth
+    /// of a large number and the rest would take more than ten times as many as may be tried. `y` is then the last accepted state
+    /// (if the hook failed, as the hook left it).
     ///
     /// # Panics
     ///
@@ -241,6 +241,5 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
 
 /// Will the steps that are left not do by far, with so many tried and so many more of the next one's length wanted?
 fn is_hopeless<T: Real>(tried: u32, wanted: T, max_steps: u32) -> bool {
-    let (share, times) = FORETOLD;
-    tried > max_steps / share && wanted > T::from_f64(times * f64::from(max_steps))
+    tried > (max_steps / 10).max(FORETOLD) && wanted > T::from_f64(10.0 * f64::from(max_steps))
 }
