@@ -63,12 +63,16 @@ pub(crate) fn spread_each<T: Real, S: Space<T>>(
 }
 
 /// The force through every joint, on the link about its origin, for the accelerations and multipliers of the store: into the
-/// links' `force`. Effects along the joint are part of it.
+/// links' `force`. Effects along the joint are part of it, and are told in `effort`; what links were factored to stays.
 pub(crate) fn forces<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     s: &mut Store<'_, T, S>,
 ) -> Result<(), Outside> {
-    passes::inertias(m.links, s.placed, s.condensed);
+    let moving = s.placed.iter().zip(&*s.a);
+    for ((link, (p, a)), c) in m.links.iter().zip(moving).zip(&mut *s.condensed).skip(1) {
+        let (inertia, products) = passes::body(link, p);
+        (c.force, c.effort) = (products + S::times(&inertia, a), T::ZERO);
+    }
     let mut condensed = core::mem::take(&mut s.condensed);
     for load in m.loads {
         load.apply(&s.instant(m), condensed)?;
@@ -85,12 +89,8 @@ pub(crate) fn forces<T: Real, S: Space<T>>(
         }
     }
     for (i, link) in m.links.iter().enumerate().skip(1).rev() {
-        let c = at_mut(s.condensed, i)?;
-        let own = S::times(&c.inertia, at(s.a, i)?);
-        c.force += own;
-        let force = c.force;
         if link.parent > 0 {
-            let arm = &at(s.placed, i)?.arm;
+            let (force, arm) = (at(s.condensed, i)?.force, &at(s.placed, i)?.arm);
             at_mut(s.condensed, link.parent as usize)?.force += S::gathered(&force, arm);
         }
     }

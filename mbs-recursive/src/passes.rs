@@ -64,7 +64,20 @@ pub fn kinematics<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Each body's own inertia and velocity forces: M and −Q without effects [P3 (24)–(25)].
+/// A body's own inertia about its link's origin, and its velocity forces: M and −Q without effects [P3 (24)–(25)].
+#[inline(always)]
+pub(crate) fn body<T: Real, S: Space<T>>(
+    link: &Link<T, S>,
+    p: &Placed<T, S>,
+) -> (S::Inertia, S::Motion) {
+    let inertia = S::body_inertia(link.mass, &p.center, &link.tensor, &p.rotation);
+    let spin = S::spin(&p.velocity);
+    // p = (ω × J ω, m ω × (ω × r_G))
+    let turning = S::cross_spin(&spin, &S::turning_block(&inertia, &spin));
+    (inertia, S::motion(turning, S::centrifugal(&spin, &p.center) * link.mass))
+}
+
+/// Sets out each body's own inertia and velocity forces.
 #[inline]
 pub fn inertias<T: Real, S: Space<T>>(
     links: &[Link<T, S>],
@@ -72,11 +85,7 @@ pub fn inertias<T: Real, S: Space<T>>(
     condensed: &mut [Condensed<T, S>],
 ) {
     for ((link, p), c) in links.iter().zip(placed).zip(condensed).skip(1) {
-        let spin = S::spin(&p.velocity);
-        c.inertia = S::body_inertia(link.mass, &p.center, &link.tensor, &p.rotation);
-        // p = (ω × J ω, m ω × (ω × r_G))
-        let turning = S::cross_spin(&spin, &S::turning_block(&c.inertia, &spin));
-        c.force = S::motion(turning, S::centrifugal(&spin, &p.center) * link.mass);
+        (c.inertia, c.force) = body(link, p);
         (c.effort, c.resistance) = (T::ZERO, T::ZERO);
     }
 }

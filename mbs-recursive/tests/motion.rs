@@ -4,7 +4,7 @@ mod support;
 
 use mbs_core::step::StepError;
 use mbs_recursive::{Closure, Planar, Spatial};
-use support::{Run, file};
+use support::{Run, common, file};
 
 /// The largest energy error of the trapezoidal rule on the double pendulum in natural coordinates, 10 s at 1e-2 and 1e-3 [J].
 const DOUBLE_PENDULUM: [f64; 2] = [4.645e-1, 4.636e-3];
@@ -178,4 +178,50 @@ fn guides_and_dampers_are_in_the_ledger() {
     let run = |dt, n| Run::<Planar>::new::<2>(&file("guided-four-bar")).drift(dt, n);
     let errors = [run(1e-2, 500), run(5e-3, 1000)];
     assert!((3.5..4.5).contains(&(errors[0] / errors[1])), "{errors:?}");
+}
+
+/// A body that a guide turns, and that meets no other.
+const FLAG: &str = r#"
+[[body]]
+name = "flag"
+mass = 1.0
+center = [0.3, 0.3, 0.1]
+inertia = [0.1, 0.2, 0.3, 0.0, 0.0, 0.0]
+[[joint]]
+name = "flag-pole"
+kind = "revolute"
+bodies = ["ground", "flag"]
+at = [0.3, 0.2, 0.1]
+axis = [0.0, 1.0, 0.0]
+[[guide]]
+joint = "flag-pole"
+ramp = { rate = 3.0 }
+"#;
+
+#[test]
+fn a_guided_body_that_meets_no_other_changes_nothing() {
+    // Its power is found from the forces through the joints; projections then need what links were factored to.
+    let path = format!("{}/../scenes/rssr.toml", env!("CARGO_MANIFEST_DIR"));
+    let alone = std::fs::read_to_string(path).expect("the scene is there");
+    let ends = |step: fn(&mut Run<Spatial>)| {
+        [alone.clone(), alone.clone() + FLAG].map(|text| {
+            let mut run = Run::<Spatial>::new::<3>(&common::scene(&text));
+            for _ in 0..20 {
+                step(&mut run);
+            }
+            (run.state.z, run.state.v)
+        })
+    };
+    let fixed = ends(|run| drop(run.rk4(5e-3).expect("a step")));
+    let controlled = ends(|run| {
+        run.options.error = 1e-5;
+        drop(run.rk54(0.02).expect("a step"));
+    });
+    for [(z, v), (z_beside, v_beside)] in [fixed, controlled] {
+        assert_eq!((z.len(), v.len()), (z_beside.len(), v_beside.len()));
+        for (x, y) in z.iter().chain(&v).zip(z_beside.iter().chain(&v_beside)) {
+            // Roundings of numbers of order ten over twenty steps, which the motion makes larger.
+            assert!((x - y).abs() < 1e-11, "{x} {y}");
+        }
+    }
 }
