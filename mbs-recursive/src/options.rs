@@ -17,11 +17,13 @@ pub struct Options<T> {
     pub max_sweeps: u32,
     /// How loops are closed.
     pub closure: Closure<T>,
-    /// Error of one step with error control, relative and absolute [-]; loops hold within its stages to a hundredth of it.
+    /// Error of one step with error control, relative and absolute [-]; loops hold to a hundredth of it until the end of a call,
+    /// and to rounding there.
     pub error: T,
     /// First step tried with error control [s]; the whole length asked for where left out.
     pub first_step: Option<T>,
-    /// Steps tried with error control within the length asked for.
+    /// Steps tried with error control within the length asked for; after ten thousand and a tenth of these a call ends where the rest
+    /// would take ten times as many.
     pub max_steps: u32,
     /// ε in Λ + ε, relative to the rows' own scale [-].
     pub regularisation: T,

@@ -1,9 +1,12 @@
 //! Positions and velocities brought back to the loops' equations by the smallest mass-weighted change.
 //!
 //! ```text
-//! δ = −M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ,   z ← z ⊕ δ       until Φ is at rounding
+//! δ = −M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ,   z ← z ⊕ δ       until Φ is at its level
 //! v ← v − M⁻¹ Jᵀ (J M⁻¹ Jᵀ + ε)⁻¹ Φ̇                 until Φ̇ is
 //! ```
+//!
+//! The level is rounding at the end of a step or of a call, and a hundredth of the error between the steps of a call with error
+//! control, rounding again near singular positions.
 //!
 //! Both are responses of the tree as it was factored last, which is near enough after a step: the residuals are always those of the
 //! new state. Inertias are then those of the last iteration: with effects their resistance to accelerations within the step is part of
@@ -88,9 +91,9 @@ fn settle<T: Real, S: Space<T>>(
     let enough = T::EPSILON.sqrt() * leave;
     let mut last: Option<T> = None;
     for _ in 0..=options.max_sweeps {
-        let (worst, row, scale) = violation(m, level, s)?;
+        let Violation { worst, row, scale, is_within } = violation(m, (level, share), s)?;
         let is_stuck = last.is_some_and(|last| !(worst < last * T::HALF));
-        if worst <= share * scale || (is_stuck && worst <= enough * scale) {
+        if is_within || (is_stuck && worst <= enough * scale) {
             return Ok(worst);
         }
         // A first sweep may overshoot far from the loops; then they must come nearer.
@@ -108,7 +111,7 @@ fn settle<T: Real, S: Space<T>>(
         }
         kinematics(m.links, (s.z, s.v, s.guides), s.trial)?;
     }
-    let (worst, row, scale) = violation(m, level, s)?;
+    let Violation { worst, row, scale, .. } = violation(m, (level, share), s)?;
     if worst <= enough * scale {
         Ok(worst)
     } else {
@@ -142,13 +145,25 @@ pub(crate) fn keep<T: Real, S: Space<T>>(
     Ok(())
 }
 
-/// Φ or Φ̇ at the trial state into l; the largest, its row, and what it is small against.
+/// How far the equations of loops are from their level.
+struct Violation<T> {
+    /// The largest |Φ| or |Φ̇|.
+    worst: T,
+    /// Its row.
+    row: u32,
+    /// What rounding of it is small against: the scene's length, the fastest row.
+    scale: T,
+    /// Is no more left than the share that was asked for, of the scale and of each row's own speed, or one, or rounding?
+    is_within: bool,
+}
+
+/// Φ or Φ̇ at the trial state into l, and what of it is left.
 fn violation<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
-    level: u8,
+    (level, share): (u8, T),
     s: &mut Store<'_, T, S>,
-) -> Result<(T, u32, T), Outside> {
-    let (mut worst, mut row) = (T::ZERO, 0);
+) -> Result<Violation<T>, Outside> {
+    let (mut worst, mut row, mut is_within) = (T::ZERO, 0, true);
     // Speeds of a rounding of the length each second are rest.
     let mut scale = if level == 0 { m.length } else { m.length * T::EPSILON };
     for lap in m.loops.loops {
@@ -156,10 +171,14 @@ fn violation<T: Real, S: Space<T>>(
         let speeds = [at(s.trial, a as usize)?.velocity, at(s.trial, b as usize)?.velocity];
         lap.evaluate(m.loops.rows, s.trial, |k, values| {
             let x = if level == 0 { values.value } else { values.rate };
+            // As the error of a step: absolute, and of speeds relative.
+            let mut own = T::ONE;
             if level > 0 {
                 let [first, second] = &values.gradient;
-                scale = scale.max(first.parts(&speeds[0]) + second.parts(&speeds[1]));
+                let speed = first.parts(&speeds[0]) + second.parts(&speeds[1]);
+                (scale, own) = (scale.max(speed), own.max(speed));
             }
+            is_within &= x.abs() <= share * own;
             *at_mut(s.loops.l, k)? = x;
             if !(x.abs() <= worst) {
                 (worst, row) = (x.abs(), index(k));
@@ -167,5 +186,6 @@ fn violation<T: Real, S: Space<T>>(
             Ok(())
         })?;
     }
-    Ok((worst, row, scale))
+    is_within = (is_within && worst <= share * scale) || worst <= rounding::<T>() * scale;
+    Ok(Violation { worst, row, scale, is_within })
 }
