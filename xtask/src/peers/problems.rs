@@ -96,7 +96,7 @@ fn all() -> Vec<Problem> {
         );
         all.push(evaluation("four-bars", title, n, [0.7, 0.7], peers));
     }
-    let step = evaluation("step", "a step of a chain, order 4", 10, [0.7, 0.7], &[Who::MuJoCo]);
+    let step = evaluation("step", "a step of a chain, order 4", 10, [0.7, 0.5], &[Who::MuJoCo]);
     all.push(Problem { kind: Kind::Run, ..step });
     all.push(run("double-pendulum", "10 s of a double pendulum", 2, [1.0 / 12.0, 1.0 / 25.0]));
     all.push(run("n-four-bars", "10 s of four-bars in a row", 2, [1.0 / 25.0, 1.0 / 50.0]));
