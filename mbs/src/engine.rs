@@ -136,14 +136,8 @@ where
     ) -> Result<StepReport<T>, StepError> {
         let step = (dt, model.length());
         match self {
-            Self::Augmented { index, workspace, team: Threads::One } => {
-                index.step(model, step, state, workspace)
-            }
             Self::Augmented { index, workspace, team } => {
                 index.step(&model.with_team(team), step, state, workspace)
-            }
-            Self::Classical { options, workspace, team: Threads::One } => {
-                classical::index3::step(model, step, options, state, workspace)
             }
             Self::Classical { options, workspace, team } => {
                 classical::index3::step(&model.with_team(team), step, options, state, workspace)

@@ -134,7 +134,13 @@ impl Team for Crew {
         if self.shared.spare.load(Ordering::Relaxed) <= 0 {
             return (a(), b());
         }
-        self.fork(a, b)
+        let (mut a, mut b) = (Some(a), Some(b));
+        let (mut of_a, mut of_b) = (None, None);
+        self.fork(&mut || of_a = a.take().map(|a| a()), &mut || of_b = b.take().map(|b| b()));
+        match (of_a, of_b) {
+            (Some(of_a), Some(of_b)) => (of_a, of_b),
+            _ => unreachable!("both have been run when the fork returns"),
+        }
     }
 
     fn size(&self) -> usize {
@@ -143,13 +149,9 @@ impl Team for Crew {
 }
 
 impl Crew {
-    /// Puts `b` into the queue and runs `a`.
+    /// Puts `b` into the queue and runs `a`; both have been run when it returns.
     #[inline(never)]
-    fn fork<A: Send, B: Send>(
-        &self,
-        a: impl FnOnce() -> A + Send,
-        b: impl FnOnce() -> B + Send,
-    ) -> (A, B) {
+    fn fork(&self, a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {
         let shared = &*self.shared;
         Job::with_handle(b, |handle, done| {
             if let Err(handle) = shared.forks.push(handle) {
@@ -175,7 +177,9 @@ impl Crew {
                 }
                 shared.spare.fetch_sub(1, Ordering::Relaxed);
             }
-            result.unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            if let Err(panic) = result {
+                std::panic::resume_unwind(panic);
+            }
         })
     }
 }
