@@ -224,7 +224,7 @@ impl StepRule {
 }
 
 /// Number format of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Precision {
     /// Single precision.
     F32,

@@ -18,6 +18,7 @@ mod figure;
 mod fingerprint;
 mod journal;
 mod modes;
+mod precision;
 mod ready;
 pub mod realtime;
 mod recorder;
@@ -49,6 +50,7 @@ pub use choice::{
 pub use document::{run_document, run_document_kept};
 pub use engine::{Engine, Index};
 pub use modes::{Mode, Modes, Place};
+pub use precision::PrecisionError;
 pub use run::{Outcome, Progress, run, run_kept};
 pub use settings::{Overrides, Settings, SettingsError};
 pub use simulation::{Refusal, Simulation};

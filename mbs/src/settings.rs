@@ -5,6 +5,7 @@ use crate::choice::{
     StepRule,
 };
 use crate::digits::is_finer;
+use crate::precision::{PrecisionError, not_built_hint};
 use mbs_core::Real;
 use mbs_core::control::EnergyRule;
 use mbs_core::scene::{Scene, SolverChoice};
@@ -117,6 +118,8 @@ pub enum SettingsError {
         /// The scene asks for it, not the command line.
         from_scene: bool,
     },
+    /// A precision that this build does not have.
+    NotInBuild(Precision),
     /// A number that must be positive and finite.
     NotPositive {
         /// The key.
@@ -148,6 +151,7 @@ impl SettingsError {
     pub fn hint(&self) -> String {
         match self {
             Self::NotBuilt { value, built, .. } => mbs_scene::suggestion(value, built, "built are"),
+            Self::NotInBuild(precision) => not_built_hint(*precision),
             Self::NotPositive { .. } => "write a number larger than zero".to_owned(),
             Self::LimitOrder(_) => "write the larger one first: U, then L".to_owned(),
             Self::NotTogether { option, .. } if option.starts_with("step control") => {
@@ -172,6 +176,7 @@ impl core::fmt::Display for SettingsError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::NotBuilt { key, value, .. } => write!(f, "unknown {key} `{value}`"),
+            Self::NotInBuild(precision) => PrecisionError::NotBuilt(*precision).fmt(f),
             Self::NotPositive { key, value } => {
                 write!(f, "{key} must be positive and finite, but is {}", readable(*value))
             }
@@ -206,6 +211,9 @@ impl Settings {
         let (asked, formulation, integrator) = method(solver, overrides)?;
         let (_, precision) =
             named("precision", (&overrides.precision, &None, "f64"), &PRECISIONS, Precision::ALL)?;
+        if !precision.is_built() {
+            return Err(SettingsError::NotInBuild(precision));
+        }
         let threads = overrides.threads.unwrap_or(1);
         if threads == 0 {
             return Err(SettingsError::NotPositive { key: "threads", value: 0.0 });

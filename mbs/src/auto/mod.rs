@@ -26,6 +26,7 @@ pub(crate) use report::reasons;
 use crate::choice::{IntegratorKind, Precision};
 use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, Method};
+use crate::precision::Work;
 use crate::ready::Ready;
 use crate::settings::{Overrides, Settings};
 use crate::stop::Names;
@@ -34,7 +35,7 @@ use bench::SceneBench;
 use entrant::Entrant;
 use finish::Place;
 use mbs_core::Real;
-use mbs_core::scene::{Dimension, Scene};
+use mbs_core::scene::Scene;
 use mbs_scene::{Candidate, Choice};
 use race::{Race, Wanted};
 
@@ -114,24 +115,25 @@ pub(crate) fn instants(duration: f64, goal: &Goal) -> Instants {
     Instants { count, interval: between * frame }
 }
 
-/// Chooses for a scene. Ranked picks, the first to run, and the evidence.
-pub(crate) fn choose<T: Real>(
-    scene: &Scene<T>,
-    task: &Task<'_>,
-    methods: &[Method],
-    clock: &mut dyn Clock,
-) -> (Vec<Pick>, Choice)
-where
-    Plane<2>: InSpace<T>,
-    Plane<3>: InSpace<T>,
-{
-    match scene.dimension {
-        Dimension::Planar => in_space::<T, 2>(scene, task, methods, clock),
-        Dimension::Spatial => in_space::<T, 3>(scene, task, methods, clock),
+/// The choice for a scene: ranked picks, the first to run, and the evidence.
+pub(crate) struct Pilot<'a> {
+    pub(crate) task: &'a Task<'a>,
+    pub(crate) methods: &'a [Method],
+    pub(crate) clock: &'a mut dyn Clock,
+}
+
+impl Work for Pilot<'_> {
+    type Done = (Vec<Pick>, Choice);
+
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done
+    where
+        Plane<D>: InSpace<T>,
+    {
+        chosen::<T, D>(scene, self.task, self.methods, self.clock)
     }
 }
 
-fn in_space<T: Real, const D: usize>(
+fn chosen<T: Real, const D: usize>(
     scene: &Scene<T>,
     task: &Task<'_>,
     methods: &[Method],

@@ -1,15 +1,14 @@
 //! From a goal to a run: the ranked settings, and what happens where the first of them stops.
 
-use super::{Clock, Goal, GoalError, Pick, Task, bench, choose, instants, methods};
-use crate::choice::Precision;
+use super::{Clock, Goal, GoalError, Pick, Pilot, Task, bench, instants, methods};
 use crate::compare::method::Method;
+use crate::precision::{PrecisionError, ReadScene};
 use crate::run::Outcome;
 use crate::settings::{Overrides, Settings};
 use crate::{Names, run_document};
 use cpu_time::ThreadTime;
-use mbs_core::real::DoubleDouble;
 use mbs_core::scene::Scene;
-use mbs_scene::{Choice, Document, Fallback, ReadError};
+use mbs_scene::{Choice, Document, Fallback};
 use std::time::Instant;
 
 /// Settings to run with, in the order in which they are tried.
@@ -62,8 +61,8 @@ impl Clock for Processor {
 pub enum PlanError {
     /// The goal cannot be meant.
     Goal(GoalError),
-    /// The scene is none in the precision asked for.
-    Read(ReadError),
+    /// The scene cannot be had in the precision asked for.
+    Read(PrecisionError),
 }
 
 impl PlanError {
@@ -94,17 +93,8 @@ pub fn plan(
     let methods = methods(scene, base, &settings, &goal).map_err(PlanError::Goal)?;
     let instants = instants(settings.duration, &goal);
     let task = Task { base, settings: &settings, goal, instants };
-    let (picks, choice) = match settings.precision {
-        Precision::F64 => choose(scene, &task, &methods, clock),
-        Precision::F32 => {
-            let scene = document.scene::<f32>().map_err(PlanError::Read)?;
-            choose(&scene, &task, &methods, clock)
-        }
-        Precision::DoubleDouble => {
-            let scene = document.scene::<DoubleDouble>().map_err(PlanError::Read)?;
-            choose(&scene, &task, &methods, clock)
-        }
-    };
+    let read = ReadScene::new((document, scene), settings.precision).map_err(PlanError::Read)?;
+    let (picks, choice) = read.work(Pilot { task: &task, methods: &methods, clock });
     Ok(Plan { ranked: ranked(scene, &task, (&picks, &methods), &choice) })
 }
 
@@ -160,7 +150,7 @@ pub fn run_plan(
     (document, scene): (&Document, &Scene<f64>),
     plan: &Plan,
     reached: &mut dyn FnMut(f64),
-) -> Result<(Outcome, Settings), ReadError> {
+) -> Result<(Outcome, Settings), PrecisionError> {
     run_ranked(plan, Names::new(scene), |settings| {
         run_document((document, scene), settings, reached)
     })
@@ -170,8 +160,8 @@ pub fn run_plan(
 pub(super) fn run_ranked(
     plan: &Plan,
     names: Names,
-    mut run: impl FnMut(&Settings) -> Result<Outcome, ReadError>,
-) -> Result<(Outcome, Settings), ReadError> {
+    mut run: impl FnMut(&Settings) -> Result<Outcome, PrecisionError>,
+) -> Result<(Outcome, Settings), PrecisionError> {
     let mut lost: Vec<Fallback> = Vec::new();
     let mut furthest: Option<(Outcome, Settings)> = None;
     for settings in &plan.ranked {

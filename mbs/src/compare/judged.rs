@@ -3,7 +3,8 @@
 use super::reference::Known;
 use super::store::Store;
 use super::{CompareError, Study, Watch};
-use crate::auto::{Goal, Pick, Processor, Task, choose, methods};
+use crate::auto::{Goal, Pick, Pilot, Processor, Task, methods};
+use crate::precision::in_space;
 use crate::settings::{Overrides, Settings};
 use mbs_scene::compare::{Comparison, JudgedChoice, MethodRuns, Status};
 
@@ -50,7 +51,8 @@ impl Study<'_> {
         let Ok(mut methods) = methods(scene, &base, &settings, &goal) else { return judged };
         methods.retain(|m| self.methods.contains(m));
         let task = Task { base: &base, settings: &settings, goal, instants };
-        let (picks, choice) = choose(scene, &task, &methods, &mut Processor::new(1));
+        let pilot = Pilot { task: &task, methods: &methods, clock: &mut Processor::new(1) };
+        let (picks, choice) = in_space(scene, pilot);
         judged.pilot_seconds = choice.pilot_seconds;
         for (pick, candidate) in picks.iter().zip(&choice.candidates) {
             judged.method = pick.method.name();

@@ -25,11 +25,12 @@ pub use table::TableError;
 
 use crate::choice::{Formulation, Precision};
 use crate::journal::{Head, Kind, hash};
+use crate::precision::{PrecisionError, not_built_hint};
 use core::fmt::{self, Display, Formatter};
 use ladder::Instants;
 use mbs_core::cluster::scene_length;
 use mbs_scene::compare::{Cell, Comparison, ConvergenceMap};
-use mbs_scene::{Channel, Document, ReadError};
+use mbs_scene::{Channel, Document};
 use method::Method;
 use pass::Scenes;
 use reference::Known;
@@ -81,12 +82,27 @@ impl Default for Request {
     }
 }
 
+impl Request {
+    /// Precisions that the comparison runs in: those of its methods, and pairs of doubles where runs are the reference.
+    #[must_use]
+    pub fn needed_precisions(&self, has_table: bool) -> Vec<Precision> {
+        let mut needed: Vec<_> = Method::all(&self.formulations, &self.precisions)
+            .iter()
+            .map(|method| method.precision)
+            .chain((!has_table).then_some(Precision::DoubleDouble))
+            .collect();
+        needed.sort_unstable();
+        needed.dedup();
+        needed
+    }
+}
+
 /// A comparison that cannot be made.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum CompareError {
-    /// The scene is refused, with its place in the file.
-    Read(ReadError),
+    /// The scene is refused, with its place in the file, or cannot be had in one of the precisions.
+    Read(PrecisionError),
     /// The journal cannot be used.
     Journal(JournalError),
     /// The directory has runs of an earlier start, which must not be lost.
@@ -154,7 +170,8 @@ pub fn compare(
     watch: &mut impl Watch,
 ) -> Result<Comparison, CompareError> {
     check(request)?;
-    let scenes = Scenes::new(document).map_err(CompareError::Read)?;
+    let precisions = request.needed_precisions(table.is_some());
+    let scenes = Scenes::new(document, &precisions).map_err(CompareError::Read)?;
     let options = format!("{request:?}");
     let head = Head::new(KIND, &[document.text(), &options, table.map_or("", |(_, text)| text)]);
     let store = Store::open(out, &head, earlier).map_err(CompareError::Journal)?;
@@ -312,6 +329,7 @@ impl CompareError {
     #[must_use]
     pub fn hint(&self) -> String {
         match self {
+            Self::Read(PrecisionError::NotBuilt(precision)) => not_built_hint(*precision),
             Self::Read(_) => String::new(),
             Self::Journal(error) => error.hint().to_owned(),
             Self::Unfinished => {

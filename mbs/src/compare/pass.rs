@@ -8,6 +8,7 @@ use crate::alarm::Alarm;
 use crate::channels::Channels;
 use crate::choice::Precision;
 use crate::engine::Engine;
+use crate::precision::{PrecisionError, ReadScene, Work};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::{Names, StopError};
@@ -16,10 +17,9 @@ use core::time::Duration;
 use cpu_time::ThreadTime;
 use mbs_core::Real;
 use mbs_core::control::Accepted;
-use mbs_core::real::DoubleDouble;
-use mbs_core::scene::{Dimension, Scene};
+use mbs_core::scene::Scene;
 use mbs_scene::compare::{Energy, RunEntry, Status};
-use mbs_scene::{Channel, Document, ReadError};
+use mbs_scene::{Channel, Document};
 
 /// Runs shorter than this are repeated within one timing, and the least of them is taken [s].
 const SHORT: f64 = 0.01;
@@ -33,8 +33,7 @@ const MOST_OWN_STEPS: u32 = 2000;
 #[derive(Debug)]
 pub(super) struct Scenes {
     pub(super) double: Scene<f64>,
-    single: Scene<f32>,
-    pairs: Scene<DoubleDouble>,
+    read: Vec<(Precision, ReadScene<'static>)>,
     n_columns: usize,
 }
 
@@ -53,42 +52,76 @@ pub(super) struct Recorded {
     pub(super) is_not_started: bool,
 }
 
-/// Calls a function for the scene in the precision of the settings and in its dimension.
-macro_rules! in_kind {
-    ($scenes:expr, $settings:expr, $call:ident($($argument:expr),*)) => {{
-        let s = $scenes;
-        match ($settings.precision, s.double.dimension) {
-            (Precision::F64, Dimension::Planar) => $call::<f64, 2>(&s.double, $($argument),*),
-            (Precision::F64, Dimension::Spatial) => $call::<f64, 3>(&s.double, $($argument),*),
-            (Precision::F32, Dimension::Planar) => $call::<f32, 2>(&s.single, $($argument),*),
-            (Precision::F32, Dimension::Spatial) => $call::<f32, 3>(&s.single, $($argument),*),
-            (Precision::DoubleDouble, Dimension::Planar) => {
-                $call::<DoubleDouble, 2>(&s.pairs, $($argument),*)
-            }
-            (Precision::DoubleDouble, Dimension::Spatial) => {
-                $call::<DoubleDouble, 3>(&s.pairs, $($argument),*)
-            }
-        }
-    }};
-}
-
 impl Scenes {
-    pub(super) fn new(document: &Document) -> Result<Self, ReadError> {
+    /// Reads the scene in `f64` and in each precision that is named; runs are of these.
+    pub(super) fn new(
+        document: &Document,
+        precisions: &[Precision],
+    ) -> Result<Self, PrecisionError> {
         let double = document.scene::<f64>()?;
+        let read = |precision: Precision| {
+            let scene = ReadScene::new((document, &double), precision)?;
+            Ok((precision, scene.into_owned()))
+        };
+        let precisions = [Precision::F64].into_iter().chain(precisions.iter().copied());
+        let read = precisions.map(read).collect::<Result<_, PrecisionError>>()?;
         let n_columns = Channel::of_scene(&double).iter().map(|c| c.components.len()).sum();
-        let (single, pairs) = (document.scene::<f32>()?, document.scene::<DoubleDouble>()?);
-        Ok(Self { double, single, pairs, n_columns })
+        Ok(Self { double, read, n_columns })
+    }
+
+    fn of(&self, precision: Precision) -> Option<&ReadScene<'static>> {
+        self.read.iter().find(|(of, _)| *of == precision).map(|(_, scene)| scene)
     }
 
     /// Runs and records, for at most so many seconds of CPU time.
     pub(super) fn recorded(&self, settings: &Settings, course: &Course, most: f64) -> Recorded {
-        in_kind!(self, settings, recorded(settings, course, (self.n_columns, most)))
+        let Some(scene) = self.of(settings.precision) else {
+            return Recorded { is_not_started: true, ..Recorded::default() };
+        };
+        scene.work(ToRecord { settings, course, n_columns: self.n_columns, most })
     }
 
     /// CPU time of the steps from a fresh start [s]; the least of several where they take little. Each turn finds other places in
     /// memory.
     pub(super) fn timed(&self, settings: &Settings, course: &Course, turn: u32) -> Option<f64> {
-        in_kind!(self, settings, timed(settings, course, turn))
+        self.of(settings.precision)?.work(ToTime { settings, course, turn })
+    }
+}
+
+/// A run that is timed.
+struct ToTime<'a> {
+    settings: &'a Settings,
+    course: &'a Course,
+    turn: u32,
+}
+
+impl Work for ToTime<'_> {
+    type Done = Option<f64>;
+
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Option<f64>
+    where
+        Plane<D>: InSpace<T>,
+    {
+        timed::<T, D>(scene, self.settings, self.course, self.turn)
+    }
+}
+
+/// A run that is recorded.
+struct ToRecord<'a> {
+    settings: &'a Settings,
+    course: &'a Course,
+    n_columns: usize,
+    most: f64,
+}
+
+impl Work for ToRecord<'_> {
+    type Done = Recorded;
+
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Recorded
+    where
+        Plane<D>: InSpace<T>,
+    {
+        recorded::<T, D>(scene, self.settings, self.course, (self.n_columns, self.most))
     }
 }
 

@@ -4,15 +4,15 @@ use super::error::PacingError;
 use super::ladder::{Sought, listed};
 use super::measure::measured;
 use super::{Degrade, Overrun, Pace, Pacer, Pacing};
-use crate::choice::{Precision, StepRule};
+use crate::choice::StepRule;
 use crate::digits::is_finer;
+use crate::precision::{ReadScene, Work};
 use crate::run::{Outcome, Rung, Track, paced};
 use crate::settings::Settings;
 use crate::tree::{InSpace, Plane};
 use core::time::Duration;
 use mbs_core::Real;
-use mbs_core::real::DoubleDouble;
-use mbs_core::scene::{Dimension, Scene};
+use mbs_core::scene::Scene;
 use mbs_realtime::Clock;
 use mbs_scene::Document;
 
@@ -32,33 +32,25 @@ pub fn run_document(
     pacing: &Pacing,
     clock: &mut dyn Clock,
 ) -> Result<Outcome, PacingError> {
-    let read = |error| PacingError::Read(Box::new(error));
-    match settings.precision {
-        Precision::F64 => in_space(scene, settings, pacing, clock),
-        Precision::F32 => {
-            let scene = document.scene::<f32>().map_err(read)?;
-            in_space(&scene, settings, pacing, clock)
-        }
-        Precision::DoubleDouble => {
-            let scene = document.scene::<DoubleDouble>().map_err(read)?;
-            in_space(&scene, settings, pacing, clock)
-        }
-    }
+    let read = ReadScene::new((document, scene), settings.precision).map_err(PacingError::Read)?;
+    read.work(Paced { settings, pacing, clock })
 }
 
-fn in_space<T: Real>(
-    scene: &Scene<T>,
-    settings: &Settings,
-    pacing: &Pacing,
-    clock: &mut dyn Clock,
-) -> Result<Outcome, PacingError>
-where
-    Plane<2>: InSpace<T>,
-    Plane<3>: InSpace<T>,
-{
-    match scene.dimension {
-        Dimension::Planar => run::<T, 2>(scene, settings, pacing, clock),
-        Dimension::Spatial => run::<T, 3>(scene, settings, pacing, clock),
+/// A paced run.
+struct Paced<'a> {
+    settings: &'a Settings,
+    pacing: &'a Pacing,
+    clock: &'a mut dyn Clock,
+}
+
+impl Work for Paced<'_> {
+    type Done = Result<Outcome, PacingError>;
+
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done
+    where
+        Plane<D>: InSpace<T>,
+    {
+        run::<T, D>(scene, self.settings, self.pacing, self.clock)
     }
 }
 

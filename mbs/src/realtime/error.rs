@@ -1,7 +1,8 @@
 //! Why a run cannot be paced as it is asked for.
 
+use crate::precision::PrecisionError;
 use crate::simulation::Refusal;
-use mbs_scene::{ReadError, readable, suggestion};
+use mbs_scene::{readable, suggestion};
 
 /// A pacing that is refused.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,8 +38,8 @@ pub enum PacingError {
     },
     /// Nothing that may be left out saves time.
     NoLadder,
-    /// The text is no scene in the precision of the run.
-    Read(Box<ReadError>),
+    /// The scene cannot be had in the precision of the run.
+    Read(PrecisionError),
 }
 
 impl PacingError {

@@ -1,13 +1,14 @@
 //! One member of a sweep: from the varied scene to its row.
 
-use crate::Plane;
+use crate::precision::{ReadScene, Work};
 use crate::recorder::Keep;
 use crate::run::{Outcome, run_keeping};
 use crate::settings::{Overrides, Settings};
+use crate::tree::{InSpace, Plane};
 use core::time::Duration;
 use cpu_time::ThreadTime;
 use mbs_core::Real;
-use mbs_core::scene::Dimension;
+use mbs_core::scene::Scene;
 use mbs_scene::{Document, Sweep};
 
 /// What a member leaves behind.
@@ -53,40 +54,45 @@ pub(super) fn run(scene: &Document, sweep: &Sweep, overrides: &Overrides, member
     let cpu = ThreadTime::try_now();
     let document = sweep.member(scene, member);
     let values = sweep.values(member).map(str::to_owned).collect();
-    let row = match overrides.precision.as_deref() {
-        Some("f32") => run_in::<f32>(&document, overrides, member, values),
-        _ => run_in::<f64>(&document, overrides, member, values),
-    };
+    let row = run_in(&document, overrides, member, values);
     let cpu = cpu.and_then(|cpu| cpu.try_elapsed()).unwrap_or(Duration::ZERO);
     Row { cpu_seconds: cpu.as_secs_f64(), ..row }
 }
 
-fn run_in<T: Real>(
-    document: &Document,
-    overrides: &Overrides,
-    member: usize,
-    values: Vec<String>,
-) -> Row
-where
-    Plane<2>: crate::InSpace<T>,
-    Plane<3>: crate::InSpace<T>,
-{
-    let scene = match document.scene::<T>() {
+fn run_in(document: &Document, overrides: &Overrides, member: usize, values: Vec<String>) -> Row {
+    let refused = |values, code, error: &dyn core::fmt::Display| {
+        Row::failed(member, values, code, &error.to_string())
+    };
+    let scene = match document.scene() {
         Ok(scene) => scene,
-        Err(error) => return Row::failed(member, values, "scene-refused", &error.to_string()),
+        Err(error) => return refused(values, "scene-refused", &error),
     };
     let settings = match Settings::new(&scene, overrides) {
         Ok(settings) => settings,
-        Err(error) => return Row::failed(member, values, "settings-refused", &error.to_string()),
+        Err(error) => return refused(values, "settings-refused", &error),
     };
-    let outcome = match scene.dimension {
-        Dimension::Planar => run_keeping::<T, 2>(&scene, &settings, &mut (), Keep::Last),
-        Dimension::Spatial => run_keeping::<T, 3>(&scene, &settings, &mut (), Keep::Last),
+    let outcome = match ReadScene::new((document, &scene), settings.precision) {
+        Ok(read) => read.work(Last(&settings)),
+        Err(error) => return refused(values, "scene-refused", &error),
     };
     let summary = &outcome.summary;
     let failure = summary.error.as_ref().map(|error| (error.code.clone(), error.message.clone()));
     let measured = measured(&outcome);
     Row { member, values, failure, measured, cpu_seconds: 0.0 }
+}
+
+/// A run of which the last row is kept.
+struct Last<'a>(&'a Settings);
+
+impl Work for Last<'_> {
+    type Done = Outcome;
+
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome
+    where
+        Plane<D>: InSpace<T>,
+    {
+        run_keeping::<T, D>(scene, self.0, &mut (), Keep::Last)
+    }
 }
 
 fn measured(outcome: &Outcome) -> Option<Measured> {

@@ -1,0 +1,150 @@
+//! The one place where a precision becomes a scalar: a scene, read in the digits of its run, and the work that is done with it.
+//!
+//! Every step exists once for each scalar and dimension that is named here. `f32` and `dd` are features of this crate, on by default: a
+//! build without them compiles half as much, and refuses what asks for them by [`PrecisionError::NotBuilt`].
+
+use crate::choice::Precision;
+use crate::tree::{InSpace, Plane};
+use core::fmt::{self, Display, Formatter};
+use mbs_core::Real;
+#[cfg(feature = "dd")]
+use mbs_core::real::DoubleDouble;
+use mbs_core::scene::{Dimension, Scene};
+use mbs_scene::{Document, ReadError};
+use std::borrow::Cow;
+
+/// What is done with a scene in the digits and the dimensions of its run.
+pub(crate) trait Work {
+    /// What comes of it.
+    type Done;
+
+    /// Does it.
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done
+    where
+        Plane<D>: InSpace<T>;
+}
+
+/// A scene in one precision.
+#[derive(Debug)]
+pub(crate) enum ReadScene<'a> {
+    /// Double precision.
+    F64(Cow<'a, Scene<f64>>),
+    /// Single precision.
+    #[cfg(feature = "f32")]
+    F32(Box<Scene<f32>>),
+    /// Pairs of doubles.
+    #[cfg(feature = "dd")]
+    DoubleDouble(Box<Scene<DoubleDouble>>),
+}
+
+impl<'a> ReadScene<'a> {
+    /// The scene as it was read in `f64`, or read anew from its document in another precision.
+    pub(crate) fn new(
+        (document, scene): (&Document, &'a Scene<f64>),
+        precision: Precision,
+    ) -> Result<Self, PrecisionError> {
+        let _ = document;
+        match precision {
+            Precision::F64 => Ok(Self::F64(Cow::Borrowed(scene))),
+            #[cfg(feature = "f32")]
+            Precision::F32 => Ok(Self::F32(Box::new(document.scene()?))),
+            #[cfg(feature = "dd")]
+            Precision::DoubleDouble => Ok(Self::DoubleDouble(Box::new(document.scene()?))),
+            #[cfg(not(all(feature = "f32", feature = "dd")))]
+            missing => Err(PrecisionError::NotBuilt(missing)),
+        }
+    }
+
+    /// The same for as long as one likes.
+    pub(crate) fn into_owned(self) -> ReadScene<'static> {
+        match self {
+            Self::F64(scene) => ReadScene::F64(Cow::Owned(scene.into_owned())),
+            #[cfg(feature = "f32")]
+            Self::F32(scene) => ReadScene::F32(scene),
+            #[cfg(feature = "dd")]
+            Self::DoubleDouble(scene) => ReadScene::DoubleDouble(scene),
+        }
+    }
+
+    /// Does the work in the scene's precision and dimension.
+    pub(crate) fn work<W: Work>(&self, work: W) -> W::Done {
+        match self {
+            Self::F64(scene) => in_space(&**scene, work),
+            #[cfg(feature = "f32")]
+            Self::F32(scene) => in_space(&**scene, work),
+            #[cfg(feature = "dd")]
+            Self::DoubleDouble(scene) => in_space(&**scene, work),
+        }
+    }
+}
+
+/// Does the work in the dimension of the scene.
+pub(crate) fn in_space<T: Real, W: Work>(scene: &Scene<T>, work: W) -> W::Done
+where
+    Plane<2>: InSpace<T>,
+    Plane<3>: InSpace<T>,
+{
+    match scene.dimension {
+        Dimension::Planar => work.done::<T, 2>(scene),
+        Dimension::Spatial => work.done::<T, 3>(scene),
+    }
+}
+
+impl Precision {
+    /// Whether this build has the steps of this precision: `f32` and `dd` are features of the crate, on by default.
+    #[must_use]
+    pub const fn is_built(self) -> bool {
+        match self {
+            Self::F32 => cfg!(feature = "f32"),
+            Self::F64 => true,
+            Self::DoubleDouble => cfg!(feature = "dd"),
+        }
+    }
+}
+
+/// A scene cannot be had in the precision of its run.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum PrecisionError {
+    /// The text is no scene in that precision, though it is one in `f64`.
+    Read(Box<ReadError>),
+    /// The build has no steps of that precision.
+    NotBuilt(Precision),
+}
+
+impl PrecisionError {
+    /// The refusal with its place or its hint.
+    #[must_use]
+    pub fn render(&self) -> String {
+        match self {
+            Self::Read(error) => error.render(),
+            Self::NotBuilt(precision) => {
+                format!("error: {self}\nhint: {}", not_built_hint(*precision))
+            }
+        }
+    }
+}
+
+/// How to get a precision that was left out.
+pub(crate) fn not_built_hint(precision: Precision) -> String {
+    format!("build with the feature `{}`, which is on by default", precision.name())
+}
+
+impl From<ReadError> for PrecisionError {
+    fn from(error: ReadError) -> Self {
+        Self::Read(Box::new(error))
+    }
+}
+
+impl Display for PrecisionError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Read(error) => error.fmt(f),
+            Self::NotBuilt(precision) => {
+                write!(f, "this build has no precision `{}`", precision.name())
+            }
+        }
+    }
+}
+
+impl core::error::Error for PrecisionError {}
