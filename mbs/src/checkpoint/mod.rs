@@ -16,8 +16,6 @@ mod keeping;
 mod rows;
 mod simulation;
 pub(crate) mod tape;
-#[cfg(test)]
-mod tests;
 
 pub use error::CheckpointError;
 pub use file::Checkpoint;

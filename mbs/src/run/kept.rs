@@ -156,6 +156,3 @@ impl Counts {
         tape.count(&mut control.events)
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,5 +1,7 @@
-//! What becomes of members that fail in ways no scene can ask for.
+//! What becomes of members that fail in ways no scene can ask for. Members are given here, and not run: mbs/tests/all/sweep.rs
+//! runs them.
 
+use super::member::Measured;
 use super::*;
 
 const SCENE: &str = r#"
@@ -28,6 +30,14 @@ fn study() -> Study {
     Study::new(scene, &sweep, &Overrides::default()).expect("a good sweep")
 }
 
+/// A member that was completed.
+fn completed(study: &Study, member: usize) -> Row {
+    let (end_time, steps, energy, violation) = (0.1, 10, 1e-9, [1e-12; 3]);
+    let measured = Measured { end_time, steps, energy, violation, outputs: Vec::new() };
+    let values = study.sweep.values(member).map(str::to_owned).collect();
+    Row { member, values, failure: None, measured: Some(measured), cpu_seconds: 1e-4 }
+}
+
 /// An empty directory for one test.
 fn scratch(name: &str) -> PathBuf {
     let path = std::env::temp_dir().join(format!("mbs-sweep-{name}-{}", std::process::id()));
@@ -42,7 +52,7 @@ fn a_panic_is_a_failed_member_and_leaves_the_others() {
     for threads in [1, 2] {
         let job = |i| {
             assert!(i != 2, "member three, \"broken\",\nin two lines");
-            study.member(i)
+            completed(&study, i)
         };
         let report = study.run_jobs(&out, NonZeroUsize::new(threads), true, &mut (), job);
         let report = report.expect("the directory can be written");
@@ -50,7 +60,8 @@ fn a_panic_is_a_failed_member_and_leaves_the_others() {
         let (count, first, message) = &report.failures["panicked"];
         assert_eq!((*count, *first), (1, 3));
         assert_eq!(message, "panicked: member three, \"broken\", in two lines");
-        let again = study.run(&out, None, false, &mut ()).expect("the journal is good");
+        let again = study.run_jobs(&out, None, false, &mut (), |i| panic!("{i} runs again"));
+        let again = again.expect("the journal is good");
         assert_eq!((again.resumed, again.completed), (6, 5), "the journal has it too");
     }
     let _ = std::fs::remove_dir_all(&out);
@@ -71,10 +82,11 @@ fn two_processes_do_not_share_a_directory() {
     let out = scratch("busy");
     std::fs::create_dir_all(&out).expect("a directory of our own");
     let held = Journal::open(&out, &study.head, false).expect("the first one");
-    let second = study.run(&out, None, true, &mut ());
+    let second = study.run_jobs(&out, None, true, &mut (), |i| panic!("{i} runs beside"));
     assert!(matches!(second, Err(SweepError::Journal(JournalError::Busy(_)))), "{second:?}");
     drop(held);
-    assert_eq!(study.run(&out, None, false, &mut ()).expect("free again").completed, 6);
+    let third = study.run_jobs(&out, None, false, &mut (), |i| completed(&study, i));
+    assert_eq!(third.expect("free again").completed, 6);
     let _ = std::fs::remove_dir_all(&out);
 }
 
@@ -85,8 +97,10 @@ fn parquet_has_the_rows_of_the_table_with_their_types() {
     use ::parquet::record::Field;
     let study = study();
     let out = scratch("parquet");
-    let job =
-        |i| if i == 2 { Row::failed(i, vec!["3".to_owned()], "bad", "x") } else { study.member(i) };
+    let job = |i| match i {
+        2 => Row::failed(i, vec!["3".to_owned()], "bad", "x"),
+        _ => completed(&study, i),
+    };
     let report = study.run_jobs(&out, None, false, &mut (), job).expect("the directory is ours");
     let file = std::fs::File::open(&report.tables[1]).expect("the second table");
     let reader = SerializedFileReader::new(file).expect("a Parquet file");

@@ -9,7 +9,11 @@ use mbs::{
 };
 use std::path::{Path, PathBuf};
 
+mod bytes;
+mod items;
 mod killed;
+mod layout;
+mod record;
 mod refused;
 
 /// An empty directory for one test.

@@ -1,0 +1,315 @@
+//! That every item of a simulation's checkpoint matters.
+
+use super::layout::Parts;
+use crate::common::scene;
+use mbs::core::scene::{Course, Effect, EffectKind, Scene};
+use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
+
+/// How a simulation is made and stepped.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Case {
+    pub(super) scene: &'static str,
+    pub(super) formulation: &'static str,
+    pub(super) integrator: &'static str,
+    pub(super) control: &'static str,
+    pub(super) step: f64,
+    /// Steps before the checkpoint, and after it.
+    pub(super) steps: [u32; 2],
+    /// Checkpoints that are tried: after so many steps, and after each of the next ones.
+    pub(super) places: u32,
+}
+
+/// Others differ from it.
+pub(super) const CASE: Case = Case {
+    scene: "double-pendulum",
+    formulation: "index-3",
+    integrator: "trapezoidal",
+    control: "fixed",
+    step: 1e-3,
+    steps: [40, 40],
+    places: 12,
+};
+
+impl Case {
+    pub(super) fn scene(&self) -> Scene<f64> {
+        let mut scene = scene(self.scene);
+        let course = Course::Input([0.0; 3]);
+        let kind = EffectKind::BodyTorque { body: 0, course };
+        let motor = Effect { name: "motor".into(), enabled: true, kind };
+        if self.scene == "guided-four-bar" {
+            let (stiffness, damping, free_value) = (2.0, 0.0, 0.0);
+            let kind = EffectKind::TorsionSpring { joint: 0, stiffness, damping, free_value };
+            scene.effects.push(Effect { name: "spring".into(), enabled: true, kind });
+        }
+        scene.effects.push(motor);
+        scene
+    }
+
+    pub(super) fn overrides(&self) -> Overrides {
+        let text = |text: &str| Some(text.to_owned());
+        Overrides {
+            formulation: text(self.formulation),
+            integrator: text(self.integrator),
+            step_control: (self.control != "fixed").then(|| self.control.to_owned()),
+            step: Some(self.step),
+            step_max: (self.control != "fixed").then_some(20.0 * self.step),
+            energy_tolerance: (self.control == "energy").then_some([1e-7, 1e-9]),
+            ..Overrides::default()
+        }
+    }
+
+    pub(super) fn settings(&self, scene: &Scene<f64>) -> Settings {
+        Settings::new(scene, &self.overrides()).expect("good settings")
+    }
+
+    fn simulation<const D: usize>(&self) -> Simulation<f64, D>
+    where
+        Plane<D>: InSpace<f64>,
+    {
+        let scene = self.scene();
+        let settings = self.settings(&scene);
+        Simulation::new(&scene, &settings).expect("it starts")
+    }
+
+    /// The simulation as it is when its checkpoint is made.
+    pub(super) fn before<const D: usize>(&self) -> Simulation<f64, D>
+    where
+        Plane<D>: InSpace<f64>,
+    {
+        let mut simulation = self.simulation();
+        let motor = self.scene().effects.len() - 1;
+        assert!(simulation.set_input(motor, [0.3, 0.0, 0.3]));
+        for _ in 0..self.steps[0] {
+            simulation.advance(self.rest()).expect("a regular step");
+        }
+        simulation
+    }
+
+    /// What is left to the end of the run, where lengths are controlled; else a step.
+    pub(super) fn rest(&self) -> f64 {
+        if self.control == "fixed" { self.step } else { 1e3 }
+    }
+
+    /// Everything that can be seen of the steps that follow, in bits.
+    fn after<const D: usize>(&self, simulation: &mut Simulation<f64, D>) -> Vec<u64>
+    where
+        Plane<D>: InSpace<f64>,
+    {
+        let mut seen: Vec<u64> = simulation.energies().map(f64::to_bits).to_vec();
+        for _ in 0..self.steps[1] {
+            let Ok(accepted) = simulation.advance(self.rest()) else {
+                seen.push(u64::MAX);
+                return seen;
+            };
+            let report = accepted.attempt.report;
+            let (index, changes) = simulation.index().unwrap_or_default();
+            let counts = [report.iterations, report.factorizations, report.solves, report.rejected];
+            seen.extend(counts.map(u64::from));
+            seen.extend([u64::from(index), u64::from(changes), accepted.step.to_bits()]);
+            let s = simulation.state();
+            for numbers in [&s.q[..], &s.q_low, &s.v, &s.a, &s.lambda, &s.reaction, &s.memory] {
+                seen.extend(numbers.iter().map(|x| x.to_bits()));
+            }
+            seen.extend([s.t, s.work, s.power].map(f64::to_bits));
+            seen.extend(simulation.energies().map(f64::to_bits));
+            seen.extend(simulation.invariant().history().map(f64::to_bits));
+        }
+        seen
+    }
+}
+
+/// The bytes of a simulation's checkpoint.
+pub(super) fn saved<const D: usize>(
+    simulation: &Simulation<f64, D>,
+    whose: (&Scene<f64>, &Settings),
+) -> Vec<u8>
+where
+    Plane<D>: InSpace<f64>,
+{
+    let mut bytes = Vec::new();
+    simulation.save(whose, &mut bytes).expect("memory");
+    bytes
+}
+
+/// A part of the file that is left out, and what stands there then.
+type Item = (&'static str, Left);
+
+#[derive(Debug, Clone, Copy)]
+enum Left {
+    /// What stands there in a simulation that has made no step.
+    Fresh,
+    /// These bytes.
+    Bytes(&'static [u8]),
+    /// What comes of the bytes that stand there.
+    Of(fn(&[u8]) -> Vec<u8>),
+}
+
+/// That the bits after a checkpoint are those without it, wherever it is, and that they are not where one of the items is left
+/// out, at some of the places: not every one matters everywhere.
+fn every_item_matters<const D: usize>(case: Case, items: &[Item])
+where
+    Plane<D>: InSpace<f64>,
+{
+    let scene = case.scene();
+    let settings = case.settings(&scene);
+    let whose = (&scene, &settings);
+    let fresh = Parts::of_simulation(saved(&case.simulation::<D>(), whose), &settings);
+    let mut left: Vec<Item> = items.to_vec();
+    for offset in 0..case.places {
+        let case = Case { steps: [case.steps[0] + offset, case.steps[1]], ..case };
+        let mut first = case.before::<D>();
+        let kept = Parts::of_simulation(saved(&first, whose), &settings);
+        let seen = case.after(&mut first);
+
+        let mut second = case.simulation::<D>();
+        second.restore(whose, kept.bytes()).expect("it is ours");
+        assert!(seen == case.after(&mut second), "{case:?}: what is kept is not all");
+        left.retain(|(name, item)| {
+            let lost = match item {
+                Left::Fresh => kept.with(name, fresh.part(name)),
+                Left::Bytes(bytes) => kept.with(name, bytes),
+                Left::Of(part) => kept.with(name, &part(kept.part(name))),
+            };
+            let mut third = case.simulation::<D>();
+            third.restore(whose, &lost[..]).unwrap_or_else(|error| panic!("{name}: {error}"));
+            seen == case.after(&mut third)
+        });
+    }
+    let names: Vec<&str> = left.iter().map(|(name, _)| *name).collect();
+    assert!(names.is_empty(), "{case:?}: nothing is lost without {names:?}");
+}
+
+/// A list with the same number at all its places.
+fn all(part: &[u8], x: f64) -> Vec<u8> {
+    let mut bytes = part.to_vec();
+    bytes[8..].chunks_exact_mut(8).for_each(|place| place.copy_from_slice(&x.to_le_bytes()));
+    bytes
+}
+
+/// What every formulation in natural coordinates goes on from.
+const STATE: [Item; 7] = [
+    ("time", Left::Fresh),
+    ("positions", Left::Fresh),
+    ("velocities", Left::Fresh),
+    ("work", Left::Fresh),
+    ("power", Left::Fresh),
+    ("invariant", Left::Fresh),
+    ("inputs", Left::Fresh),
+];
+
+/// What those add that carry rounding and multipliers.
+const CARRIED: [Item; 6] = [
+    ("length of the last step", Left::Fresh),
+    ("rounding of positions", Left::Fresh),
+    ("auxiliary accelerations", Left::Fresh),
+    ("multipliers", Left::Fresh),
+    ("multipliers before", Left::Fresh),
+    ("residuals", Left::Fresh),
+];
+
+/// An energy rule that remembers nothing, in bytes: it is there, no change, none in a row.
+const NO_ENERGY: &[u8] = &[1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+/// An error control that remembers nothing: it is there, no error, not rejected.
+const NO_ERROR: &[u8] = &[1, 0, 0];
+
+#[test]
+fn every_item_of_the_natural_state_matters() {
+    every_item_matters::<2>(CASE, &[&STATE[..], &CARRIED].concat());
+    for formulation in ["classical", "index-1"] {
+        every_item_matters::<2>(Case { formulation, ..CASE }, &STATE);
+    }
+    // the trapezoidal rule goes on from auxiliary accelerations, which are the same
+    let items = [("accelerations", Left::Fresh)];
+    every_item_matters::<2>(Case { integrator: "hht", ..CASE }, &items);
+    // the spring at the crank has been wound by more than half a turn
+    let items = [&STATE[..], &[("memory", Left::Fresh), ("springs", Left::Fresh)]].concat();
+    for formulation in ["index-3", "classical", "state-space"] {
+        let case = Case { scene: "guided-four-bar", formulation, steps: [1500, 40], ..CASE };
+        every_item_matters::<2>(case, &items);
+    }
+}
+
+#[test]
+fn what_the_penalty_remembers_matters() {
+    // through the singular position of two four-bar linkages
+    let items = [
+        ("penalty", Left::Of(|_| 1.0_f64.to_le_bytes().to_vec())),
+        ("combination of constraints", Left::Of(|part| all(part, 1.0))),
+        ("what is left of the combination", Left::Bytes(&[0; 8])),
+    ];
+    let case = Case { scene: "two-four-bars", ..CASE };
+    let scene = case.scene();
+    let settings = case.settings(&scene);
+    let mut simulation = case.before::<2>();
+    let mut steps = case.steps[0];
+    let parts = |simulation: &Simulation<f64, 2>| {
+        Parts::of_simulation(saved(simulation, (&scene, &settings)), &settings)
+    };
+    let is_raised = |parts: &Parts| {
+        parts.number("penalty") > 1.0 && parts.number("what is left of the combination") >= 0.001
+    };
+    while !is_raised(&parts(&simulation)) {
+        simulation.advance(case.step).expect("a step that passes");
+        steps += 1;
+        assert!(steps < 5000, "no penalty is raised");
+    }
+    // and where it is going to be
+    every_item_matters::<2>(Case { steps: [steps - 8, 100], places: 60, ..case }, &items);
+}
+
+#[test]
+fn what_the_control_remembers_matters() {
+    // an error that passes through zero is remembered
+    let case = Case { control: "energy", places: 700, ..CASE };
+    let items = [("next step", Left::Fresh), ("energy rule", Left::Bytes(NO_ENERGY))];
+    every_item_matters::<2>(case, &items);
+    let items = [("energy rule", Left::Bytes(NO_ENERGY))];
+    let (step, steps) = (1e-5, [2, 20]);
+    every_item_matters::<2>(Case { control: "energy-printed", step, steps, ..CASE }, &items);
+    let case = Case { control: "error", ..CASE };
+    every_item_matters::<2>(case, &[("error control", Left::Bytes(NO_ERROR))]);
+}
+
+#[test]
+fn what_the_change_of_index_remembers_matters() {
+    let case = Case { formulation: "multi-index", control: "energy", step: 2e-5, ..CASE };
+    let more = |part: &[u8]| {
+        let changes = u32::from_le_bytes(part.try_into().expect("four bytes"));
+        (changes + 1).to_le_bytes().to_vec()
+    };
+    // index-1 is the flag
+    let items = [("index", Left::Bytes(&[1])), ("changes", Left::Of(more))];
+    every_item_matters::<2>(case, &items);
+}
+
+#[test]
+fn what_state_space_chose_matters() {
+    // so many steps that other coordinates were chosen
+    let case = Case { formulation: "state-space", steps: [2500, 400], step: 1e-2, ..CASE };
+    let scene = case.scene();
+    let settings = case.settings(&scene);
+    let bytes = saved(&case.before::<2>(), (&scene, &settings));
+    assert!(Parts::of_simulation(bytes, &settings).count("choices") > 0);
+    every_item_matters::<2>(case, &[("order", Left::Fresh)]);
+}
+
+#[test]
+fn what_relative_coordinates_keep_matters() {
+    let items = [
+        ("coordinates", Left::Fresh),
+        ("rates", Left::Fresh),
+        ("second rates", Left::Fresh),
+        ("time of the tree", Left::Bytes(&[0; 8])),
+        ("energies", Left::Bytes(&[0; 16])),
+    ];
+    let case = Case { formulation: "recursive", ..CASE };
+    every_item_matters::<2>(case, &items);
+    every_item_matters::<3>(Case { scene: "spatial-four-bar", ..case }, &items);
+    let items = [("pivots", Left::Of(|part| all(part, 0.0)))];
+    every_item_matters::<2>(Case { scene: "two-four-bars", ..case }, &items);
+    for integrator in ["rk54", "rk853", "gbs", "radau5"] {
+        let step = 0.1;
+        let items = [("error control of the tree", Left::Fresh)];
+        every_item_matters::<2>(Case { integrator, step, ..case }, &items);
+    }
+}

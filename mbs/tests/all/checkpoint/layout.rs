@@ -1,0 +1,343 @@
+//! Where the parts of a checkpoint are among its bytes: a second reader of the format, by docs/CHECKPOINT.md.
+
+use core::ops::Range;
+use mbs::{Formulation, Settings};
+
+/// Bytes before those that are counted and summed.
+const N_HEAD: usize = 28;
+/// Numbers of the energy invariant.
+const N_INVARIANT: usize = 16;
+/// Numbers of a spring as last evaluated.
+const N_MEASURE: u64 = 7;
+/// Numbers in a picture at most, in the scenes that are tried.
+const MOST_IN_PICTURE: usize = 1000;
+
+/// The bytes of a checkpoint in `f64`, and the parts that have a name.
+#[derive(Debug, Clone)]
+pub(super) struct Parts {
+    bytes: Vec<u8>,
+    places: Vec<(&'static str, Range<usize>)>,
+}
+
+impl Parts {
+    /// Of the checkpoint of a simulation.
+    pub(super) fn of_simulation(bytes: Vec<u8>, settings: &Settings) -> Self {
+        let mut walk = Walk::new(&bytes);
+        walk.simulation(settings).expect("all is there");
+        assert_eq!(walk.at, bytes.len(), "nothing else is there");
+        Self { places: walk.places, bytes }
+    }
+
+    /// Of the checkpoint of a run. How many numbers a picture has is not in it: as many as make it end where it does.
+    pub(super) fn of_run(bytes: Vec<u8>, settings: &Settings) -> Self {
+        let places = (0..MOST_IN_PICTURE).rev().find_map(|n| {
+            let mut walk = Walk::new(&bytes);
+            walk.simulation(settings)?;
+            walk.record(n)?;
+            (walk.at == bytes.len()).then_some(walk.places)
+        });
+        let places = places.expect("all is there, and nothing else");
+        Self { places, bytes }
+    }
+
+    /// The bytes of the whole file.
+    pub(super) fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// Where a part is.
+    pub(super) fn place(&self, name: &str) -> Range<usize> {
+        let found = self.places.iter().find(|(part, _)| *part == name);
+        found.unwrap_or_else(|| panic!("no part {name}")).1.clone()
+    }
+
+    /// The bytes of a part.
+    pub(super) fn part(&self, name: &str) -> &[u8] {
+        &self.bytes[self.place(name)]
+    }
+
+    /// A part that is a number.
+    pub(super) fn number(&self, name: &str) -> f64 {
+        f64::from_le_bytes(self.part(name).try_into().expect("eight bytes"))
+    }
+
+    /// A part that is a small count.
+    pub(super) fn count(&self, name: &str) -> u32 {
+        u32::from_le_bytes(self.part(name).try_into().expect("four bytes"))
+    }
+
+    /// The file with other bytes in place of a part.
+    pub(super) fn with(&self, name: &str, part: &[u8]) -> Vec<u8> {
+        let mut bytes = self.bytes.clone();
+        bytes.splice(self.place(name), part.iter().copied());
+        sealed(&bytes)
+    }
+}
+
+/// The bytes of a checkpoint with another body, made whole again.
+pub(super) fn sealed(bytes: &[u8]) -> Vec<u8> {
+    let mut sealed = bytes.to_vec();
+    if let Some((head, rest)) = sealed.split_at_mut_checked(N_HEAD) {
+        head[12..20].copy_from_slice(&(rest.len() as u64).to_le_bytes());
+        head[20..N_HEAD].copy_from_slice(&checksum(rest).to_le_bytes());
+    }
+    sealed
+}
+
+/// FNV-1a of 64 bits.
+fn checksum(bytes: &[u8]) -> u64 {
+    let step = |sum: u64, &byte: &u8| (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)
+}
+
+/// Goes over the bytes; nothing where they end too early.
+struct Walk<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    places: Vec<(&'static str, Range<usize>)>,
+}
+
+impl<'a> Walk<'a> {
+    fn new(bytes: &'a [u8]) -> Self {
+        Self { bytes, at: N_HEAD, places: Vec::new() }
+    }
+
+    fn skip(&mut self, n: usize) -> Option<()> {
+        self.at = self.at.checked_add(n).filter(|at| *at <= self.bytes.len())?;
+        Some(())
+    }
+
+    /// So many numbers of eight bytes.
+    fn numbers(&mut self, n: u64) -> Option<()> {
+        self.skip(usize::try_from(n).ok()?.checked_mul(8)?)
+    }
+
+    fn word(&mut self) -> Option<u64> {
+        let from = self.at;
+        self.skip(8)?;
+        self.bytes[from..self.at].try_into().ok().map(u64::from_le_bytes)
+    }
+
+    fn flag(&mut self) -> Option<bool> {
+        let from = self.at;
+        self.skip(1)?;
+        Some(self.bytes[from] == 1)
+    }
+
+    /// A list after its length.
+    fn list(&mut self, mut each: impl FnMut(&mut Self) -> Option<()>) -> Option<()> {
+        let n = self.word()?;
+        (0..n).try_for_each(|_| each(self))
+    }
+
+    fn list_of_numbers(&mut self) -> Option<()> {
+        let n = self.word()?;
+        self.numbers(n)
+    }
+
+    /// Something after a flag, or nothing.
+    fn option(&mut self, each: impl FnOnce(&mut Self) -> Option<()>) -> Option<()> {
+        if self.flag()? { each(self) } else { Some(()) }
+    }
+
+    /// A part that has a name.
+    fn named(
+        &mut self,
+        name: &'static str,
+        part: impl FnOnce(&mut Self) -> Option<()>,
+    ) -> Option<()> {
+        let from = self.at;
+        part(self)?;
+        self.places.push((name, from..self.at));
+        Some(())
+    }
+
+    /// From the version to the inputs.
+    fn simulation(&mut self, settings: &Settings) -> Option<()> {
+        self.identity()?;
+        self.named("simulation", |walk| {
+            walk.state()?;
+            walk.formulation(settings.formulation)?;
+            if walk.flag()? {
+                walk.control(settings.events)?;
+            }
+            walk.named("invariant", |walk| walk.numbers(N_INVARIANT as u64))?;
+            walk.named("inputs", |walk| {
+                let input = |walk: &mut Self| walk.numbers(5);
+                walk.list(input)?;
+                walk.list(input)
+            })
+        })
+    }
+
+    fn identity(&mut self) -> Option<()> {
+        let text = |walk: &mut Self| {
+            let n = walk.word()?;
+            walk.skip(usize::try_from(n).ok()?)
+        };
+        text(self)?;
+        self.flag()?;
+        self.numbers(2)?;
+        self.list_of_numbers()?;
+        self.list(text)?;
+        text(self)
+    }
+
+    fn state(&mut self) -> Option<()> {
+        for name in ["time", "length of the last step", "work", "power"] {
+            self.named(name, |walk| walk.numbers(1))?;
+        }
+        let lists = [
+            "positions",
+            "rounding of positions",
+            "velocities",
+            "accelerations",
+            "auxiliary accelerations",
+            "multipliers",
+            "multipliers before",
+            "reactions",
+            "residuals",
+            "memory",
+        ];
+        lists.into_iter().try_for_each(|name| self.named(name, Self::list_of_numbers))
+    }
+
+    fn formulation(&mut self, formulation: Formulation) -> Option<()> {
+        let number = self.word()?;
+        match formulation {
+            Formulation::Index1 | Formulation::Index3 | Formulation::MultiIndex => {
+                assert_eq!(number, 0);
+                self.named("penalty", |walk| walk.numbers(1))?;
+                self.named("what is left of the combination", |walk| walk.numbers(1))?;
+                self.named("combination of constraints", Self::list_of_numbers)?;
+                self.skip(8)?;
+                if formulation == Formulation::MultiIndex {
+                    self.named("index", |walk| walk.skip(1))?;
+                    self.named("changes", |walk| walk.skip(4))?;
+                    self.numbers(2)?;
+                }
+                self.springs()
+            }
+            Formulation::Classical => {
+                assert_eq!(number, 1);
+                self.springs()
+            }
+            Formulation::StateSpace => {
+                assert_eq!(number, 2);
+                self.named("order", |walk| {
+                    walk.list(|walk| walk.skip(8))?;
+                    walk.list_of_numbers()?;
+                    walk.list_of_numbers()
+                })?;
+                self.numbers(2)?;
+                self.flag()?;
+                self.named("choices", |walk| walk.skip(4))?;
+                self.springs()
+            }
+            Formulation::Recursive => {
+                assert_eq!(number, 3);
+                self.tree()
+            }
+        }
+    }
+
+    fn springs(&mut self) -> Option<()> {
+        self.named("springs", |walk| {
+            walk.list(|walk| walk.numbers(N_MEASURE))?;
+            walk.list(Self::list_of_numbers)
+        })
+    }
+
+    fn tree(&mut self) -> Option<()> {
+        self.named("time of the tree", |walk| walk.numbers(1))?;
+        self.numbers(2)?;
+        for name in ["coordinates", "rates", "second rates"] {
+            self.named(name, Self::list_of_numbers)?;
+        }
+        self.list_of_numbers()?;
+        self.word()?;
+        self.named("pivots", Self::list_of_numbers)?;
+        self.named("error control of the tree", |walk| {
+            for _ in 0..3 {
+                walk.option(Self::adaptive)?;
+            }
+            walk.option(|walk| {
+                walk.adaptive()?;
+                walk.list_of_numbers()?;
+                walk.list_of_numbers()?;
+                walk.flag()?;
+                walk.option(|walk| walk.numbers(1))?;
+                walk.option(|walk| walk.numbers(1))?;
+                walk.numbers(1)
+            })
+        })?;
+        self.named("energies", |walk| walk.numbers(2))
+    }
+
+    /// What controls a step inside a step.
+    fn adaptive(&mut self) -> Option<()> {
+        self.numbers(1)?;
+        self.errors()?;
+        self.numbers(3)
+    }
+
+    fn errors(&mut self) -> Option<()> {
+        self.option(|walk| walk.numbers(1))?;
+        self.skip(1)
+    }
+
+    fn control(&mut self, has_events: bool) -> Option<()> {
+        self.named("next step", |walk| walk.numbers(1))?;
+        self.named("energy rule", |walk| walk.option(|walk| walk.skip(12)))?;
+        self.named("error control", |walk| walk.option(Self::errors))?;
+        self.option(|walk| walk.skip(12))?;
+        if has_events {
+            self.skip(12)?;
+            self.list(Self::list_of_numbers)?;
+        }
+        Some(())
+    }
+
+    /// What a run has beside its simulation, with so many numbers in a picture.
+    fn record(&mut self, in_picture: usize) -> Option<()> {
+        self.named("count of steps", |walk| walk.numbers(1))?;
+        self.numbers(1)?;
+        self.named("rows", |walk| {
+            walk.list(Self::mark)?;
+            walk.list_of_numbers()?;
+            walk.list_of_numbers()?;
+            walk.numbers(5)?;
+            walk.mark()?;
+            walk.list(|walk| walk.numbers(2))
+        })?;
+        self.named("pictures", |walk| {
+            walk.numbers(1)?;
+            walk.list_of_numbers()?;
+            walk.list(|walk| walk.numbers(in_picture as u64))
+        })?;
+        self.named("turns of angles", |walk| {
+            walk.list_of_numbers()?;
+            walk.list_of_numbers()
+        })?;
+        self.named("contacts", |walk| {
+            walk.list(|walk| walk.skip(25))?;
+            walk.numbers(1)
+        })?;
+        self.named("counts", |walk| {
+            walk.numbers(4)?;
+            walk.named("counts of the control", |walk| walk.numbers(6))
+        })?;
+        self.named("alarm", |walk| walk.skip(4))?;
+        self.named("CPU time", |walk| walk.numbers(1))
+    }
+
+    /// What one step left behind.
+    fn mark(&mut self) -> Option<()> {
+        self.numbers(8)?;
+        self.option(|walk| walk.skip(1))?;
+        self.skip(8)?;
+        self.numbers(2)?;
+        self.option(|walk| walk.numbers(1))?;
+        self.numbers(1)
+    }
+}

@@ -1,0 +1,116 @@
+//! That every item of a run's record matters.
+
+use super::layout::Parts;
+use super::{scratch, told};
+use crate::common::scene;
+use mbs::core::scene::Scene;
+use mbs::{Checkpoint, InSpace, Keeping, Overrides, Plane, Progress, Settings, run_kept};
+use std::path::PathBuf;
+
+/// Takes the checkpoints that stand there at the first step, and at a time.
+struct Copies {
+    at: f64,
+    path: PathBuf,
+    first: Vec<u8>,
+    bytes: Vec<u8>,
+}
+
+impl Progress for Copies {
+    fn reached(&mut self, t: f64) {
+        for (copy, is_due) in [(&mut self.first, true), (&mut self.bytes, t >= self.at)] {
+            if is_due && copy.is_empty() {
+                *copy = std::fs::read(&self.path).expect("there is always one");
+            }
+        }
+    }
+}
+
+/// A run that is kept after each step, and its checkpoints: of the start, and before time `at`.
+fn kept<const D: usize>(
+    (scene, settings): (&Scene<f64>, &Settings),
+    at: f64,
+) -> ([String; 4], [Parts; 2])
+where
+    Plane<D>: InSpace<f64>,
+{
+    let out = scratch(&format!("record-{:?}", std::thread::current().id()));
+    let mut keeping = Keeping::new(&out, settings.step).expect("a directory of ours");
+    let mut copies = Copies { at, path: keeping.path(), first: Vec::new(), bytes: Vec::new() };
+    let whole = run_kept::<f64, D>(scene, settings, &mut copies, (None, Some(&mut keeping)));
+    let whole = told(&whole.expect("no checkpoint to refuse"));
+    std::fs::remove_dir_all(&out).expect("it is ours");
+    let Copies { first, bytes, .. } = copies;
+    let parts = [first, bytes].map(|bytes| Parts::of_run(bytes, settings));
+    (whole, parts)
+}
+
+/// That a run gives the same from its checkpoint before time `at`, and something else where one of the items is left out: it is
+/// then as in a run that has made no step.
+fn every_item_matters<const D: usize>(name: &str, overrides: &Overrides, at: f64, items: &[&str])
+where
+    Plane<D>: InSpace<f64>,
+{
+    let scene = scene(name);
+    let settings = Settings::new(&scene, overrides).expect("good settings");
+    let (whole, [first, kept]) = kept::<D>((&scene, &settings), at);
+    let read = |bytes: &[u8]| Checkpoint::read(bytes).expect("it is whole");
+    assert!(read(first.bytes()).time() <= 0.0);
+    let before = at - read(kept.bytes()).time();
+    assert!(before >= 0.0 && before <= 2.0 * settings.step_max, "{before}");
+
+    let again = |bytes: &[u8]| {
+        let checkpoint = read(bytes);
+        let from = (Some(&checkpoint), None);
+        told(&run_kept::<f64, D>(&scene, &settings, &mut (), from).expect("it is ours"))
+    };
+    assert!(whole == again(kept.bytes()), "{name}: what is kept is not all");
+    for item in items {
+        let lost = match *item {
+            "count of steps" => {
+                let done = u64::from_le_bytes(kept.part(item).try_into().expect("eight bytes"));
+                kept.with(item, &(done + 1).to_le_bytes())
+            }
+            _ => kept.with(item, first.part(item)),
+        };
+        assert!(whole != again(&lost), "{name}: nothing is lost without {item}");
+    }
+}
+
+fn of(step: f64, duration: f64) -> Overrides {
+    Overrides { step: Some(step), duration: Some(duration), ..Overrides::default() }
+}
+
+#[test]
+fn every_item_of_the_record_matters() {
+    let items = ["count of steps", "rows", "pictures", "counts", "turns of angles", "simulation"];
+    // the crank turns at half a turn each second
+    every_item_matters::<2>("guided-four-bar", &of(1e-2, 4.0), 3.0, &items);
+}
+
+#[test]
+fn contacts_and_what_control_has_counted_matter() {
+    let items = ["contacts", "counts of the control"];
+    let control = Some("both".to_owned());
+    let overrides = Overrides { step_control: control, step_max: Some(5e-3), ..of(1e-3, 1.0) };
+    every_item_matters::<3>("iltis-suspension", &overrides, 0.8, &items);
+}
+
+#[test]
+fn what_the_alarm_has_heard_matters() {
+    // it rings after ten steps in a row, here at 1.99 s
+    let overrides = Overrides { energy_alarm: Some(1e-3), ..of(1e-2, 10.0) };
+    every_item_matters::<2>("double-pendulum", &overrides, 1.95, &["alarm"]);
+}
+
+#[test]
+fn processor_time_is_that_of_all_starts() {
+    let scene = scene("double-pendulum");
+    let settings = Settings::new(&scene, &of(1e-3, 1.0)).expect("good settings");
+    let (_, [first, _]) = kept::<2>((&scene, &settings), 0.5);
+    let nanoseconds: u64 = 100_000_000_000;
+    let bytes = first.with("CPU time", &nanoseconds.to_le_bytes());
+    let checkpoint = Checkpoint::read(&bytes[..]).expect("it is whole");
+    let from = (Some(&checkpoint), None);
+    let outcome = run_kept::<f64, 2>(&scene, &settings, &mut (), from).expect("it is ours");
+    assert!(outcome.summary.cpu_seconds > 100.0);
+}
