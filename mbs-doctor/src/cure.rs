@@ -13,10 +13,10 @@
 use crate::Vector;
 use crate::decompose::{Group, ZERO};
 use crate::linkage::{Jacobian, Link, Linkage, Poses};
+use crate::matrix::Matrix;
 use crate::parts::Part;
 use crate::rank::Rank;
 use crate::sets::dimension;
-use faer::Mat;
 use mbs_core::outputs::Wrench;
 use mbs_core::scene::{BodyRef, Dimension, Joint, JointKind};
 
@@ -57,7 +57,7 @@ const MOST_TRIED: usize = 200_000;
 pub(crate) fn cure(
     linkage: &Linkage,
     (part, at): (&Part, &Poses),
-    (jacobian, null): (&Jacobian, &Mat<f64>),
+    (jacobian, null): (&Jacobian, &Matrix),
     group: &Group,
 ) -> Option<Cure> {
     let mut options = Vec::new();
@@ -141,7 +141,7 @@ fn gentler(kind: JointKind, dimension: Dimension) -> &'static [JointKind] {
 fn options_of(
     linkage: &Linkage,
     (part, at): (&Part, &Poses),
-    (jacobian, null): (&Jacobian, &Mat<f64>),
+    (jacobian, null): (&Jacobian, &Matrix),
     place: usize,
 ) -> Vec<Choice> {
     let index = part.joints[place];
@@ -170,7 +170,7 @@ fn options_of(
         let rows = taken.iter().map(|weights| {
             let entry =
                 |j| weights.iter().enumerate().map(|(i, w)| w * null[(rows.start + i, j)]).sum();
-            (0..null.ncols()).map(entry).collect::<Vec<f64>>()
+            (0..null.n_columns()).map(entry).collect::<Vec<f64>>()
         });
         let taken: Vec<_> = rows.collect();
         // Directions given up that are determined would leave a new freedom.
@@ -191,13 +191,13 @@ fn open_moment(
     link: &Link,
     at: &Poses,
     (own, first): (&[Wrench<f64>], usize),
-    null: &Mat<f64>,
+    null: &Matrix,
 ) -> Option<[f64; 3]> {
     let moment = |j| {
         let rows = own.iter().enumerate();
         rows.fold(Vector::zeros(), |m, (i, w)| m + w.moment * null[(first + i, j)])
     };
-    let moments = (0..null.ncols()).map(moment);
+    let moments = (0..null.n_columns()).map(moment);
     let largest = moments.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
     let size = largest.norm();
     let turned = crate::linkage::pose(at, link.joint.bodies[1]).rotation;
@@ -220,14 +220,14 @@ fn given_up(
     };
     let n = own.len();
     let kept: Vec<Vec<f64>> = kept.iter().map(weights).collect();
-    let kept = Mat::from_fn(n, kept.len(), |i, j| kept[j][i]);
+    let kept = Matrix::from_fn(n, kept.len(), |i, j| kept[j][i]);
     let Some(rank) = Rank::of(&kept) else { return Vec::new() };
     let rest = &rank.null;
-    (0..rest.ncols()).map(|j| (0..n).map(|i| rest[(i, j)]).collect()).collect()
+    (0..rest.n_columns()).map(|j| (0..n).map(|i| rest[(i, j)]).collect()).collect()
 }
 
-fn stacked(rows: &[&Vec<f64>]) -> Mat<f64> {
-    Mat::from_fn(rows.len(), rows.first().map_or(0, |r| r.len()), |i, j| rows[i][j])
+fn stacked(rows: &[&Vec<f64>]) -> Matrix {
+    Matrix::from_fn(rows.len(), rows.first().map_or(0, |r| r.len()), |i, j| rows[i][j])
 }
 
 fn independent(rows: &[Vec<f64>]) -> bool {

@@ -10,7 +10,7 @@
 //! components of the graph whose edges are the blocks P_ij ≠ 0. Turning or scaling the axes of a joint's rows turns its blocks.
 
 use crate::linkage::Jacobian;
-use faer::Mat;
+use crate::matrix::Matrix;
 use mbs_core::cluster::root;
 
 /// Entries of P below this are zero: what rounding of σ > 1e-9 leaves.
@@ -24,8 +24,8 @@ pub(crate) struct Group {
 }
 
 /// All groups of a null space. Cost: m² k operations.
-pub(crate) fn groups(jacobian: &Jacobian, null: &Mat<f64>) -> Vec<Group> {
-    let p = null * null.transpose();
+pub(crate) fn groups(jacobian: &Jacobian, null: &Matrix) -> Vec<Group> {
+    let p = null.times(&null.transpose());
     let rows = &jacobian.rows;
     let n = rows.len();
     let touches = |i: usize, j: usize| {
@@ -67,15 +67,15 @@ mod tests {
         // joints of two rows each; (1, 0, 1, 0, ...) on joints 0 and 1, (0, 0, 0, 0, 1, -2, 0, 1) on 2 and 3, 4 free
         let zero = Wrench { force: crate::Vector::zeros(), moment: crate::Vector::zeros() };
         let rows = (0..5).map(|i| 2 * i..2 * i + 2).collect();
-        let jacobian = Jacobian { matrix: Mat::zeros(0, 0), rows, wrenches: vec![zero; 10] };
+        let jacobian = Jacobian { matrix: Matrix::zeros(0, 0), rows, wrenches: vec![zero; 10] };
         let (a, b) = (0.5_f64.sqrt(), (1.0_f64 / 6.0).sqrt());
-        let mut n = Mat::zeros(10, 2);
+        let mut n = Matrix::zeros(10, 2);
         (n[(0, 0)], n[(2, 0)]) = (a, a);
         (n[(4, 1)], n[(5, 1)], n[(7, 1)]) = (b, -2.0 * b, b);
         let (c, s) = (0.6, 0.8);
-        let turn = Mat::from_fn(2, 2, |i, j| [[c, -s], [s, c]][i][j]);
+        let turn = Matrix::from_fn(2, 2, |i, j| [[c, -s], [s, c]][i][j]);
         let expected = [vec![0, 1], vec![2, 3]].map(|places| Group { places, redundant: 1 });
         assert_eq!(groups(&jacobian, &n), expected);
-        assert_eq!(groups(&jacobian, &(&n * &turn)), expected);
+        assert_eq!(groups(&jacobian, &n.times(&turn)), expected);
     }
 }

@@ -5,20 +5,24 @@ mod decompose;
 mod linkage;
 mod loops;
 mod masses;
+mod matrix;
 mod parts;
 mod perturb;
 mod rank;
 mod residual;
 mod sets;
+mod svd;
 
 pub use cure::{Change, Cure};
 pub use linkage::{Jacobian, Linkage, Poses, reference};
 pub use loops::{Corner, Drive, Loop, drives, loops};
 pub use masses::{Massless, massless};
+pub use matrix::Matrix;
 pub use parts::Part;
 pub use perturb::Nature;
 pub use rank::{Rank, UNCERTAIN};
 pub use sets::{Diagnosis, Member, Set, diagnose};
+pub use svd::{Svd, singular_values};
 
 /// Vectors of space in double precision.
 type Vector = mbs_core::algebra::Vector<f64, 3>;

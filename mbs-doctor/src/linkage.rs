@@ -9,8 +9,8 @@
 //! are of order one whatever the unit of length. Masses stand outside: rank is a matter of geometry, and bodies may have none.
 
 use crate::Vector;
+use crate::matrix::Matrix;
 use crate::parts::{Part, parts};
-use faer::Mat;
 use mbs_core::algebra::cross;
 use mbs_core::cluster::mass_properties;
 use mbs_core::outputs::{Transmission, Wrench};
@@ -86,7 +86,7 @@ pub struct Linkage {
 #[derive(Debug, Clone)]
 pub struct Jacobian {
     /// One row per direction, six (three) columns per body.
-    pub matrix: Mat<f64>,
+    pub matrix: Matrix,
     /// Rows of each joint, in the order of [`Part::joints`].
     pub rows: Vec<Range<usize>>,
     /// The direction of each row.
@@ -159,7 +159,7 @@ impl Linkage {
             wrenches.extend(link.wrenches(at, part.length));
             rows.push(first..wrenches.len());
         }
-        let mut matrix = Mat::zeros(wrenches.len(), part.bodies.len() * f);
+        let mut matrix = Matrix::zeros(wrenches.len(), part.bodies.len() * f);
         for (link, range) in links.iter().zip(&rows) {
             let place = link.place(at, 1);
             for (body, sign) in link.joint.bodies.into_iter().zip([-1.0, 1.0]) {

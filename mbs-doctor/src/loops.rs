@@ -172,7 +172,7 @@ pub struct Drive {
 /// Shares of the joints of a part with one freedom at a pose; empty with any other number of freedoms.
 #[must_use]
 pub fn drives(linkage: &Linkage, part: &Part, at: &Poses, rank: &Rank) -> Vec<Drive> {
-    if rank.free.ncols() != 1 {
+    if rank.free.n_columns() != 1 {
         return Vec::new();
     }
     let f = linkage.freedoms();

@@ -8,9 +8,10 @@
 
 use crate::Vector;
 use crate::linkage::{Linkage, Poses};
+use crate::matrix::Matrix;
 use crate::parts::Part;
 use crate::rank::Rank;
-use faer::Mat;
+use crate::svd::Svd;
 use mbs_core::cluster::mass_properties;
 use mbs_core::scene::{Inertia, Scene};
 
@@ -38,7 +39,7 @@ const LEAST: f64 = 1e-7;
 pub fn massless(scene: &Scene<f64>, linkage: &Linkage, at: &Poses) -> Option<Vec<Massless>> {
     let n = scene.bodies.len();
     let roots: Vec<_> = (0..n).map(|b| roots(scene, b, at)).collect();
-    let is_light = |root: &Mat<f64>| Rank::of(root).is_none_or(|r| r.sizes[2] < 6);
+    let is_light = |root: &Matrix| Rank::of(root).is_none_or(|r| r.sizes[2] < 6);
     let f = linkage.freedoms();
     if f == 6 && !roots.iter().any(is_light) {
         return Some(Vec::new());
@@ -52,27 +53,26 @@ pub fn massless(scene: &Scene<f64>, linkage: &Linkage, at: &Poses) -> Option<Vec
     let scale = mean(scene);
     let r = energy(&roots, linkage, &free, scale);
     let rank = cut(&r)?;
-    if rank.ncols() == 0 {
+    if rank.n_columns() == 0 {
         return Some(Vec::new());
     }
-    let motions = &free * &rank;
+    let motions = free.times(&rank);
     Some(told(scene, linkage, at, &motions))
 }
 
 /// √M of a body as a 6 x 6 matrix on (v, ω) in global axes.
-fn roots(scene: &Scene<f64>, body: usize, at: &Poses) -> Mat<f64> {
+fn roots(scene: &Scene<f64>, body: usize, at: &Poses) -> Matrix {
     let (mass, _, inertia) = mass_properties(scene, body);
     let turned = at[body].rotation * inertia * at[body].rotation.transpose();
-    let mut root = Mat::zeros(6, 6);
+    let mut root = Matrix::zeros(6, 6);
     for i in 0..3 {
         root[(i, i)] = mass.sqrt();
     }
-    let square = Mat::from_fn(3, 3, |i, j| turned[(i, j)]);
-    if let Ok(svd) = square.svd() {
-        let (u, s) = (svd.U(), svd.S().column_vector());
+    let square = Matrix::from_fn(3, 3, |i, j| turned[(i, j)]);
+    if let Some(Svd { u, sigma, .. }) = Svd::new(&square) {
         for i in 0..3 {
             for j in 0..3 {
-                root[(3 + i, 3 + j)] = s[i].sqrt() * u[(j, i)];
+                root[(3 + i, 3 + j)] = sigma[i].sqrt() * u[(j, i)];
             }
         }
     }
@@ -94,10 +94,10 @@ fn mean(scene: &Scene<f64>) -> [f64; 2] {
 }
 
 /// Root of the energy of the free motions, one row per direction of a body.
-fn energy(roots: &[Mat<f64>], linkage: &Linkage, free: &Mat<f64>, scale: [f64; 2]) -> Mat<f64> {
+fn energy(roots: &[Matrix], linkage: &Linkage, free: &Matrix, scale: [f64; 2]) -> Matrix {
     let f = linkage.freedoms();
     let place = |i: usize| if f == 6 { i } else { [0, 1, 5][i] };
-    Mat::from_fn(roots.len() * 6, free.ncols(), |row, j| {
+    Matrix::from_fn(roots.len() * 6, free.n_columns(), |row, j| {
         let (b, i) = (row / 6, row % 6);
         let scale = if i < 3 { scale[0] } else { scale[1] }.sqrt();
         (0..f).map(|k| roots[b][(i, place(k))] * free[(b * f + k, j)]).sum::<f64>() / scale
@@ -105,18 +105,16 @@ fn energy(roots: &[Mat<f64>], linkage: &Linkage, free: &Mat<f64>, scale: [f64; 2
 }
 
 /// Basis of the null space of R.
-fn cut(r: &Mat<f64>) -> Option<Mat<f64>> {
-    if r.ncols() == 0 {
-        return Some(Mat::zeros(0, 0));
+fn cut(r: &Matrix) -> Option<Matrix> {
+    if r.n_columns() == 0 {
+        return Some(Matrix::zeros(0, 0));
     }
-    let svd = r.svd().ok()?;
-    let (v, s) = (svd.V(), svd.S().column_vector());
-    let rank = (0..s.nrows()).filter(|&i| s[i] > LEAST).count();
-    Some(Mat::from_fn(v.nrows(), v.ncols() - rank, |i, j| v[(i, rank + j)]))
+    let Svd { sigma, v, .. } = Svd::new(r)?;
+    Some(v.columns_from(sigma.iter().filter(|&&s| s > LEAST).count()))
 }
 
 /// Idle spins of rods, and what is left of the motions besides.
-fn told(scene: &Scene<f64>, linkage: &Linkage, at: &Poses, motions: &Mat<f64>) -> Vec<Massless> {
+fn told(scene: &Scene<f64>, linkage: &Linkage, at: &Poses, motions: &Matrix) -> Vec<Massless> {
     let f = linkage.freedoms();
     let mut found = Vec::new();
     let mut spins = Vec::new();
@@ -127,22 +125,21 @@ fn told(scene: &Scene<f64>, linkage: &Linkage, at: &Poses, motions: &Mat<f64>) -
         }
         let d = at[b].rotation * (Vector::from(to) - Vector::from(from));
         let d = d / d.norm();
-        let mut spin = Mat::<f64>::zeros(scene.bodies.len() * f, 1);
+        let mut spin = Matrix::zeros(scene.bodies.len() * f, 1);
         (0..3).for_each(|i| spin[(b * f + 3 + i, 0)] = d[i]);
         // A spin is idle if it is one of the motions.
-        let left = &spin - motions * (motions.transpose() * &spin);
-        if (0..left.nrows()).all(|i| left[(i, 0)].abs() <= ZERO) {
+        let left = spin.minus(&motions.times(&motions.transpose().times(&spin)));
+        if (0..left.n_rows()).all(|i| left[(i, 0)].abs() <= ZERO) {
             found.push(Massless { bodies: vec![b], is_idle_spin: true });
             spins.push(spin);
         }
     }
     let mut rest = motions.clone();
     for spin in &spins {
-        rest = &rest - spin * (spin.transpose() * &rest);
+        rest = rest.minus(&spin.times(&spin.transpose().times(&rest)));
     }
-    let Ok(svd) = rest.svd() else { return found };
-    let (u, s) = (svd.U(), svd.S().column_vector());
-    let k = (0..s.nrows()).filter(|&i| s[i] > 0.5).count();
+    let Some(Svd { u, sigma, .. }) = Svd::thin(&rest) else { return found };
+    let k = sigma.iter().filter(|&&s| s > 0.5).count();
     if k > 0 {
         let moves = |b: &usize| (0..k).any(|j| (0..f).any(|i| u[(b * f + i, j)].abs() > ZERO));
         let bodies = (0..scene.bodies.len()).filter(moves).collect();

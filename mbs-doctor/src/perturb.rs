@@ -5,9 +5,11 @@
 //! position thus reached: structural. Independent there: the first position is singular.
 
 use crate::linkage::{Linkage, Poses};
+use crate::matrix::Matrix;
 use crate::parts::Part;
 use crate::rank::Rank;
 use crate::residual::residuals;
+use crate::svd::Svd;
 use mbs_core::rigid::RigidMotion;
 
 /// Where a dependency holds.
@@ -64,10 +66,10 @@ pub(crate) fn neighbours(
     let mut random = 0x9E37_79B9_7F4A_7C15_u64;
     let mut found = Vec::new();
     for kick in 0..2 * KICKS {
-        if found.len() as u64 == KICKS || rank.free.ncols() == 0 {
+        if found.len() as u64 == KICKS || rank.free.n_columns() == 0 {
             break;
         }
-        let weights: Vec<f64> = (0..rank.free.ncols()).map(|_| draw(&mut random)).collect();
+        let weights: Vec<f64> = (0..rank.free.n_columns()).map(|_| draw(&mut random)).collect();
         let mut twist = combine(&rank.free, &weights);
         let largest = twist.iter().fold(0.0_f64, |l, x| l.max(x.abs()));
         // What fails is tried again nearer by.
@@ -96,12 +98,11 @@ fn close(linkage: &Linkage, part: &Part, met: &Poses, at: &mut [RigidMotion<f64>
             return true;
         }
         let jacobian = linkage.jacobian(part, at);
-        let Ok(svd) = jacobian.matrix.thin_svd() else { return false };
-        let (u, v, sigma) = (svd.U(), svd.V(), svd.S().column_vector());
+        let Some(Svd { u, sigma, v }) = Svd::thin(&jacobian.matrix) else { return false };
         // δ = −V Σ (Σ² + |r|)⁻¹ Uᵀ r
-        let mut twist = vec![0.0; jacobian.matrix.ncols()];
-        for k in 0..sigma.nrows() {
-            let share: f64 = (0..r.len()).map(|i| u[(i, k)] * r[i]).sum();
+        let mut twist = vec![0.0; jacobian.matrix.n_columns()];
+        for k in 0..sigma.len() {
+            let share: f64 = u.column(k).iter().zip(&r).map(|(u, r)| u * r).sum();
             let weight = -share * sigma[k] / (sigma[k] * sigma[k] + size) * part.length;
             for (i, x) in twist.iter_mut().enumerate() {
                 *x += weight * v[(i, k)];
@@ -129,9 +130,9 @@ fn distance(part: &Part, from: &Poses, to: &Poses) -> f64 {
     part.bodies.iter().map(of).fold(0.0, f64::max)
 }
 
-fn combine(basis: &faer::Mat<f64>, weights: &[f64]) -> Vec<f64> {
+fn combine(basis: &Matrix, weights: &[f64]) -> Vec<f64> {
     let entry = |i| weights.iter().enumerate().map(|(j, w)| w * basis[(i, j)]).sum();
-    (0..basis.nrows()).map(entry).collect()
+    (0..basis.n_rows()).map(entry).collect()
 }
 
 /// xorshift64*, in (-1, 1): the same on every machine.

@@ -5,7 +5,8 @@
 //! null(Jᵀ): the last m − r columns of U (forces that hold themselves);   null(J): the last n − r of V (motions)
 //! ```
 
-use faer::Mat;
+use crate::matrix::Matrix;
+use crate::svd::Svd;
 
 /// Gap below which a rank is uncertain [-].
 pub const UNCERTAIN: f64 = 1e3;
@@ -20,11 +21,11 @@ pub struct Rank {
     /// All singular values, falling [-].
     pub sigma: Vec<f64>,
     /// Orthonormal basis of the left null space: one column per redundant row.
-    pub null: Mat<f64>,
+    pub null: Matrix,
     /// Orthonormal basis of the right null space: one column per freedom.
-    pub free: Mat<f64>,
+    pub free: Matrix,
     /// Left singular vectors, to which the null space belongs.
-    left: Mat<f64>,
+    left: Matrix,
 }
 
 impl Rank {
@@ -32,22 +33,16 @@ impl Rank {
     ///
     /// Cost: about 20 m n min(m, n) operations.
     #[must_use]
-    pub fn of(matrix: &Mat<f64>) -> Option<Self> {
-        let (m, n) = (matrix.nrows(), matrix.ncols());
-        let svd = matrix.svd().ok()?;
-        let diagonal = svd.S().column_vector();
-        let sigma: Vec<f64> = (0..m.min(n)).map(|i| diagonal[i]).collect();
+    pub fn of(matrix: &Matrix) -> Option<Self> {
+        let (m, n) = (matrix.n_rows(), matrix.n_columns());
+        let Svd { u: left, sigma, v } = Svd::new(matrix)?;
         let largest = sigma.first().copied().unwrap_or(0.0);
         if !largest.is_finite() {
             return None;
         }
         let least = threshold(m, n) * largest;
         let rank = sigma.iter().filter(|&&s| s > least).count();
-        let (u, v) = (svd.U(), svd.V());
-        let columns = |x: faer::MatRef<'_, f64>, from: usize| {
-            Mat::from_fn(x.nrows(), x.ncols() - from, |i, j| x[(i, from + j)])
-        };
-        let (null, free, left) = (columns(u, rank), columns(v, rank), columns(u, 0));
+        let (null, free) = (left.columns_from(rank), v.columns_from(rank));
         Some(Self { sizes: [m, n, rank], sigma, null, free, left })
     }
 
@@ -84,18 +79,17 @@ impl Rank {
     /// If there is no such value.
     #[must_use]
     pub fn combination(&self, i: usize) -> Vec<f64> {
-        (0..self.sizes[0]).map(|row| self.left[(row, i)]).collect()
+        self.left.column(i).to_vec()
     }
 
     /// The left null space as it would be if the suspicious singular values were zero; nothing where none is.
     #[must_use]
-    pub fn almost_null(&self) -> Option<Mat<f64>> {
+    pub fn almost_null(&self) -> Option<Matrix> {
         let rank = self.sizes[2];
         let sure = self.sigma.iter().filter(|&&s| s > ALMOST * self.sigma[0]).count();
         let stands_apart =
             sure > 0 && sure < rank && self.sigma[sure - 1] > UNCERTAIN * self.sigma[sure];
-        let m = self.sizes[0];
-        stands_apart.then(|| Mat::from_fn(m, m - sure, |i, j| self.left[(i, sure + j)]))
+        stands_apart.then(|| self.left.columns_from(sure))
     }
 }
 

@@ -3,10 +3,11 @@
 use crate::cure::{Cure, cure};
 use crate::decompose::{Group, ZERO, groups};
 use crate::linkage::{Jacobian, Linkage, Poses};
+use crate::matrix::Matrix;
 use crate::parts::Part;
 use crate::perturb::{Nature, neighbours};
 use crate::rank::Rank;
-use faer::Mat;
+use crate::svd::singular_values;
 use mbs_core::rigid::RigidMotion;
 
 /// A joint of a dependent set.
@@ -72,7 +73,7 @@ pub fn diagnose(linkage: &Linkage, at: &Poses) -> Diagnosis {
     };
     for part in linkage.parts.iter().filter(|part| part.has_loop()) {
         let jacobian = linkage.jacobian(part, at);
-        let size = jacobian.matrix.nrows() * jacobian.matrix.ncols();
+        let size = jacobian.matrix.n_rows() * jacobian.matrix.n_columns();
         let rank = if size > LARGEST { None } else { Rank::of(&jacobian.matrix) };
         let Some(rank) = rank else {
             all.too_large.push(part.joints[0]);
@@ -120,13 +121,13 @@ impl Found<'_> {
     fn set(
         &self,
         group: &Group,
-        null: &Mat<f64>,
+        null: &Matrix,
         is_exact: bool,
         near: Option<&[Vec<RigidMotion<f64>>]>,
     ) -> Set {
         let nature = near.map_or(Nature::Untried, |near| self.nature(group, near));
         let member = |&place: &usize| self.member(place, null);
-        let first = self.rank.sizes[0] - null.ncols();
+        let first = self.rank.sizes[0] - null.n_columns();
         let may_mend = matches!(nature, Nature::Structural | Nature::Rigid | Nature::Both);
         Set {
             members: group.places.iter().map(member).collect(),
@@ -142,15 +143,15 @@ impl Found<'_> {
 
     /// By the rank of the group's rows alone, at other positions.
     fn nature(&self, group: &Group, near: &[Vec<RigidMotion<f64>>]) -> Nature {
-        if self.rank.free.ncols() == 0 {
+        if self.rank.free.n_columns() == 0 {
             return Nature::Rigid;
         }
         let redundant = |at: &Vec<RigidMotion<f64>>| {
             let jacobian = self.linkage.jacobian(self.part, at);
             let rows: Vec<usize> =
                 group.places.iter().flat_map(|&i| jacobian.rows[i].clone()).collect();
-            let n = jacobian.matrix.ncols();
-            let own = Mat::from_fn(rows.len(), n, |i, j| jacobian.matrix[(rows[i], j)]);
+            let n = jacobian.matrix.n_columns();
+            let own = Matrix::from_fn(rows.len(), n, |i, j| jacobian.matrix[(rows[i], j)]);
             Rank::of(&own).map_or(group.redundant, |rank| rank.redundant())
         };
         match near.iter().map(redundant).min() {
@@ -162,13 +163,13 @@ impl Found<'_> {
     }
 
     /// What a joint's reaction leaves open: the span of its wrenches in the null space.
-    fn member(&self, place: usize, null: &Mat<f64>) -> Member {
+    fn member(&self, place: usize, null: &Matrix) -> Member {
         let Jacobian { rows, wrenches, .. } = &self.jacobian;
         let joint = self.part.joints[place];
         let link = &self.linkage.links[joint];
         let range = rows[place].clone();
-        let k = null.ncols();
-        let mut span = Mat::<f64>::zeros(6, k);
+        let k = null.n_columns();
+        let mut span = Matrix::zeros(6, k);
         for row in range.clone() {
             let w = &wrenches[row];
             let entries = self.linkage.components(&w.force, &(w.moment / self.part.length));
@@ -180,8 +181,8 @@ impl Found<'_> {
         }
         let n = self.linkage.freedoms();
         let n_forces = n / 3 + 1;
-        let forces = Mat::from_fn(n_forces, k, |i, j| span[(i, j)]);
-        let moments = Mat::from_fn(n - n_forces, k, |i, j| span[(n_forces + i, j)]);
+        let forces = Matrix::from_fn(n_forces, k, |i, j| span[(i, j)]);
+        let moments = Matrix::from_fn(n - n_forces, k, |i, j| span[(n_forces + i, j)]);
         let is_zero = |i| (0..k).all(|j| span[(i, j)].abs() <= ZERO);
         let touches = |row| (0..k).any(|j| null[(row, j)].abs() > ZERO);
         Member {
@@ -194,7 +195,7 @@ impl Found<'_> {
 }
 
 /// Dimension of the column space of a matrix whose entries are of order one or zero.
-pub(crate) fn dimension(matrix: &Mat<f64>) -> usize {
-    let sigma = matrix.singular_values().unwrap_or_default();
+pub(crate) fn dimension(matrix: &Matrix) -> usize {
+    let sigma = singular_values(matrix).unwrap_or_default();
     sigma.iter().filter(|&&s| s > ZERO).count()
 }

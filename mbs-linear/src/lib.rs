@@ -4,12 +4,14 @@
 extern crate alloc;
 
 mod chart;
+mod eigen;
 mod equilibrium;
 mod error;
 mod linearise;
 mod options;
 mod workspace;
 
+pub use eigen::eigenvalues;
 pub use equilibrium::{Equilibrium, equilibrium};
 pub use error::{EquilibriumError, LinearError};
 pub use linearise::{Instant, Linear, linearise};

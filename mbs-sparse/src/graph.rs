@@ -7,9 +7,6 @@
 //!
 //! The classes come from refining one class by every clique in turn, which is exact and linear in the cliques' length.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::amd;
 use mbs_core::Cliques;
 
 /// Lists of indices, one after the other: list `i` is `items[start[i]..start[i + 1]]`.
@@ -216,19 +213,16 @@ pub(crate) fn multipliers_after(
     place
 }
 
-/// Calls faer's approximate minimum degree; the given order stands in should it refuse for lack of memory.
+/// Place of each node by approximate minimum degree.
+///
+/// # Panics
+/// Never: the lists name nodes `< n_nodes`, and each list is ascending.
 fn ordered_by_amd(neighbours: &Lists, n_nodes: usize) -> Vec<u32> {
-    type Index = usize;
-    let rows: Vec<Index> = neighbours.items.iter().map(|&w| w as Index).collect();
-    let pattern =
-        SymbolicSparseColMatRef::new_checked(n_nodes, n_nodes, &neighbours.start, None, &rows);
-    let mut order = vec![0; n_nodes];
-    let mut place = vec![0; n_nodes];
-    let mut memory = MemBuffer::new(amd::order_scratch::<Index>(n_nodes, rows.len()));
-    let stack = MemStack::new(&mut memory);
-    let control = amd::Control::default();
-    match amd::order(&mut order, &mut place, pattern, control, stack) {
-        Ok(_) => place.into_iter().map(index).collect(),
-        Err(_) => (0..n_nodes).map(index).collect(),
-    }
+    let rows: Vec<usize> = neighbours.items.iter().map(|&w| w as usize).collect();
+    let ordered = amd::order(n_nodes, &neighbours.start, &rows, &amd::Control::default());
+    let (_, place, _) = ordered.expect("a pattern of ascending lists");
+    place.into_iter().map(index).collect()
 }
+
+#[cfg(test)]
+mod tests;

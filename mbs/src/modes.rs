@@ -8,8 +8,8 @@ use crate::ready::Ready;
 use crate::statics::{at_rest, equilibrium_start, settle, workspace};
 use crate::stop::StopError;
 use core::f64::consts::TAU;
-use faer::Mat;
 use mbs_core::scene::Scene;
+use mbs_doctor::{Matrix, singular_values};
 use mbs_linear::{Equilibrium, Instant, Linear, LinearOptions, linearise};
 use serde_json::{Value, json};
 
@@ -170,13 +170,12 @@ pub(crate) fn eigenvalues(linear: &Linear<f64>) -> Result<Vec<Mode>, StopError> 
     if n == 0 {
         return Ok(Vec::new());
     }
-    let a = Mat::from_fn(n, n, |i, j| a[j * n + i]);
-    let values = a.eigenvalues().map_err(|_| StopError::Eigenvalues)?;
+    let values = mbs_linear::eigenvalues(n, &a).ok_or(StopError::Eigenvalues)?;
     let zero = (NOISE * linear.noise).sqrt();
     let mut modes: Vec<Mode> = values
         .iter()
-        .filter(|x| x.im >= 0.0)
-        .map(|x| Mode { real: x.re, imaginary: x.im, is_neutral: x.re.hypot(x.im) <= zero })
+        .filter(|[_, imaginary]| *imaginary >= 0.0)
+        .map(|&[real, imaginary]| Mode { real, imaginary, is_neutral: real.hypot(imaginary) <= zero })
         .collect();
     modes.sort_by(|a, b| {
         let size = |m: &Mode| m.undamped_frequency();
@@ -191,7 +190,7 @@ pub(crate) fn neutral_directions(linear: &Linear<f64>) -> Result<usize, StopErro
     if f == 0 {
         return Ok(0);
     }
-    let stiffness = Mat::from_fn(f, f, |i, j| linear.stiffness[j * f + i]);
-    let sizes = stiffness.singular_values().map_err(|_| StopError::Eigenvalues)?;
+    let stiffness = Matrix::from_fn(f, f, |i, j| linear.stiffness[j * f + i]);
+    let sizes = singular_values(&stiffness).ok_or(StopError::Eigenvalues)?;
     Ok(sizes.iter().filter(|&&size| size <= NOISE * linear.noise).count())
 }

@@ -4,7 +4,7 @@ use super::finding::{Finding, Severity, Topic, body_names};
 use crate::words::few;
 use mbs_core::cluster::mass_properties;
 use mbs_core::scene::{Dimension, Inertia, Scene};
-use mbs_doctor::Massless;
+use mbs_doctor::{Massless, Matrix, singular_values};
 
 /// Share of the largest principal moment by which the others exceed it, below which a body is a plate.
 const FLAT: f64 = 1e-3;
@@ -83,7 +83,7 @@ fn is_flat(scene: &Scene<f64>, body: usize) -> bool {
         return false;
     }
     let inertia = mass_properties(scene, body).2;
-    let matrix = faer::Mat::from_fn(3, 3, |i, j| inertia[(i, j)]);
-    let Ok(moments) = matrix.singular_values() else { return false };
+    let matrix = Matrix::from_fn(3, 3, |i, j| inertia[(i, j)]);
+    let Some(moments) = singular_values(&matrix) else { return false };
     moments[0] > 0.0 && moments[1] + moments[2] - moments[0] < FLAT * moments[0]
 }

@@ -1,0 +1,286 @@
+//! Eigenvalues of a general matrix, by the QR iteration with double shifts of Francis (1961).
+//!
+//! ```text
+//! A ← D⁻¹ A D             D: powers of two that make row i and column i alike in size (Parlett and Reinsch 1969)
+//! H = Qᵀ A Q              zero below the first subdiagonal, by reflections
+//! H ← Zᵀ H Z              the first column of Z is that of (H − σ₁)(H − σ₂): σ are the eigenvalues of the last two rows
+//! ```
+//!
+//! Both shifts are taken at once, so that conjugate ones need no complex numbers. A subdiagonal entry that is rounding beside its
+//! neighbours is zero, and splits H; blocks of one and two rows have their eigenvalues by hand.
+
+use alloc::vec::Vec;
+use mbs_core::Real;
+
+/// Sweeps allowed per eigenvalue; two or three are usual.
+const MAX_SWEEPS: usize = 60;
+/// Every so many sweeps without success a shift from elsewhere breaks a cycle.
+const STUCK: usize = 10;
+/// Passes of balancing; three are usual.
+const MAX_PASSES: usize = 100;
+
+/// All eigenvalues [real, imaginary] of an n x n matrix, column by column; conjugate ones stand side by side. Nothing where an entry is
+/// not finite, or the iteration does not converge.
+///
+/// Cost: about 10 n³ operations; allocates.
+///
+/// # Panics
+/// If there are not n² entries.
+#[must_use]
+pub fn eigenvalues<T: Real>(n: usize, a: &[T]) -> Option<Vec<[T; 2]>> {
+    assert_eq!(a.len(), n * n, "entries of an n x n matrix");
+    if !a.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let mut square = Square { n, entries: a.to_vec() };
+    let scale = square.scale();
+    square.balance();
+    square.reduce();
+    let mut values = square.francis()?;
+    values.iter_mut().flatten().for_each(|x| *x *= scale);
+    Some(values)
+}
+
+/// A matrix, column by column.
+struct Square<T> {
+    n: usize,
+    entries: Vec<T>,
+}
+
+impl<T: Real> Square<T> {
+    fn at(&self, i: usize, j: usize) -> T {
+        self.entries[j * self.n + i]
+    }
+
+    fn at_mut(&mut self, i: usize, j: usize) -> &mut T {
+        &mut self.entries[j * self.n + i]
+    }
+
+    /// Divides by a power of two that leaves entries of order one at most, and returns it.
+    fn scale(&mut self) -> T {
+        let largest = self.entries.iter().fold(T::ZERO, |l, x| l.max(x.abs()));
+        let mut scale = T::ONE;
+        while largest > T::TWO * scale {
+            scale *= T::TWO;
+        }
+        while largest > T::ZERO && largest < scale {
+            scale *= T::HALF;
+        }
+        self.entries.iter_mut().for_each(|x| *x /= scale);
+        scale
+    }
+
+    /// Scales rows and columns, by norms without the diagonal.
+    fn balance(&mut self) {
+        let enough = T::from_f64(0.95);
+        for _ in 0..MAX_PASSES {
+            let mut is_balanced = true;
+            for i in 0..self.n {
+                let squares = |of: &dyn Fn(usize) -> T| {
+                    let beside = (0..self.n).filter(|&j| j != i);
+                    beside.fold(T::ZERO, |sum, j| sum + of(j) * of(j)).sqrt()
+                };
+                let (mut column, mut row) =
+                    (squares(&|j| self.at(j, i)), squares(&|j| self.at(i, j)));
+                if column == T::ZERO || row == T::ZERO {
+                    continue;
+                }
+                let (before, mut f) = (column + row, T::ONE);
+                while column < row * T::HALF {
+                    (column, row, f) = (column * T::TWO, row * T::HALF, f * T::TWO);
+                }
+                while column * T::HALF >= row {
+                    (column, row, f) = (column * T::HALF, row * T::TWO, f * T::HALF);
+                }
+                if column + row < enough * before {
+                    is_balanced = false;
+                    for j in 0..self.n {
+                        *self.at_mut(i, j) /= f;
+                    }
+                    for j in 0..self.n {
+                        *self.at_mut(j, i) *= f;
+                    }
+                }
+            }
+            if is_balanced {
+                break;
+            }
+        }
+    }
+
+    /// To H: nothing below the first subdiagonal.
+    fn reduce(&mut self) {
+        let n = self.n;
+        for k in 0..n.saturating_sub(2) {
+            let mut x: Vec<T> = (k + 1..n).map(|i| self.at(i, k)).collect();
+            let largest = x[1..].iter().fold(T::ZERO, |l, x| l.max(x.abs()));
+            if largest == T::ZERO {
+                continue;
+            }
+            // x ← x − left e₁,   β = 2 / xᵀx;   at the scale of x no square vanishes
+            let largest = largest.max(x[0].abs());
+            x.iter_mut().for_each(|x| *x /= largest);
+            let square = |x: &[T]| x.iter().fold(T::ZERO, |sum, &x| sum + x * x);
+            let left = -with_sign(square(&x).sqrt(), x[0]);
+            x[0] -= left;
+            let beta = T::TWO / square(&x);
+
+            // H ← (I − β x xᵀ) H
+            *self.at_mut(k + 1, k) = left * largest;
+            (k + 2..n).for_each(|i| *self.at_mut(i, k) = T::ZERO);
+            for j in k + 1..n {
+                let sum = x.iter().zip(k + 1..).fold(T::ZERO, |s, (&x, i)| s + x * self.at(i, j));
+                x.iter().zip(k + 1..).for_each(|(&x, i)| *self.at_mut(i, j) -= beta * sum * x);
+            }
+
+            // H ← H (I − β x xᵀ)
+            for i in 0..n {
+                let sum = x.iter().zip(k + 1..).fold(T::ZERO, |s, (&x, j)| s + x * self.at(i, j));
+                x.iter().zip(k + 1..).for_each(|(&x, j)| *self.at_mut(i, j) -= beta * sum * x);
+            }
+        }
+    }
+
+    /// The eigenvalues of H, from the last rows to the first.
+    fn francis(&mut self) -> Option<Vec<[T; 2]>> {
+        let norm = self.entries.iter().fold(T::ZERO, |l, x| l.max(x.abs()));
+        let tiny = T::EPSILON * T::EPSILON * norm;
+        let mut values = Vec::with_capacity(self.n);
+        let (mut n_left, mut sweeps) = (self.n, 0);
+        while n_left > 0 {
+            let last = n_left - 1;
+            let low = (1..=last).rev().find(|&i| self.is_split(i, last, tiny)).unwrap_or(0);
+            if last - low < 2 {
+                if low == last {
+                    values.push([self.at(last, last), T::ZERO]);
+                } else {
+                    values.extend(self.pair(low));
+                }
+                (n_left, sweeps) = (low, 0);
+                continue;
+            }
+            sweeps += 1;
+            if sweeps > MAX_SWEEPS {
+                return None;
+            }
+            self.sweep(low, last, sweeps.is_multiple_of(STUCK));
+        }
+        Some(values)
+    }
+
+    /// Is the entry left of the diagonal of row i rounding? Then it becomes zero.
+    fn is_split(&mut self, i: usize, last: usize, tiny: T) -> bool {
+        let mut beside = self.at(i - 1, i - 1).abs() + self.at(i, i).abs();
+        if beside == T::ZERO {
+            // Without damping diagonals are zero: entries along the subdiagonal are what counts.
+            let above = if i > 1 { self.at(i - 1, i - 2).abs() } else { T::ZERO };
+            beside = if i < last { above + self.at(i + 1, i).abs() } else { above };
+        }
+        let is_zero = self.at(i, i - 1).abs() <= (T::EPSILON * beside).max(tiny);
+        if is_zero {
+            *self.at_mut(i, i - 1) = T::ZERO;
+        }
+        is_zero
+    }
+
+    /// Of rows k and k + 1: λ = (a + d)/2 ± √((a − d)²/4 + b c).
+    fn pair(&self, k: usize) -> [[T; 2]; 2] {
+        let (a, d) = (self.at(k, k), self.at(k + 1, k + 1));
+        let product = self.at(k, k + 1) * self.at(k + 1, k);
+        let half = (a - d) * T::HALF;
+        let square = half * half + product;
+        let root = square.abs().sqrt();
+        if square < T::ZERO {
+            return [[d + half, root], [d + half, -root]];
+        }
+        // the larger change of d first, the other by the product of both
+        let change = half + with_sign(root, half);
+        let other = if change == T::ZERO { T::ZERO } else { -product / change };
+        [[d + change, T::ZERO], [d + other, T::ZERO]]
+    }
+
+    /// Chases a bulge from the first rows of a block to its last.
+    fn sweep(&mut self, low: usize, last: usize, is_stuck: bool) {
+        let (start, mut x) = self.start(low, last, self.shifts(last, is_stuck));
+        for k in start..last {
+            let n_rows = if k + 2 <= last { 3 } else { 2 };
+            if k > start {
+                x = [self.at(k, k - 1), self.at(k + 1, k - 1), T::ZERO];
+                if n_rows == 3 {
+                    x[2] = self.at(k + 2, k - 1);
+                }
+            }
+            let largest = x.iter().fold(T::ZERO, |l, x| l.max(x.abs()));
+            if largest == T::ZERO {
+                continue;
+            }
+            x.iter_mut().for_each(|x| *x /= largest);
+            let left = -with_sign((x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt(), x[0]);
+            if k > start {
+                *self.at_mut(k, k - 1) = left * largest;
+                (1..n_rows).for_each(|i| *self.at_mut(k + i, k - 1) = T::ZERO);
+            } else if k > low {
+                // (1 − β x₀²) h, as x₀ is nearly all of x
+                *self.at_mut(k, k - 1) *= x[0] / left;
+            }
+
+            // H ← (I − β x xᵀ) H (I − β x xᵀ),   β = 2 / xᵀx = 1 / (left (left − x₀)) before x₀ ← x₀ − left
+            let beta = T::ONE / (left * (left - x[0]));
+            x[0] -= left;
+            self.reflect(k, (low, last), (beta, &x[..n_rows]));
+        }
+    }
+
+    /// a, d and b c of two rows [a b; c d] whose eigenvalues are the shifts.
+    fn shifts(&self, last: usize, is_stuck: bool) -> [T; 3] {
+        let (a, d) = (self.at(last - 1, last - 1), self.at(last, last));
+        if is_stuck {
+            let size = self.at(last, last - 1).abs() + self.at(last - 1, last - 2).abs();
+            let both = d + T::from_f64(0.75) * size;
+            return [both, both, -T::from_f64(0.4375) * size * size];
+        }
+        [a, d, self.at(last, last - 1) * self.at(last - 1, last)]
+    }
+
+    /// The row to begin at, and the first column of (H − σ₁)(H − σ₂) there over its subdiagonal entry.
+    fn start(&self, low: usize, last: usize, [a, d, bc]: [T; 3]) -> (usize, [T; 3]) {
+        for m in (low..=last - 2).rev() {
+            let (h, next, below) = (self.at(m, m), self.at(m + 1, m + 1), self.at(m + 1, m));
+            let x = [
+                ((h - a) * (h - d) - bc) / below + self.at(m, m + 1),
+                (h - a) + (next - d),
+                self.at(m + 2, m + 1),
+            ];
+            if m == low {
+                return (m, x);
+            }
+            // Two small entries in a row: what a beginning here spoils is rounding.
+            let spoilt = self.at(m, m - 1).abs() * (x[1].abs() + x[2].abs());
+            let beside = self.at(m - 1, m - 1).abs() + h.abs() + next.abs();
+            if spoilt <= T::EPSILON * x[0].abs() * beside {
+                return (m, x);
+            }
+        }
+        unreachable!("a block has three rows or more")
+    }
+
+    /// Reflects rows k.. and columns k.. within a block.
+    fn reflect(&mut self, k: usize, (low, last): (usize, usize), (beta, x): (T, &[T])) {
+        for j in k..=last {
+            let sum = x.iter().zip(k..).fold(T::ZERO, |s, (&x, i)| s + x * self.at(i, j));
+            x.iter().zip(k..).for_each(|(&x, i)| *self.at_mut(i, j) -= beta * sum * x);
+        }
+        for i in low..=last.min(k + 3) {
+            let sum = x.iter().zip(k..).fold(T::ZERO, |s, (&x, j)| s + x * self.at(i, j));
+            x.iter().zip(k..).for_each(|(&x, j)| *self.at_mut(i, j) -= beta * sum * x);
+        }
+    }
+}
+
+/// `size` with the sign of `of`.
+fn with_sign<T: Real>(size: T, of: T) -> T {
+    if of < T::ZERO { -size } else { size }
+}
+
+#[cfg(test)]
+mod tests;

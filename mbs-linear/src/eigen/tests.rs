@@ -1,0 +1,228 @@
+//! Against cases by hand, and against faer on matrices of many kinds.
+
+use super::eigenvalues;
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// xorshift64*, in (-1, 1).
+struct Random(u64);
+
+impl Random {
+    fn draw(&mut self) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        #[allow(clippy::cast_precision_loss, reason = "53 bits")]
+        let x = (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64;
+        x / (1_u64 << 52) as f64 - 1.0
+    }
+
+    fn square(&mut self, n: usize) -> Vec<f64> {
+        (0..n * n).map(|_| self.draw()).collect()
+    }
+}
+
+fn from_fn(n: usize, entry: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+    (0..n * n).map(|k| entry(k % n, k / n)).collect()
+}
+
+/// [0 1; −K −C].
+fn state_matrix(
+    f: usize,
+    k: impl Fn(usize, usize) -> f64,
+    c: impl Fn(usize, usize) -> f64,
+) -> Vec<f64> {
+    from_fn(2 * f, |i, j| match (i < f, j < f) {
+        (true, _) => f64::from(u8::from(j == i + f)),
+        (false, true) => -k(i - f, j),
+        (false, false) => -c(i - f, j - f),
+    })
+}
+
+fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// Each of ours has one of theirs within `near`, and each of theirs one of ours.
+fn same(name: &str, ours: &[[f64; 2]], theirs: &[[f64; 2]], near: impl Fn([f64; 2]) -> f64) {
+    assert_eq!(ours.len(), theirs.len(), "{name}");
+    let mut left = theirs.to_vec();
+    for &value in ours {
+        let nearest = (0..left.len())
+            .min_by(|&i, &j| apart(value, left[i]).total_cmp(&apart(value, left[j])));
+        let other = left.swap_remove(nearest.expect("as many"));
+        let limit = near(value);
+        assert!(apart(value, other) <= limit, "{name}: {value:?} and {other:?}, {limit:.1e}");
+    }
+}
+
+/// Agrees with faer within a share of the norm.
+fn checked(name: &str, n: usize, a: &[f64], share: f64) {
+    let name = alloc::format!("{name}, {n}");
+    let ours = eigenvalues(n, a).unwrap_or_else(|| panic!("{name}: does not converge"));
+    let theirs = faer::Mat::from_fn(n, n, |i, j| a[j * n + i]).eigenvalues().expect("converges");
+    let theirs: Vec<[f64; 2]> = theirs.iter().map(|x| [x.re, x.im]).collect();
+    let norm = a.iter().map(|x| x * x).sum::<f64>().sqrt();
+    same(&name, &ours, &theirs, |_| share * norm);
+    let conjugate = |i: usize| ours[i][1] == 0.0 || ours.contains(&[ours[i][0], -ours[i][1]]);
+    assert!((0..n).all(conjugate), "{name}: in pairs");
+}
+
+#[test]
+fn eigenvalues_by_hand() {
+    assert!(eigenvalues::<f64>(0, &[]).unwrap().is_empty());
+    assert_eq!(eigenvalues(1, &[-3.5]).unwrap(), [[-3.5, 0.0]]);
+    // an undamped mass on a spring:   ± i ω
+    assert_eq!(eigenvalues(2, &[0.0, -9.0, 1.0, 0.0]).unwrap(), [[0.0, 3.0], [0.0, -3.0]]);
+    // a free one:   0 twice
+    assert_eq!(eigenvalues(2, &[0.0, 0.0, 1.0, 0.0]).unwrap(), [[0.0; 2]; 2]);
+    // [2 1; 1 2]:   3 and 1
+    assert_eq!(eigenvalues(2, &[2.0, 1.0, 1.0, 2.0]).unwrap(), [[3.0, 0.0], [1.0, 0.0]]);
+}
+
+#[test]
+fn numbers_that_are_not_finite_have_no_eigenvalues() {
+    for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for n in [1, 2, 3, 8, 31] {
+            let mut a = Random(3).square(n);
+            a[n * n / 2] = wrong;
+            assert_eq!(eigenvalues(n, &a), None);
+        }
+    }
+}
+
+#[test]
+fn random_matrices_agree_with_faer() {
+    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    for n in (1..=40).chain([60, 97]) {
+        for _ in 0..3 {
+            checked("full", n, &random.square(n), 1e-10);
+            let symmetric = random.square(n);
+            let symmetric = from_fn(n, |i, j| symmetric[i * n + j] + symmetric[j * n + i]);
+            checked("symmetric", n, &symmetric, 1e-13);
+            let skew = random.square(n);
+            checked("skew", n, &from_fn(n, |i, j| skew[i * n + j] - skew[j * n + i]), 1e-13);
+            // A ← D⁻¹ A D with entries of sizes 10^-12 to 10^12: balancing finds the eigenvalues of A
+            let plain = random.square(n);
+            let size: Vec<f64> = (0..n).map(|_| 10.0_f64.powf(6.0 * random.draw())).collect();
+            let graded = from_fn(n, |i, j| plain[j * n + i] / size[i] * size[j]);
+            let (ours, expected) =
+                (eigenvalues(n, &graded).unwrap(), eigenvalues(n, &plain).unwrap());
+            same("graded", &ours, &expected, |_| 1e-9);
+            for scale in [1e-300, 1e-160, 1e160, 1e300] {
+                let scaled: Vec<f64> = plain.iter().map(|x| x * scale).collect();
+                let ours = eigenvalues(n, &scaled).unwrap();
+                let ours: Vec<[f64; 2]> = ours.iter().map(|x| x.map(|x| x / scale)).collect();
+                same("scaled", &ours, &expected, |_| 1e-9);
+            }
+        }
+    }
+}
+
+#[test]
+fn repeated_and_defective_eigenvalues_agree_with_faer() {
+    let mut random = Random(5);
+    for n in 1..=12 {
+        let next = |i: usize, j: usize| f64::from(u8::from(i + 1 == j));
+        let unit = |i: usize, j: usize| f64::from(u8::from(i == j));
+        checked("zeros", n, &vec![0.0; n * n], 0.0);
+        checked("identity", n, &from_fn(n, unit), 1e-15);
+        checked("Jordan", n, &from_fn(n, |i, j| 2.0 * unit(i, j) + next(i, j)), 1e-15);
+        checked("Jordan, lower", n, &from_fn(n, |i, j| 2.0 * unit(i, j) + next(j, i)), 1e-15);
+        // turned, an n-fold eigenvalue is known within ε^(1/n)
+        let x = random.square(n);
+        let norm: f64 = x.iter().map(|x| x * x).sum();
+        let jordan = |i: usize, j: usize| unit(i, j) + next(i, j);
+        // (1 − 2 x xᵀ) J (1 − 2 x xᵀ), x of the first column
+        let x: Vec<f64> = x[..n].to_vec();
+        let length: f64 = x.iter().map(|x| x * x).sum();
+        let q = |i: usize, j: usize| unit(i, j) - 2.0 * x[i] * x[j] / length;
+        let turned = from_fn(n, |i, j| {
+            (0..n).map(|k| (0..n).map(|l| q(i, k) * jordan(k, l) * q(l, j)).sum::<f64>()).sum()
+        });
+        #[allow(clippy::cast_precision_loss, reason = "a small count")]
+        let root = (64.0 * f64::EPSILON).powf(1.0 / n as f64);
+        assert!(norm > 0.0);
+        checked("Jordan, turned", n, &turned, root);
+    }
+}
+
+#[test]
+fn cycles_and_companions_agree_with_faer() {
+    let mut random = Random(9);
+    for n in 2..=40 {
+        // a cycle: shifts from the last rows alone would turn it for ever
+        checked("cycle", n, &from_fn(n, |i, j| f64::from(u8::from((j + 1) % n == i))), 1e-13);
+        checked("cycle back", n, &from_fn(n, |i, j| f64::from(u8::from((i + 1) % n == j))), 1e-13);
+        let last: Vec<f64> = (0..n).map(|_| random.draw()).collect();
+        let companion =
+            |i: usize, j: usize| if j + 1 == n { last[i] } else { f64::from(u8::from(i == j + 1)) };
+        checked("companion", n, &from_fn(n, companion), 1e-9);
+        // x^n = 1.77
+        let far = |i: usize, j: usize| {
+            if i == 0 && j + 1 == n {
+                1.774_809_211_101_797_7
+            } else {
+                f64::from(u8::from(i == j + 1))
+            }
+        };
+        checked("root", n, &from_fn(n, far), 1e-13);
+        // pairs that hang together by little: the shifts of any two rows are ± 1
+        if n % 2 == 0 {
+            let pair = |i: usize, j: usize| f64::from(u8::from(i / 2 == j / 2 && i != j));
+            for eta in [1e-3, 1e-6, 1e-9] {
+                let hung = |i: usize, j: usize| {
+                    if (i % 2 == 0 && i >= 2 && j + 1 == i) || (i == 0 && j + 1 == n) {
+                        eta
+                    } else {
+                        0.0
+                    }
+                };
+                checked("hung", n, &from_fn(n, |i, j| pair(i, j) + hung(i, j)), 1e-4);
+            }
+        }
+    }
+}
+
+#[test]
+fn motions_have_the_frequencies_of_their_springs() {
+    // a chain of masses between walls:   ω_k² = 2 k (1 − cos(k π / (f + 1))),   times k up to 1e10, no damping
+    for f in [1, 2, 3, 8, 25] {
+        for k in [1e-4, 1.0, 1e10] {
+            let spring = |i: usize, j: usize| match i.abs_diff(j) {
+                0 => 2.0 * k,
+                1 => -k,
+                _ => 0.0,
+            };
+            let ours = eigenvalues(2 * f, &state_matrix(f, spring, |_, _| 0.0)).unwrap();
+            let mut expected = Vec::new();
+            for i in 1..=f {
+                #[allow(clippy::cast_precision_loss, reason = "a small count")]
+                let angle = core::f64::consts::PI * i as f64 / (f + 1) as f64;
+                let omega = (2.0 * k * (1.0 - angle.cos())).sqrt();
+                expected.extend([[0.0, omega], [0.0, -omega]]);
+            }
+            same("chain", &ours, &expected, |_| 1e-13 * (4.0 * k).sqrt());
+        }
+    }
+    // alone, each is found to its own digits:   stiffness of 1e10, 1 and 0, the last one damped
+    let (k, c) = ([1e10, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 3.0]);
+    let diagonal = |of: [f64; 4]| move |i: usize, j: usize| if i == j { of[i] } else { 0.0 };
+    let ours = eigenvalues(8, &state_matrix(4, diagonal(k), diagonal(c))).unwrap();
+    let zero = [0.0; 2];
+    let expected =
+        [[0.0, 1e5], [0.0, -1e5], [0.0, 1.0], [0.0, -1.0], zero, zero, zero, [-3.0, 0.0]];
+    same("alone", &ours, &expected, |value| 1e-14 * value[0].hypot(value[1]));
+    // turned into each other, and damped at random
+    let mut random = Random(17);
+    for f in 1..=15 {
+        let (x, y) = (random.square(f), random.square(f));
+        let gram = |x: &[f64], i: usize, j: usize| {
+            (0..f).map(|l| x[l * f + i] * x[l * f + j]).sum::<f64>()
+        };
+        for (stiff, damped) in [(1.0, 0.0), (1.0, 1.0), (1e10, 0.0), (1e10, 1e2), (1e-6, 1e3)] {
+            let a = state_matrix(f, |i, j| stiff * gram(&x, i, j), |i, j| damped * gram(&y, i, j));
+            checked("motion", 2 * f, &a, 1e-8);
+        }
+    }
+}
