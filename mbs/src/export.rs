@@ -4,7 +4,7 @@ use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
-use mbs_core::scene::Scene;
+use mbs_core::scene::{Dimension, Scene};
 use mbs_nostd::export::{Gathered, bytes, source};
 use mbs_nostd::record::Axes;
 use mbs_recursive::{StartError, TreeModel};
@@ -48,12 +48,23 @@ impl From<StopError> for ExportError {
     }
 }
 
-/// Writes a scene as tables in single or double precision; start and tables are made in double. `ladder` has indices of effects,
-/// the one to be dropped first in front.
+/// Writes a scene as tables in single or double precision; start and tables are made in double. `form` has indices of effects, the
+/// one to be dropped first in front, and whether precision is single.
 ///
 /// # Errors
 /// [`ExportError`].
-pub fn export<const D: usize>(
+pub fn export(
+    scene: &Scene<f64>,
+    settings: &Settings,
+    form: (&[usize], bool),
+) -> Result<Exported, ExportError> {
+    match scene.dimension {
+        Dimension::Planar => in_space::<2>(scene, settings, form),
+        Dimension::Spatial => in_space::<3>(scene, settings, form),
+    }
+}
+
+fn in_space<const D: usize>(
     scene: &Scene<f64>,
     settings: &Settings,
     (ladder, is_single): (&[usize], bool),

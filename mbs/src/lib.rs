@@ -5,7 +5,6 @@ pub mod auto;
 mod channels;
 mod checkpoint;
 mod choice;
-pub mod cli;
 pub mod compare;
 mod control;
 mod digits;

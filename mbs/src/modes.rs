@@ -8,7 +8,7 @@ use crate::ready::Ready;
 use crate::statics::{at_rest, equilibrium_start, settle, workspace};
 use crate::stop::StopError;
 use core::f64::consts::TAU;
-use mbs_core::scene::Scene;
+use mbs_core::scene::{Dimension, Scene};
 use mbs_doctor::{Matrix, singular_values};
 use mbs_linear::{Equilibrium, Instant, Linear, LinearOptions, linearise};
 use serde_json::{Value, json};
@@ -94,11 +94,18 @@ pub struct Modes {
 }
 
 impl Modes {
-    /// Assembles a scene of D dimensions, lets it settle if its equilibrium is the place, and linearises it.
+    /// Assembles a scene, lets it settle if its equilibrium is the place, and linearises it.
     ///
     /// # Errors
     /// [`StopError`] when there is no model, consistent start, equilibrium or linearisation.
-    pub fn new<const D: usize>(scene: &Scene<f64>, place: Place) -> Result<Self, StopError> {
+    pub fn new(scene: &Scene<f64>, place: Place) -> Result<Self, StopError> {
+        match scene.dimension {
+            Dimension::Planar => Self::in_space::<2>(scene, place),
+            Dimension::Spatial => Self::in_space::<3>(scene, place),
+        }
+    }
+
+    fn in_space<const D: usize>(scene: &Scene<f64>, place: Place) -> Result<Self, StopError> {
         let still = at_rest(scene);
         let scene = if place == Place::Equilibrium { &still } else { scene };
         let Ready { model, mut solver, mut start, .. } = Ready::<f64, D>::assembled(scene)?;

@@ -8,7 +8,7 @@ use crate::stop::StopError;
 use crate::tree;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{EffectKind, Output, Quantity, Scene};
+use mbs_core::scene::{Dimension, EffectKind, Output, Quantity, Scene};
 use mbs_core::start::{Assembled, restart};
 use mbs_core::{Cliques, Real, SpdSolver};
 use mbs_linear::{
@@ -143,11 +143,18 @@ pub struct Still {
 }
 
 impl Still {
-    /// Assembles a scene of D dimensions and lets it settle.
+    /// Assembles a scene and lets it settle.
     ///
     /// # Errors
     /// [`StopError`] when there is no model, no consistent start or no equilibrium.
-    pub fn new<const D: usize>(scene: &Scene<f64>) -> Result<Self, StopError> {
+    pub fn new(scene: &Scene<f64>) -> Result<Self, StopError> {
+        match scene.dimension {
+            Dimension::Planar => Self::in_space::<2>(scene),
+            Dimension::Spatial => Self::in_space::<3>(scene),
+        }
+    }
+
+    fn in_space<const D: usize>(scene: &Scene<f64>) -> Result<Self, StopError> {
         let scene = &at_rest(scene);
         let Ready { model, start, .. } = Ready::<f64, D>::assembled(scene)?;
         let mut state = start.state;

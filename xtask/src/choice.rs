@@ -59,7 +59,7 @@ pub(crate) fn choice(names: &[String]) -> ExitCode {
 #[allow(clippy::print_stdout, reason = "the table is what is asked for")]
 fn run(names: &[String]) -> Result<bool, String> {
     let mut build = process::cargo();
-    build.args(["build", "--quiet", "--release", "--package", "mbs", "--bin", "mbs"]);
+    build.args(["build", "--quiet", "--release", "--package", "mbs-cli", "--bin", "mbs"]);
     process::run(build.current_dir(process::root()))?;
     let mbs = process::target_dir().join("release").join("mbs");
     let (mut rows, mut failed, mut text) = (Vec::new(), Vec::new(), String::new());

@@ -8,7 +8,7 @@ use std::process::ExitCode;
 /// Builds `mbs` in release mode (with cargo's progress when standard error is a terminal), then runs `mbs run ARGS`.
 pub(crate) fn simulate(args: &[OsString]) -> ExitCode {
     let mut build = process::cargo();
-    build.args(["build", "--release", "--package", "mbs", "--bin", "mbs"]);
+    build.args(["build", "--release", "--package", "mbs-cli", "--bin", "mbs"]);
     if !stderr().is_terminal() {
         build.arg("--quiet");
     }
@@ -18,7 +18,7 @@ pub(crate) fn simulate(args: &[OsString]) -> ExitCode {
     }
 
     let mut mbs = process::cargo();
-    mbs.args(["run", "--quiet", "--release", "--package", "mbs", "--bin", "mbs", "--", "run"]);
+    mbs.args(["run", "--quiet", "--release", "--package", "mbs-cli", "--bin", "mbs", "--", "run"]);
     match mbs.args(args).status() {
         Ok(status) => process::exit_code(status),
         Err(e) => {

@@ -107,13 +107,20 @@ impl Checkpoint {
         self.settle(settings.map_err(CheckpointError::Settings)?)
     }
 
-    /// What is given, and the settings of the checkpoint's run where nothing is.
-    pub(crate) fn overrides(&self, given: &Overrides) -> Result<Overrides, CheckpointError> {
+    /// What is given, and the settings of the checkpoint's run where nothing is: what [`Settings::new`] makes of it,
+    /// [`settle`](Self::settle) compares. The two are the halves of [`settings`](Self::settings).
+    ///
+    /// # Errors
+    /// [`CheckpointError::Setting`] for what this run did not have.
+    pub fn overrides(&self, given: &Overrides) -> Result<Overrides, CheckpointError> {
         self.identity.overrides(given)
     }
 
     /// The settings that came of [`overrides`](Self::overrides), where they are those of the checkpoint's run.
-    pub(crate) fn settle(&self, settings: Settings) -> Result<Settings, CheckpointError> {
+    ///
+    /// # Errors
+    /// [`CheckpointError::Setting`] for what this run did not have.
+    pub fn settle(&self, settings: Settings) -> Result<Settings, CheckpointError> {
         self.identity.settle(settings)
     }
 

@@ -30,7 +30,7 @@ use mbs_core::Cliques;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::Scene;
+use mbs_core::scene::{Dimension, Scene};
 use mbs_core::start::Assembled;
 use mbs_doctor::{
     Diagnosis, Drive, Linkage, Loop, Massless, Rank, diagnose, drives, loops, reference,
@@ -114,7 +114,15 @@ struct Begun<const D: usize> {
 ///
 /// Cost: two assemblies; for each part with loops some singular value decompositions of its m equations in n velocities, 20 m n²
 /// operations each, as many as positions along the motion; and that run itself.
-pub fn examine<const D: usize>(scene: &Scene<f64>, settings: &Settings, effort: &Effort) -> Checkup
+#[must_use]
+pub fn examine(scene: &Scene<f64>, settings: &Settings, effort: &Effort) -> Checkup {
+    match scene.dimension {
+        Dimension::Planar => in_space::<2>(scene, settings, effort),
+        Dimension::Spatial => in_space::<3>(scene, settings, effort),
+    }
+}
+
+fn in_space<const D: usize>(scene: &Scene<f64>, settings: &Settings, effort: &Effort) -> Checkup
 where
     Plane<D>: InSpace<f64>,
 {

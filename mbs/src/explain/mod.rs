@@ -15,15 +15,15 @@ mod timing;
 
 pub use report::report;
 
-use crate::choice::StepRule;
+use crate::choice::{Precision, StepRule};
 use crate::run;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::{Names, StopError};
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
-use mbs_core::scene::Scene;
-use mbs_scene::{EffectEntry, Explanation};
+use mbs_core::scene::{Dimension, Scene};
+use mbs_scene::{Document, EffectEntry, Explanation, ReadError};
 
 /// How much may be measured. A scene that asks for more is measured over a shorter part of its run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +39,36 @@ pub struct Effort {
 impl Default for Effort {
     fn default() -> Self {
         Self { timed_steps: 2000, repeats: 5, seconds: 10.0 }
+    }
+}
+
+/// Explains a scene in the precision of its settings: as it was read in `f64`, or read anew from its document. Nothing in pairs of
+/// doubles: prices are those of numbers of the hardware.
+///
+/// The same as [`explain`]; programs that take what precision comes compile it only once.
+///
+/// # Errors
+/// [`ReadError`] where the text is no scene in that precision, though it is one in `f64`.
+pub fn explain_document(
+    (document, scene): (&Document, &Scene<f64>),
+    settings: &Settings,
+    effort: &Effort,
+) -> Result<Option<Explanation>, ReadError> {
+    Ok(match settings.precision {
+        Precision::F64 => Some(in_space(scene, settings, effort)),
+        Precision::F32 => Some(in_space(&document.scene::<f32>()?, settings, effort)),
+        Precision::DoubleDouble => None,
+    })
+}
+
+fn in_space<T: Real>(scene: &Scene<T>, settings: &Settings, effort: &Effort) -> Explanation
+where
+    Plane<2>: InSpace<T>,
+    Plane<3>: InSpace<T>,
+{
+    match scene.dimension {
+        Dimension::Planar => explain::<T, 2>(scene, settings, effort),
+        Dimension::Spatial => explain::<T, 3>(scene, settings, effort),
     }
 }
 

@@ -93,9 +93,10 @@ pub use mbs_realtime::{
     SystemClock, Task, Work,
 };
 pub use summary::OVERRUNS;
+pub use words::rows;
 
 pub(crate) use summary::summary;
-pub(crate) use words::{note, rows};
+pub(crate) use words::note;
 
 #[cfg(doc)]
 use crate::Simulation;

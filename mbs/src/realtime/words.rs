@@ -3,8 +3,9 @@
 use crate::words::{duration, few};
 use mbs_scene::{Degraded, RealtimeSummary, readable};
 
-/// Rows of the summary of a run.
-pub(crate) fn rows(s: &RealtimeSummary) -> Vec<(&'static str, String)> {
+/// Rows of the summary of a run: labels, and values with their units.
+#[must_use]
+pub fn rows(s: &RealtimeSummary) -> Vec<(&'static str, String)> {
     let spread = |of: &mbs_scene::Times| {
         let [p50, p99, max] = [of.p50, of.p99, of.max].map(duration);
         format!("{p50}, {p99}, {max}")

@@ -1,5 +1,6 @@
 //! A run that goes on from a checkpoint is the run in one go, to the last bit.
 
+use crate::common::files::{scratch, without_clocks};
 use crate::common::{path, scene};
 use mbs::core::scene::{Course, Dimension, Effect, EffectKind, GuideLaw, Scene};
 use mbs::scene_file::{Document, Provenance};
@@ -7,25 +8,13 @@ use mbs::{
     CHECKPOINT, Checkpoint, Formulation, InSpace, Keeping, Outcome, Overrides, Plane, Settings,
     Simulation, run_document, run_document_kept,
 };
-use std::path::{Path, PathBuf};
 
 mod bytes;
 mod items;
-mod killed;
 mod layout;
 mod record;
 mod refused;
 
-/// An empty directory for one test.
-fn scratch(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("checkpoint-{name}"));
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).expect("the scratch directory can be made");
-    path
-}
-
-/// Numbers of the JSON that clocks give.
-const CLOCKS: [&str; 3] = ["cpu_seconds", "real_time_factor", "worst_step_seconds"];
 /// The rows of the page that clocks give stand between these.
 const CLOCK_ROWS: [&str; 2] = ["CPU time of the steps", "\"notes\""];
 
@@ -39,16 +28,6 @@ fn told(outcome: &Outcome) -> [String; 4] {
     let (before, after) = page.split_once(CLOCK_ROWS[0]).expect("it has a row of it");
     let (_, after) = after.split_once(CLOCK_ROWS[1]).expect("notes follow");
     [rows, steps, without_clocks(&outcome.summary.to_json()), format!("{before}{after}")]
-}
-
-/// A JSON object without what clocks say.
-fn without_clocks(json: &str) -> String {
-    let mut json: serde_json::Value = serde_json::from_str(json).expect("JSON");
-    let object = json.as_object_mut().expect("an object");
-    for clock in CLOCKS {
-        assert!(object.remove(clock).is_some(), "{clock}");
-    }
-    json.to_string()
 }
 
 fn same(a: &[String; 4], b: &[String; 4], what: &str) {
@@ -68,7 +47,7 @@ fn split(name: &str, overrides: &Overrides, every: f64) -> Outcome {
     let what = format!("{name} {overrides:?}");
     let whole = run_document(both, &settings, &mut |_| {}).expect("a scene");
 
-    let out = scratch(&format!("split-{:?}-{name}", std::thread::current().id()));
+    let out = scratch(&format!("checkpoint-split-{:?}-{name}", std::thread::current().id()));
     let (mut keeping, mut kept) =
         (Keeping::new(&out, every).expect("a directory of ours"), Vec::<Vec<u8>>::new());
     let mut look = |_| {

@@ -4,9 +4,6 @@ use mbs::auto::{Clock, Goal, Plan, Processor, plan, run_plan};
 use mbs::scene_file::Document;
 use mbs::{Overrides, Settings};
 use mbs_core::scene::Scene;
-use serde_json::Value;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 fn file(name: &str) -> String {
     format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
@@ -148,76 +145,4 @@ fn without_a_goal_nothing_is_measured_and_auto_is_index_3() {
     assert_eq!((plan.ranked.len(), plan.first().formulation), (1, mbs::Formulation::Index3));
     assert!(plan.first().choice.is_none());
     assert!(plan.first().chosen().unwrap().evidence.is_none());
-}
-
-fn mbs(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
-    command.args(arguments).output().expect("the command is built")
-}
-
-fn scratch(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("choice-{name}"));
-    let _ = std::fs::remove_dir_all(&path);
-    path
-}
-
-#[test]
-fn the_evidence_stands_in_the_json_in_files_and_on_the_page() {
-    let (out, scene) = (scratch("files"), file("double-pendulum"));
-    let folder = out.to_str().unwrap();
-    let output = mbs(&["run", &scene, "--error", "1e-3", "--json", "--out", folder]);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
-    let evidence = &json["chosen"]["evidence"];
-    assert_eq!(json["formulation"], "auto");
-    assert!(json["chosen"]["reasons"][0].as_str().unwrap().contains("for an error of 0.001"));
-    let candidates = evidence["candidates"].as_array().unwrap();
-    assert_eq!(candidates[0]["rank"], 1);
-    for candidate in candidates {
-        // a rank with its price, or a reason
-        let (is_ranked, is_out) = (candidate["rank"].is_u64(), candidate["out"].is_string());
-        assert!(is_ranked != is_out && is_ranked == candidate["seconds"].is_f64(), "{candidate}");
-    }
-    let beside: Value =
-        serde_json::from_slice(&std::fs::read(out.join("choice.json")).unwrap()).unwrap();
-    assert_eq!(&beside, evidence);
-    let csv = std::fs::read_to_string(out.join("choice.csv")).unwrap();
-    assert!(csv.starts_with("rank,method,") && csv.lines().count() > candidates.len());
-    let page = std::fs::read_to_string(out.join("run.html")).unwrap();
-    assert!(page.contains("id=\"choice\"") && page.contains("rk54"));
-}
-
-#[test]
-fn goals_that_cannot_be_meant_are_refused_with_what_to_write() {
-    let scene = file("double-pendulum");
-    for (arguments, says) in [
-        (&["--error", "0"][..], "more than 0 and less than 1"),
-        (&["--error", "-0.001"], "more than 0 and less than 1"),
-        (&["--error", "3"], "more than 0 and less than 1"),
-        (&["--error", "small"], "invalid value"),
-        (&["--deadline", "-1"], "longer than zero"),
-        (&["--deadline", "0"], "longer than zero"),
-        (&["--deadline", "1m"], "1ms or 500us"),
-        (&["--deadline", "20s"], "longer than the run"),
-        (&["--error", "1e-3", "--step", "1e-3"], "--step cannot be given beside"),
-        (&["--deadline", "1ms", "--integrator", "rk54"], "choose their own steps"),
-        (&["--deadline", "1ms", "--formulation", "multi-index"], "no method goes with"),
-        (&["--error", "1e-3", "--formulation", "index-3", "--integrator", "rk4"], "rk4"),
-    ] {
-        let output = mbs(&[&["run", scene.as_str()][..], arguments].concat());
-        let errors = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {errors}");
-        assert!(output.stdout.is_empty() && errors.contains(says), "{arguments:?}: {errors}");
-    }
-}
-
-#[test]
-fn explain_tells_candidates_by_structure_and_with_an_error_what_each_costs() {
-    let scene = file("simple-pendulum");
-    let plain = mbs(&["explain", &scene, "--duration", "0.2"]);
-    let text = String::from_utf8_lossy(&plain.stdout).into_owned();
-    assert!(text.contains("Choice of formulation") && text.contains("the pilot decides"), "{text}");
-    let measured = mbs(&["explain", &scene, "--duration", "0.2", "--error", "1e-3", "--json"]);
-    let json: Value = serde_json::from_slice(&measured.stdout).unwrap();
-    assert!(json["choice"]["candidates"][0]["seconds"].is_f64(), "{}", json["choice"]);
 }

@@ -1,4 +1,4 @@
-//! `mbs doctor`: what it finds in scenes, sound and not, and what the command says. No time is asserted.
+//! The doctor: what it finds in scenes, sound and not. No time is asserted.
 
 use crate::common::random;
 use crate::{common, retell};
@@ -7,19 +7,13 @@ use mbs::core::scene::{Dimension, Scene};
 use mbs::doctor::{Checkup, Effort, Severity, examine};
 use mbs::scene_file::Document;
 use mbs::{Overrides, Settings, Simulation};
-use serde_json::Value;
-use std::path::Path;
-use std::process::{Command, Output};
 
 /// Few positions along the motion.
 const LITTLE: Effort = Effort { positions: 20, seconds: 60.0 };
 
 fn checkup(scene: &Scene<f64>, effort: &Effort) -> Checkup {
     let settings = Settings::new(scene, &Overrides::default()).expect("the defaults are built");
-    match scene.dimension {
-        Dimension::Planar => examine::<2>(scene, &settings, effort),
-        Dimension::Spatial => examine::<3>(scene, &settings, effort),
-    }
+    examine(scene, &settings, effort)
 }
 
 fn codes(checkup: &Checkup) -> Vec<&'static str> {
@@ -84,7 +78,7 @@ fn reactions_are_unique_where_the_balance_of_the_bodies_says_so() {
         let simulation = Simulation::<f64, D>::new(scene, &settings).expect("it starts");
         let mut reactions = Reactions::new(scene, simulation.model()).expect("small");
         reactions.update(simulation.state());
-        let c = examine::<D>(scene, &settings, &Effort { positions: 0, ..LITTLE });
+        let c = examine(scene, &settings, &Effort { positions: 0, ..LITTLE });
         for (joint, unique) in c.unique.iter().enumerate() {
             let all = unique.iter().all(|x| *x);
             assert_eq!(all, reactions.is_unique(joint), "{}: {}", scene.name, c.joints[joint]);
@@ -235,87 +229,4 @@ fn units_are_doubted_where_the_evidence_is_strong() {
         let c = checkup(&common::scene(name), &still);
         assert!(c.findings.iter().all(|f| f.topic != mbs::doctor::Topic::Units), "{name}");
     }
-}
-
-fn mbs(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
-    command.arg("doctor").args(arguments).output().expect("the command is built")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
-
-fn path(name: &str) -> String {
-    common::path(name).display().to_string()
-}
-
-#[test]
-fn the_command_gives_one_object_a_page_and_a_status() {
-    let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("doctor-out");
-    let _ = std::fs::remove_dir_all(&out);
-    let scene = path("spatial-four-bar");
-    let arguments = [&scene, "--json", "--duration", "0.2", "--out", &out.display().to_string()];
-    let output = mbs(&arguments);
-    assert_eq!(output.status.code(), Some(0), "doubts are no faults: {}", text(&output.stderr));
-    let value: Value = serde_json::from_slice(&output.stdout).expect("one JSON object");
-    for key in [
-        "scene",
-        "dimension",
-        "dof",
-        "worst",
-        "findings",
-        "position",
-        "natural",
-        "joint_level",
-        "dependent_sets",
-        "reactions",
-        "loops",
-        "shares_of_the_motion",
-        "massless",
-        "methods",
-        "motion",
-        "start",
-    ] {
-        assert!(value.get(key).is_some(), "{key}");
-    }
-    let joints = ["crank-pivot", "crank-pin", "rocker-pin", "rocker-pivot"];
-    assert_eq!(value["dependent_sets"][0]["joints"], serde_json::json!(joints));
-    assert_eq!(
-        (&value["joint_level"]["redundant"], &value["natural"]["redundant"]),
-        (&3.into(), &1.into())
-    );
-    assert_eq!(value["worst"], "doubt");
-    // The line of the first joint of the set.
-    let file = std::fs::read_to_string(&scene).expect("a scene");
-    let line = file.lines().position(|l| l.contains("\"crank-pivot\"")).expect("it is there") + 1;
-    assert_eq!(value["findings"][0]["line"], line);
-    let written = std::fs::read_to_string(out.join("doctor.json")).expect("written");
-    assert_eq!(serde_json::from_str::<Value>(&written).expect("JSON"), value);
-    let page = std::fs::read_to_string(out.join("doctor.html")).expect("written");
-    assert!(page.contains("dependent-set") && page.contains("rocker-pin"));
-}
-
-#[test]
-fn a_scene_without_a_start_is_a_fault_and_one_that_cannot_be_read_is_refused() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("doctor-faults");
-    std::fs::create_dir_all(&folder).expect("made");
-    let four_bar = std::fs::read_to_string(path("four-bar")).expect("a scene");
-    let file = folder.join("contradicts.toml").display().to_string();
-    let more = "\n[[initial]]\njoint = \"pivot-1\"\nrate = 1.0e3\n";
-    std::fs::write(&file, four_bar + more).expect("written");
-    let output = mbs(&[&file]);
-    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stdout));
-    let told = text(&output.stdout);
-    assert!(
-        told.contains("fault: contradicting-velocities, line") && told.contains("mend:"),
-        "{told}"
-    );
-    let missing = mbs(&["no-such-scene.toml"]);
-    assert_eq!(missing.status.code(), Some(1));
-    assert!(text(&missing.stderr).contains("hint:") && missing.stdout.is_empty());
-    let wrong = mbs(&[&path("four-bar"), "--step", "-1"]);
-    assert_eq!(wrong.status.code(), Some(1), "{}", text(&wrong.stderr));
-    let help = text(&mbs(&["--help"]).stdout);
-    assert!(help.contains("docs/DOCTOR.md") && help.contains("--still"), "{help}");
 }

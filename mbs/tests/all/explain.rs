@@ -1,37 +1,13 @@
-//! `mbs explain`: what it says of scenes, and what leaving an effect out changes. No time is asserted.
+//! An explanation: what it says of scenes, and what leaving an effect out changes. No time is asserted.
 
+use crate::common::{self, path};
 use mbs::explain::{Effort, explain, report};
 use mbs::scene_file::{Document, Explanation, Price, Provenance, SearchEnd};
 use mbs::{Overrides, Settings};
 use mbs_core::scene::Scene;
-use serde_json::Value;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 /// Little is timed; everything else is measured in full.
 const LITTLE: Effort = Effort { timed_steps: 20, repeats: 2, seconds: 60.0 };
-
-fn scene(name: &str) -> String {
-    format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
-}
-
-fn mbs(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
-    command.arg("explain").args(arguments).output().expect("the command is built")
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
-
-/// The JSON object of a scene of the repository, by the command.
-fn json(name: &str, more: &[&str]) -> Value {
-    let output = mbs(&[&[scene(name).as_str(), "--json"], more].concat());
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let value: Value = serde_json::from_slice(&output.stdout).expect("one JSON object");
-    assert!(value.is_object());
-    value
-}
 
 /// A pendulum of 1 kg and 1 m that hangs at rest 60 degrees off, with effects.
 fn pendulum(effects: &str) -> Scene<f64> {
@@ -88,93 +64,6 @@ fn price<'a>(explanation: &'a Explanation, name: &str) -> &'a Price {
     prices.effects.iter().find(|p| p.names == [name]).expect("it is on the list")
 }
 
-fn absences(value: &Value) -> Vec<&str> {
-    let list = value["absent"].as_array().expect("a list");
-    list.iter().map(|entry| entry["what"].as_str().expect("a word")).collect()
-}
-
-#[test]
-fn json_is_one_object_with_its_keys() {
-    let value = json("double-pendulum", &["--step", "1e-2"]);
-    let keys: Vec<&str> =
-        value.as_object().expect("an object").keys().map(String::as_str).collect();
-    let wanted = [
-        "absent",
-        "choice",
-        "chosen",
-        "dimension",
-        "duration",
-        "effects",
-        "error",
-        "formulation",
-        "integrator",
-        "precision",
-        "prices",
-        "scene",
-        "simulated",
-        "step",
-    ];
-    assert_eq!(keys, wanted);
-    assert_eq!(
-        (&value["formulation"], &value["chosen"]["formulation"]),
-        (&"auto".into(), &"index-3".into())
-    );
-    assert!(!value["chosen"]["reasons"].as_array().expect("a list").is_empty());
-    let simulated = &value["simulated"];
-    assert_eq!(simulated["dof"], 2);
-    assert_eq!(simulated["bodies"].as_array().expect("a list").len(), 2);
-    assert_eq!(simulated["joints"][0]["kind"], "revolute");
-    assert_eq!(simulated["joints"][0]["names"].as_array().expect("a list").len(), 2);
-    assert_eq!(simulated["gravity"], serde_json::json!([0.0, -9.81]));
-    let natural = &simulated["natural"];
-    let sizes = ["coordinates", "constraints", "constraint_rank", "redundant", "dof"];
-    assert_eq!(sizes.map(|key| natural[key].as_u64()), [4, 2, 2, 0, 2].map(Some));
-    let relative = &simulated["relative"];
-    assert_eq!(sizes.map(|key| relative[key].as_u64()), [2, 0, 0, 0, 2].map(Some));
-    assert_eq!((&relative["loops"], &relative["cut_joints"]), (&0.into(), &Value::Array(vec![])));
-    let absent = absences(&value);
-    for what in ["third-dimension", "guides", "damping", "friction", "tires", "flexible-bodies"] {
-        assert!(absent.contains(&what), "{what}");
-    }
-    assert!(!absent.contains(&"gravity"));
-    let prices = &value["prices"];
-    assert_eq!((&prices["effects"], &prices["completed"]), (&Value::Array(vec![]), &true.into()));
-    for key in ["timed_steps", "repeats", "compared_duration", "iterations_per_step"] {
-        assert!(prices[key].is_number(), "{key}");
-    }
-    assert_eq!(prices["timed_steps"], 1000);
-}
-
-#[test]
-fn loops_are_cut_at_named_joints_and_redundant_equations_are_counted() {
-    let value = json("two-four-bars", &["--duration", "0.05"]);
-    let relative = &value["simulated"]["relative"];
-    assert_eq!((&value["simulated"]["dof"], &relative["loops"]), (&1.into(), &2.into()));
-    let cut = relative["cut_joints"].as_array().expect("a list");
-    let names: Vec<_> =
-        value["simulated"]["joints"][0]["names"].as_array().expect("a list").clone();
-    assert!(cut.len() == 2 && cut.iter().all(|joint| names.contains(joint)));
-    assert_eq!((&relative["constraints"], &relative["redundant"]), (&4.into(), &0.into()));
-
-    // One spatial revolute joint is cut: five equations, two of which the planar motion needs.
-    let value = json("spatial-four-bar", &["--duration", "0.05"]);
-    let relative = &value["simulated"]["relative"];
-    let sizes = ["coordinates", "constraints", "constraint_rank", "redundant", "dof", "loops"];
-    assert_eq!(sizes.map(|key| relative[key].as_u64()), [3, 5, 2, 3, 1, 1].map(Some));
-    assert!(value["simulated"]["natural"]["redundant"].as_u64() > Some(0));
-    assert_eq!(value["simulated"]["natural"]["dof"], 1);
-    assert!(!absences(&value).contains(&"third-dimension"));
-}
-
-#[test]
-fn guides_are_told_and_leave_no_freedom() {
-    let value = json("guided-four-bar", &["--duration", "0.05"]);
-    let simulated = &value["simulated"];
-    assert_eq!(simulated["guides"], serde_json::json!([{"joint": "crank-pivot", "law": "ramp"}]));
-    assert_eq!((&simulated["dof"], &simulated["relative"]["dof"]), (&0.into(), &0.into()));
-    assert!(!absences(&value).contains(&"guides"));
-}
-
 #[test]
 fn an_idle_spin_is_told_where_a_thin_rod_has_one() {
     let text = r#"
@@ -211,8 +100,8 @@ axis = [0.0, 1.0, 0.0]
     assert_eq!(rods, [("on-ball", false), ("on-hinge", true)]);
     // Two swings of the ball and one turn of the hinge; relative coordinates carry the spin too.
     assert_eq!((simulated.dof, simulated.relative.map(|r| r.sizes.dof)), (Some(3), Some(4)));
-    let planar = json("guided-four-bar", &["--duration", "0.02"]);
-    assert_eq!(planar["simulated"]["rods"], Value::Array(vec![]), "the plane has no such spin");
+    let planar = explained(&common::scene("guided-four-bar")).0;
+    assert!(planar.simulated.rods.is_empty(), "the plane has no such spin");
 }
 
 #[test]
@@ -257,7 +146,7 @@ fn leaving_a_damper_out_changes_what_two_runs_differ_by_and_an_idle_effect_chang
 #[test]
 fn what_is_rounding_beside_the_scene_is_no_change() {
     // The guided joint follows its guide whatever acts elsewhere.
-    let text = std::fs::read_to_string(scene("guided-four-bar")).expect("it is there");
+    let text = std::fs::read_to_string(path("guided-four-bar")).expect("it is there");
     let effect = DAMPER.replace("pivot", "rocker-pivot");
     let document = Document::parse(&format!("{text}\n{effect}"), "guided.toml").expect("TOML");
     let (explanation, _) = explained(&document.scene().expect("a scene"));
@@ -309,46 +198,4 @@ fn the_largest_step_completes_and_twice_as_long_a_one_does_not() {
             SearchEnd::NotMeasured => panic!("a minute is enough"),
         }
     }
-}
-
-#[test]
-fn files_are_written_and_the_page_stands_alone() {
-    let out: PathBuf = Path::new(env!("CARGO_TARGET_TMPDIR")).join("explain-files");
-    let _ = std::fs::remove_dir_all(&out);
-    let directory = out.to_str().expect("a plain path");
-    let output = mbs(&[&scene("andrews"), "--duration", "1e-3", "--out", directory]);
-    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-    let table = text(&output.stdout);
-    for words in ["What is simulated", "cut at", "Price of each effect", "costs nothing", "drive"] {
-        assert!(table.contains(words), "{words}: {table}");
-    }
-    let json = std::fs::read(out.join("explain.json")).expect("it is written");
-    let value: Value = serde_json::from_slice(&json).expect("one JSON object");
-    assert_eq!(value["prices"]["effects"][0]["kind"], "spring-damper");
-    let html = std::fs::read_to_string(out.join("explain.html")).expect("it is written");
-    for word in ["http:", "https:", "src=", "href=", "url(", "<script"] {
-        assert!(!html.contains(word), "{word}");
-    }
-    assert!(html.contains("mbs explain") && html.contains("Price of each effect"));
-}
-
-#[test]
-fn refusals_and_scenes_without_a_start_have_their_status() {
-    let output = mbs(&[&scene("double-pendulum"), "--formulation", "index-2"]);
-    assert_eq!(output.status.code(), Some(1));
-    assert!(text(&output.stderr).contains("hint:") && output.stdout.is_empty());
-    let output = mbs(&["no-such-scene.toml"]);
-    assert_eq!(output.status.code(), Some(1));
-
-    let bad = Path::new(env!("CARGO_TARGET_TMPDIR")).join("explain-open-loop.toml");
-    let far = std::fs::read_to_string(scene("guided-four-bar")).expect("it is there");
-    // The crank is told to run away from where it is held.
-    let start = "[[initial]]\njoint = \"rocker-pivot\"\nvalue = 2.0\n\n[solver]";
-    std::fs::write(&bad, far.replace("[solver]", start)).expect("it can be written");
-    let output = mbs(&[bad.to_str().expect("a plain path"), "--json"]);
-    assert_eq!(output.status.code(), Some(2), "{}", text(&output.stderr));
-    let value: Value = serde_json::from_slice(&output.stdout).expect("one JSON object");
-    assert_eq!(value["error"]["code"], "cannot-assemble");
-    assert!(value["prices"].is_null() && value["simulated"]["natural"].is_null());
-    assert_eq!(value["simulated"]["bodies"][0], "crank");
 }

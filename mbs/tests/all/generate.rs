@@ -3,7 +3,6 @@
 use mbs::scene_file::{Document, Family, GenerateError, generate};
 use mbs::{Outcome, Overrides, Settings};
 use mbs_core::scene::{Dimension, Scene};
-use std::process::Command;
 
 const COMMAND: &str = "mbs generate";
 
@@ -151,45 +150,4 @@ fn what_cannot_be_made_is_refused_with_a_hint() {
     }
     let broken = Document::parse("[scene]\n", "broken.toml").expect("TOML");
     assert_eq!(generate(&convoy(&broken, 2, 8.0), COMMAND), Err(GenerateError::NoScene));
-}
-
-/// `mbs generate` with arguments: exit status, standard output, standard error.
-fn command(arguments: &[&str]) -> (i32, String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
-    let output = command.arg("generate").args(arguments).output().expect("the command is built");
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    (output.status.code().expect("an exit"), text(&output.stdout), text(&output.stderr))
-}
-
-#[test]
-fn the_command_writes_to_standard_output_or_to_a_file_and_names_itself() {
-    let (status, text, _) = command(&["net", "--rows", "2", "--columns", "3"]);
-    assert_eq!(status, 0);
-    assert!(text.contains("# Made by `mbs generate net --rows 2 --columns 3`."), "{text}");
-    let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("generated-chain.toml");
-    let path = file.to_str().expect("a path of letters");
-    let (status, text, _) = command(&["chain", "--count", "3", "-o", path]);
-    assert_eq!((status, text.as_str()), (0, ""));
-    let written = std::fs::read_to_string(&file).expect("it was written");
-    let expected = generate(&Family::Chain { bodies: 3 }, "mbs generate chain --count 3");
-    assert_eq!(Ok(written), expected);
-}
-
-#[test]
-fn the_command_refuses_with_status_1_and_a_hint() {
-    let pendulum = format!("{}/../scenes/double-pendulum.toml", env!("CARGO_MANIFEST_DIR"));
-    for (arguments, word) in [
-        (&["chain"][..], "--count is missing"),
-        (&["chain", "--count", "0"], "at least 1"),
-        (&["net", "--count", "0"], "at least 2"),
-        (&["convoy", "--count", "3"], "needs --of"),
-        (&["convoy", "--count", "3", "--of", &pendulum], "no tire"),
-        (&["convoy", "--count", "3", "--of", "nowhere.toml"], "cannot read"),
-        (&["tree", "--count", "3", "--spacing", "8"], "--spacing says nothing of a tree"),
-        (&["chain", "--count", "3", "-o", "/no/such/directory/x.toml"], "cannot write"),
-    ] {
-        let (status, text, error) = command(arguments);
-        assert_eq!((status, text.as_str()), (1, ""), "{arguments:?}");
-        assert!(error.contains(word) && error.contains("hint: "), "{arguments:?}: {error}");
-    }
 }

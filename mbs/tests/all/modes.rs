@@ -26,7 +26,7 @@ const IN_PLANE: [[f64; 2]; 4] = [
 
 #[test]
 fn modes_at_rest_are_those_of_an_independent_model_of_the_plane_of_symmetry() {
-    let modes = Modes::new::<3>(&common::scene("iltis-equilibrium"), Place::Equilibrium)
+    let modes = Modes::new(&common::scene("iltis-equilibrium"), Place::Equilibrium)
         .expect("it rests and is linearised")
         .modes;
     for [real, imaginary] in IN_PLANE {

@@ -1,7 +1,5 @@
 //! Runs at the pace of a clock: what they compute, and what a change of level does to the state. No test asserts how long anything
-//! takes: clocks here are told what time it is; of the command on the system's clock measures are only looked for.
-
-mod command;
+//! takes: clocks here are told what time it is.
 
 use crate::common;
 use crate::common::allocations;

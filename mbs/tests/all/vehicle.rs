@@ -19,7 +19,7 @@ fn published(what: &str, ours: f64, theirs: f64) {
 
 #[test]
 fn static_equilibrium_is_the_published_one() {
-    let still = Still::new::<3>(&common::scene("iltis-equilibrium")).expect("it rests");
+    let still = Still::new(&common::scene("iltis-equilibrium")).expect("it rests");
     let find = |list: &[(mbs::scene_file::Channel, Vec<f64>)], name: &str| {
         let found = list.iter().find(|(channel, _)| channel.name == name);
         found.unwrap_or_else(|| panic!("no {name}")).1.clone()

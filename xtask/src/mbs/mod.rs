@@ -28,7 +28,7 @@ impl Mbs {
     /// What cargo came to.
     pub(crate) fn build() -> Result<Self, String> {
         let mut build = process::cargo();
-        build.args(["build", "--quiet", "--release", "--package", "mbs", "--bin", "mbs"]);
+        build.args(["build", "--quiet", "--release", "--package", "mbs-cli", "--bin", "mbs"]);
         process::run(build.current_dir(process::root()))?;
         Ok(Self { path: process::target_dir().join("release").join("mbs") })
     }

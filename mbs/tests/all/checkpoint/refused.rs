@@ -1,11 +1,8 @@
 //! Checkpoints that a run does not go on from, and what is said then.
 
-use super::scratch;
-use crate::common::{path, scene};
+use crate::common::scene;
 use mbs::core::scene::{Inertia, Scene};
-use mbs::{CHECKPOINT, Checkpoint, CheckpointError, Overrides, Settings, Simulation};
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use mbs::{Checkpoint, CheckpointError, Overrides, Settings, Simulation};
 
 fn settings(scene: &Scene<f64>, overrides: &Overrides) -> Settings {
     Settings::new(scene, overrides).expect("good settings")
@@ -121,79 +118,4 @@ fn a_length_that_is_claimed_takes_no_memory() {
         Err(CheckpointError::Torn { told: u64::MAX, found }) => assert_eq!(found, there),
         other => panic!("{other:?}"),
     }
-}
-
-fn mbs(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
-    command.arg("run").args(arguments).output().expect("the command is built")
-}
-
-/// The command is refused with exit status 1, and says all of these words.
-fn refused(arguments: &[&str], words: &[&str]) {
-    let output = mbs(arguments);
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(1), "{arguments:?}: {said}");
-    assert!(output.stdout.is_empty());
-    for word in words.iter().chain(&["error:", "hint:"]) {
-        assert!(said.contains(word), "{arguments:?}: no `{word}` in {said}");
-    }
-}
-
-/// A directory with the checkpoint that a run has left, and the text of its scene there.
-fn left(name: &str) -> (PathBuf, PathBuf) {
-    let out = scratch(name);
-    let file = out.join("scene.toml");
-    std::fs::copy(path("double-pendulum"), &file).expect("a copy");
-    let read = std::fs::read(&file).expect("it was copied");
-    let document = mbs::scene_file::Document::from_bytes(&read, "scene.toml").expect("TOML");
-    let scene = document.scene::<f64>().expect("a scene");
-    let overrides = Overrides { duration: Some(0.2), ..Overrides::default() };
-    let settings = settings(&scene, &overrides);
-    let mut keeping = mbs::Keeping::new(&out, 0.05).expect("a directory of ours");
-    let done = mbs::run_kept::<f64, 2>(&scene, &settings, &mut (), (None, Some(&mut keeping)));
-    assert!(done.is_ok_and(|outcome| outcome.summary.completed));
-    (out, file)
-}
-
-fn text(path: &Path) -> &str {
-    path.to_str().expect("a path of plain letters")
-}
-
-#[test]
-fn the_command_says_what_is_wrong_and_what_to_do() {
-    let (out, file) = left("command");
-    let checkpoint = out.join(CHECKPOINT);
-    let (dir, file) = (text(&out), text(&file));
-    refused(&[file, "--out", dir, "--checkpoint", "0.05"], &["--resume", "--restart", "0.15"]);
-    refused(&[file, "--out", dir, "--resume", "--step", "1e-2"], &["step was 0.001, and is 0.01"]);
-    refused(&[file, "--out", dir, "--resume", "--precision", "dd"], &["precision was f64"]);
-    refused(&[file, "--resume"], &["--out"]);
-    refused(&[file, "--out", dir, "--checkpoint", "0"], &["positive"]);
-    let written = std::fs::read_to_string(file).expect("a scene");
-    std::fs::write(file, written.replacen("mass = 1.0", "mass = 1.5", 1)).expect("written");
-    refused(&[file, "--out", dir, "--resume"], &["another scene", "[[body]]"]);
-    std::fs::write(file, format!("# a comment more\n{written}")).expect("written");
-
-    let bytes = std::fs::read(&checkpoint).expect("it is there");
-    std::fs::write(&checkpoint, &bytes[..bytes.len() / 2]).expect("written");
-    refused(&[file, "--out", dir, "--resume"], &["torn"]);
-    let mut changed = bytes.clone();
-    changed[bytes.len() / 2] ^= 4;
-    std::fs::write(&checkpoint, &changed).expect("written");
-    refused(&[file, "--out", dir, "--resume"], &["damaged"]);
-    std::fs::write(&checkpoint, written.as_bytes()).expect("written");
-    refused(&[file, "--out", dir, "--resume"], &["no checkpoint"]);
-    let mut later = bytes.clone();
-    later[8] += 1;
-    std::fs::write(&checkpoint, &later).expect("written");
-    refused(&[file, "--out", dir, "--resume"], &["written by mbs with format 2"]);
-
-    std::fs::write(&checkpoint, &bytes).expect("written");
-    let rows = std::fs::read(out.join("run.csv")).expect("rows were written");
-    assert!(!rows.is_empty(), "no refusal has emptied the rows");
-    let output = mbs(&[file, "--out", dir, "--resume", "--json"]);
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    let json: serde_json::Value = serde_json::from_slice(&output.stdout).expect("one object");
-    assert_eq!(json["steps"], 200, "the summary is that of the whole run");
-    refused(&[file, "--out", dir, "--resume"], &["there is no checkpoint"]);
 }

@@ -1,49 +1,18 @@
 //! What the test binaries share: scenes of the repository, and stepping without recording.
 #[path = "../../../../mbs-core/tests/common/allocations.rs"]
 pub(crate) mod allocations;
+pub(crate) mod files;
 pub(crate) mod oracle;
 pub(crate) mod random;
 
+pub(crate) use files::{SCENES, path, scene};
 use mbs::augmented::{StepError, StepReport};
 use mbs::core::natural::Affine;
 use mbs::core::scene::{BodyRef, Scene};
-use mbs::scene_file::Document;
 use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
-use std::path::PathBuf;
-
-/// Scenes of the repository, without those of vehicles.
-pub(crate) const SCENES: [&str; 15] = [
-    "simple-pendulum",
-    "double-pendulum",
-    "two-four-bars",
-    "n-four-bar-10",
-    "four-bar",
-    "n-four-bar-40",
-    "slider-crank",
-    "guided-four-bar",
-    "spinning-top",
-    "free-body",
-    "spatial-four-bar",
-    "spatial-chain-20",
-    "rssr",
-    "tree-30",
-    "andrews",
-];
 
 /// The augmented formulations, by name.
 pub(crate) const FORMULATIONS: [&str; 2] = ["index-3", "index-1"];
-
-/// Path of a scene of the repository.
-pub(crate) fn path(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(format!("{name}.toml"))
-}
-
-/// Reads a scene of the repository.
-pub(crate) fn scene(name: &str) -> Scene<f64> {
-    let bytes = std::fs::read(path(name)).expect("the scene is in the repository");
-    let document = Document::from_bytes(&bytes, name).unwrap_or_else(|e| panic!("{}", e.render()));
-    document.scene().unwrap_or_else(|e| panic!("{}", e.render()))
-}
 
 /// Settings of a scene with formulation and step; without a step, the scene's own.
 pub(crate) fn settings(scene: &Scene<f64>, formulation: &str, step: Option<f64>) -> Settings {

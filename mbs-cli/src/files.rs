@@ -1,8 +1,8 @@
 //! Scene files in, result files out, and what to say when that fails.
 
-use crate::{Overrides, Settings, SettingsError};
-use mbs_core::scene::{Entry, Scene};
-use mbs_scene::{Choice, Document, Provenance, readable};
+use mbs::core::scene::{Entry, Scene};
+use mbs::scene_file::{Choice, Document, Provenance, readable};
+use mbs::{Overrides, Settings, SettingsError};
 use std::path::Path;
 
 /// Reads a scene file and its scene; else the refusal.
@@ -98,7 +98,7 @@ fn unreadable(path: &Path, what: &str, error: &std::io::Error) -> String {
 pub(crate) fn write_choice(out: &Path, choice: &Choice) -> std::io::Result<()> {
     let text = serde_json::to_string_pretty(choice).unwrap_or_default();
     std::fs::write(out.join("choice.json"), text + "\n")?;
-    mbs_scene::write_choice(std::fs::File::create(out.join("choice.csv"))?, choice)
+    mbs::scene_file::write_choice(std::fs::File::create(out.join("choice.csv"))?, choice)
 }
 
 /// The message for a directory that cannot be written.

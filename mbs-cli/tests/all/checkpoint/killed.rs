@@ -1,7 +1,6 @@
 //! A process that is killed, and the one that goes on with its run.
 
-use super::{scratch, without_clocks};
-use crate::common::path;
+use crate::files::{path, scratch, without_clocks};
 use mbs::{CHECKPOINT, Checkpoint};
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -11,8 +10,8 @@ use std::time::{Duration, Instant};
 const PATIENCE: Duration = Duration::from_secs(120);
 
 fn mbs(scene: &str, out: &Path, options: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
-    command.arg("run").arg(path(scene)).arg("--out").arg(out).args(options);
+    let mut command = crate::mbs("run");
+    command.arg(path(scene)).arg("--out").arg(out).args(options);
     command.stdout(Stdio::null()).stderr(Stdio::null());
     command
 }
@@ -39,7 +38,8 @@ fn read(out: &Path, file: &str) -> String {
 
 /// Kills a run twice, goes on each time, and compares with one that nobody killed.
 fn survives(name: &str, scene: &str, options: &[&str], [first, second]: [f64; 2]) {
-    let (whole, parts) = (scratch(&format!("{name}-whole")), scratch(&format!("{name}-parts")));
+    let [whole, parts] =
+        ["whole", "parts"].map(|part| scratch(&format!("checkpoint-{name}-{part}")));
     let status = mbs(scene, &whole, options).status().expect("the command is built");
     assert!(status.success());
     let [rows, steps, json] = ["run.csv", "steps.csv", "run.json"].map(|file| read(&whole, file));

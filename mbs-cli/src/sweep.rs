@@ -1,12 +1,12 @@
 //! `mbs sweep SCENE SWEEP`.
 
-use super::bar::bar;
-use super::{STOPPED, files, refuse, table};
-use crate::sweep::{Report, Study, StudyError, SweepError, Watch};
-use crate::{Overrides, Precision, words};
+use crate::bar::bar;
+use crate::{STOPPED, files, refuse, table};
 use clap::Args;
 use indicatif::ProgressBar;
-use mbs_scene::Document;
+use mbs::scene_file::Document;
+use mbs::sweep::{Report, Study, StudyError, SweepError, Watch};
+use mbs::{Overrides, Precision, words};
 use serde_json::json;
 use std::io::Write as _;
 use std::num::NonZeroUsize;
@@ -83,7 +83,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 
 fn run(arguments: &Arguments) -> Result<(Report, PathBuf), String> {
     if arguments.precision.as_deref() == Some(Precision::DoubleDouble.name()) {
-        return Err(super::NO_PAIRS.to_owned());
+        return Err(crate::NO_PAIRS.to_owned());
     }
     let (document, _) = files::scene(&arguments.scene)?;
     let sweep = files::document(&arguments.sweep, "sweep file")?;

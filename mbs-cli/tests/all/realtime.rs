@@ -1,21 +1,11 @@
-//! `mbs run --realtime`: files, JSON, exit status, refusals.
+//! `mbs run --realtime`: files, JSON, exit status, refusals. On the system's clock measures are only looked for.
 
-use crate::common;
-use serde_json::Value;
+use crate::{json, scene, status, text};
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 fn run(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
-    command.arg("run").args(arguments).output().expect("the command is built")
-}
-
-fn status(output: &Output) -> i32 {
-    output.status.code().expect("it ended by itself")
-}
-
-fn path(name: &str) -> String {
-    common::path(name).display().to_string()
+    crate::run("run", arguments)
 }
 
 #[test]
@@ -23,7 +13,7 @@ fn the_command_has_an_object_realtime_and_a_line_for_each_overrun() {
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("realtime-out");
     let _ = std::fs::remove_dir_all(&out);
     let output = run(&[
-        &path("double-pendulum"),
+        &scene("double-pendulum"),
         "--realtime",
         "--overrun",
         "hold",
@@ -35,8 +25,8 @@ fn the_command_has_an_object_realtime_and_a_line_for_each_overrun() {
         "--out",
         out.to_str().expect("a path of plain letters"),
     ]);
-    assert_eq!(status(&output), 0, "{}", String::from_utf8_lossy(&output.stderr));
-    let value: Value = serde_json::from_slice(&output.stdout).expect("one object");
+    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    let value = json(&output);
     let realtime = &value["realtime"];
     for key in ["jitter", "duration"] {
         for of in ["p50", "p99", "max"] {
@@ -61,7 +51,7 @@ fn the_command_has_an_object_realtime_and_a_line_for_each_overrun() {
 #[test]
 fn the_command_runs_in_pairs_of_doubles_and_degrades_what_it_is_told_to() {
     let output = run(&[
-        &path("double-pendulum"),
+        &scene("double-pendulum"),
         "--realtime",
         "--precision",
         "dd",
@@ -69,11 +59,11 @@ fn the_command_runs_in_pairs_of_doubles_and_degrades_what_it_is_told_to() {
         "0.05",
         "--json",
     ]);
-    assert_eq!(status(&output), 0, "{}", String::from_utf8_lossy(&output.stderr));
-    let value: Value = serde_json::from_slice(&output.stdout).expect("one object");
+    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    let value = json(&output);
     assert!(value["digits"].is_object() && value["realtime"]["periods"].is_number());
     let output = run(&[
-        &path("iltis-suspension"),
+        &scene("iltis-suspension"),
         "--realtime",
         "--overrun",
         "degrade",
@@ -87,8 +77,8 @@ fn the_command_runs_in_pairs_of_doubles_and_degrades_what_it_is_told_to() {
         "0.1",
         "--json",
     ]);
-    assert_eq!(status(&output), 0, "{}", String::from_utf8_lossy(&output.stderr));
-    let value: Value = serde_json::from_slice(&output.stdout).expect("one object");
+    assert_eq!(status(&output), 0, "{}", text(&output.stderr));
+    let value = json(&output);
     let levels = value["realtime"]["levels"].as_array().expect("a ladder");
     assert_eq!(levels.len(), 3);
     assert_eq!(
@@ -100,7 +90,7 @@ fn the_command_runs_in_pairs_of_doubles_and_degrades_what_it_is_told_to() {
 
 #[test]
 fn the_command_refuses_what_is_no_pace() {
-    let scene = path("double-pendulum");
+    let scene = scene("double-pendulum");
     for (arguments, word) in [
         (&["--realtime", "--period", "0"][..], "period cannot be 0 s"),
         (&["--realtime", "--period=-1"], "period cannot be -1 s"),
@@ -113,7 +103,7 @@ fn the_command_refuses_what_is_no_pace() {
         let all: Vec<&str> =
             [scene.as_str()].into_iter().chain(arguments.iter().copied()).collect();
         let output = run(&all);
-        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        let text = text(&output.stderr);
         assert_eq!(status(&output), 1, "{arguments:?}: {text}");
         assert!(text.contains(word), "{arguments:?}: {text}");
     }

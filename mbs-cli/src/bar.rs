@@ -4,7 +4,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::io::{IsTerminal, stderr};
 
 /// A bar of so many ticks, on a terminal; elsewhere, or where nothing is to be told, it is not seen.
-pub(super) fn bar(ticks: u64, is_quiet: bool, template: &str) -> ProgressBar {
+pub(crate) fn bar(ticks: u64, is_quiet: bool, template: &str) -> ProgressBar {
     let target = if is_quiet || !stderr().is_terminal() {
         ProgressDrawTarget::hidden()
     } else {
@@ -22,6 +22,6 @@ pub(super) fn bar(ticks: u64, is_quiet: bool, template: &str) -> ProgressBar {
     clippy::cast_precision_loss,
     reason = "a share between 0 and a small number"
 )]
-pub(super) fn ticks(share: f64, whole: u64) -> u64 {
+pub(crate) fn ticks(share: f64, whole: u64) -> u64 {
     (whole as f64 * share.clamp(0.0, 1.0)) as u64
 }

@@ -1,13 +1,11 @@
 //! `mbs explain SCENE`.
 
-use super::{STOPPED, files, refuse};
-use crate::auto::{Goal, Processor, plan, time};
-use crate::explain::{Effort, explain, report};
-use crate::{Overrides, Precision, Settings, words};
+use crate::{STOPPED, files, refuse};
 use clap::Args;
-use mbs_core::Real;
-use mbs_core::scene::{Dimension, Scene};
-use mbs_scene::{Explanation, Report};
+use mbs::auto::{Goal, Processor, plan, time};
+use mbs::explain::{Effort, explain_document, report};
+use mbs::scene_file::{Explanation, Report};
+use mbs::{Overrides, Settings, words};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -68,26 +66,16 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         Ok(plan) => plan.first().choice.clone(),
         Err(error) => return refuse(&error.render()),
     };
-    let mut explanation = match settings.precision {
-        Precision::F64 => dispatch(&scene, &settings),
-        Precision::F32 => match document.scene::<f32>() {
-            Ok(scene) => dispatch(&scene, &settings),
-            Err(error) => return refuse(&error.render()),
-        },
-        Precision::DoubleDouble => return refuse(super::NO_PAIRS),
+    let explained = explain_document((&document, &scene), &settings, &Effort::default());
+    let mut explanation = match explained {
+        Ok(Some(explanation)) => explanation,
+        Ok(None) => return refuse(crate::NO_PAIRS),
+        Err(error) => return refuse(&error.render()),
     };
     if let Some(choice) = measured {
         explanation.choice = Some(*choice);
     }
     tell(&explanation, arguments, &settings)
-}
-
-fn dispatch<T: Real>(scene: &Scene<T>, settings: &Settings) -> Explanation {
-    let effort = Effort::default();
-    match scene.dimension {
-        Dimension::Planar => explain::<T, 2>(scene, settings, &effort),
-        Dimension::Spatial => explain::<T, 3>(scene, settings, &effort),
-    }
 }
 
 /// Files, then JSON or tables; the exit status says whether the run with all effects was completed.

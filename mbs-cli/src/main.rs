@@ -1,4 +1,5 @@
-//! Command line: arguments, refusals, and the commands.
+//! The `mbs` command: arguments, refusals, and the commands. Exit status: 0 done, 1 refused (scene or usage), 2 the run could not
+//! go on. What is computed is computed by the library: nothing here is compiled for a scalar or a dimension.
 
 mod analysis;
 mod bar;
@@ -63,10 +64,7 @@ pub(crate) const REFUSED: u8 = 1;
 /// Exit status of a run that stopped.
 pub(crate) const STOPPED: u8 = 2;
 
-/// Parses the arguments of the process, runs, and gives the exit status.
-///
-/// It stands in the library, so that the steps of every formulation are compiled once for both.
-pub fn main() -> ExitCode {
+fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => {

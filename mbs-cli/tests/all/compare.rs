@@ -1,34 +1,27 @@
 //! Comparisons as their users meet them: true errors with their orders, failures beside the others, the same runs every time, and
 //! a journal that outlives a kill. Times are never asserted.
 
+use crate::{files, mbs, scene, text};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-
-/// A file under `scenes/`.
-fn scene(name: &str) -> String {
-    format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
-}
+use std::process::Output;
 
 /// An empty directory for one test.
 fn scratch(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("compare-{name}"));
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).expect("the scratch directory can be made");
-    path
+    files::scratch(&format!("compare-{name}"))
 }
 
 /// `mbs compare` on a scene, timing as little as it may.
 fn compare(name: &str, arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
-    command.arg("compare").arg(scene(name)).args(["--repeats", "2"]).args(arguments);
+    let mut command = mbs("compare");
+    command.arg(scene(name)).args(["--repeats", "2"]).args(arguments);
     command.output().expect("the command is built")
 }
 
 fn json(output: &Output) -> Value {
-    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).expect("standard output is one JSON object")
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    crate::json(output)
 }
 
 fn method<'a>(comparison: &'a Value, name: &str) -> &'a Value {
@@ -169,7 +162,7 @@ fn finished_runs_are_not_lost_by_mistake_and_others_are_not_taken() {
     let out = scratch("refusals");
     json(&short(&out, &[]));
     let refused = |output: &Output, words: &str| {
-        let text = String::from_utf8_lossy(&output.stderr);
+        let text = text(&output.stderr);
         assert!(output.status.code() == Some(1) && text.contains(words), "{text}");
     };
     refused(&short(&out, &[]), "runs of an earlier start");
@@ -177,9 +170,8 @@ fn finished_runs_are_not_lost_by_mistake_and_others_are_not_taken() {
     json(&short(&out, &["--restart"]));
     refused(&compare("double-pendulum", &["--formulation", "index3"]), "did you mean `index-3`?");
     refused(&compare("double-pendulum", &["--steps", "-1"]), "steps must be positive");
-    let mut once = Command::new(env!("CARGO_BIN_EXE_mbs"));
-    let once = once.arg("compare").arg(scene("double-pendulum")).args(["--repeats", "1"]).output();
-    refused(&once.expect("the command is built"), "must be timed twice at least");
+    let once = crate::run("compare", &[&scene("double-pendulum"), "--repeats", "1"]);
+    refused(&once, "must be timed twice at least");
     refused(&compare("double-pendulum", &["--resume"]), "--out");
 }
 

@@ -1,22 +1,15 @@
 //! `mbs run --precision dd`: digits in, digits out.
 
+use crate::{run, scene, text};
 use mbs::core::Real;
 use mbs::core::real::DoubleDouble as Pair;
 use serde_json::Value;
 use std::path::PathBuf;
-use std::process::{Command, Output};
-
-fn scene(name: &str) -> String {
-    format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
-}
-
-fn mbs(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_mbs")).args(arguments).output().expect("the command starts")
-}
+use std::process::Output;
 
 fn json(output: &Output) -> Value {
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).expect("one JSON object")
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    crate::json(output)
 }
 
 fn pair(text: &str) -> Pair {
@@ -92,7 +85,7 @@ fn the_command_finds_all_digits_of_andrews_mechanism() {
     let scene = andrews();
     let method = ["--precision", "dd", "--integrator", "gbs", "--tolerance", "1e-26"];
     let steps = ["--step", "1e-4", "--step-max", "3e-3", "--json"];
-    let run = json(&mbs(&[&["run", scene.as_str()], &method[..], &steps[..]].concat()));
+    let run = json(&run("run", &[&[scene.as_str()], &method[..], &steps[..]].concat()));
     println!("{} steps, {} s", run["steps"], run["cpu_seconds"]);
     assert_eq!(run["precision"], "dd");
     for (name, _, [start, end, rate]) in ANDREWS {
@@ -124,8 +117,8 @@ fn rows_have_32_digits_and_the_same_first_ones_as_in_f64() {
     let rows = |precision: &str| {
         let out = out.join(precision);
         let place = out.to_str().expect("a path");
-        let run = ["run", &scene, "--precision", precision, "--duration", "0.1", "--out", place];
-        json(&mbs(&[&run[..], &["--json"]].concat()));
+        let arguments = [&scene, "--precision", precision, "--duration", "0.1", "--out", place];
+        json(&run("run", &[&arguments[..], &["--json"]].concat()));
         let text = std::fs::read_to_string(out.join("run.csv")).expect("rows");
         let last = text.lines().last().expect("a row").to_owned();
         last.split(',').map(str::to_owned).collect::<Vec<_>>()
@@ -141,14 +134,13 @@ fn rows_have_32_digits_and_the_same_first_ones_as_in_f64() {
 #[test]
 fn commands_that_compute_in_f64_refuse_pairs() {
     let scene = scene("double-pendulum");
-    let sweep =
-        format!("{}/../scenes/sweeps/double-pendulum-lengths.toml", env!("CARGO_MANIFEST_DIR"));
-    for arguments in [
-        vec!["explain", &scene, "--precision", "dd"],
-        vec!["sweep", &scene, &sweep, "--precision", "dd"],
+    let sweep = crate::scene("sweeps/double-pendulum-lengths");
+    for (command, arguments) in [
+        ("explain", vec![scene.as_str(), "--precision", "dd"]),
+        ("sweep", vec![&scene, &sweep, "--precision", "dd"]),
     ] {
-        let output = mbs(&arguments);
-        let text = String::from_utf8_lossy(&output.stderr);
+        let output = run(command, &arguments);
+        let text = text(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{text}");
         assert!(text.contains("precision `dd` is for `mbs run`"), "{text}");
     }

@@ -1,14 +1,14 @@
 //! `mbs run SCENE`.
 
-use super::bar::{bar, ticks};
-use super::{STOPPED, files, keep, realtime, refuse, table};
-use crate::auto::{Goal, Plan, Processor, plan, run_plan, time};
-use crate::realtime::Pacing;
-use crate::{Outcome, Overrides, Settings, run_document_kept, words};
+use crate::bar::{bar, ticks};
+use crate::{STOPPED, files, keep, realtime, refuse, table};
 use clap::Args;
 use indicatif::ProgressBar;
-use mbs_core::scene::Scene;
-use mbs_scene::{Document, Provenance, RunError, readable};
+use mbs::auto::{Goal, Plan, Processor, plan, run_plan, time};
+use mbs::core::scene::Scene;
+use mbs::realtime::Pacing;
+use mbs::scene_file::{Document, Provenance, RunError, readable};
+use mbs::{Outcome, Overrides, Settings, run_document_kept, words};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -253,7 +253,7 @@ fn report(
 pub(crate) fn stopped(
     what: &str,
     report: &RunError,
-    error: &crate::StopError,
+    error: &mbs::StopError,
     document: &Document,
 ) -> String {
     let message = format!("{what} {}: {}", words::stopped_at(report), report.message);

@@ -1,7 +1,7 @@
 //! The short table at the end of a run.
 
-use crate::{Outcome, words};
-use mbs_scene::{RunSummary, readable};
+use mbs::scene_file::{RunSummary, readable};
+use mbs::{Outcome, words};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -78,7 +78,7 @@ fn rows(s: &RunSummary) -> Vec<(&str, String)> {
         ),
     ];
     rows.extend(s.control.as_ref().map(|control| ("control of the step", words::control(control))));
-    let paced = s.realtime.iter().flat_map(crate::realtime::rows);
+    let paced = s.realtime.iter().flat_map(mbs::realtime::rows);
     rows.extend(paced.map(|(label, value): (&str, String)| (label, value)));
     for (name, values) in &s.outputs.0 {
         let values: Vec<String> = values.iter().map(|v| fixed(*v)).collect();

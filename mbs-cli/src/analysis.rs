@@ -1,13 +1,13 @@
 //! `mbs equilibrium SCENE` and `mbs modes SCENE`.
 
-use super::files::{prepare, scene as load, unwritable};
-use super::run::stopped;
-use super::table::{counted, fixed};
-use super::{STOPPED, refuse};
-use crate::{Names, Place, Still, StopError, words};
+use crate::files::{prepare, scene as load, unwritable};
+use crate::run::stopped;
+use crate::table::{counted, fixed};
+use crate::{STOPPED, refuse};
 use clap::{Args, ValueEnum};
-use mbs_core::scene::{Dimension, Scene};
-use mbs_scene::{Channel, Document};
+use mbs::core::scene::Scene;
+use mbs::scene_file::{Channel, Document};
+use mbs::{Names, Place, Still, StopError, words};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -54,11 +54,7 @@ enum At {
 
 /// Runs `mbs equilibrium`.
 pub(crate) fn equilibrium(arguments: &Equilibrium) -> ExitCode {
-    let analyse = |scene: &Scene<f64>| match scene.dimension {
-        Dimension::Planar => Still::new::<2>(scene),
-        Dimension::Spatial => Still::new::<3>(scene),
-    };
-    let told = |scene: &Scene<f64>| analyse(scene).map(|s| (s.to_json(), still(&s)));
+    let told = |scene: &Scene<f64>| Still::new(scene).map(|s| (s.to_json(), still(&s)));
     command(&arguments.common, "equilibrium.json", told)
 }
 
@@ -69,11 +65,8 @@ pub(crate) fn modes(arguments: &Modes) -> ExitCode {
         At::Initial => Place::Initial,
         At::Moving => Place::Moving,
     };
-    let analyse = |scene: &Scene<f64>| match scene.dimension {
-        Dimension::Planar => crate::Modes::new::<2>(scene, place),
-        Dimension::Spatial => crate::Modes::new::<3>(scene, place),
-    };
-    let told = |scene: &Scene<f64>| analyse(scene).map(|m| (m.to_json(), spectrum(&m)));
+    let analysed = |scene: &Scene<f64>| mbs::Modes::new(scene, place);
+    let told = |scene: &Scene<f64>| analysed(scene).map(|m| (m.to_json(), spectrum(&m)));
     command(&arguments.common, "modes.json", told)
 }
 
@@ -192,7 +185,7 @@ fn told(channel: &Channel, values: &[f64]) -> String {
 }
 
 /// Eigenvalues as a table.
-fn spectrum(m: &crate::Modes) -> String {
+fn spectrum(m: &mbs::Modes) -> String {
     let stable = if m.is_stable() { "stable" } else { "unstable" };
     let mut text = format!(
         "{}: {} about its {}, {stable}\n",

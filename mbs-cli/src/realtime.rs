@@ -1,12 +1,12 @@
 //! `mbs run SCENE --realtime`.
 
-use crate::realtime::{
+use clap::Args;
+use mbs::core::scene::Scene;
+use mbs::realtime::{
     Degrade, OVERRUNS, Overrun, Pacing, PacingError, Quiet, SystemClock, run_document,
 };
-use crate::{Outcome, Settings};
-use clap::Args;
-use mbs_core::scene::Scene;
-use mbs_scene::{Document, RunSummary, write_overruns};
+use mbs::scene_file::{Document, RunSummary, write_overruns};
+use mbs::{Outcome, Settings};
 use std::path::Path;
 
 /// Options of a paced run.

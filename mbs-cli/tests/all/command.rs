@@ -1,45 +1,18 @@
 //! The `mbs` command as its users meet it: files, JSON, exit status, refusals.
 
+use crate::{files, json, scene, status, text};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-
-/// A scene of the repository.
-fn scene(name: &str) -> String {
-    format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
-}
+use std::path::PathBuf;
+use std::process::Output;
 
 /// An empty directory for one test.
 fn scratch(name: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("command-{name}"));
-    let _ = std::fs::remove_dir_all(&path);
-    std::fs::create_dir_all(&path).expect("the scratch directory can be made");
-    path
+    files::scratch(&format!("command-{name}"))
 }
 
 /// `mbs run` with arguments.
 fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_mbs"))
-        .arg("run")
-        .args(arguments)
-        .output()
-        .expect("the command is built")
-}
-
-fn status(output: &Output) -> i32 {
-    output.status.code().expect("it ended by itself")
-}
-
-/// Standard output as one JSON object and nothing else.
-fn json(output: &Output) -> Value {
-    let value: Value = serde_json::from_slice(&output.stdout)
-        .unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&output.stdout)));
-    assert!(value.is_object());
-    value
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
+    crate::run("run", arguments)
 }
 
 /// The keys of the contract.

@@ -1,12 +1,12 @@
 //! `mbs compare SCENE`.
 
-use super::bar::{bar, ticks};
-use super::{STOPPED, files, refuse};
-use crate::compare::{CompareError, Earlier, Request, Watch, compare};
-use crate::{FORMULATIONS, Formulation, PRECISIONS, Precision};
+use crate::bar::{bar, ticks};
+use crate::{STOPPED, files, refuse};
 use clap::Args;
 use indicatif::ProgressBar;
-use mbs_scene::compare::{Comparison, Status, comparison_page, write_comparison};
+use mbs::compare::{CompareError, Earlier, Request, Watch, compare};
+use mbs::scene_file::compare::{Comparison, Status, comparison_page, write_comparison};
+use mbs::{FORMULATIONS, Formulation, PRECISIONS, Precision};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -155,7 +155,7 @@ fn named<U: Copy>(
 ) -> Result<U, String> {
     let place = names.iter().position(|n| *n == name);
     place.and_then(|i| values.get(i).copied()).ok_or_else(|| {
-        let hint = mbs_scene::suggestion(name, names, "built are");
+        let hint = mbs::scene_file::suggestion(name, names, "built are");
         format!("error: unknown {key} `{name}`\nhint: {hint}")
     })
 }

@@ -1,8 +1,8 @@
 //! `mbs generate FAMILY`.
 
-use super::{files, refuse};
+use crate::{files, refuse};
 use clap::{Args, ValueEnum};
-use mbs_scene::{Document, Family, GenerateError, generate};
+use mbs::scene_file::{Document, Family, GenerateError, generate};
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;

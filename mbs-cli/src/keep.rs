@@ -1,9 +1,8 @@
 //! How `mbs run` keeps a run, and goes on with one.
 
-use super::files;
-use crate::checkpoint::{Checkpoint, CheckpointError, FILE, Keeping};
-use crate::{Overrides, Settings, words};
+use crate::files;
 use clap::Args;
+use mbs::{CHECKPOINT, Checkpoint, CheckpointError, Keeping, Overrides, Settings, words};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -53,12 +52,12 @@ impl Arguments {
         let path = match (&self.resume, out) {
             (None, _) => return self.anew(out),
             (Some(Some(file)), _) => file.clone(),
-            (Some(None), Some(out)) => out.join(FILE),
+            (Some(None), Some(out)) => out.join(CHECKPOINT),
             (Some(None), None) => {
                 return Err("error: there is no directory to go on in\nhint: give --out DIR, or --resume=FILE".to_owned());
             }
         };
-        if let Some(out) = out.filter(|out| is_another(&out.join(FILE), &path)) {
+        if let Some(out) = out.filter(|out| is_another(&out.join(CHECKPOINT), &path)) {
             return Err(unfinished(out, "give another directory with --out, or remove the file"));
         }
         let from = Checkpoint::open(&path).map_err(|error| refusal(&path, &error))?;
@@ -70,7 +69,7 @@ impl Arguments {
     /// A run from its start.
     fn anew(&self, out: Option<&Path>) -> Result<Kept, String> {
         let Some(out) = out else { return Ok(Kept::default()) };
-        if out.join(FILE).exists() && !self.restart {
+        if out.join(CHECKPOINT).exists() && !self.restart {
             return Err(unfinished(out, "go on with --resume, or begin anew with --restart"));
         }
         let keeping = self.checkpoint.map(|every| keeping(out, every)).transpose()?;
@@ -93,7 +92,7 @@ fn is_another(file: &Path, other: &Path) -> bool {
 
 /// The refusal of a directory where a run has not ended.
 fn unfinished(out: &Path, hint: &str) -> String {
-    let at = Checkpoint::open(&out.join(FILE));
+    let at = Checkpoint::open(&out.join(CHECKPOINT));
     let at = at.map(|c| format!(", at t = {} s", words::time(c.time()))).unwrap_or_default();
     let out = out.display();
     format!("error: `{out}` has the checkpoint of a run that has not ended{at}\nhint: {hint}")
@@ -124,7 +123,7 @@ impl Kept {
         }
         if let (None, Some(out)) = (&self.from, &self.out) {
             // What is not there need not go.
-            let _ = std::fs::remove_file(out.join(FILE));
+            let _ = std::fs::remove_file(out.join(CHECKPOINT));
         }
     }
 

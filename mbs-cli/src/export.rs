@@ -1,10 +1,9 @@
 //! `mbs export SCENE`.
 
-use super::{files, refuse};
-use crate::export::{ExportError, export, ladder};
-use crate::{Overrides, Precision, Settings};
+use crate::{files, refuse};
 use clap::Args;
-use mbs_core::scene::Dimension;
+use mbs::export::{ExportError, export, ladder};
+use mbs::{Overrides, Precision, Settings};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -46,7 +45,7 @@ fn written(arguments: &Arguments) -> Result<(), String> {
     let settings = Settings::new(&scene, &overrides);
     let settings = settings.map_err(|error| files::refusal(&error, &document))?;
     if settings.precision == Precision::DoubleDouble {
-        return Err(super::NO_PAIRS.to_owned());
+        return Err(crate::NO_PAIRS.to_owned());
     }
     let rungs = match &arguments.ladder {
         None => Vec::new(),
@@ -57,11 +56,7 @@ fn written(arguments: &Arguments) -> Result<(), String> {
         }
     };
     let form = (&rungs[..], settings.precision == Precision::F32);
-    let exported = match scene.dimension {
-        Dimension::Planar => export::<2>(&scene, &settings, form),
-        Dimension::Spatial => export::<3>(&scene, &settings, form),
-    };
-    let exported = exported.map_err(|error| refusal(&error))?;
+    let exported = export(&scene, &settings, form).map_err(|error| refusal(&error))?;
     for (path, bytes) in
         [(&arguments.rust, exported.rust.as_bytes()), (&arguments.binary, &exported.bytes)]
     {

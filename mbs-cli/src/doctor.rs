@@ -1,11 +1,11 @@
 //! `mbs doctor SCENE`.
 
-use super::{STOPPED, files, refuse};
-use crate::doctor::{Checkup, Effort, Severity, examine, report, to_json};
-use crate::{Overrides, Precision, Settings};
+use crate::{STOPPED, files, refuse};
 use clap::Args;
-use mbs_core::scene::{Dimension, Entry, Scene};
-use mbs_scene::{Document, Report};
+use mbs::core::scene::{Entry, Scene};
+use mbs::doctor::{Checkup, Effort, Severity, examine, report, to_json};
+use mbs::scene_file::{Document, Report};
+use mbs::{Overrides, Precision, Settings};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -58,10 +58,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     if arguments.still {
         effort.positions = 0;
     }
-    let checkup = match scene.dimension {
-        Dimension::Planar => examine::<2>(&scene, &settings, &effort),
-        Dimension::Spatial => examine::<3>(&scene, &settings, &effort),
-    };
+    let checkup = examine(&scene, &settings, &effort);
     tell((&scene, &document), &checkup, arguments, &settings)
 }
 

@@ -1,0 +1,72 @@
+//! `mbs equilibrium` and `mbs modes` as their users meet them.
+
+use crate::{files, json, run, scene};
+use serde_json::Value;
+
+#[test]
+fn every_scene_has_an_equilibrium_that_is_told_in_one_object() {
+    for name in files::SCENES {
+        let output = run("equilibrium", &[&scene(name), "--json"]);
+        assert_eq!(output.status.code(), Some(0), "{name}");
+        let value = json(&output);
+        assert!(value["stable"].is_boolean(), "{name}: {value}");
+        // Rounding of some ten parts of each force.
+        assert!(value["relative_residual"].as_f64().is_some_and(|r| r < 1e-13), "{name}: {value}");
+        assert!(value["joints"].is_object() && value["reactions"].is_object(), "{name}");
+    }
+}
+
+#[test]
+fn a_double_pendulum_hangs_and_its_first_joint_carries_all() {
+    let value = json(&run("equilibrium", &[&scene("double-pendulum"), "--json"]));
+    assert_eq!(value["stable"], true);
+    let weight: f64 = files::scene("double-pendulum").bodies.iter().map(|b| b.mass * 9.81).sum();
+    let reaction = value["reactions"].as_object().expect("there are joints").values();
+    let most = reaction.filter_map(|r| r[1].as_f64()).fold(0.0, f64::max);
+    assert!((most - weight).abs() < 1e-9 * weight, "{value}");
+}
+
+#[test]
+fn modes_are_written_as_a_table_and_as_json_and_to_a_file() {
+    let out = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("modes");
+    let file = scene("simple-pendulum");
+    let output = run("modes", &[&file, "--json", "--out", out.to_str().expect("a plain path")]);
+    assert_eq!(output.status.code(), Some(0));
+    let value = json(&output);
+    let written = std::fs::read(out.join("modes.json")).expect("it was written");
+    assert_eq!(serde_json::from_slice::<Value>(&written).expect("it is JSON"), value);
+    assert_eq!((&value["at"], &value["stable"]), (&"equilibrium".into(), &true.into()));
+    let mode = &value["modes"][0];
+    let wanted = f64::sqrt(9.81) / std::f64::consts::TAU;
+    let found = mode["frequency"].as_f64().expect("a number");
+    assert!((found - wanted).abs() < 1e-9 * wanted, "{found} {wanted}");
+    assert!(mode["damping_ratio"].as_f64().is_some_and(|x| x.abs() < 1e-9), "{mode}");
+    let table = String::from_utf8(run("modes", &[&file]).stdout).expect("it is text");
+    assert!(table.contains("0.498487") && table.contains("stable"), "{table}");
+}
+
+#[test]
+fn what_cannot_be_done_has_status_two_and_what_cannot_be_meant_one() {
+    let free = "[scene]\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n\n\
+        [[body]]\nname = \"stone\"\nmass = 1.0\ncenter = [0.0, 0.0]\ninertia = 0.1\n";
+    let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("stone.toml");
+    std::fs::write(&file, free).expect("the directory is ours");
+    let file = file.to_str().expect("a plain path");
+    let output = run("equilibrium", &[file, "--json"]);
+    assert_eq!(output.status.code(), Some(2));
+    let value = json(&output);
+    assert_eq!(
+        (&value["completed"], &value["error"]["code"]),
+        (&false.into(), &"no-equilibrium".into())
+    );
+    assert_eq!(value["error"]["body"], "stone");
+    let output = run("modes", &[file]);
+    let text = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text.contains("stone") && text.contains("hint"), "{text}");
+    for arguments in
+        [&["modes", "no-such.toml"][..], &["modes", file, "--at", "noon"], &["equilibrium"]]
+    {
+        assert_eq!(run(arguments[0], &arguments[1..]).status.code(), Some(1), "{arguments:?}");
+    }
+}

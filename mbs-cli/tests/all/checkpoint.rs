@@ -1,0 +1,4 @@
+//! Runs that are kept, and go on.
+
+mod killed;
+mod refused;

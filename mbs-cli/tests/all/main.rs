@@ -1,0 +1,59 @@
+//! The tests of the command, in one program: what its users meet.
+#![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
+
+#[path = "../../../mbs/tests/all/common/files.rs"]
+mod files;
+
+mod analysis;
+mod checkpoint;
+mod choice;
+mod command;
+mod compare;
+mod doctor;
+mod double_double;
+mod explain;
+mod generate;
+mod realtime;
+mod sweep;
+
+use serde_json::Value;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+/// The command, with the first of its arguments.
+fn mbs(subcommand: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mbs"));
+    command.arg(subcommand);
+    command
+}
+
+/// The command, run with arguments.
+fn run(subcommand: &str, arguments: &[&str]) -> Output {
+    mbs(subcommand).args(arguments).output().expect("the command is built")
+}
+
+fn status(output: &Output) -> i32 {
+    output.status.code().expect("it ended by itself")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// Standard output as one JSON object and nothing else.
+fn json(output: &Output) -> Value {
+    let value: Value = serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|e| panic!("{e}: {} {}", text(&output.stdout), text(&output.stderr)));
+    assert!(value.is_object());
+    value
+}
+
+/// A scene of the repository, as an argument.
+fn scene(name: &str) -> String {
+    plain(files::path(name))
+}
+
+/// A path as an argument.
+fn plain(path: PathBuf) -> String {
+    path.into_os_string().into_string().expect("a path of plain letters")
+}

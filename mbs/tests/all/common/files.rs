@@ -1,0 +1,56 @@
+//! Files of the repository and of a run, for the tests of the library and of the command.
+
+use mbs::core::scene::Scene;
+use mbs::scene_file::Document;
+use std::path::{Path, PathBuf};
+
+/// Scenes of the repository, without those of vehicles.
+pub(crate) const SCENES: [&str; 15] = [
+    "simple-pendulum",
+    "double-pendulum",
+    "two-four-bars",
+    "n-four-bar-10",
+    "four-bar",
+    "n-four-bar-40",
+    "slider-crank",
+    "guided-four-bar",
+    "spinning-top",
+    "free-body",
+    "spatial-four-bar",
+    "spatial-chain-20",
+    "rssr",
+    "tree-30",
+    "andrews",
+];
+
+/// Path of a scene of the repository.
+pub(crate) fn path(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(format!("{name}.toml"))
+}
+
+/// Reads a scene of the repository.
+pub(crate) fn scene(name: &str) -> Scene<f64> {
+    let bytes = std::fs::read(path(name)).expect("the scene is in the repository");
+    let document = Document::from_bytes(&bytes, name).unwrap_or_else(|e| panic!("{}", e.render()));
+    document.scene().unwrap_or_else(|e| panic!("{}", e.render()))
+}
+
+/// An empty directory for one test.
+pub(crate) fn scratch(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).expect("the scratch directory can be made");
+    path
+}
+
+/// Numbers of the JSON that clocks give.
+const CLOCKS: [&str; 3] = ["cpu_seconds", "real_time_factor", "worst_step_seconds"];
+/// A JSON object without what clocks say.
+pub(crate) fn without_clocks(json: &str) -> String {
+    let mut json: serde_json::Value = serde_json::from_str(json).expect("JSON");
+    let object = json.as_object_mut().expect("an object");
+    for clock in CLOCKS {
+        assert!(object.remove(clock).is_some(), "{clock}");
+    }
+    json.to_string()
+}
