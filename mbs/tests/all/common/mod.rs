@@ -1,14 +1,12 @@
 //! What the test binaries share: scenes of the repository, and stepping without recording.
-#[path = "../../../../mbs-core/tests/common/allocations.rs"]
-pub(crate) mod allocations;
 pub(crate) mod oracle;
-pub(crate) mod random;
 
 use mbs::augmented::{StepError, StepReport};
 use mbs::core::natural::Affine;
 use mbs::core::scene::{BodyRef, Scene};
 use mbs::scene_file::Document;
 use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
+pub(crate) use mbs_testkit::{allocations, random};
 use std::path::PathBuf;
 
 /// Scenes of the repository, without those of vehicles.
