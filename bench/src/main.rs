@@ -11,7 +11,7 @@
 
 mod augmented;
 mod clocked;
-#[path = "../../mbs-nostd/tests/support/counted.rs"]
+#[path = "../../mbs-nostd/tests/all/support/counted.rs"]
 mod counted;
 mod digits;
 mod faer_beside;

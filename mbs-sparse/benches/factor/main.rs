@@ -8,7 +8,7 @@
 #![allow(missing_docs, reason = "the harness makes undocumented functions")]
 #![allow(clippy::print_stdout, reason = "the counts are part of the report")]
 
-#[path = "../../tests/common/mod.rs"]
+#[path = "../../tests/all/common/mod.rs"]
 mod common;
 mod faer_rival;
 

@@ -3,8 +3,7 @@
 #![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
 mod common;
-#[path = "../../../mbs-core/tests/common/retell.rs"]
-mod retell;
+use mbs_testkit::retell;
 
 mod analysis;
 mod andrews;

@@ -1,15 +1,13 @@
 //! What the test binaries share: scenes of the repository, and stepping without recording.
-#[path = "../../../../mbs-core/tests/common/allocations.rs"]
-pub(crate) mod allocations;
 pub(crate) mod files;
 pub(crate) mod oracle;
-pub(crate) mod random;
 
 pub(crate) use files::{SCENES, path, scene};
 use mbs::augmented::{StepError, StepReport};
 use mbs::core::natural::Affine;
 use mbs::core::scene::{BodyRef, Scene};
 use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
+pub(crate) use mbs_testkit::{allocations, random};
 
 /// The augmented formulations, by name.
 pub(crate) const FORMULATIONS: [&str; 2] = ["index-3", "index-1"];

@@ -1,0 +1,6 @@
+//! The tests of this crate, in one program: each program would compile the same solvers anew. `cargo test -p mbs-augmented invariants::` runs one module.
+
+mod allocation;
+mod double_double;
+mod invariants;
+mod multi_index;

@@ -1,0 +1,151 @@
+//! Steps of variable length and index: consistency at the change, no trace of rejected steps, counts.
+
+use mbs_augmented::{Index, IndexChange, MultiIndex, Options, Workspace, index1, index3};
+use mbs_core::SpdSolver;
+use mbs_core::control::{EnergyRule, Rules};
+use mbs_core::model::{Model, State};
+use mbs_core::natural::NaturalModel;
+use mbs_sparse::Multifrontal;
+use mbs_testkit::{apart, file, solver, start};
+
+type Work = Workspace<f64, Multifrontal<f64>>;
+
+struct Bench<const D: usize> {
+    model: NaturalModel<f64, D>,
+    state: State<f64>,
+    work: Work,
+}
+
+impl<const D: usize> Bench<D> {
+    fn new(name: &str) -> Self {
+        let (model, state) = start(&file(name));
+        let work = Workspace::new(&model, solver(&model));
+        Self { model, state, work }
+    }
+
+    fn index3(&mut self, h: f64, n: u32) {
+        for _ in 0..n {
+            let step = (h, self.model.length());
+            index3::step(&self.model, step, &Options::index3(), &mut self.state, &mut self.work)
+                .expect("it steps");
+        }
+    }
+
+    fn multi(&self, rule: EnergyRule, (first, max_step): (f64, f64)) -> MultiIndex<f64> {
+        let rules = Rules { max_step, energy: Some(rule), error: None };
+        let change = IndexChange::new(Options::index1(), Options::index3());
+        MultiIndex::new(&self.model, change, rules, (first, 1.0), &self.state)
+    }
+
+    /// The largest |M a + J^T lambda - Q|.
+    fn imbalance(&mut self) -> f64 {
+        let Self { model, state: s, .. } = self;
+        let mut terms = model.terms();
+        model.set_inputs(s.t, &mut terms);
+        model.evaluate(&s.q, &mut terms);
+        model.evaluate_forces(&s.q, &s.v, &s.memory, &mut terms);
+        let load =
+            mbs_core::model::Load { mass: Some(&s.a), multipliers: Some(&s.lambda), force: 1.0 };
+        let tangent = mbs_core::model::Tangent {
+            stiffness: 0.0,
+            damping: 0.0,
+            penalty: &[],
+            geometric: None,
+        };
+        let system = mbs_core::model::System { model: &*model, terms: &terms, tangent, load };
+        let mut solver = solver::<f64>(&*model);
+        let mut f = vec![0.0; mbs_core::Cliques::n_unknowns(&*model)];
+        solver.assemble(&system, &mut f);
+        f.iter().fold(0.0, |most, x| f64::max(most, x.abs()))
+    }
+}
+
+/// What a change of index may move: index-3 leaves multipliers that balance its iteration to 1e-10 of the accelerations, times
+/// masses of tens of kilograms and accelerations of a hundred metres per second squared.
+fn check_settling<const D: usize>(name: &str, h: f64, force: f64) {
+    let mut bench = Bench::<D>::new(name);
+    bench.index3(h, 200);
+    let before = bench.state.clone();
+    let length = bench.model.length();
+    let Bench { model, state, work } = &mut bench;
+    index1::settle(model, length, &Options::index1(), state, work).expect("it settles");
+    assert_eq!(state.q, before.q, "{name}: positions stay");
+    assert_eq!(state.t.to_bits(), before.t.to_bits(), "{name}");
+    assert!(apart(&state.v, &before.v) < 1e-11, "{name}: velocities were consistent");
+    let energy = |s: &State<f64>| bench.model.kinetic_energy(&s.v);
+    assert!((energy(&bench.state) - energy(&before)).abs() < 1e-9, "{name}: no step of energy");
+    let jump = apart(&bench.state.reaction, &before.reaction);
+    let scale = before.reaction.iter().fold(1.0, |most, x| f64::max(most, x.abs()));
+    assert!(jump < force * scale, "{name}: multipliers jump by {jump} of {scale}");
+    assert!(bench.imbalance() < 1e-7 * scale, "{name}: {}", bench.imbalance());
+}
+
+#[test]
+fn a_change_of_index_moves_neither_positions_nor_energy_and_leaves_equations_in_balance() {
+    // The share by which multipliers move: in index-3 they are those of the middle of the iteration, second order in the step.
+    check_settling::<2>("double-pendulum", 1e-4, 1e-5);
+    check_settling::<2>("slider-crank", 1e-4, 1e-5);
+    check_settling::<3>("iltis-suspension-halved", 1e-4, 1e-3);
+}
+
+#[test]
+fn rejected_trials_leave_no_trace_to_the_last_bit() {
+    let mut bench = Bench::<2>::new("double-pendulum");
+    // The printed form runs into its upper limit again and again.
+    let mut multi = bench.multi(EnergyRule::printed([1e-7, 6e-8]), (2e-2, 2e-2));
+    let mut steps = Vec::new();
+    while bench.state.t < 1.0 {
+        let Bench { model, state, work } = &mut bench;
+        let length = model.length();
+        let accepted = multi.step(model, (1.0, length), state, work).expect("it steps");
+        steps.push((accepted.step, accepted.rejected));
+    }
+    assert!(steps.iter().map(|s| s.1).sum::<u32>() > 10);
+    assert_eq!(multi.change.changes(), 0, "all in index-3");
+    let mut replay = Bench::<2>::new("double-pendulum");
+    steps.iter().for_each(|&(h, _)| replay.index3(h, 1));
+    assert_eq!(replay.state, bench.state);
+}
+
+#[test]
+fn short_steps_are_made_in_index_1_and_long_ones_in_index_3_with_room_between() {
+    let mut bench = Bench::<2>::new("double-pendulum");
+    let Bench { model, state, work } = &mut bench;
+    let mut change = IndexChange::new(Options::index1(), Options::index3());
+    let length = model.length();
+    let mut index_at = |change: &mut IndexChange<f64>, h: f64, reductions: u32| {
+        let is_changed = change.prepare(model, (h, length), reductions, state, work);
+        change.tried(h);
+        change.keep();
+        (change.index(), is_changed)
+    };
+    assert_eq!(index_at(&mut change, 1.1e-4, 0), (Index::Three, false));
+    assert_eq!(index_at(&mut change, 0.9e-4, 0), (Index::One, true));
+    assert_eq!(index_at(&mut change, 1.9e-4, 0), (Index::One, false));
+    assert_eq!(index_at(&mut change, 2.1e-4, 0), (Index::Three, true));
+    // Reductions that do not help lead to index-1 at any step; back only once it grows again.
+    assert_eq!(index_at(&mut change, 1e-3, 3), (Index::Three, false));
+    assert_eq!(index_at(&mut change, 5e-4, 4), (Index::One, true));
+    assert_eq!(index_at(&mut change, 5e-4, 0), (Index::One, false));
+    assert_eq!(index_at(&mut change, 6e-4, 0), (Index::Three, true));
+    assert_eq!(change.changes(), 4);
+}
+
+#[test]
+fn the_motion_does_not_feel_the_changes_of_index() {
+    // Steps about the threshold, so that the index changes many times; the exact tip at 1 s by extrapolation in 34 digits.
+    let mut bench = Bench::<2>::new("double-pendulum");
+    let mut multi = bench.multi(EnergyRule::new([1e-10, 1e-12]), (1e-4, 1e-3));
+    while bench.state.t < 1.0 {
+        let Bench { model, state, work } = &mut bench;
+        let length = model.length();
+        multi.step(model, (1.0 - state.t, length), state, work).expect("it steps");
+    }
+    assert!(multi.change.changes() > 2, "{} changes", multi.change.changes());
+    let at = bench.model.point(mbs_core::scene::BodyRef::Body(1), [2.0, 0.0, 0.0]);
+    let tip = at.value(&bench.state.q);
+    let error = (tip[0] + 1.662_115_135_816_127_6).hypot(tip[1] + 1.041_466_667_193_224_7);
+    // Order two at 1e-4: fixed index-3 has 2e-7.
+    assert!(error < 2e-6, "{error}");
+    assert!(multi.invariant().max_error() < 1e-5, "{}", multi.invariant().max_error());
+}

@@ -1,0 +1,7 @@
+//! The tests of this crate, in one program: each program would compile the same solvers anew. `cargo test -p mbs-classical cross::` runs one module.
+
+mod common;
+
+mod allocation;
+mod analytic;
+mod cross;

@@ -1,0 +1,307 @@
+//! Every element against central differences through [`Model`], at random configurations near and away from the
+//! constraint manifold.
+
+use mbs_core::model::{Load, Model, Owner, Tangent, Terms};
+use mbs_core::scene::Scene;
+use mbs_testkit::{
+    PLANAR, Random, SPATIAL, close, jacobian, matrix, model, plus, rates, reference, residual,
+    scene,
+};
+
+/// Rows and forces are quadratic or smooth: central differences of this step lose 1e-16 / 1e-5 to rounding and 1e-10 to
+/// truncation.
+const STEP: f64 = 1e-5;
+/// Both, times derivatives of order 100.
+const DIFFERENCE: f64 = 2e-7;
+/// Sums of some tens of products of numbers of order ten.
+const ROUNDING: f64 = 1e-12;
+/// Distances from the manifold at which everything is checked.
+const SPREADS: [f64; 3] = [0.0, 0.01, 0.3];
+
+/// A model at random (q, v, t).
+struct At<M> {
+    model: M,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    t: f64,
+    terms: Terms<f64>,
+}
+
+impl<M: Model<f64>> At<M> {
+    fn new(model: M, random: &mut Random, spread: f64) -> Self {
+        let (n, e) = (model.n_unknowns(), model.n_extended());
+        let q = plus(&reference(&model), 1.0, &random.vector(n, e, spread));
+        let (v, t) = (random.vector(n, e, 1.0), 0.35 + 0.3 * random.next());
+        let terms = model.terms();
+        let mut at = Self { model, q, v, t, terms };
+        at.everything();
+        at
+    }
+
+    /// Evaluates everything at (q, v, t).
+    fn everything(&mut self) {
+        let (model, terms) = (&self.model, &mut self.terms);
+        model.set_inputs(self.t, terms);
+        model.evaluate(&self.q, terms);
+        model.evaluate_phi_t(&self.q, terms);
+        model.evaluate_bias(&self.q, &self.v, terms);
+        model.evaluate_forces(&self.q, &self.v, &vec![0.0; model.n_memory()], terms);
+    }
+
+    /// (g(+STEP) - g(-STEP)) / 2 STEP, where `moved` moves (q, v, t) by its argument.
+    fn difference(
+        &mut self,
+        moved: impl Fn(&mut Self, f64),
+        g: impl Fn(&Self) -> Vec<f64>,
+    ) -> Vec<f64> {
+        let (q, v, t) = (self.q.clone(), self.v.clone(), self.t);
+        let mut side = |h: f64| {
+            moved(self, h);
+            self.everything();
+            let value = g(self);
+            (self.q, self.v, self.t) = (q.clone(), v.clone(), t);
+            value
+        };
+        let (before, after) = (side(-STEP), side(STEP));
+        self.everything();
+        after.iter().zip(before).map(|(a, b)| (a - b) / (2.0 * STEP)).collect()
+    }
+
+    /// Applied forces less everything else: -Q.
+    fn minus_force(&self) -> Vec<f64> {
+        let load = Load { mass: None, multipliers: None, force: 1.0 };
+        residual(&self.model, &self.terms, &load)
+    }
+}
+
+/// Calls a check for both scenes at every spread.
+macro_rules! at_random {
+    ($check:expr) => {
+        for seed in 1..4 {
+            for spread in SPREADS {
+                let random = &mut Random(seed);
+                $check(&mut At::new(model::<2>(&scene(PLANAR)), random, spread), random);
+                $check(&mut At::new(model::<3>(&scene(SPATIAL)), random, spread), random);
+            }
+        }
+    };
+}
+
+#[test]
+fn jacobian_is_the_derivative_of_phi() {
+    fn check<M: Model<f64>>(at: &mut At<M>, _: &mut Random) {
+        let rows = jacobian(&at.model, &at.terms);
+        for i in 0..at.model.n_unknowns() {
+            let column: Vec<f64> = rows.iter().map(|row| row[i]).collect();
+            let difference = at.difference(|at, h| at.q[i] += h, |at| at.terms.phi.clone());
+            close(&format!("column {i}"), &column, &difference, DIFFERENCE);
+        }
+    }
+    at_random!(check);
+}
+
+#[test]
+fn phi_t_and_bias_are_the_time_derivatives_along_a_motion() {
+    fn check<M: Model<f64>>(at: &mut At<M>, _: &mut Random) {
+        let driven = at.difference(|at, h| at.t += h, |at| at.terms.phi.clone());
+        close("phi_t", &at.terms.phi_t, &driven, DIFFERENCE);
+        let along = |at: &mut At<M>, h: f64| {
+            at.q = plus(&at.q, h, &at.v);
+            at.t += h;
+        };
+        let rate = |at: &At<M>| plus(&rates(&at.model, &at.terms, &at.v), 1.0, &at.terms.phi_t);
+        let bias = at.difference(along, rate);
+        close("bias", &at.terms.phi_bias, &bias, DIFFERENCE);
+    }
+    at_random!(check);
+}
+
+#[test]
+fn advance_equals_evaluate_at_the_sum() {
+    fn check<M: Model<f64>>(at: &mut At<M>, random: &mut Random) {
+        let (n, e) = (at.model.n_unknowns(), at.model.n_extended());
+        for size in [1e-6, 1e-2, 0.5] {
+            let dq = random.vector(n, e, size);
+            let phi = at.terms.phi.clone();
+            let (mut advanced, mut evaluated) = (at.terms.clone(), at.terms.clone());
+            at.model.advance(&at.q, &dq, &phi, &mut advanced);
+            at.model.evaluate(&plus(&at.q, 1.0, &dq), &mut evaluated);
+            close("phi", &advanced.phi, &evaluated.phi, ROUNDING);
+            close("jacobian", &advanced.jacobian, &evaluated.jacobian, ROUNDING);
+        }
+    }
+    at_random!(check);
+}
+
+#[test]
+fn geometric_stiffness_is_the_derivative_of_the_constraint_forces() {
+    fn check<M: Model<f64>>(at: &mut At<M>, random: &mut Random, scene: &Scene<f64>) {
+        let m = at.model.n_constraints();
+        let guided = |row| match at.model.owner_of_row(row) {
+            Owner::Joint(j) => scene.guides.iter().any(|g| g.joint == j),
+            _ => false,
+        };
+        // The curvature of guided rows is left out of the tangent.
+        let lambda: Vec<f64> =
+            (0..m).map(|k| if guided(k) { 0.0 } else { 10.0 * random.next() }).collect();
+        let zero = vec![0.0; m];
+        let tangent =
+            |geometric| Tangent { stiffness: 0.0, damping: 0.0, penalty: &zero, geometric };
+        let with = matrix(&at.model, &at.terms, &tangent(Some(&lambda)));
+        let without = matrix(&at.model, &at.terms, &tangent(None));
+        let load = Load { mass: None, multipliers: Some(&lambda), force: 0.0 };
+        for i in 0..at.model.n_unknowns() {
+            let difference =
+                at.difference(|at, h| at.q[i] += h, |at| residual(&at.model, &at.terms, &load));
+            close(
+                &format!("column {i}"),
+                &plus(&with[i], -1.0, &without[i]),
+                &difference,
+                DIFFERENCE,
+            );
+        }
+    }
+    for spread in SPREADS {
+        let (random, planar, spatial) = (&mut Random(7), scene(PLANAR), scene(SPATIAL));
+        check(&mut At::new(model::<2>(&planar), random, spread), random, &planar);
+        check(&mut At::new(model::<3>(&spatial), random, spread), random, &spatial);
+    }
+}
+
+#[test]
+fn damping_is_the_derivative_of_the_forces_with_respect_to_velocity() {
+    fn check<M: Model<f64>>(at: &mut At<M>, _: &mut Random) {
+        let zero = vec![0.0; at.model.n_constraints()];
+        let tangent =
+            |damping| Tangent { stiffness: 0.0, damping, penalty: &zero, geometric: None };
+        let with = matrix(&at.model, &at.terms, &tangent(1.0));
+        let without = matrix(&at.model, &at.terms, &tangent(0.0));
+        for i in 0..at.model.n_unknowns() {
+            let difference = at.difference(|at, h| at.v[i] += h, At::minus_force);
+            close(
+                &format!("column {i}"),
+                &plus(&with[i], -1.0, &without[i]),
+                &difference,
+                DIFFERENCE,
+            );
+        }
+    }
+    at_random!(check);
+}
+
+/// Only the effects that are named, without damping; gravity has no tangent.
+fn with_effects(text: &str, names: &[&str]) -> Scene<f64> {
+    let mut scene = scene(&text.replace("damping = 7.0", "").replace("damping = 2.0", ""));
+    scene.effects.retain(|e| names.contains(&e.name.as_str()));
+    assert_eq!(scene.effects.len(), names.len());
+    scene
+}
+
+fn stiffness_check<M: Model<f64>>(at: &mut At<M>) {
+    let zero = vec![0.0; at.model.n_constraints()];
+    let tangent = |stiffness| Tangent { stiffness, damping: 0.0, penalty: &zero, geometric: None };
+    let with = matrix(&at.model, &at.terms, &tangent(1.0));
+    let without = matrix(&at.model, &at.terms, &tangent(0.0));
+    for i in 0..at.model.n_unknowns() {
+        let difference = at.difference(|at, h| at.q[i] += h, At::minus_force);
+        close(&format!("column {i}"), &plus(&with[i], -1.0, &without[i]), &difference, DIFFERENCE);
+    }
+}
+
+#[test]
+fn stiffness_of_a_stretched_spring_is_the_derivative_of_its_force() {
+    for spread in [0.0, 0.1] {
+        let random = &mut Random(11);
+        stiffness_check(&mut At::new(
+            model::<2>(&with_effects(PLANAR, &["strut"])),
+            random,
+            spread,
+        ));
+        stiffness_check(&mut At::new(
+            model::<3>(&with_effects(SPATIAL, &["strut"])),
+            random,
+            spread,
+        ));
+    }
+}
+
+#[test]
+fn stiffness_of_a_torsion_spring_without_torque_is_the_derivative_of_its_force() {
+    // At the free value, where the curvature of the angle, which the tangent leaves out, has no tension to act on.
+    let random = &mut Random(12);
+    stiffness_check(&mut At::new(model::<2>(&with_effects(PLANAR, &["coil"])), random, 0.0));
+    stiffness_check(&mut At::new(model::<3>(&with_effects(SPATIAL, &["coil"])), random, 0.0));
+}
+
+#[test]
+fn block_is_mass_plus_weighted_gram_matrix() {
+    fn check<M: Model<f64>>(at: &mut At<M>, random: &mut Random) {
+        let (n, m) = (at.model.n_unknowns(), at.model.n_constraints());
+        let penalty: Vec<f64> = (0..m).map(|_| 2.0 + random.next()).collect();
+        let tangent = Tangent { stiffness: 0.0, damping: 0.0, penalty: &penalty, geometric: None };
+        let a = matrix(&at.model, &at.terms, &tangent);
+        let rows = jacobian(&at.model, &at.terms);
+        let mut unit = vec![0.0; at.model.n_extended()];
+        for i in 0..n {
+            unit[i] = 1.0;
+            let weighted: Vec<f64> = (0..m).map(|k| penalty[k] * rows[k][i]).collect();
+            let load = Load { mass: Some(&unit), multipliers: Some(&weighted), force: 0.0 };
+            close("column", &a[i], &residual(&at.model, &at.terms, &load), ROUNDING);
+            unit[i] = 0.0;
+        }
+    }
+    at_random!(check);
+}
+
+#[test]
+fn residual_changes_as_the_tangent_says_along_the_whole_newton_residual() {
+    // f = M x + J^T (lambda + s phi): T = M + J^T s J + K_geo(lambda + s phi), x moving with q.
+    fn check<M: Model<f64>>(at: &mut At<M>, random: &mut Random, scene: &Scene<f64>) {
+        let (n, m, e) = (at.model.n_unknowns(), at.model.n_constraints(), at.model.n_extended());
+        let guided = |row| match at.model.owner_of_row(row) {
+            Owner::Joint(j) => scene.guides.iter().any(|g| g.joint == j),
+            _ => false,
+        };
+        let free: Vec<bool> = (0..m).map(guided).collect();
+        let lambda: Vec<f64> = free.iter().map(|&g| if g { 0.0 } else { random.next() }).collect();
+        let penalty: Vec<f64> =
+            free.iter().map(|&g| if g { 0.0 } else { 3.0 + random.next() }).collect();
+        let reference = at.q.clone();
+        let mu = |at: &At<M>| -> Vec<f64> {
+            (0..m).map(|k| lambda[k] + penalty[k] * at.terms.phi[k]).collect()
+        };
+        let f = |at: &At<M>| {
+            let x = plus(&at.q, -1.0, &reference);
+            let load = Load { mass: Some(&x), multipliers: Some(&mu(at)), force: 0.0 };
+            residual(&at.model, &at.terms, &load)
+        };
+        let mu = mu(at);
+        let tangent =
+            Tangent { stiffness: 0.0, damping: 0.0, penalty: &penalty, geometric: Some(&mu) };
+        let a = matrix(&at.model, &at.terms, &tangent);
+        let direction = random.vector(n, e, 1.0);
+        let change: Vec<f64> = a.iter().map(|row| mbs_testkit::dot(row, &direction)).collect();
+        let difference = at.difference(|at, h| at.q = plus(&at.q, h, &direction), f);
+        close("T d", &change, &difference, DIFFERENCE);
+    }
+    for spread in SPREADS {
+        let (random, planar, spatial) = (&mut Random(5), scene(PLANAR), scene(SPATIAL));
+        check(&mut At::new(model::<2>(&planar), random, spread), random, &planar);
+        check(&mut At::new(model::<3>(&spatial), random, spread), random, &spatial);
+    }
+}
+
+#[test]
+fn power_of_the_applied_forces_is_the_fall_of_potential_energy_plus_the_booked_power() {
+    fn check<M: Model<f64>>(at: &mut At<M>, _: &mut Random) {
+        // -Q.v = dV/dt - power, along any velocity, for every effect at once; guides are switched off by lambda = 0.
+        let zero = vec![0.0; at.model.n_constraints()];
+        let power = at.model.power(&at.q, &at.v, &zero, &at.terms);
+        let along = |at: &mut At<M>, h: f64| at.q = plus(&at.q, h, &at.v);
+        let v = at.difference(along, |at| vec![at.model.potential_energy(&at.q, &at.terms)]);
+        let f = at.minus_force();
+        let work = mbs_testkit::dot(&f, &at.v[..f.len()]);
+        assert!((work - (v[0] - power)).abs() < 1e-5, "{work} against {} less {power}", v[0]);
+    }
+    at_random!(check);
+}

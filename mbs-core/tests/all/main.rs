@@ -1,0 +1,15 @@
+//! The tests of this crate, in one program: each program would compile the same solvers anew. `cargo test -p mbs-core start::` runs one module.
+
+mod small;
+
+mod double_double;
+mod effects;
+mod eighth;
+mod elements;
+mod events;
+mod extrapolation;
+mod model;
+mod motion;
+mod outputs;
+mod reactions;
+mod start;

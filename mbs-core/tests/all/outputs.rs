@@ -1,0 +1,194 @@
+//! Channels measured at known states.
+
+use crate::small::{GROUND, add_body, add_joint, add_rod, hold, output, scene, start};
+use mbs_core::algebra::{Matrix, Vector, rotation, rotation_vector};
+use mbs_core::outputs::Measures;
+use mbs_core::scene::{BodyRef, Dimension, Inertia, JointKind, Quantity, Scene};
+
+/// Assembly closes to rounding of a few products of numbers of order one.
+const CLOSED: f64 = 1e-11;
+
+fn measured<const D: usize>(scene: &Scene<f64>) -> Vec<f64> {
+    let (model, state) = start::<D>(scene);
+    let mut measures = Measures::new(scene, &model).expect("channels");
+    let mut out = vec![0.0; measures.n_components()];
+    measures.write(&state, |_| [0.0; 6], &mut out);
+    out
+}
+
+fn assert_near(found: &[f64], expected: &[f64]) {
+    assert_eq!(found.len(), expected.len());
+    for (f, e) in found.iter().zip(expected) {
+        assert!((f - e).abs() < CLOSED, "{found:?} is not {expected:?}");
+    }
+}
+
+/// A spatial body hanging on the ground by one joint at a place off all axes.
+fn single(kind: JointKind, axes: [Option<[f64; 3]>; 2]) -> Scene<f64> {
+    let mut s = scene(Dimension::Spatial, [0.0, 0.0, -9.81]);
+    let inertia = Inertia::Spatial([0.3, 0.4, 0.5, 0.02, 0.01, -0.03]);
+    let body = add_body(&mut s, 1.0, [0.2, 0.5, 0.1], inertia);
+    add_joint(&mut s, kind, [GROUND, body], [0.1, -0.2, 0.3], axes);
+    s
+}
+
+#[test]
+fn a_planar_pendulum_moves_as_a_circle_says() {
+    let mut s = scene(Dimension::Planar, [0.0, -9.81, 0.0]);
+    let rod = add_rod(&mut s, 2.0, [0.0; 3], [2.0, 0.0, 0.0]);
+    let pivot = add_joint(&mut s, JointKind::Revolute, [GROUND, rod], [0.0; 3], [None; 2]);
+    let (angle, rate) = (0.4_f64, 1.5);
+    hold(&mut s, pivot, &[angle], &[rate]);
+    let at = [2.0, 0.0, 0.0];
+    output(&mut s, Quantity::Acceleration { body: 0, at });
+    output(&mut s, Quantity::Position { body: 0, at });
+    output(&mut s, Quantity::JointRate { joint: pivot });
+    output(&mut s, Quantity::Velocity { body: 0, at });
+    output(&mut s, Quantity::JointValue { joint: pivot });
+    let (sin, cos) = angle.sin_cos();
+    // rod about its end: alpha = -3 g cos / (2 l)
+    let alpha = -1.5 * 9.81 * cos / 2.0;
+    let acceleration =
+        [2.0 * (-alpha * sin - rate * rate * cos), 2.0 * (alpha * cos - rate * rate * sin)];
+    let mut expected = acceleration.to_vec();
+    expected.extend([2.0 * cos, 2.0 * sin, rate, -2.0 * rate * sin, 2.0 * rate * cos, angle]);
+    assert_near(&measured::<2>(&s), &expected);
+}
+
+#[test]
+fn without_outputs_every_joint_coordinate_is_a_channel() {
+    let mut s = single(JointKind::Spherical, [None; 2]);
+    let inertia = Inertia::Spatial([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
+    let slider = add_body(&mut s, 1.0, [1.0, 0.0, 0.0], inertia);
+    let welded = add_body(&mut s, 1.0, [2.0, 0.0, 0.0], inertia);
+    let axis = [Some([2.0, 0.0, 0.0]), None];
+    add_joint(&mut s, JointKind::Weld, [slider, welded], [1.5, 0.0, 0.0], [None; 2]);
+    add_joint(&mut s, JointKind::Cylindrical, [GROUND, slider], [1.0, 0.0, 0.0], axis);
+    let (model, _) = start::<3>(&s);
+    let measures = Measures::new(&s, &model).unwrap();
+    assert_eq!(measures.lengths().collect::<Vec<_>>(), [3, 2]);
+    assert_eq!(measures.n_components(), 5);
+}
+
+/// Kind, axes, held values and rates.
+type Case = (JointKind, [Option<[f64; 3]>; 2], &'static [f64], &'static [f64]);
+
+#[test]
+fn held_values_and_rates_are_measured_as_they_were_held() {
+    let (a, b) = (Some([0.0, 3.0, 4.0]), Some([1.0, 0.5, 0.2]));
+    let cases: [Case; 7] = [
+        (JointKind::Revolute, [a, None], &[1.2], &[-0.7]),
+        (JointKind::Prismatic, [a, None], &[0.3], &[0.4]),
+        (JointKind::Cylindrical, [a, None], &[-0.3, 2.5], &[0.4, 1.1]),
+        (JointKind::Universal, [a, b], &[0.6, -0.8], &[0.5, 1.5]),
+        (JointKind::Planar, [a, b], &[0.2, -0.1, 0.9], &[0.3, 0.6, -0.4]),
+        (JointKind::Spherical, [None; 2], &[0.5, -0.4, 0.8], &[1.0, 2.0, -0.5]),
+        (
+            JointKind::Free,
+            [None; 2],
+            &[0.1, 0.2, -0.3, 0.5, -0.4, 0.8],
+            &[0.3, -0.2, 0.7, 1.0, 2.0, -0.5],
+        ),
+    ];
+    for (kind, axes, value, rate) in cases {
+        let mut s = single(kind, axes);
+        hold(&mut s, 0, value, rate);
+        output(&mut s, Quantity::JointValue { joint: 0 });
+        output(&mut s, Quantity::JointRate { joint: 0 });
+        let found = measured::<3>(&s);
+        assert_near(&found, &[value, rate].concat());
+    }
+}
+
+/// The present directions of what were the global axes, from the positions of points.
+fn frame_of(s: &Scene<f64>, body: BodyRef) -> Matrix<f64, 3> {
+    let (model, state) = start::<3>(s);
+    let unit = |i: usize| core::array::from_fn(|k| if k == i { 1.0 } else { 0.0 });
+    Matrix::from_columns(&[0, 1, 2].map(|i| model.direction(body, unit(i)).value(&state.q)))
+}
+
+#[test]
+fn universal_angles_turn_the_body_first_about_its_first_axis_of_the_ground() {
+    let (a, b) = ([0.0, 0.6, 0.8], [0.6, 0.0, 0.8]);
+    let mut s = single(JointKind::Universal, [Some(a), Some(b)]);
+    let (first, second) = (0.7, -1.1);
+    hold(&mut s, 0, &[first, second], &[]);
+    let turned = rotation(&(Vector::<f64, 3>::from(a) * first))
+        * rotation(&(Vector::<f64, 3>::from(b) * second));
+    let gap = frame_of(&s, BodyRef::Body(0)) - turned;
+    assert!(gap.iter().all(|x| x.abs() < CLOSED), "{gap}");
+    assert_near(&measured::<3>(&s), &[first, second]);
+}
+
+#[test]
+fn a_spherical_joint_between_moving_bodies_measures_in_the_first_body() {
+    let mut s = single(JointKind::Spherical, [None; 2]);
+    let inertia = Inertia::Spatial([0.3, 0.4, 0.5, 0.0, 0.0, 0.0]);
+    let second = add_body(&mut s, 1.0, [1.0, 0.0, 0.0], inertia);
+    add_joint(&mut s, JointKind::Spherical, [BodyRef::Body(0), second], [0.6, 0.3, 0.0], [None; 2]);
+    let (w, u) = ([0.4, -0.3, 0.2], [-0.5, 0.6, 0.1]);
+    hold(&mut s, 0, &w, &[0.1, 0.2, 0.3]);
+    hold(&mut s, 1, &u, &[1.0, -1.0, 0.5]);
+    let together = rotation(&Vector::from(w)) * rotation(&Vector::from(u));
+    let gap = frame_of(&s, second) - together;
+    assert!(gap.iter().all(|x| x.abs() < CLOSED), "{gap}");
+    assert_near(&measured::<3>(&s), &[w, u].concat());
+}
+
+#[test]
+fn turns_are_counted_over_three_turns_and_back() {
+    let mut s = scene(Dimension::Planar, [0.0; 3]);
+    let rod = add_rod(&mut s, 1.0, [0.0; 3], [1.0, 0.0, 0.0]);
+    add_joint(&mut s, JointKind::Revolute, [GROUND, rod], [0.0; 3], [None; 2]);
+    let (model, mut state) = start::<2>(&s);
+    let mut measures = Measures::new(&s, &model).unwrap();
+    let mut out = [0.0];
+    let path = (0..=60).chain((0..60).rev());
+    for i in path {
+        let angle = f64::from(i) * core::f64::consts::PI / 10.0;
+        // one free point on a circle: two unknowns
+        let (sin, cos) = angle.sin_cos();
+        (state.q[0], state.q[1]) = (cos, sin);
+        measures.track(&state);
+        if i % 7 == 0 {
+            measures.write(&state, |_| [0.0; 6], &mut out);
+            assert!((out[0] - angle).abs() < CLOSED, "{} {angle}", out[0]);
+        }
+    }
+}
+
+#[test]
+fn counting_starts_from_the_initial_value_or_the_guide() {
+    for is_guided in [false, true] {
+        let mut s = scene(Dimension::Planar, [0.0; 3]);
+        let rod = add_rod(&mut s, 1.0, [0.0; 3], [1.0, 0.0, 0.0]);
+        let pivot = add_joint(&mut s, JointKind::Revolute, [GROUND, rod], [0.0; 3], [None; 2]);
+        if is_guided {
+            let law = mbs_core::scene::GuideLaw::Table(vec![[0.0, 7.5], [1.0, 8.0]]);
+            crate::small::guide(&mut s, pivot, law);
+        } else {
+            hold(&mut s, pivot, &[7.5], &[]);
+        }
+        assert_near(&measured::<2>(&s), &[7.5]);
+    }
+}
+
+#[test]
+fn a_rod_between_balls_turns_by_the_smallest_rotation() {
+    let mut s = scene(Dimension::Spatial, [0.0, 0.0, -9.81]);
+    let rod = add_rod(&mut s, 1.0, [0.0; 3], [1.0, 0.0, 0.0]);
+    add_joint(&mut s, JointKind::Spherical, [GROUND, rod], [0.0; 3], [None; 2]);
+    output(&mut s, Quantity::JointValue { joint: 0 });
+    output(&mut s, Quantity::JointRate { joint: 0 });
+    let (model, mut state) = start::<3>(&s);
+    assert!(!model.has_full_rotation(rod));
+    let mut measures = Measures::new(&s, &model).unwrap();
+    let turned = rotation(&Vector::from([0.0, 0.3, -0.4])) * Vector::<f64, 3>::new(1.0, 0.0, 0.0);
+    state.q[..3].copy_from_slice(turned.as_slice());
+    let mut out = [0.0; 6];
+    measures.write(&state, |_| [0.0; 6], &mut out);
+    let r = rotation(&Vector::<f64, 3>::from([out[0], out[1], out[2]]));
+    let gap = rotation_vector(&r) - Vector::from([0.0, 0.3, -0.4]);
+    assert!(gap.iter().all(|x| x.abs() < CLOSED), "{gap}");
+    assert_near(&out[3..], &[0.0; 3]);
+}

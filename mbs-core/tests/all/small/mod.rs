@@ -1,0 +1,72 @@
+//! Small scenes made in code, and their consistent states.
+
+use mbs_core::model::State;
+use mbs_core::natural::NaturalModel;
+use mbs_core::scene::{
+    Body, BodyRef, Dimension, Guide, GuideLaw, Inertia, Initial, InitialTarget, Joint, JointKind,
+    Output, Quantity, Scene,
+};
+use mbs_testkit::scenes::empty;
+
+/// The fixed frame.
+pub(crate) const GROUND: BodyRef = BodyRef::Ground;
+
+/// A scene without bodies.
+pub(crate) fn scene(dimension: Dimension, gravity: [f64; 3]) -> Scene<f64> {
+    empty("test", dimension, Some(gravity))
+}
+
+/// Adds a body, returns its reference.
+pub(crate) fn add_body(
+    scene: &mut Scene<f64>,
+    mass: f64,
+    center: [f64; 3],
+    inertia: Inertia<f64>,
+) -> BodyRef {
+    let name = format!("body {}", scene.bodies.len());
+    scene.bodies.push(Body { name, mass, center, inertia });
+    BodyRef::Body(scene.bodies.len() - 1)
+}
+
+/// Adds a uniform rod, returns its reference.
+pub(crate) fn add_rod(scene: &mut Scene<f64>, mass: f64, from: [f64; 3], to: [f64; 3]) -> BodyRef {
+    let center = core::array::from_fn(|i| 0.5 * (from[i] + to[i]));
+    add_body(scene, mass, center, Inertia::Rod { from, to })
+}
+
+/// Adds a joint at one place, returns its index.
+pub(crate) fn add_joint(
+    scene: &mut Scene<f64>,
+    kind: JointKind,
+    bodies: [BodyRef; 2],
+    at: [f64; 3],
+    axes: [Option<[f64; 3]>; 2],
+) -> usize {
+    let name = format!("joint {}", scene.joints.len());
+    scene.joints.push(Joint { name, kind, bodies, points: [at, at], axes });
+    scene.joints.len() - 1
+}
+
+/// Holds a joint's coordinates and rates at the start.
+pub(crate) fn hold(scene: &mut Scene<f64>, joint: usize, value: &[f64], rate: &[f64]) {
+    let numbers = |x: &[f64]| (!x.is_empty()).then(|| x.to_vec());
+    let (value, rate) = (numbers(value), numbers(rate));
+    scene.initials.push(Initial { target: InitialTarget::Joint { joint, value, rate } });
+}
+
+/// Guides a joint.
+pub(crate) fn guide(scene: &mut Scene<f64>, joint: usize, law: GuideLaw<f64>) {
+    scene.guides.push(Guide { joint, law });
+}
+
+/// Adds an output channel.
+pub(crate) fn output(scene: &mut Scene<f64>, quantity: Quantity<f64>) {
+    let name = format!("output {}", scene.outputs.len());
+    scene.outputs.push(Output { name, quantity });
+}
+
+/// The model of a checked scene and its consistent start.
+pub(crate) fn start<const D: usize>(scene: &Scene<f64>) -> (NaturalModel<f64, D>, State<f64>) {
+    scene.check().expect("the scene of a test can be meant");
+    mbs_testkit::start(scene)
+}

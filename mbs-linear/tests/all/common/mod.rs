@@ -1,0 +1,57 @@
+//! Scenes, their equilibria and eigenvalues for the tests.
+
+use faer::Mat;
+use mbs_core::model::State;
+use mbs_core::natural::NaturalModel;
+use mbs_core::scene::BodyRef;
+use mbs_linear::{
+    Equilibrium, EquilibriumError, Instant, Linear, LinearError, LinearOptions, Options, Saddle,
+    Workspace, equilibrium, linearise,
+};
+use mbs_sparse::Indefinite;
+use mbs_testkit::{scene, start};
+
+/// A model with its assembled state.
+pub(crate) struct Case<const D: usize> {
+    pub(crate) model: NaturalModel<f64, D>,
+    pub(crate) state: State<f64>,
+    pub(crate) w: Workspace<f64, Indefinite<f64>>,
+}
+
+impl<const D: usize> Case<D> {
+    pub(crate) fn new(text: &str) -> Self {
+        let (model, state) = start(&scene(text));
+        let analyse = mbs_sparse::Options::default();
+        let w = Workspace::new(&model, Indefinite::analyse(&Saddle::new(&model), analyse));
+        Self { model, state, w }
+    }
+
+    /// Moves to the equilibrium at rest.
+    pub(crate) fn settle(&mut self) -> Result<Equilibrium<f64>, EquilibriumError> {
+        self.state.v.fill(0.0);
+        let length = self.model.length();
+        equilibrium(&self.model, length, &Options::default(), &mut self.state, &mut self.w)
+    }
+
+    pub(crate) fn linear(&mut self, instant: Instant) -> Result<Linear<f64>, LinearError> {
+        let how = (instant, &LinearOptions::default());
+        linearise(&self.model, self.model.length(), how, &self.state, &mut self.w)
+    }
+
+    /// Eigenvalues with their imaginary part, if any, positive; sorted by size, then by real part.
+    pub(crate) fn eigenvalues(&mut self, instant: Instant) -> Vec<(f64, f64)> {
+        let linear = self.linear(instant).unwrap_or_else(|e| panic!("{e}"));
+        let (n, a) = (2 * linear.n_freedoms, linear.state_matrix());
+        let a = Mat::from_fn(n, n, |i, j| a[j * n + i]);
+        let values = a.eigenvalues().expect("the eigenvalues converge");
+        let mut all: Vec<(f64, f64)> =
+            values.iter().filter(|x| x.im >= 0.0).map(|x| (x.re, x.im)).collect();
+        all.sort_by(|a, b| a.0.hypot(a.1).total_cmp(&b.0.hypot(b.1)).then(a.0.total_cmp(&b.0)));
+        all
+    }
+
+    /// A material point of a body.
+    pub(crate) fn point(&self, body: usize, at: [f64; 3]) -> [f64; D] {
+        self.model.point(BodyRef::Body(body), at).value(&self.state.q).into()
+    }
+}

@@ -1,0 +1,115 @@
+//! The solver of fixed capacity against mbs-recursive on the same scenes.
+
+use crate::support::start;
+use mbs_nostd::export::{Gathered, bytes};
+use mbs_nostd::{Bounds, Checked, Options, Solver, Spatial, Tables, Unwatched};
+use mbs_recursive::{TreeModel, TreeState, Workspace, bounded_step, step};
+use mbs_testkit::file;
+
+/// Room for the vehicle.
+type Room = Solver<f64, Spatial, 12, 40, 32, 16, 256, 256, 2, 8>;
+type RoomTables = Tables<f64, Spatial, 12, 12, 16, 64, 24, 64, 8, 40>;
+
+fn vehicle(name: &str) -> (TreeModel<f64, Spatial>, TreeState<f64>) {
+    start::<Spatial, 3>(&file(name))
+}
+
+#[test]
+fn a_solver_of_fixed_capacity_gives_the_bits_of_the_recursion() {
+    for name in ["iltis-slalom", "iltis-jump", "iltis-suspension", "spatial-four-bar"] {
+        let (tree, begin) = vehicle(name);
+        let gathered = Gathered::new(&tree, &begin, &[]);
+        let text = bytes(&gathered.model(), false).expect("a scene without own laws");
+        let tables = RoomTables::read(&text).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let flash = Checked::new(&gathered.model()).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let read = tables.model();
+        let mut solvers = [Room::new(&flash), Room::new(&read)].map(|s| s.expect("room"));
+        let (mut state, mut workspace) = (begin.clone(), Workspace::new(&tree));
+        let (options, bounds) = (Options::default(), Bounds::default());
+        for _ in 0..500 {
+            bounded_step(&tree, (1e-3, &options, bounds), &mut state, &mut workspace)
+                .unwrap_or_else(|e| panic!("{name}: {e}"));
+            for (solver, model) in solvers.iter_mut().zip([&flash, &read]) {
+                solver.step(model, 1e-3, &mut Unwatched).unwrap_or_else(|e| panic!("{name}: {e}"));
+                assert_eq!(solver.coordinates(), &state.z[..], "{name}");
+                assert_eq!(solver.velocities(), &state.v[..], "{name}");
+                assert_eq!(solver.accelerations(), &state.a[..], "{name}");
+            }
+        }
+    }
+}
+
+/// Largest difference of a coordinate from the converged trapezoidal rule over 10 s [m or rad].
+fn apart(name: &str, evaluations: u32) -> f64 {
+    let (tree, begin) = vehicle(name);
+    let (mut state, mut workspace) = (begin.clone(), Workspace::new(&tree));
+    let (mut exact, mut other) = (begin.clone(), Workspace::new(&tree));
+    let options = Options::default();
+    let bounds = Bounds { evaluations, ..Bounds::default() };
+    let mut largest = 0.0_f64;
+    for _ in 0..10_000 {
+        bounded_step(&tree, (1e-3, &options, bounds), &mut state, &mut workspace)
+            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        step(&tree, 1e-3, &options, &mut exact, &mut other)
+            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        for (x, y) in state.z.iter().zip(&exact.z) {
+            largest = largest.max((x - y).abs());
+        }
+    }
+    largest
+}
+
+#[test]
+fn one_evaluation_a_step_stays_below_the_error_of_the_step_itself_on_level_roads_and_a_second_one_on_stairs()
+ {
+    // The trapezoidal rule itself is off by h² times a third derivative: 1e-6 times what a jump has, some 100 m/s³.
+    for name in ["iltis-slalom", "iltis-bump-5", "iltis-jump", "iltis-suspension"] {
+        let apart = apart(name, 1);
+        assert!(apart < 1e-4, "{name}: {apart}");
+    }
+    let (one, two) = (apart("iltis-stairs", 1), apart("iltis-stairs", 2));
+    assert!(one < 1e-3 && two < 1e-6, "{one} {two}");
+}
+
+#[test]
+fn rungs_drop_the_effects_of_the_ladder_in_its_order_and_time_that_runs_out_climbs_them() {
+    let (tree, begin) = vehicle("iltis-slalom");
+    let gathered = Gathered::new(&tree, &begin, &[3, 1]);
+    let model = gathered.model();
+    let n = model.mechanism.loads.len();
+    assert_eq!(model.rungs, [n - 1, n - 2].map(|n| u32::try_from(n).expect("few effects")));
+    let model = Checked::new(&model).expect("a model");
+    let mut solver = Room::new(&model).expect("room");
+    solver.bounds = Bounds { evaluations: 3, ..Bounds::default() };
+    for rung in [0, 1, 1, 2, 2, 2] {
+        let report = solver.step(&model, 1e-3, &mut || false).expect("a step");
+        assert!(report.is_cut_short && report.evaluations == 1 && report.projections == 0);
+        assert_eq!(solver.ladder.rung(), rung);
+    }
+}
+
+#[test]
+fn whatever_word_of_a_model_is_broken_nothing_panics() {
+    let (tree, begin) = vehicle("iltis-slalom");
+    let text = bytes(&Gathered::new(&tree, &begin, &[]).model(), false).expect("a model");
+    let (mut refused, mut stepped) = (0, 0);
+    for at in (0..text.len() - 3).step_by(4) {
+        for word in [u32::MAX, 1, 0x7f, 0x7ff8_0000] {
+            let mut broken = text.clone();
+            broken[at..at + 4].copy_from_slice(&word.to_le_bytes());
+            let Ok(tables) = RoomTables::read(&broken) else {
+                refused += 1;
+                continue;
+            };
+            let model = tables.model();
+            let Ok(mut solver) = Room::new(&model) else { continue };
+            // A number may be wrong: then a step says so, or the motion is another one.
+            for _ in 0..3 {
+                let _ = solver.step(&model, 1e-3, &mut Unwatched);
+            }
+            stepped += 1;
+        }
+        let Err(_) = RoomTables::read(&text[..at]) else { panic!("cut off at {at}") };
+    }
+    assert!(refused > 500 && stepped > 500, "{refused} {stepped}");
+}

@@ -1,0 +1,134 @@
+//! The bound, by a number that counts what is done with it.
+
+use crate::support::counted::{Counted, done};
+use crate::support::start;
+use mbs_core::scene::Scene;
+use mbs_nostd::bound::{self, Operations};
+use mbs_nostd::export::{Gathered, bytes};
+use mbs_nostd::record::Axes;
+use mbs_nostd::{Bounds, Planar, Solver, Spatial, Tables, Unwatched};
+use mbs_recursive::rows::Row;
+use mbs_testkit::file;
+
+type Room<S> = Solver<Counted, S, 64, 80, 48, 160, 4096, 4096, 2, 8>;
+type RoomTables<S> = Tables<Counted, S, 64, 48, 160, 512, 64, 64, 8, 80>;
+
+/// A scene of the repository or of this test.
+fn scene(name: &str) -> Scene<f64> {
+    if name == "planar-rows" {
+        mbs_testkit::scene(include_str!("planar-rows.toml"))
+    } else {
+        file(name)
+    }
+}
+
+/// Counts each of some steps of a scene beside the bound.
+fn counted<S: Axes<Counted> + Axes<f64>, const D: usize>(
+    name: &str,
+    bounds: Bounds,
+) -> (Operations, Vec<Operations>) {
+    counted_of::<S, D>(&scene(name), bounds)
+}
+
+fn counted_of<S: Axes<Counted> + Axes<f64>, const D: usize>(
+    scene: &Scene<f64>,
+    bounds: Bounds,
+) -> (Operations, Vec<Operations>) {
+    let (tree, begin) = start::<S, D>(scene);
+    let name = &scene.name;
+    let gathered = Gathered::new(&tree, &begin, &[]);
+    let text = bytes(&gathered.model(), false).expect("a scene without own laws");
+    // The same numbers again, as counting ones.
+    let tables = Box::new(RoomTables::<S>::read(&text).unwrap_or_else(|e| panic!("{name}: {e}")));
+    let model = tables.model();
+    let mut solver = Box::new(Room::<S>::new(&model).unwrap_or_else(|e| panic!("{name}: {e}")));
+    solver.bounds = bounds;
+    let mut steps = Vec::new();
+    for _ in 0..200 {
+        done();
+        let report = solver.step(&model, Counted(1e-3), &mut Unwatched);
+        steps.push(done());
+        report.unwrap_or_else(|e| panic!("{name}: {e}"));
+    }
+    (bound::step(model.model(), bounds), steps)
+}
+
+fn is_exact<S: Axes<Counted> + Axes<f64>, const D: usize>(name: &str) {
+    for (evaluations, sweeps, projections) in [(1, 0, 1), (2, 1, 1), (3, 0, 2)] {
+        let bounds = Bounds { evaluations, sweeps, projections };
+        let (bound, steps) = counted::<S, D>(name, bounds);
+        // The first steps from rest may not turn yet.
+        for step in &steps[3..] {
+            // Entries that are looked up are no arithmetic.
+            assert_eq!(*step, Operations { entries: 0, ..bound }, "{name} {bounds:?}");
+        }
+    }
+}
+
+#[test]
+fn the_formula_is_the_count_of_every_step_without_branching_effects() {
+    is_exact::<Planar, 2>("double-pendulum");
+    is_exact::<Planar, 2>("four-bar");
+    is_exact::<Planar, 2>("two-four-bars");
+    is_exact::<Planar, 2>("slider-crank");
+    is_exact::<Planar, 2>("guided-four-bar");
+    is_exact::<Planar, 2>("n-four-bar-10");
+    is_exact::<Planar, 2>("andrews");
+    is_exact::<Planar, 2>("planar-rows");
+    is_exact::<Spatial, 3>("free-body");
+    is_exact::<Spatial, 3>("spatial-four-bar");
+    is_exact::<Spatial, 3>("rssr");
+    is_exact::<Spatial, 3>("spatial-chain-20");
+    is_exact::<Spatial, 3>("six-joint-arm");
+}
+
+#[test]
+fn the_scene_of_planar_rows_cuts_a_prismatic_joint_and_a_distance() {
+    let (tree, _) = start::<Planar, 2>(&scene("planar-rows"));
+    let rows = tree.mechanism().loops.rows;
+    assert!(rows.iter().any(|row| matches!(row, Row::Gap { .. })), "{rows:?}");
+    assert!(rows.iter().any(|row| matches!(row, Row::Length { .. })), "{rows:?}");
+}
+
+fn is_bound(name: &str, (bound, steps): (Operations, Vec<Operations>)) {
+    for step in steps {
+        assert!(step.products <= bound.products, "{name}: {step:?} {bound:?}");
+        assert!(step.sums <= bound.sums, "{name}: {step:?} {bound:?}");
+        assert!(step.quotients <= bound.quotients, "{name}: {step:?} {bound:?}");
+        assert!(step.roots <= bound.roots, "{name}: {step:?} {bound:?}");
+        assert!(step.turns <= bound.turns, "{name}: {step:?} {bound:?}");
+    }
+}
+
+#[test]
+fn effects_that_branch_stay_below_the_bound() {
+    for name in ["iltis-slalom", "iltis-ramp-steer-30", "iltis-suspension", "iltis-stairs"] {
+        is_bound(name, counted::<Spatial, 3>(name, Bounds::default()));
+    }
+}
+
+#[test]
+fn a_wheel_on_and_above_roads_of_every_kind_stays_below_the_bound() {
+    let car = include_str!("../../../scenes/quarter-car.toml");
+    let given = "[{ kind = \"bump\", start = 5.0, length = 5.0, amplitude = 0.02 }]";
+    assert!(car.contains(given), "the road of the scene is replaced");
+    let table =
+        "points = [[-2.0, 0.1], [-0.3, 0.02], [0.2, 0.0], [0.5, 0.04], [0.9, 0.01], [1.3, 0.2]]";
+    for features in [
+        "[{ kind = \"bump\", start = -0.3, length = 1.0, amplitude = 0.05 }]",
+        "[{ kind = \"ramp\", start = 0.1, length = 0.6, height = 0.1, rounding = 0.3 }]",
+        "[{ kind = \"stairs\", start = 0.1, tread = 0.1, riser = 0.3, height = 0.05, count = 3 }]",
+        &format!("[{{ kind = \"table\", {table} }}]"),
+        &format!("[{{ kind = \"table\", {table} }}, {{ kind = \"flat\", height = -0.1 }}]"),
+        "[{ kind = \"bump\", start = -0.2, length = 0.8, amplitude = 0.03 }, \
+          { kind = \"bump\", start = 0.2, length = 0.8, amplitude = 0.03 }]",
+    ] {
+        for height in ["0.0", "0.4"] {
+            let above =
+                format!("[[initial]]\njoint = \"wheel-slide\"\nvalue = {height}\nrate = 0.0\n");
+            let text = car.replace(given, features) + &above;
+            let counts = counted_of::<Planar, 2>(&mbs_testkit::scene(&text), Bounds::default());
+            is_bound(&format!("{features} from {height} m"), counts);
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! The tests of this crate, in one program: each program would compile the same solvers anew. `cargo test -p mbs-realtime pacing::` runs one module.
+
+mod common;
+
+mod allocation;
+mod pacing;

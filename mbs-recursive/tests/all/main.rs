@@ -1,0 +1,12 @@
+//! The tests of this crate, in one program: each program would compile the same solvers anew. `cargo test -p mbs-recursive stiff::` runs one module.
+
+mod support;
+
+mod agreement;
+mod double_double;
+mod effects;
+mod inverse;
+mod lanes;
+mod motion;
+mod stiff;
+mod tangent;

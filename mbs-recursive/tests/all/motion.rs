@@ -1,0 +1,228 @@
+//! Runs: order, energy, singular positions, the report's closure.
+
+use crate::support::Run;
+use mbs_core::step::StepError;
+use mbs_recursive::{Closure, Planar, Spatial};
+use mbs_testkit::file;
+
+/// The largest energy error of the trapezoidal rule on the double pendulum in natural coordinates, 10 s at 1e-2 and 1e-3 [J].
+const DOUBLE_PENDULUM: [f64; 2] = [4.645e-1, 4.636e-3];
+/// Tip of the first crank of the two four-bars after 10 s, by the pendulum that they are (stated in the scene) [m].
+const TIP: [f64; 2] = [0.328_458_111_540_815_4, 0.944_518_538_178_601];
+
+#[test]
+fn trapezoidal_rule_is_of_second_order_and_below_the_level_of_natural_coordinates() {
+    let run = |dt, n| Run::<Planar>::new::<2>(&file("double-pendulum")).drift(dt, n);
+    let errors = [run(1e-2, 1000), run(1e-3, 10_000)];
+    assert!(errors[0] < DOUBLE_PENDULUM[0] && errors[1] < DOUBLE_PENDULUM[1], "{errors:?}");
+    assert!((80.0..125.0).contains(&(errors[0] / errors[1])), "{errors:?}");
+}
+
+#[test]
+fn rk4_loses_energy_with_order_four_or_better_on_trees_and_loops() {
+    // The energy error of RK4 falls with h⁴ or h⁵.
+    fn ratio<S: mbs_recursive::space::Space<f64>, const D: usize>(name: &str, dt: f64) -> f64 {
+        let run = |n: u32, dt: f64| Run::<S>::new::<D>(&file(name)).drift_of(n, |run| run.rk4(dt));
+        run(400, dt) / run(800, dt * 0.5)
+    }
+    let ratios = [
+        ratio::<Spatial, 3>("tree-30", 2.5e-3),
+        ratio::<Spatial, 3>("spatial-chain-20", 2.5e-3),
+        ratio::<Spatial, 3>("spinning-top", 2.5e-3),
+        ratio::<Spatial, 3>("spatial-four-bar", 2.5e-3),
+        ratio::<Planar, 2>("four-bar", 1e-2),
+        ratio::<Planar, 2>("andrews", 3e-5),
+    ];
+    assert!(ratios.iter().all(|r| (11.0..45.0).contains(r)), "{ratios:?}");
+}
+
+#[test]
+fn a_tighter_error_makes_a_smaller_energy_error() {
+    let run = |error| {
+        let mut run = Run::<Planar>::new::<2>(&file("double-pendulum"));
+        run.options.error = error;
+        run.drift_of(10, |run| run.rk54(1.0))
+    };
+    let errors = [run(1e-5), run(1e-7), run(1e-9)];
+    assert!(errors[0] > 20.0 * errors[1] && errors[1] > 20.0 * errors[2], "{errors:?}");
+    assert!(errors[2] < 1e-7, "{errors:?}");
+}
+
+#[test]
+fn order_8_takes_half_the_evaluations_of_order_5_for_ten_digits() {
+    let run = |is_eighth: bool, error: f64| {
+        let mut run = Run::<Planar>::new::<2>(&file("double-pendulum"));
+        run.options.error = error;
+        let (start, mut evaluations) = (run.invariant(), 0);
+        for _ in 0..10 {
+            let report = if is_eighth { run.rk853(1.0) } else { run.rk54(1.0) };
+            evaluations += report.expect("a step").iterations;
+        }
+        ((run.invariant() - start).abs(), evaluations)
+    };
+    let (fifth, eighth) = (run(false, 1e-12), run(true, 1e-12));
+    assert!(fifth.0 < 1e-9 && eighth.0 < 1e-9, "{fifth:?} {eighth:?}");
+    assert!(2 * eighth.1 < fifth.1, "{fifth:?} {eighth:?}");
+}
+
+#[test]
+fn error_control_begins_with_the_first_step_and_stays_within_the_length_asked_for() {
+    let steps = |first_step| {
+        let mut run = Run::<Planar>::new::<2>(&file("double-pendulum"));
+        // Every step passes, and the next one is five times as long.
+        (run.options.error, run.options.first_step) = (1e6, first_step);
+        let report = run.rk54(0.1).expect("a step");
+        assert_eq!((report.rejected, run.state.t.to_bits()), (0, 0.1_f64.to_bits()));
+        report.steps
+    };
+    // 0.1; 0.01, 0.05, 0.04; 0.001, 0.005, 0.025, 0.069; 0.1
+    assert_eq!([None, Some(0.01), Some(0.001), Some(0.7)].map(steps), [1, 3, 4, 1]);
+}
+
+#[test]
+fn the_redundant_loop_of_the_spatial_four_bar_has_its_rank() {
+    let mut run = Run::<Spatial>::new::<3>(&file("spatial-four-bar"));
+    let rank = run.model.rank(&run.state, &mut run.workspace).expect("regular");
+    // Of the five equations of a cut hinge three say again that the linkage stays in its plane.
+    assert_eq!((run.model.n_freedoms(), run.model.n_rows(), rank), (3, 5, 2));
+}
+
+#[test]
+fn a_hinge_of_two_balls_repeats_one_row_though_its_weights_are_large() {
+    let mut run = Run::<Spatial>::new::<3>(&file("iltis-links"));
+    let rank = run.model.rank(&run.state, &mut run.workspace).expect("regular");
+    // Four hinges; the vehicle has ten freedoms.
+    assert_eq!((run.model.n_freedoms(), run.model.n_rows(), rank), (42, 36, 32));
+}
+
+#[test]
+fn two_four_bars_pass_their_singular_positions_on_the_pendulum_s_branch() {
+    // Ten passages in 10 s; the error of the tip falls with the order of the method.
+    let tip = |run: &mut Run<Planar>| {
+        let tip = run.motions(5)[0].point(&[0.0, 1.0, 0.0].into())[0];
+        (tip[0] - TIP[0]).abs().max((tip[1] - TIP[1]).abs())
+    };
+    for (dt, n, level) in [(1e-2, 1000, 3e-4), (1e-3, 10_000, 3e-6)] {
+        let mut run = Run::<Planar>::new::<2>(&file("two-four-bars"));
+        let energy = run.drift(dt, n);
+        let apart = tip(&mut run);
+        assert!(apart < level && energy < 2e-2, "{dt}: {apart} m, {energy} J");
+    }
+    let mut run = Run::<Planar>::new::<2>(&file("two-four-bars"));
+    let energy = run.drift_of(1000, |run| run.rk4(1e-2));
+    assert!(tip(&mut run) < 1e-6 && energy < 2e-6, "{} m, {energy} J", tip(&mut run));
+}
+
+#[test]
+fn singular_positions_cost_no_digits_at_tight_tolerances() {
+    // Beside a singular position the constraints leave rounding / distance² in a velocity that they soon forbid. Were that an error
+    // of the step, the steps would be shortened until one of them lands there: 1e-5 m, whatever the tolerance.
+    for (name, tip) in
+        [("four-bar", [0.478_385_057_760_970_6, 0.878_150_178_791_209_3]), ("two-four-bars", TIP)]
+    {
+        for (tolerance, level) in [(1e-10, 1e-7), (1e-11, 1e-8), (1e-12, 1e-9)] {
+            let mut run = Run::<Planar>::new::<2>(&file(name));
+            run.options.error = tolerance;
+            let energy = run.drift_of(200, |run| run.rk54(0.05));
+            let bodies = run.motions(if name == "four-bar" { 3 } else { 5 });
+            let end = bodies[0].point(&[0.0, 1.0, 0.0].into())[0];
+            let apart = (end[0] - tip[0]).abs().max((end[1] - tip[1]).abs());
+            assert!(
+                apart < level && energy < level,
+                "{name}, {tolerance:e}: {apart:e} m, {energy:e} J"
+            );
+        }
+    }
+}
+
+#[test]
+fn at_small_steps_a_singular_position_is_passed_or_refused_by_name() {
+    for name in ["two-four-bars", "n-four-bar-40"] {
+        let mut run = Run::<Planar>::new::<2>(&file(name));
+        let (start, mut before) = (run.invariant(), run.state.clone());
+        for _ in 0..8000 {
+            match run.step(1e-4) {
+                Ok(_) => before.copy_from(&run.state),
+                Err(StepError::NotConverged { .. } | StepError::Violated { .. }) => {
+                    assert_eq!(run.state, before, "an error leaves the state as it was");
+                    break;
+                }
+                Err(e) => panic!("{name}: {e}"),
+            }
+            // Trapezoidal level: 1e-2 J at 1e-2 for one loop, falling with the square of the step.
+            assert!((run.invariant() - start).abs() < 1e-4, "{name} at {}", run.state.t);
+        }
+    }
+}
+
+#[test]
+fn the_report_s_closure_holds_loops_within_its_penalty() {
+    let mut run = Run::<Planar>::new::<2>(&file("four-bar"));
+    run.options.closure = Closure::report();
+    let (mut worst, start) = ([0.0_f64; 3], run.invariant());
+    for _ in 0..500 {
+        let report = run.step(1e-3).expect("a regular step");
+        for (worst, x) in worst.iter_mut().zip(report.violation) {
+            *worst = worst.max(x);
+        }
+    }
+    let energy = (run.invariant() - start).abs();
+    // λ = α Φ̈ of some 10 N with α = 1e7: Φ̈ of 1e-6, and loops that open by far less than they would by drift.
+    assert!(worst[0] > 0.0 && worst[0] < 1e-4 && worst[1] < 1e-4 && worst[2] < 1e-3, "{worst:?}");
+    assert!(energy < 1e-2, "{energy}");
+}
+
+#[test]
+fn guides_and_dampers_are_in_the_ledger() {
+    let run = |dt, n| Run::<Planar>::new::<2>(&file("guided-four-bar")).drift(dt, n);
+    let errors = [run(1e-2, 500), run(5e-3, 1000)];
+    assert!((3.5..4.5).contains(&(errors[0] / errors[1])), "{errors:?}");
+}
+
+/// A body that a guide turns, and that meets no other.
+const FLAG: &str = r#"
+[[body]]
+name = "flag"
+mass = 1.0
+center = [0.3, 0.3, 0.1]
+inertia = [0.1, 0.2, 0.3, 0.0, 0.0, 0.0]
+[[joint]]
+name = "flag-pole"
+kind = "revolute"
+bodies = ["ground", "flag"]
+at = [0.3, 0.2, 0.1]
+axis = [0.0, 1.0, 0.0]
+[[guide]]
+joint = "flag-pole"
+ramp = { rate = 3.0 }
+"#;
+
+#[test]
+fn a_guided_body_that_meets_no_other_changes_nothing() {
+    // Its power is found from the forces through the joints; projections then need what links were factored to.
+    let path = format!("{}/../scenes/rssr.toml", env!("CARGO_MANIFEST_DIR"));
+    let alone = std::fs::read_to_string(path).expect("the scene is there");
+    let ends = |step: fn(&mut Run<Spatial>)| {
+        [alone.clone(), alone.clone() + FLAG].map(|text| {
+            let mut run = Run::<Spatial>::new::<3>(&mbs_testkit::scene(&text));
+            for _ in 0..20 {
+                step(&mut run);
+            }
+            (run.state.z, run.state.v)
+        })
+    };
+    let fixed = ends(|run| {
+        run.rk4(5e-3).expect("a step");
+    });
+    let controlled = ends(|run| {
+        run.options.error = 1e-5;
+        run.rk54(0.02).expect("a step");
+    });
+    for [(z, v), (z_beside, v_beside)] in [fixed, controlled] {
+        assert_eq!((z.len(), v.len()), (z_beside.len(), v_beside.len()));
+        for (x, y) in z.iter().chain(&v).zip(z_beside.iter().chain(&v_beside)) {
+            // Roundings of numbers of order ten over twenty steps, which the motion makes larger.
+            assert!((x - y).abs() < 1e-11, "{x} {y}");
+        }
+    }
+}

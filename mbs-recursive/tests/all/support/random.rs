@@ -1,0 +1,127 @@
+//! Seeded random mechanisms with every kind of joint.
+
+use mbs_core::scene::{Body, BodyRef, Dimension, Inertia, Joint, JointKind, Scene};
+use mbs_testkit::Random;
+use mbs_testkit::scenes::empty;
+
+/// Kinds that carry coordinates in a tree.
+const SPATIAL: [JointKind; 6] = [
+    JointKind::Revolute,
+    JointKind::Spherical,
+    JointKind::Universal,
+    JointKind::Prismatic,
+    JointKind::Cylindrical,
+    JointKind::Planar,
+];
+const PLANAR: [JointKind; 2] = [JointKind::Revolute, JointKind::Prismatic];
+
+fn vector(random: &mut Random, dimension: Dimension) -> [f64; 3] {
+    let mut x = [random.next(), random.next(), random.next()];
+    if dimension == Dimension::Planar {
+        x[2] = 0.0;
+    }
+    x
+}
+
+fn body(random: &mut Random, dimension: Dimension, center: [f64; 3]) -> Body<f64> {
+    let mass = 1.5 + random.next();
+    let inertia = match dimension {
+        Dimension::Planar => Inertia::Planar(0.3 + 0.2 * random.next()),
+        Dimension::Spatial => {
+            let mut small = || 0.03 * random.next();
+            let products = [small(), small(), small()];
+            let principal = [0.3, 0.35, 0.4].map(|i| i + small());
+            let ([xx, yy, zz], [xy, yz, zx]) = (principal, products);
+            Inertia::Spatial([xx, yy, zz, xy, yz, zx])
+        }
+    };
+    Body { name: String::new(), mass, center, inertia }
+}
+
+/// A joint of a kind at a place, its axes at random.
+pub(crate) fn joint(
+    random: &mut Random,
+    dimension: Dimension,
+    (kind, bodies, at): (JointKind, [BodyRef; 2], [f64; 3]),
+) -> Joint<f64> {
+    let mut axis = || Some(vector(random, dimension));
+    let axes = match (kind, dimension) {
+        (JointKind::Revolute, Dimension::Planar) | (JointKind::Spherical, _) => [None, None],
+        (JointKind::Universal | JointKind::Planar, _) => [axis(), axis()],
+        _ => [axis(), None],
+    };
+    Joint { name: String::new(), kind, bodies, points: [at; 2], axes }
+}
+
+/// A tree of `n` bodies, some of them reached from their second body.
+pub(crate) fn tree(seed: u64, n: usize, dimension: Dimension) -> Scene<f64> {
+    let random = &mut Random(seed);
+    let mut scene = empty(&format!("tree {seed}"), dimension, Some([0.3, -9.81, 0.0]));
+    for i in 0..n {
+        let center = vector(random, dimension).map(|x| 2.0 * x);
+        scene.bodies.push(body(random, dimension, center));
+        // The second root floats.
+        if i == n / 2 {
+            continue;
+        }
+        let parent = if i < 2 { BodyRef::Ground } else { BodyRef::Body(random.below(i)) };
+        let kinds: &[JointKind] = if dimension == Dimension::Planar { &PLANAR } else { &SPATIAL };
+        let kind = kinds[random.below(kinds.len())];
+        let at: [f64; 3] = {
+            let off = vector(random, dimension);
+            core::array::from_fn(|k| center[k] + off[k])
+        };
+        let mut bodies = [parent, BodyRef::Body(i)];
+        if random.next() > 0.3 {
+            bodies.reverse();
+        }
+        let joint = joint(random, dimension, (kind, bodies, at));
+        scene.joints.push(joint);
+    }
+    scene
+}
+
+/// Cuts that a closed mechanism may have.
+const CUTS: [JointKind; 7] = [
+    JointKind::Distance,
+    JointKind::Spherical,
+    JointKind::Universal,
+    JointKind::Cylindrical,
+    JointKind::Planar,
+    JointKind::Revolute,
+    JointKind::Prismatic,
+];
+
+/// A tree of balls (revolutes in the plane) with `loops` further joints, which close in the reference configuration.
+pub(crate) fn closed(seed: u64, n: usize, loops: usize, dimension: Dimension) -> Scene<f64> {
+    let random = &mut Random(seed);
+    let mut scene = tree(seed ^ 0x55, n, dimension);
+    scene.name = format!("closed {seed}");
+    for joint in &mut scene.joints {
+        joint.kind = match dimension {
+            Dimension::Planar => JointKind::Revolute,
+            Dimension::Spatial => JointKind::Spherical,
+        };
+        joint.axes = [None, None];
+    }
+    for i in 0..loops {
+        let first = random.below(n);
+        let second = (first + 1 + random.below(n - 1)) % n;
+        let (first, second) = (BodyRef::Body(first), BodyRef::Body(second));
+        let first = if i % 4 == 3 { BodyRef::Ground } else { first };
+        let at = vector(random, dimension).map(|x| 2.0 * x);
+        let kind = match dimension {
+            Dimension::Planar => [JointKind::Distance, JointKind::Revolute][i % 2],
+            Dimension::Spatial => CUTS[random.below(CUTS.len())],
+        };
+        let mut added = joint(random, dimension, (kind, [first, second], at));
+        if kind == JointKind::Distance {
+            added.points[1] = vector(random, dimension);
+            if i % 3 > 0 || dimension == Dimension::Planar {
+                added.axes = [None, None];
+            }
+        }
+        scene.joints.push(added);
+    }
+    scene
+}

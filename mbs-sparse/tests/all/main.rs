@@ -1,0 +1,12 @@
+//! The tests of this crate, in one program: each program would compile the same solvers anew. `cargo test -p mbs-sparse tasks::` runs one module.
+
+mod common;
+
+mod allocation;
+mod delays;
+mod failures;
+mod indefinite;
+mod reference;
+mod refined;
+mod structure;
+mod tasks;

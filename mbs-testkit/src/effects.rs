@@ -1,0 +1,216 @@
+//! One mechanism, and every kind of effect on it: an arm on a hinge, a slider on the arm, and two loose bodies.
+
+use crate::scene;
+use mbs_core::scene::{
+    BodyRef, CalspanCoefficients, Course, Dimension, Effect, EffectKind, PolynomialPiece,
+    RoadFeature, Scene,
+};
+
+const SPATIAL: &str = r#"
+[scene]
+name = "effects"
+dimension = 3
+gravity = [0.0, 0.0, -9.81]
+duration = 1.0
+[[body]]
+name = "arm"
+mass = 2.0
+center = [0.5, 0.2, 0.8]
+inertia = [0.3, 0.35, 0.4, 0.02, 0.01, -0.02]
+[[body]]
+name = "slider"
+mass = 1.5
+center = [0.9, 0.1, 1.0]
+inertia = [0.2, 0.25, 0.3, 0.01, 0.02, 0.01]
+[[body]]
+name = "left"
+mass = 2.5
+center = [0.1, -0.3, 0.9]
+inertia = [0.4, 0.5, 0.45, 0.03, 0.0, 0.02]
+[[body]]
+name = "right"
+mass = 1.8
+center = [1.2, 0.6, 1.4]
+inertia = [0.3, 0.4, 0.35, 0.0, 0.01, 0.0]
+[[joint]]
+name = "hinge"
+kind = "revolute"
+bodies = ["ground", "arm"]
+at = [0.1, 0.1, 0.7]
+axis = [0.2, 1.0, 0.3]
+[[joint]]
+name = "slide"
+kind = "prismatic"
+bodies = ["arm", "slider"]
+at = [0.7, 0.1, 0.9]
+axis = [1.0, 0.2, -0.3]
+"#;
+
+const PLANAR: &str = r#"
+[scene]
+name = "effects"
+dimension = 2
+gravity = [0.0, -9.81]
+duration = 1.0
+[[body]]
+name = "arm"
+mass = 2.0
+center = [0.5, 0.8]
+inertia = 0.3
+[[body]]
+name = "slider"
+mass = 1.5
+center = [0.9, 1.0]
+inertia = 0.2
+[[body]]
+name = "left"
+mass = 2.5
+center = [0.1, 0.9]
+inertia = 0.4
+[[body]]
+name = "right"
+mass = 1.8
+center = [1.2, 1.4]
+inertia = 0.3
+[[joint]]
+name = "hinge"
+kind = "revolute"
+bodies = ["ground", "arm"]
+at = [0.1, 0.7]
+[[joint]]
+name = "slide"
+kind = "prismatic"
+bodies = ["arm", "slider"]
+at = [0.7, 0.9]
+axis = [1.0, 0.2]
+"#;
+
+const BODIES: [BodyRef; 2] = [BodyRef::Body(2), BodyRef::Body(3)];
+
+/// The mechanism without effects, over a rising road that comes towards it.
+fn bare(dimension: Dimension) -> Scene<f64> {
+    let mut scene = scene(if dimension == Dimension::Planar { PLANAR } else { SPATIAL });
+    let rise = RoadFeature::Rise { start: -3.0, length: 6.0, height: 1.0, rounding: 1.0 };
+    let bump = RoadFeature::Bump { start: -2.0, length: 8.0, amplitude: 0.05 };
+    scene.road.left = vec![rise];
+    scene.road.right = vec![scene.road.left[0].clone(), bump];
+    scene.road.speed = 0.7;
+    scene
+}
+
+/// The mechanism with one effect.
+#[must_use]
+pub fn with(dimension: Dimension, kind: EffectKind<f64>) -> Scene<f64> {
+    let mut scene = bare(dimension);
+    scene.effects.push(Effect { name: "effect".into(), enabled: true, kind });
+    scene
+}
+
+/// A place of space, in the plane without its depth.
+fn place(dimension: Dimension, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    if dimension == Dimension::Planar { [x, z, 0.0] } else { [x, y, z] }
+}
+
+/// Two places on the loose bodies.
+fn points(dimension: Dimension) -> [[f64; 3]; 2] {
+    [[0.2, -0.1, 1.0], [1.0, 0.5, 1.3]].map(|x| place(dimension, x))
+}
+
+fn piece(lower: f64, upper: f64, coefficients: &[f64]) -> PolynomialPiece<f64> {
+    PolynomialPiece { lower, upper, coefficients: coefficients.to_vec() }
+}
+
+fn polynomial(dimension: Dimension, direction: Option<[f64; 3]>, of_rate: bool) -> EffectKind<f64> {
+    // A spring that pulls at the reference length of about a metre, a damper with a kink.
+    let pieces = if of_rate {
+        vec![piece(-9.0, 0.1, &[0.0, 30.0, -0.4]), piece(0.1, 9.0, &[0.995, 20.0, 0.1])]
+    } else {
+        vec![piece(-3.0, 0.5, &[-2.0, 4.0]), piece(0.5, 4.0, &[-4.0, 6.0, 0.0, 8.0])]
+    };
+    let direction = direction.map(|d| place(dimension, d));
+    EffectKind::Polynomial { bodies: BODIES, points: points(dimension), direction, of_rate, pieces }
+}
+
+/// A bumper that begins to push after a clearance [m].
+fn bumper(dimension: Dimension, clearance: f64) -> EffectKind<f64> {
+    let (bodies, points) = (BODIES, points(dimension));
+    EffectKind::Bumper { bodies, points, stiffness: 150.0, damping: 3.0, clearance }
+}
+
+/// A bushing between the loose bodies.
+#[must_use]
+pub fn bushing(dimension: Dimension, damping: f64) -> EffectKind<f64> {
+    let damping = [1.0, 2.0, 3.0, 0.1, 0.2, 0.3].map(|c| c * damping);
+    let stiffness = [50.0, 60.0, 70.0, 5.0, 6.0, 7.0];
+    EffectKind::Bushing { bodies: BODIES, at: points(dimension)[0], stiffness, damping }
+}
+
+/// Stops of a joint.
+fn limit(joint: usize, lower: f64, upper: f64) -> EffectKind<f64> {
+    EffectKind::Limit { joint, lower, upper, stiffness: 40.0, damping: 2.0 }
+}
+
+fn friction(joint: usize) -> EffectKind<f64> {
+    let (coulomb, r#static, stribeck) = (1.0, 1.2, 0.2);
+    let (viscous, regularisation) = (0.3, 0.1);
+    EffectKind::Friction { joint, coulomb, r#static, stribeck, viscous, regularisation }
+}
+
+/// A drive of the left body.
+fn speed_hold(dimension: Dimension) -> EffectKind<f64> {
+    let direction = place(dimension, [1.0, 0.1, -0.2]);
+    EffectKind::SpeedHold { body: 2, direction, speed: 1.2, gain: 8.0, limit: 5.0 }
+}
+
+/// A wheel that is pressed into the road by 0.1 m; `rolls` with side force in space, and resistance.
+#[must_use]
+pub fn tire(dimension: Dimension, rolls: bool) -> EffectKind<f64> {
+    let is_spatial = dimension == Dimension::Spatial;
+    // Coefficients of a tire of 60 N instead of 6 kN.
+    let iltis = CalspanCoefficients::<f64>::iltis();
+    let [a0, a1, a2, a3, a4] = iltis.a;
+    let side = CalspanCoefficients {
+        a: [a0 * 0.01, a1, a2 * 0.01, a3, a4 * 0.01],
+        b: [iltis.b[0] * 100.0, iltis.b[1], iltis.b[2] * 1e4],
+        trail: iltis.trail.map(|x| x * 100.0),
+        ..iltis
+    };
+    EffectKind::Tire {
+        body: 2,
+        center: place(dimension, [0.05, -0.2, 0.9]),
+        axis: is_spatial.then_some([0.05, 1.0, 0.1]),
+        radius: 0.5,
+        stiffness: 200.0,
+        damping: 5.0,
+        rolling_resistance: if rolls { 0.1 } else { 0.0 },
+        side: (rolls && is_spatial).then_some(side),
+    }
+}
+
+/// Every kind of effect, with what it is.
+#[must_use]
+pub fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
+    let course = Course::Table(vec![(0.0, [3.0, 0.0, 0.0]), (1.0, [-8.0, 0.0, 0.0])]);
+    let (bodies, ends) = (BODIES, points(dimension));
+    let direction = Some([0.8, 0.3, 0.4]);
+    let drag = EffectKind::AeroDrag { body: 3, at: ends[1], area_coefficient: 2.0, density: 1.2 };
+    vec![
+        ("actuator", EffectKind::Actuator { bodies, points: ends, course }),
+        ("spring by a polynomial", polynomial(dimension, None, false)),
+        ("damper by a polynomial", polynomial(dimension, None, true)),
+        ("spring along a direction", polynomial(dimension, direction, false)),
+        ("damper along a direction", polynomial(dimension, direction, true)),
+        ("bumper out of contact", bumper(dimension, 5.0)),
+        ("bumper in contact", bumper(dimension, -0.4)),
+        ("bushing", bushing(dimension, 1.0)),
+        ("limits of a hinge", limit(0, -0.01, 0.01)),
+        ("limits of a slide", limit(1, -0.01, 0.01)),
+        ("limits that are far", limit(0, -9.0, 9.0)),
+        ("friction of a hinge", friction(0)),
+        ("friction of a slide", friction(1)),
+        ("drag", drag),
+        ("speed hold", speed_hold(dimension)),
+        ("tire that is a spring", tire(dimension, false)),
+        ("tire that rolls", tire(dimension, true)),
+    ]
+}

@@ -1,0 +1,20 @@
+//! What the tests of several crates share: scenes and their assembled starts, dense views of a model, random mechanisms, retelling, and an
+//! allocator that counts. It is compiled once, for doubles, so that no test program does it again.
+
+pub mod allocations;
+mod dense;
+pub mod effects;
+pub mod random;
+pub mod retell;
+pub mod scenes;
+mod start;
+
+pub use dense::{
+    apart, close, dot, in_null_space, jacobian, matrix, plus, rates, reference, residual,
+};
+pub use random::Random;
+pub use scenes::{PLANAR, SPATIAL, file, file_in, scene, scene_in};
+pub use start::{
+    START_IN_PLANE, START_IN_SPACE, centres, invariant, model, named_centres, solver, start,
+    start_in,
+};

@@ -1,0 +1,278 @@
+//! Random mechanisms: trees of mixed joints, and loops closed over them; the same for the same seed on every machine.
+
+use crate::scenes::empty;
+use mbs_core::scene::{
+    Body, BodyRef, Dimension, Effect, EffectKind, Inertia, Initial, InitialTarget, Joint,
+    JointKind, Scene,
+};
+
+/// A small generator of the same numbers on every machine (xorshift64*), by its state, which is not zero.
+#[derive(Debug, Clone)]
+pub struct Random(pub u64);
+
+impl Random {
+    /// By a seed, which may be any number.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+
+    /// The next number in [-1, 1].
+    #[allow(
+        clippy::should_implement_trait,
+        reason = "it never ends, and is asked for single numbers"
+    )]
+    pub fn next(&mut self) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        let bits = self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11;
+        bits as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    /// Below `n`.
+    pub fn below(&mut self, n: usize) -> usize {
+        (((self.next() + 1.0) * 0.5 * n as f64) as usize).min(n - 1)
+    }
+
+    /// `size` times random numbers at the first `n` of `length` places, zero at the others.
+    pub fn vector(&mut self, n: usize, length: usize, size: f64) -> Vec<f64> {
+        (0..length).map(|i| if i < n { size * self.next() } else { 0.0 }).collect()
+    }
+
+    fn point(&mut self, dimension: Dimension, size: f64) -> [f64; 3] {
+        let [x, y, z] = [self.next(), self.next(), self.next()].map(|x| x * size);
+        [x, y, if dimension == Dimension::Spatial { z } else { 0.0 }]
+    }
+
+    /// A direction that is not almost zero.
+    fn axis(&mut self, dimension: Dimension) -> [f64; 3] {
+        loop {
+            let a = self.point(dimension, 1.0);
+            if a.iter().map(|x| x * x).sum::<f64>() > 0.2 {
+                return a;
+            }
+        }
+    }
+
+    /// Principal moments that some body has.
+    fn inertia(&mut self, dimension: Dimension, mass: f64) -> Inertia<f64> {
+        let [a, b, c] = [0; 3].map(|_| 0.02 + 0.01 * self.next()).map(|x| x * mass);
+        match dimension {
+            Dimension::Planar => Inertia::Planar(a + b),
+            Dimension::Spatial => Inertia::Spatial([b + c, c + a, a + b, 0.0, 0.0, 0.0]),
+        }
+    }
+}
+
+fn plus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+const PLANAR_KINDS: [JointKind; 4] =
+    [JointKind::Revolute, JointKind::Revolute, JointKind::Revolute, JointKind::Prismatic];
+const SPATIAL_KINDS: [JointKind; 6] = [
+    JointKind::Revolute,
+    JointKind::Revolute,
+    JointKind::Spherical,
+    JointKind::Universal,
+    JointKind::Prismatic,
+    JointKind::Cylindrical,
+];
+
+/// A tree of `n` bodies hanging from the ground, bodies anywhere before them, in gravity, turning at the start.
+#[must_use]
+pub fn tree(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
+    let mut random = Random::new(seed);
+    let (mut bodies, mut joints, mut initials) = (Vec::<Body<f64>>::new(), Vec::new(), Vec::new());
+    for i in 0..n {
+        let (parent, place) = if i == 0 || random.below(5) == 0 {
+            (BodyRef::Ground, random.point(dimension, 0.5))
+        } else {
+            let parent = random.below(i);
+            let from = bodies[parent].center;
+            (BodyRef::Body(parent), plus(from, random.point(dimension, 0.4)))
+        };
+        let mass = 1.5 + random.next();
+        let inertia = random.inertia(dimension, mass);
+        let center = plus(place, random.point(dimension, 0.4));
+        bodies.push(Body { name: format!("body-{i}"), mass, center, inertia });
+        let kind = match dimension {
+            Dimension::Planar => PLANAR_KINDS[random.below(PLANAR_KINDS.len())],
+            Dimension::Spatial => SPATIAL_KINDS[random.below(SPATIAL_KINDS.len())],
+        };
+        joints.push(joint(&mut random, dimension, kind, [parent, BodyRef::Body(i)], place));
+        let n_rates = kind.n_coordinates(dimension);
+        let rate = Some((0..n_rates).map(|_| random.next()).collect());
+        initials.push(Initial { target: InitialTarget::Joint { joint: i, value: None, rate } });
+    }
+    let scene = empty(&format!("random tree {seed}"), dimension, Some([0.0, -9.81, 0.0]));
+    Scene { duration: 0.2, bodies, joints, initials, ..scene }
+}
+
+/// A spatial tree whose axes are those of the frame, so that many bodies share directions.
+#[must_use]
+pub fn aligned_tree(seed: u64, n: usize) -> Scene<f64> {
+    let mut scene = tree(seed, Dimension::Spatial, n);
+    let mut random = Random::new(seed ^ 0xAAAA);
+    let unit = |i: usize| Some([0, 1, 2].map(|k| f64::from(u8::from(k == i))));
+    for joint in &mut scene.joints {
+        let i = random.below(3);
+        if joint.axes[0].is_some() {
+            joint.axes[0] = unit(i);
+        }
+        if joint.axes[1].is_some() {
+            joint.axes[1] = unit((i + 1) % 3);
+        }
+    }
+    scene
+}
+
+fn joint(
+    random: &mut Random,
+    dimension: Dimension,
+    kind: JointKind,
+    bodies: [BodyRef; 2],
+    place: [f64; 3],
+) -> Joint<f64> {
+    let first = random.axis(dimension);
+    let axes = match (kind, dimension) {
+        (JointKind::Revolute, Dimension::Planar) | (JointKind::Spherical, _) => [None; 2],
+        (JointKind::Universal, _) => {
+            // Across the first.
+            let d = random.axis(dimension);
+            let second = [
+                first[1] * d[2] - first[2] * d[1],
+                first[2] * d[0] - first[0] * d[2],
+                first[0] * d[1] - first[1] * d[0],
+            ];
+            [Some(first), Some(second)]
+        }
+        _ => [Some(first), None],
+    };
+    Joint {
+        name: format!("{}-{:?}", kind.name(), bodies[1]),
+        kind,
+        bodies,
+        points: [place; 2],
+        axes,
+    }
+}
+
+/// A tree with `n_loops` more joints between bodies that are no neighbours: links, and balls (pins in the plane). What they
+/// hold is not told at the start: only one joint of the tree moves, the rest follows.
+#[must_use]
+pub fn loops(seed: u64, dimension: Dimension, n: usize, n_loops: usize) -> Scene<f64> {
+    let mut scene = tree(seed, dimension, n);
+    let mut random = Random::new(seed ^ 0x5555);
+    scene.name = format!("random loops {seed}");
+    scene.initials.clear();
+    let mut added = 0;
+    while added < n_loops {
+        let [a, b] = [random.below(n), random.below(n)];
+        let are_neighbours = scene.joints.iter().any(|j| {
+            let pair = [BodyRef::Body(a), BodyRef::Body(b)];
+            j.bodies == pair || j.bodies == [pair[1], pair[0]]
+        });
+        if a == b || are_neighbours {
+            continue;
+        }
+        let bodies = [BodyRef::Body(a), BodyRef::Body(b)];
+        let [p, q] = [a, b].map(|i| {
+            let center = scene.bodies[i].center;
+            plus(center, random.point(dimension, 0.2))
+        });
+        let gap = plus(p, q.map(|x| -x)).iter().map(|x| x * x).sum::<f64>();
+        if gap < 0.01 {
+            continue;
+        }
+        let middle = [0, 1, 2].map(|i| 0.5 * (p[i] + q[i]));
+        let name = format!("closure-{added}");
+        let is_link = added % 2 == 0;
+        let (kind, points) = match (is_link, dimension) {
+            (true, _) => (JointKind::Distance, [p, q]),
+            (false, Dimension::Planar) => (JointKind::Revolute, [middle; 2]),
+            (false, Dimension::Spatial) => (JointKind::Spherical, [middle; 2]),
+        };
+        scene.joints.push(Joint { name, kind, bodies, points, axes: [None; 2] });
+        added += 1;
+    }
+    scene.effects.push(spring(&mut random, &scene, dimension));
+    scene
+}
+
+/// A tree with loops that have more freedoms than they lose, no two of them through the same joint: for places and axes drawn at
+/// random its equations are independent, by counting alone.
+#[must_use]
+pub fn sound(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
+    let mut scene = tree(seed, dimension, n);
+    let mut random = Random::new(seed ^ 0x3333);
+    scene.name = format!("sound mechanism {seed}");
+    scene.initials.clear();
+    let mut is_used = vec![false; n];
+    for _ in 0..6 * n {
+        let [a, b] = [random.below(n), random.below(n)];
+        let way = between(&scene, a, b);
+        if a == b || way.len() < 2 || way.iter().any(|&j| is_used[j]) {
+            continue;
+        }
+        let kinds = || way.iter().map(|&j| scene.joints[j].kind);
+        let freedoms: usize = kinds().map(|kind| kind.n_coordinates(dimension)).sum();
+        let turns: usize = kinds().map(|kind| kind.n_rotations(dimension)).sum();
+        let closures: &[(JointKind, usize, usize)] = match dimension {
+            Dimension::Planar => &[(JointKind::Revolute, 2, 2), (JointKind::Distance, 1, 1)],
+            Dimension::Spatial => &[
+                (JointKind::Revolute, 5, 4),
+                (JointKind::Spherical, 3, 2),
+                (JointKind::Distance, 1, 1),
+            ],
+        };
+        let fits = closures.iter().find(|(_, rows, least)| freedoms > *rows && turns >= *least);
+        let Some(&(kind, ..)) = fits else { continue };
+        let [p, q] = [a, b].map(|i| plus(scene.bodies[i].center, random.point(dimension, 0.3)));
+        let bodies = [BodyRef::Body(a), BodyRef::Body(b)];
+        let mut closure = joint(&mut random, dimension, kind, bodies, p);
+        if kind == JointKind::Distance {
+            (closure.points, closure.axes) = ([p, q], [None; 2]);
+        }
+        closure.name = format!("closure-{}", scene.joints.len() - n);
+        way.iter().for_each(|&j| is_used[j] = true);
+        scene.joints.push(closure);
+    }
+    scene
+}
+
+/// Joints of a tree on the way between two bodies; joint i holds body i.
+fn between(scene: &Scene<f64>, a: usize, b: usize) -> Vec<usize> {
+    let up = |mut body: usize| {
+        let mut way = vec![body];
+        while let BodyRef::Body(parent) = scene.joints[body].bodies[0] {
+            way.push(parent);
+            body = parent;
+        }
+        way
+    };
+    let [mut first, mut second] = [up(a), up(b)];
+    while first.last().is_some() && first.last() == second.last() {
+        first.pop();
+        second.pop();
+    }
+    first.extend(second);
+    first
+}
+
+/// A spring with a damper from the ground to the last body.
+fn spring(random: &mut Random, scene: &Scene<f64>, dimension: Dimension) -> Effect<f64> {
+    let last = scene.bodies.len() - 1;
+    let at = plus(scene.bodies[last].center, random.point(dimension, 0.1));
+    let bodies = [BodyRef::Ground, BodyRef::Body(last)];
+    let anchor = plus(at, [0.3, 0.8, 0.0]);
+    let kind = EffectKind::SpringDamper {
+        bodies,
+        points: [anchor, at],
+        stiffness: 50.0,
+        damping: 1.0,
+        free_length: 0.5,
+    };
+    Effect { name: "spring".to_owned(), enabled: true, kind }
+}

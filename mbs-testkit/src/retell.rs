@@ -1,0 +1,188 @@
+//! The same mechanism told in another way: turned as a whole, its bodies in another order.
+
+use mbs_core::scene::{
+    BodyRef, Dimension, EffectKind, Inertia, InitialTarget, Joint, JointKind, Scene,
+};
+
+type Vector = [f64; 3];
+
+fn add(a: Vector, b: Vector) -> Vector {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+fn cross(a: Vector, b: Vector) -> Vector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// A rotation about a skew axis (a unit quaternion drawn once).
+#[must_use]
+pub fn turned(x: Vector) -> Vector {
+    let (w, u) = (0.3, [-0.5, 0.7, 0.412_310_562_561_766_1]);
+    let uv = cross(u, x);
+    let twice = |x: Vector, s: f64| x.map(|x| 2.0 * s * x);
+    add(x, add(twice(uv, w), twice(cross(u, uv), 1.0)))
+}
+
+/// A rotation about z.
+#[must_use]
+pub fn turned_in_plane(x: Vector) -> Vector {
+    let (c, s) = (0.6, 0.8);
+    [c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]]
+}
+
+/// The spatial scene with everything in it turned.
+#[must_use]
+pub fn turn_scene(scene: &Scene<f64>) -> Scene<f64> {
+    turn_by(scene, turned)
+}
+
+/// The scene with everything in it turned by `turn`, a rotation. Outputs are left out.
+///
+/// # Panics
+///
+/// With an effect that has no such form.
+#[must_use]
+pub fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Scene<f64> {
+    let mut s = scene.clone();
+    s.gravity = s.gravity.map(turn);
+    for body in &mut s.bodies {
+        body.center = turn(body.center);
+        match &mut body.inertia {
+            Inertia::Spatial([xx, yy, zz, xy, yz, zx]) => {
+                let rows = [[*xx, *xy, *zx], [*xy, *yy, *yz], [*zx, *yz, *zz]];
+                // R I R^T: turn the columns, then the rows.
+                let columns = rows.map(turn);
+                let [a, b, c] =
+                    [0, 1, 2].map(|i| turn([columns[0][i], columns[1][i], columns[2][i]]));
+                (*xx, *yy, *zz, *xy, *yz, *zx) = (a[0], b[1], c[2], a[1], b[2], c[0]);
+            }
+            Inertia::Rod { from, to } => (*from, *to) = (turn(*from), turn(*to)),
+            Inertia::Planar(_) => {}
+        }
+    }
+    for joint in &mut s.joints {
+        joint.points = joint.points.map(turn);
+        joint.axes = joint.axes.map(|a| a.map(turn));
+    }
+    for initial in &mut s.initials {
+        turn_initial(&mut initial.target, &scene.joints, turn);
+    }
+    for effect in &mut s.effects {
+        match &mut effect.kind {
+            EffectKind::SpringDamper { points, .. }
+            | EffectKind::Actuator { points, .. }
+            | EffectKind::Bumper { points, .. } => *points = points.map(turn),
+            EffectKind::Polynomial { points, direction, .. } => {
+                *points = points.map(turn);
+                *direction = direction.map(turn);
+            }
+            EffectKind::TorsionSpring { .. }
+            | EffectKind::JointTorque { .. }
+            | EffectKind::Limit { .. }
+            | EffectKind::Friction { .. } => {}
+            EffectKind::AeroDrag { at, .. } => *at = turn(*at),
+            EffectKind::SpeedHold { direction, .. } => *direction = turn(*direction),
+            EffectKind::Force { .. } | EffectKind::BodyTorque { .. } => {
+                panic!("the turning of courses is not told here")
+            }
+            EffectKind::Own { .. } => panic!("what a law of a user's own turns with is not told"),
+            EffectKind::Bushing { .. } | EffectKind::Tire { .. } => {
+                panic!("the axes of a bushing and of a road are global: they do not turn")
+            }
+        }
+    }
+    s.outputs.clear();
+    s
+}
+
+fn turn_initial(
+    target: &mut InitialTarget<f64>,
+    joints: &[Joint<f64>],
+    turn: impl Fn(Vector) -> Vector,
+) {
+    match target {
+        InitialTarget::Joint { joint, value, rate } => {
+            // Rotation vectors and angular velocities are told in global axes.
+            if joints[*joint].kind == JointKind::Spherical {
+                for x in [value, rate].into_iter().flatten() {
+                    *x = turn([x[0], x[1], x[2]]).to_vec();
+                }
+            }
+        }
+        InitialTarget::Body { velocity, angular_velocity, .. } => {
+            *velocity = velocity.map(|(at, v)| (turn(at), turn(v)));
+            *angular_velocity = angular_velocity.as_ref().copied().map(turn);
+        }
+    }
+}
+
+/// The scene with its bodies in reverse order. Outputs are left out.
+///
+/// # Panics
+///
+/// With an effect that has no such form.
+#[must_use]
+pub fn reorder(scene: &Scene<f64>) -> Scene<f64> {
+    let n = scene.bodies.len();
+    let mut s = scene.clone();
+    s.bodies.reverse();
+    let renumber = |b: &mut BodyRef| {
+        if let BodyRef::Body(i) = b {
+            *i = n - 1 - *i;
+        }
+    };
+    s.joints.iter_mut().flat_map(|j| &mut j.bodies).for_each(renumber);
+    for initial in &mut s.initials {
+        if let InitialTarget::Body { body, .. } = &mut initial.target {
+            *body = n - 1 - *body;
+        }
+    }
+    for effect in &mut s.effects {
+        match &mut effect.kind {
+            EffectKind::SpringDamper { bodies, .. }
+            | EffectKind::Actuator { bodies, .. }
+            | EffectKind::Polynomial { bodies, .. }
+            | EffectKind::Bumper { bodies, .. }
+            | EffectKind::Bushing { bodies, .. } => bodies.iter_mut().for_each(renumber),
+            EffectKind::Force { body, .. }
+            | EffectKind::BodyTorque { body, .. }
+            | EffectKind::AeroDrag { body, .. }
+            | EffectKind::SpeedHold { body, .. }
+            | EffectKind::Tire { body, .. } => *body = n - 1 - *body,
+            EffectKind::TorsionSpring { .. }
+            | EffectKind::JointTorque { .. }
+            | EffectKind::Limit { .. }
+            | EffectKind::Friction { .. } => {}
+            EffectKind::Own { .. } => panic!("laws of a user's own are not renumbered here"),
+        }
+    }
+    s.outputs.clear();
+    s
+}
+
+/// A place in the axes of scenes/spatial-four-bar.toml: two in its plane, then its normal.
+#[must_use]
+pub fn in_plane(x: Vector) -> Vector {
+    let axes = [[0.424, 0.768, 0.48], [-0.768, 0.024, 0.64], [0.48, -0.64, 0.6]];
+    axes.map(|axis: Vector| axis[0] * x[0] + axis[1] * x[1] + axis[2] * x[2])
+}
+
+/// That scene as a planar one.
+#[must_use]
+pub fn flattened(scene: &Scene<f64>) -> Scene<f64> {
+    let mut flat = turn_by(scene, in_plane);
+    flat.dimension = Dimension::Planar;
+    for body in &mut flat.bodies {
+        if let Inertia::Spatial([_, _, zz, ..]) = body.inertia {
+            body.inertia = Inertia::Planar(zz);
+        }
+    }
+    for joint in &mut flat.joints {
+        joint.axes = [None; 2];
+        joint.points.iter_mut().for_each(|point| point[2] = 0.0);
+    }
+    for body in &mut flat.bodies {
+        body.center[2] = 0.0;
+    }
+    flat
+}
