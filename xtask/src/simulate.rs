@@ -6,7 +6,7 @@ use std::io::{IsTerminal, stderr};
 use std::process::ExitCode;
 
 /// Builds `mbs` in release mode (with cargo's progress when standard error is a terminal), then runs `mbs run ARGS`.
-pub(crate) fn simulate(args: &[OsString]) -> ExitCode {
+pub fn simulate(args: &[OsString]) -> ExitCode {
     let mut build = process::cargo();
     build.args(["build", "--release", "--package", "mbs", "--bin", "mbs"]);
     if !stderr().is_terminal() {
@@ -19,11 +19,5 @@ pub(crate) fn simulate(args: &[OsString]) -> ExitCode {
 
     let mut mbs = process::cargo();
     mbs.args(["run", "--quiet", "--release", "--package", "mbs", "--bin", "mbs", "--", "run"]);
-    match mbs.args(args).status() {
-        Ok(status) => process::exit_code(status),
-        Err(e) => {
-            eprintln!("cargo xtask simulate: cannot start `{}`: {e}", process::line(&mbs));
-            ExitCode::FAILURE
-        }
-    }
+    process::hand_over(mbs.args(args))
 }

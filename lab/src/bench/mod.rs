@@ -10,7 +10,6 @@ mod threads;
 
 use crate::lab::section::Section;
 use crate::page;
-use crate::process;
 use child::Program;
 pub(crate) use child::finish;
 pub(crate) use machine::Machine;
@@ -19,6 +18,7 @@ use measured::{Measured, Scene};
 use std::process::ExitCode;
 use std::time::Duration;
 pub(crate) use threads::Threads;
+use xtask::process;
 
 /// The scenes that are measured: those of this repository, then larger and larger ones made by rule.
 const SCENES: [&str; 14] = [

@@ -1,10 +1,10 @@
 //! `cargo xtask choice`: does `mbs run --error` choose well? Every scene, at three errors, against the best of all methods.
 
-use crate::process;
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
+use xtask::process;
 
 /// A choice is good within so many times the best.
 const GOOD: f64 = 1.3;

@@ -3,13 +3,13 @@
 pub(crate) mod columns;
 pub(crate) mod outcome;
 
-use crate::process;
 use outcome::Outcome;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
+use xtask::process;
 
 /// How often a run that may take too long is looked at.
 const PAUSE: Duration = Duration::from_millis(2);
