@@ -90,6 +90,12 @@ impl Arguments {
         })
     }
 
+    /// Precisions that will be needed; none where the arguments are refused.
+    pub(crate) fn precisions(&self) -> Vec<Precision> {
+        let has_table = self.table().is_ok_and(|table| table.is_some());
+        self.request().map_or(Vec::new(), |request| request.needed_precisions(has_table))
+    }
+
     /// The reference table: the one given, or the one beside the scene; its name and text.
     fn table(&self) -> Result<Option<(String, String)>, String> {
         let name = self.scene.with_extension("csv");

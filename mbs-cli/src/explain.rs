@@ -38,7 +38,7 @@ pub(crate) struct Arguments {
     json: bool,
     /// f32, f64; left out: f64.
     #[arg(long, value_name = "P")]
-    precision: Option<String>,
+    pub(crate) precision: Option<String>,
     /// Integrator; left out, the scene's, else trapezoidal.
     #[arg(long, value_name = "I")]
     integrator: Option<String>,

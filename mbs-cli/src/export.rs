@@ -20,7 +20,7 @@ pub(crate) struct Arguments {
     binary: Option<PathBuf>,
     /// f32, f64; left out: f64.
     #[arg(long, value_name = "P")]
-    precision: Option<String>,
+    pub(crate) precision: Option<String>,
     /// JSON of `mbs explain`: its effects may be dropped when time runs out, the least missed first.
     #[arg(long, value_name = "JSON")]
     ladder: Option<PathBuf>,

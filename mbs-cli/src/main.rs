@@ -17,6 +17,7 @@ mod table;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Parser, Subcommand};
+use mbs::{Precision, PrecisionError};
 use std::process::ExitCode;
 
 /// Dynamics of multibody systems: a scene file in; motion, energies and plots out.
@@ -32,7 +33,7 @@ const ABOUT: &str =
 const STATUS: &str = "\
 Example: mbs run scenes/double-pendulum.toml --out out
 Exit status: 0 completed, 1 scene or usage refused, 2 the run stopped early or some of a sweep did (their data are
-kept), there is no equilibrium, or the doctor found a fault.";
+kept), there is no equilibrium, or the doctor found a fault, 3 this build lacks the precision.";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -59,6 +60,11 @@ enum Command {
 /// Commands other than `run` compute in numbers of the hardware.
 const NO_PAIRS: &str = "error: precision `dd` is for `mbs run`\nhint: leave --precision out";
 
+/// Set by a caller that builds what is missing: then a precision that this build lacks is no message, only an exit status.
+const BUILDER: &str = "MBS_BUILDER";
+/// Exit status of a build that lacks the precision asked for.
+const UNBUILT: u8 = 3;
+
 /// Exit status of a refusal.
 pub(crate) const REFUSED: u8 = 1;
 /// Exit status of a run that stopped.
@@ -76,6 +82,12 @@ fn main() -> ExitCode {
             return ExitCode::from(if error.use_stderr() { REFUSED } else { 0 });
         }
     };
+    if let Some(precision) = cli.command.precisions().into_iter().find(|p| !p.is_built()) {
+        if std::env::var_os(BUILDER).is_none() {
+            eprintln!("{}", PrecisionError::NotBuilt(precision).render());
+        }
+        return ExitCode::from(UNBUILT);
+    }
     match cli.command {
         Command::Run(arguments) => run::main(&arguments),
         Command::Compare(arguments) => compare::main(&arguments),
@@ -86,6 +98,21 @@ fn main() -> ExitCode {
         Command::Modes(arguments) => analysis::modes(&arguments),
         Command::Generate(arguments) => generate::main(&arguments),
         Command::Sweep(arguments) => sweep::main(&arguments),
+    }
+}
+
+impl Command {
+    /// Precisions that it will need, as far as the arguments say; a name that is none is refused later.
+    fn precisions(&self) -> Vec<Precision> {
+        let name = match self {
+            Self::Run(arguments) => arguments.precision.as_deref(),
+            Self::Explain(arguments) => arguments.precision.as_deref(),
+            Self::Export(arguments) => arguments.precision.as_deref(),
+            Self::Sweep(arguments) => arguments.precision.as_deref(),
+            Self::Compare(arguments) => return arguments.precisions(),
+            _ => None,
+        };
+        Precision::ALL.into_iter().filter(|p| Some(p.name()) == name).collect()
     }
 }
 

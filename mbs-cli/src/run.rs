@@ -72,7 +72,7 @@ pub(crate) struct Arguments {
     json: bool,
     /// f32, f64, dd (pairs of doubles: 32 digits, for reference runs); left out: f64.
     #[arg(long, value_name = "P")]
-    precision: Option<String>,
+    pub(crate) precision: Option<String>,
     /// trapezoidal, newmark, generalised-alpha, hht; in recursive also rk4, rk54, rk853 (order 8), gbs (extrapolation, for reference runs), radau5 (implicit, for stiff effects); else trapezoidal.
     #[arg(long, value_name = "I")]
     integrator: Option<String>,

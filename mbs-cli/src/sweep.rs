@@ -41,7 +41,7 @@ pub(crate) struct Arguments {
     integrator: Option<String>,
     /// f32, f64; left out: f64.
     #[arg(long, value_name = "P")]
-    precision: Option<String>,
+    pub(crate) precision: Option<String>,
     /// Step [s].
     #[arg(long, value_name = "H", allow_negative_numbers = true)]
     step: Option<f64>,

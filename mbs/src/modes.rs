@@ -182,7 +182,11 @@ pub(crate) fn eigenvalues(linear: &Linear<f64>) -> Result<Vec<Mode>, StopError> 
     let mut modes: Vec<Mode> = values
         .iter()
         .filter(|[_, imaginary]| *imaginary >= 0.0)
-        .map(|&[real, imaginary]| Mode { real, imaginary, is_neutral: real.hypot(imaginary) <= zero })
+        .map(|&[real, imaginary]| Mode {
+            real,
+            imaginary,
+            is_neutral: real.hypot(imaginary) <= zero,
+        })
         .collect();
     modes.sort_by(|a, b| {
         let size = |m: &Mode| m.undamped_frequency();

@@ -76,6 +76,17 @@ impl<'a> ReadScene<'a> {
             Self::DoubleDouble(scene) => in_space(&**scene, work),
         }
     }
+
+    /// Does the work in a number of the hardware; nothing in pairs of doubles, for which such work is not compiled.
+    pub(crate) fn work_in_hardware<W: Work>(&self, work: W) -> Option<W::Done> {
+        match self {
+            Self::F64(scene) => Some(in_space(&**scene, work)),
+            #[cfg(feature = "f32")]
+            Self::F32(scene) => Some(in_space(&**scene, work)),
+            #[cfg(feature = "dd")]
+            Self::DoubleDouble(_) => None,
+        }
+    }
 }
 
 /// Does the work in the dimension of the scene.

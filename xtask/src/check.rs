@@ -32,7 +32,7 @@ const FEATURES: [(&str, &[&str]); 3] = [
 ];
 
 /// Runs every check and prints the summary; exit status 1 at the first failure.
-pub(crate) fn test(quick: bool) -> ExitCode {
+pub fn test(quick: bool) -> ExitCode {
     let mut summary = Summary::default();
     let result = checks(quick, &mut summary);
     eprintln!();

@@ -18,7 +18,7 @@ const CHECK: (u64, u64, u64) = (120, 1, 12_000);
 
 /// Tries texts for so long [s], from a seed on; exit status 1 where one is kept.
 #[allow(clippy::print_stdout, reason = "the counts are what is asked for")]
-pub(crate) fn fuzz(seconds: u64, seed: u64) -> ExitCode {
+pub fn fuzz(seconds: u64, seed: u64) -> ExitCode {
     match run(seconds, seed, u64::MAX) {
         Ok(told) => {
             println!("{told}");

@@ -1,38 +1,9 @@
-//! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates, regenerate tables.
-
-mod bench;
-mod chart;
-mod check;
-mod choice;
-mod counts;
-mod debian;
-mod digits;
-mod documentation;
-mod fuzz;
-mod gauntlet;
-mod grades;
-mod lab;
-mod mbs;
-mod nostd;
-mod page;
-mod pages;
-mod peers;
-mod pick;
-mod process;
-mod profile;
-mod races;
-mod report;
-mod simulate;
-mod steps;
-mod summary;
-mod tables;
-mod tell;
-#[cfg(test)]
-mod tidy;
+//! The command `cargo xtask`: its jobs, and those of `lab`, which is compiled when one of them is asked for.
 
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
+use xtask::{check, counts, fuzz, nostd, pick, process, races, simulate};
 
 /// The command line.
 #[derive(Debug, Parser)]
@@ -53,6 +24,13 @@ enum Job {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "ARGS")]
         args: Vec<OsString>,
     },
+    /// Build `mbs` in release mode and call it: `mbs ARGS`
+    #[command(disable_help_flag = true)]
+    Mbs {
+        /// A command of `mbs` with its arguments (`--help` lists them)
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "ARGS")]
+        args: Vec<OsString>,
+    },
     /// Format, lints, tests, documentation, features, examples, no_std; stops at the first failure
     #[command(alias = "ci")]
     Test {
@@ -63,68 +41,29 @@ enum Job {
     /// Build and run each package of examples/pick: mbs-core and one formulation alone
     Pick,
     /// Run the report's tables anew, beside its numbers: text, CSV and HTML under target/tables
-    Tables {
-        /// Leave out runs of more than a million steps
-        #[arg(long)]
-        quick: bool,
-        /// These tables alone: T1, T1p, T2, T3, T4, T5.1, T5.2, T5.3, T8, T6, T7, G1, G2, F6, D1
-        #[arg(value_name = "TABLE")]
-        names: Vec<String>,
-    },
+    #[command(disable_help_flag = true)]
+    Tables(Words),
     /// Make every page of measurements with an index under target/report; a run that stops unlisted fails the job
-    Report {
-        /// Leave out the longest runs and the largest scenes
-        #[arg(long)]
-        quick: bool,
-    },
+    #[command(disable_help_flag = true)]
+    Report(Words),
     /// Run the experiments on variable steps beside fixed ones: text, CSV and HTML under target/steps
-    Steps {
-        /// Leave out the finest runs
-        #[arg(long)]
-        quick: bool,
-        /// These experiments alone: F6, P2, A, B, C, H
-        #[arg(value_name = "EXPERIMENT")]
-        names: Vec<String>,
-    },
+    #[command(disable_help_flag = true)]
+    Steps(Words),
     /// Time a step in each formulation and scene, its phases, faer beside it, and what threads gain: text, JSON and HTML under target/bench
-    Bench {
-        /// Sizes of teams: 4, 1-4, or 1-N for as many as there are cores; left out: 1-N
-        #[arg(long, value_name = "1-N")]
-        threads: Option<bench::Threads>,
-        /// Leave out the largest scenes, and measure for less time
-        #[arg(long)]
-        quick: bool,
-        /// These scenes alone: those of scenes/, or chain-N, tree-N, n-four-bar-N, net-N, convoy-N
-        #[arg(value_name = "SCENE")]
-        scenes: Vec<String>,
-    },
+    #[command(disable_help_flag = true)]
+    Bench(Words),
     /// Hold the choice by measurement against the best of all methods, on every scene at three errors: text and CSV under target/choice
-    Choice {
-        /// These scenes alone
-        #[arg(value_name = "SCENE")]
-        scenes: Vec<String>,
-    },
+    #[command(disable_help_flag = true)]
+    Choice(Words),
     /// Time mbs and its peers on the same problems by turns (docs/PEERS.md): text, Markdown, CSV and HTML under target/peers
-    Peers {
-        /// Fewer and shorter turns
-        #[arg(long)]
-        quick: bool,
-        /// These problems alone: chain, tree, inverse, four-bars, step, double-pendulum, n-four-bars, andrews
-        #[arg(value_name = "PROBLEM")]
-        names: Vec<String>,
-    },
+    #[command(disable_help_flag = true)]
+    Peers(Words),
     /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
     Counts,
     /// Profile steps of index-3: instructions by parts under callgrind, operations, and the time beside the floor that the machine's own
     /// rates give (docs/PROFILES.md): text and Markdown under target/profile
-    Profile {
-        /// Put the tables into docs/PROFILES.md too
-        #[arg(long)]
-        keep: bool,
-        /// These scenes alone; left out: the five whose steps take most time
-        #[arg(value_name = "SCENE")]
-        scenes: Vec<String>,
-    },
+    #[command(disable_help_flag = true)]
+    Profile(Words),
     /// Try scenes that nobody meant, mutated text and random mechanisms; what breaks or hangs is kept under target/fuzz
     Fuzz {
         /// For so long [s]
@@ -135,38 +74,46 @@ enum Job {
         seed: u64,
     },
     /// Run hard cases by seed in every formulation; the table of methods by properties under target/gauntlet
-    Gauntlet {
-        /// So many cases
-        #[arg(long, value_name = "N", default_value_t = 10_000)]
-        count: usize,
-        /// In so many processes; left out: one for each core
-        #[arg(long, value_name = "N")]
-        jobs: Option<usize>,
-    },
+    #[command(disable_help_flag = true)]
+    Gauntlet(Words),
     /// Watch the lock-free team of mbs-parallel for data races, under ThreadSanitizer
     Races,
     /// Cross-compile the no_std crates for a microcontroller, without and with alloc
     CheckNostd,
 }
 
+/// What follows the name of a job of `lab`, which reads it.
+#[derive(Debug, clap::Args)]
+struct Words {
+    /// Names and options of the job (`cargo xtask JOB --help` lists them)
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "ARGS")]
+    args: Vec<OsString>,
+}
+
 fn main() -> ExitCode {
     match Cli::parse().job {
         Job::Simulate { args } => simulate::simulate(&args),
+        Job::Mbs { args } => simulate::mbs(&args),
         Job::Test { quick } => check::test(quick),
         Job::Pick => pick::pick(),
-        Job::Tables { quick, names } => tables::tables(quick, &names),
-        Job::Report { quick } => report::report(quick),
-        Job::Steps { quick, names } => steps::steps(quick, &names),
-        Job::Bench { threads, quick, scenes } => {
-            bench::bench(&bench::Asked { threads, quick, scenes })
-        }
-        Job::Choice { scenes } => choice::choice(&scenes),
-        Job::Peers { quick, names } => peers::peers(quick, &names),
+        Job::Tables(words) => lab("tables", &words),
+        Job::Report(words) => lab("report", &words),
+        Job::Steps(words) => lab("steps", &words),
+        Job::Bench(words) => lab("bench", &words),
+        Job::Choice(words) => lab("choice", &words),
+        Job::Peers(words) => lab("peers", &words),
         Job::Counts => counts::counts(),
-        Job::Profile { keep, scenes } => profile::profile(keep, &scenes),
+        Job::Profile(words) => lab("profile", &words),
         Job::Fuzz { seconds, seed } => fuzz::fuzz(seconds, seed),
-        Job::Gauntlet { count, jobs } => gauntlet::gauntlet(count, jobs),
+        Job::Gauntlet(words) => lab("gauntlet", &words),
         Job::Races => races::races(),
         Job::CheckNostd => nostd::check_nostd(),
     }
+}
+
+/// Builds `lab` where that is needed, and has it do a job; its exit status.
+fn lab(job: &str, words: &Words) -> ExitCode {
+    let mut lab = process::cargo();
+    lab.args(["run", "--quiet", "--release", "--package", "lab", "--", job]).args(&words.args);
+    process::hand_over(&mut lab)
 }

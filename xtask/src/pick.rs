@@ -13,7 +13,7 @@ const LEAN: [&str; 3] = ["mbs-core", "mbs-recursive", "mbs-nostd"];
 const HEAVY: [&str; 2] = ["faer", "rayon"];
 
 /// Runs the check by itself.
-pub(crate) fn pick() -> ExitCode {
+pub fn pick() -> ExitCode {
     match check() {
         Ok(Outcome::Passed(remark)) => {
             eprintln!("pick holds: {remark}");

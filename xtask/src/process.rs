@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, ExitStatus, Stdio};
 
 /// The root of the repository.
-pub(crate) fn root() -> PathBuf {
+pub fn root() -> PathBuf {
     // Cargo sets the variable for `cargo run` and `cargo test`; the built-in value serves a binary run by hand.
     let manifest = env::var_os("CARGO_MANIFEST_DIR")
         .map_or_else(|| PathBuf::from(env!("CARGO_MANIFEST_DIR")), PathBuf::from);
@@ -16,12 +16,12 @@ pub(crate) fn root() -> PathBuf {
 }
 
 /// The folder for build products: `CARGO_TARGET_DIR`, or `target` at the root.
-pub(crate) fn target_dir() -> PathBuf {
+pub fn target_dir() -> PathBuf {
     root().join(env::var_os("CARGO_TARGET_DIR").unwrap_or_else(|| "target".into()))
 }
 
 /// The cargo that runs this job.
-pub(crate) fn cargo() -> Command {
+pub fn cargo() -> Command {
     Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
@@ -31,7 +31,7 @@ pub(crate) fn cargo() -> Command {
 /// # Errors
 ///
 /// What cargo came to.
-pub(crate) fn tested(program: &str, test: &str) -> Result<PathBuf, String> {
+pub fn tested(program: &str, test: &str) -> Result<PathBuf, String> {
     let mut build = cargo();
     build.args(["test", "--workspace", "--no-run", "--quiet", "--test", test]);
     run(build.current_dir(root()))?;
@@ -43,7 +43,7 @@ pub(crate) fn tested(program: &str, test: &str) -> Result<PathBuf, String> {
 /// # Errors
 ///
 /// One line that names the command and how it ended.
-pub(crate) fn run(command: &mut Command) -> Result<(), String> {
+pub fn run(command: &mut Command) -> Result<(), String> {
     let status = command
         .stdin(Stdio::null())
         .status()
@@ -52,14 +52,14 @@ pub(crate) fn run(command: &mut Command) -> Result<(), String> {
 }
 
 /// The standard output of a command, trimmed; `None` when it cannot start or fails.
-pub(crate) fn output(command: &mut Command) -> Option<String> {
+pub fn output(command: &mut Command) -> Option<String> {
     let out = command.stdin(Stdio::null()).stderr(Stdio::null()).output().ok()?;
     let text = String::from_utf8(out.stdout).ok()?;
     out.status.success().then(|| text.trim().to_owned())
 }
 
 /// The commit of the repository, and whether anything was changed since; `None` where it is not asked for with git.
-pub(crate) fn commit() -> Option<String> {
+pub fn commit() -> Option<String> {
     let git = |arguments: &[&str]| output(Command::new("git").args(arguments).current_dir(root()));
     let hash = git(&["rev-parse", "--short", "HEAD"])?;
     let is_changed = git(&["status", "--porcelain"]).is_none_or(|text| !text.is_empty());
@@ -67,15 +67,26 @@ pub(crate) fn commit() -> Option<String> {
 }
 
 /// A command as one would type it.
-pub(crate) fn line(command: &Command) -> String {
+pub fn line(command: &Command) -> String {
     let program = Path::new(command.get_program());
     let name = program.file_name().unwrap_or(program.as_os_str());
     let words = std::iter::once(name).chain(command.get_args());
     words.map(OsStr::to_string_lossy).collect::<Vec<_>>().join(" ")
 }
 
+/// Runs a command in our place, with our input and output; its exit status.
+pub fn hand_over(command: &mut Command) -> ExitCode {
+    match command.status() {
+        Ok(status) => exit_code(status),
+        Err(e) => {
+            eprintln!("cannot start `{}`: {e}", line(command));
+            ExitCode::FAILURE
+        }
+    }
+}
+
 /// A child's exit status as our own: its code, or 128 + signal as shells have it.
-pub(crate) fn exit_code(status: ExitStatus) -> ExitCode {
+pub fn exit_code(status: ExitStatus) -> ExitCode {
     #[cfg(unix)]
     let signal = std::os::unix::process::ExitStatusExt::signal(&status);
     #[cfg(not(unix))]
@@ -84,8 +95,8 @@ pub(crate) fn exit_code(status: ExitStatus) -> ExitCode {
     ExitCode::from(u8::try_from(code).unwrap_or(1))
 }
 
-/// Tells on a terminal what is being done, over what was told before.
-pub(crate) fn progress(what: &str) {
+/// Shows on a terminal what is being done, in place of what it showed before.
+pub fn progress(what: &str) {
     if stderr().is_terminal() {
         eprint!("\r\x1b[K{what}");
     }
@@ -97,7 +108,7 @@ pub(crate) fn progress(what: &str) {
 ///
 /// The path, and why it cannot be written.
 #[allow(clippy::print_stdout, reason = "the file is what is asked for")]
-pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
     let folder = path.parent().unwrap_or(path);
     let written = fs::create_dir_all(folder).and_then(|()| fs::write(path, bytes));
     written.map_err(|e| format!("cannot write {}: {e}", path.display()))?;

@@ -1,29 +1,39 @@
-//! `cargo xtask simulate`: `mbs run` in release mode, with its exit status.
+//! `cargo xtask mbs` and `cargo xtask simulate`: the command `mbs` in release mode, with its exit status.
 
+use crate::command::{Build, built};
 use crate::process;
-use std::ffi::OsString;
-use std::io::{IsTerminal, stderr};
-use std::process::ExitCode;
+use std::ffi::{OsStr, OsString};
+use std::process::{Command, ExitCode};
 
-/// Builds `mbs` in release mode (with cargo's progress when standard error is a terminal), then runs `mbs run ARGS`.
-pub(crate) fn simulate(args: &[OsString]) -> ExitCode {
-    let mut build = process::cargo();
-    build.args(["build", "--release", "--package", "mbs-cli", "--bin", "mbs"]);
-    if !stderr().is_terminal() {
-        build.arg("--quiet");
-    }
-    if let Err(why) = process::run(&mut build) {
-        eprintln!("cargo xtask simulate: {why}");
-        return ExitCode::FAILURE;
-    }
+/// Set for the command: it need not say which precision is missing.
+const BUILDER: &str = "MBS_BUILDER";
+/// Its exit status when this build lacks a precision.
+const UNBUILT: i32 = 3;
 
-    let mut mbs = process::cargo();
-    mbs.args(["run", "--quiet", "--release", "--package", "mbs-cli", "--bin", "mbs", "--", "run"]);
-    match mbs.args(args).status() {
+/// Builds `mbs` with `f64` alone and runs it. Where the arguments ask for more digits or fewer, it is built with all precisions, and run
+/// again: it has done nothing before.
+pub fn mbs(args: &[OsString]) -> ExitCode {
+    let run = |build| {
+        let mut mbs = Command::new(built(build)?);
+        mbs.args(args).env(BUILDER, "1");
+        let status = mbs.status();
+        status.map_err(|e| format!("cannot start `{}`: {e}", process::line(&mbs)))
+    };
+    let status = match run(Build::Double) {
+        Ok(status) if status.code() == Some(UNBUILT) => run(Build::All),
+        other => other,
+    };
+    match status {
         Ok(status) => process::exit_code(status),
-        Err(e) => {
-            eprintln!("cargo xtask simulate: cannot start `{}`: {e}", process::line(&mbs));
+        Err(why) => {
+            eprintln!("cargo xtask: {why}");
             ExitCode::FAILURE
         }
     }
+}
+
+/// `mbs run ARGS`.
+pub fn simulate(args: &[OsString]) -> ExitCode {
+    let run = [OsStr::new("run").to_owned()];
+    mbs(&[&run, args].concat())
 }

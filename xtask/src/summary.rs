@@ -4,7 +4,7 @@ use std::time::Instant;
 
 /// How a check ended, when it did not fail.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) enum Outcome {
+pub enum Outcome {
     /// It ran and holds; a remark, possibly empty.
     Passed(String),
     /// It could not run on this machine.
@@ -13,16 +13,16 @@ pub(crate) enum Outcome {
 
 /// A check that did not run.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct LeftOut {
+pub struct LeftOut {
     /// What is missing.
-    pub(crate) why: String,
+    pub why: String,
     /// What to do to have it run.
-    pub(crate) remedy: String,
+    pub remedy: String,
 }
 
 /// The checks so far.
 #[derive(Debug, Default)]
-pub(crate) struct Summary {
+pub struct Summary {
     lines: Vec<String>,
     left_out: Vec<(String, LeftOut)>,
 }
@@ -33,7 +33,7 @@ impl Summary {
     /// # Errors
     ///
     /// What the check says, with its name.
-    pub(crate) fn check(
+    pub fn check(
         &mut self,
         name: &str,
         job: impl FnOnce() -> Result<Outcome, String>,
@@ -58,12 +58,12 @@ impl Summary {
     }
 
     /// Notes a check that was not asked for.
-    pub(crate) fn skip(&mut self, name: &str, why: &str) {
+    pub fn skip(&mut self, name: &str, why: &str) {
         self.lines.push(format!("  skipped   {name:<14} {why}"));
     }
 
     /// The summary as text: one line a check, then what was left out and how to get it.
-    pub(crate) fn text(&self) -> String {
+    pub fn text(&self) -> String {
         let mut text = String::from("cargo xtask test:\n");
         for line in &self.lines {
             text.push_str(line.trim_end());

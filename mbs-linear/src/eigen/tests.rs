@@ -168,11 +168,11 @@ fn cycles_and_companions_agree_with_faer() {
         };
         checked("root", n, &from_fn(n, far), 1e-13);
         // pairs that hang together by little: the shifts of any two rows are ± 1
-        if n % 2 == 0 {
+        if n.is_multiple_of(2) {
             let pair = |i: usize, j: usize| f64::from(u8::from(i / 2 == j / 2 && i != j));
             for eta in [1e-3, 1e-6, 1e-9] {
                 let hung = |i: usize, j: usize| {
-                    if (i % 2 == 0 && i >= 2 && j + 1 == i) || (i == 0 && j + 1 == n) {
+                    if (i.is_multiple_of(2) && i >= 2 && j + 1 == i) || (i == 0 && j + 1 == n) {
                         eta
                     } else {
                         0.0

@@ -15,15 +15,16 @@ mod timing;
 
 pub use report::report;
 
-use crate::choice::{Precision, StepRule};
+use crate::choice::StepRule;
+use crate::precision::{PrecisionError, ReadScene, Work};
 use crate::run;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::{Names, StopError};
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
-use mbs_core::scene::{Dimension, Scene};
-use mbs_scene::{Document, EffectEntry, Explanation, ReadError};
+use mbs_core::scene::Scene;
+use mbs_scene::{Document, EffectEntry, Explanation};
 
 /// How much may be measured. A scene that asks for more is measured over a shorter part of its run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,27 +49,30 @@ impl Default for Effort {
 /// The same as [`explain`]; programs that take what precision comes compile it only once.
 ///
 /// # Errors
-/// [`ReadError`] where the text is no scene in that precision, though it is one in `f64`.
+/// [`PrecisionError`] where the scene cannot be had in that precision.
 pub fn explain_document(
-    (document, scene): (&Document, &Scene<f64>),
+    document: (&Document, &Scene<f64>),
     settings: &Settings,
     effort: &Effort,
-) -> Result<Option<Explanation>, ReadError> {
-    Ok(match settings.precision {
-        Precision::F64 => Some(in_space(scene, settings, effort)),
-        Precision::F32 => Some(in_space(&document.scene::<f32>()?, settings, effort)),
-        Precision::DoubleDouble => None,
-    })
+) -> Result<Option<Explanation>, PrecisionError> {
+    let read = ReadScene::new(document, settings.precision)?;
+    Ok(read.work_in_hardware(Explained { settings, effort }))
 }
 
-fn in_space<T: Real>(scene: &Scene<T>, settings: &Settings, effort: &Effort) -> Explanation
-where
-    Plane<2>: InSpace<T>,
-    Plane<3>: InSpace<T>,
-{
-    match scene.dimension {
-        Dimension::Planar => explain::<T, 2>(scene, settings, effort),
-        Dimension::Spatial => explain::<T, 3>(scene, settings, effort),
+/// An explanation.
+struct Explained<'a> {
+    settings: &'a Settings,
+    effort: &'a Effort,
+}
+
+impl Work for Explained<'_> {
+    type Done = Explanation;
+
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Explanation
+    where
+        Plane<D>: InSpace<T>,
+    {
+        explain::<T, D>(scene, self.settings, self.effort)
     }
 }
 

@@ -72,7 +72,10 @@ fn run_in(document: &Document, overrides: &Overrides, member: usize, values: Vec
         Err(error) => return refused(values, "settings-refused", &error),
     };
     let outcome = match ReadScene::new((document, &scene), settings.precision) {
-        Ok(read) => read.work(Last(&settings)),
+        Ok(read) => match read.work_in_hardware(Last(&settings)) {
+            Some(outcome) => outcome,
+            None => return refused(values, "settings-refused", &"sweeps run in f64 or f32"),
+        },
         Err(error) => return refused(values, "scene-refused", &error),
     };
     let summary = &outcome.summary;

@@ -20,7 +20,7 @@ pub(crate) struct Case {
 }
 
 /// What to do where there is no valgrind, which a job needs; `None`: there is one.
-pub(crate) fn missing(job: &str) -> Option<LeftOut> {
+pub fn missing(job: &str) -> Option<LeftOut> {
     output(Command::new("valgrind").arg("--version")).is_none().then(|| LeftOut {
         why: "`valgrind` is not installed".to_owned(),
         remedy: format!(

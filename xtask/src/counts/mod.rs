@@ -6,13 +6,13 @@
 
 mod callgrind;
 mod claims;
+mod json;
 
 use crate::process::{self, cargo};
 use crate::summary::Outcome;
 use callgrind::Case;
-pub(crate) use callgrind::missing as missing_valgrind;
+pub use callgrind::missing as missing_valgrind;
 use claims::{Claim, Runs};
-use serde_json::{Value, json};
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
@@ -56,7 +56,7 @@ const WITH_FEATURE: [(&str, &str); 10] = [
 
 /// Runs the job by itself: prints the table, writes it as JSON.
 #[allow(clippy::print_stdout, reason = "the table is what this job is for")]
-pub(crate) fn counts() -> ExitCode {
+pub fn counts() -> ExitCode {
     if let Some(left_out) = callgrind::missing("counts") {
         eprintln!("counts did not run: {}\n{}", left_out.why, left_out.remedy);
         return ExitCode::FAILURE;
@@ -70,7 +70,7 @@ pub(crate) fn counts() -> ExitCode {
     };
     print!("{}\n{}", table(&runs), verdict(&claims));
     let path = folder().join("counts.json");
-    match fs::write(&path, format!("{:#}\n", as_json(&runs, &claims))) {
+    match fs::write(&path, json::text(&runs, &claims)) {
         Ok(()) => eprintln!("\nwritten to {}", path.display()),
         Err(e) => eprintln!("\n{}: {e}", path.display()),
     }
@@ -106,8 +106,8 @@ fn count() -> Result<(Runs, Vec<Claim>), String> {
         callgrind::run(&build(profile, features)?, &args, &folder().join("callgrind"))
     };
     let runs = Runs {
-        full: counted("release", &[], STEPS, &EFFECTS)?,
-        lean: counted("release", &["--no-default-features"], STEPS, &["spring-damper"])?,
+        full: counted("dist", &[], STEPS, &EFFECTS)?,
+        lean: counted("dist", &["--no-default-features"], STEPS, &["spring-damper"])?,
         refusals: refusals()?,
         plain: counted("plain", &[], 1, &["bumper", "guide"])?,
     };
@@ -117,7 +117,7 @@ fn count() -> Result<(Runs, Vec<Claim>), String> {
 
 /// What the build without effects says to each: effect, message.
 fn refusals() -> Result<Vec<(&'static str, String)>, String> {
-    let program = build("release", &["--no-default-features"])?;
+    let program = build("dist", &["--no-default-features"])?;
     let refusal = |effect| {
         let out = Command::new(&program).args(["1", effect]).output();
         let out = out.map_err(|e| format!("cannot start {}: {e}", program.display()))?;
@@ -185,20 +185,4 @@ fn verdict(claims: &[Claim]) -> String {
         }
     }
     text
-}
-
-/// Everything counted.
-fn as_json(runs: &Runs, claims: &[Claim]) -> Value {
-    let cases = |cases: &[Case]| -> Vec<Value> {
-        let value = |case: &Case| json!({ "case": case.name, "instructions": case.instructions });
-        cases.iter().map(value).collect()
-    };
-    let claims: Vec<_> = claims
-        .iter()
-        .map(|claim| {
-            json!({ "claim": claim.text, "holds": claim.holds(), "comparisons": claim.n_checked,
-                    "against": claim.against })
-        })
-        .collect();
-    json!({ "steps": STEPS, "all_effects": cases(&runs.full), "no_effects": cases(&runs.lean), "claims": claims })
 }

@@ -135,7 +135,7 @@ impl Case {
 /// Writes a scene as a table of Rust; where.
 pub(super) fn export(scene: &str, precision: &str, models: &Path) -> Result<PathBuf, String> {
     let file = models.join(format!("{scene}-{precision}.rs"));
-    let mut command = Command::new(process::tested("mbs", "all")?);
+    let mut command = Command::new(process::tested("mbs", "command")?);
     command.arg("export").arg(format!("scenes/{scene}.toml")).args([
         "--precision",
         precision,

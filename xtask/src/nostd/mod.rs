@@ -26,7 +26,7 @@ use table::{BUILDS, Build, TARGETS};
 use toolchain::Toolchain;
 
 /// Runs the check by itself: here a toolchain that is missing is a failure.
-pub(crate) fn check_nostd() -> ExitCode {
+pub fn check_nostd() -> ExitCode {
     match check() {
         Ok(Outcome::Passed(remark)) => {
             eprintln!("check-nostd holds: {remark}");

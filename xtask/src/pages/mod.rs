@@ -42,7 +42,7 @@ pub(crate) fn check() -> Result<Outcome, String> {
 }
 
 /// The browser, installed where that is possible.
-pub(crate) fn browser() -> Option<&'static str> {
+pub fn browser() -> Option<&'static str> {
     let found =
         || BROWSERS.into_iter().find(|name| output(Command::new(name).arg("--version")).is_some());
     found().or_else(|| {
@@ -57,7 +57,7 @@ pub(crate) fn browser() -> Option<&'static str> {
 /// # Errors
 ///
 /// What is wrong with it.
-pub(crate) fn look(browser: &str, page: &Path) -> Result<(), String> {
+pub fn look(browser: &str, page: &Path) -> Result<(), String> {
     let place = |e: std::io::Error| format!("{}: {e}", page.display());
     let html = fs::read_to_string(page).map_err(place)?;
     let probed = page.with_extension("probed.html");
@@ -122,7 +122,7 @@ fn absolute(path: &Path) -> PathBuf {
 
 /// Runs `mbs` as the tests have it, without its words.
 fn mbs(arguments: &[&str]) -> Result<(), String> {
-    let mut command = Command::new(process::tested("mbs", "all")?);
+    let mut command = Command::new(process::tested("mbs", "command")?);
     command.args(arguments).current_dir(process::root()).stdout(Stdio::null());
     process::run(&mut command)
 }

@@ -16,8 +16,8 @@ use crate::lab::section::{Section, item};
 use crate::lab::{self, Lab};
 use crate::mbs::Mbs;
 use crate::page;
-use crate::process;
 use std::process::ExitCode;
+use xtask::process;
 
 /// An experiment.
 type Experiment = fn(&Lab<'_>) -> Result<Section, String>;

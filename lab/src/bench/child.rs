@@ -1,12 +1,12 @@
 //! The measuring program: started, waited for, ended where it takes too long.
 
-use crate::process;
 use serde_json::Value;
 use std::io::Read;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
+use xtask::process;
 
 /// How often a run is looked at.
 const PAUSE: Duration = Duration::from_millis(5);

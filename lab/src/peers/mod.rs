@@ -7,11 +7,11 @@ mod programs;
 mod tables;
 
 use crate::page;
-use crate::process;
 use lanes::Measured;
 use problems::{Kind, Problem, wanted};
 use programs::{Asked, Who};
 use std::process::ExitCode;
+use xtask::process;
 
 /// How long and how often is measured.
 #[derive(Debug, Clone, Copy)]

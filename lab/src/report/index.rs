@@ -2,10 +2,10 @@
 
 use crate::bench;
 use crate::page::{escape, words};
-use crate::process;
 use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
+use xtask::process;
 
 /// A page: its file, what it shows, and the command that makes it alone.
 #[derive(Debug, Clone, Copy)]

@@ -13,10 +13,11 @@ use crate::lab::section::Section;
 use crate::lab::{self, Lab};
 use crate::mbs::outcome::Outcome;
 use crate::mbs::{Mbs, columns, scene};
-use crate::{bench, digits, grades, page, process, steps};
+use crate::{bench, digits, grades, page, steps};
 use rows::Row;
 use std::path::Path;
 use std::process::ExitCode;
+use xtask::process;
 
 /// Runs with more steps than this are left out by `--quick`.
 const QUICK: f64 = 1e6;

@@ -1,10 +1,11 @@
 //! `cargo xtask choice`: does `mbs run --error` choose well? Every scene, at three errors, against the best of all methods.
 
-use crate::process;
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
+use xtask::command::{Build, built};
+use xtask::process;
 
 /// A choice is good within so many times the best.
 const GOOD: f64 = 1.3;
@@ -58,10 +59,7 @@ pub(crate) fn choice(names: &[String]) -> ExitCode {
 
 #[allow(clippy::print_stdout, reason = "the table is what is asked for")]
 fn run(names: &[String]) -> Result<bool, String> {
-    let mut build = process::cargo();
-    build.args(["build", "--quiet", "--release", "--package", "mbs-cli", "--bin", "mbs"]);
-    process::run(build.current_dir(process::root()))?;
-    let mbs = process::target_dir().join("release").join("mbs");
+    let mbs = built(Build::Dist)?;
     let (mut rows, mut failed, mut text) = (Vec::new(), Vec::new(), String::new());
     let folder = process::target_dir().join("choice");
     for scene in scenes(names)? {

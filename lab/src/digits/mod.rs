@@ -9,10 +9,10 @@ mod told;
 use crate::bench;
 use crate::lab::Lab;
 use crate::lab::section::Section;
-use crate::process;
 use outcome::Run;
 use std::collections::BTreeSet;
 use std::time::Duration;
+use xtask::process;
 
 /// A run that takes longer is ended.
 const LIMIT: Duration = Duration::from_secs(300);

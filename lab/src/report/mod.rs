@@ -6,11 +6,12 @@ mod index;
 
 use crate::chart::picture::picture;
 use crate::mbs::{self, Mbs};
-use crate::{bench, pages, process, steps, tables};
+use crate::{bench, steps, tables};
 use index::{Entry, Index};
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
+use xtask::{pages, process};
 
 /// Makes all pages under `target/report`; exit status 1 where something cannot be run, or does not come to what is listed.
 pub(crate) fn report(quick: bool) -> ExitCode {

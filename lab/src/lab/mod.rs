@@ -8,12 +8,12 @@ pub(crate) mod section;
 
 use crate::mbs::outcome::{Figures, Outcome};
 use crate::mbs::{self, Mbs};
-use crate::process;
 use case::Case;
 use record::Record;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+use xtask::process;
 
 /// A run that takes longer is ended.
 const LIMIT: Duration = Duration::from_secs(300);

@@ -1,10 +1,10 @@
 //! The programs under bench/peers: where they are, what they are asked, what they say.
 
 use crate::bench::finish;
-use crate::process::{self, output};
 use std::path::PathBuf;
 use std::process::Command;
 use std::time::Duration;
+use xtask::process::{self, output};
 
 /// A program of ours or of a peer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

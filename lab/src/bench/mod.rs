@@ -10,7 +10,6 @@ mod threads;
 
 use crate::lab::section::Section;
 use crate::page;
-use crate::process;
 use child::Program;
 pub(crate) use child::finish;
 pub(crate) use machine::Machine;
@@ -19,6 +18,7 @@ use measured::{Measured, Scene};
 use std::process::ExitCode;
 use std::time::Duration;
 pub(crate) use threads::Threads;
+use xtask::process;
 
 /// The scenes that are measured: those of this repository, then larger and larger ones made by rule.
 const SCENES: [&str; 14] = [
@@ -129,10 +129,10 @@ fn measure(asked: &Asked) -> Result<Measured, String> {
 /// What cargo says.
 pub(crate) fn built(threads: &Threads, quick: bool) -> Result<Program, String> {
     let mut build = process::cargo();
-    build.args(["build", "--quiet", "--release", "--package", "bench"]);
+    build.args(["build", "--quiet", "--profile", "dist", "--package", "bench"]);
     process::run(build.current_dir(process::root()))?;
     Ok(Program {
-        path: process::target_dir().join("release").join("bench"),
+        path: process::target_dir().join("dist").join("bench"),
         threads: threads.listed(),
         seconds: if quick { "0.5" } else { "2" },
     })

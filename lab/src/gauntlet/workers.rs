@@ -1,12 +1,12 @@
 //! Processes that run cases, each watched: one that is about a run for too long is ended, and another goes on after it.
 
-use crate::process;
 use serde_json::{Value, json};
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
+use xtask::process;
 
 /// How the cases of one worker came out, by their lines.
 pub(super) type Lines = Vec<Value>;
@@ -95,7 +95,7 @@ mod tests {
     #[test]
     fn a_case_that_hangs_or_dies_is_told_and_the_others_are_run() {
         use std::os::unix::fs::PermissionsExt;
-        let program = std::env::temp_dir().join(format!("xtask-gauntlet-{}", std::process::id()));
+        let program = std::env::temp_dir().join(format!("lab-gauntlet-{}", std::process::id()));
         std::fs::write(&program, SCRIPT).unwrap();
         std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
         let share = Share { count: 5, first: 0, stride: 1, limit: Duration::from_millis(500) };

@@ -6,12 +6,12 @@ mod workers;
 
 use crate::lab::section::Section;
 use crate::page::page;
-use crate::process::{self, write};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 use tally::{METHODS, Tallies};
 use workers::Share;
+use xtask::process::{self, write};
 
 /// A single run may last so long.
 const LIMIT: Duration = Duration::from_secs(120);

@@ -1,8 +1,8 @@
 //! What no run can tell: lines of code of a formulation, and whether it searches a graph; both counted in its sources.
 
-use crate::process;
 use std::fs;
 use std::path::Path;
+use xtask::process;
 
 /// What was counted in the sources of a crate.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -9,8 +9,6 @@ mod parts;
 mod table;
 
 use crate::bench::{Machine, finish};
-use crate::counts::missing_valgrind;
-use crate::process::{self, cargo, line, output};
 use parts::{Part, Shares};
 use serde_json::Value;
 use std::fs;
@@ -18,6 +16,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 use std::time::Duration;
+use xtask::counts::missing_valgrind;
+use xtask::process::{self, cargo, line, output};
 
 /// The five scenes of `scenes/` whose steps in index-3 take most time; the vehicle's steering ramps take as long as the last one, which
 /// has no effects.

@@ -1,20 +1,21 @@
-//! The release build of `mbs`: built once, run on scenes, its results read back.
+//! The published build of `mbs`: built once, run on scenes, its results read back.
 
 pub(crate) mod columns;
 pub(crate) mod outcome;
 
-use crate::process;
 use outcome::Outcome;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
+use xtask::command::{Build, built};
+use xtask::process;
 
 /// How often a run that may take too long is looked at.
 const PAUSE: Duration = Duration::from_millis(2);
 
-/// The command `mbs`, built in release mode.
+/// The command `mbs`, built as it is published.
 #[derive(Debug)]
 pub(crate) struct Mbs {
     path: PathBuf,
@@ -27,10 +28,7 @@ impl Mbs {
     ///
     /// What cargo came to.
     pub(crate) fn build() -> Result<Self, String> {
-        let mut build = process::cargo();
-        build.args(["build", "--quiet", "--release", "--package", "mbs-cli", "--bin", "mbs"]);
-        process::run(build.current_dir(process::root()))?;
-        Ok(Self { path: process::target_dir().join("release").join("mbs") })
+        Ok(Self { path: built(Build::Dist)? })
     }
 
     /// Runs a scene; with a folder, the run's files are left there; after `limit` it is ended.

@@ -1,0 +1,7 @@
+//! The command `lab`: the jobs of the library.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    lab::main()
+}

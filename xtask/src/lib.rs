@@ -1,0 +1,17 @@
+//! Jobs of this repository: run a scene, run every check, cross-compile the `no_std` crates; and what the jobs of `lab` share with them.
+
+pub mod check;
+pub mod command;
+pub mod counts;
+mod debian;
+mod documentation;
+pub mod fuzz;
+pub mod nostd;
+pub mod pages;
+pub mod pick;
+pub mod process;
+pub mod races;
+pub mod simulate;
+pub mod summary;
+#[cfg(test)]
+mod tidy;
