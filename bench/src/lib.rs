@@ -11,11 +11,9 @@
 
 mod augmented;
 mod clocked;
-#[path = "../../mbs-nostd/tests/all/support/counted.rs"]
 mod counted;
 mod digits;
 mod faer_beside;
-#[path = "../../mbs-sparse/benches/factor/faer_rival.rs"]
 mod faer_rival;
 mod forks;
 mod lane;

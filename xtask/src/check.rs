@@ -4,6 +4,7 @@ use crate::counts;
 use crate::documentation;
 use crate::fuzz;
 use crate::nostd;
+use crate::package;
 use crate::pages;
 use crate::pick;
 use crate::process::{self, cargo, run};
@@ -11,7 +12,7 @@ use crate::summary::{LeftOut, Outcome, Summary};
 use std::process::{Command, ExitCode};
 
 /// Crates with features, and the sets of them that must build on the host.
-const FEATURES: [(&str, &[&str]); 3] = [
+const FEATURES: [(&str, &[&str]); 5] = [
     // Of the effects: laws with tables, laws that share a file, laws of both kinds, and all without scenes.
     (
         "mbs-core",
@@ -29,12 +30,28 @@ const FEATURES: [(&str, &[&str]); 3] = [
     ),
     ("mbs-recursive", &["", "alloc", "alloc,tire", "alloc,effects"]),
     ("mbs-nostd", &["", "tire", "polynomial,speed-hold", "effects", "export", "export,effects"]),
+    ("mbs", &["", "f32"]),
+    ("mbs-cli", &[""]),
 ];
 
+/// What is left out of the checks, and what is added to them.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Scope {
+    /// Without lints, documentation, fuzz, pages and counts.
+    pub is_quick: bool,
+    /// A check that lacks a tool fails.
+    pub is_strict: bool,
+    /// The jobs too that take hours.
+    pub is_long: bool,
+}
+
 /// Runs every check and prints the summary; exit status 1 at the first failure.
-pub fn test(quick: bool) -> ExitCode {
-    let mut summary = Summary::default();
-    let result = checks(quick, &mut summary);
+pub fn test(scope: Scope) -> ExitCode {
+    let mut summary = Summary::new(scope.is_strict);
+    let mut result = checks(scope.is_quick, &mut summary);
+    if scope.is_long {
+        result = result.and_then(|()| long(&mut summary));
+    }
     eprintln!();
     eprint!("{}", summary.text());
     match result {
@@ -49,38 +66,72 @@ pub fn test(quick: bool) -> ExitCode {
     }
 }
 
-/// The checks in order.
-fn checks(quick: bool, summary: &mut Summary) -> Result<(), String> {
-    summary.check("format", || component("fmt", "rustfmt", &["fmt", "--all", "--check"]))?;
-    if quick {
-        summary.skip("lints", "--quick");
-    } else {
-        let args =
-            ["clippy", "--workspace", "--all-targets", "--quiet", "--", "--deny", "warnings"];
-        summary.check("lints", || component("clippy", "clippy", &args))?;
+/// The checks in order; those that a quick list leaves out.
+const CHECKS: [(&str, Check, IfQuick); 10] = [
+    ("format", format, IfQuick::Runs),
+    ("lints", lints, IfQuick::Skipped),
+    ("tests", tests, IfQuick::Runs),
+    ("fuzz", fuzz::check, IfQuick::Skipped),
+    ("pages", pages::check, IfQuick::Skipped),
+    ("documentation", documentation::check, IfQuick::Skipped),
+    ("features", features, IfQuick::Runs),
+    ("pick", pick::check, IfQuick::Runs),
+    ("check-nostd", nostd::check, IfQuick::Runs),
+    ("counts", counts::check, IfQuick::Skipped),
+];
+
+type Check = fn() -> Result<Outcome, String>;
+
+/// Whether a quick list has a check.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum IfQuick {
+    Runs,
+    Skipped,
+}
+
+fn checks(is_quick: bool, summary: &mut Summary) -> Result<(), String> {
+    for (name, check, if_quick) in CHECKS {
+        if is_quick && if_quick == IfQuick::Skipped {
+            summary.skip(name, "--quick");
+        } else {
+            summary.check(name, check)?;
+        }
     }
-    summary.check("tests", || passed(cargo().args(["test", "--workspace"])))?;
-    if quick {
-        summary.skip("fuzz", "--quick");
-        summary.skip("pages", "--quick");
-    } else {
-        summary.check("fuzz", fuzz::check)?;
-        summary.check("pages", pages::check)?;
+    Ok(())
+}
+
+/// Seconds of the long fuzzing.
+const LONG_FUZZ: &str = "1800";
+
+/// The long list: what each of the checks above has in a short form, whole, and what takes other programs.
+fn long(summary: &mut Summary) -> Result<(), String> {
+    let jobs: [(&str, &[&str]); 6] = [
+        ("races", &["races"]),
+        ("gauntlet, whole", &["gauntlet"]),
+        ("fuzz, long", &["fuzz", "--seconds", LONG_FUZZ]),
+        ("choice", &["choice"]),
+        ("report", &["report"]),
+        ("peers", &["peers", "--quick"]),
+    ];
+    summary.check("packages", package::check)?;
+    for (name, words) in jobs {
+        let job = || passed(Command::new(std::env::current_exe().unwrap_or_default()).args(words));
+        summary.check(name, job)?;
     }
-    if quick {
-        summary.skip("documentation", "--quick");
-    } else {
-        summary.check("documentation", documentation::check)?;
-    }
-    summary.check("features", || features(quick))?;
-    summary.check("pick", pick::check)?;
-    summary.check("check-nostd", nostd::check)?;
-    if quick {
-        summary.skip("counts", "--quick");
-        Ok(())
-    } else {
-        summary.check("counts", counts::check)
-    }
+    Ok(())
+}
+
+fn format() -> Result<Outcome, String> {
+    component("fmt", "rustfmt", &["fmt", "--all", "--check"])
+}
+
+fn lints() -> Result<Outcome, String> {
+    let args = ["clippy", "--workspace", "--all-targets", "--quiet", "--", "--deny", "warnings"];
+    component("clippy", "clippy", &args)
+}
+
+fn tests() -> Result<Outcome, String> {
+    passed(cargo().args(["test", "--workspace"]))
 }
 
 /// Runs a command whose success is all that counts.
@@ -99,9 +150,9 @@ fn component(subcommand: &str, name: &str, args: &[&str]) -> Result<Outcome, Str
     passed(cargo().args(args))
 }
 
-/// Checks crates with each of their feature sets alone: with lints, or the compiler only when quick.
-fn features(quick: bool) -> Result<Outcome, String> {
-    let lints = !quick && process::output(cargo().args(["clippy", "--version"])).is_some();
+/// Checks crates with each of their feature sets alone, with lints where they are installed.
+fn features() -> Result<Outcome, String> {
+    let lints = process::output(cargo().args(["clippy", "--version"])).is_some();
     for (package, sets) in FEATURES {
         for set in sets {
             let mut command = cargo();

@@ -7,6 +7,7 @@ mod debian;
 mod documentation;
 pub mod fuzz;
 pub mod nostd;
+pub mod package;
 pub mod pages;
 pub mod pick;
 pub mod process;

@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
-use xtask::{check, counts, fuzz, nostd, pick, process, races, simulate};
+use xtask::{check, counts, fuzz, nostd, package, pick, process, races, simulate};
 
 /// The command line.
 #[derive(Debug, Parser)]
@@ -31,12 +31,18 @@ enum Job {
         #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "ARGS")]
         args: Vec<OsString>,
     },
-    /// Format, lints, tests, documentation, features, examples, no_std; stops at the first failure
+    /// Every check, stops at the first failure: format, lints, tests, fuzz, pages, documentation, features, pick, check-nostd, counts
     #[command(alias = "ci")]
     Test {
         /// Skip lints and documentation
         #[arg(long)]
         quick: bool,
+        /// Fail where a check cannot run for want of a tool
+        #[arg(long)]
+        strict: bool,
+        /// Then the jobs that take hours: packages, races, the whole gauntlet, long fuzzing, choice, report, peers
+        #[arg(long, conflicts_with = "quick")]
+        long: bool,
     },
     /// Build and run each package of examples/pick: mbs-core and one formulation alone
     Pick,
@@ -76,6 +82,8 @@ enum Job {
     /// Run hard cases by seed in every formulation; the table of methods by properties under target/gauntlet
     #[command(disable_help_flag = true)]
     Gauntlet(Words),
+    /// Package every crate that is published, and build the packages on each other
+    Package,
     /// Watch the lock-free team of mbs-parallel for data races, under ThreadSanitizer
     Races,
     /// Cross-compile the no_std crates for a microcontroller, without and with alloc
@@ -94,7 +102,9 @@ fn main() -> ExitCode {
     match Cli::parse().job {
         Job::Simulate { args } => simulate::simulate(&args),
         Job::Mbs { args } => simulate::mbs(&args),
-        Job::Test { quick } => check::test(quick),
+        Job::Test { quick, strict, long } => {
+            check::test(check::Scope { is_quick: quick, is_strict: strict, is_long: long })
+        }
         Job::Pick => pick::pick(),
         Job::Tables(words) => lab("tables", &words),
         Job::Report(words) => lab("report", &words),
@@ -106,6 +116,7 @@ fn main() -> ExitCode {
         Job::Profile(words) => lab("profile", &words),
         Job::Fuzz { seconds, seed } => fuzz::fuzz(seconds, seed),
         Job::Gauntlet(words) => lab("gauntlet", &words),
+        Job::Package => package::package(),
         Job::Races => races::races(),
         Job::CheckNostd => nostd::check_nostd(),
     }

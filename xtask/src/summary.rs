@@ -1,5 +1,6 @@
 //! What ran, what was left out and how to get it: the last lines of `cargo xtask test`.
 
+use crate::process::children_seconds;
 use std::time::Instant;
 
 /// How a check ended, when it did not fail.
@@ -25,9 +26,16 @@ pub struct LeftOut {
 pub struct Summary {
     lines: Vec<String>,
     left_out: Vec<(String, LeftOut)>,
+    /// A check that cannot run here fails.
+    is_strict: bool,
 }
 
 impl Summary {
+    /// A summary in which a check that cannot run here fails, or is noted.
+    pub fn new(is_strict: bool) -> Self {
+        Self { is_strict, ..Self::default() }
+    }
+
     /// Runs one check and notes how it ended.
     ///
     /// # Errors
@@ -39,7 +47,7 @@ impl Summary {
         job: impl FnOnce() -> Result<Outcome, String>,
     ) -> Result<(), String> {
         eprintln!("== {name}");
-        let start = Instant::now();
+        let (start, cpu) = (Instant::now(), children_seconds());
         let outcome = job().map_err(|why| {
             self.lines.push(format!("  FAILED    {name}"));
             format!("{name} failed: {why}")
@@ -47,7 +55,14 @@ impl Summary {
         let seconds = start.elapsed().as_secs_f64();
         match outcome {
             Outcome::Passed(remark) => {
-                self.lines.push(format!("  ok        {name:<14} {seconds:>7.1} s  {remark}"));
+                let cpu = cpu.zip(children_seconds()).map_or(String::new(), |(before, after)| {
+                    format!(" {:>7.1} s of CPU", after - before)
+                });
+                self.lines.push(format!("  ok        {name:<14} {seconds:>7.1} s{cpu}  {remark}"));
+            }
+            Outcome::LeftOut(LeftOut { why, remedy }) if self.is_strict => {
+                self.lines.push(format!("  FAILED    {name}"));
+                return Err(format!("{name} cannot run here: {why}\n{remedy}"));
             }
             Outcome::LeftOut(left_out) => {
                 self.lines.push(format!("  left out  {name}"));
@@ -89,6 +104,13 @@ mod tests {
         let text = summary.text();
         assert!(text.contains("ok        format"));
         assert!(text.contains("check-nostd was left out: no target\nadd it\n"));
+    }
+
+    #[test]
+    fn what_cannot_run_fails_a_strict_check() {
+        let left_out = LeftOut { why: "no target".into(), remedy: "add it".into() };
+        let failure = Summary::new(true).check("counts", || Ok(Outcome::LeftOut(left_out)));
+        assert_eq!(failure, Err("counts cannot run here: no target\nadd it".into()));
     }
 
     #[test]

@@ -87,3 +87,4 @@ impl<'a, T: Real> Supplies<'a, T> {
         }
     }
 }
+

@@ -1,0 +1,80 @@
+//! `cargo xtask package`: every crate that is published is packaged, and what is in the packages builds.
+
+use crate::process::{self, cargo, output, run};
+use crate::summary::Outcome;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, ExitCode};
+
+/// Runs the check by itself.
+pub fn package() -> ExitCode {
+    match check() {
+        Ok(Outcome::Passed(remark)) => {
+            eprintln!("package holds: {remark}");
+            ExitCode::SUCCESS
+        }
+        Ok(Outcome::LeftOut(left_out)) => {
+            eprintln!("package did not run: {}\n{}", left_out.why, left_out.remedy);
+            ExitCode::FAILURE
+        }
+        Err(why) => {
+            eprintln!("package failed: {why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Packages all, unpacks them, and builds the command from nothing else.
+///
+/// # Errors
+///
+/// What cannot be packaged, unpacked or built.
+pub(crate) fn check() -> Result<Outcome, String> {
+    run(cargo()
+        .args(["package", "--workspace", "--no-verify", "--allow-dirty", "--quiet"])
+        .current_dir(process::root()))?;
+    let packed = process::target_dir().join("package");
+    let unpacked = packed.join("unpacked");
+    let io = |e: std::io::Error| format!("{}: {e}", unpacked.display());
+    if unpacked.exists() {
+        fs::remove_dir_all(&unpacked).map_err(io)?;
+    }
+    fs::create_dir_all(&unpacked).map_err(io)?;
+    let mut names = Vec::new();
+    for entry in fs::read_dir(&packed).map_err(io)?.flatten() {
+        let path = entry.path();
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        if path.extension().is_some_and(|end| end == "crate") {
+            run(Command::new("tar").arg("-xzf").arg(&path).arg("-C").arg(&unpacked))?;
+            names.push(stem);
+        }
+    }
+    names.sort_unstable();
+    build(&unpacked, &names)?;
+    Ok(Outcome::Passed(names.join(", ")))
+}
+
+/// Builds the unpacked command; the unpacked crates stand in for those of the registry.
+fn build(unpacked: &Path, names: &[String]) -> Result<(), String> {
+    let (crates, members): (Vec<_>, Vec<_>) = names
+        .iter()
+        .filter_map(|full| Some((full.rsplit_once('-')?.0, full)))
+        .map(|(name, full)| (format!("{name} = {{ path = \"{full}\" }}\n"), format!("\"{full}\"")))
+        .unzip();
+    let manifest = format!(
+        "[workspace]\nresolver = \"3\"\nmembers = [{}]\n[patch.crates-io]\n{}",
+        members.join(", "),
+        crates.concat()
+    );
+    let path = unpacked.join("Cargo.toml");
+    fs::write(&path, manifest).map_err(|e| format!("{}: {e}", path.display()))?;
+    let mut command = cargo();
+    command.args(["check", "--quiet", "--workspace", "--target-dir"]).arg(unpacked.join("target"));
+    run(command.current_dir(unpacked))?;
+    let help = ["run", "--quiet", "--package", "mbs-cli", "--target-dir"];
+    let mut command = cargo();
+    command.args(help).arg(unpacked.join("target")).args(["--", "--version"]);
+    let version =
+        output(command.current_dir(unpacked)).ok_or("the packaged command does not run")?;
+    version.starts_with("mbs ").then_some(()).ok_or(format!("the packaged command says {version}"))
+}

@@ -1,0 +1,151 @@
+//! Rules for packages, on `cargo metadata`: licences that may be used, sources that are reached, no version twice without a reason, and
+//! what a crate that is published must say.
+
+use super::{read, report};
+use crate::process::{cargo, output, root};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Licences of what is linked or built with; each may be combined with ours.
+const LICENCES: [&str; 9] = [
+    "MIT",
+    "Apache-2.0",
+    "Apache-2.0 WITH LLVM-exception",
+    "BSD-2-Clause",
+    "BSD-3-Clause",
+    "ISC",
+    "Zlib",
+    "Unicode-3.0",
+    "Unlicense",
+];
+
+/// Packages that come in more than one version, and why that is left so.
+const TWICE: [(&str, &str); 4] = [
+    ("equator", "of faer, in benches and tests: it and what it stands on take two"),
+    ("equator-macro", "as equator"),
+    ("syn", "procedural macros of three generations; none is linked"),
+    ("glam", "optional conversions of nalgebra, never built; they are in the lock file alone"),
+];
+
+fn metadata() -> Value {
+    let ask = |more: &[&str]| {
+        let mut command = cargo();
+        command.args(["metadata", "--format-version", "1", "--locked"]).args(more);
+        output(command.current_dir(root()))
+    };
+    let text = ask(&["--offline"]).or_else(|| ask(&[])).expect("cargo metadata answers");
+    serde_json::from_str(&text).expect("cargo metadata is JSON")
+}
+
+fn packages(metadata: &Value) -> &[Value] {
+    metadata["packages"].as_array().expect("packages are a list")
+}
+
+fn text<'a>(package: &'a Value, key: &str) -> &'a str {
+    package[key].as_str().unwrap_or_default()
+}
+
+/// Whether an expression of SPDX allows a choice out of the list: `AND` asks for all, `OR` (formerly `/`) for one; an expression in
+/// parentheses is one of those that `AND` joins.
+fn is_allowed(expression: &str) -> bool {
+    let one_of = |choices: &str| {
+        choices.split(" OR ").any(|all| all.split(" AND ").all(|name| LICENCES.contains(&name)))
+    };
+    let plain = expression.replace('/', " OR ");
+    if !plain.contains('(') {
+        return one_of(&plain);
+    }
+    let parts = plain.split(['(', ')']).filter(|part| !part.is_empty());
+    let joined = |part: &str| part.trim_start_matches(" AND ").trim_end_matches(" AND ").to_owned();
+    parts.map(joined).all(|part| one_of(&part))
+}
+
+#[test]
+fn licences_are_read_as_expressions() {
+    for good in [
+        "MIT OR Apache-2.0",
+        "MIT/Apache-2.0",
+        "(MIT OR Apache-2.0) AND Unicode-3.0",
+        "GPL-3.0 OR MIT",
+    ] {
+        assert!(is_allowed(good), "{good}");
+    }
+    for bad in ["", "GPL-3.0", "MIT AND GPL-3.0", "(MIT OR Apache-2.0) AND GPL-3.0"] {
+        assert!(!is_allowed(bad), "{bad}");
+    }
+}
+
+#[test]
+fn every_dependency_has_a_licence_and_a_source_of_the_lists() {
+    let metadata = metadata();
+    let mut findings = Vec::new();
+    for package in packages(&metadata) {
+        let (name, licence) = (text(package, "name"), text(package, "license"));
+        if !is_allowed(licence) {
+            findings.push(format!("{name}: licence `{licence}`"));
+        }
+        let source = &package["source"];
+        let is_of_registry =
+            |source: &str| source.starts_with("registry+") && source.ends_with("/crates.io-index");
+        if !source.is_null() && !source.as_str().is_some_and(is_of_registry) {
+            findings.push(format!("{name}: source {source}"));
+        }
+    }
+    report("Dependencies have a licence of the list and come from the registry", &findings);
+}
+
+#[test]
+fn no_package_comes_twice_without_a_reason() {
+    let metadata = metadata();
+    let mut versions: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for package in packages(&metadata) {
+        versions.entry(text(package, "name")).or_default().insert(text(package, "version"));
+    }
+    let is_listed = |name: &str| TWICE.iter().any(|(twice, _)| *twice == name);
+    let twice = versions.iter().filter(|(_, versions)| versions.len() > 1);
+    let found: BTreeSet<&str> = twice.map(|(name, _)| *name).collect();
+    let mut findings: Vec<String> = found
+        .iter()
+        .filter(|name| !is_listed(name))
+        .map(|name| format!("{name}: {:?}", versions[name]))
+        .collect();
+    let once = TWICE.iter().filter(|(name, _)| !found.contains(name));
+    findings.extend(once.map(|(name, _)| format!("{name} is in the list and comes once")));
+    report("Packages come in one version, but for a list with reasons", &findings);
+}
+
+#[test]
+fn crates_that_are_published_say_what_they_are() {
+    let metadata = metadata();
+    let members = packages(&metadata).iter().filter(|package| package["source"].is_null());
+    let is_published = |package: &&Value| package["publish"].is_null();
+    let mut findings = Vec::new();
+    for package in members.filter(is_published) {
+        let name = text(package, "name");
+        for key in ["description", "license", "readme", "rust_version"] {
+            if text(package, key).is_empty() {
+                findings.push(format!("{name}: no {key}"));
+            }
+        }
+        for key in ["keywords", "categories"] {
+            if package[key].as_array().is_none_or(Vec::is_empty) {
+                findings.push(format!("{name}: no {key}"));
+            }
+        }
+        for file in ["LICENSE-MIT", "LICENSE-APACHE"] {
+            if read(root().join(name).join(file)) != read(file) {
+                findings.push(format!("{name}: {file} is not that of the repository"));
+            }
+        }
+        let dependencies = package["dependencies"].as_array().into_iter().flatten();
+        for dependency in dependencies.filter(|dependency| dependency["path"].is_string()) {
+            let (is_dev, has_version) =
+                (text(dependency, "kind") == "dev", text(dependency, "req") != "*");
+            if is_dev == has_version {
+                let rule = if is_dev { "no version, as it is for tests" } else { "a version" };
+                findings.push(format!("{name}: {} needs {rule}", text(dependency, "name")));
+            }
+        }
+    }
+    report("Published crates say what they are, and depend on each other by version", &findings);
+}
