@@ -28,7 +28,7 @@ pub(crate) trait Work {
 #[derive(Debug)]
 pub(crate) enum ReadScene<'a> {
     /// Double precision.
-    F64(Cow<'a, Scene<f64>>),
+    F64(Box<Cow<'a, Scene<f64>>>),
     /// Single precision.
     #[cfg(feature = "f32")]
     F32(Box<Scene<f32>>),
@@ -45,7 +45,7 @@ impl<'a> ReadScene<'a> {
     ) -> Result<Self, PrecisionError> {
         let _ = document;
         match precision {
-            Precision::F64 => Ok(Self::F64(Cow::Borrowed(scene))),
+            Precision::F64 => Ok(Self::F64(Box::new(Cow::Borrowed(scene)))),
             #[cfg(feature = "f32")]
             Precision::F32 => Ok(Self::F32(Box::new(document.scene()?))),
             #[cfg(feature = "dd")]
@@ -58,7 +58,7 @@ impl<'a> ReadScene<'a> {
     /// The same for as long as one likes.
     pub(crate) fn into_owned(self) -> ReadScene<'static> {
         match self {
-            Self::F64(scene) => ReadScene::F64(Cow::Owned(scene.into_owned())),
+            Self::F64(scene) => ReadScene::F64(Box::new(Cow::Owned(scene.into_owned()))),
             #[cfg(feature = "f32")]
             Self::F32(scene) => ReadScene::F32(scene),
             #[cfg(feature = "dd")]
@@ -69,7 +69,7 @@ impl<'a> ReadScene<'a> {
     /// Does the work in the scene's precision and dimension.
     pub(crate) fn work<W: Work>(&self, work: W) -> W::Done {
         match self {
-            Self::F64(scene) => in_space(&**scene, work),
+            Self::F64(scene) => in_space(&***scene, work),
             #[cfg(feature = "f32")]
             Self::F32(scene) => in_space(&**scene, work),
             #[cfg(feature = "dd")]
@@ -80,7 +80,7 @@ impl<'a> ReadScene<'a> {
     /// Does the work in a number of the hardware; nothing in pairs of doubles, for which such work is not compiled.
     pub(crate) fn work_in_hardware<W: Work>(&self, work: W) -> Option<W::Done> {
         match self {
-            Self::F64(scene) => Some(in_space(&**scene, work)),
+            Self::F64(scene) => Some(in_space(&***scene, work)),
             #[cfg(feature = "f32")]
             Self::F32(scene) => Some(in_space(&**scene, work)),
             #[cfg(feature = "dd")]
