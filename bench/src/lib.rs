@@ -21,22 +21,15 @@ mod others;
 mod profile;
 mod race;
 mod rates;
+mod request;
 mod scenes;
 mod tally;
 
 use mbs_core::scene::Dimension;
+use request::{Job, Request};
 use scenes::Prepared;
 use serde_json::Value;
 use std::process::ExitCode;
-
-/// What is asked for.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Request {
-    /// Sizes of teams; one is always measured.
-    pub(crate) threads: Vec<usize>,
-    /// Time of one race of steps, about [s].
-    pub(crate) seconds: f64,
-}
 
 /// Does what the command line asks for; its exit status.
 pub fn main() -> ExitCode {
@@ -57,19 +50,18 @@ pub(crate) fn say(line: &Value) {
 }
 
 fn run(words: &[String]) -> Result<(), String> {
-    let (places, request) = parse(words)?;
-    match &places[..] {
-        [word] if word == "forks" => forks::measure(&request),
-        [word, words @ ..] if word == "digits" => digits::measure(words),
-        [word, words @ ..] if word == "profile" => profile::measure(words),
-        [scene, formulations] => {
-            let scene = scenes::read(scene)?;
+    let (job, request) = request::parse(words)?;
+    match job {
+        Job::Forks => forks::measure(&request),
+        Job::Digits(words) => digits::measure(&words),
+        Job::Profile(words) => profile::measure(&words),
+        Job::Scene { scene, formulations } => {
+            let scene = scenes::read(&scene)?;
             match scene.dimension {
-                Dimension::Planar => measure::<2>(scene, formulations, &request),
-                Dimension::Spatial => measure::<3>(scene, formulations, &request),
+                Dimension::Planar => measure::<2>(scene, &formulations, &request),
+                Dimension::Spatial => measure::<3>(scene, &formulations, &request),
             }
         }
-        _ => Err("expected `forks`, `digits`, `profile`, or a scene and formulations".to_owned()),
     }
 }
 
@@ -93,43 +85,4 @@ where
     let prepared = Prepared::<D>::new(scene)?;
     say(&prepared.told());
     own.into_iter().try_for_each(|name| augmented::measure(&prepared, name, request))
-}
-
-/// Places and options.
-fn parse(words: &[String]) -> Result<(Vec<String>, Request), String> {
-    let mut request = Request { threads: vec![1], seconds: 1.0 };
-    let (mut places, mut words) = (Vec::new(), words.iter());
-    while let Some(word) = words.next() {
-        let mut value = || words.next().ok_or_else(|| format!("{word} needs a value"));
-        match word.as_str() {
-            "--threads" => {
-                let numbers = value()?.split(',').map(str::parse);
-                let numbers: Result<Vec<usize>, _> = numbers.collect();
-                request.threads = numbers.map_err(|e| format!("--threads: {e}"))?;
-            }
-            "--seconds" => {
-                request.seconds = value()?.parse().map_err(|e| format!("--seconds: {e}"))?;
-            }
-            _ => places.push(word.clone()),
-        }
-    }
-    request.threads.retain(|&n| n > 0);
-    Ok((places, request))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn arguments_are_places_and_options() {
-        let words = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<_>>();
-        let (places, request) =
-            parse(&words("andrews index-3 --threads 1,2 --seconds 0.5")).unwrap();
-        assert_eq!(places, ["andrews", "index-3"]);
-        assert_eq!(request, Request { threads: vec![1, 2], seconds: 0.5 });
-        assert!(parse(&words("forks --threads")).is_err());
-        assert!(parse(&words("forks --threads x")).is_err());
-        assert!(run(&words("forks a b")).is_err());
-    }
 }

@@ -3,6 +3,7 @@
 use mbs_core::Real;
 use mbs_core::scene::{Dimension, Scene, SolverChoice};
 use mbs_scene::Document;
+use std::sync::LazyLock;
 
 /// Every planar joint kind, guide law and effect, a welded pair and bodies fixed to the ground.
 pub const PLANAR: &str = include_str!("planar-zoo.toml");
@@ -10,25 +11,25 @@ pub const PLANAR: &str = include_str!("planar-zoo.toml");
 pub const SPATIAL: &str = include_str!("spatial-zoo.toml");
 
 /// A mass on a bar.
-pub const SIMPLE: &str = include_str!("../../scenes/simple-pendulum.toml");
+pub static SIMPLE: LazyLock<String> = LazyLock::new(|| text("simple-pendulum"));
 /// Two bars in a row.
-pub const DOUBLE: &str = include_str!("../../scenes/double-pendulum.toml");
+pub static DOUBLE: LazyLock<String> = LazyLock::new(|| text("double-pendulum"));
 /// Three parallel cranks, with singular positions.
-pub const TWO_FOUR_BARS: &str = include_str!("../../scenes/two-four-bars.toml");
+pub static TWO_FOUR_BARS: LazyLock<String> = LazyLock::new(|| text("two-four-bars"));
 /// Eleven parallel cranks.
-pub const N_FOUR_BAR: &str = include_str!("../../scenes/n-four-bar-10.toml");
+pub static N_FOUR_BAR: LazyLock<String> = LazyLock::new(|| text("n-four-bar-10"));
 /// A slider-crank.
-pub const SLIDER: &str = include_str!("../../scenes/slider-crank.toml");
+pub static SLIDER: LazyLock<String> = LazyLock::new(|| text("slider-crank"));
 /// A four-bar whose crank is guided: it has no freedom.
-pub const GUIDED: &str = include_str!("../../scenes/guided-four-bar.toml");
+pub static GUIDED: LazyLock<String> = LazyLock::new(|| text("guided-four-bar"));
 /// Twenty bodies in a row, in space.
-pub const CHAIN: &str = include_str!("../../scenes/spatial-chain-20.toml");
+pub static CHAIN: LazyLock<String> = LazyLock::new(|| text("spatial-chain-20"));
 /// A planar four-bar made of spatial joints: three of its conditions are redundant.
-pub const REDUNDANT: &str = include_str!("../../scenes/spatial-four-bar.toml");
+pub static REDUNDANT: LazyLock<String> = LazyLock::new(|| text("spatial-four-bar"));
 /// A heavy top.
-pub const TOP: &str = include_str!("../../scenes/spinning-top.toml");
+pub static TOP: LazyLock<String> = LazyLock::new(|| text("spinning-top"));
 /// A body that nothing holds.
-pub const FREE: &str = include_str!("../../scenes/free-body.toml");
+pub static FREE: LazyLock<String> = LazyLock::new(|| text("free-body"));
 
 /// The scene of a text.
 ///
@@ -68,8 +69,13 @@ pub fn file(name: &str) -> Scene<f64> {
 /// Where there is none of this name.
 #[must_use]
 pub fn file_in<T: Real>(name: &str) -> Scene<T> {
+    scene_in(&text(name))
+}
+
+/// The text of a scene file of the repository, read when it is asked for: a package holds no file from outside its folder.
+fn text(name: &str) -> String {
     let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    scene_in(&std::fs::read_to_string(path).expect("the scene is in the repository"))
+    std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"))
 }
 
 /// A scene of one second without bodies.

@@ -12,7 +12,8 @@ const STEPS: [f64; 4] = [1e-2, 3e-3, 1e-3, 3e-4];
 
 /// Seven bodies that turn at some ten thousand revolutions a minute; its drive at random.
 pub(super) fn andrews(dice: &mut Dice) -> Case {
-    let scene = include_str!("../../../scenes/andrews.toml");
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/andrews.toml");
+    let scene = std::fs::read_to_string(scene).expect("the scene is in the repository");
     let drive = format!("value = {:?}", dice.between(0.01, 0.06));
     let scene = scene.replace("value = 0.033", &drive);
     let (step, duration) = time(dice, &[1e-4, 3e-5, 1e-5, 3e-6], 0.01);

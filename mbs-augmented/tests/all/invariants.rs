@@ -40,7 +40,7 @@ fn same(a: &[(String, [f64; 3])], b: &[(String, [f64; 3])], tolerance: f64) {
 
 #[test]
 fn a_turned_scene_moves_alike() {
-    for text in [CHAIN, REDUNDANT, TOP] {
+    for text in [&*CHAIN, &REDUNDANT, &TOP] {
         let plain = scene(text);
         let other = turn_scene(&plain);
         let (model, state) = run::<f64, 3>(&plain, 1e-3, 200);
@@ -55,7 +55,7 @@ fn a_turned_scene_moves_alike() {
 
 #[test]
 fn the_order_of_bodies_does_not_matter() {
-    for text in [CHAIN, REDUNDANT] {
+    for text in [&*CHAIN, &REDUNDANT] {
         let plain = scene(text);
         let other = reorder(&plain);
         let (model, state) = run::<f64, 3>(&plain, 1e-3, 200);
@@ -67,7 +67,7 @@ fn the_order_of_bodies_does_not_matter() {
 
 #[test]
 fn a_joint_written_the_other_way_round_moves_alike_with_negated_values() {
-    let plain = scene(REDUNDANT);
+    let plain = scene(&REDUNDANT);
     let mut other = plain.clone();
     for joint in &mut other.joints {
         joint.bodies.swap(0, 1);
@@ -87,12 +87,12 @@ fn a_joint_written_the_other_way_round_moves_alike_with_negated_values() {
 
 #[test]
 fn single_precision_stays_near_double_precision() {
-    let (double, single) = (scene(DOUBLE), scene_in::<f32>(DOUBLE));
+    let (double, single) = (scene(&DOUBLE), scene_in::<f32>(&DOUBLE));
     let (model, state) = run::<f64, 2>(&double, 2e-3, 250);
     let expected = named_centres(&double, &model, &state);
     let (model, state) = run::<f32, 2>(&single, 2e-3, 250);
     same(&named_centres(&single, &model, &state), &expected, SINGLE);
-    let (double, single) = (scene(TOP), scene_in::<f32>(TOP));
+    let (double, single) = (scene(&TOP), scene_in::<f32>(&TOP));
     let (model, state) = run::<f64, 3>(&double, 1e-3, 500);
     let expected = named_centres(&double, &model, &state);
     let (model, state) = run::<f32, 3>(&single, 1e-3, 500);
@@ -139,7 +139,7 @@ fn index1_holds_what_is_at_rest_too() {
 fn two_four_bars_pass_their_singular_positions() {
     // Twice the error of 8.3e-4 J that the trapezoidal rule makes at this step.
     const ENERGY: f64 = 1.7e-3;
-    let scene = scene(TWO_FOUR_BARS);
+    let scene = scene(&TWO_FOUR_BARS);
     let energy = |steps| {
         let (model, state) = run::<f64, 2>(&scene, 1e-3, steps);
         model.kinetic_energy(&state.v) + model.potential_energy(&state.q, &model.terms())

@@ -29,13 +29,13 @@ fn check<const D: usize>(text: &str) {
 fn a_step_does_not_allocate_with_every_effect_and_guide() {
     check::<2>(PLANAR);
     check::<3>(SPATIAL);
-    check::<3>(CHAIN);
-    check::<2>(N_FOUR_BAR);
+    check::<3>(&CHAIN);
+    check::<2>(&N_FOUR_BAR);
 }
 
 #[test]
 fn a_refused_step_does_not_allocate() {
-    let mut run = Run::<f64, 3>::new(&scene(REDUNDANT), Index::Three);
+    let mut run = Run::<f64, 3>::new(&scene(&REDUNDANT), Index::Three);
     let before = allocations::count();
     assert!(run.step(1e-3).is_err());
     assert_eq!(allocations::count() - before, 0);

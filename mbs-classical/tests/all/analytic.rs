@@ -32,7 +32,7 @@ fn both_forms_are_of_second_order_on_the_pendulum() {
     let exact = [0.986_291_751_131_875_3_f64, -0.165_010_853_125_541_2];
     for index in [Index::One, Index::Three] {
         let error = |dt: f64, n: usize| {
-            let run = Run::<f64, 2>::new(&scene(SIMPLE), index).steps(dt, n);
+            let run = Run::<f64, 2>::new(&scene(&SIMPLE), index).steps(dt, n);
             let [x, y, _] = run.points()[0];
             (x.abs() - exact[0]).hypot(y - exact[1])
         };
@@ -51,7 +51,7 @@ fn every_integrator_is_of_second_order() {
     ] {
         for index in [Index::One, Index::Three] {
             let error = |dt: f64, n: usize| {
-                let mut run = Run::<f64, 2>::new(&scene(SIMPLE), index);
+                let mut run = Run::<f64, 2>::new(&scene(&SIMPLE), index);
                 run.options.integrator = integrator;
                 let [x, y, _] = run.steps(dt, n).points()[0];
                 (x.abs() - 0.986_291_751_131_875_3).hypot(y + 0.165_010_853_125_541_2)
@@ -94,7 +94,7 @@ fn options_outside_their_range_are_named() {
 #[test]
 fn index3_keeps_the_energy_of_the_double_pendulum_as_the_trapezoidal_rule_does() {
     for (dt, expected) in DOUBLE_ENERGY {
-        let run = Run::<f64, 2>::new(&scene(DOUBLE), Index::Three);
+        let run = Run::<f64, 2>::new(&scene(&DOUBLE), Index::Three);
         let error = energy_error(run, dt, 10.0);
         assert!(error < expected * ROOM, "{dt}: {error:.4e} J");
     }
@@ -102,7 +102,7 @@ fn index3_keeps_the_energy_of_the_double_pendulum_as_the_trapezoidal_rule_does()
 
 #[test]
 fn projected_index1_keeps_the_energy_of_the_double_pendulum() {
-    let run = Run::<f64, 2>::new(&scene(DOUBLE), Index::One);
+    let run = Run::<f64, 2>::new(&scene(&DOUBLE), Index::One);
     let error = energy_error(run, 1e-3, 10.0);
     assert!(error < DOUBLE_ENERGY[1].1 * ROOM, "{error:.4e} J");
 }
@@ -110,7 +110,7 @@ fn projected_index1_keeps_the_energy_of_the_double_pendulum() {
 #[test]
 fn corrections_do_not_depend_on_the_step() {
     for dt in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
-        let mut run = Run::<f64, 2>::new(&scene(DOUBLE), Index::Three);
+        let mut run = Run::<f64, 2>::new(&scene(&DOUBLE), Index::Three);
         for _ in 0..50 {
             let report = run.step(dt).unwrap();
             assert!(report.iterations <= 3, "{dt}: {report:?}");
@@ -122,7 +122,7 @@ fn corrections_do_not_depend_on_the_step() {
 #[test]
 fn the_reaction_of_a_pendulum_is_the_tension_of_its_bar() {
     for index in [Index::One, Index::Three] {
-        let mut run = Run::<f64, 2>::new(&scene(SIMPLE), index);
+        let mut run = Run::<f64, 2>::new(&scene(&SIMPLE), index);
         for _ in 0..300 {
             run.step(2e-3).unwrap();
             let bob = run.model.point(BodyRef::Body(0), run.scene.bodies[0].center);
@@ -137,7 +137,7 @@ fn the_reaction_of_a_pendulum_is_the_tension_of_its_bar() {
 
 /// Largest |phi| of the double pendulum over 10 s at 1 ms with one of the stabilisations.
 fn drift(stabilisation: Stabilisation<f64>) -> (f64, f64) {
-    let mut run = Run::<f64, 2>::new(&scene(DOUBLE), Index::One);
+    let mut run = Run::<f64, 2>::new(&scene(&DOUBLE), Index::One);
     run.options = Options { stabilisation, ..Options::index1() };
     let start = run.invariant();
     let (mut phi, mut energy): (f64, f64) = (0.0, 0.0);
@@ -166,7 +166,7 @@ fn index3_passes_the_singular_positions_on_the_right_branch_or_says_that_it_cann
     let steps = [500, 700, 1000, 1500, 2000, 3000, 4000, 5000, 6500, 8000, 10_000, 13_000];
     for n in steps {
         let dt = 10.0 / f64::from(n);
-        let mut run = Run::<f64, 2>::new(&scene(TWO_FOUR_BARS), Index::Three);
+        let mut run = Run::<f64, 2>::new(&scene(&TWO_FOUR_BARS), Index::Three);
         let end = (0..n).try_for_each(|_| run.step(dt).map(drop));
         match end {
             Ok(()) => {
@@ -186,7 +186,7 @@ fn index3_passes_the_singular_positions_on_the_right_branch_or_says_that_it_cann
 #[test]
 fn index3_passes_the_singular_positions_with_the_energy_of_the_rule() {
     for (dt, expected) in [(1e-2, 9.17e-2), (1e-3, 8.30e-4), (1e-4, 8.21e-6)] {
-        let run = Run::<f64, 2>::new(&scene(TWO_FOUR_BARS), Index::Three);
+        let run = Run::<f64, 2>::new(&scene(&TWO_FOUR_BARS), Index::Three);
         let error = energy_error(run, dt, 10.0);
         assert!(error < expected * ROOM, "{dt}: {error:.4e} J");
     }
@@ -196,7 +196,7 @@ fn index3_passes_the_singular_positions_with_the_energy_of_the_rule() {
 fn index1_at_a_singular_position_is_right_or_refused() {
     for n in [100, 300, 1000, 3000] {
         let dt = 1.0 / f64::from(n);
-        let mut run = Run::<f64, 2>::new(&scene(TWO_FOUR_BARS), Index::One);
+        let mut run = Run::<f64, 2>::new(&scene(&TWO_FOUR_BARS), Index::One);
         for _ in 0..n {
             match run.step(dt) {
                 Ok(_) => {}
@@ -212,7 +212,7 @@ fn index1_at_a_singular_position_is_right_or_refused() {
 
 #[test]
 fn a_step_onto_the_singular_position_is_refused_and_changes_nothing() {
-    let mut run = Run::<f64, 2>::new(&scene(TWO_FOUR_BARS), Index::Three).steps(1e-3, 714);
+    let mut run = Run::<f64, 2>::new(&scene(&TWO_FOUR_BARS), Index::Three).steps(1e-3, 714);
     // The step that ends with the cranks horizontal, by the secant rule.
     let height = |run: &mut Run<f64, 2>, dt: f64| {
         let before = run.state.clone();

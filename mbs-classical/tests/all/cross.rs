@@ -42,15 +42,15 @@ fn assert_same<const D: usize>(text: &str, (dt, n): (f64, usize), tolerance: f64
 
 #[test]
 fn index3_moves_as_the_augmented_lagrangian_does() {
-    assert_same::<2>(SIMPLE, (1e-3, 1000), SAME);
-    assert_same::<2>(DOUBLE, (1e-3, 500), SAME);
-    assert_same::<2>(SLIDER, (1e-3, 500), NEAR);
-    assert_same::<2>(GUIDED, (1e-3, 500), SAME);
-    assert_same::<2>(N_FOUR_BAR, (1e-3, 500), SAME);
-    assert_same::<2>(TWO_FOUR_BARS, (1e-3, 1500), NEAR);
-    assert_same::<3>(FREE, (1e-3, 500), SAME);
-    assert_same::<3>(TOP, (1e-3, 500), NEAR);
-    assert_same::<3>(CHAIN, (1e-3, 200), NEAR);
+    assert_same::<2>(&SIMPLE, (1e-3, 1000), SAME);
+    assert_same::<2>(&DOUBLE, (1e-3, 500), SAME);
+    assert_same::<2>(&SLIDER, (1e-3, 500), NEAR);
+    assert_same::<2>(&GUIDED, (1e-3, 500), SAME);
+    assert_same::<2>(&N_FOUR_BAR, (1e-3, 500), SAME);
+    assert_same::<2>(&TWO_FOUR_BARS, (1e-3, 1500), NEAR);
+    assert_same::<3>(&FREE, (1e-3, 500), SAME);
+    assert_same::<3>(&TOP, (1e-3, 500), NEAR);
+    assert_same::<3>(&CHAIN, (1e-3, 200), NEAR);
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn index3_moves_alike_with_every_effect_and_guide() {
 
 #[test]
 fn index1_is_as_near_to_index3_as_their_steps_are_to_the_motion() {
-    for text in [DOUBLE, SLIDER, GUIDED] {
+    for text in [&*DOUBLE, &SLIDER, &GUIDED] {
         let scene = scene(text);
         let off = |dt: f64, n: usize| {
             let one = Run::<f64, 2>::new(&scene, Index::One).steps(dt, n);
@@ -101,7 +101,7 @@ fn a_body_without_mass_is_no_matter() {
 #[test]
 fn redundant_constraints_are_refused_by_name_and_nothing_changed() {
     for index in [Index::One, Index::Three] {
-        let mut run = Run::<f64, 3>::new(&scene(REDUNDANT), index);
+        let mut run = Run::<f64, 3>::new(&scene(&REDUNDANT), index);
         let before = run.state.clone();
         let error = run.step(1e-3).expect_err("three conditions are redundant");
         let StepError::RankLost { row, pivot } = error else { panic!("{error}") };
@@ -115,7 +115,7 @@ fn redundant_constraints_are_refused_by_name_and_nothing_changed() {
 
 #[test]
 fn regularised_redundant_constraints_move_as_the_augmented_lagrangian_does() {
-    let scene = scene(REDUNDANT);
+    let scene = scene(&REDUNDANT);
     let (expected, _) = augmented::<3>(&scene, 1e-3, 500);
     for regularisation in [1e-6, 1e-8, 1e-9] {
         let mut run = Run::<f64, 3>::new(&scene, Index::Three);
@@ -130,7 +130,7 @@ fn regularised_redundant_constraints_move_as_the_augmented_lagrangian_does() {
 
 #[test]
 fn regularisation_does_not_change_a_motion_without_redundancy() {
-    let scene = scene(SLIDER);
+    let scene = scene(&SLIDER);
     let expected = Run::<f64, 2>::new(&scene, Index::Three).steps(1e-3, 300).points();
     let mut run = Run::<f64, 2>::new(&scene, Index::Three);
     run.options.regularisation = Some(1e-6);
@@ -139,7 +139,7 @@ fn regularisation_does_not_change_a_motion_without_redundancy() {
 
 #[test]
 fn a_turned_scene_moves_alike() {
-    for text in [CHAIN, TOP] {
+    for text in [&*CHAIN, &TOP] {
         let plain = scene(text);
         let other = turn_scene(&plain);
         for index in [Index::One, Index::Three] {
@@ -156,18 +156,18 @@ fn a_turned_scene_moves_alike() {
 fn single_precision_stays_near_double_precision() {
     // What single precision may lose in half a second [m].
     const SINGLE: f64 = 1e-3;
-    let expected = Run::<f64, 2>::new(&scene(DOUBLE), Index::Three).steps(2e-3, 250).points();
-    let found = Run::<f32, 2>::new(&scene_in(DOUBLE), Index::Three).steps(2e-3, 250).points();
+    let expected = Run::<f64, 2>::new(&scene(&DOUBLE), Index::Three).steps(2e-3, 250).points();
+    let found = Run::<f32, 2>::new(&scene_in(&DOUBLE), Index::Three).steps(2e-3, 250).points();
     assert!(distance(&found, &expected) < SINGLE);
-    let expected = Run::<f64, 3>::new(&scene(TOP), Index::Three).steps(1e-3, 300).points();
-    let found = Run::<f32, 3>::new(&scene_in(TOP), Index::Three).steps(1e-3, 300).points();
+    let expected = Run::<f64, 3>::new(&scene(&TOP), Index::Three).steps(1e-3, 300).points();
+    let found = Run::<f32, 3>::new(&scene_in(&TOP), Index::Three).steps(1e-3, 300).points();
     assert!(distance(&found, &expected) < SINGLE);
 }
 
 #[test]
 fn a_dense_solver_gives_the_same_motion() {
     use mbs_classical::{Saddle, Workspace, index3};
-    let scene = scene(SLIDER);
+    let scene = scene(&SLIDER);
     let expected = Run::<f64, 2>::new(&scene, Index::Three).steps(1e-3, 100).points();
     let mut run = Run::<f64, 2>::new(&scene, Index::Three);
     let solver = mbs_core::dense::Dense::new(&Saddle::new(&run.model));

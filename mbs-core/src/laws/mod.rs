@@ -87,4 +87,3 @@ impl<'a, T: Real> Supplies<'a, T> {
         }
     }
 }
-

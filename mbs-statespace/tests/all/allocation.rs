@@ -24,7 +24,7 @@ fn check<const D: usize>(text: &str, steps: u32) {
 fn a_step_does_not_allocate_even_when_it_chooses_anew() {
     check::<2>(PLANAR, 300);
     check::<3>(SPATIAL, 300);
-    check::<3>(CHAIN, 300);
-    check::<2>(N_FOUR_BAR, 1000);
-    check::<2>(DOUBLE, 3000);
+    check::<3>(&CHAIN, 300);
+    check::<2>(&N_FOUR_BAR, 1000);
+    check::<2>(&DOUBLE, 3000);
 }

@@ -57,7 +57,7 @@ fn largest_energy_error(text: &str, dt: f64, duration: f64) -> f64 {
 fn double_pendulum_keeps_its_energy_as_the_trapezoidal_rule_can() {
     // [J] over 10 s: what the trapezoidal rule leaves in natural coordinates; the report's state space has 2.9e-1, 4.8e-3, 4.3e-5.
     for (dt, limit) in [(1e-2, 4.645e-1), (1e-3, 4.636e-3), (1e-4, 4.335e-5)] {
-        let error = largest_energy_error(DOUBLE, dt, 10.0);
+        let error = largest_energy_error(&DOUBLE, dt, 10.0);
         assert!(error <= limit, "{dt}: {error:e} J");
     }
 }
@@ -81,15 +81,15 @@ fn agrees<const D: usize>(text: &str, dt: f64, steps: u32) {
 
 #[test]
 fn scenes_move_as_in_the_index3_augmented_lagrangian() {
-    agrees::<2>(SIMPLE, 1e-3, 1000);
-    agrees::<2>(DOUBLE, 1e-3, 1000);
-    agrees::<2>(SLIDER, 1e-3, 1000);
-    agrees::<2>(GUIDED, 2e-3, 500);
-    agrees::<2>(N_FOUR_BAR, 2e-3, 300);
-    agrees::<3>(CHAIN, 2e-3, 300);
-    agrees::<3>(REDUNDANT, 1e-3, 1000);
-    agrees::<3>(TOP, 2e-4, 1000);
-    agrees::<3>(FREE, 1e-3, 1000);
+    agrees::<2>(&SIMPLE, 1e-3, 1000);
+    agrees::<2>(&DOUBLE, 1e-3, 1000);
+    agrees::<2>(&SLIDER, 1e-3, 1000);
+    agrees::<2>(&GUIDED, 2e-3, 500);
+    agrees::<2>(&N_FOUR_BAR, 2e-3, 300);
+    agrees::<3>(&CHAIN, 2e-3, 300);
+    agrees::<3>(&REDUNDANT, 1e-3, 1000);
+    agrees::<3>(&TOP, 2e-4, 1000);
+    agrees::<3>(&FREE, 1e-3, 1000);
     agrees::<2>(PLANAR, 1e-3, 300);
     agrees::<3>(SPATIAL, 1e-3, 300);
 }
@@ -110,7 +110,7 @@ fn work_and_reactions_are_those_of_index3() {
 
 #[test]
 fn the_redundant_spatial_four_bar_moves_like_the_planar_one() {
-    let spatial = scene(REDUNDANT);
+    let spatial = scene(&REDUNDANT);
     let planar = retell::flattened(&spatial);
     let mut space = Bench::<f64, 3>::of(spatial);
     let mut plane = Bench::<f64, 2>::of(planar);
@@ -185,7 +185,7 @@ fn two_four_bars_pass_on_the_right_branch_or_say_that_they_cannot() {
     let (mut passed, mut refused) = (0, 0);
     for k in 0..120 {
         let dt = 2e-4 * 1.045_f64.powi(k);
-        let mut bench = Bench::<f64, 2>::new(TWO_FOUR_BARS);
+        let mut bench = Bench::<f64, 2>::new(&TWO_FOUR_BARS);
         let start = bench.invariant();
         let mut outcome = Ok(());
         for _ in 0..(2.0 / dt) as u32 {
@@ -222,7 +222,7 @@ fn two_four_bars_pass_on_the_right_branch_or_say_that_they_cannot() {
 fn two_four_bars_reach_ten_seconds_exactly() {
     // The first crank's end at 10 s [m], exact (in the scene's own words).
     const END: [f64; 2] = [0.328_458_111_540_815_4, 0.944_518_538_178_601];
-    let mut bench = Bench::<f64, 2>::new(TWO_FOUR_BARS);
+    let mut bench = Bench::<f64, 2>::new(&TWO_FOUR_BARS);
     bench.run(1e-3, 10_000);
     let center = bench.centers(&bench.state)[2].1;
     let end = [2.0 * center[0], 2.0 * center[1]];
