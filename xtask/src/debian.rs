@@ -1,6 +1,7 @@
 //! Debian's packages, where a job may install what it needs.
 
 use crate::process::{output, run};
+use crate::summary::LeftOut;
 use std::process::Command;
 
 /// Installs them, as root on a system that has `apt-get`.
@@ -23,4 +24,25 @@ pub(crate) fn install(packages: &[&str]) -> Result<(), String> {
     let mut args = vec!["install", "--yes", "--quiet=2", "--no-install-recommends"];
     args.extend(packages);
     apt(&args)
+}
+
+/// Whether a program runs here, after its package is installed where it is missing and that is possible.
+///
+/// # Errors
+///
+/// What is missing, and why it is not installed.
+pub(crate) fn find(program: &str, package: &str) -> Result<(), LeftOut> {
+    let runs = || output(Command::new(program).arg("--version")).is_some();
+    if runs() {
+        return Ok(());
+    }
+    let refusal = install(&[package]).err();
+    if runs() {
+        return Ok(());
+    }
+    let refusal = refusal.map_or(String::new(), |refusal| format!("; {refusal}"));
+    Err(LeftOut {
+        why: format!("`{program}` is not installed{refusal}"),
+        remedy: format!("On Debian, as root: `apt-get install --no-install-recommends {package}`."),
+    })
 }

@@ -1,6 +1,7 @@
 //! Running `counts` under callgrind: one dump for each call of its `measured`, read function by function.
 
-use crate::process::{line, output};
+use crate::debian;
+use crate::process::line;
 use crate::summary::LeftOut;
 use std::collections::BTreeSet;
 use std::fs;
@@ -21,13 +22,9 @@ pub(crate) struct Case {
 
 /// What to do where there is no valgrind, which a job needs; `None`: there is one.
 pub fn missing(job: &str) -> Option<LeftOut> {
-    output(Command::new("valgrind").arg("--version")).is_none().then(|| LeftOut {
-        why: "`valgrind` is not installed".to_owned(),
-        remedy: format!(
-            "Get it on Debian, as root, with `apt-get install --no-install-recommends valgrind`;\n\
-             then run `cargo xtask {job}`."
-        ),
-    })
+    let left_out = debian::find("valgrind", "valgrind").err()?;
+    let remedy = format!("{}\nThen run `cargo xtask {job}`.", left_out.remedy);
+    Some(LeftOut { remedy, ..left_out })
 }
 
 /// Runs the program; its dumps go to `folder`, which is emptied before.

@@ -11,8 +11,8 @@ pub(crate) struct Build {
     pub(crate) is_alloc: bool,
 }
 
-/// The builds, each made for every target.
-pub(crate) const BUILDS: &[Build] = &[
+/// The builds; those of a crate stand together, from the least features to the most.
+const BUILDS: &[Build] = &[
     Build { package: "mbs-core", features: &[], is_alloc: false },
     Build { package: "mbs-core", features: &["effects"], is_alloc: false },
     Build { package: "mbs-core", features: &["alloc"], is_alloc: true },
@@ -35,3 +35,29 @@ pub(crate) const BUILDS: &[Build] = &[
 /// The targets: Cortex-M4F and Cortex-M7 with hardware floating point; Cortex-M0 without; RISC-V without.
 pub(crate) const TARGETS: &[&str] =
     &["thumbv7em-none-eabihf", "thumbv6m-none-eabi", "riscv32imac-unknown-none-elf"];
+
+/// The builds for a target: every set for the first target; for the others the first and the last set of each crate. A set between
+/// them has no code that the last one lacks.
+pub(crate) fn of(target: &str) -> impl Iterator<Item = &'static Build> {
+    let is_first = target == TARGETS[0];
+    let package = |at: Option<usize>| at.and_then(|at| BUILDS.get(at)).map(|build| build.package);
+    let is_end = move |at: usize| {
+        let own = package(Some(at));
+        package(at.checked_sub(1)) != own || package(Some(at + 1)) != own
+    };
+    BUILDS.iter().enumerate().filter(move |(at, _)| is_first || is_end(*at)).map(|(_, build)| build)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_target_has_every_set_and_the_others_the_ends_of_each_crate() {
+        assert_eq!(of(TARGETS[0]).count(), BUILDS.len());
+        let ends: Vec<_> = of(TARGETS[1]).map(|b| (b.package, b.features)).collect();
+        assert_eq!(ends[..2], [("mbs-core", &[][..]), ("mbs-core", &["alloc", "effects"][..])]);
+        assert!(ends.contains(&("mbs-linear", &[])));
+        assert_eq!(ends.last(), Some(&("mbs-nostd", &["effects"][..])));
+    }
+}

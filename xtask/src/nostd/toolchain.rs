@@ -2,7 +2,7 @@
 //! its sources. Debian's packages are installed where that is possible; toolchains and targets are never fetched.
 
 use super::table::Build;
-use crate::debian::install;
+use crate::debian::{find as find_program, install};
 use crate::process::{cargo, output};
 use crate::summary::LeftOut;
 use std::path::{Path, PathBuf};
@@ -102,17 +102,7 @@ pub(crate) fn find(target: &str) -> Result<Toolchain, LeftOut> {
 ///
 /// What is missing, and how to get it.
 pub(crate) fn for_images(toolchain: Toolchain) -> Result<Option<PathBuf>, LeftOut> {
-    let has_emulator = || output(Command::new(EMULATOR).arg("--version")).is_some();
-    if !has_emulator() {
-        let refusal = install(&[EMULATOR]).err();
-        if !has_emulator() {
-            let refusal = refusal.map_or(String::new(), |refusal| format!("; {refusal}"));
-            return Err(LeftOut {
-                why: format!("{EMULATOR} is not installed{refusal}"),
-                remedy: format!("On Debian, as root: `apt-get install {EMULATOR}`."),
-            });
-        }
-    }
+    find_program(EMULATOR, EMULATOR)?;
     if toolchain == Toolchain::Installed {
         return Ok(None);
     }
