@@ -1,4 +1,4 @@
-//! `cargo xtask package`: every crate that is published is packaged, and what is in the packages builds.
+//! `cargo xtask package`: every crate is packaged, and what is in the packages builds.
 
 use crate::process::{self, cargo, output, run};
 use crate::summary::Outcome;
@@ -30,15 +30,15 @@ pub fn package() -> ExitCode {
 ///
 /// What cannot be packaged, unpacked or built.
 pub(crate) fn check() -> Result<Outcome, String> {
+    let packed = process::target_dir().join("package");
+    let unpacked = packed.join("unpacked");
+    let io = |e: std::io::Error| format!("{}: {e}", packed.display());
+    if packed.exists() {
+        fs::remove_dir_all(&packed).map_err(io)?;
+    }
     run(cargo()
         .args(["package", "--workspace", "--no-verify", "--allow-dirty", "--quiet"])
         .current_dir(process::root()))?;
-    let packed = process::target_dir().join("package");
-    let unpacked = packed.join("unpacked");
-    let io = |e: std::io::Error| format!("{}: {e}", unpacked.display());
-    if unpacked.exists() {
-        fs::remove_dir_all(&unpacked).map_err(io)?;
-    }
     fs::create_dir_all(&unpacked).map_err(io)?;
     let mut names = Vec::new();
     for entry in fs::read_dir(&packed).map_err(io)?.flatten() {
