@@ -4,7 +4,7 @@ use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
-use xtask::command::{Build, built};
+use xtask::command::built;
 use xtask::process;
 
 /// A choice is good within so many times the best.
@@ -59,7 +59,7 @@ pub(crate) fn choice(names: &[String]) -> ExitCode {
 
 #[allow(clippy::print_stdout, reason = "the table is what is asked for")]
 fn run(names: &[String]) -> Result<bool, String> {
-    let mbs = built(Build::Dist)?;
+    let mbs = built()?;
     let (mut rows, mut failed, mut text) = (Vec::new(), Vec::new(), String::new());
     let folder = process::target_dir().join("choice");
     for scene in scenes(names)? {

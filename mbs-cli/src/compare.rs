@@ -15,7 +15,7 @@ use std::process::ExitCode;
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Scene file (TOML).
-    scene: PathBuf,
+    pub(crate) scene: PathBuf,
     /// Formulations, such as index-3,recursive; left out: all.
     #[arg(long, value_name = "F,..", value_delimiter = ',')]
     formulation: Vec<String>,

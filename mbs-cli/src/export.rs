@@ -11,7 +11,7 @@ use std::process::ExitCode;
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Scene file (TOML).
-    scene: PathBuf,
+    pub(crate) scene: PathBuf,
     /// File of Rust to write: constant tables, and a solver of just their size.
     #[arg(long, value_name = "FILE", required_unless_present = "binary")]
     rust: Option<PathBuf>,
@@ -44,9 +44,6 @@ fn written(arguments: &Arguments) -> Result<(), String> {
     };
     let settings = Settings::new(&scene, &overrides);
     let settings = settings.map_err(|error| files::refusal(&error, &document))?;
-    if settings.precision == Precision::DoubleDouble {
-        return Err(crate::NO_PAIRS.to_owned());
-    }
     let rungs = match &arguments.ladder {
         None => Vec::new(),
         Some(path) => {

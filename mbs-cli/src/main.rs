@@ -1,5 +1,5 @@
 //! The `mbs` command: arguments, refusals, and the commands. Exit status: 0 done, 1 refused (scene or usage), 2 the run could not
-//! go on. What is computed is computed by the library: nothing here is compiled for a scalar or a dimension.
+//! go on, 3 the build lacks the precision. What is computed is computed by the library: nothing here is compiled for a scalar or a dimension.
 
 mod analysis;
 mod bar;
@@ -57,7 +57,7 @@ enum Command {
     Sweep(sweep::Arguments),
 }
 
-/// Commands other than `run` compute in numbers of the hardware.
+/// Commands other than `run` and `compare` compute in numbers of the hardware.
 const NO_PAIRS: &str = "error: precision `dd` is for `mbs run`\nhint: leave --precision out";
 
 /// Set by a caller that builds what is missing: then a precision that this build lacks is no message, only an exit status.
@@ -82,11 +82,13 @@ fn main() -> ExitCode {
             return ExitCode::from(if error.use_stderr() { REFUSED } else { 0 });
         }
     };
-    if let Some(precision) = cli.command.precisions().into_iter().find(|p| !p.is_built()) {
-        if std::env::var_os(BUILDER).is_none() {
-            eprintln!("{}", PrecisionError::NotBuilt(precision).render());
+    match cli.command.precisions() {
+        Ok(needed) => {
+            if let Some(precision) = needed.into_iter().find(|p| !p.is_built()) {
+                return unbuilt(precision);
+            }
         }
-        return ExitCode::from(UNBUILT);
+        Err(message) => return refuse(message),
     }
     match cli.command {
         Command::Run(arguments) => run::main(&arguments),
@@ -102,18 +104,29 @@ fn main() -> ExitCode {
 }
 
 impl Command {
-    /// Precisions that it will need, as far as the arguments say; a name that is none is refused later.
-    fn precisions(&self) -> Vec<Precision> {
-        let name = match self {
-            Self::Run(arguments) => arguments.precision.as_deref(),
-            Self::Explain(arguments) => arguments.precision.as_deref(),
-            Self::Export(arguments) => arguments.precision.as_deref(),
-            Self::Sweep(arguments) => arguments.precision.as_deref(),
-            Self::Compare(arguments) => return arguments.precisions(),
-            _ => None,
+    /// Precisions that it will need, as far as the arguments say; none where it will be refused for its names or its scene. Or the refusal
+    /// of one that it never has.
+    fn precisions(&self) -> Result<Vec<Precision>, &'static str> {
+        let (name, scene) = match self {
+            Self::Run(arguments) => (&arguments.precision, &arguments.scene),
+            Self::Explain(arguments) => (&arguments.precision, &arguments.scene),
+            Self::Export(arguments) => (&arguments.precision, &arguments.scene),
+            Self::Sweep(arguments) => (&arguments.precision, &arguments.scene),
+            Self::Compare(arguments) if arguments.scene.is_file() => {
+                return Ok(arguments.precisions());
+            }
+            _ => return Ok(Vec::new()),
         };
-        Precision::ALL.into_iter().filter(|p| Some(p.name()) == name).collect()
+        match named(name) {
+            Some(Precision::DoubleDouble) if !matches!(self, Self::Run(_)) => Err(NO_PAIRS),
+            named => Ok(named.into_iter().filter(|_| scene.is_file()).collect()),
+        }
     }
+}
+
+/// The precision of a name, where it is one.
+fn named(name: &Option<String>) -> Option<Precision> {
+    Precision::ALL.into_iter().find(|p| Some(p.name()) == name.as_deref())
 }
 
 /// What to say about a command that is none.
@@ -123,6 +136,14 @@ fn hint(error: &clap::Error) -> Option<String> {
         _ => return None,
     };
     std::path::Path::new(word).exists().then(|| format!("to run a scene, write `mbs run {word}`"))
+}
+
+/// Says which precision this build lacks, to whom does not build it himself.
+pub(crate) fn unbuilt(precision: Precision) -> ExitCode {
+    if std::env::var_os(BUILDER).is_none() {
+        eprintln!("{}", PrecisionError::NotBuilt(precision).render());
+    }
+    ExitCode::from(UNBUILT)
 }
 
 /// Writes a refusal to standard error.

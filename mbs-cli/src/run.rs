@@ -1,14 +1,14 @@
 //! `mbs run SCENE`.
 
 use crate::bar::{bar, ticks};
-use crate::{STOPPED, files, keep, realtime, refuse, table};
+use crate::{STOPPED, files, keep, named, realtime, refuse, table, unbuilt};
 use clap::Args;
 use indicatif::ProgressBar;
 use mbs::auto::{Goal, Plan, Processor, plan, run_plan, time};
 use mbs::core::scene::Scene;
 use mbs::realtime::Pacing;
 use mbs::scene_file::{Document, Provenance, RunError, readable};
-use mbs::{Outcome, Overrides, Settings, run_document_kept, words};
+use mbs::{Outcome, Overrides, Precision, Settings, run_document_kept, words};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -20,7 +20,7 @@ const NOT_CHOSEN: [&str; 3] = ["checkpoint", "resume", "realtime"];
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Scene file (TOML).
-    scene: PathBuf,
+    pub(crate) scene: PathBuf,
     /// auto, index-1, index-3, multi-index, classical, state-space, recursive; like the options below: left out, the scene's, else auto.
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
@@ -155,7 +155,21 @@ fn switch(text: &str) -> Result<bool, String> {
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match begin(arguments) {
         Ok(begun) => go(arguments, begun),
-        Err(message) => refuse(&message),
+        Err(Refusal::Message(message)) => refuse(&message),
+        Err(Refusal::Unbuilt(precision)) => unbuilt(precision),
+    }
+}
+
+/// Why a run does not begin.
+enum Refusal {
+    Message(String),
+    /// What it would go on from has a precision that this build lacks.
+    Unbuilt(Precision),
+}
+
+impl From<String> for Refusal {
+    fn from(message: String) -> Self {
+        Self::Message(message)
     }
 }
 
@@ -170,11 +184,14 @@ struct Begun {
 }
 
 /// Reads what is run, and what it goes on from, and chooses where something is wanted; else the refusal.
-fn begin(arguments: &Arguments) -> Result<Begun, String> {
+fn begin(arguments: &Arguments) -> Result<Begun, Refusal> {
     let out = arguments.out.as_deref();
     let pacing = arguments.realtime.pacing()?;
     let kept = arguments.keep.begin(out)?;
     let overrides = kept.overrides(arguments.overrides())?;
+    if let Some(missing) = named(&overrides.precision).filter(|p| !p.is_built()) {
+        return Err(Refusal::Unbuilt(missing));
+    }
     let begun = files::begin(&arguments.scene, &overrides, (out, kept.trial()))?;
     let (document, scene, settings) = begun;
     let settings = kept.settle(settings)?;

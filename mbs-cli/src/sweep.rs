@@ -6,7 +6,7 @@ use clap::Args;
 use indicatif::ProgressBar;
 use mbs::scene_file::Document;
 use mbs::sweep::{Report, Study, StudyError, SweepError, Watch};
-use mbs::{Overrides, Precision, words};
+use mbs::{Overrides, words};
 use serde_json::json;
 use std::io::Write as _;
 use std::num::NonZeroUsize;
@@ -17,7 +17,7 @@ use std::process::ExitCode;
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Scene file (TOML).
-    scene: PathBuf,
+    pub(crate) scene: PathBuf,
     /// Sweep file (TOML): which numbers of the scene are varied, and how; docs/SWEEPS.md has its keys.
     sweep: PathBuf,
     /// Runs at the same time; left out: one for each processor.
@@ -82,9 +82,6 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<(Report, PathBuf), String> {
-    if arguments.precision.as_deref() == Some(Precision::DoubleDouble.name()) {
-        return Err(crate::NO_PAIRS.to_owned());
-    }
     let (document, _) = files::scene(&arguments.scene)?;
     let sweep = files::document(&arguments.sweep, "sweep file")?;
     let overrides = arguments.overrides();

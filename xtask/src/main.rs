@@ -34,7 +34,7 @@ enum Job {
     /// Every check, stops at the first failure: format, lints, tests, fuzz, pages, documentation, features, pick, check-nostd, counts
     #[command(alias = "ci")]
     Test {
-        /// Skip lints and documentation
+        /// Skip lints, fuzz, pages, documentation and counts
         #[arg(long)]
         quick: bool,
         /// Fail where a check cannot run for want of a tool
@@ -82,7 +82,7 @@ enum Job {
     /// Run hard cases by seed in every formulation; the table of methods by properties under target/gauntlet
     #[command(disable_help_flag = true)]
     Gauntlet(Words),
-    /// Package every crate that is published, and build the packages on each other
+    /// Package every crate, and build the packages on each other
     Package,
     /// Watch the lock-free team of mbs-parallel for data races, under ThreadSanitizer
     Races,

@@ -1,27 +1,14 @@
 //! `cargo xtask package`: every crate is packaged, and what is in the packages builds.
 
 use crate::process::{self, cargo, output, run};
-use crate::summary::Outcome;
+use crate::summary::{self, Outcome};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, ExitCode};
 
 /// Runs the check by itself.
 pub fn package() -> ExitCode {
-    match check() {
-        Ok(Outcome::Passed(remark)) => {
-            eprintln!("package holds: {remark}");
-            ExitCode::SUCCESS
-        }
-        Ok(Outcome::LeftOut(left_out)) => {
-            eprintln!("package did not run: {}\n{}", left_out.why, left_out.remedy);
-            ExitCode::FAILURE
-        }
-        Err(why) => {
-            eprintln!("package failed: {why}");
-            ExitCode::FAILURE
-        }
-    }
+    summary::ended("package", check())
 }
 
 /// Packages all, unpacks them, and builds the command from nothing else.

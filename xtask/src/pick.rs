@@ -1,7 +1,7 @@
 //! `cargo xtask pick`: each package of `examples/pick` builds and runs with mbs-core and one formulation alone.
 
 use crate::process::{self, cargo, output, run};
-use crate::summary::Outcome;
+use crate::summary::{self, Outcome};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,20 +14,7 @@ const HEAVY: [&str; 2] = ["faer", "rayon"];
 
 /// Runs the check by itself.
 pub fn pick() -> ExitCode {
-    match check() {
-        Ok(Outcome::Passed(remark)) => {
-            eprintln!("pick holds: {remark}");
-            ExitCode::SUCCESS
-        }
-        Ok(Outcome::LeftOut(left_out)) => {
-            eprintln!("pick did not run: {}\n{}", left_out.why, left_out.remedy);
-            ExitCode::FAILURE
-        }
-        Err(why) => {
-            eprintln!("pick failed: {why}");
-            ExitCode::FAILURE
-        }
-    }
+    summary::ended("pick", check())
 }
 
 /// Runs every package, and looks at what each of them and the lean crates pull in.

@@ -1,6 +1,7 @@
 //! What ran, what was left out and how to get it: the last lines of `cargo xtask test`.
 
 use crate::process::children_seconds;
+use std::process::ExitCode;
 use std::time::Instant;
 
 /// How a check ended, when it did not fail.
@@ -19,6 +20,21 @@ pub struct LeftOut {
     pub why: String,
     /// What to do to have it run.
     pub remedy: String,
+}
+
+/// Says how a check that was asked for alone ended: here a tool that is missing is a failure.
+pub fn ended(name: &str, outcome: Result<Outcome, String>) -> ExitCode {
+    match outcome {
+        Ok(Outcome::Passed(remark)) => {
+            eprintln!("{name} holds: {remark}");
+            return ExitCode::SUCCESS;
+        }
+        Ok(Outcome::LeftOut(LeftOut { why, remedy })) => {
+            eprintln!("{name} did not run: {why}\n{remedy}");
+        }
+        Err(why) => eprintln!("{name} failed: {why}"),
+    }
+    ExitCode::FAILURE
 }
 
 /// The checks so far.
@@ -60,16 +76,26 @@ impl Summary {
                 });
                 self.lines.push(format!("  ok        {name:<14} {seconds:>7.1} s{cpu}  {remark}"));
             }
-            Outcome::LeftOut(LeftOut { why, remedy }) if self.is_strict => {
-                self.lines.push(format!("  FAILED    {name}"));
-                return Err(format!("{name} cannot run here: {why}\n{remedy}"));
-            }
             Outcome::LeftOut(left_out) => {
-                self.lines.push(format!("  left out  {name}"));
+                let how = if self.is_strict { "FAILED  " } else { "left out" };
+                self.lines.push(format!("  {how}  {name}"));
                 self.left_out.push((name.to_owned(), left_out));
             }
         }
         Ok(())
+    }
+
+    /// What fails where nothing may be left out: found at the end, so that one missing tool does not hide what the other checks say.
+    ///
+    /// # Errors
+    ///
+    /// The names of the checks that could not run.
+    pub fn complete(&self) -> Result<(), String> {
+        if !self.is_strict || self.left_out.is_empty() {
+            return Ok(());
+        }
+        let names: Vec<&str> = self.left_out.iter().map(|(name, _)| &**name).collect();
+        Err(format!("This machine cannot run: {}", names.join(", ")))
     }
 
     /// Notes a check that was not asked for.
@@ -85,7 +111,7 @@ impl Summary {
             text.push('\n');
         }
         for (name, LeftOut { why, remedy }) in &self.left_out {
-            text.push_str(&format!("\n{name} was left out: {why}\n{remedy}\n"));
+            text.push_str(&format!("\n{name} did not run: {why}\n{remedy}\n"));
         }
         text
     }
@@ -103,14 +129,19 @@ mod tests {
         summary.check("check-nostd", || Ok(Outcome::LeftOut(left_out))).unwrap();
         let text = summary.text();
         assert!(text.contains("ok        format"));
-        assert!(text.contains("check-nostd was left out: no target\nadd it\n"));
+        assert!(text.contains("check-nostd did not run: no target\nadd it\n"));
     }
 
     #[test]
-    fn what_cannot_run_fails_a_strict_check() {
+    fn what_cannot_run_fails_a_strict_check_at_its_end() {
         let left_out = LeftOut { why: "no target".into(), remedy: "add it".into() };
-        let failure = Summary::new(true).check("counts", || Ok(Outcome::LeftOut(left_out)));
-        assert_eq!(failure, Err("counts cannot run here: no target\nadd it".into()));
+        for (is_strict, end) in
+            [(false, Ok(())), (true, Err("This machine cannot run: counts".to_owned()))]
+        {
+            let mut summary = Summary::new(is_strict);
+            summary.check("counts", || Ok(Outcome::LeftOut(left_out.clone()))).unwrap();
+            assert_eq!(summary.complete(), end);
+        }
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The published build of `mbs`: built once, run on scenes, its results read back.
+//! `mbs` with all precisions: built once, run on scenes, its results read back.
 
 pub(crate) mod columns;
 pub(crate) mod outcome;
@@ -9,13 +9,13 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
-use xtask::command::{Build, built};
+use xtask::command::built;
 use xtask::process;
 
 /// How often a run that may take too long is looked at.
 const PAUSE: Duration = Duration::from_millis(2);
 
-/// The command `mbs`, built as it is published.
+/// The command `mbs`, with all precisions.
 #[derive(Debug)]
 pub(crate) struct Mbs {
     path: PathBuf,
@@ -28,7 +28,7 @@ impl Mbs {
     ///
     /// What cargo came to.
     pub(crate) fn build() -> Result<Self, String> {
-        Ok(Self { path: built(Build::Dist)? })
+        Ok(Self { path: built()? })
     }
 
     /// Runs a scene; with a folder, the run's files are left there; after `limit` it is ended.

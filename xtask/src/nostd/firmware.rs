@@ -6,6 +6,7 @@ use super::sizes;
 use super::table::Build;
 use super::told::Told;
 use super::toolchain::Toolchain;
+use crate::debian;
 use crate::process::{self, cargo, output, run};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -223,7 +224,13 @@ pub(super) fn on_host(model: &Path, features: &str) -> Result<String, String> {
 
 /// Nothing that panics, and nothing of a heap, can be reached from the step.
 fn no_panics(elf: &Path, cpu: &str, place: &str) -> Result<(), String> {
-    let disassembler = disassembler().ok_or("there is no llvm-objdump to look into images with")?;
+    let disassembler = match disassembler() {
+        Some(found) => found,
+        None => {
+            debian::install(&["llvm"]).map_err(|why| format!("there is no llvm-objdump: {why}"))?;
+            disassembler().ok_or("Debian's llvm has no llvm-objdump")?
+        }
+    };
     let mut command = Command::new(disassembler);
     // Without its name instructions of the floating-point unit are not known, and what follows them is read from the middle.
     command.args(["-d", "--no-show-raw-insn", &format!("--mcpu={cpu}")]);

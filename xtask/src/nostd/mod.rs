@@ -20,27 +20,14 @@ mod told;
 mod toolchain;
 
 use crate::process;
-use crate::summary::{LeftOut, Outcome};
+use crate::summary::{self, Outcome};
 use std::process::ExitCode;
 use table::{Build, TARGETS};
 use toolchain::Toolchain;
 
 /// Runs the check by itself: here a toolchain that is missing is a failure.
 pub fn check_nostd() -> ExitCode {
-    match check() {
-        Ok(Outcome::Passed(remark)) => {
-            eprintln!("check-nostd holds: {remark}");
-            ExitCode::SUCCESS
-        }
-        Ok(Outcome::LeftOut(LeftOut { why, remedy })) => {
-            eprintln!("check-nostd did not run: {why}\n{remedy}");
-            ExitCode::FAILURE
-        }
-        Err(why) => {
-            eprintln!("check-nostd failed: {why}");
-            ExitCode::FAILURE
-        }
-    }
+    summary::ended("check-nostd", check())
 }
 
 /// Builds the rows of the table for their targets, and runs the firmware.

@@ -37,7 +37,7 @@ pub(crate) const TARGETS: &[&str] =
     &["thumbv7em-none-eabihf", "thumbv6m-none-eabi", "riscv32imac-unknown-none-elf"];
 
 /// The builds for a target: every set for the first target; for the others the first and the last set of each crate. A set between
-/// them has no code that the last one lacks.
+/// them has no code for a target that the ends lack.
 pub(crate) fn of(target: &str) -> impl Iterator<Item = &'static Build> {
     let is_first = target == TARGETS[0];
     let package = |at: Option<usize>| at.and_then(|at| BUILDS.get(at)).map(|build| build.package);
