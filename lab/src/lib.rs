@@ -18,6 +18,7 @@ mod tell;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
+use xtask::jobs;
 
 /// The command line.
 #[derive(Debug, Parser)]
@@ -35,7 +36,7 @@ struct Cli {
 /// The jobs; `cargo xtask --help` lists them too (`xtask/src/main.rs`).
 #[derive(Debug, Subcommand)]
 enum Job {
-    /// Run the report's tables anew, beside its numbers: text, CSV and HTML under target/tables
+    #[command(about = jobs::TABLES)]
     Tables {
         /// Leave out runs of more than a million steps
         #[arg(long)]
@@ -44,13 +45,13 @@ enum Job {
         #[arg(value_name = "TABLE")]
         names: Vec<String>,
     },
-    /// Make every page of measurements with an index under target/report; a run that stops unlisted fails the job
+    #[command(about = jobs::REPORT)]
     Report {
         /// Leave out the longest runs and the largest scenes
         #[arg(long)]
         quick: bool,
     },
-    /// Run the experiments on variable steps beside fixed ones: text, CSV and HTML under target/steps
+    #[command(about = jobs::STEPS)]
     Steps {
         /// Leave out the finest runs
         #[arg(long)]
@@ -59,7 +60,7 @@ enum Job {
         #[arg(value_name = "EXPERIMENT")]
         names: Vec<String>,
     },
-    /// Time a step in each formulation and scene, its phases, faer beside it, and what threads gain: text, JSON and HTML under target/bench
+    #[command(about = jobs::BENCH)]
     Bench {
         /// Sizes of teams: 4, 1-4, or 1-N for as many as there are cores; left out: 1-N
         #[arg(long, value_name = "1-N")]
@@ -71,13 +72,13 @@ enum Job {
         #[arg(value_name = "SCENE")]
         scenes: Vec<String>,
     },
-    /// Hold the choice by measurement against the best of all methods, on every scene at three errors: text and CSV under target/choice
+    #[command(about = jobs::CHOICE)]
     Choice {
         /// These scenes alone
         #[arg(value_name = "SCENE")]
         scenes: Vec<String>,
     },
-    /// Time mbs and its peers on the same problems by turns (docs/PEERS.md): text, Markdown, CSV and HTML under target/peers
+    #[command(about = jobs::PEERS)]
     Peers {
         /// Fewer and shorter turns
         #[arg(long)]
@@ -86,8 +87,7 @@ enum Job {
         #[arg(value_name = "PROBLEM")]
         names: Vec<String>,
     },
-    /// Profile steps of index-3: instructions by parts under callgrind, operations, and the time beside the floor that the machine's own
-    /// rates give (docs/PROFILES.md): text and Markdown under target/profile
+    #[command(about = jobs::PROFILE)]
     Profile {
         /// Put the tables into docs/PROFILES.md too
         #[arg(long)]
@@ -96,7 +96,7 @@ enum Job {
         #[arg(value_name = "SCENE")]
         scenes: Vec<String>,
     },
-    /// Run hard cases by seed in every formulation; the table of methods by properties under target/gauntlet
+    #[command(about = jobs::GAUNTLET)]
     Gauntlet {
         /// So many cases
         #[arg(long, value_name = "N", default_value_t = 10_000)]

@@ -6,6 +6,7 @@ pub mod counts;
 mod debian;
 mod documentation;
 pub mod fuzz;
+pub mod jobs;
 pub mod nostd;
 pub mod package;
 pub mod pages;

@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 use std::ffi::OsString;
 use std::process::ExitCode;
-use xtask::{check, counts, fuzz, nostd, package, pick, process, races, simulate};
+use xtask::{check, counts, fuzz, jobs, nostd, package, pick, process, races, simulate};
 
 /// The command line.
 #[derive(Debug, Parser)]
@@ -46,29 +46,21 @@ enum Job {
     },
     /// Build and run each package of examples/pick: mbs-core and one formulation alone
     Pick,
-    /// Run the report's tables anew, beside its numbers: text, CSV and HTML under target/tables
-    #[command(disable_help_flag = true)]
+    #[command(disable_help_flag = true, about = jobs::TABLES)]
     Tables(Words),
-    /// Make every page of measurements with an index under target/report; a run that stops unlisted fails the job
-    #[command(disable_help_flag = true)]
+    #[command(disable_help_flag = true, about = jobs::REPORT)]
     Report(Words),
-    /// Run the experiments on variable steps beside fixed ones: text, CSV and HTML under target/steps
-    #[command(disable_help_flag = true)]
+    #[command(disable_help_flag = true, about = jobs::STEPS)]
     Steps(Words),
-    /// Time a step in each formulation and scene, its phases, faer beside it, and what threads gain: text, JSON and HTML under target/bench
-    #[command(disable_help_flag = true)]
+    #[command(disable_help_flag = true, about = jobs::BENCH)]
     Bench(Words),
-    /// Hold the choice by measurement against the best of all methods, on every scene at three errors: text and CSV under target/choice
-    #[command(disable_help_flag = true)]
+    #[command(disable_help_flag = true, about = jobs::CHOICE)]
     Choice(Words),
-    /// Time mbs and its peers on the same problems by turns (docs/PEERS.md): text, Markdown, CSV and HTML under target/peers
-    #[command(disable_help_flag = true)]
+    #[command(disable_help_flag = true, about = jobs::PEERS)]
     Peers(Words),
     /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
     Counts,
-    /// Profile steps of index-3: instructions by parts under callgrind, operations, and the time beside the floor that the machine's own
-    /// rates give (docs/PROFILES.md): text and Markdown under target/profile
-    #[command(disable_help_flag = true)]
+    #[command(disable_help_flag = true, about = jobs::PROFILE)]
     Profile(Words),
     /// Try scenes that nobody meant, mutated text and random mechanisms; what breaks or hangs is kept under target/fuzz
     Fuzz {
@@ -79,8 +71,7 @@ enum Job {
         #[arg(long, value_name = "N", default_value_t = 1)]
         seed: u64,
     },
-    /// Run hard cases by seed in every formulation; the table of methods by properties under target/gauntlet
-    #[command(disable_help_flag = true)]
+    #[command(disable_help_flag = true, about = jobs::GAUNTLET)]
     Gauntlet(Words),
     /// Package every crate, and build the packages on each other
     Package,
