@@ -12,15 +12,16 @@
 use alloc::vec::Vec;
 use mbs_core::Real;
 
-/// Sweeps allowed per eigenvalue; two or three are usual.
-const MAX_SWEEPS: usize = 60;
+/// Sweeps allowed for each row of a matrix, of ten rows at least; two or three are usual. They are counted for all eigenvalues together: where
+/// stiff and soft springs act on the same coordinates, the first eigenvalue may take a hundred, and the others then take few.
+const MAX_SWEEPS: usize = 30;
 /// Every so many sweeps without success a shift from elsewhere breaks a cycle.
 const STUCK: usize = 10;
 /// Passes of balancing; three are usual.
 const MAX_PASSES: usize = 100;
 
-/// All eigenvalues [real, imaginary] of an n x n matrix, column by column; conjugate ones stand side by side. Nothing where an entry is
-/// not finite, or the iteration does not converge.
+/// All eigenvalues [real, imaginary] of an n x n matrix, column by column; conjugate ones stand side by side. Nothing where an entry or an
+/// eigenvalue is not finite, or the iteration does not converge.
 ///
 /// Cost: about 10 n³ operations; allocates.
 ///
@@ -38,7 +39,7 @@ pub fn eigenvalues<T: Real>(n: usize, a: &[T]) -> Option<Vec<[T; 2]>> {
     square.reduce();
     let mut values = square.francis()?;
     values.iter_mut().flatten().for_each(|x| *x *= scale);
-    Some(values)
+    values.iter().flatten().all(|x| x.is_finite()).then_some(values)
 }
 
 /// A matrix, column by column.
@@ -70,18 +71,17 @@ impl<T: Real> Square<T> {
         scale
     }
 
-    /// Scales rows and columns, by norms without the diagonal.
+    /// Scales rows and columns, by sums of sizes without the diagonal: squares of small entries would vanish.
     fn balance(&mut self) {
         let enough = T::from_f64(0.95);
         for _ in 0..MAX_PASSES {
             let mut is_balanced = true;
             for i in 0..self.n {
-                let squares = |of: &dyn Fn(usize) -> T| {
+                let sizes = |of: &dyn Fn(usize) -> T| {
                     let beside = (0..self.n).filter(|&j| j != i);
-                    beside.fold(T::ZERO, |sum, j| sum + of(j) * of(j)).sqrt()
+                    beside.fold(T::ZERO, |sum, j| sum + of(j).abs())
                 };
-                let (mut column, mut row) =
-                    (squares(&|j| self.at(j, i)), squares(&|j| self.at(i, j)));
+                let (mut column, mut row) = (sizes(&|j| self.at(j, i)), sizes(&|j| self.at(i, j)));
                 if column == T::ZERO || row == T::ZERO {
                     continue;
                 }
@@ -146,7 +146,7 @@ impl<T: Real> Square<T> {
         let norm = self.entries.iter().fold(T::ZERO, |l, x| l.max(x.abs()));
         let tiny = T::EPSILON * T::EPSILON * norm;
         let mut values = Vec::with_capacity(self.n);
-        let (mut n_left, mut sweeps) = (self.n, 0);
+        let (mut n_left, mut sweeps, mut n_sweeps) = (self.n, 0_usize, 0);
         while n_left > 0 {
             let last = n_left - 1;
             let low = (1..=last).rev().find(|&i| self.is_split(i, last, tiny)).unwrap_or(0);
@@ -159,8 +159,8 @@ impl<T: Real> Square<T> {
                 (n_left, sweeps) = (low, 0);
                 continue;
             }
-            sweeps += 1;
-            if sweeps > MAX_SWEEPS {
+            (sweeps, n_sweeps) = (sweeps + 1, n_sweeps + 1);
+            if n_sweeps > MAX_SWEEPS * self.n.max(10) {
                 return None;
             }
             self.sweep(low, last, sweeps.is_multiple_of(STUCK));
@@ -193,10 +193,10 @@ impl<T: Real> Square<T> {
         if square < T::ZERO {
             return [[d + half, root], [d + half, -root]];
         }
-        // the larger change of d first, the other by the product of both
+        // λ − d: the larger one without cancellation, the smaller by the product of both; then the larger λ by the sum, λ₁ + λ₂ = a + d
         let change = half + with_sign(root, half);
         let other = if change == T::ZERO { T::ZERO } else { -product / change };
-        [[d + change, T::ZERO], [d + other, T::ZERO]]
+        [[a - other, T::ZERO], [d + other, T::ZERO]]
     }
 
     /// Chases a bulge from the first rows of a block to its last.

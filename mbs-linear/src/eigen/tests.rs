@@ -76,6 +76,14 @@ fn eigenvalues_by_hand() {
     assert_eq!(eigenvalues(2, &[0.0, -9.0, 1.0, 0.0]).unwrap(), [[0.0, 3.0], [0.0, -3.0]]);
     // a free one:   0 twice
     assert_eq!(eigenvalues(2, &[0.0, 0.0, 1.0, 0.0]).unwrap(), [[0.0; 2]; 2]);
+    // damped far beyond oscillation, [0 1; −1 −c]:   −1/c − 1/c³ and −c + 1/c
+    for c in [1e6_f64, 1e9] {
+        let ours = eigenvalues(2, &[0.0, -1.0, 1.0, -c]).unwrap();
+        let slow = -1.0 / c - c.powi(-3);
+        same("slow", &ours, &[[slow, 0.0], [1.0 / c - c, 0.0]], |v| {
+            4.0 * f64::EPSILON * v[0].abs()
+        });
+    }
     // [2 1; 1 2]:   3 and 1
     assert_eq!(eigenvalues(2, &[2.0, 1.0, 1.0, 2.0]).unwrap(), [[3.0, 0.0], [1.0, 0.0]]);
 }
@@ -89,6 +97,60 @@ fn numbers_that_are_not_finite_have_no_eigenvalues() {
             assert_eq!(eigenvalues(n, &a), None);
         }
     }
+}
+
+#[test]
+fn eigenvalues_beyond_the_numbers_are_none() {
+    assert_eq!(eigenvalues(2, &[1.7e308; 4]), None);
+}
+
+#[test]
+fn single_precision_finds_soft_and_stiff_springs_apart() {
+    // [0 1; −K 0], K = diag(1e14, 1e-12): squares of the softer one's entries are below the least number
+    let a =
+        [0.0, 0.0, -1e14, 0.0, 0.0, 0.0, 0.0, -1e-12, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0_f32];
+    let mut found: Vec<f32> = eigenvalues(4, &a).unwrap().iter().map(|x| x[1]).collect();
+    found.sort_by(f32::total_cmp);
+    for (found, expected) in found.iter().zip([-1e7, -1e-6, 1e-6, 1e7]) {
+        assert!((found - expected).abs() <= 1e-6 * expected.abs(), "{found} {expected}");
+    }
+}
+
+#[test]
+fn stiff_and_soft_springs_on_the_same_coordinates_are_found() {
+    // K = 1 + 24999999.75 s sᵀ,   s = (1, −1, −1, −1):   ω² = 1 three times, and 1e8
+    let s = [1.0, -1.0, -1.0, -1.0];
+    let k = |i: usize, j: usize| f64::from(u8::from(i == j)) + 24_999_999.75 * s[i] * s[j];
+    sprung("of four", &[1.0, 1.0, 1.0, 1e8], k);
+    // K = H diag(ω²) H,   H = 1 − 2 x xᵀ / xᵀx
+    let mut random = Random(23);
+    for f in 2..=14 {
+        for spectrum in [&[1e8, 1e-4][..], &[1e8, 1.0], &[1e10, 1e2, 1e-2], &[1.0]] {
+            for _ in 0..4 {
+                let squares: Vec<f64> = (0..f).map(|i| spectrum[i % spectrum.len()]).collect();
+                let x: Vec<f64> = (0..f).map(|_| random.draw()).collect();
+                let length: f64 = x.iter().map(|x| x * x).sum();
+                let h =
+                    |i: usize, j: usize| f64::from(u8::from(i == j)) - 2.0 * x[i] * x[j] / length;
+                let k = |i: usize, j: usize| {
+                    (0..f).map(|l| h(i, l) * squares[l] * h(l, j)).sum::<f64>()
+                };
+                sprung("turned", &squares, k);
+            }
+        }
+    }
+}
+
+/// ± i ω of undamped springs, as exact as K is known: δ(ω²) ≤ c ε ω²max, and δω = δ(ω²) / 2ω, at most its root.
+fn sprung(name: &str, squares: &[f64], k: impl Fn(usize, usize) -> f64) {
+    let f = squares.len();
+    let ours = eigenvalues(2 * f, &state_matrix(f, k, |_, _| 0.0));
+    let ours = ours.unwrap_or_else(|| panic!("{name}, {f}: does not converge"));
+    let expected: Vec<[f64; 2]> =
+        squares.iter().flat_map(|k| [[0.0, k.sqrt()], [0.0, -k.sqrt()]]).collect();
+    let largest = squares.iter().fold(0.0, |l: f64, &x| l.max(x));
+    let off = 1e3 * f64::EPSILON * largest;
+    same(name, &ours, &expected, |value| off.sqrt().min(off / value[0].hypot(value[1])));
 }
 
 #[test]
