@@ -216,10 +216,20 @@ pub(crate) fn multipliers_after(
 /// Place of each node by approximate minimum degree.
 ///
 /// # Panics
-/// Never: the lists name nodes `< n_nodes`, and each list is ascending.
+/// Never: the lists name nodes `< n_nodes`, each list is ascending, and the diagonal is in the pattern, which `amd` counts on in debug
+/// builds.
 fn ordered_by_amd(neighbours: &Lists, n_nodes: usize) -> Vec<u32> {
-    let rows: Vec<usize> = neighbours.items.iter().map(|&w| w as usize).collect();
-    let ordered = amd::order(n_nodes, &neighbours.start, &rows, &amd::Control::default());
+    let mut start = vec![0];
+    let mut rows = Vec::with_capacity(neighbours.items.len() + n_nodes);
+    for v in 0..n_nodes {
+        let others = neighbours.get(v);
+        let (before, after) = others.split_at(others.partition_point(|&w| (w as usize) < v));
+        rows.extend(before.iter().map(|&w| w as usize));
+        rows.push(v);
+        rows.extend(after.iter().map(|&w| w as usize));
+        start.push(rows.len());
+    }
+    let ordered = amd::order(n_nodes, &start, &rows, &amd::Control::default());
     let (_, place, _) = ordered.expect("a pattern of ascending lists");
     place.into_iter().map(index).collect()
 }
