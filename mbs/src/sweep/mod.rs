@@ -14,6 +14,7 @@ pub use crate::journal::JournalError;
 pub use member::Row;
 pub use table::{Columns, Failures};
 
+use crate::choice::Precision;
 use crate::journal::{Head, Journal, Kind};
 use crate::settings::{Overrides, Settings, SettingsError};
 use core::fmt::{self, Display, Formatter};
@@ -54,6 +55,8 @@ pub enum StudyError {
     Settings(SettingsError),
     /// An override of a number that the sweep varies; the path of the number.
     Varied(&'static str),
+    /// By the precision: members run in numbers of the hardware.
+    Pairs,
 }
 
 /// Why the members could not be run, or their table not be written.
@@ -125,6 +128,9 @@ impl Study {
     ) -> Result<Self, StudyError> {
         let data = scene.scene::<f64>().map_err(StudyError::Read)?;
         let settings = Settings::new(&data, overrides).map_err(StudyError::Settings)?;
+        if settings.precision == Precision::DoubleDouble {
+            return Err(StudyError::Pairs);
+        }
         let columns = Columns::new(&Channel::of_scene(&data));
         let options = format!("{overrides:?}");
         let head = Head::new(KIND, &[scene.text(), sweep.text(), &options]);
@@ -292,6 +298,7 @@ impl Display for StudyError {
             Self::Read(error) => write!(f, "{error}"),
             Self::Settings(error) => write!(f, "{error}"),
             Self::Varied(path) => write!(f, "the sweep varies `{path}`, which is given as well"),
+            Self::Pairs => write!(f, "a sweep runs in `f32` or `f64`, not in `dd`"),
         }
     }
 }

@@ -1,6 +1,21 @@
 //! The sweeps of the repository.
 
 use crate::common::path;
+use mbs::Overrides;
+use mbs::scene_file::Document;
+use mbs::sweep::{Study, StudyError};
+
+fn read(name: &str) -> Document {
+    let text = std::fs::read_to_string(path(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+    Document::parse(&text, name).expect("TOML")
+}
+
+#[test]
+fn a_sweep_in_pairs_of_doubles_is_refused_before_its_members() {
+    let (scene, sweep) = (read("double-pendulum"), read("sweeps/double-pendulum-lengths"));
+    let overrides = Overrides { precision: Some("dd".to_owned()), ..Overrides::default() };
+    assert!(matches!(Study::new(scene, &sweep, &overrides), Err(StudyError::Pairs)));
+}
 
 #[test]
 fn the_sweeps_of_the_repository_fit_their_scenes() {
@@ -8,13 +23,8 @@ fn the_sweeps_of_the_repository_fit_their_scenes() {
         ("double-pendulum-lengths", "double-pendulum", 25),
         ("iltis-stairs-vehicles", "iltis-stairs", 200),
     ] {
-        let read = |name: &str| {
-            let text =
-                std::fs::read_to_string(path(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
-            mbs::scene_file::Document::parse(&text, name).expect("TOML")
-        };
         let (scene, sweep) = (read(scene_name), read(&format!("sweeps/{name}")));
-        let study = mbs::sweep::Study::new(scene, &sweep, &mbs::Overrides::default());
+        let study = Study::new(scene, &sweep, &Overrides::default());
         let study = study.unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(study.n_members(), members);
         let row = study.member(members - 1);
