@@ -3,7 +3,6 @@
 use super::image::{Image, reachable};
 use super::in_c;
 use super::sizes;
-use super::table::Build;
 use super::told::Told;
 use super::toolchain::Toolchain;
 use crate::debian;
@@ -171,8 +170,7 @@ pub(super) fn build(
     model: &Path,
 ) -> Result<(PathBuf, Image), String> {
     let folder = process::target_dir().join("firmware").join(board.cpu);
-    let mut command =
-        toolchain.cargo(&Build { package: "mbs-firmware", features: &[], is_alloc: false });
+    let mut command = toolchain.cargo(false);
     command.args(["build", "--release", "--quiet", "--locked", "--target", TARGET]);
     command.args(["--features", features]).arg("--target-dir").arg(&folder);
     let mut flags = format!("-C target-cpu={} -C link-arg=-Tlink.x", board.cpu);

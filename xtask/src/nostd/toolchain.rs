@@ -1,7 +1,6 @@
 //! A Rust that can compile for a bare target: one with the target's libraries installed, or the system's with
 //! its sources. Debian's packages are installed where that is possible; toolchains and targets are never fetched.
 
-use super::table::Build;
 use crate::debian::{find as find_program, install};
 use crate::process::{cargo, output};
 use crate::summary::LeftOut;
@@ -52,15 +51,15 @@ impl Toolchain {
         }
     }
 
-    /// A cargo of this toolchain, prepared for the build.
-    pub(crate) fn cargo(self, build: &Build) -> Command {
+    /// A cargo of this toolchain, for a build without `alloc` or with it.
+    pub(crate) fn cargo(self, has_alloc: bool) -> Command {
         match self {
             Self::Installed => cargo(),
             Self::System => {
                 let mut command = system(SYSTEM_CARGO);
                 // Building the libraries from source is not stable yet; the variable admits the option.
                 command.env("RUSTC", SYSTEM_RUSTC).env("RUSTC_BOOTSTRAP", "1");
-                let libraries = if build.is_alloc { "core,alloc" } else { "core" };
+                let libraries = if has_alloc { "core,alloc" } else { "core" };
                 command.arg("-Z").arg(format!("build-std={libraries}"));
                 command
             }
