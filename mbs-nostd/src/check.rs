@@ -10,7 +10,7 @@ use mbs_core::laws::body::BodyLaw;
 use mbs_core::laws::road::Feature;
 use mbs_core::laws::scalar::Law;
 use mbs_recursive::link::Kind;
-use mbs_recursive::loads::{Load, OnBody};
+use mbs_recursive::loads::{Gauge, Load, OnBody};
 use mbs_recursive::mechanism::Mechanism;
 use mbs_recursive::plan::Span;
 use mbs_recursive::space::Space;
@@ -310,8 +310,9 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
         let is_course = |course: u32| (course as usize) < self.sizes.courses;
         for (i, load) in self.m.loads.iter().enumerate() {
             let holds = match load {
-                Load::Between { links, law, .. } => {
-                    links.iter().all(|&link| is_link(link)) && self.is_law(law)
+                Load::Between { links, gauge, law } => {
+                    let has_angle = S::DIMENSION == 2 || !matches!(gauge, Gauge::Turn);
+                    links.iter().all(|&link| is_link(link)) && has_angle && self.is_law(law)
                 }
                 Load::Angle { link, law } => {
                     let joint = self.m.links.get(*link as usize);

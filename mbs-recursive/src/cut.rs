@@ -10,6 +10,8 @@
 //! | planar | p·n, v·n, w·n |
 //! | distance | (p·p − L²)/(2L); hinged: p·a |
 
+use crate::error::TreeError;
+use crate::link::Kind;
 use crate::loads::{Gauge, Load, OnBody};
 use crate::loops::index;
 use crate::rows::{Loop, Row};
@@ -19,6 +21,7 @@ use alloc::collections::BTreeMap;
 use mbs_core::Real;
 use mbs_core::actions::{self, Action};
 use mbs_core::algebra::{Vector, norm};
+use mbs_core::laws::scalar::Law;
 use mbs_core::natural::{joint_axes, transverse};
 use mbs_core::scene::{BodyRef, Joint, JointKind, Scene};
 
@@ -86,18 +89,83 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 
     /// Adds effects; what acts on the ground alone is nothing.
-    pub(crate) fn add_loads(&mut self, list: &[(usize, Action<T>)]) {
-        let links = self.seats.iter().map(|seat| (seat.branch.joint, seat.link)).collect();
+    ///
+    /// # Errors
+    /// [`TreeError::EffectCut`]: an effect about the axis of a joint that carries no angle.
+    pub(crate) fn add_loads(
+        &mut self,
+        scene: &Scene<T>,
+        list: &[(usize, Action<T>)],
+    ) -> Result<(), TreeError> {
+        let turning = self.turning_links();
         for (effect, action) in list {
-            self.add_load(action, &links);
+            let cut = |joint| TreeError::EffectCut { effect: *effect, joint };
+            if let Some(load) = self.load((scene, &turning), action).map_err(cut)?
+                && !load.is_idle()
+            {
+                self.loads.push(load);
+            }
             // One load at most.
             self.effects.resize(self.loads.len(), *effect);
         }
+        Ok(())
     }
 
-    /// Adds a load; `links` has the link of each joint of the tree.
-    fn add_load(&mut self, action: &Action<T>, links: &BTreeMap<Option<usize>, u32>) {
-        let load = match action {
+    /// The link that turns about the axis of each joint of the tree, where one alone does: the part of the joint that is revolute, wherever it
+    /// stands among the others.
+    fn turning_links(&self) -> BTreeMap<usize, u32> {
+        let mut turning = BTreeMap::new();
+        for seat in &self.seats {
+            let turns = |&link: &u32| {
+                let kind = self.links[link as usize].kind;
+                matches!(kind, Kind::Revolute | Kind::GuidedRevolute)
+            };
+            if let (Some(joint), Some(link)) =
+                (seat.branch.joint, (seat.first..=seat.link).find(turns))
+            {
+                turning.insert(joint, link);
+            }
+        }
+        turning
+    }
+
+    /// A law about a joint's axis: on the coordinate of the link that turns there. A free joint in the plane has no link between its bodies:
+    /// their angles differ by its own. Between parts of one body nothing turns.
+    ///
+    /// # Errors
+    /// The joint, if nothing has its angle.
+    fn about_axis(
+        &self,
+        scene: &Scene<T>,
+        (index, link): (usize, Option<&u32>),
+        law: Law<T>,
+    ) -> Result<Option<Load<T, S>>, usize> {
+        if let Some(&link) = link {
+            return Ok(Some(Load::Angle { link, law }));
+        }
+        let joint = &scene.joints[index];
+        let links = joint.bodies.map(|body| self.link(body));
+        if links[0] == links[1] {
+            return Ok(None);
+        }
+        let is_planar_free = joint.kind == JointKind::Free && S::DIMENSION == 2;
+        let load = is_planar_free.then_some(Load::Between { links, gauge: Gauge::Turn, law });
+        load.map(Some).ok_or(index)
+    }
+
+    /// The load of an action; `turning` has the link that turns about the axis of each joint.
+    ///
+    /// # Errors
+    /// The joint whose angle it asks for in vain.
+    fn load(
+        &self,
+        (scene, turning): (&Scene<T>, &BTreeMap<usize, u32>),
+        action: &Action<T>,
+    ) -> Result<Option<Load<T, S>>, usize> {
+        Ok(Some(match action {
+            Action::Angle { joint, law } => {
+                return self.about_axis(scene, (*joint, turning.get(joint)), *law);
+            }
             Action::Length { ends, law } => {
                 let (links, points) = self.ends(ends);
                 Load::Between { links, gauge: Gauge::Length { points }, law: *law }
@@ -112,10 +180,6 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 let links = bodies.map(|body| self.link(body));
                 let sides = sides.map(|side| S::point_from(&Vector::from(side)));
                 Load::Between { links, gauge: Gauge::Twist { sides }, law: *law }
-            }
-            Action::Angle { joint, law } => {
-                let Some(&link) = links.get(&Some(*joint)) else { return };
-                Load::Angle { link, law: *law }
             }
             Action::Constant { at, force } => {
                 let (link, point) = self.seat_point(BodyRef::Body(at.0), at.1);
@@ -132,10 +196,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 let (link, point) = self.seat_point(BodyRef::Body(at.0), at.1);
                 Load::OnBody(OnBody { link, point, axis: *axis, law: *law })
             }
-        };
-        if !load.is_idle() {
-            self.loads.push(load);
-        }
+        }))
     }
 
     /// Links and points of two places.

@@ -142,9 +142,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let origin = &self.origins[seat.link as usize];
         let [position, velocity, _] = child.point(origin);
         let link = &self.links[seat.link as usize];
-        let (z, v) = (&mut state.z[link.z as usize..], &mut state.v[link.v as usize..]);
         match link.kind {
             Kind::Free => {
+                let (z, v) = (&mut state.z[link.z as usize..], &mut state.v[link.v as usize..]);
                 let rotation = S::rotation_from(&child.rotation);
                 S::write_rotation(&rotation, z);
                 if S::DIMENSION == 2 {
@@ -157,6 +157,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 own(write(&S::point_from(&velocity), v, S::Spin::N));
             }
             Kind::Ball => {
+                let (z, v) = (&mut state.z[link.z as usize..], &mut state.v[link.v as usize..]);
                 let relative = parent.rotation.transpose() * child.rotation;
                 S::write_rotation(&S::rotation_from(&relative), z);
                 let spin = child.rotation.transpose() * (child.omega - parent.omega);

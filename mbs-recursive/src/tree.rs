@@ -102,7 +102,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         let Self { links, loops, .. } = &mut tree;
         tree.order = Order::new(links, loops);
-        tree.add_loads(&list);
+        tree.add_loads(scene, &list)?;
         Ok(tree)
     }
 

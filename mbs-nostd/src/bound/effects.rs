@@ -89,7 +89,7 @@ pub(super) fn load<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, load: &Load<T,
     let across = ops(3, 3);
     match load {
         Load::Between { links, gauge, law } => {
-            let measured = measured(gauge, &parts) + scalar(law);
+            let measured = measured(m.links.len(), gauge, &parts) + scalar(law);
             let hangs = |link: u32, other: u32| {
                 m.links.get(link as usize).is_some_and(|own| {
                     link > 0 && own.parent == other && own.kind.n_freedoms::<T, S>() <= 1
@@ -121,7 +121,11 @@ pub(super) fn load<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, load: &Load<T,
 }
 
 /// What a law measures, its wrenches and its rate.
-fn measured<T: Real, S: Space<T>>(gauge: &Gauge<T, S>, parts: &Parts) -> Operations {
+fn measured<T: Real, S: Space<T>>(
+    n_links: usize,
+    gauge: &Gauge<T, S>,
+    parts: &Parts,
+) -> Operations {
     let between = parts.turned * 2 + ops(0, 3 * parts.point);
     let rate = parts.motions * 2 + ops(0, 1);
     match gauge {
@@ -141,6 +145,8 @@ fn measured<T: Real, S: Space<T>>(gauge: &Gauge<T, S>, parts: &Parts) -> Operati
         Gauge::Twist { .. } => {
             parts.turned * 4 + parts.wrench * 2 + ops(4, 4) + parts.points * 2 + rate
         }
+        // The angles of both links, by all that are on the way at most.
+        Gauge::Turn => ops(0, 2 * n_links as u64 + 1) + parts.wrench + rate,
     }
 }
 

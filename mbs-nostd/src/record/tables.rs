@@ -51,6 +51,7 @@ record_enum!([T: Real + Record, S: Axes<T>] Gauge<T, S> = Gauge {
     0 Length { points points },
     1 Along { points points, direction direction, offset offset },
     2 Twist { sides sides },
+    3 Turn {},
 });
 
 record_struct!([T: Real + Record, S: Axes<T>] OnBody<T, S> = OnBody { link, point, axis, law });

@@ -4,6 +4,7 @@
 //! length   L = |p₂ − p₁|                       n on p₂, −n on p₁
 //! along    m = (p₂ − p₁)·d₁ − m₀               d₁ on p₂, −d₁ on the first link at the same place
 //! twist    m = (b₁·a₂ − a₁·b₂)/2               the moment (a₂ × b₁ − b₂ × a₁)/2 on the second, minus it on the first
+//! turn     θ = θ₂ − θ₁, in the plane            the unit moment on the second, minus it on the first
 //! ```
 
 use super::Instant;
@@ -34,6 +35,8 @@ pub enum Gauge<T: Real, S: Space<T>> {
         /// a and b, reference axes.
         sides: [S::Point; 2],
     },
+    /// The angle of the second link in the first, in the plane: over any number of turns, as the coordinates of the tree have it.
+    Turn,
 }
 
 impl<T: Real, S: Space<T>> Gauge<T, S> {
@@ -64,6 +67,12 @@ impl<T: Real, S: Space<T>> Gauge<T, S> {
                 let moment = (S::moment(&a2, &b1) - S::moment(&b2, &a1)) * T::HALF;
                 let g = S::motion(moment, S::Point::zero());
                 ((b1.dot(&a2) - a1.dot(&b2)) * T::HALF, [-g, g])
+            }
+            Self::Turn => {
+                let (mut x, mut y) = (S::Point::zero(), S::Point::zero());
+                (x[0], y[1]) = (T::ONE, T::ONE);
+                let g = S::motion(S::moment(&x, &y), S::Point::zero());
+                (at.turn(links[1])? - at.turn(links[0])?, [-g, g])
             }
         };
         let rate = gradient[0].dot(&at.placed(links[0])?.velocity)

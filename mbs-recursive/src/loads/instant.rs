@@ -35,6 +35,20 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
         })
     }
 
+    /// Angle of a link against the ground, in the plane: the sum of the angles on the way there.
+    pub(super) fn turn(&self, link: u32) -> Result<T, Outside> {
+        let (mut sum, mut number) = (T::ZERO, link);
+        while number > 0 {
+            let link = at(self.links, number as usize)?;
+            if !matches!(link.kind, Kind::Prismatic | Kind::GuidedPrismatic) {
+                sum += self.coordinate(number)?[0];
+            }
+            // The first coordinate of a free link is its angle against the ground.
+            number = if link.kind == Kind::Free { 0 } else { link.parent };
+        }
+        Ok(sum)
+    }
+
     /// A link's place.
     #[inline(always)]
     pub(super) fn placed(&self, link: u32) -> Result<&Placed<T, S>, Outside> {

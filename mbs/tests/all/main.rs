@@ -7,6 +7,7 @@ use mbs_testkit::retell;
 
 mod analysis;
 mod andrews;
+mod axes;
 mod checkpoint;
 mod choice;
 mod contact;

@@ -1,0 +1,143 @@
+//! Effects about the axis of a joint: every kind of joint that has one, in both orders of its bodies, on the ground and on a body that
+//! moves, in every formulation; and guides on every joint of a chain.
+
+use crate::common::oracle::{METHODS, Method, disagreement, everything, rows, tell};
+use mbs::core::scene::Scene;
+use mbs::scene_file::Document;
+
+fn read(text: &str) -> Scene<f64> {
+    let document = Document::parse(text, "axes.toml").unwrap_or_else(|e| panic!("{}", e.render()));
+    document.scene().unwrap_or_else(|e| panic!("{}\n{text}", e.render()))
+}
+
+/// A body that hangs on the ground, or on a body that swings itself, by a joint with an effect.
+fn hung(is_planar: bool, kind: &str, [is_on_body, is_reversed]: [bool; 2], effect: &str) -> String {
+    let first = if is_on_body { "base" } else { "ground" };
+    let bodies = if is_reversed { ["a", first] } else { [first, "a"] };
+    let (dimension, gravity) = if is_planar { (2, "[0, -9.81]") } else { (3, "[0, 0, -9.81]") };
+    let vector = |x: [f64; 3]| format!("{:?}", &x[..dimension]);
+    let inertia = |of: [&str; 2]| of[usize::from(!is_planar)].to_owned();
+    let axis = |of: &str| if is_planar { String::new() } else { format!("axis = {of}\n") };
+    let own_axis = match kind {
+        "planar" => "axis = [1.0, 0.2, 0.3]\ndirection = [0.0, 1.0, 0.1]\n",
+        "revolute" | "cylindrical" if !is_planar => "axis = [1.0, 0.2, 0.3]\n",
+        _ => "",
+    };
+    let at = if kind == "free" { String::new() } else { format!("at = {}\n", vector([0.0; 3])) };
+    let mut text = format!(
+        "[scene]\nname = \"axes\"\ndimension = {dimension}\nduration = 0.1\ngravity = {gravity}\n\
+         [[body]]\nname = \"a\"\nmass = 1.0\ncenter = {}\ninertia = {}\n",
+        vector([0.3, 0.1, 0.05]),
+        inertia(["0.05", "[0.02, 0.03, 0.04, 0.002, -0.001, 0.003]"]),
+    );
+    if is_on_body {
+        text += &format!(
+            "[[body]]\nname = \"base\"\nmass = 2.0\ncenter = {}\ninertia = {}\n\
+             [[joint]]\nname = \"root\"\nkind = \"revolute\"\nbodies = [\"ground\", \"base\"]\nat = {}\n{}",
+            vector([-0.2, 0.05, 0.1]),
+            inertia(["0.1", "[0.1, 0.12, 0.15, 0.01, 0.0, -0.01]"]),
+            vector([-0.5, 0.0, 0.1]),
+            axis("[0.3, 0.2, 1.0]"),
+        );
+    }
+    let rate = if kind == "revolute" {
+        "[[initial]]\njoint = \"j\"\nvalue = 0.2\nrate = 3.0\n"
+    } else {
+        ""
+    };
+    text + &format!(
+        "[[joint]]\nname = \"j\"\nkind = \"{kind}\"\nbodies = {bodies:?}\n{at}{own_axis}{rate}\
+         [[effect]]\nname = \"e\"\njoint = \"j\"\n{effect}\n"
+    )
+}
+
+const ON_ONE_ROTATION: [&str; 3] = [
+    "kind = \"torque\"\nvalue = 0.7",
+    "kind = \"torque\"\ntable = [[0.0, 0.0], [0.05, 2.0], [0.1, -1.0]]",
+    "kind = \"torsion-spring\"\nstiffness = 6.0\ndamping = 0.2\nfree_value = 0.9",
+];
+const ON_ONE_COORDINATE: [&str; 2] = [
+    "kind = \"friction\"\ncoulomb = 0.4\nviscous = 0.1\nregularisation = 0.5",
+    "kind = \"limit\"\nlower = -0.1\nupper = 0.3\nstiffness = 400.0\ndamping = 1.0",
+];
+
+#[test]
+fn effects_about_an_axis_are_the_same_in_every_formulation() {
+    let mut faults = Vec::new();
+    let mut n = 0;
+    for (is_planar, kind) in [
+        (true, "revolute"),
+        (true, "free"),
+        (false, "revolute"),
+        (false, "cylindrical"),
+        (false, "planar"),
+    ] {
+        let others = if kind == "revolute" { &ON_ONE_COORDINATE[..] } else { &[] };
+        for effect in ON_ONE_ROTATION.iter().chain(others) {
+            for place in [[false, false], [false, true], [true, false], [true, true]] {
+                let text = hung(is_planar, kind, place, effect);
+                let scene = everything(&read(&text));
+                let case = |method: Method| tell(&scene, method, (1e-3, 0.1));
+                let reference = case(METHODS[0]).unwrap_or_else(|e| panic!("{e}\n{text}"));
+                for &method in &METHODS[1..] {
+                    n += 1;
+                    match case(method) {
+                        Ok(told) => {
+                            let (ratio, i) = disagreement(&reference, &told);
+                            if !(ratio <= 1.0) {
+                                faults.push(format!(
+                                    "{kind} {place:?} {effect:?} {method:?}: {ratio:.2}, {i}"
+                                ));
+                            }
+                        }
+                        Err(stop) => {
+                            faults.push(format!("{kind} {place:?} {effect:?} {method:?}: {stop}"))
+                        }
+                    }
+                }
+            }
+        }
+    }
+    println!("{n} combinations");
+    assert!(faults.is_empty(), "{}\n{} of {n}", faults.join("\n"), faults.len());
+}
+
+#[test]
+fn a_torque_on_a_free_joint_turns_its_body_by_closed_form() {
+    // a body on nothing:   α = M / J,   rate of the second body in the first after 0.6 s: 0.6 · 0.7 / 0.05
+    for place in [[false, false], [false, true]] {
+        let scene = read(&hung(true, "free", place, ON_ONE_ROTATION[0]));
+        for method in METHODS.iter().filter(|method| method.0 == "recursive") {
+            let rows = rows(&everything(&scene), *method, (1e-3, 0.6), 600);
+            let rows = rows.unwrap_or_else(|e| panic!("{method:?}: {e}"));
+            let last = rows.last().expect("rows").1.last().copied().expect("a joint rate");
+            assert!((last - 8.4).abs() < 1e-6, "{method:?} {place:?}: {last}");
+        }
+    }
+}
+
+#[test]
+fn chains_that_are_guided_at_every_joint_run_in_relative_coordinates() {
+    // two bars of 1 m and 1 kg, q = 0.5 sin 2πt and 0.3 sin 2πt:   at 1 s q = 0, q' = π and 0.6 π, q'' = 0
+    let text = "[scene]\nname = \"guided\"\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n\
+        [[body]]\nname = \"a\"\nmass = 1.0\nrod = { from = [0.0, 0.0], to = [1.0, 0.0] }\n\
+        [[body]]\nname = \"b\"\nmass = 1.0\nrod = { from = [1.0, 0.0], to = [2.0, 0.0] }\n\
+        [[joint]]\nname = \"j1\"\nkind = \"revolute\"\nbodies = [\"ground\", \"a\"]\nat = [0.0, 0.0]\n\
+        [[joint]]\nname = \"j2\"\nkind = \"revolute\"\nbodies = [\"a\", \"b\"]\nat = [1.0, 0.0]\n\
+        [[guide]]\njoint = \"j1\"\nsine = { amplitude = 0.5, frequency = 1.0 }\n\
+        [[guide]]\njoint = \"j2\"\nsine = { amplitude = 0.3, frequency = 1.0 }\n\
+        [[output]]\nname = \"ground\"\njoint = \"j1\"\nquantity = \"reaction\"\n";
+    let scene = read(text);
+    // centres at 0.5 m and 1.5 m:   m a = −(0.5 + 1) π² − 0.5 (1.6 π)²,   and the weight of both
+    let pi = core::f64::consts::PI;
+    let x = -(1.5 * pi * pi + 0.5 * (1.6 * pi) * (1.6 * pi));
+    for method in METHODS.iter().filter(|method| method.0 == "recursive") {
+        let rows = rows(&scene, *method, (1e-3, 1.0), 1000);
+        let rows = rows.unwrap_or_else(|e| panic!("{method:?}: {e}"));
+        let last = &rows.last().expect("rows").1;
+        // force of the ground, and the moments of the guides:   m g (0.5 + 1.5) about the first
+        for (found, expected) in last.iter().zip([x, 19.62, 19.62]) {
+            assert!((found - expected).abs() < 1e-6 * 27.0, "{method:?}: {last:?}");
+        }
+    }
+}
