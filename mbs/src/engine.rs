@@ -135,9 +135,16 @@ where
         state: &mut State<T>,
     ) -> Result<StepReport<T>, StepError> {
         let step = (dt, model.length());
+        // The steps stand twice, for one thread and for a team: through the team's forks alone small mechanisms take 5 to 8 % more instructions.
         match self {
+            Self::Augmented { index, workspace, team: Threads::One } => {
+                index.step(model, step, state, workspace)
+            }
             Self::Augmented { index, workspace, team } => {
                 index.step(&model.with_team(team), step, state, workspace)
+            }
+            Self::Classical { options, workspace, team: Threads::One } => {
+                classical::index3::step(model, step, options, state, workspace)
             }
             Self::Classical { options, workspace, team } => {
                 classical::index3::step(&model.with_team(team), step, options, state, workspace)
