@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod compare;
+mod dice;
 mod generate;
 mod page;
 mod read;
@@ -8,6 +9,7 @@ mod record;
 mod report;
 mod write;
 
+pub use dice::Dice;
 pub use generate::{Family, GenerateError, MOST_BODIES, generate};
 pub use page::page;
 pub use read::{Document, Place, ReadError, ReadFault, Sweep, SweepFault, suggestion};

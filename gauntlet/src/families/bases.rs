@@ -2,7 +2,7 @@
 
 use crate::draft::{Draft, GROUND};
 use crate::vector::{Point, cross, dot, plus};
-use fuzz::Dice;
+use mbs::scene_file::Dice;
 
 /// A direction at random.
 pub(super) fn direction(dice: &mut Dice) -> Point {

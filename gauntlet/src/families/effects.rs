@@ -5,7 +5,7 @@ use super::{case, decades, others, time, twin};
 use crate::case::{Case, Truth};
 use crate::draft::{Draft, Effect, GROUND};
 use crate::vector::plus;
-use fuzz::Dice;
+use mbs::scene_file::Dice;
 
 const STEPS: [f64; 4] = [3e-3, 1e-3, 3e-4, 1e-4];
 const GRAVITY: f64 = 9.81;

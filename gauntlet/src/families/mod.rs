@@ -10,7 +10,7 @@ mod steps;
 use crate::case::{Case, Image, Options, Truth};
 use crate::draft::Draft;
 use crate::text::text;
-use fuzz::Dice;
+use mbs::scene_file::Dice;
 
 /// A property that makes cases hard, and the generator of such cases.
 #[derive(Debug, Clone, Copy)]

@@ -6,7 +6,7 @@ use crate::case::{Case, Image, Options, Truth};
 use crate::draft::{Draft, GROUND, Joint};
 use crate::text::text;
 use crate::vector::{Turn, plus};
-use fuzz::Dice;
+use mbs::scene_file::Dice;
 
 const STEPS: [f64; 4] = [1e-2, 3e-3, 1e-3, 3e-4];
 

@@ -5,7 +5,7 @@ use super::{decades, others, time, twin};
 use crate::case::Case;
 use crate::draft::{Draft, GROUND};
 use crate::vector::{Point, plus};
-use fuzz::Dice;
+use mbs::scene_file::Dice;
 
 const STEPS: [f64; 4] = [1e-2, 3e-3, 1e-3, 3e-4];
 

@@ -3,7 +3,7 @@
 use super::bases::{any, chain, four_bar};
 use super::{case, decades, time};
 use crate::case::{Case, Options, Truth};
-use fuzz::Dice;
+use mbs::scene_file::Dice;
 
 /// A million steps of a chain or a four-bar.
 pub(super) fn long(dice: &mut Dice) -> Case {

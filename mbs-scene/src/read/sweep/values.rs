@@ -9,16 +9,13 @@
 //!
 //! Computed values are rounded to 15 digits, so that a tenth is 0.1 and no machine's last bit shows.
 
+use crate::dice::Dice;
 use crate::write::rounded;
-use rand_pcg::Pcg64;
-use rand_pcg::rand_core::Rng;
 
 /// Significant digits of computed values: what every decimal text keeps through `f64`.
 const DIGITS: usize = 15;
 /// Steps that a range may miss its end by: rounding.
 const ROUNDING: f64 = 1e-9;
-/// 2^128 over the golden ratio, odd: seeds and parameters begin far from each other in the generator's sequence.
-const GOLDEN: u128 = 0x9E37_79B9_7F4A_7C15_F39C_C060_5CED_C835;
 
 /// Numbers between two ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,27 +58,14 @@ impl Range {
 
     /// One number in each of `n` strata of equal length, in random order; the same for the same seed and parameter.
     pub(super) fn strata(&self, n: u32, seed: u64, parameter: usize) -> Vec<f64> {
-        let mut random = Pcg64::new(u128::from(seed).wrapping_mul(GOLDEN), 0);
-        random.advance((parameter as u128).wrapping_mul(GOLDEN));
+        let mut random = Dice::of_part(seed, parameter);
         let mut order: Vec<u32> = (0..n).collect();
         for i in (1..order.len()).rev() {
-            order.swap(i, below(&mut random, i + 1));
+            order.swap(i, random.evenly_below(i + 1));
         }
         let strata = order.into_iter();
-        strata.map(|k| self.at((f64::from(k) + unit(&mut random)) / f64::from(n))).collect()
+        strata.map(|k| self.at((f64::from(k) + random.unit()) / f64::from(n))).collect()
     }
-}
-
-/// A number from 0 to `n` - 1; even to 2^-44 for up to a million.
-#[allow(clippy::cast_possible_truncation, reason = "the upper half of a product is below n")]
-fn below(random: &mut Pcg64, n: usize) -> usize {
-    ((u128::from(random.next_u64()) * n as u128) >> 64) as usize
-}
-
-/// A number in [0, 1), a multiple of 2^-53.
-#[allow(clippy::cast_precision_loss, reason = "53 bits are exact")]
-fn unit(random: &mut Pcg64) -> f64 {
-    (random.next_u64() >> 11) as f64 * f64::EPSILON / 2.0
 }
 
 #[cfg(test)]
