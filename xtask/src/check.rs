@@ -127,12 +127,12 @@ fn format() -> Result<Outcome, String> {
 }
 
 fn lints() -> Result<Outcome, String> {
-    let args = ["clippy", "--workspace", "--all-targets", "--quiet", "--", "--deny", "warnings"];
-    component("clippy", "clippy", &args)
+    let args = ["--all-targets", "--quiet", "--", "--deny", "warnings"];
+    component("clippy", "clippy", &[&["clippy"], &process::ALL[..], &args].concat())
 }
 
 fn tests() -> Result<Outcome, String> {
-    passed(cargo().args(["test", "--workspace"]))
+    passed(cargo().arg("test").args(process::ALL))
 }
 
 /// Runs a command whose success is all that counts.

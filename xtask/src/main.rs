@@ -116,6 +116,7 @@ fn main() -> ExitCode {
 /// Builds `lab` where that is needed, and has it do a job; its exit status.
 fn lab(job: &str, words: &Words) -> ExitCode {
     let mut lab = process::cargo();
-    lab.args(["run", "--quiet", "--release", "--package", "lab", "--", job]).args(&words.args);
+    lab.args(["run", "--quiet", "--release", "--package", "xtask", "--features", "lab"]);
+    lab.args(["--bin", "lab", "--", job]).args(&words.args);
     process::hand_over(&mut lab)
 }

@@ -1,4 +1,4 @@
-//! `cargo xtask package`: every crate is packaged, and what is in the packages builds.
+//! `cargo xtask package`: every crate is packaged, and what is in the packages builds, alone and on each other.
 
 use crate::process::{self, cargo, output, run};
 use crate::summary::{self, Outcome};
@@ -24,7 +24,7 @@ pub(crate) fn check() -> Result<Outcome, String> {
         fs::remove_dir_all(&packed).map_err(io)?;
     }
     run(cargo()
-        .args(["package", "--workspace", "--no-verify", "--allow-dirty", "--quiet"])
+        .args(["package", "--workspace", "--allow-dirty", "--quiet"])
         .current_dir(process::root()))?;
     fs::create_dir_all(&unpacked).map_err(io)?;
     let mut names = Vec::new();

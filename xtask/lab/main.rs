@@ -107,8 +107,7 @@ enum Job {
     },
 }
 
-/// Does the job of the command line; its exit status.
-pub fn main() -> ExitCode {
+fn main() -> ExitCode {
     match Cli::parse().job {
         Job::Tables { quick, names } => tables::tables(quick, &names),
         Job::Report { quick } => report::report(quick),
