@@ -3,6 +3,7 @@
 use crate::process::{output, run};
 use crate::summary::LeftOut;
 use std::process::Command;
+use std::sync::Mutex;
 
 /// Installs them, as root on a system that has `apt-get`.
 ///
@@ -16,6 +17,9 @@ pub(crate) fn install(packages: &[&str]) -> Result<(), String> {
     if output(Command::new("apt-get").arg("--version")).is_none() {
         return Err("this system has no apt-get".to_owned());
     }
+    // One at a time: checks beside each other would find the lists locked.
+    static TURN: Mutex<()> = Mutex::new(());
+    let _turn = TURN.lock();
     eprintln!("   installing {} with apt-get", packages.join(", "));
     let apt = |args: &[&str]| {
         run(Command::new("apt-get").args(args).env("DEBIAN_FRONTEND", "noninteractive"))

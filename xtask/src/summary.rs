@@ -2,6 +2,7 @@
 
 use crate::process::children_seconds;
 use std::process::ExitCode;
+use std::thread;
 use std::time::Instant;
 
 /// How a check ended, when it did not fail.
@@ -44,6 +45,14 @@ pub struct Summary {
     left_out: Vec<(String, LeftOut)>,
     /// A check that cannot run here fails.
     is_strict: bool,
+    /// Other checks run at the same time: processor seconds are not those of one.
+    is_beside: bool,
+}
+
+/// Processor seconds of child processes since a count of them.
+fn since(cpu: Option<f64>) -> String {
+    cpu.zip(children_seconds())
+        .map_or(String::new(), |(before, after)| format!(" {:>7.1} s of CPU", after - before))
 }
 
 impl Summary {
@@ -71,9 +80,7 @@ impl Summary {
         let seconds = start.elapsed().as_secs_f64();
         match outcome {
             Outcome::Passed(remark) => {
-                let cpu = cpu.zip(children_seconds()).map_or(String::new(), |(before, after)| {
-                    format!(" {:>7.1} s of CPU", after - before)
-                });
+                let cpu = if self.is_beside { String::new() } else { since(cpu) };
                 self.lines.push(format!("  ok        {name:<14} {seconds:>7.1} s{cpu}  {remark}"));
             }
             Outcome::LeftOut(left_out) => {
@@ -96,6 +103,38 @@ impl Summary {
         }
         let names: Vec<&str> = self.left_out.iter().map(|(name, _)| &**name).collect();
         Err(format!("This machine cannot run: {}", names.join(", ")))
+    }
+
+    /// Runs lists of checks beside each other; their lines follow list by list. Processor seconds are told for all of them together.
+    ///
+    /// # Errors
+    ///
+    /// Of the first list in which a check failed; the others have come to their ends.
+    pub fn beside<const N: usize>(
+        &mut self,
+        lists: [impl FnOnce(&mut Self) -> Result<(), String> + Send; N],
+    ) -> Result<(), String> {
+        let (start, cpu) = (Instant::now(), children_seconds());
+        let is_strict = self.is_strict;
+        let run = |list: Box<dyn FnOnce(&mut Self) -> Result<(), String> + Send + '_>| {
+            let mut part = Self { is_beside: true, ..Self::new(is_strict) };
+            let result = list(&mut part);
+            (part, result)
+        };
+        let ended: Vec<_> = thread::scope(|scope| {
+            let all: Vec<_> =
+                lists.into_iter().map(|list| scope.spawn(move || run(Box::new(list)))).collect();
+            all.into_iter().map(|one| one.join().expect("a check does not panic")).collect()
+        });
+        let mut failure = Ok(());
+        for (part, result) in ended {
+            self.lines.extend(part.lines);
+            self.left_out.extend(part.left_out);
+            failure = failure.and(result);
+        }
+        let seconds = start.elapsed().as_secs_f64();
+        self.lines.push(format!("  together  {:<14} {seconds:>7.1} s{}", "", since(cpu)));
+        failure
     }
 
     /// Notes a check that was not asked for.
@@ -142,6 +181,22 @@ mod tests {
             summary.check("counts", || Ok(Outcome::LeftOut(left_out.clone()))).unwrap();
             assert_eq!(summary.complete(), end);
         }
+    }
+
+    #[test]
+    fn lists_beside_each_other_come_to_their_ends_and_the_failure_is_told() {
+        let mut summary = Summary::default();
+        let result = summary.beside([true, false].map(|fails| {
+            move |part: &mut Summary| {
+                let name = if fails { "lints" } else { "pick" };
+                let outcome =
+                    || if fails { Err("one".into()) } else { Ok(Outcome::Passed("all".into())) };
+                part.check(name, outcome)
+            }
+        }));
+        assert_eq!(result, Err("lints failed: one".into()));
+        let text = summary.text();
+        assert!(text.contains("FAILED    lints") && text.contains("ok        pick"), "{text}");
     }
 
     #[test]
