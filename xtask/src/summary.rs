@@ -1,6 +1,7 @@
 //! What ran, what was left out and how to get it: the last lines of `cargo xtask test`.
 
 use crate::process::children_seconds;
+use std::panic::resume_unwind;
 use std::process::ExitCode;
 use std::thread;
 use std::time::Instant;
@@ -110,21 +111,22 @@ impl Summary {
     /// # Errors
     ///
     /// Of the first list in which a check failed; the others have come to their ends.
-    pub fn beside<const N: usize>(
+    pub fn beside<F: FnOnce(&mut Self) -> Result<(), String> + Send, const N: usize>(
         &mut self,
-        lists: [impl FnOnce(&mut Self) -> Result<(), String> + Send; N],
+        lists: [F; N],
     ) -> Result<(), String> {
         let (start, cpu) = (Instant::now(), children_seconds());
         let is_strict = self.is_strict;
-        let run = |list: Box<dyn FnOnce(&mut Self) -> Result<(), String> + Send + '_>| {
-            let mut part = Self { is_beside: true, ..Self::new(is_strict) };
-            let result = list(&mut part);
-            (part, result)
-        };
-        let ended: Vec<_> = thread::scope(|scope| {
-            let all: Vec<_> =
-                lists.into_iter().map(|list| scope.spawn(move || run(Box::new(list)))).collect();
-            all.into_iter().map(|one| one.join().expect("a check does not panic")).collect()
+        let ended: Vec<(Self, Result<(), String>)> = thread::scope(|scope| {
+            let run = |list: F| {
+                scope.spawn(move || {
+                    let mut part = Self { is_beside: true, ..Self::new(is_strict) };
+                    let result = list(&mut part);
+                    (part, result)
+                })
+            };
+            let all: Vec<_> = lists.into_iter().map(run).collect();
+            all.into_iter().map(|one| one.join().unwrap_or_else(|e| resume_unwind(e))).collect()
         });
         let mut failure = Ok(());
         for (part, result) in ended {
