@@ -189,7 +189,10 @@ fn begin(arguments: &Arguments) -> Result<Begun, Refusal> {
     let pacing = arguments.realtime.pacing()?;
     let kept = arguments.keep.begin(out)?;
     let overrides = kept.overrides(arguments.overrides())?;
-    if let Some(missing) = named(&overrides.precision).filter(|p| !p.is_built()) {
+    // Of a scene that is not there that is said.
+    if let Some(missing) = named(&overrides.precision).filter(|p| !p.is_built())
+        && arguments.scene.is_file()
+    {
         return Err(Refusal::Unbuilt(missing));
     }
     let begun = files::begin(&arguments.scene, &overrides, (out, kept.trial()))?;
