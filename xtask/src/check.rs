@@ -95,10 +95,7 @@ const THEN: [&[Listed]; 2] = [
         ("features", features, IfQuick::Runs),
         ("counts", counts::check, IfQuick::Skipped),
     ],
-    &[
-        ("check-nostd", nostd::check, IfQuick::Runs),
-        ("pick", pick::check, IfQuick::Runs),
-    ],
+    &[("check-nostd", nostd::check, IfQuick::Runs), ("pick", pick::check, IfQuick::Runs)],
 ];
 
 fn checks(is_quick: bool, summary: &mut Summary) -> Result<(), String> {
