@@ -63,7 +63,8 @@ impl Scenes {
             let scene = ReadScene::new((document, &double), precision)?;
             Ok((precision, scene.into_owned()))
         };
-        let precisions = [Precision::F64].into_iter().chain(precisions.iter().copied());
+        let others = precisions.iter().copied().filter(|&precision| precision != Precision::F64);
+        let precisions = [Precision::F64].into_iter().chain(others);
         let read = precisions.map(read).collect::<Result<_, PrecisionError>>()?;
         let n_columns = Channel::of_scene(&double).iter().map(|c| c.components.len()).sum();
         Ok(Self { double, read, n_columns })

@@ -74,7 +74,7 @@ fn cross_compile_all(toolchains: &[(&str, Toolchain)]) -> Result<usize, String> 
 /// Cross-compiles one crate with one feature set.
 fn cross_compile(toolchain: &Toolchain, build: &Build, target: &str) -> Result<(), String> {
     eprintln!("   {} [{}] for {target}", build.package, build.features.join(", "));
-    // That nothing asks for `alloc` in secret is no matter of the target: one of them lacks it where the crate must not have it.
+    // Whether a crate needs `alloc` does not depend on the target. The first target lacks it where the crate must do without.
     let has_alloc = build.is_alloc || target != TARGETS[0];
     let mut command = toolchain.cargo(has_alloc);
     command.args(["build", "--quiet", "--locked", "--no-default-features"]);
