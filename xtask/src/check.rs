@@ -79,20 +79,21 @@ enum IfQuick {
 type Listed = (&'static str, Check, IfQuick);
 
 /// What is built and run first, in order.
-const FIRST: [Listed; 3] = [
+const FIRST: [Listed; 4] = [
     ("format", format, IfQuick::Runs),
     ("lints", lints, IfQuick::Skipped),
+    // Before the tests: it leaves a lean `mbs` where later jobs look for the whole one, which the tests build.
+    ("features", features, IfQuick::Runs),
     ("tests", tests, IfQuick::Runs),
 ];
 
-/// Then two lists beside each other: each alone leaves a core idle half of the time. Nothing of the second is built in the target folder of the
-/// tests, which the first has.
+/// Then two lists beside each other: each alone leaves a core idle half of the time. What they use of the target folder of the tests is built
+/// there by now, with the features of the tests.
 const THEN: [&[Listed]; 2] = [
     &[
         ("fuzz", fuzz::check, IfQuick::Skipped),
         ("pages", pages::check, IfQuick::Skipped),
         ("documentation", documentation::check, IfQuick::Skipped),
-        ("features", features, IfQuick::Runs),
         ("counts", counts::check, IfQuick::Skipped),
     ],
     &[("check-nostd", nostd::check, IfQuick::Runs), ("pick", pick::check, IfQuick::Runs)],
