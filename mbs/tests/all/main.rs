@@ -15,6 +15,7 @@ mod control;
 mod doctor;
 mod energy;
 mod explain;
+mod field;
 mod generate;
 mod inputs;
 mod invariants;

@@ -1,0 +1,1 @@
+//! Equilibria and modes, and what an alarm takes for a fault.

@@ -1,0 +1,1 @@
+//! Laws outside the range in which they hold, and turns beyond one.
