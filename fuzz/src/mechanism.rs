@@ -63,6 +63,15 @@ pub fn mechanism(dice: &mut Dice) -> String {
     for k in 0..dice.below(3) {
         effect(&mut text, (k, bodies), (&space, size), dice);
     }
+    // sometimes several, or all of a chain
+    if dice.once_in(3) {
+        let share = 1 + dice.below(3);
+        for k in 0..joints {
+            if dice.once_in(share) {
+                guide(&mut text, k, size, dice);
+            }
+        }
+    }
     if dice.once_in(2) {
         let (joint, rate) = (dice.below(joints), dice.between(-5.0, 5.0));
         // writing to a string cannot fail
@@ -136,6 +145,20 @@ fn effect(
         dice.between(0.0, 10.0),
         size * dice.between(0.0, 1.0)
     );
+}
+
+fn guide(text: &mut String, joint: usize, size: f64, dice: &mut Dice) {
+    let law = match dice.below(3) {
+        0 => format!("ramp = {{ rate = {:?} }}", dice.between(-5.0, 5.0)),
+        1 => format!("table = [[0.0, 0.0], [0.5, {:?}], [1.0, 0.0]]", dice.between(-1.0, 1.0)),
+        _ => format!(
+            "sine = {{ amplitude = {:?}, frequency = {:?}, phase = {:?} }}",
+            size * dice.between(0.0, 1.0),
+            dice.between(0.0, 5.0),
+            dice.between(-4.0, 4.0)
+        ),
+    };
+    let _ = writeln!(text, "[[guide]]\njoint = \"j{joint}\"\n{law}\n");
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use crate::scenes::empty;
 use mbs_core::scene::{
-    Body, BodyRef, Dimension, Effect, EffectKind, Inertia, Initial, InitialTarget, Joint,
-    JointKind, Scene,
+    Body, BodyRef, Dimension, Effect, EffectKind, Guide, GuideLaw, Inertia, Initial, InitialTarget,
+    Joint, JointKind, Scene,
 };
 
 /// A small generator of the same numbers on every machine (xorshift64*), by its state, which is not zero.
@@ -108,6 +108,31 @@ pub fn tree(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
     }
     let scene = empty(&format!("random tree {seed}"), dimension, Some([0.0, -9.81, 0.0]));
     Scene { duration: 0.2, bodies, joints, initials, ..scene }
+}
+
+/// A mechanism whose joints of one coordinate are guided, each with so many chances in four; four leave none free. A guided joint
+/// is told nothing at the start.
+#[must_use]
+pub fn guided(mut scene: Scene<f64>, seed: u64, chances: usize) -> Scene<f64> {
+    let mut random = Random::new(seed ^ 0x7777);
+    scene.name += ", guided";
+    for (joint, data) in scene.joints.iter().enumerate() {
+        if data.kind.n_coordinates(scene.dimension) != 1 || random.below(4) >= chances {
+            continue;
+        }
+        let [amplitude, rate, phase] = [random.next(), random.next(), 3.0 * random.next()];
+        let law = match random.below(3) {
+            0 => GuideLaw::Ramp { rate },
+            _ => GuideLaw::Sine { amplitude: 0.3 * amplitude, frequency: 1.5 + rate, phase },
+        };
+        scene.guides.push(Guide { joint, law });
+    }
+    let guides = &scene.guides;
+    scene.initials.retain(|initial| match &initial.target {
+        InitialTarget::Joint { joint, .. } => guides.iter().all(|guide| guide.joint != *joint),
+        _ => true,
+    });
+    scene
 }
 
 /// A spatial tree whose axes are those of the frame, so that many bodies share directions.

@@ -4,7 +4,7 @@ use crate::common::random;
 use crate::retell;
 
 use crate::common::oracle::{METHODS, differences, disagreement, everything, rows, tell};
-use mbs::core::scene::{Dimension, Scene};
+use mbs::core::scene::{Dimension, GuideLaw, Scene};
 use mbs::{Overrides, Settings, Simulation};
 
 /// Step and span [s]: at some metres and radians per second a step is a hundredth of what moves.
@@ -47,6 +47,32 @@ fn formulations_agree_on_random_planar_trees() {
 #[test]
 fn formulations_agree_on_random_spatial_trees() {
     (1..=6).for_each(|seed| agree(&random::tree(seed, Dimension::Spatial, 6)));
+}
+
+#[test]
+fn formulations_agree_on_random_trees_with_some_joints_guided_or_all_that_can_be() {
+    for (dimension, n) in [(Dimension::Planar, 8), (Dimension::Spatial, 6)] {
+        for seed in 1..=6 {
+            let chances = [1, 2, 4][seed as usize % 3];
+            agree(&random::guided(random::tree(seed, dimension, n), seed, chances));
+        }
+    }
+}
+
+#[test]
+fn formulations_agree_on_random_loops_with_a_guided_joint() {
+    for (dimension, n) in [(Dimension::Planar, 8), (Dimension::Spatial, 6)] {
+        for seed in 1..=6 {
+            let mut scene = random::guided(random::sound(seed, dimension, n), seed, 2);
+            // From the reference configuration: another value may be out of reach.
+            scene.guides.truncate(1);
+            assert_eq!(scene.guides.len(), 1, "{}", scene.name);
+            for guide in &mut scene.guides {
+                guide.law = GuideLaw::Sine { amplitude: 0.2, frequency: 1.0, phase: 0.0 };
+            }
+            agree(&scene);
+        }
+    }
 }
 
 /// Constraints that follow from others.
