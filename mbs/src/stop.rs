@@ -178,7 +178,9 @@ impl StopError {
     pub fn code(&self) -> &'static str {
         match self {
             Self::Start(AssemblyError::Model(_)) => "no-model",
-            Self::Start(AssemblyError::Position { .. }) => "cannot-assemble",
+            Self::Start(AssemblyError::Position { .. } | AssemblyError::NotLeast { .. }) => {
+                "cannot-assemble"
+            }
             Self::Start(AssemblyError::Velocity { .. }) => "contradicting-velocities",
             Self::Start(AssemblyError::NoInertia { .. }) => "no-inertia",
             Self::Start(_) => "no-accelerations",
@@ -207,6 +209,12 @@ impl StopError {
         match self {
             Self::Start(AssemblyError::Model(ModelError::LeftOut { .. })) => "set enabled = false",
             Self::Start(AssemblyError::Model(_)) => "check the data of the body",
+            Self::Start(AssemblyError::Position { reached: Some(_), .. }) => {
+                "hold a value up to the one that was reached, or hold fewer values: what is not written follows from the joints"
+            }
+            Self::Start(AssemblyError::NotLeast { .. }) => {
+                "give initial values to more joints: the search then begins nearer"
+            }
             Self::Start(AssemblyError::Position { .. }) => {
                 "check the places of the joints, and that held values and guides fit together"
             }
@@ -349,6 +357,13 @@ impl core::error::Error for StopError {}
 
 fn write_start(error: &AssemblyError, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
     match error {
+        AssemblyError::Position { residual, reached: Some([reached, value]), .. } => write!(
+            f,
+            "the mechanism cannot be closed at the start: on the way from the reference configuration to {} rad (or m) this coordinate stops at {}, and {} is left",
+            few(*value),
+            few(*reached),
+            few(*residual)
+        ),
         AssemblyError::Position { residual, .. } => write!(
             f,
             "the mechanism cannot be closed at the start: a gap of {} m (or rad) is left",

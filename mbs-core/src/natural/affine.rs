@@ -1,6 +1,7 @@
 //! A material point or direction of any body as a function of the coordinates: for outputs and starts, not for the step.
 
 use super::basis::Combination;
+use super::group::add_curvature;
 use super::model::NaturalModel;
 use crate::Real;
 use crate::algebra::{Coef, Vector, add_to, load};
@@ -47,6 +48,17 @@ impl<T: Real, const D: usize> Affine<T, D> {
     pub fn add_gradient(&self, y: &Vector<T, D>, gradient: &mut [T]) {
         for (e, c) in &self.terms {
             add_to(gradient, *e as usize, &c.apply_transposed(y));
+        }
+    }
+
+    /// Adds the second derivatives of s x.y to a packed block over the unknowns of `clique`, which has those of both in whole entities.
+    pub(crate) fn add_product_curvature(&self, y: &Self, s: T, clique: &[u32], block: &mut [T]) {
+        let k = clique.len();
+        let place = |e: u32| clique.iter().position(|&u| u == e).unwrap_or(k);
+        for &(i, ci) in &self.terms {
+            for &(j, cj) in &y.terms {
+                add_curvature::<T, D>(block, k, (place(i), ci), (place(j), cj), s);
+            }
         }
     }
 

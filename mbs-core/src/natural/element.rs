@@ -9,7 +9,7 @@ use super::model::NaturalModel;
 use super::reach::add_rows;
 use crate::Real;
 use crate::algebra::{Vector, cross, raised};
-use crate::elements::combine;
+use crate::elements::{GuidedMotion, combine};
 use crate::model::{Load, Measure, Tangent, Terms};
 use alloc::vec;
 
@@ -21,8 +21,9 @@ pub(super) const DENSE: usize = 8;
 pub(super) const ROOM: usize = 24;
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// Diagonal of M, lifted where it is (nearly) zero so that it can scale: by 1e-6 of the largest entry.
-    pub(crate) fn mass_diagonal(&self) -> alloc::vec::Vec<T> {
+    /// Diagonal of M, lifted where it is (nearly) zero so that it can scale: by `floor` of the largest entry, where entries of points
+    /// and of directions are compared at the scene's length.
+    pub(crate) fn mass_diagonal(&self, floor: T) -> alloc::vec::Vec<T> {
         let mut diagonal = vec![T::ZERO; self.n_unknowns];
         for group in self.groups.iter().filter(|g| !g.mass.is_empty()) {
             let g = group.mass.of(&self.mass);
@@ -31,10 +32,11 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 diagonal[u as usize] += g[(j / D) * (nb + 1)].re;
             }
         }
-        let largest = diagonal.iter().fold(T::ZERO, |a, &b| a.max(b));
-        let floor = if largest > T::ZERO { largest * T::from_f64(1e-6) } else { T::ONE };
-        for d in &mut diagonal {
-            *d = d.max(floor);
+        let sizes = self.sizes();
+        let largest = sizes.iter().zip(&diagonal).fold(T::ZERO, |a, (&s, &d)| a.max(d * s * s));
+        let least = if largest > T::ZERO { largest * floor } else { T::ONE };
+        for (d, s) in diagonal.iter_mut().zip(sizes) {
+            *d = d.max(least / (s * s));
         }
         diagonal
     }
@@ -262,6 +264,32 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         for row in &self.dots[group.dots.range()] {
             let s = lambda[row.row as usize] * row.scale;
             self.add_pairs((row.x.of(&self.pool), row.y.of(&self.pool)), s, group, block);
+        }
+    }
+
+    /// The same of the guided rows, which the steps leave out: guides as last set in `terms`.
+    pub(crate) fn add_guided_curvature(
+        &self,
+        terms: &Terms<T>,
+        lambda: &[T],
+        element: usize,
+        block: &mut [T],
+    ) {
+        let group = &self.groups[element];
+        for row in self.guided.iter().filter(|row| group.rows.range().contains(&(row.row as usize)))
+        {
+            let (s, y) = (lambda[row.row as usize], row.y.of(&self.pool));
+            match row.motion {
+                GuidedMotion::Slide { x } => {
+                    self.add_pairs((x.of(&self.pool), y), s, group, block);
+                }
+                GuidedMotion::Angle { x1, x2 } => {
+                    let (sine, cosine) = terms.guides[row.guide as usize][0].sin_cos();
+                    for (x, s) in [(x1, -s * sine), (x2, s * cosine)] {
+                        self.add_pairs((x.of(&self.pool), y), s, group, block);
+                    }
+                }
+            }
         }
     }
 

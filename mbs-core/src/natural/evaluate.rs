@@ -29,6 +29,42 @@ macro_rules! sized {
     };
 }
 
+/// Masses below this ratio of the largest are lifted to it where rows are scaled.
+const LIFTED: f64 = 1e-6;
+
+impl<T: Real, const D: usize> NaturalModel<T, D> {
+    /// The effective mass of each row, 1 / (J_k M^-1 J_k^T) with a diagonal M.
+    pub(crate) fn row_masses(&self, diagonal: &[T], terms: &Terms<T>, masses: &mut [T]) {
+        for group in &self.groups {
+            let clique = group.clique.of(&self.cliques);
+            let (mut at, width) = (group.jacobian as usize, group.width as usize);
+            for row in group.rows.range() {
+                let mobility = clique
+                    .iter()
+                    .zip(&terms.jacobian[at..])
+                    .fold(T::ZERO, |sum, (&u, &g)| sum + g * g / diagonal[u as usize]);
+                masses[row] = if mobility > T::ZERO { T::ONE / mobility } else { T::ONE };
+                at += width;
+            }
+        }
+    }
+
+    /// The largest change of each row over changes of the coordinates by `sizes`; one where there is none.
+    pub(crate) fn row_spreads(&self, sizes: &[T], terms: &Terms<T>, spreads: &mut [T]) {
+        for group in &self.groups {
+            let clique = group.clique.of(&self.cliques);
+            let (mut at, width) = (group.jacobian as usize, group.width as usize);
+            for row in group.rows.range() {
+                let products = clique.iter().zip(&terms.jacobian[at..]);
+                let spread =
+                    products.fold(T::ZERO, |s, (&u, &g)| s.max(g.abs() * sizes[u as usize]));
+                spreads[row] = if spread > T::ZERO { spread } else { T::ONE };
+                at += width;
+            }
+        }
+    }
+}
+
 impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     fn n_extended(&self) -> usize {
         self.reference.len()
@@ -108,19 +144,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     }
 
     fn effective_masses(&self, terms: &Terms<T>, masses: &mut [T]) {
-        let diagonal = self.mass_diagonal();
-        for group in &self.groups {
-            let clique = group.clique.of(&self.cliques);
-            let (mut at, width) = (group.jacobian as usize, group.width as usize);
-            for row in group.rows.range() {
-                let mobility = clique
-                    .iter()
-                    .zip(&terms.jacobian[at..])
-                    .fold(T::ZERO, |sum, (&u, &g)| sum + g * g / diagonal[u as usize]);
-                masses[row] = if mobility > T::ZERO { T::ONE / mobility } else { T::ONE };
-                at += width;
-            }
-        }
+        self.row_masses(&self.mass_diagonal(T::from_f64(LIFTED)), terms, masses);
     }
 
     fn rows(&self, element: usize) -> Range<usize> {

@@ -73,4 +73,19 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             }
         }
     }
+
+    /// The rigid clusters of the scene's bodies.
+    pub(crate) fn clusters(&self) -> &Clusters<T> {
+        &self.clusters
+    }
+
+    /// The size of every unknown: the scene's length of a point's coordinates, one of a direction's. Numbers divided by it do not
+    /// depend on the unit of length, nor do masses times its square.
+    pub(crate) fn sizes(&self) -> Vec<T> {
+        let mut sizes = alloc::vec![T::ONE; self.n_unknowns()];
+        for entity in self.carried.iter().filter(|entity| entity.is_point) {
+            sizes[entity.at as usize..entity.at as usize + D].fill(self.length());
+        }
+        sizes
+    }
 }

@@ -17,6 +17,14 @@ pub enum AssemblyError {
         owner: Owner,
         /// The `[[initial]]` entry concerned, if it is one.
         initial: Option<usize>,
+        /// The value at which the mechanism stopped on its way to that of `owner`, and that value [rad or m]: it locks there, or what
+        /// is held contradicts itself. `None` where it was not on its way.
+        reached: Option<[f64; 2]>,
+    },
+    /// The change from the reference configuration has no least value that could be found.
+    NotLeast {
+        /// The last correction of the search, relative to the scene's length.
+        correction: f64,
     },
     /// Held velocities contradict each other or the joints.
     Velocity {
@@ -45,9 +53,17 @@ impl core::fmt::Display for AssemblyError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Model(e) => write!(f, "{e}"),
+            Self::Position { reached: Some([reached, value]), .. } => write!(
+                f,
+                "the mechanism cannot be put together: on its way to {value} rad (or m) the coordinate stops at {reached}"
+            ),
             Self::Position { residual, .. } => write!(
                 f,
                 "the mechanism cannot be closed at the start: {residual:.3e} m (or rad) is left open"
+            ),
+            Self::NotLeast { correction } => write!(
+                f,
+                "the search for the least changed start did not end: its last correction was {correction:.3e} of the size"
             ),
             Self::Velocity { residual, .. } => write!(
                 f,

@@ -80,16 +80,20 @@ impl<T: Real, const D: usize> Hold<T, D> {
         holds
     }
 
-    /// Largest size of the held value, in radians or scene lengths: how far continuation must go.
-    pub(super) fn distance(&self, length: T) -> T {
-        match (&self.kind, self.value) {
-            (Kind::Orientation { vector, .. }, _) => {
+    /// The held value [rad or m]; of a rotation its angle.
+    pub(super) fn target(&self) -> T {
+        match &self.kind {
+            Kind::Orientation { vector, .. } => {
                 crate::algebra::norm(&Vector::<T, 3>::from(*vector))
             }
-            (Kind::Slide { .. }, Some(value)) => value.abs() / length,
-            (_, Some(value)) => value.abs(),
-            (_, None) => T::ZERO,
+            _ => self.value.unwrap_or(T::ZERO),
         }
+    }
+
+    /// Largest size of the held value, in radians or scene lengths: how far continuation must go.
+    pub(super) fn distance(&self, length: T) -> T {
+        let target = self.target().abs();
+        if matches!(self.kind, Kind::Slide { .. }) { target / length } else { target }
     }
 
     /// Residual of the held value at continuation parameter `tau` (0 reference, 1 target), and the row's gradient over the
@@ -136,6 +140,31 @@ impl<T: Real, const D: usize> Hold<T, D> {
                 }
                 T::ZERO
             }
+        }
+    }
+
+    /// Adds `s` times the second derivatives of the held value, on motions that keep directions of unit length, to a packed block over
+    /// the clique's unknowns.
+    pub(super) fn add_curvature(&self, q: &[T], s: T, clique: &[u32], block: &mut [T]) {
+        let mut add = |x: &Affine<T, D>, y: &Affine<T, D>, s: T| {
+            x.add_product_curvature(y, s, clique, block);
+        };
+        match &self.kind {
+            Kind::Angle { x1, x2, y } => {
+                let (p1, p2, py) = (x1.value(q), x2.value(q), y.value(q));
+                let (c, d) = (p1.dot(&py), p2.dot(&py));
+                let inverse = T::ONE / (c * c + d * d);
+                add(x2, y, s * c * inverse);
+                add(x1, y, -s * d * inverse);
+            }
+            Kind::Slide { x, y } => add(x, y, s),
+            Kind::Orientation { first, second, vector, i } => {
+                let r: Matrix<T, 3> = rotation(&Vector::<T, 3>::from(*vector));
+                for (l, direction) in first.iter().enumerate() {
+                    add(direction, second, s * r[(l, *i)]);
+                }
+            }
+            Kind::PointRate { .. } | Kind::Spin { .. } => {}
         }
     }
 

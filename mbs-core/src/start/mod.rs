@@ -7,16 +7,23 @@
 //! ```
 //!
 //! Large held values are reached by continuation from the reference configuration, so that the assembly branch is the one
-//! that leads there continuously.
+//! that leads there continuously; the change is measured from the reference, whatever the stages were. Open trees need no
+//! continuation: they are placed joint by joint.
 
+mod accelerations;
 mod assemble;
 mod error;
 mod hold;
+mod place;
+mod positions;
 mod problem;
 mod rank;
 mod sparse_rank;
+mod velocities;
+mod weak;
 
-pub use assemble::{Assembled, accelerations, assemble, restart};
+pub use accelerations::accelerations;
+pub use assemble::{Assembled, assemble, restart};
 pub use error::AssemblyError;
 pub use problem::Problem;
 pub use rank::constraint_rank;

@@ -1,5 +1,11 @@
-//! The start problem as a sum of elements: those of the model, one row for each held coordinate, and a little mass where
-//! there is none.
+//! The start problem as a sum of elements: those of the model, one row for each held coordinate, and a little mass everywhere.
+//!
+//! ```text
+//! W = M + E + C + J^T S J,   S = P m_k of each row (model's and held alike)
+//! f = M (x - x*) + J^T mu
+//! ```
+//!
+//! E and the damping are in the matrix only: they make it regular, and what is converged knows nothing of them.
 
 use super::hold::Hold;
 use crate::Real;
@@ -10,10 +16,27 @@ use crate::natural::NaturalModel;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Penalty of a start row in effective masses: the middle of the range that works in double precision.
-const PENALTY: f64 = 1e6;
-/// Mass lent to massless coordinates, relative to the largest: it only picks one of many equally small changes.
-const LENT: f64 = 1e-6;
+/// Is it at least double precision?
+fn is_fine<T: Real>() -> bool {
+    T::EPSILON < T::from_f64(1e-12)
+}
+
+/// Penalty of a start row in effective masses: the middle of the range that the precision allows, between what a sweep leaves of a
+/// violation, 1 / penalty, and what it adds of rounding, penalty times epsilon.
+pub(super) fn penalty<T: Real>() -> T {
+    T::from_f64(if is_fine::<T>() { 1e6 } else { 500.0 })
+}
+
+/// Masses below this ratio of the largest are lifted to it where rows are scaled, so that rows through a light piece between heavy
+/// ones are as stiff as those of its neighbours.
+fn lifted<T: Real>() -> T {
+    T::from_f64(if is_fine::<T>() { 1e-4 } else { 1e-2 })
+}
+
+/// Mass in the matrix alone, relative to the largest: a hundred roundings of the stiffest rows.
+fn lent<T: Real>() -> T {
+    lifted::<T>() * penalty::<T>() * T::EPSILON * T::from_f64(100.0)
+}
 
 /// The structure of a start problem: what a solver is analysed for.
 #[derive(Debug)]
@@ -22,9 +45,11 @@ pub struct Problem<'a, T: Real, const D: usize> {
     pub(super) holds: Vec<Hold<T, D>>,
     cliques: Vec<u32>,
     spans: Vec<Span>,
-    /// Unknowns that get a lent mass, and that mass.
-    lent: Vec<u32>,
-    lent_mass: T,
+    /// Size of each unknown: the scene's length or one.
+    pub(super) sizes: Vec<T>,
+    /// Diagonal of M, lifted.
+    pub(super) mass: Vec<T>,
+    lent: Vec<T>,
     pub(super) terms: Terms<T>,
     /// Gradients of the holds, each over its clique.
     gradients: Vec<T>,
@@ -32,7 +57,10 @@ pub struct Problem<'a, T: Real, const D: usize> {
     pub(super) residuals: Vec<T>,
     /// Penalties of the model's rows, then of the holds.
     pub(super) penalty: Vec<T>,
-    hold_mass: T,
+    /// What the penalties are in effective masses.
+    pub(super) alpha: T,
+    /// Largest change of each row over changes of the coordinates by their sizes; rows as for the penalties.
+    pub(super) spreads: Vec<T>,
     scratch: Vec<T>,
 }
 
@@ -56,37 +84,51 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
             let unknown = hold.entities().into_iter().filter(|&e| (e as usize) < n);
             add(&mut unknown.flat_map(|e| (0..crate::natural::index(D)).map(move |i| e + i)));
         }
-        let diagonal = model.mass_diagonal();
-        let largest = diagonal.iter().fold(T::ZERO, |a, &b| a.max(b));
-        let small = largest * T::from_f64(LENT * 1.001);
-        let lent: Vec<u32> =
-            (0..n).filter(|&u| diagonal[u] <= small).map(crate::natural::index).collect();
-        for &unknown in &lent {
-            add(&mut core::iter::once(unknown));
+        for unknown in 0..n {
+            add(&mut core::iter::once(crate::natural::index(unknown)));
         }
-        let typical = diagonal.iter().fold(T::ZERO, |a, &b| a + b) / T::from_f64(n.max(1) as f64);
+        let sizes = model.sizes();
+        let mass = model.mass_diagonal(lifted());
+        let largest = sizes.iter().zip(&mass).fold(T::ZERO, |a, (&s, &m)| a.max(m * s * s));
         let n_gradient = spans[..holds.len()].iter().map(|s| s.len()).sum();
+        let n_rows = model.n_constraints() + holds.len();
         Self {
             model,
             residuals: vec![T::ZERO; holds.len()],
             holds,
             cliques,
             spans,
-            lent,
-            lent_mass: largest * T::from_f64(LENT),
+            lent: sizes.iter().map(|&s| largest * lent() / (s * s)).collect(),
+            sizes,
+            mass,
             terms: model.terms(),
             gradients: vec![T::ZERO; n_gradient],
-            penalty: vec![T::ONE; model.n_constraints()],
-            hold_mass: typical * T::from_f64(PENALTY),
+            penalty: vec![T::ONE; n_rows],
+            alpha: penalty(),
+            spreads: vec![T::ONE; n_rows],
             scratch: vec![T::ZERO; model.n_extended()],
         }
     }
 
-    /// Scales the penalties of the model's rows at the configuration last evaluated.
-    pub(super) fn scale_penalties(&mut self) {
-        self.model.effective_masses(&self.terms, &mut self.penalty);
+    /// Scales all rows at the configuration last evaluated.
+    pub(super) fn scale_rows(&mut self) {
+        let m = self.model.n_constraints();
+        self.model.row_masses(&self.mass, &self.terms, &mut self.penalty[..m]);
+        self.model.row_spreads(&self.sizes, &self.terms, &mut self.spreads[..m]);
+        let mut at = 0;
+        for (h, clique) in self.spans[..self.holds.len()].iter().enumerate() {
+            let clique = clique.of(&self.cliques);
+            let (mut mobility, mut spread) = (T::ZERO, T::ZERO);
+            for (&u, &g) in clique.iter().zip(&self.gradients[at..]) {
+                mobility += g * g / self.mass[u as usize];
+                spread = spread.max(g.abs() * self.sizes[u as usize]);
+            }
+            self.penalty[m + h] = if mobility > T::ZERO { T::ONE / mobility } else { T::ONE };
+            self.spreads[m + h] = if spread > T::ZERO { spread } else { T::ONE };
+            at += clique.len();
+        }
         for p in &mut self.penalty {
-            *p *= T::from_f64(PENALTY);
+            *p *= self.alpha;
         }
     }
 
@@ -108,17 +150,14 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
         }
     }
 
-    /// Residuals of the holds at velocity `v`: gradient times v less the held rate.
-    pub(super) fn hold_rates(&mut self, v: &[T]) {
-        let mut at = 0;
-        for (h, hold) in self.holds.iter().enumerate() {
-            let clique = self.spans[h].of(&self.cliques);
-            let rate = clique
-                .iter()
-                .zip(&self.gradients[at..])
-                .fold(T::ZERO, |sum, (&u, &g)| sum + g * v[u as usize]);
-            self.residuals[h] = hold.rate.map_or(T::ZERO, |wanted| rate - wanted);
-            at += clique.len();
+    /// Rates of all rows for the velocity `v`: those of the model, then those of the holds that act.
+    pub(super) fn multiply(&self, v: &[T], level: Level, rates: &mut [T]) {
+        let m = self.model.n_constraints();
+        self.model.multiply_jacobian(&self.terms, v, &mut rates[..m]);
+        for (h, rate) in rates[m..].iter_mut().enumerate() {
+            let products = self.spans[h].of(&self.cliques).iter().zip(self.gradient(h));
+            let sum = products.fold(T::ZERO, |sum, (&u, &g)| sum + g * v[u as usize]);
+            *rate = if self.acts(h, level) { sum } else { T::ZERO };
         }
     }
 
@@ -137,12 +176,14 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
     /// Raises all penalties after a slow sweep.
     pub(super) fn raise_penalties(&mut self) {
         let factor = T::from_f64(super::assemble::RAISE);
+        self.alpha *= factor;
         self.penalty.iter_mut().for_each(|p| *p *= factor);
-        self.hold_mass *= factor;
     }
 
-    pub(super) fn hold_penalty(&self) -> T {
-        self.hold_mass
+    /// The penalties are those of the precision again.
+    pub(super) fn lower_penalties(&mut self) {
+        self.alpha = penalty();
+        self.scale_rows();
     }
 }
 
@@ -165,48 +206,58 @@ impl<T: Real, const D: usize> Cliques for Problem<'_, T, D> {
 pub(super) struct Sweep<'p, 'a, T: Real, const D: usize> {
     pub(super) problem: &'p Problem<'a, T, D>,
     pub(super) level: Level,
-    /// x - x*.
+    /// x - x*, and the coordinates where rows were evaluated.
     pub(super) change: &'p [T],
     /// Multipliers of the model's rows, then of the holds.
     pub(super) multipliers: &'p [T],
+    /// Coordinates and multipliers that the rows' curvature is taken with.
+    pub(super) curvature: Option<(&'p [T], &'p [T])>,
+    /// Lifted masses that are added to the matrix.
+    pub(super) damping: T,
 }
 
 impl<T: Real, const D: usize> BlockSource<T> for Sweep<'_, '_, T, D> {
     fn write_block(&self, element: usize, block: &mut [T]) {
         let p = self.problem;
+        let m = p.model.n_constraints();
         let Some(extra) = element.checked_sub(p.model.n_elements()) else {
             let tangent = Tangent {
                 stiffness: T::ZERO,
                 damping: T::ZERO,
-                penalty: &p.penalty,
-                geometric: None,
+                penalty: &p.penalty[..m],
+                geometric: self.curvature.map(|(_, sigma)| &sigma[..m]),
             };
             p.model.write_block(&p.terms, &tangent, element, block);
+            if let Some((_, sigma)) = self.curvature {
+                p.model.add_guided_curvature(&p.terms, &sigma[..m], element, block);
+            }
             return;
         };
         block.fill(T::ZERO);
-        if extra >= p.holds.len() {
-            block[0] = p.lent_mass;
+        if let Some(u) = extra.checked_sub(p.holds.len()) {
+            block[0] = p.lent[u] + self.damping * p.mass[u];
         } else if p.acts(extra, self.level) {
             let g = p.gradient(extra);
-            crate::natural::add_squares(block, g.len(), [g], [p.hold_mass]);
+            crate::natural::add_squares(block, g.len(), [g], [p.penalty[m + extra]]);
+            if let Some((q, sigma)) = self.curvature {
+                let clique = p.spans[extra].of(&p.cliques);
+                p.holds[extra].add_curvature(q, sigma[m + extra], clique, block);
+            }
         }
     }
 
     fn write_residual(&self, element: usize, residual: &mut [T]) {
         let p = self.problem;
+        let m = p.model.n_constraints();
         let Some(extra) = element.checked_sub(p.model.n_elements()) else {
-            let m = p.model.n_constraints();
             let (mass, multipliers) = (Some(self.change), Some(&self.multipliers[..m]));
             let load = Load { mass, multipliers, force: T::ZERO };
             p.model.write_residual(&p.terms, &load, element, residual);
             return;
         };
         residual.fill(T::ZERO);
-        if extra >= p.holds.len() {
-            residual[0] = p.lent_mass * self.change[p.lent[extra - p.holds.len()] as usize];
-        } else if p.acts(extra, self.level) {
-            let mu = self.multipliers[p.model.n_constraints() + extra];
+        if extra < p.holds.len() && p.acts(extra, self.level) {
+            let mu = self.multipliers[m + extra];
             for (r, &g) in residual.iter_mut().zip(p.gradient(extra)) {
                 *r = g * mu;
             }

@@ -1,0 +1,134 @@
+//! The last level: accelerations and multipliers by the index-1 equations.
+
+use super::assemble::{MAX_SWEEPS, RAISE, raises};
+use super::error::AssemblyError;
+use crate::Real;
+use crate::algebra::norm_inf;
+use crate::blocks::SpdSolver;
+use crate::model::{Load, Model, State, System, Tangent, Terms};
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// Accelerations and multipliers at (q, v) of `s` by the index-1 equations, in correction form; sets multipliers, carried
+/// phi and power. Returns the acceleration residual left.
+///
+/// # Errors
+/// [`AssemblyError::NoInertia`] or [`AssemblyError::Acceleration`].
+pub fn accelerations<T: Real, M: Model<T>>(
+    model: &M,
+    solver: &mut impl SpdSolver<T>,
+    s: &mut State<T>,
+    terms: &mut Terms<T>,
+) -> Result<T, AssemblyError> {
+    let (n, m) = (model.n_unknowns(), model.n_constraints());
+    model.set_inputs(s.t, terms);
+    model.evaluate(&s.q, terms);
+    model.evaluate_forces(&s.q, &s.v, &s.memory, terms);
+    model.evaluate_phi_t(&s.q, terms);
+    model.evaluate_bias(&s.q, &s.v, terms);
+    let mut penalty = vec![T::ZERO; m];
+    model.effective_masses(terms, &mut penalty);
+    penalty.iter_mut().for_each(|p| *p *= super::problem::penalty::<T>());
+    let (mut f, mut scratch) = (vec![T::ZERO; n], vec![T::ZERO; solver.n_scratch()]);
+    let (mut lambda, mut mu, mut rates) = (vec![T::ZERO; m], vec![T::ZERO; m], vec![T::ZERO; m]);
+    factor(model, solver, terms, &penalty)?;
+    check_pivots(model, solver, terms, &penalty)?;
+    let (mut last, mut raises) = (None, raises::<T>());
+    for _ in 0..MAX_SWEEPS {
+        model.multiply_jacobian(terms, &s.a, &mut rates);
+        for k in 0..m {
+            rates[k] += terms.phi_bias[k];
+            mu[k] = lambda[k] + penalty[k] * rates[k];
+        }
+        let load = Load { mass: Some(&s.a), multipliers: Some(&mu), force: T::ONE };
+        let tangent = tangent(&penalty);
+        solver.assemble(&System { model, terms: &*terms, tangent, load }, &mut f);
+        solver.solve(&mut f, &mut scratch);
+        for i in 0..n {
+            s.a[i] -= f[i];
+        }
+        model.multiply_jacobian(terms, &s.a, &mut rates);
+        for k in 0..m {
+            rates[k] += terms.phi_bias[k];
+            lambda[k] += penalty[k] * rates[k];
+        }
+        let correction = norm_inf(&f);
+        let is_slow = last.is_some_and(|last| correction > last * T::HALF);
+        last = Some(correction);
+        if is_slow && raises > 0 && !(norm_inf(&rates) <= limit(&s.a)) {
+            penalty.iter_mut().for_each(|p| *p *= T::from_f64(RAISE));
+            factor(model, solver, terms, &penalty)?;
+            raises -= 1;
+            last = None;
+        } else if is_slow {
+            break;
+        }
+    }
+    let residual = norm_inf(&rates);
+    if !(residual <= limit(&s.a)) {
+        let row = (0..m).find(|&k| !(rates[k].abs() < residual)).unwrap_or(0);
+        let owner = model.owner_of_row(row);
+        return Err(AssemblyError::Acceleration { residual: residual.to_f64(), owner });
+    }
+    s.a_aux.copy_from_slice(&s.a);
+    for x in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {
+        x.copy_from_slice(&lambda);
+    }
+    s.phi.copy_from_slice(&terms.phi);
+    model.remember(terms, &mut s.memory);
+    s.power = model.power(&s.q, &s.v, &s.reaction, terms);
+    Ok(residual)
+}
+
+/// Acceleration residual that is accepted.
+fn limit<T: Real>(a: &[T]) -> T {
+    (T::ONE + norm_inf(a)) * T::from_f64(1e-9).max(T::EPSILON * T::from_f64(1e4))
+}
+
+fn tangent<T: Real>(penalty: &[T]) -> Tangent<'_, T> {
+    Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty, geometric: None }
+}
+
+/// Factors M + J^T alpha J.
+fn factor<T: Real, M: Model<T>>(
+    model: &M,
+    solver: &mut impl SpdSolver<T>,
+    terms: &Terms<T>,
+    penalty: &[T],
+) -> Result<(), AssemblyError> {
+    let load = Load { mass: None, multipliers: None, force: T::ZERO };
+    let system = System { model, terms, tangent: tangent(penalty), load };
+    solver.factor(&system).map_err(|e| no_inertia(model, e.unknown))
+}
+
+fn no_inertia<T: Real>(model: &impl Model<T>, unknown: u32) -> AssemblyError {
+    AssemblyError::NoInertia { owner: model.owner_of_unknown(unknown as usize) }
+}
+
+/// A pivot that is rounding of the diagonal it came from means that nothing determines the coordinate.
+fn check_pivots<T: Real, M: Model<T>>(
+    model: &M,
+    solver: &impl SpdSolver<T>,
+    terms: &Terms<T>,
+    penalty: &[T],
+) -> Result<(), AssemblyError> {
+    let tangent = tangent(penalty);
+    let mut diagonal = vec![T::ZERO; model.n_unknowns()];
+    let mut block = Vec::new();
+    for e in 0..model.n_elements() {
+        let clique = model.clique(e);
+        let k = clique.len();
+        block.clear();
+        block.resize(k * (k + 1) / 2, T::ZERO);
+        model.write_block(terms, &tangent, e, &mut block);
+        for (j, &u) in clique.iter().enumerate() {
+            diagonal[u as usize] += block[crate::natural::packed(k, j, j)];
+        }
+    }
+    for (&u, &pivot) in solver.elimination_order().iter().zip(solver.pivots()) {
+        if pivot <= diagonal[u as usize] * T::EPSILON * T::from_f64(32.0) {
+            return Err(no_inertia(model, u));
+        }
+    }
+    Ok(())
+}

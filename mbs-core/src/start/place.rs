@@ -1,0 +1,152 @@
+//! Open trees are placed joint by joint: no equation is solved.
+
+use crate::Real;
+use crate::algebra::{Matrix, Vector, cross, rotation};
+use crate::cluster::Clusters;
+use crate::natural::joint_axes;
+use crate::rigid::RigidMotion;
+use crate::scene::{BodyRef, Dimension, InitialTarget, Joint, JointKind, Scene};
+use alloc::vec;
+use alloc::vec::Vec;
+
+/// A joint with the coordinates that its bodies are placed by.
+#[derive(Debug)]
+struct Branch<T> {
+    joint: usize,
+    values: Vec<T>,
+    /// Is the second body placed, and not the first?
+    is_forward: bool,
+}
+
+/// An open tree, from its roots outwards.
+#[derive(Debug)]
+pub(super) struct Placement<'a, T: Real> {
+    scene: &'a Scene<T>,
+    clusters: &'a Clusters<T>,
+    branches: Vec<Branch<T>>,
+    /// Does every joint have its values, and every tree its root on the ground?
+    pub(super) is_complete: bool,
+}
+
+impl<'a, T: Real> Placement<'a, T> {
+    /// The tree of a scene with its initial values and those of its guides; `None` where joints close loops.
+    pub(super) fn new(
+        scene: &'a Scene<T>,
+        clusters: &'a Clusters<T>,
+        guides: &[[T; 3]],
+    ) -> Option<Self> {
+        let ground = clusters.clusters.len();
+        let node = |body: BodyRef| clusters.of(body).unwrap_or(ground);
+        let joints = || scene.joints.iter().enumerate().filter(|(_, j)| j.kind != JointKind::Weld);
+        let mut touching = vec![Vec::new(); ground + 1];
+        for (j, joint) in joints() {
+            joint.bodies.into_iter().for_each(|body| touching[node(body)].push(j));
+        }
+        let mut given = given_values(scene, guides);
+        let mut is_placed = vec![false; ground + 1];
+        let (mut branches, mut is_complete) = (Vec::new(), true);
+        for root in core::iter::once(ground).chain(0..ground) {
+            if is_placed[root] {
+                continue;
+            }
+            is_placed[root] = true;
+            is_complete &= root == ground;
+            let mut waiting = vec![root];
+            while let Some(parent) = waiting.pop() {
+                for &j in &touching[parent] {
+                    let joint = &scene.joints[j];
+                    let [first, second] = joint.bodies.map(node);
+                    let child = if first == parent { second } else { first };
+                    if is_placed[child] {
+                        continue;
+                    }
+                    is_placed[child] = true;
+                    let values = given[j].take();
+                    is_complete &= values.is_some();
+                    let values = values.unwrap_or_else(|| at_reference(joint, scene.dimension));
+                    branches.push(Branch { joint: j, values, is_forward: first == parent });
+                    waiting.push(child);
+                }
+            }
+        }
+        let is_tree = branches.len() == joints().count();
+        let is_known = branches.iter().all(|b| scene.joints[b.joint].kind != JointKind::Distance);
+        (is_tree && is_known).then_some(Self { scene, clusters, branches, is_complete })
+    }
+
+    /// The motions of the scene's bodies at rest, with all coordinates at the share `tau` of their values.
+    pub(super) fn motions(&self, tau: T) -> Vec<RigidMotion<T>> {
+        let origin = Vector::<T, 3>::zeros();
+        let mut motions = vec![RigidMotion::at_rest(origin); self.clusters.clusters.len()];
+        for branch in &self.branches {
+            let joint = &self.scene.joints[branch.joint];
+            let values: Vec<T> = branch.values.iter().map(|&x| x * tau).collect();
+            let (turn, place) = relative(joint, self.scene.dimension, &values);
+            let [first, second] = joint.bodies.map(|body| self.clusters.of(body));
+            let end = Vector::from(joint.points[1]);
+            let (parent, child) = if branch.is_forward { (first, second) } else { (second, first) };
+            let parent = parent.map_or(RigidMotion::at_rest(origin), |parent| motions[parent]);
+            // x of the second body is where turn (x - end) + place of the first one is.
+            let (from, to, turn) =
+                if branch.is_forward { (place, end, turn) } else { (end, place, turn.transpose()) };
+            if let Some(child) = child {
+                motions[child] = RigidMotion {
+                    position: parent.point(&from)[0],
+                    rotation: parent.rotation * turn,
+                    ..RigidMotion::at_rest(to)
+                };
+            }
+        }
+        let of_body = self.clusters.of_body.iter();
+        of_body.map(|c| c.map_or(RigidMotion::at_rest(origin), |c| motions[c])).collect()
+    }
+}
+
+/// The values that guides and initial entries give to each joint.
+fn given_values<T: Real>(scene: &Scene<T>, guides: &[[T; 3]]) -> Vec<Option<Vec<T>>> {
+    let mut given = vec![None; scene.joints.len()];
+    for (guide, value) in scene.guides.iter().zip(guides) {
+        given[guide.joint] = Some(vec![value[0]]);
+    }
+    for initial in &scene.initials {
+        if let InitialTarget::Joint { joint, value: Some(value), .. } = &initial.target {
+            given[*joint] = Some(value.clone());
+        }
+    }
+    given
+}
+
+/// The coordinates in the reference configuration.
+fn at_reference<T: Real>(joint: &Joint<T>, dimension: Dimension) -> Vec<T> {
+    vec![T::ZERO; joint.kind.n_coordinates(dimension)]
+}
+
+/// The second body's rotation in the first's axes, and where the second body's point of the joint is in the first's reference.
+fn relative<T: Real>(
+    joint: &Joint<T>,
+    dimension: Dimension,
+    values: &[T],
+) -> (Matrix<T, 3>, Vector<T, 3>) {
+    let value = |i: usize| values.get(i).copied().unwrap_or(T::ZERO);
+    let three = |i: usize| Vector::<T, 3>::new(value(i), value(i + 1), value(i + 2));
+    let [n, b] = joint_axes(joint, dimension).map(Vector::<T, 3>::from);
+    let place = Vector::<T, 3>::from(joint.points[0]);
+    let still = Matrix::<T, 3>::identity();
+    match joint.kind {
+        JointKind::Weld | JointKind::Distance => (still, place),
+        JointKind::Revolute => (rotation(&(n * value(0))), place),
+        JointKind::Prismatic => (still, place + n * value(0)),
+        JointKind::Cylindrical => (rotation(&(n * value(1))), place + n * value(0)),
+        JointKind::Universal => (rotation(&(n * value(0))) * rotation(&(b * value(1))), place),
+        JointKind::Planar => {
+            let place = place + b * value(0) + cross(&n, &b) * value(1);
+            (rotation(&(n * value(2))), place)
+        }
+        JointKind::Spherical => (rotation(&three(0)), place),
+        JointKind::Free if dimension == Dimension::Planar => {
+            let turn = Vector::<T, 3>::new(T::ZERO, T::ZERO, value(2));
+            (rotation(&turn), place + Vector::<T, 3>::new(value(0), value(1), T::ZERO))
+        }
+        JointKind::Free => (rotation(&three(3)), place + three(0)),
+    }
+}

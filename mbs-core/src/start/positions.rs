@@ -1,0 +1,292 @@
+//! Positions: what is held is reached along a path of stages, then everything else changes least from the reference.
+//!
+//! ```text
+//! stage:  q <- the nearest to where the last stage ended with phi(q) = 0 and tau of the held values
+//! least:  min (q - q_ref)^T M (q - q_ref)  from there:  M (q - q_ref) + J^T sigma = 0,  phi(q) = 0, by Newton's method
+//! ```
+//!
+//! The stages choose the branch of the assembly only; where they are cut does not enter the result.
+
+use super::assemble::{Assembly, MAX_SWEEPS, SLOW, raises};
+use super::error::AssemblyError;
+use super::hold::Hold;
+use super::place::Placement;
+use super::problem::Level;
+use crate::Real;
+use crate::blocks::{Cliques, SpdSolver};
+use crate::model::{Model, State};
+use crate::scene::Scene;
+use alloc::vec::Vec;
+
+/// Sweeps without halving the smallest residual after which positions are given up: what contradicts itself drifts away.
+const PATIENCE: u32 = 10;
+/// Largest held angle of one continuation stage [rad], or slide in scene lengths.
+const STAGE: f64 = 0.25;
+/// A stage that moves a coordinate by more than this, relative to its size, has lost its branch.
+const JUMP: f64 = 1.0;
+/// Halvings of a stage before the path ends.
+const HALVINGS: i32 = 10;
+/// Gap that a stage before the last may leave, relative to the rows' spreads.
+const LEFT: f64 = 1e-6;
+/// Largest correction of a sweep towards the least change, relative to the coordinates' sizes.
+const STEP: f64 = 0.25;
+/// Sweeps towards the least change: flat valleys take some dozens.
+const MAX_STEPS: u32 = 400;
+
+impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
+    /// Puts the mechanism together; returns the largest residual before, and the stages taken.
+    pub(super) fn positions(
+        &mut self,
+        scene: &Scene<T>,
+        s: &mut State<T>,
+    ) -> Result<(T, u32), AssemblyError> {
+        self.drive(&s.q, T::ONE);
+        self.problem.scale_rows();
+        let before = self.largest_position();
+        if self.worst(&self.rows) <= self.rounding(&s.q) * T::from_f64(8.0) {
+            self.remember(s);
+            return Ok((before, 1));
+        }
+        let stages = self.stages();
+        let placement = Placement::new(scene, self.problem.model.clusters(), &self.guides);
+        if let Some(placement) = placement
+            && self.place(&placement, stages, s)
+        {
+            if !placement.is_complete {
+                self.least(s)?;
+            }
+            return Ok((before, stages));
+        }
+        let stages = self.follow(scene, stages, s)?;
+        self.least(s)?;
+        Ok((before, stages))
+    }
+
+    fn stages(&self) -> u32 {
+        let holds = self.problem.holds.iter().map(|h| h.distance(self.length));
+        let guides = self.guides.iter().map(|g| g[0].abs());
+        let far = holds.chain(guides).fold(T::ZERO, T::max).to_f64() / STAGE;
+        let mut stages = 1;
+        while f64::from(stages) < far && stages < 1000 {
+            stages += 1;
+        }
+        stages
+    }
+
+    /// Places an open tree; says whether its rows are then met, else `s` is as it was.
+    fn place(&mut self, placement: &Placement<'_, T>, stages: u32, s: &mut State<T>) -> bool {
+        let (q, memory) = (s.q.clone(), s.memory.clone());
+        for stage in 1..=stages {
+            let tau = T::from_f64(f64::from(stage) / f64::from(stages));
+            self.problem.model.write_motions(&placement.motions(tau), s);
+            self.remember(s);
+        }
+        self.drive(&s.q, T::ONE);
+        self.problem.scale_rows();
+        let is_met =
+            self.worst(&self.rows) <= self.accepted(&s.q) || self.close(s, T::ONE, true).is_ok();
+        if !is_met {
+            (s.q, s.memory) = (q, memory);
+        }
+        is_met
+    }
+
+    /// Angles are those nearest to the last stage's.
+    fn remember(&mut self, s: &mut State<T>) {
+        let (model, terms) = (self.problem.model, &mut self.problem.terms);
+        if model.has_forces() {
+            model.evaluate_forces(&s.q, &s.v, &s.memory, terms);
+            model.remember(terms, &mut s.memory);
+        }
+    }
+
+    /// Follows the held values in `stages` or more; returns how many there were.
+    fn follow(
+        &mut self,
+        scene: &Scene<T>,
+        stages: u32,
+        s: &mut State<T>,
+    ) -> Result<u32, AssemblyError> {
+        let longest = T::ONE / T::from_f64(f64::from(stages));
+        let shortest = longest * T::from_f64(libm::ldexp(1.0, -HALVINGS));
+        let (mut tau, mut step, mut taken) = (T::ZERO, longest, 0);
+        let mut last = s.q.clone();
+        while tau < T::ONE {
+            let is_last = tau + step > T::ONE - shortest * T::HALF;
+            let next = if is_last { T::ONE } else { tau + step };
+            self.drive(&s.q, next);
+            match self.close(s, next, is_last) {
+                Ok(()) => {
+                    self.remember(s);
+                    last.copy_from_slice(&s.q);
+                    (tau, taken) = (next, taken + 1);
+                    step = (step + step).min(longest);
+                }
+                Err(error) => {
+                    s.q.copy_from_slice(&last);
+                    step *= T::HALF;
+                    if step < shortest {
+                        return Err(self.stopped((error, scene), tau, s));
+                    }
+                }
+            }
+        }
+        Ok(taken)
+    }
+
+    /// Closes everything at one stage by sweeps of the correction form; rows must have been evaluated there.
+    fn close(&mut self, s: &mut State<T>, tau: T, is_last: bool) -> Result<(), AssemblyError> {
+        let n = self.problem.n_unknowns();
+        self.problem.lower_penalties();
+        self.sigma.fill(T::ZERO);
+        self.change.fill(T::ZERO);
+        let mut residual = self.worst(&self.rows);
+        let (mut best, mut idle, mut raises) = (residual, 0, raises::<T>());
+        for _ in 0..MAX_SWEEPS {
+            let floor = self.rounding(&s.q) * T::from_f64(8.0);
+            if residual <= floor || idle > PATIENCE {
+                break;
+            }
+            self.load();
+            self.factor(Level::Position, None, T::ZERO)?;
+            self.solve(Level::Position);
+            let correction = self.largest(&self.f);
+            if !(correction <= T::from_f64(JUMP)) {
+                return Err(self.gap());
+            }
+            self.grow(Level::Position);
+            self.correct(s, T::ONE);
+            self.drive(&s.q, tau);
+            let left = self.worst(&self.rows);
+            let (stalls, is_slow) =
+                (left > residual * T::HALF, left > residual * T::from_f64(SLOW));
+            residual = left;
+            if stalls && residual <= self.accepted(&s.q) {
+                break;
+            }
+            if is_slow && correction <= T::from_f64(LEFT) && raises > 0 {
+                self.problem.raise_penalties();
+                raises -= 1;
+            }
+            if left < best * T::HALF {
+                (best, idle) = (left, 0);
+            } else {
+                idle += 1;
+            }
+        }
+        if !is_last && residual <= T::from_f64(LEFT) {
+            return Ok(());
+        }
+        let moved: Vec<T> = (0..n).map(|i| s.q[i] - self.reference[i]).collect();
+        if self.is_met(Level::Position, self.accepted(&s.q), &moved) {
+            return Ok(());
+        }
+        Err(self.gap())
+    }
+
+    /// Takes a part of the correction.
+    fn correct(&mut self, s: &mut State<T>, part: T) {
+        for i in 0..self.problem.n_unknowns() {
+            s.q[i] -= self.f[i] * part;
+            self.change[i] -= self.f[i] * part;
+        }
+    }
+
+    /// From a closed mechanism to the closed one that is least changed from the reference. Where the curvature of the rows makes the
+    /// matrix indefinite, or corrections grow, damping turns Newton's method towards steepest descent.
+    fn least(&mut self, s: &mut State<T>) -> Result<(), AssemblyError> {
+        let n = self.problem.n_unknowns();
+        self.drive(&s.q, T::ONE);
+        self.problem.lower_penalties();
+        self.sigma.fill(T::ZERO);
+        let (mut damping, mut last, mut waits) = (T::ZERO, None, 0);
+        let close = T::EPSILON.sqrt() * T::from_f64(1e-2);
+        let mut correction = T::ZERO;
+        for _ in 0..MAX_STEPS {
+            for i in 0..n {
+                self.change[i] = s.q[i] - self.reference[i];
+            }
+            self.load();
+            let q = s.q.clone();
+            if self.factor(Level::Position, Some(&q), damping).is_err() {
+                damping = (damping + damping).max(T::HALF);
+                if damping > T::from_f64(1e6) {
+                    self.factor(Level::Position, None, T::ZERO)?;
+                    return Err(self.gap());
+                }
+                continue;
+            }
+            self.solve(Level::Position);
+            self.grow(Level::Position);
+            correction = self.largest(&self.f);
+            if !correction.is_finite() {
+                return Err(self.gap());
+            }
+            self.correct(s, (T::from_f64(STEP) / correction).min(T::ONE));
+            self.drive(&s.q, T::ONE);
+            self.remember(s);
+            if correction <= T::EPSILON * T::from_f64(4.0) {
+                break;
+            }
+            let grows = last.is_some_and(|last| correction > last * T::from_f64(0.9));
+            let stalls = last.is_some_and(|last| correction > last * T::HALF);
+            last = Some(correction);
+            if stalls && correction <= close && damping == T::ZERO {
+                waits += 1;
+                if waits > 2 {
+                    break;
+                }
+            }
+            if grows && correction > close {
+                damping = (damping + damping).max(T::HALF);
+            } else {
+                damping =
+                    if damping > T::from_f64(0.1) { damping * T::from_f64(0.25) } else { T::ZERO };
+            }
+        }
+        if !(correction <= close) {
+            return Err(AssemblyError::NotLeast { correction: correction.to_f64() });
+        }
+        if self.worst(&self.rows) > self.accepted(&s.q) {
+            self.factor(Level::Position, None, T::ZERO)?;
+        }
+        let moved: Vec<T> = (0..n).map(|i| s.q[i] - self.reference[i]).collect();
+        if self.is_met(Level::Position, self.accepted(&s.q), &moved) {
+            return Ok(());
+        }
+        Err(self.gap())
+    }
+
+    /// What is left open.
+    fn gap(&self) -> AssemblyError {
+        let (residual, owner, initial) = self.culprit();
+        AssemblyError::Position { residual: residual.to_f64(), owner, initial, reached: None }
+    }
+
+    /// Why the path ended at `tau`, where `s` is: what was on its way, how far it came and what is left.
+    fn stopped(
+        &mut self,
+        (error, scene): (AssemblyError, &Scene<T>),
+        tau: T,
+        s: &State<T>,
+    ) -> AssemblyError {
+        let AssemblyError::Position { residual: last, .. } = error else { return error };
+        self.drive(&s.q, T::ONE);
+        let (residual, owner, initial) = self.culprit();
+        // The last stage alone may have failed, by less than what it was to go.
+        if tau > T::HALF && last < residual.to_f64() && last.is_finite() {
+            return error;
+        }
+        let held = self.problem.holds.iter().filter(|hold| hold.owner == owner);
+        let guided = scene.guides.iter().zip(&self.guides).filter(
+            |(guide, _)| matches!(owner, crate::model::Owner::Joint(joint) if joint == guide.joint),
+        );
+        let guided = guided.map(|(_, value)| value[0]);
+        let largest = held
+            .map(Hold::target)
+            .chain(guided)
+            .fold(T::ZERO, |a: T, b| if b.abs() > a.abs() { b } else { a });
+        let reached = Some([(largest * tau).to_f64(), largest.to_f64()]);
+        AssemblyError::Position { residual: residual.to_f64(), owner, initial, reached }
+    }
+}

@@ -1,0 +1,67 @@
+//! Whether rows that no sweep brings nearer are met as well as the scene's own numbers let them be.
+//!
+//! Axes that are meant to be parallel and are given with six digits make rows that are nearly combinations of others, y^T J = sigma u^T
+//! with a sigma of some 1e-6: as the scene means them they are redundant, as it writes them they forbid the motion u. Such a combination
+//! of residuals is accepted up to what the motion since it was closed makes of its tilt:
+//!
+//! ```text
+//! |y^T phi| <= 2 sigma |x - x0|,   sigma <= 1e-6      (rows and motions measured by masses)
+//! ```
+//!
+//! The residual of a true contradiction has sigma = 0, so that nothing but rounding is accepted.
+
+use super::assemble::Assembly;
+use super::problem::Level;
+use crate::Real;
+use crate::algebra::norm_inf;
+use crate::blocks::SpdSolver;
+
+/// Tilt of a row from others that is taken for rounding of the scene's numbers: a unit in the sixth digit.
+const TILT: f64 = 1e-6;
+/// Sweeps that take all but the weakly determined combinations out of a residual: each leaves 1 / penalty of the others.
+const SIEVES: u32 = 3;
+
+impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
+    /// Are the rows met to `accepted` relative to their spreads, but for what their own tilt makes of the motion `moved`? The matrix
+    /// of the level must be factored, without curvature.
+    pub(super) fn is_met(&mut self, level: Level, accepted: T, moved: &[T]) -> bool {
+        if self.worst(&self.rows) <= accepted {
+            return true;
+        }
+        if !norm_inf(&self.rows).is_finite() {
+            return false;
+        }
+        let change = core::mem::take(&mut self.change);
+        self.change = alloc::vec![T::ZERO; change.len()];
+        // y <- y - J W^-1 J^T S y: what stays is hardly determined
+        let mut weak = self.rows.clone();
+        for _ in 0..SIEVES {
+            self.weigh(&weak);
+            self.solve(level);
+            self.problem.multiply(&self.f, level, &mut self.products);
+            weak.iter_mut().zip(&self.products).for_each(|(y, &d)| *y -= d);
+        }
+        let felt: alloc::vec::Vec<T> =
+            self.rows.iter().zip(&weak).map(|(&all, &weak)| all - weak).collect();
+        self.weigh(&weak);
+        self.pull(level);
+        self.change = change;
+        let p = &self.problem;
+        let sum = |x: &mut dyn Iterator<Item = T>| x.fold(T::ZERO, |sum, x| sum + x);
+        // sigma^2 = |J^T S y|^2 / (P y^T S y) with the inverse masses
+        let size = sum(&mut p.penalty.iter().zip(&weak).map(|(&s, &y)| s * y * y));
+        let pull = sum(&mut p.mass.iter().zip(&self.f).map(|(&m, &f)| f * f / m));
+        let way = sum(&mut p.mass.iter().zip(moved).map(|(&m, &x)| m * x * x));
+        let tilt = (pull / (size * p.alpha)).sqrt();
+        self.worst(&felt) <= accepted
+            && tilt <= T::from_f64(TILT)
+            && (size / p.alpha).sqrt() <= T::TWO * tilt * way.sqrt()
+    }
+
+    /// mu = S y.
+    fn weigh(&mut self, y: &[T]) {
+        for (mu, (&s, &y)) in self.mu.iter_mut().zip(self.problem.penalty.iter().zip(y)) {
+            *mu = s * y;
+        }
+    }
+}
