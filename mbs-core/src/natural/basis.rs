@@ -150,33 +150,41 @@ impl<T: Real> Basis<T> {
 
     fn combination(&self, p: &Vector<T, 3>, is_point: bool) -> Combination<T> {
         let unit = if is_point { Coef::one() } else { Coef::zero() };
-        let coefs: Vec<Coef<T>> = match &self.frame {
+        let from = |origin: &Vector<T, 3>| {
+            if is_point { (p - origin, size(p) + size(origin)) } else { (*p, size(p)) }
+        };
+        // Each coefficient with the size of what it is the sum of.
+        let coefs: Vec<(Coef<T>, T)> = match &self.frame {
             Frame::Planar { origin, second, is_point: two_points } => {
-                let v = if is_point { p - origin } else { *p };
+                let (v, reach) = from(origin);
                 let w = quotient(Coef { re: v[0], im: v[1] }, *second);
-                alloc::vec![if *two_points { unit.minus(w) } else { unit }, w]
+                let reach = reach / second.norm_squared().sqrt();
+                let first = if *two_points { unit.minus(w) } else { unit };
+                alloc::vec![(first, reach.max(T::ONE)), (w, reach)]
             }
             Frame::Rod { origin, along } => {
-                let v = if is_point { p - origin } else { *p };
-                let w = Coef::real(v.dot(along) / along.dot(along));
-                alloc::vec![unit.minus(w), w]
+                let (v, reach) = from(origin);
+                let square = along.dot(along);
+                let w = Coef::real(v.dot(along) / square);
+                let reach = reach / square.sqrt();
+                alloc::vec![(unit.minus(w), reach.max(T::ONE)), (w, reach)]
             }
             Frame::Spatial { origin, inverse } => {
-                let v = if is_point { p - origin } else { *p };
-                (0..4)
-                    .map(|k| {
-                        let sum = inverse[(k, 0)] * v[0]
-                            + inverse[(k, 1)] * v[1]
-                            + inverse[(k, 2)] * v[2];
-                        Coef::real(if is_point { sum + inverse[(k, 3)] } else { sum })
-                    })
-                    .collect()
+                let (v, reach) = from(origin);
+                let row = |k: usize| {
+                    let last = if is_point { inverse[(k, 3)] } else { T::ZERO };
+                    let entries = [inverse[(k, 0)], inverse[(k, 1)], inverse[(k, 2)]];
+                    let sum = entries[0] * v[0] + entries[1] * v[1] + entries[2] * v[2] + last;
+                    let largest = entries.into_iter().fold(T::ZERO, |a, x| a.max(x.abs()));
+                    (Coef::real(sum), largest * reach + last.abs())
+                };
+                (0..4).map(row).collect()
             }
         };
         self.entities
             .iter()
             .copied()
-            .zip(coefs.into_iter().map(snap))
+            .zip(coefs.into_iter().map(|(c, size)| snap(c, size)))
             .filter(|(_, c)| !c.is_zero())
             .collect()
     }
@@ -237,11 +245,12 @@ fn two_by_two<T: Real>(m: T, moment: Coef<T>, g22: Coef<T>, two_points: bool) ->
     }
 }
 
-/// Coefficients that are rounding of zero are zero, so that no element touches coordinates for nothing.
-fn snap<T: Real>(c: Coef<T>) -> Coef<T> {
+/// Coefficients that are rounding of zero beside `size`, that of the numbers they were summed from, are zero, so that no element touches
+/// coordinates for nothing; those that are rounding of one are one.
+fn snap<T: Real>(c: Coef<T>, size: T) -> Coef<T> {
     let tiny = T::EPSILON * T::from_f64(32.0);
     let clean = |x: T| {
-        if x.abs() <= tiny {
+        if x.abs() <= tiny * size {
             T::ZERO
         } else if (x - T::ONE).abs() <= tiny {
             T::ONE
@@ -250,6 +259,11 @@ fn snap<T: Real>(c: Coef<T>) -> Coef<T> {
         }
     };
     Coef { re: clean(c.re), im: clean(c.im) }
+}
+
+/// The largest component.
+fn size<T: Real>(x: &Vector<T, 3>) -> T {
+    x.iter().fold(T::ZERO, |a, x| a.max(x.abs()))
 }
 
 fn quotient<T: Real>(a: Coef<T>, b: Coef<T>) -> Coef<T> {

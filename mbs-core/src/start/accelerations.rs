@@ -2,6 +2,7 @@
 
 use super::assemble::{MAX_SWEEPS, RAISE, raises};
 use super::error::AssemblyError;
+use super::weak::{SIEVES, TILT};
 use crate::Real;
 use crate::algebra::norm_inf;
 use crate::blocks::SpdSolver;
@@ -65,7 +66,8 @@ pub fn accelerations<T: Real, M: Model<T>>(
         }
     }
     let residual = norm_inf(&rates);
-    if !(residual <= limit(&s.a)) {
+    let met = Met { accepted: limit(&s.a), penalty: &penalty };
+    if !(residual <= met.accepted) && !met.but_for_tilt(model, solver, (terms, &s.a), &rates) {
         let row = (0..m).find(|&k| !(rates[k].abs() < residual)).unwrap_or(0);
         let owner = model.owner_of_row(row);
         return Err(AssemblyError::Acceleration { residual: residual.to_f64(), owner });
@@ -78,6 +80,50 @@ pub fn accelerations<T: Real, M: Model<T>>(
     model.remember(terms, &mut s.memory);
     s.power = model.power(&s.q, &s.v, &s.reaction, terms);
     Ok(residual)
+}
+
+/// How the rows of accelerations are judged; see `weak.rs`.
+struct Met<'a, T> {
+    accepted: T,
+    penalty: &'a [T],
+}
+
+impl<T: Real> Met<'_, T> {
+    /// Are the residuals met to what is accepted, but for what the tilt of weakly determined rows makes of the accelerations `a`? The
+    /// solver holds the factor of M + J^T alpha J.
+    fn but_for_tilt<M: Model<T>>(
+        &self,
+        model: &M,
+        solver: &mut impl SpdSolver<T>,
+        (terms, a): (&Terms<T>, &[T]),
+        rates: &[T],
+    ) -> bool {
+        if !norm_inf(rates).is_finite() {
+            return false;
+        }
+        let (n, m) = (model.n_unknowns(), rates.len());
+        let (mut d, mut scratch) =
+            (vec![T::ZERO; model.n_extended()], vec![T::ZERO; solver.n_scratch()]);
+        let (mut weak, mut mu, mut moved) = (rates.to_vec(), vec![T::ZERO; m], vec![T::ZERO; m]);
+        let mut tilt = T::ZERO;
+        for _ in 0..SIEVES {
+            (0..m).for_each(|k| mu[k] = self.penalty[k] * weak[k]);
+            let load = Load { mass: None, multipliers: Some(&mu), force: T::ZERO };
+            let system = System { model, terms, tangent: tangent(self.penalty), load };
+            solver.assemble(&system, &mut d[..n]);
+            solver.solve(&mut d[..n], &mut scratch);
+            model.multiply_jacobian(terms, &d, &mut moved);
+            let product = |x: &[T]| mu.iter().zip(x).fold(T::ZERO, |sum, (&mu, &x)| sum + mu * x);
+            // what a sweep takes of them: P sigma^2
+            tilt = (product(&moved) / (product(&weak) * super::problem::penalty())).sqrt();
+            weak.iter_mut().zip(&moved).for_each(|(y, &d)| *y -= d);
+        }
+        let felt = rates.iter().zip(&weak).fold(T::ZERO, |s, (&all, &w)| s.max((all - w).abs()));
+        let squares = weak.iter().zip(self.penalty).fold(T::ZERO, |s, (&y, &p)| s + p * y * y);
+        let size = (squares / super::problem::penalty()).sqrt();
+        let way = (model.kinetic_energy(a) * T::TWO).sqrt();
+        felt <= self.accepted && tilt <= T::from_f64(TILT) && size <= T::TWO * tilt * way
+    }
 }
 
 /// Acceleration residual that is accepted.

@@ -17,9 +17,9 @@ use crate::algebra::norm_inf;
 use crate::blocks::SpdSolver;
 
 /// Tilt of a row from others that is taken for rounding of the scene's numbers: a unit in the sixth digit.
-const TILT: f64 = 1e-6;
+pub(super) const TILT: f64 = 1e-6;
 /// Sweeps that take all but the weakly determined combinations out of a residual: each leaves 1 / penalty of the others.
-const SIEVES: u32 = 3;
+pub(super) const SIEVES: u32 = 3;
 
 impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
     /// Are the rows met to `accepted` relative to their spreads, but for what their own tilt makes of the motion `moved`? The matrix

@@ -280,7 +280,12 @@ fn contradicting_entries_are_named() {
     add(0, Some(0.1), None);
     add(1, Some(0.9), None);
     match start::<2>(&four_bar).err() {
-        Some(AssemblyError::Position { initial: Some(i), owner: Owner::Joint(j), residual, .. }) => {
+        Some(AssemblyError::Position {
+            initial: Some(i),
+            owner: Owner::Joint(j),
+            residual,
+            ..
+        }) => {
             assert_eq!(i, j);
             assert!(i < 2 && residual > 1e-3);
         }
