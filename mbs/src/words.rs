@@ -3,7 +3,7 @@
 use crate::settings::Settings;
 use mbs_core::Real;
 use mbs_core::control::Limit;
-use mbs_core::scene::{BodyRef, Scene};
+use mbs_core::scene::{Body, BodyRef, Inertia, Scene};
 use mbs_scene::{Contact, ControlSummary, RunError, RunSummary, readable};
 
 /// Three significant digits: the size is what matters.
@@ -187,11 +187,63 @@ pub(crate) fn notes<T: Real>(
             few(change)
         ));
     }
+    notes.extend(spoilt(scene).map(|(body, ratio)| {
+        format!(
+            "places are rounded in this precision by up to {} of the size of body `{body}`: bring the origin nearer, or use f64",
+            few(ratio)
+        )
+    }));
     notes.extend(s.realtime.as_ref().and_then(crate::realtime::note));
     for joint in &s.not_unique {
         notes.push(not_unique(joint));
     }
     notes
+}
+
+/// Rounding of places that is reported, relative to the size of a body: a tenth of the 1e-4 that single precision promises.
+const SPOILT: f64 = 1e-5;
+
+/// The body whose places lose most to rounding, with that rounding relative to its size, where it is too much.
+fn spoilt<T: Real>(scene: &Scene<T>) -> Option<(&str, f64)> {
+    let mut places: Vec<Vec<[f64; 3]>> = scene
+        .bodies
+        .iter()
+        .map(|body| match body.inertia {
+            Inertia::Rod { from, to } => vec![from, to].into_iter().map(in_f64).collect(),
+            _ => vec![in_f64(body.center)],
+        })
+        .collect();
+    for joint in &scene.joints {
+        for (body, point) in joint.bodies.into_iter().zip(joint.points) {
+            if let BodyRef::Body(b) = body {
+                places[b].push(in_f64(point));
+            }
+        }
+    }
+    let ratio = |(body, places): (&Body<T>, &Vec<[f64; 3]>)| {
+        let size = |x: [f64; 3]| x.into_iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let first = places[0];
+        let far = places.iter().fold(0.0, |a: f64, &p| a.max(size(p)));
+        let spread = places
+            .iter()
+            .fold(0.0, |a: f64, p| a.max(size(std::array::from_fn(|i| p[i] - first[i]))));
+        // Points that coincide in this precision may have been apart: the mass still knows how far.
+        let inertia = match body.inertia {
+            Inertia::Planar(polar) => polar.to_f64(),
+            Inertia::Spatial(six) => six[..3].iter().map(|x| x.to_f64()).fold(0.0, f64::max),
+            Inertia::Rod { .. } => 0.0,
+        };
+        let mass = body.mass.to_f64();
+        let spread = if mass > 0.0 { spread.max((inertia / mass).sqrt()) } else { spread };
+        if spread > 0.0 { T::EPSILON.to_f64() * far / spread } else { 0.0 }
+    };
+    let bodies = scene.bodies.iter().zip(&places);
+    let worst = bodies.map(|(body, places)| (body.name.as_str(), ratio((body, places))));
+    worst.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, ratio)| *ratio > SPOILT)
+}
+
+fn in_f64<T: Real>(x: [T; 3]) -> [f64; 3] {
+    x.map(Real::to_f64)
 }
 
 /// Which bodies are named in a joint.

@@ -160,14 +160,14 @@ impl<T: Real> Basis<T> {
                 let w = quotient(Coef { re: v[0], im: v[1] }, *second);
                 let reach = reach / second.norm_squared().sqrt();
                 let first = if *two_points { unit.minus(w) } else { unit };
-                alloc::vec![(first, reach.max(T::ONE)), (w, reach)]
+                alloc::vec![(first, reach.max(unit.re)), (w, reach)]
             }
             Frame::Rod { origin, along } => {
                 let (v, reach) = from(origin);
                 let square = along.dot(along);
                 let w = Coef::real(v.dot(along) / square);
                 let reach = reach / square.sqrt();
-                alloc::vec![(unit.minus(w), reach.max(T::ONE)), (w, reach)]
+                alloc::vec![(unit.minus(w), reach.max(unit.re)), (w, reach)]
             }
             Frame::Spatial { origin, inverse } => {
                 let (v, reach) = from(origin);

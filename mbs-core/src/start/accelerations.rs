@@ -29,7 +29,8 @@ pub fn accelerations<T: Real, M: Model<T>>(
     model.evaluate_bias(&s.q, &s.v, terms);
     let mut penalty = vec![T::ZERO; m];
     model.effective_masses(terms, &mut penalty);
-    penalty.iter_mut().for_each(|p| *p *= super::problem::penalty::<T>());
+    let mut alpha = super::problem::penalty::<T>();
+    penalty.iter_mut().for_each(|p| *p *= alpha);
     let (mut f, mut scratch) = (vec![T::ZERO; n], vec![T::ZERO; solver.n_scratch()]);
     let (mut lambda, mut mu, mut rates) = (vec![T::ZERO; m], vec![T::ZERO; m], vec![T::ZERO; m]);
     factor(model, solver, terms, &penalty)?;
@@ -54,19 +55,22 @@ pub fn accelerations<T: Real, M: Model<T>>(
             lambda[k] += penalty[k] * rates[k];
         }
         let correction = norm_inf(&f);
-        let is_slow = last.is_some_and(|last| correction > last * T::HALF);
+        let slower = |share: f64| last.is_some_and(|last| correction > last * T::from_f64(share));
+        let (is_slow, stalls) = (slower(0.5), slower(0.9));
         last = Some(correction);
-        if is_slow && raises > 0 && !(norm_inf(&rates) <= limit(&s.a)) {
+        let is_met = norm_inf(&rates) <= limit(model, terms, &s.a);
+        if is_slow && raises > 0 && !is_met {
+            alpha *= T::from_f64(RAISE);
             penalty.iter_mut().for_each(|p| *p *= T::from_f64(RAISE));
             factor(model, solver, terms, &penalty)?;
             raises -= 1;
             last = None;
-        } else if is_slow {
+        } else if stalls || (is_slow && is_met) {
             break;
         }
     }
     let residual = norm_inf(&rates);
-    let met = Met { accepted: limit(&s.a), penalty: &penalty };
+    let met = Met { accepted: limit(model, terms, &s.a), penalty: &penalty, alpha };
     if !(residual <= met.accepted) && !met.but_for_tilt(model, solver, (terms, &s.a), &rates) {
         let row = (0..m).find(|&k| !(rates[k].abs() < residual)).unwrap_or(0);
         let owner = model.owner_of_row(row);
@@ -86,6 +90,8 @@ pub fn accelerations<T: Real, M: Model<T>>(
 struct Met<'a, T> {
     accepted: T,
     penalty: &'a [T],
+    /// The penalty in effective masses.
+    alpha: T,
 }
 
 impl<T: Real> Met<'_, T> {
@@ -115,20 +121,33 @@ impl<T: Real> Met<'_, T> {
             model.multiply_jacobian(terms, &d, &mut moved);
             let product = |x: &[T]| mu.iter().zip(x).fold(T::ZERO, |sum, (&mu, &x)| sum + mu * x);
             // what a sweep takes of them: P sigma^2
-            tilt = (product(&moved) / (product(&weak) * super::problem::penalty())).sqrt();
+            tilt = (product(&moved) / (product(&weak) * self.alpha)).sqrt();
             weak.iter_mut().zip(&moved).for_each(|(y, &d)| *y -= d);
         }
         let felt = rates.iter().zip(&weak).fold(T::ZERO, |s, (&all, &w)| s.max((all - w).abs()));
         let squares = weak.iter().zip(self.penalty).fold(T::ZERO, |s, (&y, &p)| s + p * y * y);
-        let size = (squares / super::problem::penalty()).sqrt();
+        let size = (squares / self.alpha).sqrt();
         let way = (model.kinetic_energy(a) * T::TWO).sqrt();
         felt <= self.accepted && tilt <= T::from_f64(TILT) && size <= T::TWO * tilt * way
     }
 }
 
-/// Acceleration residual that is accepted.
-fn limit<T: Real>(a: &[T]) -> T {
-    (T::ONE + norm_inf(a)) * T::from_f64(1e-9).max(T::EPSILON * T::from_f64(1e4))
+/// Acceleration residual that is accepted: relative to the accelerations, and to what the largest row is the sum of.
+fn limit<T: Real, M: Model<T>>(model: &M, terms: &Terms<T>, a: &[T]) -> T {
+    let mut size = T::ONE + norm_inf(a);
+    let mut jacobian = Vec::new();
+    for e in 0..model.n_elements() {
+        let (clique, rows) = (model.clique(e), model.rows(e));
+        jacobian.clear();
+        jacobian.resize(clique.len() * rows.len(), T::ZERO);
+        model.write_jacobian(terms, e, &mut jacobian);
+        for (row, k) in jacobian.chunks_exact(clique.len().max(1)).zip(rows) {
+            let products = row.iter().zip(clique);
+            let sum = products.fold(T::ZERO, |sum, (&g, &u)| sum + (g * a[u as usize]).abs());
+            size = size.max(sum + terms.phi_bias[k].abs());
+        }
+    }
+    size * T::from_f64(1e-9).max(T::EPSILON * T::from_f64(1e4))
 }
 
 fn tangent<T: Real>(penalty: &[T]) -> Tangent<'_, T> {

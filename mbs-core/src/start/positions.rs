@@ -28,6 +28,9 @@ const JUMP: f64 = 1.0;
 const HALVINGS: i32 = 10;
 /// Gap that a stage before the last may leave, relative to the rows' spreads.
 const LEFT: f64 = 1e-6;
+/// Corrections below this, relative to the coordinates' sizes, are no longer bent by the rows' curvature: a slow sweep then has a penalty
+/// that is too small.
+const SMALL: f64 = 1e-3;
 /// Largest correction of a sweep towards the least change, relative to the coordinates' sizes.
 const STEP: f64 = 0.25;
 /// Sweeps towards the least change: flat valleys take some dozens.
@@ -164,7 +167,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
             if stalls && residual <= self.accepted(&s.q) {
                 break;
             }
-            if is_slow && correction <= T::from_f64(LEFT) && raises > 0 {
+            if is_slow && correction <= T::from_f64(SMALL) && raises > 0 {
                 self.problem.raise_penalties();
                 raises -= 1;
             }
@@ -174,7 +177,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
                 idle += 1;
             }
         }
-        if !is_last && residual <= T::from_f64(LEFT) {
+        if !is_last && residual <= self.accepted(&s.q).max(T::from_f64(LEFT)) {
             return Ok(());
         }
         let moved: Vec<T> = (0..n).map(|i| s.q[i] - self.reference[i]).collect();
@@ -197,7 +200,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
     fn least(&mut self, s: &mut State<T>) -> Result<(), AssemblyError> {
         let n = self.problem.n_unknowns();
         self.drive(&s.q, T::ONE);
-        self.problem.lower_penalties();
+        self.problem.scale_rows();
         self.sigma.fill(T::ZERO);
         let (mut damping, mut last, mut waits) = (T::ZERO, None, 0);
         let close = T::EPSILON.sqrt() * T::from_f64(1e-2);
