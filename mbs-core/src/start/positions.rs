@@ -14,7 +14,7 @@ use super::place::Placement;
 use super::problem::Level;
 use crate::Real;
 use crate::blocks::{Cliques, SpdSolver};
-use crate::model::{Model, State};
+use crate::model::{Model, Owner, State};
 use crate::scene::Scene;
 use alloc::vec::Vec;
 
@@ -113,49 +113,56 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         let longest = T::ONE / T::from_f64(f64::from(stages));
         let shortest = longest * T::from_f64(libm::ldexp(1.0, -HALVINGS));
         let (mut tau, mut step, mut taken) = (T::ZERO, longest, 0);
-        let mut last = s.q.clone();
+        let (mut closed, mut last) = (T::ZERO, s.q.clone());
         while tau < T::ONE {
             let is_last = tau + step > T::ONE - shortest * T::HALF;
             let next = if is_last { T::ONE } else { tau + step };
             self.drive(&s.q, next);
-            match self.close(s, next, is_last) {
-                Ok(()) => {
-                    self.remember(s);
-                    last.copy_from_slice(&s.q);
-                    (tau, taken) = (next, taken + 1);
-                    step = (step + step).min(longest);
+            let end = self.close(s, next, is_last);
+            if let Err(Stop::Jump(error)) = end {
+                s.q.copy_from_slice(&last);
+                step *= T::HALF;
+                if step < shortest {
+                    return Err(self.stopped((error, scene), closed));
                 }
-                Err(error) => {
-                    s.q.copy_from_slice(&last);
-                    step *= T::HALF;
-                    if step < shortest {
-                        return Err(self.stopped((error, scene), tau, s));
-                    }
-                }
+                continue;
             }
+            match end {
+                Ok(()) => closed = next,
+                Err(Stop::Gap(error)) if is_last => {
+                    return Err(self.stopped((error, scene), closed));
+                }
+                Err(_) => {}
+            }
+            self.remember(s);
+            last.copy_from_slice(&s.q);
+            (tau, taken) = (next, taken + 1);
+            step = (step + step).min(longest);
         }
         Ok(taken)
     }
 
-    /// Closes everything at one stage by sweeps of the correction form; rows must have been evaluated there.
-    fn close(&mut self, s: &mut State<T>, tau: T, is_last: bool) -> Result<(), AssemblyError> {
+    /// Closes everything at one stage by sweeps of the correction form; rows must have been evaluated there. Where several values are
+    /// held they may fit together at the end only: the stages before it compromise by least squares.
+    fn close(&mut self, s: &mut State<T>, tau: T, is_last: bool) -> Result<(), Stop> {
         let n = self.problem.n_unknowns();
         self.problem.lower_penalties();
         self.sigma.fill(T::ZERO);
         self.change.fill(T::ZERO);
         let mut residual = self.worst(&self.rows);
         let (mut best, mut idle, mut raises) = (residual, 0, raises::<T>());
+        let mut correction = T::ZERO;
         for _ in 0..MAX_SWEEPS {
             let floor = self.rounding(&s.q) * T::from_f64(8.0);
             if residual <= floor || idle > PATIENCE {
                 break;
             }
             self.load();
-            self.factor(Level::Position, None, T::ZERO)?;
+            self.factor(Level::Position, None, T::ZERO).map_err(Stop::Jump)?;
             self.solve(Level::Position);
-            let correction = self.largest(&self.f);
+            correction = self.largest(&self.f);
             if !(correction <= T::from_f64(JUMP)) {
-                return Err(self.gap());
+                return Err(Stop::Jump(self.gap()));
             }
             self.grow(Level::Position);
             self.correct(s, T::ONE);
@@ -184,7 +191,9 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         if self.is_met(Level::Position, self.accepted(&s.q), &moved) {
             return Ok(());
         }
-        Err(self.gap())
+        // Near a singular position corrections are larger than the gap that they close; at a compromise there are none.
+        let is_compromise = correction <= residual * T::from_f64(SMALL);
+        Err(if is_compromise { Stop::Gap(self.gap()) } else { Stop::Jump(self.gap()) })
     }
 
     /// Takes a part of the correction.
@@ -266,30 +275,28 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         AssemblyError::Position { residual: residual.to_f64(), owner, initial, reached: None }
     }
 
-    /// Why the path ended at `tau`, where `s` is: what was on its way, how far it came and what is left.
-    fn stopped(
-        &mut self,
-        (error, scene): (AssemblyError, &Scene<T>),
-        tau: T,
-        s: &State<T>,
-    ) -> AssemblyError {
-        let AssemblyError::Position { residual: last, .. } = error else { return error };
-        self.drive(&s.q, T::ONE);
-        let (residual, owner, initial) = self.culprit();
-        // The last stage alone may have failed, by less than what it was to go.
-        if tau > T::HALF && last < residual.to_f64() && last.is_finite() {
-            return error;
-        }
+    /// Why the path ended, with what was on its way: everything was closed up to `tau`.
+    fn stopped(&self, (error, scene): (AssemblyError, &Scene<T>), tau: T) -> AssemblyError {
+        let AssemblyError::Position { residual, owner, initial, .. } = error else { return error };
         let held = self.problem.holds.iter().filter(|hold| hold.owner == owner);
-        let guided = scene.guides.iter().zip(&self.guides).filter(
-            |(guide, _)| matches!(owner, crate::model::Owner::Joint(joint) if joint == guide.joint),
-        );
+        let guided = scene
+            .guides
+            .iter()
+            .zip(&self.guides)
+            .filter(|(guide, _)| matches!(owner, Owner::Joint(joint) if joint == guide.joint));
         let guided = guided.map(|(_, value)| value[0]);
-        let largest = held
-            .map(Hold::target)
-            .chain(guided)
-            .fold(T::ZERO, |a: T, b| if b.abs() > a.abs() { b } else { a });
-        let reached = Some([(largest * tau).to_f64(), largest.to_f64()]);
-        AssemblyError::Position { residual: residual.to_f64(), owner, initial, reached }
+        let targets = held.map(Hold::target).chain(guided);
+        let largest = targets.fold(T::ZERO, |a: T, b| if b.abs() > a.abs() { b } else { a });
+        let reached = (largest != T::ZERO && tau < T::ONE - T::from_f64(SMALL))
+            .then(|| [(largest * tau).to_f64(), largest.to_f64()]);
+        AssemblyError::Position { residual, owner, initial, reached }
     }
+}
+
+/// Why a stage ended before everything was closed.
+enum Stop {
+    /// Corrections were too large, or did not end: shorter stages may lead on.
+    Jump(AssemblyError),
+    /// What is held contradicts itself or the joints here.
+    Gap(AssemblyError),
 }

@@ -308,6 +308,34 @@ fn contradicting_entries_are_named() {
 }
 
 #[test]
+fn a_gap_of_a_millionth_of_the_size_is_refused_and_one_of_rounding_is_not() {
+    let mut four_bar = scene(include_str!("../../../scenes/guided-four-bar.toml"));
+    four_bar.guides.clear();
+    let mut hold = |values: &[f64]| {
+        four_bar.initials.clear();
+        for (joint, &value) in values.iter().enumerate() {
+            let value = Some(vec![value]);
+            let target = mbs_core::scene::InitialTarget::Joint { joint, value, rate: None };
+            four_bar.initials.push(mbs_core::scene::Initial { target });
+        }
+        start::<2>(&four_bar)
+    };
+    // At 1.5 rad what is held together fits at the end of the way only.
+    for angle in [0.1, 0.3, 1.5] {
+        let (model, assembled) = hold(&[angle]).unwrap_or_else(|e| panic!("{e}"));
+        let [crank, coupler] = [0, 1].map(|body| heading(&model, &assembled.state.q, body));
+        let found = hold(&[angle, coupler - crank]);
+        assert!(found.is_ok(), "{angle}: {:?}", found.err());
+        match hold(&[angle, coupler - crank + 1e-6]).err() {
+            Some(AssemblyError::Position { residual, .. }) => {
+                assert!(residual < 1e-5, "{residual:e}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+#[test]
 fn a_force_that_meets_no_inertia_is_refused_by_name() {
     let text = "[scene]\nname = \"m\"\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n[[body]]\nname = \"heavy\"\nmass = 1.0\ncenter = [1.0, 0.0]\ninertia = 0.1\n[[body]]\nname = \"ghost\"\nmass = 0.0\ncenter = [1.5, 0.0]\n[[joint]]\nname = \"j\"\nkind = \"revolute\"\nbodies = [\"ground\", \"heavy\"]\nat = [0.0, 0.0]\n[[joint]]\nname = \"k\"\nkind = \"revolute\"\nbodies = [\"heavy\", \"ghost\"]\nat = [1.0, 0.0]\n[[effect]]\nkind = \"force\"\nbody = \"ghost\"\nat = [2.0, 0.0]\nvalue = [0.0, 1.0]\n";
     let text = text.replace("center = [1.5, 0.0]\n", "center = [1.5, 0.0]\ninertia = 0.0\n");
