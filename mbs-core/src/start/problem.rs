@@ -206,7 +206,7 @@ impl<T: Real, const D: usize> Cliques for Problem<'_, T, D> {
 pub(super) struct Sweep<'p, 'a, T: Real, const D: usize> {
     pub(super) problem: &'p Problem<'a, T, D>,
     pub(super) level: Level,
-    /// x - x*, and the coordinates where rows were evaluated.
+    /// x - x*.
     pub(super) change: &'p [T],
     /// Multipliers of the model's rows, then of the holds.
     pub(super) multipliers: &'p [T],
