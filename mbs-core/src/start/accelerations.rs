@@ -76,14 +76,19 @@ pub fn accelerations<T: Real, M: Model<T>>(
         let owner = model.owner_of_row(row);
         return Err(AssemblyError::Acceleration { residual: residual.to_f64(), owner });
     }
+    keep(model, s, &lambda, terms);
+    Ok(residual)
+}
+
+/// What a state has besides its accelerations.
+fn keep<T: Real, M: Model<T>>(model: &M, s: &mut State<T>, lambda: &[T], terms: &Terms<T>) {
     s.a_aux.copy_from_slice(&s.a);
     for x in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {
-        x.copy_from_slice(&lambda);
+        x.copy_from_slice(lambda);
     }
     s.phi.copy_from_slice(&terms.phi);
     model.remember(terms, &mut s.memory);
     s.power = model.power(&s.q, &s.v, &s.reaction, terms);
-    Ok(residual)
 }
 
 /// How the rows of accelerations are judged; see `weak.rs`.
