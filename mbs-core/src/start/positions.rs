@@ -130,6 +130,9 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
             match end {
                 Ok(()) => closed = next,
                 Err(Stop::Gap(error)) if is_last => {
+                    // A small gap at the end is no way that stopped.
+                    let is_small = self.worst(&self.rows) <= T::from_f64(SMALL);
+                    let closed = if is_small { T::ONE } else { closed };
                     return Err(self.stopped((error, scene), closed));
                 }
                 Err(_) => {}
@@ -256,7 +259,8 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
                     if damping > T::from_f64(0.1) { damping * T::from_f64(0.25) } else { T::ZERO };
             }
         }
-        if !(correction <= close) {
+        // Weakly determined combinations keep a rounding times their condition.
+        if !(correction <= T::EPSILON.sqrt()) {
             return Err(AssemblyError::NotLeast { correction: correction.to_f64() });
         }
         if self.worst(&self.rows) > self.accepted(&s.q) {
@@ -277,7 +281,18 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
 
     /// Why the path ended, with what was on its way: everything was closed up to `tau`.
     fn stopped(&self, (error, scene): (AssemblyError, &Scene<T>), tau: T) -> AssemblyError {
-        let AssemblyError::Position { residual, owner, initial, .. } = error else { return error };
+        let AssemblyError::Position { residual, mut owner, mut initial, .. } = error else {
+            return error;
+        };
+        let is_guided = |joint: &usize| scene.guides.iter().any(|guide| guide.joint == *joint);
+        if initial.is_none() && !matches!(&owner, Owner::Joint(joint) if is_guided(joint)) {
+            // What was on its way farthest is what the user can change.
+            let far = |hold: &Hold<T, D>| hold.distance(self.length).to_f64();
+            let holds = self.problem.holds.iter();
+            if let Some(hold) = holds.max_by(|a, b| far(a).total_cmp(&far(b))) {
+                (owner, initial) = (hold.owner, Some(hold.initial));
+            }
+        }
         let held = self.problem.holds.iter().filter(|hold| hold.owner == owner);
         let guided = scene
             .guides
@@ -289,6 +304,8 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         let largest = targets.fold(T::ZERO, |a: T, b| if b.abs() > a.abs() { b } else { a });
         let reached = (largest != T::ZERO && tau < T::ONE - T::from_f64(SMALL))
             .then(|| [(largest * tau).to_f64(), largest.to_f64()]);
+        let missing = reached.map_or(0.0, |[reached, value]| (value - reached).abs());
+        let residual = residual.max(missing);
         AssemblyError::Position { residual, owner, initial, reached }
     }
 }
