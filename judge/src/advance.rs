@@ -1,0 +1,211 @@
+//! Steps of order 8: Gragg's midpoint rule, extrapolated over 2, 4, 6 and 8 parts of the step, with an estimate of its error.
+
+use crate::motion::{Mechanism, State};
+use crate::vector::{compose, scale};
+
+/// Parts of the step in each row of the table.
+const PARTS: [usize; 4] = [2, 4, 6, 8];
+/// Steps of controlled length that may be tried in one call.
+const MOST_TRIALS: usize = 20_000;
+
+/// A run that does not go on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stop {
+    /// Steps became too small at this time.
+    Steps(f64),
+    /// Numbers that are none at this time.
+    NotFinite(f64),
+}
+
+impl Mechanism {
+    fn pack(state: &State) -> Vec<f64> {
+        let mut y = Vec::with_capacity(14 * state.frames.len() + 2 * state.turns.len() + 1);
+        for f in &state.frames {
+            y.extend(f.r.iter().chain(&f.q).chain([&f.angle]).chain(&f.v).chain(&f.w));
+        }
+        y.extend(state.turns.iter().flatten());
+        y.push(state.work);
+        y
+    }
+
+    fn unpack(&self, y: &[f64], t: f64) -> State {
+        let mut state = self.reference();
+        state.t = t;
+        let (bodies, rest) = y.split_at(14 * state.frames.len());
+        for (f, y) in state.frames.iter_mut().zip(bodies.chunks_exact(14)) {
+            f.r.copy_from_slice(&y[..3]);
+            f.q.copy_from_slice(&y[3..7]);
+            f.angle = y[7];
+            f.v.copy_from_slice(&y[8..11]);
+            f.w.copy_from_slice(&y[11..]);
+        }
+        for (turns, y) in state.turns.iter_mut().zip(rest.chunks_exact(2)) {
+            turns.copy_from_slice(y);
+        }
+        state.work = rest.last().copied().unwrap_or(0.0);
+        state
+    }
+
+    fn derivative(&self, y: &[f64], t: f64) -> Vec<f64> {
+        let state = self.unpack(y, t);
+        let moved = self.evaluate(&state);
+        let mut rates = Vec::with_capacity(y.len());
+        for (f, a) in state.frames.iter().zip(&moved.accelerations) {
+            let half = scale(0.5, f.w);
+            rates.extend(f.v);
+            rates.extend(compose([0.0, half[0], half[1], half[2]], f.q));
+            rates.push(f.w[2]);
+            rates.extend(a);
+        }
+        let places = self.places(&state);
+        let now = self.now(&state, &places);
+        for (j, joint) in self.scene.joints.iter().enumerate() {
+            let turning = joint.turning(self.scene.planar);
+            let mut of = [0.0; 2];
+            if !turning.is_empty() {
+                let rows = now.coordinates(j);
+                turning.iter().zip(&mut of).for_each(|(&i, x)| *x = rows[i].rate(&places));
+            }
+            rates.extend(of);
+        }
+        rates.push(moved.power);
+        rates
+    }
+
+    /// One step without projection; also the difference of the two best values, relative to `sizes` of the state.
+    fn extrapolate(&self, y: &[f64], first: &[f64], t: f64, h: f64) -> (Vec<f64>, Vec<f64>) {
+        let mut table: Vec<Vec<f64>> = Vec::new();
+        let mut second_best = Vec::new();
+        for (k, &n) in PARTS.iter().enumerate() {
+            let part = h / n as f64;
+            let mut before = y.to_vec();
+            let mut at: Vec<f64> = y.iter().zip(first).map(|(y, f)| y + part * f).collect();
+            for i in 1..n {
+                let rates = self.derivative(&at, t + part * i as f64);
+                let next = before.iter().zip(&rates).map(|(y, f)| y + 2.0 * part * f).collect();
+                before = std::mem::replace(&mut at, next);
+            }
+            // Gragg's sequence at even n has an expansion in h² without the last average
+            let mut row = vec![at];
+            for j in 1..=k {
+                let ratio = (n as f64 / PARTS[k - j] as f64).powi(2);
+                let finer: &Vec<f64> = &row[j - 1];
+                let coarser = &table[j - 1];
+                let next =
+                    finer.iter().zip(coarser).map(|(x, y)| x + (x - y) / (ratio - 1.0)).collect();
+                row.push(next);
+            }
+            if k + 1 == PARTS.len() {
+                second_best = row[k - 1].clone();
+            }
+            table = row;
+        }
+        let best = table.pop().unwrap_or_default();
+        let error = best.iter().zip(&second_best).map(|(x, y)| (x - y).abs()).collect();
+        (best, error)
+    }
+
+    /// One step of order 8, brought back onto the constraints.
+    #[must_use]
+    pub fn step(&self, state: &State, h: f64) -> State {
+        let y = Self::pack(state);
+        let first = self.derivative(&y, state.t);
+        let (next, _) = self.extrapolate(&y, &first, state.t, h);
+        let mut next = self.unpack(&next, state.t + h);
+        self.project(&mut next);
+        next
+    }
+
+    /// Goes on to a time by steps of controlled length, from `h` that is changed for the next call.
+    ///
+    /// # Errors
+    /// [`Stop`] where steps become too small.
+    pub fn advance(
+        &self,
+        state: &mut State,
+        end: f64,
+        h: &mut f64,
+        tolerance: f64,
+    ) -> Result<(), Stop> {
+        let span = end - state.t;
+        let mut trials = 0;
+        while state.t < end - 1e-12 * span {
+            let length = h.min(end - state.t);
+            let y = Self::pack(state);
+            let first = self.derivative(&y, state.t);
+            let (next, error) = self.extrapolate(&y, &first, state.t, length);
+            let ratio = self.error_ratio(&y, &next, &error, length, tolerance);
+            if !ratio.is_finite() && length < 1e-9 * span {
+                return Err(Stop::NotFinite(state.t));
+            }
+            let factor = if ratio.is_finite() {
+                (0.8 * ratio.powf(-1.0 / 7.0)).clamp(0.2, 4.0)
+            } else {
+                0.2
+            };
+            if ratio <= 1.0 {
+                *state = self.unpack(&next, state.t + length);
+                self.project(state);
+                // a step cut short by the end says nothing of longer ones
+                *h = if length < *h { h.max(length * factor) } else { length * factor };
+            } else {
+                *h = length * factor;
+            }
+            trials += 1;
+            if trials > MOST_TRIALS || *h < 1e-11 * span {
+                return Err(Stop::Steps(state.t));
+            }
+        }
+        state.t = end;
+        Ok(())
+    }
+
+    /// The largest error beside what is allowed: the tolerance of the mechanism's length, of a turn, and of what both are in a step.
+    fn error_ratio(&self, y: &[f64], next: &[f64], error: &[f64], h: f64, tolerance: f64) -> f64 {
+        let length = self.length();
+        let fastest = y.chunks_exact(14).take(self.scene.bodies.len());
+        let speed = fastest
+            .clone()
+            .map(|b| b[8..11].iter().fold(0.0, |a: f64, x| a.max(x.abs())))
+            .fold(0.0, f64::max);
+        let spin = fastest
+            .map(|b| b[11..].iter().fold(0.0, |a: f64, x| a.max(x.abs())))
+            .fold(0.0, f64::max);
+        let bodies = 14 * self.scene.bodies.len();
+        let mut worst = 0.0_f64;
+        for (i, e) in error.iter().enumerate().take(bodies) {
+            let allowed = match i % 14 {
+                0..=2 => length,
+                3..=7 => 1.0,
+                8..=10 => speed.max(length / h * 0.01),
+                _ => spin.max(0.01 / h),
+            };
+            let ratio = e / (tolerance * allowed);
+            if !ratio.is_finite() || !next[i].is_finite() {
+                return f64::NAN;
+            }
+            worst = worst.max(ratio);
+        }
+        worst.max(1e-10)
+    }
+
+    /// A length of the mechanism: the largest distance of its points from each other's mean.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        let points = self
+            .scene
+            .bodies
+            .iter()
+            .map(|b| b.center)
+            .chain(self.scene.joints.iter().flat_map(|j| j.points));
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for p in points {
+            for i in 0..3 {
+                low[i] = low[i].min(p[i]);
+                high[i] = high[i].max(p[i]);
+            }
+        }
+        let size = (0..3).map(|i| high[i] - low[i]).fold(0.0, f64::max);
+        if size > 0.0 && size.is_finite() { size } else { 1.0 }
+    }
+}

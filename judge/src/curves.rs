@@ -1,0 +1,117 @@
+//! Values over time and roads over x.
+
+use crate::scene::{Course, Feature, Law, Spline};
+use crate::vector::{Vector, add, scale};
+use core::f64::consts::PI;
+
+impl Spline {
+    /// The natural cubic spline through points of increasing abscissae.
+    #[must_use]
+    pub fn natural(points: &[[f64; 2]]) -> Self {
+        let n = points.len();
+        let mut second = vec![0.0; n];
+        // tridiagonal equations of the second derivatives, forward and back
+        let (mut slope, mut known) = (vec![0.0; n], vec![0.0; n]);
+        for i in 1..n.saturating_sub(1) {
+            let [[t0, x0], [t1, x1], [t2, x2]] = [points[i - 1], points[i], points[i + 1]];
+            let right = 6.0 * ((x2 - x1) / (t2 - t1) - (x1 - x0) / (t1 - t0));
+            let pivot = 2.0 * (t2 - t0) - (t1 - t0) * slope[i - 1];
+            slope[i] = (t2 - t1) / pivot;
+            known[i] = (right - (t1 - t0) * known[i - 1]) / pivot;
+        }
+        for i in (1..n.saturating_sub(1)).rev() {
+            second[i] = known[i] - slope[i] * second[i + 1];
+        }
+        Self { knots: points.iter().zip(second).map(|(p, s)| [p[0], p[1], s]).collect() }
+    }
+
+    /// Value and two derivatives; level outside.
+    #[must_use]
+    pub fn at(&self, t: f64) -> [f64; 3] {
+        let (Some(first), Some(last)) = (self.knots.first(), self.knots.last()) else {
+            return [0.0; 3];
+        };
+        if t < first[0] {
+            return [first[1], 0.0, 0.0];
+        }
+        if t >= last[0] {
+            return [last[1], 0.0, 0.0];
+        }
+        let i = self.knots.partition_point(|k| k[0] <= t).max(1);
+        let ([t0, x0, s0], [t1, x1, s1]) = (self.knots[i - 1], self.knots[i]);
+        let h = t1 - t0;
+        let (a, b) = ((t1 - t) / h, (t - t0) / h);
+        let value = a * x0 + b * x1 + ((a * a * a - a) * s0 + (b * b * b - b) * s1) * h * h / 6.0;
+        let rate = (x1 - x0) / h + ((1.0 - 3.0 * a * a) * s0 + (3.0 * b * b - 1.0) * s1) * h / 6.0;
+        [value, rate, a * s0 + b * s1]
+    }
+}
+
+impl Law {
+    /// Value and two derivatives.
+    #[must_use]
+    pub fn at(&self, t: f64) -> [f64; 3] {
+        match self {
+            Self::Spline(spline) => spline.at(t),
+            Self::Ramp(rate) => [rate * t, *rate, 0.0],
+            Self::Sine([amplitude, frequency, phase]) => {
+                let w = 2.0 * PI * frequency;
+                let (s, c) = (w * t + phase).sin_cos();
+                [amplitude * s, amplitude * w * c, -amplitude * w * w * s]
+            }
+        }
+    }
+}
+
+/// Linear between the rows, held outside.
+pub(crate) fn course(rows: &Course, t: f64) -> Vector {
+    let i = rows.partition_point(|row| row.0 <= t);
+    if i == 0 {
+        return rows[0].1;
+    }
+    let Some(next) = rows.get(i) else { return rows[i - 1].1 };
+    let (t0, x0) = rows[i - 1];
+    let share = (t - t0) / (next.0 - t0);
+    add(scale(1.0 - share, x0), scale(share, next.1))
+}
+
+/// Height and two derivatives of a road.
+pub(crate) fn height(features: &[Feature], x: f64) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    for feature in features {
+        let one = match feature {
+            Feature::Flat(height) => [*height, 0.0, 0.0],
+            Feature::Ramp(numbers) => ramp(numbers, x),
+            Feature::Bump([start, length, amplitude]) => {
+                let w = 2.0 * PI / length;
+                if (*start..=start + length).contains(&x) {
+                    let (s, c) = (w * (x - start)).sin_cos();
+                    [amplitude * (1.0 - c), amplitude * w * s, amplitude * w * w * c]
+                } else {
+                    [0.0; 3]
+                }
+            }
+            Feature::Table(spline) => spline.at(x),
+        };
+        sum.iter_mut().zip(one).for_each(|(a, b)| *a += b);
+    }
+    sum
+}
+
+/// A constant slope with parabolas of length r at both ends: the slope grows to height / (length - r).
+fn ramp(&[start, length, height, r]: &[f64; 4], x: f64) -> [f64; 3] {
+    let (u, slope) = (x - start, height / (length - r));
+    let bend = slope / r;
+    if u <= 0.0 {
+        [0.0; 3]
+    } else if u < r {
+        [0.5 * bend * u * u, bend * u, bend]
+    } else if u <= length - r {
+        [slope * (u - 0.5 * r), slope, 0.0]
+    } else if u < length {
+        let left = length - u;
+        [height - 0.5 * bend * left * left, bend * left, -bend]
+    } else {
+        [height, 0.0, 0.0]
+    }
+}

@@ -1,0 +1,224 @@
+//! What each kind of joint forbids, and its coordinates.
+
+use crate::rows::{Places, Row, Seat};
+use crate::scene::{Joint, Kind};
+use crate::vector::{
+    Vector, across, add, compose, conjugate, cross, dot, logarithm, norm, scale, sub,
+};
+
+const EX: Vector = [1.0, 0.0, 0.0];
+const EY: Vector = [0.0, 1.0, 0.0];
+const EZ: Vector = [0.0, 0.0, 1.0];
+
+impl Joint {
+    pub(crate) fn seats(&self, places: &Places) -> [Seat; 2] {
+        [0, 1].map(|i| places.seat(self.bodies[i], self.points[i]))
+    }
+
+    fn coincidence(&self, places: &Places, planar: bool) -> Vec<Row> {
+        let seats = self.seats(places);
+        let axes: &[Vector] = if planar { &[EX, EY] } else { &[EX, EY, EZ] };
+        axes.iter().map(|&e| places.along(self.bodies, &seats, e, false)).collect()
+    }
+
+    /// u · (p2 - p1) with u fixed in the first body.
+    fn slide(&self, places: &Places, u: Vector) -> Row {
+        let u = places.direction(self.bodies[0], u);
+        places.along(self.bodies, &self.seats(places), u, true)
+    }
+
+    /// u · w, u fixed in the first body and w in the second.
+    fn cosine(&self, places: &Places, u: Vector, w: Vector) -> Row {
+        let (u, w) = (places.direction(self.bodies[0], u), places.direction(self.bodies[1], w));
+        places.cosine(self.bodies, u, w)
+    }
+
+    /// Both bodies have the direction `a`.
+    fn parallel(&self, places: &Places, a: Vector) -> Vec<Row> {
+        across(a).map(|x| self.cosine(places, x, a)).to_vec()
+    }
+
+    fn same_turn(&self, places: &Places, planar: bool) -> Vec<Row> {
+        if planar {
+            let angle = places.angle(self.bodies[1]) - places.angle(self.bodies[0]);
+            return vec![places.about(self.bodies, EZ, None).with_value(angle)];
+        }
+        [(EX, EY), (EY, EZ), (EZ, EX)].map(|(u, w)| self.cosine(places, u, w)).to_vec()
+    }
+
+    /// The constraints of the joint.
+    pub(crate) fn rows(&self, places: &Places, planar: bool) -> Vec<Row> {
+        let [a, b] = self.axes;
+        match self.kind {
+            Kind::Free => Vec::new(),
+            Kind::Revolute if planar => self.coincidence(places, true),
+            Kind::Revolute => [self.coincidence(places, false), self.parallel(places, a)].concat(),
+            Kind::Spherical => self.coincidence(places, planar),
+            Kind::Universal => {
+                let mut row = self.cosine(places, a, b);
+                row.value -= dot(a, b);
+                [self.coincidence(places, false), vec![row]].concat()
+            }
+            Kind::Weld => {
+                [self.coincidence(places, planar), self.same_turn(places, planar)].concat()
+            }
+            Kind::Prismatic => {
+                let sides = if planar { vec![cross(EZ, a)] } else { across(a).to_vec() };
+                let sides = sides.into_iter().map(|u| self.slide(places, u)).collect();
+                [sides, self.same_turn(places, planar)].concat()
+            }
+            Kind::Cylindrical => {
+                let sides = across(a).map(|u| self.slide(places, u)).to_vec();
+                [sides, self.parallel(places, a)].concat()
+            }
+            Kind::Planar => [vec![self.slide(places, a)], self.parallel(places, a)].concat(),
+            Kind::Distance => {
+                let length = norm(sub(self.points[1], self.points[0]));
+                let mut rows = vec![places.distance(self.bodies, &self.seats(places), length)];
+                if self.hinged {
+                    let mut row = self.slide(places, a);
+                    row.value -= dot(a, sub(self.points[1], self.points[0]));
+                    rows.push(row);
+                }
+                rows
+            }
+        }
+    }
+
+    /// The angle about an axis of both bodies, and its row; nearest to `near`.
+    fn turn(&self, places: &Places, a: Vector, near: f64) -> Row {
+        let x = across(a)[0];
+        let (axis, x1) = (places.direction(self.bodies[0], a), places.direction(self.bodies[0], x));
+        let x2 = places.direction(self.bodies[1], x);
+        let angle = dot(cross(axis, x1), x2).atan2(dot(x1, x2));
+        places.about(self.bodies, axis, self.bodies[0]).with_value(nearest(angle, near))
+    }
+
+    fn universal(&self, places: &Places, near: [f64; 2]) -> Vec<Row> {
+        let [a, b] = self.axes;
+        let (a1, b1) = (places.direction(self.bodies[0], a), places.direction(self.bodies[0], b));
+        let (a2, b2) = (places.direction(self.bodies[1], a), places.direction(self.bodies[1], b));
+        // about a1 from where b is without turns to where the second body has it; about b2 from a1 to where the second body has a
+        let first = angle_about(a1, b1, b2);
+        let second = angle_about(b2, a1, a2);
+        let cosine = dot(a, b);
+        let share = 1.0 / (1.0 - cosine * cosine);
+        // ω = a q̇0 + b q̇1, with axes that need not be square to each other
+        let row = |u: Vector, w: Vector, [i, j]: [usize; 2]| {
+            let mut row = places.about(self.bodies, scale(share, u), self.bodies[i]);
+            let other = places.about(self.bodies, scale(-share * cosine, w), self.bodies[j]);
+            for (part, more) in row.parts.iter_mut().zip(&other.parts) {
+                part.1.iter_mut().zip(&more.1).for_each(|(x, y)| *x += y);
+            }
+            row.bias += other.bias;
+            row
+        };
+        vec![
+            row(a1, b2, [0, 1]).with_value(nearest(first, near[0])),
+            row(b2, a1, [1, 0]).with_value(nearest(second, near[1])),
+        ]
+    }
+
+    /// The three rows of the relative angular velocity in global axes, with the rotation vector of the second body in axes of the
+    /// first as values.
+    fn ball(&self, places: &Places, turns: [[f64; 4]; 2]) -> Vec<Row> {
+        let relative = logarithm(compose(conjugate(turns[0]), turns[1]));
+        let axes = [EX, EY, EZ].into_iter().zip(relative);
+        axes.map(|(e, value)| places.about(self.bodies, e, None).with_value(value)).collect()
+    }
+
+    /// The joint's coordinates in the order of the contract; `near` are the turns that its angles are near to.
+    pub(crate) fn coordinates(
+        &self,
+        places: &Places,
+        planar: bool,
+        turns: [[f64; 4]; 2],
+        near: [f64; 2],
+    ) -> Vec<Row> {
+        let [a, d] = self.axes;
+        let plane_turn = || {
+            let angle = places.angle(self.bodies[1]) - places.angle(self.bodies[0]);
+            places.about(self.bodies, EZ, None).with_value(angle)
+        };
+        match self.kind {
+            Kind::Weld | Kind::Distance => Vec::new(),
+            Kind::Revolute if planar => vec![plane_turn()],
+            Kind::Revolute => vec![self.turn(places, a, near[0])],
+            Kind::Prismatic => vec![self.slide(places, a)],
+            Kind::Cylindrical => vec![self.slide(places, a), self.turn(places, a, near[0])],
+            Kind::Universal => self.universal(places, near),
+            Kind::Spherical => self.ball(places, turns),
+            Kind::Planar => vec![
+                self.slide(places, d),
+                self.slide(places, cross(a, d)),
+                self.turn(places, a, near[0]),
+            ],
+            Kind::Free if planar => {
+                vec![self.slide(places, EX), self.slide(places, EY), plane_turn()]
+            }
+            Kind::Free => {
+                let slides = [EX, EY, EZ].map(|e| self.slide(places, e)).to_vec();
+                [slides, self.ball(places, turns)].concat()
+            }
+        }
+    }
+
+    /// Which of the coordinates are single turns; at most two, in the order of `near`.
+    pub(crate) fn turning(&self, planar: bool) -> &'static [usize] {
+        match self.kind {
+            Kind::Revolute if !planar => &[0],
+            Kind::Cylindrical => &[1],
+            Kind::Universal => &[0, 1],
+            Kind::Planar => &[2],
+            _ => &[],
+        }
+    }
+
+    /// The number of the one rotation that effects act about.
+    pub(crate) fn rotation(&self, planar: bool) -> Option<usize> {
+        match self.kind {
+            Kind::Revolute => Some(0),
+            Kind::Cylindrical => Some(1),
+            Kind::Planar => Some(2),
+            Kind::Free if planar => Some(2),
+            _ => None,
+        }
+    }
+
+    /// Is coordinate `i` a translation?
+    pub(crate) fn slides(&self, planar: bool, i: usize) -> bool {
+        match self.kind {
+            Kind::Prismatic => true,
+            Kind::Cylindrical => i == 0,
+            Kind::Planar => i < 2,
+            Kind::Free => i < if planar { 2 } else { 3 },
+            _ => false,
+        }
+    }
+
+    /// The first of three coordinates that are a rotation vector.
+    pub(crate) fn first_of_ball(&self, planar: bool) -> Option<usize> {
+        match self.kind {
+            Kind::Spherical => Some(0),
+            Kind::Free if !planar => Some(3),
+            _ => None,
+        }
+    }
+
+    /// Where its reaction acts: its point in the second body.
+    pub(crate) fn place(&self, places: &Places) -> Vector {
+        places.seat(self.bodies[1], self.points[1]).p
+    }
+}
+
+/// The angle from `x` to `y` about `axis`.
+fn angle_about(axis: Vector, x: Vector, y: Vector) -> f64 {
+    let [x, y] = [x, y].map(|v| add(v, scale(-dot(v, axis), axis)));
+    dot(axis, cross(x, y)).atan2(dot(x, y))
+}
+
+/// The same angle, by whole turns nearest to another.
+pub(crate) fn nearest(angle: f64, near: f64) -> f64 {
+    let turn = 2.0 * core::f64::consts::PI;
+    angle + turn * ((near - angle) / turn).round()
+}

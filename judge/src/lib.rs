@@ -1,0 +1,31 @@
+//! A second derivation of what a scene means: it judges the crates, and shares no code with them.
+//!
+//! Written from the contract of scene files alone: an own reader, own laws and an own start. Bodies have absolute coordinates, the place of
+//! the centre of mass and a quaternion; the equations are those of Newton and Euler with constraints at the level of accelerations, solved
+//! as one dense saddle system with full pivoting. Steps are of order 8, and each is brought back onto the constraints by the least
+//! mass-weighted change. It is made to be right and plain, not fast.
+
+mod advance;
+mod curves;
+mod dense;
+mod joints;
+mod laws;
+mod motion;
+mod node;
+mod outputs;
+mod project;
+mod read;
+mod read_effect;
+mod rows;
+pub mod scene;
+mod start;
+pub mod vector;
+mod wheel;
+
+pub use advance::Stop;
+pub use motion::{Mechanism, Moved, State};
+pub use node::Fault;
+pub use read::read;
+pub use rows::Frame;
+pub use scene::Scene;
+pub use start::NoStart;

@@ -1,0 +1,294 @@
+//! Accelerations and multipliers of a state, by one dense saddle system.
+//!
+//! ```text
+//! M a - Jᵀ λ = Q - ω × I ω,    J a = given - bias
+//! ```
+//!
+//! Unknowns are scaled by the roots of masses and inertias, and rows to length one, so that pivots tell of dependence.
+
+use crate::dense::{Factors, Square};
+use crate::laws::{Loads, Now};
+use crate::rows::{Frame, Places, Row};
+use crate::scene::Scene;
+use crate::vector::{Vector, ZERO, add, cross, dot, product, sub, times, transpose};
+
+/// A state of motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// Time [s].
+    pub t: f64,
+    /// Bodies.
+    pub frames: Vec<Frame>,
+    /// Single turns of each joint, with all turns.
+    pub turns: Vec<[f64; 2]>,
+    /// Work of all that is not stored [J].
+    pub work: f64,
+}
+
+/// Accelerations and what goes with them.
+#[derive(Debug, Clone)]
+pub struct Moved {
+    /// Acceleration and angular acceleration of each body.
+    pub accelerations: Vec<[f64; 6]>,
+    /// Reaction of each joint: what its first body does to its second, at the joint's place, guide included.
+    pub reactions: Vec<[f64; 6]>,
+    /// Is the reaction of each joint unique?
+    pub unique: Vec<bool>,
+    /// Kinetic and stored energy [J].
+    pub energy: [f64; 2],
+    /// Power of all that is not stored [W].
+    pub power: f64,
+    /// The smallest pivot: how far from a singular position.
+    pub least_pivot: f64,
+    /// Share of the loads that nothing balances.
+    pub unmet: f64,
+}
+
+/// A mechanism.
+#[derive(Debug, Clone)]
+pub struct Mechanism {
+    /// The scene.
+    pub scene: Scene,
+    /// Indices of the velocities of each body.
+    columns: Vec<[Option<usize>; 6]>,
+    n: usize,
+    /// Scale of each velocity: one over the root of its inertia.
+    scales: Vec<f64>,
+}
+
+/// A saddle system as factored.
+#[derive(Debug)]
+pub(crate) struct Saddle {
+    factors: Factors,
+    row_scales: Vec<f64>,
+    n: usize,
+}
+
+impl Mechanism {
+    /// A scene, ready to be moved.
+    #[must_use]
+    pub fn new(scene: Scene) -> Self {
+        let mut n = 0;
+        let used: &[usize] = if scene.planar { &[0, 1, 5] } else { &[0, 1, 2, 3, 4, 5] };
+        let mut columns = Vec::new();
+        for _ in &scene.bodies {
+            let mut of = [None; 6];
+            for &i in used {
+                of[i] = Some(n);
+                n += 1;
+            }
+            columns.push(of);
+        }
+        let spin = |b: &crate::scene::Body| (0..3).map(|i| b.inertia[i][i]).fold(0.0, f64::max);
+        let largest = scene.bodies.iter().map(|b| b.mass).fold(1e-30, f64::max);
+        let largest_spin = scene.bodies.iter().map(spin).fold(1e-30, f64::max);
+        let mut scales = vec![1.0; n];
+        for (body, of) in scene.bodies.iter().zip(&columns) {
+            let mass = body.mass.max(1e-6 * largest);
+            let inertia = spin(body).max(1e-6 * largest_spin);
+            for (i, column) in of.iter().enumerate() {
+                if let Some(c) = column {
+                    scales[*c] = 1.0 / if i < 3 { mass } else { inertia }.sqrt();
+                }
+            }
+        }
+        Self { scene, columns, n, scales }
+    }
+
+    /// The reference configuration at rest.
+    #[must_use]
+    pub fn reference(&self) -> State {
+        let still = |b: &crate::scene::Body| Frame {
+            r: b.center,
+            q: [1.0, 0.0, 0.0, 0.0],
+            angle: 0.0,
+            v: ZERO,
+            w: ZERO,
+        };
+        let frames = self.scene.bodies.iter().map(still).collect();
+        State { t: 0.0, frames, turns: vec![[0.0; 2]; self.scene.joints.len()], work: 0.0 }
+    }
+
+    pub(crate) fn columns(&self) -> &[[Option<usize>; 6]] {
+        &self.columns
+    }
+
+    pub(crate) fn n_velocities(&self) -> usize {
+        self.n
+    }
+
+    pub(crate) fn scale(&self, column: usize) -> f64 {
+        self.scales[column]
+    }
+
+    pub(crate) fn places(&self, state: &State) -> Places {
+        Places::new(&self.scene, &state.frames)
+    }
+
+    pub(crate) fn now<'a>(&'a self, state: &'a State, places: &'a Places) -> Now<'a> {
+        Now { scene: &self.scene, places, frames: &state.frames, turns: &state.turns, t: state.t }
+    }
+
+    /// All constraints, each with the joint that it belongs to; those of guides come last.
+    pub(crate) fn rows(&self, now: &Now<'_>) -> Vec<(usize, Row)> {
+        let mut rows = Vec::new();
+        for (j, joint) in self.scene.joints.iter().enumerate() {
+            rows.extend(joint.rows(now.places, self.scene.planar).into_iter().map(|row| (j, row)));
+        }
+        for guide in &self.scene.guides {
+            let mut row = now.coordinates(guide.joint).swap_remove(0);
+            let [value, rate, acceleration] = guide.law.at(now.t);
+            row.value -= value;
+            row.given = [rate, acceleration];
+            rows.push((guide.joint, row));
+        }
+        rows
+    }
+
+    /// Inertia of a body in global axes.
+    pub(crate) fn inertia(&self, b: usize, places: &Places) -> [[f64; 3]; 3] {
+        let turn = &places.of(Some(b)).turn;
+        product(&product(turn, &self.scene.bodies[b].inertia), &transpose(turn))
+    }
+
+    fn dense_row(&self, row: &Row) -> Vec<(usize, f64)> {
+        let mut entries = Vec::with_capacity(12);
+        for (body, part) in &row.parts {
+            let Some(b) = body else { continue };
+            for (i, column) in self.columns[*b].iter().enumerate() {
+                if let Some(c) = column
+                    && part[i] != 0.0
+                {
+                    entries.push((*c, part[i] * self.scales[*c]));
+                }
+            }
+        }
+        entries
+    }
+
+    /// Factors [[M, -Jᵀ], [J, 0]] as scaled.
+    pub(crate) fn saddle(&self, places: &Places, rows: &[Row]) -> Saddle {
+        let mut matrix = Square::zero(self.n + rows.len());
+        for (b, of) in self.columns.iter().enumerate() {
+            let inertia = self.inertia(b, places);
+            for i in 0..6 {
+                for j in 0..6 {
+                    let (Some(r), Some(c)) = (of[i], of[j]) else { continue };
+                    let entry = match (i < 3, j < 3) {
+                        (true, true) if i == j => self.scene.bodies[b].mass,
+                        (false, false) => inertia[i - 3][j - 3],
+                        _ => 0.0,
+                    };
+                    *matrix.at(r, c) = entry * self.scales[r] * self.scales[c];
+                }
+            }
+        }
+        self.factor_with(matrix, rows)
+    }
+
+    /// Adds rows to a matrix of the bodies, as scaled, and factors it.
+    pub(crate) fn factor_with(&self, mut matrix: Square, rows: &[Row]) -> Saddle {
+        let mut row_scales = Vec::with_capacity(rows.len());
+        for (k, row) in rows.iter().enumerate() {
+            let entries = self.dense_row(row);
+            let length = entries.iter().map(|e| e.1 * e.1).sum::<f64>().sqrt();
+            let scale = if length > 0.0 { 1.0 / length } else { 1.0 };
+            for (c, x) in entries {
+                *matrix.at(self.n + k, c) += x * scale;
+                *matrix.at(c, self.n + k) -= x * scale;
+            }
+            row_scales.push(scale);
+        }
+        Saddle { factors: matrix.factor(), row_scales, n: self.n }
+    }
+
+    /// Solves a saddle system for loads on bodies and right sides of rows: changes of bodies, multipliers, what is unmet.
+    pub(crate) fn solve(
+        &self,
+        saddle: &Saddle,
+        loads: &[[f64; 6]],
+        rows: &[f64],
+    ) -> (Vec<[f64; 6]>, Vec<f64>, f64) {
+        let mut b = vec![0.0; saddle.n + rows.len()];
+        for (load, of) in loads.iter().zip(&self.columns) {
+            for (x, column) in load.iter().zip(of) {
+                if let Some(c) = column {
+                    b[*c] = x * self.scales[*c];
+                }
+            }
+        }
+        let scaled = rows.iter().zip(&saddle.row_scales).map(|(x, s)| x * s);
+        b[saddle.n..].iter_mut().zip(scaled).for_each(|(b, x)| *b = x);
+        let (x, unmet) = saddle.factors.solve(&b);
+        let of_body =
+            |of: &[Option<usize>; 6]| of.map(|c| c.map_or(0.0, |c| x[c] * self.scales[c]));
+        let changes = self.columns.iter().map(of_body).collect();
+        let multipliers =
+            x[saddle.n..].iter().zip(&saddle.row_scales).map(|(x, s)| x * s).collect();
+        (changes, multipliers, unmet)
+    }
+
+    /// Accelerations, reactions, energies and power of a state.
+    #[must_use]
+    pub fn evaluate(&self, state: &State) -> Moved {
+        let places = self.places(state);
+        let now = self.now(state, &places);
+        let Loads { mut on, potential, mut power } = now.loads();
+        let mut kinetic = 0.0;
+        for (b, frame) in state.frames.iter().enumerate() {
+            let momentum = times(&self.inertia(b, &places), frame.w);
+            kinetic +=
+                0.5 * (self.scene.bodies[b].mass * dot(frame.v, frame.v) + dot(frame.w, momentum));
+            let gyroscopic = cross(frame.w, momentum);
+            (0..3).for_each(|i| on[b][i + 3] -= gyroscopic[i]);
+        }
+        let (owners, rows): (Vec<usize>, Vec<Row>) = self.rows(&now).into_iter().unzip();
+        let saddle = self.saddle(&places, &rows);
+        let right: Vec<f64> = rows.iter().map(|r| r.given[1] - r.bias).collect();
+        let (accelerations, multipliers, unmet) = self.solve(&saddle, &on, &right);
+        let mut reactions = vec![[0.0; 6]; self.scene.joints.len()];
+        for ((&owner, row), lambda) in owners.iter().zip(&rows).zip(&multipliers) {
+            let wrench = self.wrench(owner, row, *lambda, &places);
+            reactions[owner].iter_mut().zip(wrench).for_each(|(r, w)| *r += w);
+            power += lambda * row.given[0];
+        }
+        let mut unique = vec![true; reactions.len()];
+        for vector in saddle.factors.kernel() {
+            for (x, &owner) in vector[self.n..].iter().zip(&owners) {
+                unique[owner] &= x.abs() < 1e-6;
+            }
+        }
+        let least_pivot = saddle.factors.least_pivot;
+        Moved {
+            accelerations,
+            reactions,
+            unique,
+            energy: [kinetic, potential],
+            power,
+            least_pivot,
+            unmet,
+        }
+    }
+
+    /// What a multiplier does to the second body, about the joint's place.
+    fn wrench(&self, joint: usize, row: &Row, lambda: f64, places: &Places) -> [f64; 6] {
+        let joint = &self.scene.joints[joint];
+        let place = joint.place(places);
+        let (part, sign) = if joint.bodies[1].is_some() { (1, 1.0) } else { (0, -1.0) };
+        let (body, gradient) = row.parts[part];
+        let g = gradient.map(|x| sign * lambda * x);
+        let force: Vector = [g[0], g[1], g[2]];
+        let about = add([g[3], g[4], g[5]], cross(sub(places.of(body).r, place), force));
+        crate::rows::six(force, about)
+    }
+
+    /// The largest violation of positions, and that of velocities.
+    #[must_use]
+    pub fn violation(&self, state: &State) -> [f64; 2] {
+        let places = self.places(state);
+        let rows = self.rows(&self.now(state, &places));
+        rows.iter().fold([0.0; 2], |[p, v], (_, row)| {
+            [row.value.abs().max(p), (row.rate(&places) - row.given[0]).abs().max(v)]
+        })
+    }
+}

@@ -1,0 +1,55 @@
+//! Positions and velocities brought onto the constraints by the least mass-weighted change.
+
+use crate::motion::{Mechanism, State};
+use crate::rows::{Frame, Row};
+use crate::vector::{add, compose, exponential, normalised, scale};
+
+impl Frame {
+    /// Moves by a displacement and a rotation vector.
+    pub(crate) fn moved(&mut self, by: &[f64; 6]) {
+        self.r = add(self.r, [by[0], by[1], by[2]]);
+        self.q = normalised(compose(exponential([by[3], by[4], by[5]]), self.q));
+        self.angle += by[5];
+    }
+}
+
+impl Mechanism {
+    /// Brings a state onto its constraints; turns of joints are counted on.
+    pub fn project(&self, state: &mut State) {
+        for _ in 0..2 {
+            let places = self.places(state);
+            let rows: Vec<Row> =
+                self.rows(&self.now(state, &places)).into_iter().map(|r| r.1).collect();
+            let saddle = self.saddle(&places, &rows);
+            let right: Vec<f64> = rows.iter().map(|r| -r.value).collect();
+            let none = vec![[0.0; 6]; state.frames.len()];
+            let (moves, _, _) = self.solve(&saddle, &none, &right);
+            state.frames.iter_mut().zip(&moves).for_each(|(f, m)| f.moved(m));
+        }
+        self.count_turns(state);
+        self.project_velocities(state, &[]);
+    }
+
+    /// Brings velocities onto the constraints, and on more rows that are to have rates.
+    pub(crate) fn project_velocities(&self, state: &mut State, held: &[Row]) -> f64 {
+        let places = self.places(state);
+        let mut rows: Vec<Row> =
+            self.rows(&self.now(state, &places)).into_iter().map(|r| r.1).collect();
+        rows.extend_from_slice(held);
+        let saddle = self.saddle(&places, &rows);
+        let right: Vec<f64> = rows.iter().map(|r| r.given[0] - r.rate(&places)).collect();
+        let none = vec![[0.0; 6]; state.frames.len()];
+        let (changes, _, unmet) = self.solve(&saddle, &none, &right);
+        for (frame, c) in state.frames.iter_mut().zip(&changes) {
+            frame.v = add(frame.v, [c[0], c[1], c[2]]);
+            frame.w = add(frame.w, scale(1.0, [c[3], c[4], c[5]]));
+        }
+        unmet
+    }
+
+    /// Measures the turns of all joints, each by whole turns nearest to what it was.
+    pub(crate) fn count_turns(&self, state: &mut State) {
+        let places = self.places(state);
+        state.turns = self.now(state, &places).measured_turns();
+    }
+}

@@ -1,0 +1,297 @@
+//! Reads the text of a scene file.
+
+use crate::node::{Node, Read, Table, fault, parse};
+use crate::read_effect;
+use crate::scene::{
+    Body, Carrier, Feature, Guide, Initial, Joint, Kind, Law, Output, Quantity, Scene, Spline,
+};
+use crate::vector::{ZERO, across, add, dot, norm, scale, sub, unit};
+
+/// Names of bodies and joints.
+pub(crate) struct Names {
+    pub(crate) bodies: Vec<String>,
+    pub(crate) joints: Vec<String>,
+}
+
+impl Names {
+    pub(crate) fn body(&self, name: &str) -> Read<usize> {
+        self.bodies
+            .iter()
+            .position(|n| n == name)
+            .map_or_else(|| fault(format!("no body `{name}`")), Ok)
+    }
+
+    pub(crate) fn carrier(&self, name: &str) -> Read<Carrier> {
+        if name == "ground" { Ok(None) } else { self.body(name).map(Some) }
+    }
+
+    pub(crate) fn joint(&self, name: &str) -> Read<usize> {
+        self.joints
+            .iter()
+            .position(|n| n == name)
+            .map_or_else(|| fault(format!("no joint `{name}`")), Ok)
+    }
+
+    pub(crate) fn pair(&self, table: &mut Table) -> Read<[Carrier; 2]> {
+        match table.need("bodies")?.list()? {
+            [Node::Text(a), Node::Text(b)] => Ok([self.carrier(a)?, self.carrier(b)?]),
+            other => fault(format!("not two bodies: {other:?}")),
+        }
+    }
+}
+
+/// Reads a scene.
+///
+/// # Errors
+/// What is not understood.
+pub fn read(text: &str) -> Read<Scene> {
+    let mut root = parse(text)?;
+    let mut head = root.table("scene")?.unwrap_or_default();
+    let planar = match head.number("dimension")? {
+        x if (x - 2.0).abs() < 0.5 => true,
+        x if (x - 3.0).abs() < 0.5 => false,
+        x => return fault(format!("dimension {x}")),
+    };
+    head.planar = planar;
+    root.planar = planar;
+    let mut scene = Scene {
+        planar,
+        name: head.take("name").map_or_else(String::new, |n| match n {
+            Node::Text(name) => name,
+            _ => String::new(),
+        }),
+        gravity: head.vector_or_none("gravity")?.unwrap_or(ZERO),
+        duration: head.number("duration")?,
+        ..Scene::default()
+    };
+    head.done("scene")?;
+    scene.bodies = root.tables("body")?.into_iter().map(body).collect::<Read<_>>()?;
+    let bodies: Vec<String> = scene.bodies.iter().map(|b| b.name.clone()).collect();
+    let mut joints = root.tables("joint")?;
+    let mut names = Names { bodies, joints: Vec::new() };
+    for table in &mut joints {
+        names.joints.push(table.text("name")?);
+    }
+    for (table, name) in joints.into_iter().zip(names.joints.clone()) {
+        scene.joints.push(joint(table, name, &names, &scene.bodies)?);
+    }
+    let initials = root.tables("initial")?;
+    scene.initials = initials.into_iter().map(|t| initial(t, &names)).collect::<Read<_>>()?;
+    let guides = root.tables("guide")?;
+    scene.guides = guides.into_iter().map(|t| guide(t, &names)).collect::<Read<_>>()?;
+    for table in root.tables("effect")? {
+        scene.effects.extend(read_effect::effect(table, &names)?);
+    }
+    if let Some(table) = root.table("road")? {
+        road(table, &mut scene)?;
+    }
+    if let Some(mut table) = root.table("solver")? {
+        scene.step = table.take("step").map(|n| n.number()).transpose()?;
+    }
+    let outputs = root.tables("output")?;
+    scene.outputs = outputs.into_iter().map(|t| output(t, &names)).collect::<Read<_>>()?;
+    if scene.outputs.is_empty() {
+        let shown = (0..scene.joints.len()).filter(|&j| scene.joints[j].n_coordinates(planar) > 0);
+        let channel =
+            |j: usize| Output { name: scene.joints[j].name.clone(), quantity: Quantity::Value(j) };
+        scene.outputs = shown.map(channel).collect();
+    }
+    root.done("the scene")?;
+    Ok(scene)
+}
+
+fn body(mut table: Table) -> Read<Body> {
+    let name = table.text("name")?;
+    let mass = table.number("mass")?;
+    let body = if let Some(mut rod) = table.table("rod")? {
+        // a uniform slender rod: m/12 (L² E - l lᵀ)
+        let (from, to) = (rod.vector("from")?, rod.vector("to")?);
+        rod.done("rod")?;
+        let l = sub(to, from);
+        let mut inertia = [0, 1, 2].map(|i| [0, 1, 2].map(|j| -mass / 12.0 * l[i] * l[j]));
+        (0..3).for_each(|i| inertia[i][i] += mass / 12.0 * dot(l, l));
+        Body { name, mass, center: scale(0.5, add(from, to)), inertia }
+    } else {
+        let center = table.vector("center")?;
+        let inertia = if table.planar {
+            [ZERO, ZERO, [0.0, 0.0, table.number("inertia")?]]
+        } else {
+            let [xx, yy, zz, xy, yz, zx] = table.exactly("inertia")?;
+            [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]]
+        };
+        Body { name, mass, center, inertia }
+    };
+    table.done("body")?;
+    Ok(body)
+}
+
+fn joint(mut table: Table, name: String, names: &Names, all: &[Body]) -> Read<Joint> {
+    let kind = match table.text("kind")?.as_str() {
+        "revolute" => Kind::Revolute,
+        "spherical" => Kind::Spherical,
+        "universal" => Kind::Universal,
+        "prismatic" => Kind::Prismatic,
+        "cylindrical" => Kind::Cylindrical,
+        "planar" => Kind::Planar,
+        "weld" => Kind::Weld,
+        "free" => Kind::Free,
+        "distance" => Kind::Distance,
+        other => return fault(format!("no kind of joint `{other}`")),
+    };
+    let bodies = names.pair(&mut table)?;
+    let points = match kind {
+        Kind::Distance => table.two_vectors("points")?,
+        Kind::Free => {
+            let default = bodies[1].or(bodies[0]).map_or(ZERO, |b| all[b].center);
+            [table.vector_or_none("at")?.unwrap_or(default); 2]
+        }
+        _ => [table.vector("at")?; 2],
+    };
+    let hinge = table.vector_or_none("axis")?;
+    let mut axes =
+        [hinge.unwrap_or([0.0, 0.0, 1.0]), table.vector_or_none("direction")?.unwrap_or(ZERO)];
+    if kind == Kind::Universal {
+        axes = table.two_vectors("axes")?;
+    }
+    table.done(&name)?;
+    axes[0] = unit(axes[0]);
+    axes[1] = match kind {
+        Kind::Universal => unit(axes[1]),
+        _ if norm(axes[1]) > 0.0 => unit(sub(axes[1], scale(dot(axes[1], axes[0]), axes[0]))),
+        _ => across(axes[0])[0],
+    };
+    Ok(Joint { name, kind, bodies, points, axes, hinged: hinge.is_some() })
+}
+
+fn initial(mut table: Table, names: &Names) -> Read<Initial> {
+    let initial = if let Some(Node::Text(name)) = table.take("body") {
+        let velocity = match table.vector_or_none("at")? {
+            Some(at) => Some([at, table.vector("velocity")?]),
+            None => None,
+        };
+        let angular = match table.take("angular_velocity") {
+            Some(node) if table.planar => Some([0.0, 0.0, node.number()?]),
+            Some(node) => Some(node.vector(false)?),
+            None => None,
+        };
+        Initial::Body { body: names.body(&name)?, velocity, angular }
+    } else {
+        let joint = names.joint(&table.text("joint")?)?;
+        let mut numbers = |key: &str| table.take(key).map(|n| n.numbers()).transpose();
+        Initial::Joint { joint, value: numbers("value")?, rate: numbers("rate")? }
+    };
+    table.done("initial")?;
+    Ok(initial)
+}
+
+fn rows(node: &Node) -> Read<Spline> {
+    let points: Vec<[f64; 2]> = node
+        .list()?
+        .iter()
+        .map(|row| match row.numbers()?.as_slice() {
+            &[t, x] => Ok([t, x]),
+            other => fault(format!("not a row: {other:?}")),
+        })
+        .collect::<Read<_>>()?;
+    Ok(Spline::natural(&points))
+}
+
+fn guide(mut table: Table, names: &Names) -> Read<Guide> {
+    let joint = names.joint(&table.text("joint")?)?;
+    let law = if let Some(mut sine) = table.table("sine")? {
+        Law::Sine([
+            sine.number("amplitude")?,
+            sine.number("frequency")?,
+            sine.number_or("phase", 0.0)?,
+        ])
+    } else if let Some(mut ramp) = table.table("ramp")? {
+        Law::Ramp(ramp.number("rate")?)
+    } else {
+        Law::Spline(rows(&table.need("table")?)?)
+    };
+    table.done("guide")?;
+    Ok(Guide { joint, law })
+}
+
+fn road(mut table: Table, scene: &mut Scene) -> Read<()> {
+    scene.road_speed = table.number_or("speed", 0.0)?;
+    if let Some(kind) = table.take("kind") {
+        let mut one = table;
+        one.take("speed");
+        let Node::Text(kind) = kind else { return fault("kind") };
+        let features = feature(&kind, one)?;
+        scene.road = [features.clone(), features];
+        return Ok(());
+    }
+    let mut track = |key: &str| -> Read<Vec<Feature>> {
+        let mut all = Vec::new();
+        for mut one in table.tables(key)? {
+            let kind = one.text("kind")?;
+            all.extend(feature(&kind, one)?);
+        }
+        Ok(all)
+    };
+    let both = track("features")?;
+    scene.road = [track("left")?, track("right")?].map(|side| [both.clone(), side].concat());
+    table.done("road")
+}
+
+fn feature(kind: &str, mut table: Table) -> Read<Vec<Feature>> {
+    let features = match kind {
+        "flat" => vec![Feature::Flat(table.number_or("height", 0.0)?)],
+        "ramp" => {
+            let length = table.number("length")?;
+            let (start, height) = (table.number("start")?, table.number("height")?);
+            vec![Feature::Ramp([start, length, height, table.number_or("rounding", 0.1 * length)?])]
+        }
+        "stairs" => {
+            let (start, tread) = (table.number("start")?, table.number("tread")?);
+            let (riser, height) = (table.number("riser")?, table.number("height")?);
+            let mut stairs = Vec::new();
+            let (mut at, mut left) = (start, table.number("count")?);
+            while left > 0.5 {
+                stairs.push(Feature::Ramp([at, riser, height, 0.5 * riser]));
+                (at, left) = (at + tread + riser, left - 1.0);
+            }
+            stairs
+        }
+        "bump" => {
+            table.take("shape");
+            let (start, length) = (table.number("start")?, table.number("length")?);
+            let amplitude = match table.take("amplitude") {
+                Some(node) => node.number()?,
+                None => 0.5 * table.number("height")?,
+            };
+            vec![Feature::Bump([start, length, amplitude])]
+        }
+        "table" => vec![Feature::Table(rows(&table.need("points")?)?)],
+        other => return fault(format!("no feature `{other}`")),
+    };
+    table.done("feature")?;
+    Ok(features)
+}
+
+fn output(mut table: Table, names: &Names) -> Read<Output> {
+    let name = table.text("name")?;
+    let kind = table.text("quantity")?;
+    let quantity = if let Some(Node::Text(joint)) = table.take("joint") {
+        let joint = names.joint(&joint)?;
+        match kind.as_str() {
+            "value" => Quantity::Value(joint),
+            "rate" => Quantity::Rate(joint),
+            "reaction" => Quantity::Reaction(joint),
+            other => return fault(format!("no quantity `{other}` of a joint")),
+        }
+    } else {
+        let body = names.body(&table.text("body")?)?;
+        let at = table.vector("at")?;
+        match kind.as_str() {
+            "position" => Quantity::Position(body, at),
+            "velocity" => Quantity::Velocity(body, at),
+            "acceleration" => Quantity::Acceleration(body, at),
+            other => return fault(format!("no quantity `{other}` of a body")),
+        }
+    };
+    table.done("output")?;
+    Ok(Output { name, quantity })
+}

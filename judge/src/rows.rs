@@ -1,0 +1,182 @@
+//! Rows: a scalar of the places of two bodies with its gradient by their velocities and what its second derivative has without
+//! accelerations. Constraints, guides, joint coordinates and forces along them are all made of these.
+//!
+//! ```text
+//! d²/dt² value = Σ part · (a, α) + bias
+//! ```
+
+use crate::scene::{Carrier, Scene};
+use crate::vector::{
+    Matrix, Quaternion, UNIT, Vector, ZERO, add, cross, dot, norm, rotation, scale, sub, times,
+};
+
+/// Place and velocity of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// Centre of mass [m].
+    pub r: Vector,
+    /// Rotation from the reference configuration.
+    pub q: Quaternion,
+    /// Its angle in a planar scene, with all turns [rad].
+    pub angle: f64,
+    /// Velocity of the centre of mass [m/s].
+    pub v: Vector,
+    /// Angular velocity, global axes [rad/s].
+    pub w: Vector,
+}
+
+/// Where a body is, as equations need it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Placed {
+    pub(crate) center: Vector,
+    pub(crate) r: Vector,
+    pub(crate) turn: Matrix,
+    pub(crate) v: Vector,
+    pub(crate) w: Vector,
+}
+
+/// A point of a body: its place, its velocity, from the centre of mass, and its acceleration without accelerations.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Seat {
+    pub(crate) p: Vector,
+    pub(crate) v: Vector,
+    pub(crate) arm: Vector,
+    pub(crate) bias: Vector,
+}
+
+/// A row.
+#[derive(Debug, Clone)]
+pub(crate) struct Row {
+    /// Gradient by velocity and angular velocity of two bodies.
+    pub(crate) parts: [(Carrier, [f64; 6]); 2],
+    /// The scalar.
+    pub(crate) value: f64,
+    /// Its second derivative without accelerations.
+    pub(crate) bias: f64,
+    /// Rate and acceleration that the row is to have.
+    pub(crate) given: [f64; 2],
+}
+
+const GROUND: Placed = Placed { center: ZERO, r: ZERO, turn: UNIT, v: ZERO, w: ZERO };
+
+/// All bodies as placed, and the ground.
+#[derive(Debug, Clone)]
+pub(crate) struct Places {
+    bodies: Vec<Placed>,
+    pub(crate) angles: Vec<f64>,
+}
+
+impl Places {
+    pub(crate) fn new(scene: &Scene, frames: &[Frame]) -> Self {
+        let place = |(f, b): (&Frame, &crate::scene::Body)| Placed {
+            center: b.center,
+            r: f.r,
+            turn: rotation(f.q),
+            v: f.v,
+            w: f.w,
+        };
+        let bodies = frames.iter().zip(&scene.bodies).map(place).collect();
+        Self { bodies, angles: frames.iter().map(|f| f.angle).collect() }
+    }
+
+    pub(crate) fn of(&self, body: Carrier) -> &Placed {
+        body.map_or(&GROUND, |b| &self.bodies[b])
+    }
+
+    pub(crate) fn angle(&self, body: Carrier) -> f64 {
+        body.map_or(0.0, |b| self.angles[b])
+    }
+
+    /// A point of the reference configuration.
+    pub(crate) fn seat(&self, body: Carrier, point: Vector) -> Seat {
+        let b = self.of(body);
+        let arm = times(&b.turn, sub(point, b.center));
+        let turning = cross(b.w, arm);
+        Seat { p: add(b.r, arm), v: add(b.v, turning), arm, bias: cross(b.w, turning) }
+    }
+
+    /// A direction of the reference configuration.
+    pub(crate) fn direction(&self, body: Carrier, direction: Vector) -> Vector {
+        times(&self.of(body).turn, direction)
+    }
+
+    /// u · (p2 - p1), with u fixed in the first body, or in space.
+    pub(crate) fn along(
+        &self,
+        bodies: [Carrier; 2],
+        seats: &[Seat; 2],
+        u: Vector,
+        turns: bool,
+    ) -> Row {
+        let [s1, s2] = seats;
+        let (d, d_rate) = (sub(s2.p, s1.p), sub(s2.v, s1.v));
+        let mut about_first = scale(-1.0, cross(s1.arm, u));
+        let mut bias = dot(u, sub(s2.bias, s1.bias));
+        if turns {
+            let w = self.of(bodies[0]).w;
+            about_first = add(about_first, cross(u, d));
+            let u_rate = cross(w, u);
+            bias += 2.0 * dot(u_rate, d_rate) + dot(cross(w, u_rate), d);
+        }
+        let parts =
+            [(bodies[0], six(scale(-1.0, u), about_first)), (bodies[1], six(u, cross(s2.arm, u)))];
+        Row { parts, value: dot(u, d), bias, given: [0.0; 2] }
+    }
+
+    /// Distance of two points, (d·d - L²)/(2 L).
+    pub(crate) fn distance(&self, bodies: [Carrier; 2], seats: &[Seat; 2], length: f64) -> Row {
+        let (d, rate) = (sub(seats[1].p, seats[0].p), sub(seats[1].v, seats[0].v));
+        let mut row = self.along(bodies, seats, scale(1.0 / length, d), false);
+        row.value = 0.5 * (dot(d, d) - length * length) / length;
+        row.bias += dot(rate, rate) / length;
+        row
+    }
+
+    /// The length between two points.
+    pub(crate) fn length(&self, bodies: [Carrier; 2], seats: &[Seat; 2]) -> Row {
+        let d = sub(seats[1].p, seats[0].p);
+        let (length, rate) = (norm(d), sub(seats[1].v, seats[0].v));
+        let u = scale(1.0 / length, d);
+        let mut row = self.along(bodies, seats, u, false);
+        row.value = length;
+        row.bias += (dot(rate, rate) - dot(u, rate) * dot(u, rate)) / length;
+        row
+    }
+
+    /// u · w of directions as placed, u of the first body and w of the second.
+    pub(crate) fn cosine(&self, bodies: [Carrier; 2], u: Vector, w: Vector) -> Row {
+        let [w1, w2] = bodies.map(|b| self.of(b).w);
+        let normal = cross(u, w);
+        let change = add(cross(cross(w1, u), w), cross(u, cross(w2, w)));
+        let parts = [(bodies[0], six(ZERO, normal)), (bodies[1], six(ZERO, scale(-1.0, normal)))];
+        Row { parts, value: dot(u, w), bias: dot(change, sub(w1, w2)), given: [0.0; 2] }
+    }
+
+    /// The angle whose rate is a · (ω2 - ω1), with a fixed in one of the bodies, or in space; the value is not known here.
+    pub(crate) fn about(&self, bodies: [Carrier; 2], a: Vector, owner: Carrier) -> Row {
+        let [w1, w2] = bodies.map(|b| self.of(b).w);
+        let parts = [(bodies[0], six(ZERO, scale(-1.0, a))), (bodies[1], six(ZERO, a))];
+        let bias = dot(cross(self.of(owner).w, a), sub(w2, w1));
+        Row { parts, value: 0.0, bias, given: [0.0; 2] }
+    }
+}
+
+impl Row {
+    /// J v.
+    pub(crate) fn rate(&self, places: &Places) -> f64 {
+        let of = |(body, part): &(Carrier, [f64; 6])| {
+            let b = places.of(*body);
+            (0..3).map(|i| part[i] * b.v[i] + part[i + 3] * b.w[i]).sum::<f64>()
+        };
+        self.parts.iter().map(of).sum()
+    }
+
+    pub(crate) fn with_value(mut self, value: f64) -> Self {
+        self.value = value;
+        self
+    }
+}
+
+pub(crate) fn six(a: Vector, b: Vector) -> [f64; 6] {
+    [a[0], a[1], a[2], b[0], b[1], b[2]]
+}

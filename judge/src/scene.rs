@@ -1,0 +1,271 @@
+//! What a scene says, as the judge reads it. A planar scene lies in the plane z = 0 of space.
+
+use crate::vector::{Matrix, Vector};
+
+/// A scene.
+#[derive(Debug, Clone, Default)]
+pub struct Scene {
+    /// Its name.
+    pub name: String,
+    /// Is it planar?
+    pub planar: bool,
+    /// Gravity [m/s²].
+    pub gravity: Vector,
+    /// Duration [s].
+    pub duration: f64,
+    /// Step that the scene asks for [s].
+    pub step: Option<f64>,
+    /// Bodies.
+    pub bodies: Vec<Body>,
+    /// Joints.
+    pub joints: Vec<Joint>,
+    /// Guides.
+    pub guides: Vec<Guide>,
+    /// What is held at the start.
+    pub initials: Vec<Initial>,
+    /// Effects that are enabled.
+    pub effects: Vec<Effect>,
+    /// The road's features: left and right.
+    pub road: [Vec<Feature>; 2],
+    /// Speed of the road along -x [m/s].
+    pub road_speed: f64,
+    /// Channels.
+    pub outputs: Vec<Output>,
+}
+
+/// A body in the reference configuration.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Its name.
+    pub name: String,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Centre of mass [m].
+    pub center: Vector,
+    /// Inertia about the centre of mass, global axes [kg m²].
+    pub inertia: Matrix,
+}
+
+/// The kinds of joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Kind {
+    /// One rotation.
+    Revolute,
+    /// Three rotations.
+    Spherical,
+    /// Two rotations.
+    Universal,
+    /// One translation.
+    Prismatic,
+    /// A translation and a rotation along one axis.
+    Cylindrical,
+    /// Two translations and a rotation across them.
+    Planar,
+    /// Nothing moves.
+    Weld,
+    /// Everything moves.
+    Free,
+    /// Two points keep their distance.
+    Distance,
+}
+
+/// A body, or the ground.
+pub type Carrier = Option<usize>;
+
+/// A joint.
+#[derive(Debug, Clone)]
+pub struct Joint {
+    /// Its name.
+    pub name: String,
+    /// Its kind.
+    pub kind: Kind,
+    /// First and second body.
+    pub bodies: [Carrier; 2],
+    /// Its point in both bodies [m].
+    pub points: [Vector; 2],
+    /// Unit axes: axis, and direction or second axis.
+    pub axes: [Vector; 2],
+    /// A link of constant distance with a hinge at its first end.
+    pub hinged: bool,
+}
+
+impl Joint {
+    /// How many coordinates it has.
+    #[must_use]
+    pub fn n_coordinates(&self, planar: bool) -> usize {
+        match self.kind {
+            Kind::Revolute | Kind::Prismatic => 1,
+            Kind::Cylindrical | Kind::Universal => 2,
+            Kind::Spherical | Kind::Planar => 3,
+            Kind::Free if planar => 3,
+            Kind::Free => 6,
+            Kind::Weld | Kind::Distance => 0,
+        }
+    }
+}
+
+/// A value over time.
+#[derive(Debug, Clone)]
+pub enum Law {
+    /// Natural cubic spline through (time, value), the ends held.
+    Spline(Spline),
+    /// amplitude sin(2π f t + phase).
+    Sine([f64; 3]),
+    /// rate t.
+    Ramp(f64),
+}
+
+/// A natural cubic spline: abscissae, values and second derivatives.
+#[derive(Debug, Clone, Default)]
+pub struct Spline {
+    /// Abscissae, values, second derivatives.
+    pub knots: Vec<[f64; 3]>,
+}
+
+/// A guided joint.
+#[derive(Debug, Clone)]
+pub struct Guide {
+    /// The joint.
+    pub joint: usize,
+    /// Its coordinate over time.
+    pub law: Law,
+}
+
+/// What is held at the start.
+#[derive(Debug, Clone)]
+pub enum Initial {
+    /// Coordinates and rates of a joint.
+    Joint {
+        /// The joint.
+        joint: usize,
+        /// Its coordinates.
+        value: Option<Vec<f64>>,
+        /// Their rates.
+        rate: Option<Vec<f64>>,
+    },
+    /// Velocities of a body.
+    Body {
+        /// The body.
+        body: usize,
+        /// Velocity of a point.
+        velocity: Option<[Vector; 2]>,
+        /// Angular velocity.
+        angular: Option<Vector>,
+    },
+}
+
+/// A vector over time: rows of time and vector, linear between them, held outside; one row is a constant.
+pub type Course = Vec<(f64, Vector)>;
+
+/// Two points, one a body.
+#[derive(Debug, Clone)]
+pub struct Line {
+    /// First and second body.
+    pub bodies: [Carrier; 2],
+    /// Their points.
+    pub points: [Vector; 2],
+    /// Measured along this direction of the first body.
+    pub direction: Option<Vector>,
+}
+
+/// Side force of a tire by the Calspan model: a, omega, b, skid, trail.
+#[derive(Debug, Clone)]
+pub struct Calspan {
+    /// A0 to A4.
+    pub a: [f64; 5],
+    /// W.
+    pub omega: f64,
+    /// B1, B3, B4.
+    pub b: [f64; 3],
+    /// k.
+    pub skid: f64,
+    /// AF1, AF2.
+    pub trail: [f64; 2],
+}
+
+/// An effect.
+#[derive(Debug, Clone)]
+pub enum Effect {
+    /// Stiffness, damping, free length.
+    SpringDamper(Line, [f64; 3]),
+    /// Pieces [lower, upper, c0, ...] of the length, or of its rate.
+    Polynomial(Line, Vec<Vec<f64>>, bool),
+    /// Stiffness, damping, clearance.
+    Bumper(Line, [f64; 3]),
+    /// A force along the line.
+    Actuator(Line, Course),
+    /// Stiffness and damping along and about the axes of the first body.
+    Bushing([Carrier; 2], Vector, [[f64; 6]; 2]),
+    /// Joint; stiffness, damping, free value.
+    TorsionSpring(usize, [f64; 3]),
+    /// Torque of a joint's first body on its second.
+    JointTorque(usize, Course),
+    /// Torque on a body.
+    BodyTorque(usize, Course),
+    /// Joint; lower, upper, stiffness, damping.
+    Limit(usize, [f64; 4]),
+    /// Joint; coulomb, static, stribeck, viscous, regularisation.
+    Friction(usize, [f64; 5]),
+    /// Body, point, force; does it turn with the body?
+    Force(usize, Vector, Course, bool),
+    /// Body, point; area times coefficient, density.
+    Drag(usize, Vector, [f64; 2]),
+    /// Body, direction; speed, gain, limit.
+    SpeedHold(usize, Vector, [f64; 3]),
+    /// A wheel.
+    Tire(Tire),
+}
+
+/// A wheel on the road.
+#[derive(Debug, Clone)]
+pub struct Tire {
+    /// Its carrier.
+    pub body: usize,
+    /// Its centre.
+    pub center: Vector,
+    /// Its axis.
+    pub axis: Option<Vector>,
+    /// Radius, stiffness, damping, rolling resistance.
+    pub numbers: [f64; 4],
+    /// Side force.
+    pub side: Option<Calspan>,
+}
+
+/// A part of the road.
+#[derive(Debug, Clone)]
+pub enum Feature {
+    /// Height.
+    Flat(f64),
+    /// Start, length, height, rounding.
+    Ramp([f64; 4]),
+    /// Start, length, amplitude.
+    Bump([f64; 3]),
+    /// Natural cubic spline of the height.
+    Table(Spline),
+}
+
+/// What a channel shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Quantity {
+    /// Of a body's point.
+    Position(usize, Vector),
+    /// Of a body's point.
+    Velocity(usize, Vector),
+    /// Of a body's point.
+    Acceleration(usize, Vector),
+    /// Of a joint.
+    Value(usize),
+    /// Of a joint.
+    Rate(usize),
+    /// Of a joint.
+    Reaction(usize),
+}
+
+/// A channel.
+#[derive(Debug, Clone)]
+pub struct Output {
+    /// Its name.
+    pub name: String,
+    /// What it shows.
+    pub quantity: Quantity,
+}

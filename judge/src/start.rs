@@ -1,0 +1,256 @@
+//! The start: what is written holds, the rest follows by the least mass-weighted change from the reference configuration and from rest.
+//!
+//! ```text
+//! least  Σ ½ ∫ |displacement of each particle|² dm = Σ ½ m |r - r₀|² + tr S - tr R S,   S = ½ tr(I) E - I
+//! ```
+//!
+//! Newton's method on the conditions of the least change, with second derivatives by differences; held values grow from zero in stages,
+//! and each stage measures from the reference configuration.
+
+use crate::dense::Square;
+use crate::motion::{Mechanism, State};
+use crate::rows::{Places, Row, six};
+use crate::scene::Initial;
+use crate::vector::{
+    UNIT, Vector, ZERO, compose, conjugate, cross, exponential, logarithm, product, rotation,
+    scale, sub,
+};
+
+/// Held values grow by at most this in a stage, in radians or in lengths of the mechanism.
+const STAGE: f64 = 0.15;
+/// Share of a stage below which it is given up.
+const LEAST_STAGE: f64 = 1e-3;
+const MOST_ITERATIONS: usize = 40;
+/// Differences for second derivatives, in radians or lengths.
+const DIFFERENCE: f64 = 1e-5;
+
+/// Why there is no start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum NoStart {
+    /// Held values cannot be met: reached this share of them.
+    Values(f64),
+    /// Held rates contradict each other or the constraints.
+    Rates,
+}
+
+/// Positions with multipliers of all rows.
+struct Trial {
+    state: State,
+    multipliers: Vec<f64>,
+}
+
+impl Mechanism {
+    /// The state at t = 0.
+    ///
+    /// # Errors
+    /// [`NoStart`] where what is held cannot be met.
+    pub fn start(&self) -> Result<State, NoStart> {
+        let mut trial = Trial { state: self.reference(), multipliers: Vec::new() };
+        let largest = self.largest_value();
+        let mut stage = (STAGE / largest.max(1e-300)).min(1.0);
+        let mut share = 0.0;
+        while share < 1.0 {
+            let next = (share + stage).min(1.0);
+            match self.least_change(&trial, next) {
+                Some(found) => {
+                    trial = found;
+                    share = next;
+                }
+                None => {
+                    stage *= 0.5;
+                    if stage < LEAST_STAGE * (STAGE / largest.max(1e-300)).min(1.0) {
+                        return Err(NoStart::Values(share));
+                    }
+                }
+            }
+        }
+        let mut state = trial.state;
+        let places = self.places(&state);
+        let held = self.held_rates(&state, &places);
+        if self.project_velocities(&mut state, &held) > 1e-8 {
+            return Err(NoStart::Rates);
+        }
+        Ok(state)
+    }
+
+    fn largest_value(&self) -> f64 {
+        let (mut largest, length) = (0.0_f64, self.length());
+        let mut note = |joint: usize, i: usize, x: f64| {
+            let slides = self.scene.joints[joint].slides(self.scene.planar, i);
+            largest = largest.max(x.abs() / if slides { length } else { 1.0 });
+        };
+        for initial in &self.scene.initials {
+            if let Initial::Joint { joint, value: Some(value), .. } = initial {
+                value.iter().enumerate().for_each(|(i, x)| note(*joint, i, *x));
+            }
+        }
+        for guide in &self.scene.guides {
+            note(guide.joint, 0, guide.law.at(0.0)[0]);
+        }
+        largest
+    }
+
+    /// Constraints, guides and held values at a share of what is written.
+    fn start_rows(&self, state: &State, places: &Places, share: f64) -> Vec<Row> {
+        let now = self.now(state, places);
+        let mut rows: Vec<Row> = self.rows(&now).into_iter().map(|r| r.1).collect();
+        let first_guide = rows.len() - self.scene.guides.len();
+        for (row, guide) in rows[first_guide..].iter_mut().zip(&self.scene.guides) {
+            row.value += (1.0 - share) * guide.law.at(0.0)[0];
+        }
+        for initial in &self.scene.initials {
+            let Initial::Joint { joint, value: Some(value), .. } = initial else { continue };
+            let data = &self.scene.joints[*joint];
+            let mut coordinates = now.coordinates(*joint);
+            let first = data.first_of_ball(self.scene.planar).unwrap_or(coordinates.len());
+            for (row, x) in coordinates.iter_mut().zip(value).take(first) {
+                row.value -= share * x;
+            }
+            if first < coordinates.len() {
+                let target: Vector =
+                    [0, 1, 2].map(|i| share * value.get(first + i).copied().unwrap_or(0.0));
+                let [q1, q2] = now.quaternions(data.bodies);
+                let left = logarithm(compose(
+                    exponential(scale(-1.0, target)),
+                    compose(conjugate(q1), q2),
+                ));
+                let turn = rotation(q2);
+                for i in 0..3 {
+                    let e = [turn[0][i], turn[1][i], turn[2][i]];
+                    coordinates[first + i] = places.about(data.bodies, e, None).with_value(left[i]);
+                }
+            }
+            rows.extend(coordinates);
+        }
+        rows
+    }
+
+    /// Gradient of the change, less what the multipliers take.
+    fn balance(&self, state: &State, rows: &[Row], multipliers: &[f64]) -> Vec<[f64; 6]> {
+        let gradient = |(f, b): (&crate::rows::Frame, &crate::scene::Body)| {
+            let half = 0.5 * (0..3).map(|i| b.inertia[i][i]).sum::<f64>();
+            let s = [0, 1, 2].map(|i| [0, 1, 2].map(|j| half * UNIT[i][j] - b.inertia[i][j]));
+            let a = product(&rotation(f.q), &s);
+            let turning = [a[2][1] - a[1][2], a[0][2] - a[2][0], a[1][0] - a[0][1]];
+            six(scale(b.mass, sub(f.r, b.center)), turning)
+        };
+        let mut sum: Vec<[f64; 6]> =
+            state.frames.iter().zip(&self.scene.bodies).map(gradient).collect();
+        for (row, lambda) in rows.iter().zip(multipliers) {
+            for (body, part) in &row.parts {
+                if let Some(b) = body {
+                    sum[*b].iter_mut().zip(part).for_each(|(x, p)| *x -= lambda * p);
+                }
+            }
+        }
+        sum
+    }
+
+    /// Newton's method from a trial.
+    fn least_change(&self, from: &Trial, share: f64) -> Option<Trial> {
+        let mut trial = Trial { state: from.state.clone(), multipliers: from.multipliers.clone() };
+        let length = self.length();
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_ITERATIONS {
+            let places = self.places(&trial.state);
+            let rows = self.start_rows(&trial.state, &places, share);
+            trial.multipliers.resize(rows.len(), 0.0);
+            let (moves, multipliers) = self.correction(&trial, &rows, share);
+            let size = moves
+                .iter()
+                .flat_map(|m| m.iter().enumerate())
+                .fold(0.0_f64, |a, (i, x)| a.max(x.abs() / if i < 3 { length } else { 1.0 }));
+            if !size.is_finite() {
+                return None;
+            }
+            let damp = (0.3 / size).min(1.0);
+            for (frame, m) in trial.state.frames.iter_mut().zip(&moves) {
+                frame.moved(&m.map(|x| damp * x));
+            }
+            for (old, new) in trial.multipliers.iter_mut().zip(multipliers) {
+                *old += damp * (new - *old);
+            }
+            self.count_turns(&mut trial.state);
+            if size < 1e-13 || (size < 1e-10 && size > 0.3 * last) {
+                let moved = self.start_rows(&trial.state, &self.places(&trial.state), share);
+                let open = moved.iter().fold(0.0_f64, |a, r| a.max(r.value.abs()));
+                return (open < 1e-9 * length.max(1.0)).then_some(trial);
+            }
+            last = size;
+        }
+        None
+    }
+
+    /// A step of Newton's method: changes of bodies and the new multipliers.
+    fn correction(&self, trial: &Trial, rows: &[Row], share: f64) -> (Vec<[f64; 6]>, Vec<f64>) {
+        let n = self.n_velocities();
+        let mut matrix = Square::zero(n + rows.len());
+        let length = self.length();
+        for (b, of) in self.columns().iter().enumerate() {
+            for (i, column) in of.iter().enumerate() {
+                let Some(c) = *column else { continue };
+                let step = DIFFERENCE * if i < 3 { length } else { 1.0 };
+                let [ahead, behind] = [step, -step].map(|step| {
+                    let mut state = trial.state.clone();
+                    let mut by = [0.0; 6];
+                    by[i] = step;
+                    state.frames[b].moved(&by);
+                    let rows = self.start_rows(&state, &self.places(&state), share);
+                    self.balance(&state, &rows, &trial.multipliers)
+                });
+                for ((a, z), of) in ahead.iter().zip(&behind).zip(self.columns()) {
+                    for (k, row) in of.iter().enumerate() {
+                        if let Some(r) = *row {
+                            let scales = self.scale(r) * self.scale(c);
+                            *matrix.at(r, c) = (a[k] - z[k]) / (2.0 * step) * scales;
+                        }
+                    }
+                }
+            }
+        }
+        let mut zero = vec![0.0; rows.len()];
+        let saddle = self.factor_with(matrix, rows);
+        zero.iter_mut().zip(rows).for_each(|(x, r)| *x = -r.value);
+        let loads: Vec<[f64; 6]> = self
+            .balance(&trial.state, rows, &vec![0.0; rows.len()])
+            .iter()
+            .map(|g| g.map(|x| -x))
+            .collect();
+        let (moves, multipliers, _) = self.solve(&saddle, &loads, &zero);
+        (moves, multipliers)
+    }
+
+    /// Rows of held rates.
+    fn held_rates(&self, state: &State, places: &Places) -> Vec<Row> {
+        let now = self.now(state, places);
+        let mut rows = Vec::new();
+        for initial in &self.scene.initials {
+            match initial {
+                Initial::Joint { joint, rate: Some(rate), .. } => {
+                    for (mut row, x) in now.coordinates(*joint).into_iter().zip(rate) {
+                        row.given[0] = *x;
+                        rows.push(row);
+                    }
+                }
+                Initial::Joint { .. } => {}
+                Initial::Body { body, velocity, angular } => {
+                    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+                    let mut hold = |part: [f64; 6], x: f64| {
+                        let parts = [(Some(*body), part), (None, [0.0; 6])];
+                        rows.push(Row { parts, value: 0.0, bias: 0.0, given: [x, 0.0] });
+                    };
+                    let some = if self.scene.planar { 2 } else { 3 };
+                    if let Some([at, v]) = velocity {
+                        let arm = places.seat(Some(*body), *at).arm;
+                        (0..some).for_each(|i| hold(six(axes[i], cross(arm, axes[i])), v[i]));
+                    }
+                    if let Some(w) = angular {
+                        let first = if self.scene.planar { 2 } else { 0 };
+                        (first..3).for_each(|i| hold(six(ZERO, axes[i]), w[i]));
+                    }
+                }
+            }
+        }
+        rows
+    }
+}

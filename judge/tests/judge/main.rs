@@ -1,0 +1,34 @@
+//! The judge judged: closed forms, conserved quantities, order, differences, invariance.
+
+mod closed;
+mod rules;
+
+use judge::{Mechanism, State};
+
+/// Tolerance of controlled steps in these tests.
+const TOLERANCE: f64 = 1e-12;
+
+fn mechanism(text: &str) -> Mechanism {
+    Mechanism::new(judge::read(text).expect("the scene is read"))
+}
+
+/// The state at the end of `duration`.
+fn run(mechanism: &Mechanism, duration: f64) -> State {
+    let mut state = mechanism.start().expect("it starts");
+    let mut h = 1e-3 * duration;
+    mechanism.advance(&mut state, duration, &mut h, TOLERANCE).expect("it runs");
+    state
+}
+
+/// A scene of the workspace.
+fn scene(name: &str) -> Mechanism {
+    let path = format!("{}/../{name}", env!("CARGO_MANIFEST_DIR"));
+    mechanism(&std::fs::read_to_string(path).expect("the scene is there"))
+}
+
+/// A channel by its name.
+fn channel(mechanism: &Mechanism, state: &State, name: &str) -> Vec<f64> {
+    let found =
+        mechanism.scene.outputs.iter().find(|o| o.name == name).expect("the channel is there");
+    mechanism.show(state, found.quantity)
+}
