@@ -14,6 +14,7 @@ mod motion;
 mod node;
 mod outputs;
 mod project;
+pub mod random;
 mod read;
 mod read_effect;
 mod rows;

@@ -1,2 +1,174 @@
-//! Placeholder.
-fn main() {}
+//! `judge --seeds A..B [--formulation F] [--scene SEED] [--look SEED]`: random scenes by seed through the crates, held against the judge.
+
+mod trial;
+
+use judge::random;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::process::ExitCode;
+use trial::{Method, Verdict};
+
+const METHODS: [Method; 6] = [
+    ["index-3", "trapezoidal"],
+    ["index-1", "trapezoidal"],
+    ["classical", "trapezoidal"],
+    ["state-space", "trapezoidal"],
+    ["recursive", "trapezoidal"],
+    ["multi-index", "trapezoidal"],
+];
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let value = |key: &str| {
+        arguments.iter().position(|a| a == key).and_then(|i| arguments.get(i + 1)).cloned()
+    };
+    let only = value("--formulation");
+    let out = &mut std::io::stdout();
+    if let Some(seed) = value("--scene").and_then(|s| s.parse().ok()) {
+        let drawn = random::scene(seed);
+        let _ = writeln!(out, "# step {:?}, {} steps\n{}", drawn.step, drawn.steps, drawn.text);
+        return ExitCode::SUCCESS;
+    }
+    if let Some(seed) = value("--look").and_then(|s| s.parse().ok()) {
+        let _ = write!(out, "{}", look(seed, only.as_deref().unwrap_or("index-3")));
+        return ExitCode::SUCCESS;
+    }
+    let seeds = value("--seeds").unwrap_or_else(|| "1..100".to_owned());
+    let Some((first, last)) =
+        seeds.split_once("..").and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)))
+    else {
+        eprintln!("usage: judge --seeds A..B [--formulation F] [--scene SEED] [--look SEED]");
+        return ExitCode::FAILURE;
+    };
+    // a panic of a run is a verdict
+    std::panic::set_hook(Box::new(|_| {}));
+    let mut tally = Tally::default();
+    for seed in first..=last {
+        let lines = one(seed, only.as_deref(), &mut tally);
+        let _ = write!(out, "{lines}");
+    }
+    let _ = write!(out, "{}", tally.text());
+    ExitCode::from(u8::from(tally.differences > 0))
+}
+
+/// Channels of a seed that are off, at the start and at the end: as the crates have them, as the judge has them.
+fn look(seed: u64, formulation: &str) -> String {
+    let drawn = random::scene(seed);
+    let mut out = random::kinds(&drawn.text).join(", ");
+    let method = METHODS.into_iter().find(|m| m[0] == formulation).unwrap_or(METHODS[0]);
+    let (judged, scene) =
+        match (trial::judge(&drawn.text, drawn.step, drawn.steps), trial::document(&drawn.text)) {
+            (Ok(judged), Ok(scene)) => (judged, scene),
+            (Err(why), _) | (_, Err(why)) => return why,
+        };
+    let rows = match trial::rows(&scene, method, drawn.step, drawn.steps, 1) {
+        Ok(rows) => rows,
+        Err(verdict) => return format!("{out}\n{verdict:?}\n"),
+    };
+    for (i, (row, right)) in rows.iter().zip(&judged.rows).enumerate() {
+        if i != 0 && i + 1 != rows.len() {
+            continue;
+        }
+        let _ = writeln!(out, "\nrow {i}");
+        for part in trial::parts(&judged) {
+            let output = &judged.mechanism.scene.outputs[part.output];
+            let (found, right) = (&row[part.components.clone()], &right[part.components.clone()]);
+            let size = right.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+            let off = found.iter().zip(right).fold(0.0_f64, |a, (x, y)| a.max((x - y).abs()));
+            if off > 1e-7 * size {
+                let _ =
+                    writeln!(out, "{:16} {off:.1e} off: {found:?}, judge {right:?}", output.name);
+            }
+        }
+    }
+    out
+}
+
+#[derive(Default)]
+struct Tally {
+    scenes: usize,
+    unjudged: usize,
+    differences: usize,
+    verdicts: BTreeMap<(String, String), usize>,
+    kinds: BTreeMap<String, usize>,
+}
+
+fn one(seed: u64, only: Option<&str>, tally: &mut Tally) -> String {
+    let mut out = String::new();
+    let drawn = random::scene(seed);
+    tally.scenes += 1;
+    for kind in random::kinds(&drawn.text) {
+        *tally.kinds.entry(kind).or_default() += 1;
+    }
+    let judged = match trial::judge(&drawn.text, drawn.step, drawn.steps) {
+        Ok(judged) => judged,
+        Err(why) => {
+            tally.unjudged += 1;
+            let _ = writeln!(out, "{seed:5} {why}");
+            return out;
+        }
+    };
+    let scene = match trial::document(&drawn.text) {
+        Ok(scene) => scene,
+        Err(why) => {
+            tally.unjudged += 1;
+            let _ = writeln!(out, "{seed:5} unread: {why}");
+            return out;
+        }
+    };
+    for method in METHODS {
+        if only.is_some_and(|o| o != method[0]) {
+            continue;
+        }
+        let verdict = trial::trial(&judged, &scene, method, drawn.step, drawn.steps);
+        let key = match &verdict {
+            Verdict::Agrees => "agrees".to_owned(),
+            Verdict::Differs { channel, off, allowed, size, start } => {
+                tally.differences += 1;
+                let _ = writeln!(
+                    out,
+                    "{seed:5} {:12} DIFFERS  {} {channel}: off {off:.2e}, allowed {allowed:.2e}, size {size:.2e}; least pivot {:.1e}",
+                    method[0],
+                    if *start { "at the start" } else { "" },
+                    judged.least_pivot
+                );
+                if *start { "differs (start)" } else { "differs (run)" }.to_owned()
+            }
+            Verdict::Stops { code, time, message } => {
+                let place = if *time > 0.0 { "run" } else { "start" };
+                let _ = writeln!(
+                    out,
+                    "{seed:5} {:12} stops    {code} at {time:.3e} s of {:.3e}: {message}; least pivot {:.1e}",
+                    method[0],
+                    f64::from(drawn.steps) * drawn.step,
+                    judged.least_pivot
+                );
+                format!("{code} ({place})")
+            }
+            Verdict::Panics => {
+                let _ = writeln!(out, "{seed:5} {:12} PANICS", method[0]);
+                tally.differences += 1;
+                "panics".to_owned()
+            }
+        };
+        *tally.verdicts.entry((method[0].to_owned(), key)).or_default() += 1;
+    }
+    out
+}
+
+impl Tally {
+    fn text(&self) -> String {
+        let mut out = String::new();
+        let _ = writeln!(out, "\n{} scenes, {} without a judgement", self.scenes, self.unjudged);
+        for ((method, verdict), n) in &self.verdicts {
+            let _ = writeln!(out, "{method:12} {verdict:28} {n}");
+        }
+        for (kind, n) in &self.kinds {
+            #[allow(clippy::cast_precision_loss, reason = "a share to show")]
+            let share = 100.0 * *n as f64 / self.scenes as f64;
+            let _ = writeln!(out, "{kind:28} in {share:.1} % of the scenes");
+        }
+        out
+    }
+}

@@ -291,4 +291,16 @@ impl Mechanism {
             [row.value.abs().max(p), (row.rate(&places) - row.given[0]).abs().max(v)]
         })
     }
+
+    /// How many freedoms are left by the independent rows.
+    #[must_use]
+    pub fn freedoms(&self, state: &State) -> usize {
+        let places = self.places(state);
+        let rows: Vec<Row> =
+            self.rows(&self.now(state, &places)).into_iter().map(|r| r.1).collect();
+        let mut unit = Square::zero(self.n + rows.len());
+        (0..self.n).for_each(|i| *unit.at(i, i) = 1.0);
+        let dependent = self.factor_with(unit, &rows).factors.kernel().len();
+        (self.n + dependent).saturating_sub(rows.len())
+    }
 }

@@ -216,6 +216,31 @@ pub enum Effect {
     Tire(Tire),
 }
 
+impl Effect {
+    /// Its kind in scene files, with where it acts.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::SpringDamper(..) => "spring-damper",
+            Self::Polynomial(_, _, false) => "polynomial-spring",
+            Self::Polynomial(_, _, true) => "polynomial-damper",
+            Self::Bumper(..) => "bumper",
+            Self::Actuator(..) => "actuator",
+            Self::Bushing(..) => "bushing",
+            Self::TorsionSpring(..) => "torsion-spring",
+            Self::JointTorque(..) => "torque on a joint",
+            Self::BodyTorque(..) => "torque on a body",
+            Self::Limit(..) => "limit",
+            Self::Friction(..) => "friction",
+            Self::Force(..) => "force",
+            Self::Drag(..) => "aero-drag",
+            Self::SpeedHold(..) => "speed-hold",
+            Self::Tire(tire) if tire.side.is_some() => "tire with side force",
+            Self::Tire(..) => "tire",
+        }
+    }
+}
+
 /// A wheel on the road.
 #[derive(Debug, Clone)]
 pub struct Tire {

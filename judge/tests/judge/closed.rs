@@ -54,6 +54,29 @@ fn a_start_partly_given_is_the_least_change() {
     let m = scene("mbs/tests/field/18-start-of-a-millimetre-pendulum.toml");
     let start = m.start().expect("it starts");
     near(channel(&m, &start, "p_rate")[0], -2.678571, 1e-6);
+    // with q held, p is by an independent program -0.1417805 and -0.4361786, whatever the size
+    for (q, p) in [(0.5, -0.1417805), (1.5, -0.4361786)] {
+        for size in [1e-3, 1.0, 100.0] {
+            let at = |x: f64| x * size;
+            let m = mechanism(&format!(
+                "[scene]\ndimension = 2\nduration = 1.0\n\
+                 [[body]]\nname = \"a\"\nmass = 1.0\ncenter = [{:?}, {:?}]\ninertia = {:?}\n\
+                 [[body]]\nname = \"b\"\nmass = 1.0\ncenter = [{:?}, {:?}]\ninertia = {:?}\n\
+                 [[joint]]\nname = \"p\"\nkind = \"revolute\"\nbodies = [\"ground\", \"a\"]\nat = [0.0, 0.0]\n\
+                 [[joint]]\nname = \"q\"\nkind = \"revolute\"\nbodies = [\"a\", \"b\"]\nat = [{:?}, 0.0]\n\
+                 [[initial]]\njoint = \"q\"\nvalue = {q:?}\n",
+                at(0.5),
+                at(0.1),
+                0.08 * size * size,
+                at(1.3),
+                at(-0.4),
+                0.05 * size * size,
+                at(1.0)
+            ));
+            let start = m.start().expect("it starts");
+            near(channel(&m, &start, "p")[0], p, 1e-7);
+        }
+    }
     let m = scene("mbs/tests/field/18-start-in-f32.toml");
     let start = m.start().expect("it starts");
     near(channel(&m, &start, "j0_rate")[0], -0.825236, 1e-6);

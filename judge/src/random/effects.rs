@@ -1,0 +1,366 @@
+//! Effects in the units of a mechanism, as text.
+
+use super::dice::Dice;
+use super::mechanism::Draft;
+use super::write::{name, pair, vector};
+use crate::scene::{Carrier, Kind};
+use crate::vector::{norm, scale, sub};
+
+/// The kinds of effect.
+const KINDS: [&str; 18] = [
+    "spring-damper",
+    "polynomial-spring",
+    "polynomial-damper",
+    "bumper",
+    "actuator",
+    "bushing",
+    "torsion-spring",
+    "torque-joint",
+    "torque-body",
+    "limit",
+    "friction",
+    "force",
+    "force-body",
+    "aero-drag",
+    "speed-hold",
+    "tire",
+    "tire-side",
+    "actuator-table",
+];
+
+/// Draws up to five effects, each on what it can act on.
+pub(crate) fn draw(dice: &mut Dice, draft: &mut Draft) {
+    let n = dice.below(6);
+    let mut wheels = 0;
+    for i in 0..n {
+        let kind = KINDS[dice.below(KINDS.len())];
+        wheels += usize::from(kind.starts_with("tire"));
+        let made = Effects { dice, draft }.one(kind);
+        if let Some(text) = made {
+            draft.blocks.push(format!("[[effect]]\nname = \"e{i}\"\n{text}"));
+        }
+    }
+    if wheels > 0 && dice.chance(0.6) {
+        let text = road(dice, draft);
+        draft.blocks.push(text);
+    }
+}
+
+fn road(dice: &mut Dice, draft: &Draft) -> String {
+    let l = draft.length;
+    let start = l * dice.between(-2.0, 1.0);
+    let speed = if dice.chance(0.3) { l / draft.time * dice.between(0.0, 1.0) } else { 0.0 };
+    let feature = match dice.below(3) {
+        0 => format!(
+            "kind = \"ramp\", start = {start:?}, length = {:?}, height = {:?}, rounding = {:?}",
+            4.0 * l,
+            0.3 * l,
+            1.5 * l
+        ),
+        1 => format!(
+            "kind = \"bump\", start = {start:?}, length = {:?}, amplitude = {:?}",
+            5.0 * l,
+            0.1 * l
+        ),
+        _ => format!("kind = \"flat\", height = {:?}", l * dice.between(-0.1, 0.1)),
+    };
+    format!("[road]\nspeed = {speed:?}\nfeatures = [{{ {feature} }}]")
+}
+
+struct Effects<'a> {
+    dice: &'a mut Dice,
+    draft: &'a mut Draft,
+}
+
+impl Effects<'_> {
+    fn body(&mut self) -> usize {
+        self.dice.below(self.draft.bodies.len())
+    }
+
+    /// Two bodies, one of them perhaps the ground, with a point each.
+    fn line(&mut self) -> (String, f64) {
+        let a = self.body();
+        let b: Carrier = Some(self.body()).filter(|b| *b != a);
+        let mut ends =
+            [(Some(a), self.draft.point(self.dice, Some(a))), (b, self.draft.point(self.dice, b))];
+        if self.dice.chance(0.5) {
+            ends.reverse();
+        }
+        let length = norm(sub(ends[1].1, ends[0].1));
+        let [p, q] = ends.map(|e| vector(e.1, self.draft.planar));
+        (format!("bodies = {}\npoints = [{p}, {q}]\n", pair(ends.map(|e| e.0))), length)
+    }
+
+    /// A stiffness by a frequency, and a damping by a share of the critical one.
+    fn spring(&mut self) -> [f64; 2] {
+        let frequency = self.dice.logarithmic(0.5, 8.0);
+        self.draft.stiffest = self.draft.stiffest.max(frequency);
+        let w = frequency / self.draft.time;
+        [self.draft.mass * w * w, 2.0 * self.dice.between(0.0, 0.3) * self.draft.mass * w]
+    }
+
+    /// A force of the size of weights.
+    fn force(&mut self, low: f64) -> f64 {
+        let unit = self.draft.mass * self.draft.length / (self.draft.time * self.draft.time);
+        unit * self.dice.between(low, 1.0)
+    }
+
+    fn joint(&mut self, kinds: &[Kind]) -> Option<usize> {
+        let fits = |i: &usize| {
+            let link = &self.draft.links[*i];
+            kinds.contains(&link.kind)
+                || (link.kind == Kind::Free
+                    && self.draft.planar
+                    && kinds.contains(&Kind::Cylindrical))
+        };
+        let list: Vec<usize> = (0..self.draft.links.len()).filter(fits).collect();
+        if list.is_empty() { None } else { Some(list[self.dice.below(list.len())]) }
+    }
+
+    /// A value, or a table over the run's time.
+    fn course(&mut self, mut one: impl FnMut(&mut Self) -> String) -> String {
+        if self.dice.chance(0.6) {
+            let value = one(self);
+            return format!("value = {value}");
+        }
+        let rows: Vec<String> = (0..4)
+            .map(|k| {
+                let value = one(self);
+                format!("[{:?}, {value}]", f64::from(k) * 0.7 * self.draft.time)
+            })
+            .collect();
+        format!("table = [{}]", rows.join(", "))
+    }
+
+    fn one(&mut self, kind: &str) -> Option<String> {
+        match kind {
+            "spring-damper" => Some(self.spring_damper()),
+            "polynomial-spring" => Some(self.polynomial_spring()),
+            "polynomial-damper" => Some(self.polynomial_damper()),
+            "bumper" => Some(self.bumper()),
+            "actuator" => {
+                let (line, _) = self.line();
+                let value = self.force(-1.0);
+                Some(format!("kind = \"actuator\"\n{line}value = {value:?}"))
+            }
+            "actuator-table" => {
+                let (line, _) = self.line();
+                let course = self.course(|e| format!("{:?}", e.force(-1.0)));
+                Some(format!("kind = \"actuator\"\n{line}{course}"))
+            }
+            "bushing" => Some(self.bushing()),
+            "torsion-spring" => self.torsion_spring(),
+            "torque-joint" => {
+                let j = self.joint(&[Kind::Revolute, Kind::Cylindrical, Kind::Planar])?;
+                let length = 0.3 * self.draft.length;
+                let course = self.course(|e| format!("{:?}", e.force(-1.0) * length));
+                Some(format!("kind = \"torque\"\njoint = \"j{j}\"\n{course}"))
+            }
+            "torque-body" => {
+                let (b, length) = (self.body(), 0.3 * self.draft.length);
+                let course = self.course(|e| {
+                    let size = e.force(-1.0) * length;
+                    let v = scale(size, e.dice.direction(e.draft.planar));
+                    if e.draft.planar { format!("{size:?}") } else { vector(v, false) }
+                });
+                Some(format!("kind = \"torque\"\nbody = \"b{b}\"\n{course}"))
+            }
+            "limit" => self.limit(),
+            "friction" => self.friction(),
+            "force" | "force-body" => {
+                let b = self.body();
+                let at = vector(self.draft.point(self.dice, Some(b)), self.draft.planar);
+                let course = self.course(|e| {
+                    let size = e.force(-1.0);
+                    vector(scale(size, e.dice.direction(e.draft.planar)), e.draft.planar)
+                });
+                let frame = if kind == "force" { "" } else { "frame = \"body\"\n" };
+                Some(format!("kind = \"force\"\nbody = \"b{b}\"\nat = {at}\n{frame}{course}"))
+            }
+            "aero-drag" => {
+                let b = self.body();
+                let at = vector(self.draft.point(self.dice, Some(b)), self.draft.planar);
+                let area =
+                    self.draft.mass / (1.2 * self.draft.length) * self.dice.between(0.1, 1.0);
+                Some(format!(
+                    "kind = \"aero-drag\"\nbody = \"b{b}\"\nat = {at}\narea_coefficient = {area:?}"
+                ))
+            }
+            "speed-hold" => {
+                let b = self.body();
+                let direction = vector(self.dice.direction(self.draft.planar), self.draft.planar);
+                let speed = self.draft.length / self.draft.time * self.dice.between(-1.0, 1.0);
+                let gain = self.draft.mass / self.draft.time * self.dice.between(0.1, 1.0);
+                let limit = self.force(0.2);
+                Some(format!(
+                    "kind = \"speed-hold\"\nbody = \"b{b}\"\ndirection = {direction}\nspeed = {speed:?}\ngain = {gain:?}\nlimit = {limit:?}"
+                ))
+            }
+            _ => Some(self.tire(kind == "tire-side")),
+        }
+    }
+
+    fn spring_damper(&mut self) -> String {
+        let (line, length) = self.line();
+        let [k, c] = self.spring();
+        let free = length * self.dice.between(0.5, 1.2);
+        format!(
+            "kind = \"spring-damper\"\n{line}stiffness = {k:?}\ndamping = {c:?}\nfree_length = {free:?}"
+        )
+    }
+
+    fn polynomial_spring(&mut self) -> String {
+        let (line, l) = self.line();
+        let ([k1, _], [k2, _]) = (self.spring(), self.spring());
+        let k3 = 0.3 * k2 / self.draft.length;
+        let direction = self.along();
+        let end = 3.0 * l;
+        let (a, b, c) = (k3 * l * l - k2 * l, k2 - 2.0 * k3 * l, k3);
+        format!(
+            "kind = \"polynomial-spring\"\n{line}{direction}coefficients = [[0.0, {l:?}, {:?}, {k1:?}], [{l:?}, {end:?}, {a:?}, {b:?}, {c:?}]]",
+            -k1 * l
+        )
+    }
+
+    fn polynomial_damper(&mut self) -> String {
+        let (line, _) = self.line();
+        let direction = self.along();
+        let v = self.draft.length / self.draft.time;
+        let c = 0.3 * self.draft.mass / self.draft.time;
+        let (one, other) = (c * self.dice.between(0.1, 1.0), c * self.dice.between(0.1, 1.0));
+        let low = -v;
+        format!(
+            "kind = \"polynomial-damper\"\n{line}{direction}coefficients = [[{low:?}, 0.0, 0.0, {one:?}], [0.0, {v:?}, 0.0, {other:?}]]"
+        )
+    }
+
+    fn along(&mut self) -> String {
+        if self.dice.chance(0.6) {
+            return String::new();
+        }
+        format!(
+            "direction = {}\n",
+            vector(self.dice.direction(self.draft.planar), self.draft.planar)
+        )
+    }
+
+    fn bumper(&mut self) -> String {
+        let (line, length) = self.line();
+        let [k, c] = self.spring();
+        let c = if self.dice.chance(0.5) { c } else { 0.0 };
+        let clearance = length * self.dice.between(-0.1, 0.2);
+        format!(
+            "kind = \"bumper\"\n{line}stiffness = {k:?}\ndamping = {c:?}\nclearance = {clearance:?}"
+        )
+    }
+
+    fn bushing(&mut self) -> String {
+        let a = self.body();
+        let mut bodies = [Some(a), Some(self.body()).filter(|b| *b != a)];
+        if self.dice.chance(0.5) {
+            bodies.reverse();
+        }
+        let at = vector(self.draft.point(self.dice, Some(a)), self.draft.planar);
+        let l2 = 0.1 * self.draft.length * self.draft.length;
+        let mut k = Vec::new();
+        let mut c = Vec::new();
+        for i in 0..if self.draft.planar { 3 } else { 6 } {
+            let turns = i >= if self.draft.planar { 2 } else { 3 };
+            let [stiffness, damping] = self.spring();
+            k.push(stiffness * if turns { l2 } else { 1.0 });
+            c.push(damping * if turns { l2 } else { 1.0 });
+        }
+        let damping =
+            if self.dice.chance(0.6) { format!("\ndamping = {c:?}") } else { String::new() };
+        format!(
+            "kind = \"bushing\"\nbodies = {}\nat = {at}\nstiffness = {k:?}{damping}",
+            pair(bodies)
+        )
+    }
+
+    fn torsion_spring(&mut self) -> Option<String> {
+        let j = self.joint(&[Kind::Revolute, Kind::Cylindrical, Kind::Planar])?;
+        let [k, c] = self.spring();
+        let l2 = 0.1 * self.draft.length * self.draft.length;
+        let (k, c, free) = (k * l2, c * l2, self.dice.between(-1.0, 1.0));
+        Some(format!(
+            "kind = \"torsion-spring\"\njoint = \"j{j}\"\nstiffness = {k:?}\ndamping = {c:?}\nfree_value = {free:?}"
+        ))
+    }
+
+    fn limit(&mut self) -> Option<String> {
+        let j = self.joint(&[Kind::Revolute, Kind::Prismatic])?;
+        let [k, c] = self.spring();
+        let turns = self.draft.links[j].kind == Kind::Revolute;
+        let (unit, inertia) = if turns {
+            (1.0, 0.1 * self.draft.length * self.draft.length)
+        } else {
+            (0.4 * self.draft.length, 1.0)
+        };
+        let (lower, upper) =
+            (unit * self.dice.between(-1.2, -0.1), unit * self.dice.between(0.1, 1.2));
+        let (k, c) = (k * inertia, c * inertia * f64::from(u8::from(self.dice.chance(0.5))));
+        Some(format!(
+            "kind = \"limit\"\njoint = \"j{j}\"\nlower = {lower:?}\nupper = {upper:?}\nstiffness = {k:?}\ndamping = {c:?}"
+        ))
+    }
+
+    fn friction(&mut self) -> Option<String> {
+        let j = self.joint(&[Kind::Revolute, Kind::Prismatic])?;
+        let turns = self.draft.links[j].kind == Kind::Revolute;
+        let unit = if turns { 0.3 * self.draft.length } else { 1.0 };
+        let rate = if turns { 1.0 } else { self.draft.length } / self.draft.time;
+        let coulomb = 0.3 * unit * self.force(0.1);
+        let e = rate * self.dice.between(0.1, 0.3);
+        let mut text = format!(
+            "kind = \"friction\"\njoint = \"j{j}\"\ncoulomb = {coulomb:?}\nregularisation = {e:?}"
+        );
+        if self.dice.chance(0.5) {
+            text += &format!("\nstatic = {:?}", coulomb * self.dice.between(1.0, 1.5));
+            text += &format!("\nviscous = {:?}", coulomb / rate * self.dice.between(0.0, 0.5));
+        }
+        Some(text)
+    }
+
+    /// A wheel that stands on the level road with a tenth of its radius, or is near to it.
+    fn tire(&mut self, side: bool) -> String {
+        let (b, p) = (self.body(), self.draft.planar);
+        let l = self.draft.length;
+        let radius = 0.4 * l;
+        let mut center = self.draft.point(self.dice, Some(b));
+        center[if p { 1 } else { 2 }] = radius * self.dice.between(0.7, 1.1);
+        let [k, c] = self.spring();
+        let mut text = format!(
+            "kind = \"tire\"\nbody = \"{}\"\ncenter = {}\nradius = {radius:?}\nstiffness = {k:?}\ndamping = {c:?}",
+            name(Some(b)),
+            vector(center, p)
+        );
+        if p {
+            return text;
+        }
+        if side || self.dice.chance(0.5) {
+            let axis = self.dice.direction(true);
+            let axis = [axis[0], axis[1], self.dice.between(-0.3, 0.3)];
+            text += &format!(
+                "\naxis = {}\nrolling_resistance = {:?}",
+                vector(axis, false),
+                self.dice.between(0.0, 0.1)
+            );
+        }
+        if side {
+            // the Iltis' numbers, for loads of this size in place of 5 kN
+            let s = self.draft.mass * 9.81 / 5000.0;
+            text += &format!(
+                "\nside = \"calspan\"\ncoefficients = {{ a = [{:?}, 14.47, {:?}, 2.29, {:?}], omega = 1.0, b = [{:?}, 1.216, {:?}], skid = 1.0274, trail = [{:?}, {:?}] }}",
+                2625.0 * s,
+                12930.0 * s,
+                18175.0 * s,
+                -0.464e-4 / s,
+                2.18e-11 / (s * s),
+                -0.171e-4 * l / s,
+                0.171e-4 * l / s
+            );
+        }
+        text
+    }
+}

@@ -1,0 +1,351 @@
+//! Bodies, joints, loops, guides and what is held at the start.
+
+use super::dice::Dice;
+use super::{GRAVITY, mechanism_of, starts};
+use crate::scene::{Carrier, Kind};
+use crate::vector::{
+    Matrix, Vector, ZERO, across, add, cross, dot, exponential, product, rotation, scale, sub,
+    transpose, unit,
+};
+
+/// A pivot of the scaled saddle below this is too near to a locked mechanism to begin there.
+const NEAR_LOCKED: f64 = 3e-3;
+
+/// A scene in the making.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Draft {
+    pub(crate) planar: bool,
+    pub(crate) length: f64,
+    pub(crate) time: f64,
+    pub(crate) mass: f64,
+    pub(crate) duration: f64,
+    pub(crate) gravity: Option<Vector>,
+    pub(crate) bodies: Vec<Part>,
+    pub(crate) links: Vec<Link>,
+    /// Effects, roads and velocities of bodies, as text.
+    pub(crate) blocks: Vec<String>,
+    /// The largest of the drawn frequencies, in radians in T.
+    pub(crate) stiffest: f64,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Part {
+    pub(crate) mass: f64,
+    pub(crate) center: Vector,
+    pub(crate) inertia: [f64; 6],
+    pub(crate) rod: Option<[Vector; 2]>,
+    /// A point whose motion is looked at.
+    pub(crate) mark: Vector,
+    /// The body before it in the tree, with its joint.
+    parent: Carrier,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Link {
+    pub(crate) kind: Kind,
+    pub(crate) bodies: [Carrier; 2],
+    pub(crate) points: [Vector; 2],
+    pub(crate) axes: [Vector; 2],
+    pub(crate) hinged: bool,
+    pub(crate) guide: Option<String>,
+    pub(crate) value: Option<Vec<f64>>,
+    pub(crate) rate: Option<Vec<f64>>,
+    /// Does it take part in a loop?
+    pub(crate) looped: bool,
+}
+
+const PLANE: [(Kind, f64); 5] = [
+    (Kind::Revolute, 0.46),
+    (Kind::Prismatic, 0.22),
+    (Kind::Weld, 0.08),
+    (Kind::Free, 0.12),
+    (Kind::Distance, 0.12),
+];
+const SPACE: [(Kind, f64); 9] = [
+    (Kind::Revolute, 0.22),
+    (Kind::Prismatic, 0.12),
+    (Kind::Cylindrical, 0.12),
+    (Kind::Universal, 0.12),
+    (Kind::Spherical, 0.12),
+    (Kind::Planar, 0.1),
+    (Kind::Weld, 0.08),
+    (Kind::Free, 0.08),
+    (Kind::Distance, 0.08),
+];
+const PLANE_LOOPS: [(Kind, f64); 3] =
+    [(Kind::Revolute, 0.5), (Kind::Prismatic, 0.2), (Kind::Distance, 0.3)];
+const SPACE_LOOPS: [(Kind, f64); 7] = [
+    (Kind::Revolute, 0.2),
+    (Kind::Prismatic, 0.1),
+    (Kind::Cylindrical, 0.1),
+    (Kind::Universal, 0.15),
+    (Kind::Spherical, 0.2),
+    (Kind::Planar, 0.1),
+    (Kind::Distance, 0.15),
+];
+
+impl Draft {
+    /// A tree.
+    pub(crate) fn tree(dice: &mut Dice) -> Self {
+        let planar = dice.chance(0.4);
+        let length = dice.logarithmic(1e-3, 100.0);
+        let gravity = dice.chance(0.75).then(|| scale(GRAVITY, dice.direction(planar)));
+        let mass = 1000.0 * length.powi(3) * dice.logarithmic(0.1, 10.0);
+        let time = (length / GRAVITY).sqrt();
+        let mut draft =
+            Self { planar, length, time, mass, gravity, stiffest: 1.0, ..Self::default() };
+        let n = 1 + dice.below(if planar { 6 } else { 5 });
+        for i in 0..n {
+            let parent = if i == 0 || dice.chance(0.15) {
+                None
+            } else if dice.chance(0.6) {
+                Some(i - 1)
+            } else {
+                Some(dice.below(i))
+            };
+            draft.add_body(dice, parent);
+        }
+        draft
+    }
+
+    fn away(&self, dice: &mut Dice, low: f64, high: f64) -> Vector {
+        scale(self.length * dice.between(low, high), dice.direction(self.planar))
+    }
+
+    /// A point near a body, or near the ground.
+    pub(crate) fn point(&self, dice: &mut Dice, body: Carrier) -> Vector {
+        add(body.map_or(ZERO, |b| self.bodies[b].center), self.away(dice, 0.1, 0.6))
+    }
+
+    fn add_body(&mut self, dice: &mut Dice, parent: Carrier) {
+        let kind = dice.weighted(if self.planar { &PLANE[..] } else { &SPACE[..] });
+        let at = self.point(dice, parent);
+        let center = add(at, self.away(dice, 0.2, 0.6));
+        let mass = self.mass * dice.logarithmic(0.1, 3.0);
+        let i = self.bodies.len();
+        // a rod on a weld or on its own axis would leave a turn without inertia in the tree
+        let thin =
+            dice.chance(0.15) && matches!(kind, Kind::Revolute | Kind::Spherical | Kind::Free);
+        let rod = thin.then(|| [at, add(at, self.away(dice, 0.5, 1.0))]);
+        let center = rod.map_or(center, |[a, b]| scale(0.5, add(a, b)));
+        let inertia = self.inertia(dice, mass);
+        let mark = add(center, self.away(dice, 0.1, 0.3));
+        self.bodies.push(Part { mass, center, inertia, rod, mark, parent });
+        let link = self.link(dice, kind, [parent, Some(i)], at);
+        self.links.push(link);
+    }
+
+    fn inertia(&self, dice: &mut Dice, mass: f64) -> [f64; 6] {
+        let radii = [0, 1, 2].map(|_| self.length * dice.logarithmic(0.05, 0.4));
+        if self.planar {
+            return [mass * radii[0] * radii[0], 0.0, 0.0, 0.0, 0.0, 0.0];
+        }
+        let turn = rotation(exponential(scale(3.0, dice.direction(false))));
+        let mut s: Matrix = [ZERO; 3];
+        (0..3).for_each(|i| s[i][i] = mass * radii[i] * radii[i]);
+        let s = product(&product(&turn, &s), &transpose(&turn));
+        let all = s[0][0] + s[1][1] + s[2][2];
+        [all - s[0][0], all - s[1][1], all - s[2][2], -s[0][1], -s[1][2], -s[2][0]]
+    }
+
+    /// A joint between two bodies at a place, named in either order.
+    fn link(&self, dice: &mut Dice, kind: Kind, bodies: [Carrier; 2], at: Vector) -> Link {
+        let axis = dice.direction(self.planar);
+        let second = if self.planar { axis } else { scale(1.0, across(axis)[0]) };
+        let mut points = [at, at];
+        if kind == Kind::Distance {
+            points = [at, add(at, self.away(dice, 0.3, 0.8))];
+        }
+        let hinged = kind == Kind::Distance && !self.planar && dice.chance(0.5);
+        let mut bodies = bodies;
+        let mut axes = [scale(dice.between(0.5, 2.0), axis), second];
+        if hinged {
+            // across the link, or nearly
+            let d = unit(sub(points[1], points[0]));
+            axes[0] = unit(add(cross(d, axis), scale(0.2 * dot(axis, d), axis)));
+        }
+        if dice.chance(0.5) {
+            bodies.reverse();
+            points.reverse();
+        }
+        Link {
+            kind,
+            bodies,
+            points,
+            axes,
+            hinged,
+            guide: None,
+            value: None,
+            rate: None,
+            looped: false,
+        }
+    }
+
+    /// Up to two loops, each left out where it would lock the mechanism or come near to it.
+    pub(crate) fn close(&mut self, dice: &mut Dice) {
+        let n = dice.weighted(&[(0, 0.5), (1, 0.3), (2, 0.2)]);
+        for _ in 0..n {
+            for _ in 0..8 {
+                let a = dice.below(self.bodies.len());
+                let b = if dice.chance(0.5) { None } else { Some(dice.below(self.bodies.len())) };
+                let kind =
+                    dice.weighted(if self.planar { &PLANE_LOOPS[..] } else { &SPACE_LOOPS[..] });
+                let at = self.point(dice, Some(a));
+                if b == Some(a) {
+                    continue;
+                }
+                let mut link = self.link(dice, kind, [b, Some(a)], at);
+                link.looped = true;
+                self.links.push(link);
+                if self.moves() {
+                    self.mark_loop(a, b);
+                    break;
+                }
+                self.links.pop();
+            }
+        }
+    }
+
+    /// Has the mechanism freedoms beside those that loops take, and is it far from a locked position?
+    fn moves(&self) -> bool {
+        let Some(mechanism) = mechanism_of(self) else { return false };
+        let reference = mechanism.reference();
+        let freedoms = mechanism.freedoms(&reference);
+        mechanism.evaluate(&reference).least_pivot > NEAR_LOCKED && freedoms >= 1
+    }
+
+    fn mark_loop(&mut self, a: usize, b: Carrier) {
+        let path = |mut body: Carrier| {
+            let mut list = Vec::new();
+            while let Some(i) = body {
+                list.push(i);
+                body = self.bodies[i].parent;
+            }
+            list
+        };
+        let (one, other) = (path(Some(a)), path(b));
+        // the joint of body i in the tree is link i
+        for i in 0..self.bodies.len() {
+            if one.contains(&i) != other.contains(&i) {
+                self.links[i].looped = true;
+            }
+        }
+    }
+
+    /// Guides on joints with one coordinate that are not in loops, and now and then on one that is.
+    pub(crate) fn guide(&mut self, dice: &mut Dice) {
+        for i in 0..self.links.len() {
+            let size = match self.links[i].kind {
+                Kind::Revolute => 1.0,
+                Kind::Prismatic => 0.5 * self.length,
+                _ => continue,
+            };
+            if !dice.chance(if self.links[i].looped { 0.04 } else { 0.15 }) {
+                continue;
+            }
+            let law = match dice.below(3) {
+                0 => {
+                    let (amplitude, frequency) =
+                        (size * dice.between(0.1, 0.6), dice.between(0.05, 0.3) / self.time);
+                    let phase = dice.between(-1.5, 1.5);
+                    format!(
+                        "sine = {{ amplitude = {amplitude:?}, frequency = {frequency:?}, phase = {phase:?} }}"
+                    )
+                }
+                1 => {
+                    format!("ramp = {{ rate = {:?} }}", size * dice.between(-0.5, 0.5) / self.time)
+                }
+                _ => {
+                    let row = |k: i32, dice: &mut Dice| {
+                        let t = 3.0 * self.time * f64::from(k);
+                        format!("[{t:?}, {:?}]", size * dice.between(-0.3, 0.3))
+                    };
+                    let rows: Vec<String> = (-1..6).map(|k| row(k, dice)).collect();
+                    format!("table = [{}]", rows.join(", "))
+                }
+            };
+            self.links[i].guide = Some(law);
+            if self.links[i].looped && !(self.moves() && starts(self)) {
+                self.links[i].guide = None;
+            }
+        }
+    }
+
+    /// Values and rates of some joints, and now and then velocities of a body; what cannot be met is left out.
+    pub(crate) fn start(&mut self, dice: &mut Dice) {
+        for i in 0..self.links.len() {
+            let (planar, kind, looped) = (self.planar, self.links[i].kind, self.links[i].looped);
+            if self.links[i].guide.is_some() {
+                continue;
+            }
+            let size = if looped { 0.2 } else { 1.0 };
+            let mut draw = |turn: f64, slide: f64| -> Vec<f64> {
+                let (turn, slide) = (turn * size, slide * size);
+                let mut t =
+                    |n: usize| -> Vec<f64> { (0..n).map(|_| dice.between(-turn, turn)).collect() };
+                let turns = match kind {
+                    Kind::Revolute | Kind::Cylindrical | Kind::Planar => t(1),
+                    Kind::Universal => t(2),
+                    Kind::Spherical => t(3),
+                    Kind::Free => t(if planar { 1 } else { 3 }),
+                    Kind::Prismatic | Kind::Weld | Kind::Distance => t(0),
+                };
+                let mut s = |n: usize| -> Vec<f64> {
+                    (0..n).map(|_| dice.between(-slide, slide)).collect()
+                };
+                let slides = match kind {
+                    Kind::Prismatic | Kind::Cylindrical => s(1),
+                    Kind::Planar => s(2),
+                    Kind::Free => s(if planar { 2 } else { 3 }),
+                    _ => s(0),
+                };
+                [slides, turns].concat()
+            };
+            let (value, rate) = (
+                draw(1.4, 0.4 * self.length),
+                draw(1.5 / self.time, 0.7 * self.length / self.time),
+            );
+            if value.is_empty() {
+                continue;
+            }
+            let share = if looped { 0.25 } else { 0.6 };
+            self.links[i].value = dice.chance(share).then_some(value);
+            if looped && self.links[i].value.is_some() && !starts(self) {
+                self.links[i].value = None;
+            }
+            self.links[i].rate = dice.chance(share).then_some(rate);
+            if looped && self.links[i].rate.is_some() && !starts(self) {
+                self.links[i].rate = None;
+            }
+        }
+        if dice.chance(0.15) {
+            let b = dice.below(self.bodies.len());
+            let speed = self.length / self.time;
+            let v = scale(speed * dice.between(0.1, 1.0), dice.direction(self.planar));
+            let block = if dice.chance(0.5) {
+                let at = super::write::vector(self.bodies[b].mark, self.planar);
+                format!(
+                    "[[initial]]\nbody = \"b{b}\"\nat = {at}\nvelocity = {}",
+                    super::write::vector(v, self.planar)
+                )
+            } else {
+                let w = scale(1.0 / self.length, v);
+                let w = if self.planar {
+                    format!("{:?}", w[0])
+                } else {
+                    super::write::vector(w, false)
+                };
+                format!("[[initial]]\nbody = \"b{b}\"\nangular_velocity = {w}")
+            };
+            self.blocks.push(block);
+            if !starts(self) {
+                self.blocks.pop();
+            }
+        }
+        if !starts(self) {
+            for link in &mut self.links {
+                (link.value, link.rate) = (None, None);
+            }
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Random scenes by seed, as the text of a scene file: trees, one and two loops, in the plane and in space, every kind of joint and of
+//! effect, guides, starts partly given, from a millimetre to a hundred metres.
+//!
+//! A mechanism of the length L is made with the time T = sqrt(L/g) as its own: stiffnesses, rates and forces are drawn in these units.
+//! No seed is drawn again: where a loop would lock the mechanism, or a start cannot be met, that part is left out.
+
+mod dice;
+mod effects;
+mod mechanism;
+mod write;
+
+use crate::{Mechanism, read};
+use dice::Dice;
+use mechanism::Draft;
+
+/// Standard gravity, which makes times of lengths [m/s²].
+pub(crate) const GRAVITY: f64 = 9.81;
+
+/// A scene with how it is to be run.
+#[derive(Debug, Clone)]
+pub struct Drawn {
+    /// The scene file.
+    pub text: String,
+    /// Step by the motion's own time [s].
+    pub step: f64,
+    /// Steps.
+    pub steps: u32,
+}
+
+/// The scene of a seed.
+#[must_use]
+pub fn scene(seed: u64) -> Drawn {
+    let mut dice = Dice::new(seed);
+    let mut draft = Draft::tree(&mut dice);
+    draft.close(&mut dice);
+    draft.guide(&mut dice);
+    draft.start(&mut dice);
+    effects::draw(&mut dice, &mut draft);
+    #[allow(clippy::cast_possible_truncation, reason = "at most 100")]
+    let steps = 20 + dice.below(81) as u32;
+    let share = dice.logarithmic(0.02, 0.1);
+    let step = share * time_scale(&draft);
+    draft.duration = step * f64::from(steps);
+    Drawn { text: draft.text(), step, steps }
+}
+
+/// Does the judge start from what is drawn so far?
+pub(crate) fn starts(draft: &Draft) -> bool {
+    mechanism_of(draft).is_some_and(|m| m.start().is_ok())
+}
+
+pub(crate) fn mechanism_of(draft: &Draft) -> Option<Mechanism> {
+    read(&draft.text()).ok().map(Mechanism::new)
+}
+
+/// The shortest of the times in which a body turns a radian, or its motion changes by the mechanism's own size, at the start.
+fn time_scale(draft: &Draft) -> f64 {
+    let own = draft.time;
+    let Some(mechanism) = mechanism_of(draft) else { return own };
+    let Ok(start) = mechanism.start() else { return own };
+    let moved = mechanism.evaluate(&start);
+    let mut fastest = 1.0 / own;
+    for (frame, a) in start.frames.iter().zip(&moved.accelerations) {
+        let size = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        fastest = fastest.max(size(&frame.w)).max(size(&frame.v) / draft.length);
+        fastest = fastest.max((size(&a[..3]) / draft.length).sqrt()).max(size(&a[3..]).sqrt());
+    }
+    1.0 / fastest.max(draft.stiffest / own)
+}
+
+/// What a scene has, each kind once: of joints, of effects, guides, loops, starts.
+#[must_use]
+pub fn kinds(text: &str) -> Vec<String> {
+    let Ok(scene) = read(text) else { return Vec::new() };
+    let mut kinds: Vec<String> =
+        scene.joints.iter().map(|j| format!("joint {:?}", j.kind).to_lowercase()).collect();
+    kinds.extend(scene.effects.iter().map(|e| format!("effect {}", e.name())));
+    kinds.push(if scene.planar { "in the plane" } else { "in space" }.to_owned());
+    let loops = scene.joints.len() - scene.bodies.len();
+    kinds.push(format!("{loops} loops"));
+    if !scene.guides.is_empty() {
+        kinds.push("guide".to_owned());
+    }
+    if !scene.initials.is_empty() {
+        kinds.push("initial".to_owned());
+    }
+    kinds.sort();
+    kinds.dedup();
+    kinds
+}

@@ -1,0 +1,153 @@
+//! The text of a draft.
+
+use super::mechanism::{Draft, Link};
+use crate::scene::Kind;
+use crate::vector::Vector;
+use std::fmt::Write;
+
+/// A vector of the plane or of space.
+pub(crate) fn vector(v: Vector, planar: bool) -> String {
+    if planar {
+        format!("[{:?}, {:?}]", v[0], v[1])
+    } else {
+        format!("[{:?}, {:?}, {:?}]", v[0], v[1], v[2])
+    }
+}
+
+/// One number, or a list.
+pub(crate) fn numbers(list: &[f64]) -> String {
+    match list {
+        [one] => format!("{one:?}"),
+        many => format!("{many:?}"),
+    }
+}
+
+pub(crate) fn name(body: Option<usize>) -> String {
+    body.map_or_else(|| "ground".to_owned(), |b| format!("b{b}"))
+}
+
+pub(crate) fn pair(bodies: [Option<usize>; 2]) -> String {
+    format!("[\"{}\", \"{}\"]", name(bodies[0]), name(bodies[1]))
+}
+
+fn kind(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Revolute => "revolute",
+        Kind::Spherical => "spherical",
+        Kind::Universal => "universal",
+        Kind::Prismatic => "prismatic",
+        Kind::Cylindrical => "cylindrical",
+        Kind::Planar => "planar",
+        Kind::Weld => "weld",
+        Kind::Free => "free",
+        Kind::Distance => "distance",
+    }
+}
+
+impl Draft {
+    /// The scene file.
+    pub(crate) fn text(&self) -> String {
+        let mut out = String::new();
+        let p = self.planar;
+        // writing to a text does not fail
+        let _ = writeln!(
+            out,
+            "[scene]\nname = \"drawn\"\ndimension = {}\nduration = {:?}",
+            if p { 2 } else { 3 },
+            self.duration
+        );
+        if let Some(gravity) = self.gravity {
+            let _ = writeln!(out, "gravity = {}", vector(gravity, p));
+        }
+        for (i, body) in self.bodies.iter().enumerate() {
+            let _ = writeln!(out, "\n[[body]]\nname = \"b{i}\"\nmass = {:?}", body.mass);
+            let _ = match body.rod {
+                Some([from, to]) => {
+                    writeln!(out, "rod = {{ from = {}, to = {} }}", vector(from, p), vector(to, p))
+                }
+                None if p => writeln!(
+                    out,
+                    "center = {}\ninertia = {:?}",
+                    vector(body.center, p),
+                    body.inertia[0]
+                ),
+                None => writeln!(
+                    out,
+                    "center = {}\ninertia = {:?}",
+                    vector(body.center, p),
+                    body.inertia
+                ),
+            };
+        }
+        for (i, link) in self.links.iter().enumerate() {
+            let _ = writeln!(
+                out,
+                "\n[[joint]]\nname = \"j{i}\"\nkind = \"{}\"\nbodies = {}",
+                kind(link.kind),
+                pair(link.bodies)
+            );
+            self.geometry(&mut out, link);
+        }
+        for (i, link) in self.links.iter().enumerate() {
+            if let Some(guide) = &link.guide {
+                let _ = writeln!(out, "\n[[guide]]\njoint = \"j{i}\"\n{guide}");
+            }
+            if link.value.is_some() || link.rate.is_some() {
+                let _ = writeln!(out, "\n[[initial]]\njoint = \"j{i}\"");
+                for (key, list) in [("value", &link.value), ("rate", &link.rate)] {
+                    if let Some(list) = list {
+                        let _ = writeln!(out, "{key} = {}", numbers(list));
+                    }
+                }
+            }
+        }
+        for block in &self.blocks {
+            let _ = writeln!(out, "\n{block}");
+        }
+        self.outputs(&mut out);
+        out
+    }
+
+    fn geometry(&self, out: &mut String, link: &Link) {
+        let p = self.planar;
+        let [at, other] = link.points.map(|v| vector(v, p));
+        let [axis, second] = link.axes.map(|v| vector(v, p));
+        let _ = match link.kind {
+            Kind::Distance if link.hinged => {
+                writeln!(out, "points = [{at}, {other}]\naxis = {axis}")
+            }
+            Kind::Distance => writeln!(out, "points = [{at}, {other}]"),
+            Kind::Universal => writeln!(out, "at = {at}\naxes = [{axis}, {second}]"),
+            Kind::Planar => writeln!(out, "at = {at}\naxis = {axis}\ndirection = {second}"),
+            Kind::Revolute if p => writeln!(out, "at = {at}"),
+            Kind::Revolute | Kind::Prismatic | Kind::Cylindrical => {
+                writeln!(out, "at = {at}\naxis = {axis}")
+            }
+            Kind::Spherical | Kind::Weld | Kind::Free => writeln!(out, "at = {at}"),
+        };
+    }
+
+    fn outputs(&self, out: &mut String) {
+        for (i, body) in self.bodies.iter().enumerate() {
+            for quantity in ["position", "velocity", "acceleration"] {
+                let at = vector(body.mark, self.planar);
+                let _ = writeln!(
+                    out,
+                    "\n[[output]]\nname = \"b{i}-{quantity}\"\nbody = \"b{i}\"\nat = {at}\nquantity = \"{quantity}\""
+                );
+            }
+        }
+        for (i, link) in self.links.iter().enumerate() {
+            let moving = !matches!(link.kind, Kind::Weld | Kind::Distance);
+            let reacting = link.kind != Kind::Free;
+            for (quantity, shown) in [("value", moving), ("rate", moving), ("reaction", reacting)] {
+                if shown {
+                    let _ = writeln!(
+                        out,
+                        "\n[[output]]\nname = \"j{i}-{quantity}\"\njoint = \"j{i}\"\nquantity = \"{quantity}\""
+                    );
+                }
+            }
+        }
+    }
+}

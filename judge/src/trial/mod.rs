@@ -1,0 +1,277 @@
+//! A scene through the crates, beside the judge. Used by the program and by tests; the library knows nothing of it.
+
+use judge::scene::Quantity;
+use judge::{Mechanism, State};
+use mbs::core::scene::Scene;
+use mbs::scene_file::Document;
+use mbs::{Overrides, Settings};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Times its own error, by steps of h and h/2, that a rule may be off.
+pub(crate) const SHARE: f64 = 10.0;
+/// Share of a channel's size below which a difference is rounding.
+pub(crate) const ROUNDING: f64 = 1e-7;
+/// Share of the largest channel of its kind that every channel has as size at least.
+const SMALLEST: f64 = 1e-2;
+/// Tolerance of the judge's steps.
+const TOLERANCE: f64 = 1e-11;
+
+/// Its steps are steered by the energy.
+const MULTI: &str = "multi-index";
+
+/// A formulation with an integrator.
+pub(crate) type Method = [&'static str; 2];
+
+/// What became of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Verdict {
+    /// As the judge says.
+    Agrees,
+    /// Ends well, and is off: the channel, how far, and what was allowed.
+    Differs { channel: String, off: f64, allowed: f64, size: f64, start: bool },
+    /// Stops, at a time, with a code and a message; at the start or later.
+    Stops { code: String, time: f64, message: String },
+    /// It panics.
+    Panics,
+}
+
+/// Rows of all channels at multiples of a step.
+pub(crate) type Rows = Vec<Vec<f64>>;
+
+/// What the judge says of a scene.
+pub(crate) struct Judged {
+    pub(crate) mechanism: Mechanism,
+    pub(crate) rows: Rows,
+    /// A time in which the motion changes [s].
+    pub(crate) time: f64,
+    /// Number of components, and whether the channel is unique, of each output.
+    pub(crate) channels: Vec<(usize, bool)>,
+    /// The smallest pivot along the motion.
+    pub(crate) least_pivot: f64,
+}
+
+/// Runs the judge.
+pub(crate) fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
+    let mechanism = Mechanism::new(judge::read(text).map_err(|e| e.0)?);
+    let mut state = mechanism.start().map_err(|e| format!("judge: {e:?}"))?;
+    let unique = mechanism.evaluate(&state).unique;
+    let outputs = mechanism.scene.outputs.clone();
+    let show = |state: &State| -> Vec<Vec<f64>> {
+        outputs.iter().map(|o| mechanism.show(state, o.quantity)).collect()
+    };
+    let first = show(&state);
+    let is_unique = |q: Quantity| !matches!(q, Quantity::Reaction(j) if !unique[j]);
+    let channels =
+        first.iter().zip(&outputs).map(|(c, o)| (c.len(), is_unique(o.quantity))).collect();
+    let mut rows = vec![first.concat()];
+    let mut h = 0.3 * step;
+    let mut least_pivot = mechanism.evaluate(&state).least_pivot;
+    for i in 1..=steps {
+        mechanism
+            .advance(&mut state, f64::from(i) * step, &mut h, TOLERANCE)
+            .map_err(|e| format!("judge: {e:?}"))?;
+        least_pivot = least_pivot.min(mechanism.evaluate(&state).least_pivot);
+        rows.push(show(&state).concat());
+    }
+    Ok(Judged { mechanism, rows, time: 20.0 * step, channels, least_pivot })
+}
+
+/// A scene as the crates read it.
+pub(crate) fn document(text: &str) -> Result<Scene<f64>, String> {
+    let document = Document::parse(text, "drawn.toml").map_err(|e| e.render())?;
+    document.scene().map_err(|e| e.render())
+}
+
+/// Runs the crates, and keeps every `every`-th row.
+pub(crate) fn rows(
+    scene: &Scene<f64>,
+    [formulation, integrator]: Method,
+    step: f64,
+    steps: u32,
+    every: u32,
+) -> Result<Rows, Verdict> {
+    let overrides = Overrides {
+        formulation: Some(formulation.to_owned()),
+        integrator: Some(integrator.to_owned()),
+        step: Some(step),
+        // a step that the energy steers is halved by a tolerance of an eighth
+        energy_tolerance: (formulation == MULTI && every > 1).then_some([1.25e-6, 1.25e-8]),
+        ..Overrides::default()
+    };
+    let stops = |code: &str, time: f64, message: String| Verdict::Stops {
+        code: code.to_owned(),
+        time,
+        message,
+    };
+    let settings =
+        Settings::new(scene, &overrides).map_err(|e| stops("refused", 0.0, e.to_string()))?;
+    let outcome = catch_unwind(AssertUnwindSafe(|| match scene.dimension {
+        mbs::core::scene::Dimension::Planar => mbs::run::<f64, 2>(scene, &settings, &mut ()),
+        mbs::core::scene::Dimension::Spatial => mbs::run::<f64, 3>(scene, &settings, &mut ()),
+    }));
+    let Ok(outcome) = outcome else { return Err(Verdict::Panics) };
+    if let Some(error) = outcome.summary.error {
+        return Err(stops(&error.code, error.time, error.message));
+    }
+    let last = steps / every;
+    // steps that are steered end at the grid's end alone
+    let wanted = (0..=last).filter(|i| formulation != MULTI || *i == 0 || *i == last);
+    let wanted = wanted.map(|i| f64::from(i * every) * step);
+    let mut rows = Vec::new();
+    let mut all = outcome.rows().iter();
+    for t in wanted {
+        match all.find(|row| (row.0 - t).abs() < 1e-6 * step) {
+            Some(row) => rows.push(row.1.clone()),
+            None => return Err(stops("no-row", t, "no row".to_owned())),
+        }
+    }
+    Ok(rows)
+}
+
+/// Holds a method against the judge.
+pub(crate) fn trial(
+    judged: &Judged,
+    scene: &Scene<f64>,
+    method: Method,
+    step: f64,
+    steps: u32,
+) -> Verdict {
+    let runs = rows(scene, method, step, steps, 1)
+        .and_then(|coarse| Ok((coarse, rows(scene, method, 0.5 * step, 2 * steps, 2)?)));
+    match runs {
+        Ok((coarse, fine)) if method[0] == MULTI => {
+            let ends: Rows =
+                judged.rows.first().into_iter().chain(judged.rows.last()).cloned().collect();
+            compare(judged, &ends, &coarse, &fine)
+        }
+        Ok((coarse, fine)) => compare(judged, &judged.rows, &coarse, &fine),
+        Err(verdict) => verdict,
+    }
+}
+
+/// The kind of a channel, whose sizes are compared.
+fn kind(quantity: Quantity) -> usize {
+    match quantity {
+        Quantity::Position(..) => 0,
+        Quantity::Velocity(..) => 1,
+        Quantity::Acceleration(..) => 2,
+        Quantity::Value(..) => 3,
+        Quantity::Rate(..) => 4,
+        Quantity::Reaction(..) => 5,
+    }
+}
+
+/// A channel: its output and its components, parted where these have different units.
+pub(crate) struct Part {
+    pub(crate) output: usize,
+    pub(crate) components: std::ops::Range<usize>,
+    pub(crate) kind: usize,
+}
+
+pub(crate) fn parts(judged: &Judged) -> Vec<Part> {
+    let (mut at, mut list) = (0, Vec::new());
+    let scene = &judged.mechanism.scene;
+    for (output, &(n, unique)) in judged.channels.iter().enumerate() {
+        let quantity = scene.outputs[output].quantity;
+        // forces and moments, translations and rotations
+        let cut = match (quantity, n) {
+            (Quantity::Reaction(_), n) => {
+                if scene.planar {
+                    2
+                } else {
+                    n / 2
+                }
+            }
+            (Quantity::Value(_) | Quantity::Rate(_), 2 | 6) => n / 2,
+            (Quantity::Value(j) | Quantity::Rate(j), 3)
+                if scene.joints[j].kind != judge::scene::Kind::Spherical =>
+            {
+                2
+            }
+            (Quantity::Value(j) | Quantity::Rate(j), 1)
+                if scene.joints[j].kind == judge::scene::Kind::Prismatic =>
+            {
+                1
+            }
+            (Quantity::Value(_) | Quantity::Rate(_), _) => 0,
+            _ => n,
+        };
+        let of = |second: bool| 2 * kind(quantity) + usize::from(second);
+        if unique {
+            for (range, second) in [(at..at + cut, false), (at + cut..at + n, true)] {
+                if !range.is_empty() {
+                    list.push(Part { output, components: range, kind: of(second) });
+                }
+            }
+        }
+        at += n;
+    }
+    list
+}
+
+fn largest(rows: &Rows, range: &std::ops::Range<usize>) -> f64 {
+    rows.iter().flat_map(|row| &row[range.clone()]).fold(0.0, |a: f64, x| a.max(x.abs()))
+}
+
+fn difference(a: &Rows, b: &Rows, range: &std::ops::Range<usize>) -> f64 {
+    let mut worst = 0.0_f64;
+    for (x, y) in a.iter().zip(b) {
+        for (x, y) in x[range.clone()].iter().zip(&y[range.clone()]) {
+            if !((x - y).abs() <= worst) {
+                worst = (x - y).abs();
+            }
+        }
+    }
+    worst
+}
+
+/// The least size of channels of each kind: from the mechanism's length and weight, and the time in which it moves.
+fn least_sizes(judged: &Judged) -> [f64; 12] {
+    let mechanism = &judged.mechanism;
+    let (l, t) = (mechanism.length(), judged.time);
+    let m = mechanism.scene.bodies.iter().map(|b| b.mass).fold(0.0, f64::max);
+    let force = m * l / (t * t);
+    let least =
+        [l, l, l / t, l / t, l / (t * t), l / (t * t), l, 1.0, l / t, 1.0 / t, force, force * l];
+    least.map(|x| SMALLEST * x)
+}
+
+fn compare(judged: &Judged, right: &Rows, coarse: &Rows, fine: &Rows) -> Verdict {
+    if fine.first().map(Vec::len) != right.first().map(Vec::len) {
+        return Verdict::Differs {
+            channel: "number of components".to_owned(),
+            off: f64::NAN,
+            allowed: 0.0,
+            size: 0.0,
+            start: true,
+        };
+    }
+    let parts = parts(judged);
+    let mut group = least_sizes(judged);
+    for part in &parts {
+        group[part.kind] = group[part.kind].max(largest(right, &part.components));
+    }
+    // what begins wrong is said as such
+    let first = [right, fine].map(|rows| rows[..1].to_vec());
+    let mut worst = (1.0, Verdict::Agrees);
+    for start in [true, false] {
+        for part in &parts {
+            let size = largest(right, &part.components).max(SMALLEST * group[part.kind]);
+            let own = if start { 0.0 } else { difference(coarse, fine, &part.components) };
+            let off = if start {
+                difference(&first[0], &first[1], &part.components)
+            } else {
+                difference(fine, right, &part.components)
+            };
+            let allowed = (SHARE * own).max(ROUNDING * size);
+            if off.is_nan() || off > allowed * worst.0 {
+                let channel = judged.mechanism.scene.outputs[part.output].name.clone();
+                worst = (off / allowed, Verdict::Differs { channel, off, allowed, size, start });
+            }
+        }
+        if worst.1 != Verdict::Agrees {
+            break;
+        }
+    }
+    worst.1
+}
