@@ -6,7 +6,7 @@ use crate::vector::{compose, scale};
 /// Parts of the step in each row of the table.
 const PARTS: [usize; 4] = [2, 4, 6, 8];
 /// Steps of controlled length that may be tried in one call.
-const MOST_TRIALS: usize = 20_000;
+const MOST_TRIALS: usize = 1_000;
 
 /// A run that does not go on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,7 +19,7 @@ pub enum Stop {
 
 impl Mechanism {
     fn pack(state: &State) -> Vec<f64> {
-        let mut y = Vec::with_capacity(14 * state.frames.len() + 2 * state.turns.len() + 1);
+        let mut y = Vec::with_capacity(14 * state.frames.len() + 3 * state.turns.len() + 1);
         for f in &state.frames {
             y.extend(f.r.iter().chain(&f.q).chain([&f.angle]).chain(&f.v).chain(&f.w));
         }
@@ -39,7 +39,7 @@ impl Mechanism {
             f.v.copy_from_slice(&y[8..11]);
             f.w.copy_from_slice(&y[11..]);
         }
-        for (turns, y) in state.turns.iter_mut().zip(rest.chunks_exact(2)) {
+        for (turns, y) in state.turns.iter_mut().zip(rest.chunks_exact(3)) {
             turns.copy_from_slice(y);
         }
         state.work = rest.last().copied().unwrap_or(0.0);
@@ -61,8 +61,9 @@ impl Mechanism {
         let now = self.now(&state, &places);
         for (j, joint) in self.scene.joints.iter().enumerate() {
             let turning = joint.turning(self.scene.planar);
-            let mut of = [0.0; 2];
-            if !turning.is_empty() {
+            let mut of = [0.0; 3];
+            // a rotation vector is followed by its nearness alone
+            if (1..3).contains(&turning.len()) {
                 let rows = now.coordinates(j);
                 turning.iter().zip(&mut of).for_each(|(&i, x)| *x = rows[i].rate(&places));
             }

@@ -3,7 +3,7 @@
 use crate::rows::{Places, Row, Seat};
 use crate::scene::{Joint, Kind};
 use crate::vector::{
-    Vector, across, add, compose, conjugate, cross, dot, logarithm, norm, scale, sub,
+    Vector, across, add, compose, conjugate, cross, dot, logarithm, norm, scale, sub, unit,
 };
 
 const EX: Vector = [1.0, 0.0, 0.0];
@@ -94,7 +94,7 @@ impl Joint {
         places.about(self.bodies, axis, self.bodies[0]).with_value(nearest(angle, near))
     }
 
-    fn universal(&self, places: &Places, near: [f64; 2]) -> Vec<Row> {
+    fn universal(&self, places: &Places, near: [f64; 3]) -> Vec<Row> {
         let [a, b] = self.axes;
         let (a1, b1) = (places.direction(self.bodies[0], a), places.direction(self.bodies[0], b));
         let (a2, b2) = (places.direction(self.bodies[1], a), places.direction(self.bodies[1], b));
@@ -121,8 +121,8 @@ impl Joint {
 
     /// The three rows of the relative angular velocity in global axes, with the rotation vector of the second body in axes of the
     /// first as values.
-    fn ball(&self, places: &Places, turns: [[f64; 4]; 2]) -> Vec<Row> {
-        let relative = logarithm(compose(conjugate(turns[0]), turns[1]));
+    fn ball(&self, places: &Places, turns: [[f64; 4]; 2], near: [f64; 3]) -> Vec<Row> {
+        let relative = nearest_vector(logarithm(compose(conjugate(turns[0]), turns[1])), near);
         let axes = [EX, EY, EZ].into_iter().zip(relative);
         axes.map(|(e, value)| places.about(self.bodies, e, None).with_value(value)).collect()
     }
@@ -133,7 +133,7 @@ impl Joint {
         places: &Places,
         planar: bool,
         turns: [[f64; 4]; 2],
-        near: [f64; 2],
+        near: [f64; 3],
     ) -> Vec<Row> {
         let [a, d] = self.axes;
         let plane_turn = || {
@@ -147,7 +147,7 @@ impl Joint {
             Kind::Prismatic => vec![self.slide(places, a)],
             Kind::Cylindrical => vec![self.slide(places, a), self.turn(places, a, near[0])],
             Kind::Universal => self.universal(places, near),
-            Kind::Spherical => self.ball(places, turns),
+            Kind::Spherical => self.ball(places, turns, near),
             Kind::Planar => vec![
                 self.slide(places, d),
                 self.slide(places, cross(a, d)),
@@ -158,18 +158,20 @@ impl Joint {
             }
             Kind::Free => {
                 let slides = [EX, EY, EZ].map(|e| self.slide(places, e)).to_vec();
-                [slides, self.ball(places, turns)].concat()
+                [slides, self.ball(places, turns, near)].concat()
             }
         }
     }
 
-    /// Which of the coordinates are single turns; at most two, in the order of `near`.
+    /// Which of the coordinates are turns, in the order of `near`.
     pub(crate) fn turning(&self, planar: bool) -> &'static [usize] {
         match self.kind {
             Kind::Revolute if !planar => &[0],
             Kind::Cylindrical => &[1],
             Kind::Universal => &[0, 1],
             Kind::Planar => &[2],
+            Kind::Spherical => &[0, 1, 2],
+            Kind::Free if !planar => &[3, 4, 5],
             _ => &[],
         }
     }
@@ -221,4 +223,16 @@ fn angle_about(axis: Vector, x: Vector, y: Vector) -> f64 {
 pub(crate) fn nearest(angle: f64, near: f64) -> f64 {
     let turn = 2.0 * core::f64::consts::PI;
     angle + turn * ((near - angle) / turn).round()
+}
+
+/// The same rotation, by whole turns about its axis nearest to another rotation vector.
+fn nearest_vector(v: Vector, near: Vector) -> Vector {
+    let angle = norm(v);
+    if angle < 1e-6 {
+        // close to a whole turn the axis is that of before
+        let whole = nearest(0.0, norm(near));
+        return if whole > 0.0 { add(v, scale(whole, unit(near))) } else { v };
+    }
+    let axis = scale(1.0 / angle, v);
+    scale(nearest(angle, dot(near, axis)), axis)
 }

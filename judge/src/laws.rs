@@ -1,7 +1,6 @@
 //! Forces: gravity, the bodies' own turning, and every effect of the contract.
 
 use crate::curves::course;
-use crate::joints::nearest;
 use crate::rows::{Frame, Places, Row};
 use crate::scene::{Carrier, Effect, Line, Scene};
 use crate::vector::{
@@ -54,7 +53,7 @@ pub(crate) struct Now<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) places: &'a Places,
     pub(crate) frames: &'a [Frame],
-    pub(crate) turns: &'a [[f64; 2]],
+    pub(crate) turns: &'a [[f64; 3]],
     pub(crate) t: f64,
 }
 
@@ -225,13 +224,14 @@ impl Now<'_> {
     }
 
     /// Turns of all joints, nearest to those of before.
-    pub(crate) fn measured_turns(&self) -> Vec<[f64; 2]> {
+    pub(crate) fn measured_turns(&self) -> Vec<[f64; 3]> {
         let of = |j: usize| {
             let mut turns = self.turns[j];
             let turning = self.scene.joints[j].turning(self.scene.planar);
             if !turning.is_empty() {
                 let rows = self.coordinates(j);
-                turning.iter().zip(&mut turns).for_each(|(&i, t)| *t = nearest(rows[i].value, *t));
+                // the coordinates are nearest to those of before already
+                turning.iter().zip(&mut turns).for_each(|(&i, t)| *t = rows[i].value);
             }
             turns
         };

@@ -19,8 +19,8 @@ pub struct State {
     pub t: f64,
     /// Bodies.
     pub frames: Vec<Frame>,
-    /// Single turns of each joint, with all turns.
-    pub turns: Vec<[f64; 2]>,
+    /// Single turns of each joint, or its rotation vector, with all turns.
+    pub turns: Vec<[f64; 3]>,
     /// Work of all that is not stored [J].
     pub work: f64,
 }
@@ -34,6 +34,8 @@ pub struct Moved {
     pub reactions: Vec<[f64; 6]>,
     /// Is the reaction of each joint unique?
     pub unique: Vec<bool>,
+    /// Does a body turn freely without inertia, as a thin rod about itself?
+    pub idle: Vec<bool>,
     /// Kinetic and stored energy [J].
     pub energy: [f64; 2],
     /// Power of all that is not stored [W].
@@ -106,7 +108,7 @@ impl Mechanism {
             w: ZERO,
         };
         let frames = self.scene.bodies.iter().map(still).collect();
-        State { t: 0.0, frames, turns: vec![[0.0; 2]; self.scene.joints.len()], work: 0.0 }
+        State { t: 0.0, frames, turns: vec![[0.0; 3]; self.scene.joints.len()], work: 0.0 }
     }
 
     pub(crate) fn columns(&self) -> &[[Option<usize>; 6]] {
@@ -253,9 +255,13 @@ impl Mechanism {
             power += lambda * row.given[0];
         }
         let mut unique = vec![true; reactions.len()];
+        let mut idle = vec![false; state.frames.len()];
         for vector in saddle.factors.kernel() {
             for (x, &owner) in vector[self.n..].iter().zip(&owners) {
                 unique[owner] &= x.abs() < 1e-6;
+            }
+            for (of, idle) in self.columns.iter().zip(&mut idle) {
+                *idle |= of.iter().flatten().any(|&c| vector[c].abs() > 1e-6);
             }
         }
         let least_pivot = saddle.factors.least_pivot;
@@ -263,6 +269,7 @@ impl Mechanism {
             accelerations,
             reactions,
             unique,
+            idle,
             energy: [kinetic, potential],
             power,
             least_pivot,

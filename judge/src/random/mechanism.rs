@@ -129,7 +129,9 @@ impl Draft {
         let rod = thin.then(|| [at, add(at, self.away(dice, 0.5, 1.0))]);
         let center = rod.map_or(center, |[a, b]| scale(0.5, add(a, b)));
         let inertia = self.inertia(dice, mass);
-        let mark = add(center, self.away(dice, 0.1, 0.3));
+        // of a rod a point on its line, since its turn about itself is no one's
+        let off = self.away(dice, 0.1, 0.3);
+        let mark = add(center, rod.map_or(off, |[a, b]| scale(0.2, sub(b, a))));
         self.bodies.push(Part { mass, center, inertia, rod, mark, parent });
         let link = self.link(dice, kind, [parent, Some(i)], at);
         self.links.push(link);
@@ -305,7 +307,9 @@ impl Draft {
                 draw(1.4, 0.4 * self.length),
                 draw(1.5 / self.time, 0.7 * self.length / self.time),
             );
-            if value.is_empty() {
+            let spins = matches!(kind, Kind::Spherical | Kind::Free) && !planar;
+            let rods = self.links[i].bodies.iter().flatten().any(|&b| self.bodies[b].rod.is_some());
+            if value.is_empty() || (spins && rods) {
                 continue;
             }
             let share = if looped { 0.25 } else { 0.6 };

@@ -36,6 +36,10 @@ pub fn scene(seed: u64) -> Drawn {
     draft.guide(&mut dice);
     draft.start(&mut dice);
     effects::draw(&mut dice, &mut draft);
+    // what turns a thin rod about itself meets no inertia
+    while !draft.blocks.is_empty() && loads_unmet(&draft) {
+        draft.blocks.pop();
+    }
     #[allow(clippy::cast_possible_truncation, reason = "at most 100")]
     let steps = 20 + dice.below(81) as u32;
     let share = dice.logarithmic(0.02, 0.1);
@@ -51,6 +55,12 @@ pub(crate) fn starts(draft: &Draft) -> bool {
 
 pub(crate) fn mechanism_of(draft: &Draft) -> Option<Mechanism> {
     read(&draft.text()).ok().map(Mechanism::new)
+}
+
+/// Is there a force that meets no inertia?
+fn loads_unmet(draft: &Draft) -> bool {
+    let Some(mechanism) = mechanism_of(draft) else { return true };
+    mechanism.start().map_or(true, |start| mechanism.evaluate(&start).unmet > 1e-9)
 }
 
 /// The shortest of the times in which a body turns a radian, or its motion changes by the mechanism's own size, at the start.

@@ -54,13 +54,25 @@ pub(crate) struct Judged {
 pub(crate) fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
     let mechanism = Mechanism::new(judge::read(text).map_err(|e| e.0)?);
     let mut state = mechanism.start().map_err(|e| format!("judge: {e:?}"))?;
-    let unique = mechanism.evaluate(&state).unique;
+    let begun = mechanism.evaluate(&state);
+    if begun.unmet > 1e-9 {
+        return Err("judge: a force meets no inertia".to_owned());
+    }
     let outputs = mechanism.scene.outputs.clone();
     let show = |state: &State| -> Vec<Vec<f64>> {
         outputs.iter().map(|o| mechanism.show(state, o.quantity)).collect()
     };
     let first = show(&state);
-    let is_unique = |q: Quantity| !matches!(q, Quantity::Reaction(j) if !unique[j]);
+    // the turn of a thin rod about itself is no one's
+    let turns_idle = |j: usize| {
+        let joint = &mechanism.scene.joints[j];
+        joint.bodies.iter().flatten().any(|&b| begun.idle[b])
+    };
+    let is_unique = |q: Quantity| match q {
+        Quantity::Reaction(j) => begun.unique[j],
+        Quantity::Value(j) | Quantity::Rate(j) => !turns_idle(j),
+        _ => true,
+    };
     let channels =
         first.iter().zip(&outputs).map(|(c, o)| (c.len(), is_unique(o.quantity))).collect();
     let mut rows = vec![first.concat()];
