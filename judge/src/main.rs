@@ -34,15 +34,40 @@ fn main() -> ExitCode {
         let _ = write!(out, "{}", look(seed, only.as_deref().unwrap_or("index-3")));
         return ExitCode::SUCCESS;
     }
+    // a panic of a run is a verdict
+    std::panic::set_hook(Box::new(|_| {}));
+    if arguments.iter().any(|a| a == "--cases") {
+        let mut tally = trial::oracle::Tally::default();
+        let stride: usize = value("--cases").and_then(|s| s.parse().ok()).unwrap_or(1);
+        let cases: Vec<_> = random::cases().into_iter().step_by(stride).collect();
+        for case in &cases {
+            trial::oracle::case(case, &mut tally);
+        }
+        for line in &tally.wrong {
+            let _ = writeln!(out, "{line}");
+        }
+        let n = tally.agree + tally.wrong.len() + tally.left_out.values().sum::<usize>();
+        let _ = writeln!(
+            out,
+            "{} cases, {n} combinations: {} agree, {} are wrong",
+            cases.len(),
+            tally.agree,
+            tally.wrong.len()
+        );
+        for (reason, n) in &tally.left_out {
+            let _ = writeln!(out, "{n} left out: {reason}");
+        }
+        return ExitCode::from(u8::from(!tally.wrong.is_empty()));
+    }
     let seeds = value("--seeds").unwrap_or_else(|| "1..100".to_owned());
     let Some((first, last)) =
         seeds.split_once("..").and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)))
     else {
-        eprintln!("usage: judge --seeds A..B [--formulation F] [--scene SEED] [--look SEED]");
+        eprintln!(
+            "usage: judge --seeds A..B [--formulation F] [--scene SEED] [--look SEED] [--cases [STRIDE]]"
+        );
         return ExitCode::FAILURE;
     };
-    // a panic of a run is a verdict
-    std::panic::set_hook(Box::new(|_| {}));
     let mut tally = Tally::default();
     for seed in first..=last {
         let lines = one(seed, only.as_deref(), &mut tally);

@@ -7,7 +7,7 @@ use crate::scene::{Carrier, Kind};
 use crate::vector::{norm, scale, sub};
 
 /// The kinds of effect.
-const KINDS: [&str; 18] = [
+pub(crate) const KINDS: [&str; 18] = [
     "spring-damper",
     "polynomial-spring",
     "polynomial-damper",
@@ -35,7 +35,7 @@ pub(crate) fn draw(dice: &mut Dice, draft: &mut Draft) {
     for i in 0..n {
         let kind = KINDS[dice.below(KINDS.len())];
         wheels += usize::from(kind.starts_with("tire"));
-        let made = Effects { dice, draft }.one(kind);
+        let made = Effects { dice, draft, focus: None }.one(kind);
         if let Some(text) = made {
             draft.blocks.push(format!("[[effect]]\nname = \"e{i}\"\n{text}"));
         }
@@ -67,20 +67,30 @@ fn road(dice: &mut Dice, draft: &Draft) -> String {
     format!("[road]\nspeed = {speed:?}\nfeatures = [{{ {feature} }}]")
 }
 
-struct Effects<'a> {
-    dice: &'a mut Dice,
-    draft: &'a mut Draft,
+/// Draws effects for a draft; on a body and a joint, if these are named.
+pub(crate) struct Effects<'a> {
+    pub(crate) dice: &'a mut Dice,
+    pub(crate) draft: &'a mut Draft,
+    pub(crate) focus: Option<(usize, usize)>,
 }
 
 impl Effects<'_> {
     fn body(&mut self) -> usize {
-        self.dice.below(self.draft.bodies.len())
+        match self.focus {
+            Some((body, _)) => body,
+            None => self.dice.below(self.draft.bodies.len()),
+        }
+    }
+
+    /// Another body, or the ground.
+    fn other(&mut self, a: usize) -> Carrier {
+        Some(self.dice.below(self.draft.bodies.len())).filter(|b| *b != a)
     }
 
     /// Two bodies, one of them perhaps the ground, with a point each.
     fn line(&mut self) -> (String, f64) {
         let a = self.body();
-        let b: Carrier = Some(self.body()).filter(|b| *b != a);
+        let b = self.other(a);
         let mut ends =
             [(Some(a), self.draft.point(self.dice, Some(a))), (b, self.draft.point(self.dice, b))];
         if self.dice.chance(0.5) {
@@ -114,6 +124,9 @@ impl Effects<'_> {
                     && kinds.contains(&Kind::Cylindrical))
         };
         let list: Vec<usize> = (0..self.draft.links.len()).filter(fits).collect();
+        if let Some((_, joint)) = self.focus {
+            return list.contains(&joint).then_some(joint);
+        }
         if list.is_empty() { None } else { Some(list[self.dice.below(list.len())]) }
     }
 
@@ -132,7 +145,7 @@ impl Effects<'_> {
         format!("table = [{}]", rows.join(", "))
     }
 
-    fn one(&mut self, kind: &str) -> Option<String> {
+    pub(crate) fn one(&mut self, kind: &str) -> Option<String> {
         match kind {
             "spring-damper" => Some(self.spring_damper()),
             "polynomial-spring" => Some(self.polynomial_spring()),
@@ -256,7 +269,7 @@ impl Effects<'_> {
 
     fn bushing(&mut self) -> String {
         let a = self.body();
-        let mut bodies = [Some(a), Some(self.body()).filter(|b| *b != a)];
+        let mut bodies = [Some(a), self.other(a)];
         if self.dice.chance(0.5) {
             bodies.reverse();
         }

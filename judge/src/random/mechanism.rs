@@ -54,14 +54,14 @@ pub(crate) struct Link {
     pub(crate) looped: bool,
 }
 
-const PLANE: [(Kind, f64); 5] = [
+pub(crate) const PLANE: [(Kind, f64); 5] = [
     (Kind::Revolute, 0.46),
     (Kind::Prismatic, 0.22),
     (Kind::Weld, 0.08),
     (Kind::Free, 0.12),
     (Kind::Distance, 0.12),
 ];
-const SPACE: [(Kind, f64); 9] = [
+pub(crate) const SPACE: [(Kind, f64); 9] = [
     (Kind::Revolute, 0.22),
     (Kind::Prismatic, 0.12),
     (Kind::Cylindrical, 0.12),
@@ -119,13 +119,17 @@ impl Draft {
 
     fn add_body(&mut self, dice: &mut Dice, parent: Carrier) {
         let kind = dice.weighted(if self.planar { &PLANE[..] } else { &SPACE[..] });
+        let thin =
+            dice.chance(0.15) && matches!(kind, Kind::Revolute | Kind::Spherical | Kind::Free);
+        self.hang(dice, parent, kind, thin);
+    }
+
+    /// Adds a body on a joint.
+    pub(crate) fn hang(&mut self, dice: &mut Dice, parent: Carrier, kind: Kind, thin: bool) {
         let at = self.point(dice, parent);
         let center = add(at, self.away(dice, 0.2, 0.6));
         let mass = self.mass * dice.logarithmic(0.1, 3.0);
         let i = self.bodies.len();
-        // a rod on a weld or on its own axis would leave a turn without inertia in the tree
-        let thin =
-            dice.chance(0.15) && matches!(kind, Kind::Revolute | Kind::Spherical | Kind::Free);
         let rod = thin.then(|| [at, add(at, self.away(dice, 0.5, 1.0))]);
         let center = rod.map_or(center, |[a, b]| scale(0.5, add(a, b)));
         let inertia = self.inertia(dice, mass);
@@ -273,6 +277,26 @@ impl Draft {
         }
     }
 
+    /// As many numbers as the kind has coordinates: turns, and slides in lengths of the mechanism.
+    pub(crate) fn numbers(&self, dice: &mut Dice, kind: Kind, turn: f64, slide: f64) -> Vec<f64> {
+        let (slides, turns) = match kind {
+            Kind::Revolute => (0, 1),
+            Kind::Prismatic => (1, 0),
+            Kind::Cylindrical => (1, 1),
+            Kind::Universal => (0, 2),
+            Kind::Spherical => (0, 3),
+            Kind::Planar => (2, 1),
+            Kind::Free if self.planar => (2, 1),
+            Kind::Free => (3, 3),
+            Kind::Weld | Kind::Distance => (0, 0),
+        };
+        let slide = slide * self.length;
+        let mut some = |n: usize, most: f64| -> Vec<f64> {
+            (0..n).map(|_| dice.between(-most, most)).collect()
+        };
+        [some(slides, slide), some(turns, turn)].concat()
+    }
+
     /// Values and rates of some joints, and now and then velocities of a body; what cannot be met is left out.
     pub(crate) fn start(&mut self, dice: &mut Dice) {
         for i in 0..self.links.len() {
@@ -281,31 +305,9 @@ impl Draft {
                 continue;
             }
             let size = if looped { 0.2 } else { 1.0 };
-            let mut draw = |turn: f64, slide: f64| -> Vec<f64> {
-                let (turn, slide) = (turn * size, slide * size);
-                let mut t =
-                    |n: usize| -> Vec<f64> { (0..n).map(|_| dice.between(-turn, turn)).collect() };
-                let turns = match kind {
-                    Kind::Revolute | Kind::Cylindrical | Kind::Planar => t(1),
-                    Kind::Universal => t(2),
-                    Kind::Spherical => t(3),
-                    Kind::Free => t(if planar { 1 } else { 3 }),
-                    Kind::Prismatic | Kind::Weld | Kind::Distance => t(0),
-                };
-                let mut s = |n: usize| -> Vec<f64> {
-                    (0..n).map(|_| dice.between(-slide, slide)).collect()
-                };
-                let slides = match kind {
-                    Kind::Prismatic | Kind::Cylindrical => s(1),
-                    Kind::Planar => s(2),
-                    Kind::Free => s(if planar { 2 } else { 3 }),
-                    _ => s(0),
-                };
-                [slides, turns].concat()
-            };
             let (value, rate) = (
-                draw(1.4, 0.4 * self.length),
-                draw(1.5 / self.time, 0.7 * self.length / self.time),
+                self.numbers(dice, kind, size * 1.4, size * 0.4),
+                self.numbers(dice, kind, size * 1.5 / self.time, size * 0.7 / self.time),
             );
             let spins = matches!(kind, Kind::Spherical | Kind::Free) && !planar;
             let rods = self.links[i].bodies.iter().flatten().any(|&b| self.bodies[b].rod.is_some());

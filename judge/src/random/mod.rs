@@ -4,6 +4,7 @@
 //! A mechanism of the length L is made with the time T = sqrt(L/g) as its own: stiffnesses, rates and forces are drawn in these units.
 //! No seed is drawn again: where a loop would lock the mechanism, or a start cannot be met, that part is left out.
 
+mod cases;
 mod dice;
 mod effects;
 mod mechanism;
@@ -12,6 +13,8 @@ mod write;
 use crate::{Mechanism, read};
 use dice::Dice;
 use mechanism::Draft;
+
+pub use cases::{Case, cases};
 
 /// Standard gravity, which makes times of lengths [m/s²].
 pub(crate) const GRAVITY: f64 = 9.81;

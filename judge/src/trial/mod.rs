@@ -1,5 +1,7 @@
 //! A scene through the crates, beside the judge. Used by the program and by tests; the library knows nothing of it.
 
+pub(crate) mod oracle;
+
 use judge::scene::Quantity;
 use judge::{Mechanism, State};
 use mbs::core::scene::Scene;
@@ -108,6 +110,8 @@ pub(crate) fn rows(
         step: Some(step),
         // a step that the energy steers is halved by a tolerance of an eighth
         energy_tolerance: (formulation == MULTI && every > 1).then_some([1.25e-6, 1.25e-8]),
+        // these hold their error to a tolerance, whatever the step
+        error_tolerance: ["gbs", "radau5"].contains(&integrator).then_some(1e-11),
         ..Overrides::default()
     };
     let stops = |code: &str, time: f64, message: String| Verdict::Stops {

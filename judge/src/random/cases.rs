@@ -1,0 +1,176 @@
+//! Every kind of joint x both orders of its bodies x ground or a moving first body x every effect that can act on it x plane and space;
+//! likewise guides. All coordinates are given at the start, in numbers by chance.
+
+use super::GRAVITY;
+use super::dice::Dice;
+use super::effects::{Effects, KINDS};
+use super::mechanism::{Draft, PLANE, SPACE};
+use super::mechanism_of;
+use crate::scene::{Effect, Kind, Quantity};
+use crate::vector::{cross, dot, norm, scale, sub, unit};
+
+/// A scene of the enumeration.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// What is enumerated, in words.
+    pub name: String,
+    /// The scene file.
+    pub text: String,
+}
+
+/// Ten steps of 2 ms, which resolve all of them [s].
+const DURATION: f64 = 0.02;
+
+/// What acts beside the effects: nothing, and three laws of guides.
+const OTHERS: [&str; 4] = ["nothing", "sine", "ramp", "table"];
+
+/// All cases.
+#[must_use]
+pub fn cases() -> Vec<Case> {
+    let mut list = Vec::new();
+    let mut seed = 0;
+    for planar in [true, false] {
+        let kinds: Vec<Kind> =
+            if planar { PLANE.map(|k| k.0).to_vec() } else { SPACE.map(|k| k.0).to_vec() };
+        let hinged = [false, true];
+        for (kind, hinged) in kinds.into_iter().flat_map(|k| hinged.map(|h| (k, h))) {
+            if hinged && (planar || kind != Kind::Distance) {
+                continue;
+            }
+            for (reversed, moving) in [(false, false), (false, true), (true, false), (true, true)] {
+                for what in KINDS.into_iter().chain(OTHERS) {
+                    seed += 1;
+                    let name = format!(
+                        "{} {}{kind:?}, {}, {}, {what}",
+                        if planar { "plane:" } else { "space:" },
+                        if hinged { "hinged " } else { "" },
+                        if reversed { "named in reverse" } else { "in order" },
+                        if moving { "on a moving body" } else { "on the ground" },
+                    );
+                    if let Some(text) = case(seed, planar, (kind, hinged), (reversed, moving), what)
+                    {
+                        list.push(Case { name, text });
+                    }
+                }
+            }
+        }
+    }
+    list
+}
+
+fn case(
+    seed: u64,
+    planar: bool,
+    (kind, hinged): (Kind, bool),
+    (reversed, moving): (bool, bool),
+    what: &str,
+) -> Option<String> {
+    let mut dice = Dice::new(seed);
+    let time = (1.0 / GRAVITY).sqrt();
+    let gravity = Some(scale(GRAVITY, dice.direction(planar)));
+    let mut draft = Draft {
+        planar,
+        length: 1.0,
+        time,
+        mass: 10.0,
+        duration: DURATION,
+        gravity,
+        ..Draft::default()
+    };
+    if moving {
+        draft.hang(&mut dice, None, if planar { Kind::Revolute } else { Kind::Universal }, false);
+    }
+    let parent = moving.then_some(0);
+    draft.hang(&mut dice, parent, kind, false);
+    let (body, joint) = (draft.bodies.len() - 1, draft.links.len() - 1);
+    let link = &mut draft.links[joint];
+    let is_reversed = link.bodies[0] == Some(body);
+    if is_reversed != reversed {
+        link.bodies.reverse();
+        link.points.reverse();
+    }
+    link.hinged = hinged;
+    if hinged {
+        let d = unit(sub(link.points[1], link.points[0]));
+        let axis = unit(link.axes[0]);
+        link.axes[0] = unit(cross(d, if dot(d, axis).abs() < 0.9 { axis } else { link.axes[1] }));
+    }
+    for i in 0..draft.links.len() {
+        let kind = draft.links[i].kind;
+        let (value, rate) =
+            (draft.numbers(&mut dice, kind, 1.0, 0.3), draft.numbers(&mut dice, kind, 2.0, 1.0));
+        // a distance has no coordinates: its body begins where it is drawn, and so does what it hangs on
+        let given = !value.is_empty() && draft.links[joint].kind != Kind::Distance;
+        draft.links[i].value = given.then_some(value);
+        draft.links[i].rate = given.then_some(rate);
+    }
+    match what {
+        "nothing" => {}
+        "sine" | "ramp" | "table" => guide(&mut draft, joint, what)?,
+        _ => {
+            let mut effects =
+                Effects { dice: &mut dice, draft: &mut draft, focus: Some((body, joint)) };
+            let text = effects.one(what)?;
+            draft.blocks.push(format!("[[effect]]\n{text}"));
+        }
+    }
+    let contacts = ["tire", "tire-side", "bumper", "limit"];
+    if contacts.contains(&what) {
+        touch(&mut draft);
+    }
+    Some(draft.text())
+}
+
+fn guide(draft: &mut Draft, joint: usize, what: &str) -> Option<()> {
+    let link = &mut draft.links[joint];
+    if !matches!(link.kind, Kind::Revolute | Kind::Prismatic) {
+        return None;
+    }
+    link.guide = Some(
+        match what {
+            "sine" => "sine = { amplitude = 0.4, frequency = 0.3, phase = 0.7 }",
+            "ramp" => "ramp = { rate = -0.6 }",
+            _ => "table = [[-1.0, 0.2], [0.5, -0.3], [1.0, 0.1], [4.0, 0.5]]",
+        }
+        .to_owned(),
+    );
+    (link.value, link.rate) = (None, None);
+    Some(())
+}
+
+/// Makes what pushes push at the start: the road is raised to the wheel, the clearance and the limits are taken from the state.
+fn touch(draft: &mut Draft) {
+    let Some(mechanism) = mechanism_of(draft) else { return };
+    let Ok(start) = mechanism.start() else { return };
+    let Some(block) = draft.blocks.pop() else { return };
+    let swap = |key: &str, x: f64| {
+        let line =
+            |l: &str| if l.starts_with(key) { format!("{key} = {x:?}") } else { l.to_owned() };
+        block.lines().map(line).collect::<Vec<_>>().join("\n")
+    };
+    let text = match &mechanism.scene.effects[0] {
+        Effect::Tire(tire) => {
+            let center = mechanism.show(&start, Quantity::Position(tire.body, tire.center));
+            let height = center[if draft.planar { 1 } else { 2 }] - 0.85 * tire.numbers[0];
+            format!("{block}\n[road]\nkind = \"flat\"\nheight = {height:?}")
+        }
+        Effect::Bumper(line, _) => {
+            let ends = [0, 1].map(|i| match line.bodies[i] {
+                Some(b) => mechanism.show(&start, Quantity::Position(b, line.points[i])),
+                None => line.points[i].to_vec(),
+            });
+            let now: f64 =
+                ends[0].iter().zip(&ends[1]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+            let before = norm(sub(line.points[1], line.points[0]));
+            swap("clearance", before - now - 0.1)
+        }
+        Effect::Limit(joint, _) => {
+            let now = mechanism.show(&start, Quantity::Value(*joint))[0];
+            swap("lower", now + 0.05)
+                .replace("upper = ", "upper = 1")
+                .replace("upper = 1-", "upper = 1")
+        }
+        _ => block.clone(),
+    };
+    draft.blocks.push(text);
+}

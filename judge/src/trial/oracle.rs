@@ -1,0 +1,69 @@
+//! The enumerated oracle: every case of joints and effects, by every formulation with every integrator.
+
+use super::{Judged, Method, Verdict, compare, document, judge, rows, trial};
+use judge::random::Case;
+use mbs::core::scene::Scene;
+use std::collections::BTreeMap;
+
+/// A step that resolves all cases [s], and steps.
+const STEP: f64 = 2e-3;
+const STEPS: u32 = 10;
+
+/// What came of the enumeration.
+#[derive(Default)]
+pub(crate) struct Tally {
+    /// Combinations that ran and agree.
+    pub(crate) agree: usize,
+    /// Combinations left out, by the reason that the command gives.
+    pub(crate) left_out: BTreeMap<String, usize>,
+    /// Combinations that are wrong.
+    pub(crate) wrong: Vec<String>,
+}
+
+/// Formulations with the integrators that they can have; the others are refused as settings, whatever the scene.
+pub(crate) fn methods() -> Vec<[&'static str; 2]> {
+    let formulations = mbs::FORMULATIONS.iter().filter(|f| **f != "auto");
+    formulations.flat_map(|f| mbs::INTEGRATORS.map(|i| [*f, i])).collect()
+}
+
+/// Tries one case in every method.
+pub(crate) fn case(case: &Case, tally: &mut Tally) {
+    let judged = match judge(&case.text, STEP, STEPS) {
+        Ok(judged) => judged,
+        Err(why) => return tally.wrong.push(format!("{}: {why}", case.name)),
+    };
+    let scene = match document(&case.text) {
+        Ok(scene) => scene,
+        Err(why) => return tally.wrong.push(format!("{}: {why}", case.name)),
+    };
+    for method in methods() {
+        match briefly(&judged, &scene, method, STEP, STEPS) {
+            Verdict::Agrees => tally.agree += 1,
+            Verdict::Stops { code, message, .. } if code == "refused" => {
+                *tally.left_out.entry(reason(&message)).or_default() += 1;
+            }
+            other => tally.wrong.push(format!("{}: {}: {other:?}", case.name, method.join(" "))),
+        }
+    }
+}
+
+/// By steps of h alone where these agree with the judge to rounding.
+fn briefly(judged: &Judged, scene: &Scene<f64>, method: Method, step: f64, steps: u32) -> Verdict {
+    if method[1] != "trapezoidal" {
+        match rows(scene, method, step, steps, 1) {
+            Err(verdict) => return verdict,
+            Ok(rows) if rows.len() == judged.rows.len() => {
+                if compare(judged, &judged.rows, &rows, &rows) == Verdict::Agrees {
+                    return Verdict::Agrees;
+                }
+            }
+            Ok(_) => {}
+        }
+    }
+    trial(judged, scene, method, step, steps)
+}
+
+/// The kind of a refusal: its message without what is quoted.
+fn reason(message: &str) -> String {
+    message.split('`').step_by(2).collect::<Vec<_>>().join("..")
+}
