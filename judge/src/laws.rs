@@ -115,6 +115,7 @@ impl Now<'_> {
     }
 
     /// Adds an effect; returns what it stores and the rate of that.
+    #[allow(clippy::too_many_lines, reason = "one arm for each kind")]
     fn effect(&self, effect: &Effect, loads: &mut Loads) -> (f64, f64) {
         let p = self.places;
         match effect {

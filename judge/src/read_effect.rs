@@ -6,6 +6,7 @@ use crate::scene::{Calspan, Effect, Line, Tire};
 use crate::vector::unit;
 
 /// An effect that is enabled.
+#[allow(clippy::too_many_lines, reason = "one arm for each kind")]
 pub(crate) fn effect(mut table: Table, names: &Names) -> Read<Option<Effect>> {
     table.take("name");
     let enabled = !matches!(table.take("enabled"), Some(Node::Flag(false)));

@@ -145,6 +145,7 @@ impl Effects<'_> {
         format!("table = [{}]", rows.join(", "))
     }
 
+    #[allow(clippy::too_many_lines, reason = "one arm for each kind")]
     pub(crate) fn one(&mut self, kind: &str) -> Option<String> {
         match kind {
             "spring-damper" => Some(self.spring_damper()),
