@@ -11,6 +11,7 @@
 //! from the last step; alpha is in proportion to the mass and does not grow with 1/dt^2. Iterated to convergence with the
 //! projections after the step, as printed, the method fails at the first singular position.
 
+use crate::inputs::take_inputs;
 use crate::options::{Options, Penalty};
 use crate::projection::{Left, Level};
 use crate::workspace::{Mass, Workspace};
@@ -31,6 +32,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     s: &mut State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
+    take_inputs(model, s, w)?;
     let rule = options.integrator.rule(dt);
     w.counts = Counts::default();
     w.boost = T::ONE;
@@ -145,6 +147,9 @@ pub fn settle<T: Real, M: Model<T>, S: SpdSolver<T>>(
     s.a_aux[..n].copy_from_slice(&w.a[..n]);
     for to in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {
         to.copy_from_slice(&w.lambda);
+    }
+    if let Some(inputs) = model.inputs() {
+        inputs.keep(&mut s.inputs);
     }
     if model.has_forces() || model.has_guides() {
         s.power = model.power(&s.q, &s.v, &s.reaction, &w.terms);

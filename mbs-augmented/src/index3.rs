@@ -13,6 +13,7 @@
 //! with its own rows J' beside s phi and lambda <- lambda + s (phi + J' d); where effects act a share of the first correction may be
 //! left. The printed forms are options.
 
+use crate::inputs::take_inputs;
 use crate::options::{Multipliers, Options, Penalty, Projection};
 use crate::pace::Pace;
 use crate::projection::Level;
@@ -40,6 +41,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     s: &mut State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
+    take_inputs(model, s, w)?;
     let rule = options.integrator.rule(dt);
     w.counts = Counts::default();
     w.boost = w.kept_boost();

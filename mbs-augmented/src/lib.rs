@@ -7,6 +7,7 @@ mod history;
 pub mod index1;
 pub mod index3;
 mod index_change;
+mod inputs;
 mod multi_index;
 mod nearby;
 mod options;
@@ -16,6 +17,7 @@ mod workspace;
 
 pub use history::{History, IndexHistory};
 pub use index_change::{Index, IndexChange};
+pub use inputs::take_inputs;
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use multi_index::MultiIndex;
 pub use options::{Multipliers, Options, Penalty, Projection};

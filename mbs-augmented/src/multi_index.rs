@@ -1,6 +1,7 @@
 //! Multi-index steps of variable length [P2].
 
 use crate::index_change::IndexChange;
+use crate::inputs::take_inputs;
 use crate::workspace::Workspace;
 use mbs_core::control::{Accepted, Attempt, Driver, Invariant, LocalError, Rules, Stepper};
 use mbs_core::model::{Model, State};
@@ -73,6 +74,7 @@ impl<T: Real> MultiIndex<T> {
         s: &mut State<T>,
         w: &mut Workspace<T, S>,
     ) -> Result<Accepted<T>, StepError> {
+        take_inputs(model, s, w)?;
         self.saved.copy_from(s);
         w.keep();
         let Self { change, driver, invariant, estimate, saved } = self;

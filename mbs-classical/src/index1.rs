@@ -15,6 +15,7 @@
 //! Differs from the source: the printed system is solved once per evaluation, here the corrections of an implicit rule. The
 //! position projection is mass-orthogonal in correction form, as those of velocities and accelerations.
 
+use crate::inputs::take_inputs;
 use crate::options::{Options, Stabilisation};
 use crate::projection::Level;
 use crate::workspace::{Mass, Workspace};
@@ -45,6 +46,7 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     s: &mut State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
+    take_inputs(model, options, s, w)?;
     let rule = options.integrator.rule(dt);
     w.begin(options.regularisation);
     predict(model, &rule, options, s, w);

@@ -13,6 +13,7 @@
 //! matrix does not depend on the step but for forces; the start value of lambda is extrapolated; projections are in correction
 //! form; the geometric stiffness, which the print neglects, is in W; delta is zero unless regularised.
 
+use crate::inputs::take_inputs;
 use crate::options::Options;
 use crate::workspace::{Mass, Workspace};
 use mbs_core::integrator::Rule;
@@ -38,6 +39,7 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     s: &mut State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
+    take_inputs(model, options, s, w)?;
     let rule = options.integrator.rule(dt);
     w.begin(options.regularisation);
     predict(model, &rule, options, s, w);

@@ -40,6 +40,9 @@ macro_rules! forward_model {
         fn has_guides(&self) -> bool {
             self.$model.has_guides()
         }
+        fn inputs(&self) -> Option<&$crate::inputs::Prescribed<$T>> {
+            self.$model.inputs()
+        }
         fn terms(&self) -> $crate::model::Terms<$T> {
             self.$model.terms()
         }

@@ -3,6 +3,7 @@
 use crate::Real;
 use crate::laws::guide;
 use crate::scene::{Course, GuideLaw, Scene};
+use crate::step::InputError;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -61,18 +62,97 @@ impl<T: Real> Prescribed<T> {
         }
     }
 
-    /// Sets the course of `scene.effects[effect]` from now on; says whether the effect has an input.
-    pub fn set_course(&mut self, effect: usize, value: [T; 3]) -> bool {
+    /// Sets the course of `scene.effects[effect]` from now on.
+    ///
+    /// # Errors
+    /// [`InputError`] where the effect has no input, or a component is not finite.
+    pub fn set_course(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
+        InputError::check(effect, &value)?;
         let mut is_set = false;
         for (_, course) in self.courses.iter_mut().filter(|(e, _)| *e == effect) {
             is_set |= course.set(value);
         }
-        is_set
+        if is_set { Ok(()) } else { Err(InputError::NotAnInput { number: effect }) }
     }
 
-    /// Sets value, rate and acceleration of `scene.guides[guide]` at the end of the next step; says whether the guide is an input.
-    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> bool {
-        self.guides.get_mut(guide).is_some_and(|guide| guide.set(motion))
+    /// Sets value, rate and acceleration of `scene.guides[guide]` at the end of the next step.
+    ///
+    /// # Errors
+    /// [`InputError`] where the guide is no input, or a component is not finite.
+    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
+        InputError::check(guide, &motion)?;
+        let is_set = self.guides.get_mut(guide).is_some_and(|guide| guide.set(motion));
+        if is_set { Ok(()) } else { Err(InputError::NotAnInput { number: guide }) }
+    }
+
+    /// The guides and courses that are set between steps, by number: what a state keeps of them, guides first.
+    fn guide_inputs(&self) -> impl Iterator<Item = (usize, [T; 3])> + '_ {
+        self.guides.iter().enumerate().filter_map(|(i, guide)| match guide.law {
+            GuideLaw::Input(motion) => Some((i, motion)),
+            _ => None,
+        })
+    }
+
+    fn course_inputs(&self) -> impl Iterator<Item = (usize, [T; 3])> + '_ {
+        self.courses.iter().enumerate().filter_map(|(i, (_, course))| match course.course {
+            Course::Input(value) => Some((i, value)),
+            _ => None,
+        })
+    }
+
+    /// What is set between steps, as it is set now: guides, then courses.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<[T; 3]> {
+        self.guide_inputs().chain(self.course_inputs()).map(|(_, value)| value).collect()
+    }
+
+    /// Writes the [`inputs`](Self::inputs) of now: those that a step was made with.
+    pub fn keep(&self, kept: &mut [[T; 3]]) {
+        if kept.is_empty() {
+            return;
+        }
+        let now = self.guide_inputs().chain(self.course_inputs());
+        for (to, (_, value)) in kept.iter_mut().zip(now) {
+            *to = value;
+        }
+    }
+
+    /// The same of courses alone.
+    pub fn keep_courses(&self, kept: &mut [[T; 3]]) {
+        let first = self.guide_inputs().count();
+        for (to, (_, value)) in kept.iter_mut().skip(first).zip(self.course_inputs()) {
+            *to = value;
+        }
+    }
+
+    /// Are courses set to other values than those that were kept?
+    #[must_use]
+    pub fn differs(&self, kept: &[[T; 3]]) -> bool {
+        if kept.is_empty() {
+            return false;
+        }
+        let first = self.guide_inputs().count();
+        self.course_inputs().zip(&kept[first..]).any(|((_, now), before)| now != *before)
+    }
+
+    /// Writes guides and courses at time `t` where a step has ended that was made with the inputs `kept`; courses as they are set
+    /// now, if `is_new`.
+    pub fn write_end(
+        &self,
+        t: T,
+        (kept, is_new): (&[[T; 3]], bool),
+        (guides, courses): (&mut [[T; 3]], &mut [[T; 3]]),
+    ) {
+        self.write(t, guides, courses);
+        let mut kept = kept.iter();
+        for ((i, _), value) in self.guide_inputs().zip(kept.by_ref()) {
+            guides[i] = *value;
+        }
+        if !is_new {
+            for ((i, _), value) in self.course_inputs().zip(kept) {
+                courses[i] = *value;
+            }
+        }
     }
 }
 

@@ -9,6 +9,7 @@
 
 use crate::Real;
 use crate::blocks::{BlockSource, Cliques};
+use crate::inputs::Prescribed;
 pub use crate::laws::scalar::Measure;
 use crate::team::{Alone, Team};
 use alloc::vec::Vec;
@@ -93,6 +94,10 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn terms(&self) -> Terms<T>;
     /// Writes the unknowns' reference values and all constants.
     fn write_reference(&self, q: &mut [T]);
+    /// Guides and courses, where there may be some that are set between steps.
+    fn inputs(&self) -> Option<&Prescribed<T>> {
+        None
+    }
     /// Evaluates the scene's guides and courses at time `t` into `terms`.
     fn set_inputs(&self, t: T, terms: &mut Terms<T>);
     /// phi and J at `q`.
@@ -225,6 +230,8 @@ pub struct State<T> {
     pub phi: Vec<T>,
     /// Measured angles with their turns.
     pub memory: Vec<T>,
+    /// The inputs that accelerations, multipliers and power were made with: see [`Prescribed::inputs`].
+    pub inputs: Vec<[T; 3]>,
     /// Work done on the mechanism by dampers, courses and guides since the start [J].
     pub work: T,
     /// Their power at this instant [W].
@@ -251,6 +258,7 @@ impl<T: Real> State<T> {
             reaction: zeros(m),
             phi: zeros(m),
             memory: zeros(model.n_memory()),
+            inputs: model.inputs().map(Prescribed::inputs).unwrap_or_default(),
             work: T::ZERO,
             power: T::ZERO,
         }
@@ -270,8 +278,8 @@ impl<T: Real> State<T> {
         }
     }
 
-    /// Overwrites the `n` unknowns, the multipliers and everything else but the constants with another state, of a model with the
-    /// same unknowns and rows, without allocating.
+    /// Overwrites the `n` unknowns, the multipliers and everything else but constants and inputs with another state, of a model with
+    /// the same unknowns and rows, without allocating.
     ///
     /// # Panics
     /// If the models have other numbers of them.
@@ -293,5 +301,6 @@ impl<T: Real> State<T> {
     /// Overwrites this state with another of the same model, without allocating.
     pub fn copy_from(&mut self, other: &Self) {
         self.copy_unknowns(other, other.q.len());
+        self.inputs.copy_from_slice(&other.inputs);
     }
 }

@@ -2,6 +2,7 @@
 
 use mbs_core::Real;
 use mbs_core::laws::{Part, guide};
+use mbs_core::step::InputError;
 use mbs_recursive::mechanism::Inputs;
 
 /// A guide as a function of time.
@@ -58,28 +59,76 @@ pub struct Prescriptions<'a, T> {
 pub struct Values<const G: usize, const C: usize, T> {
     pub(crate) guides: [[T; 3]; G],
     pub(crate) courses: [[T; 3]; C],
+    /// The guides that the last step ended with.
+    pub(crate) ended: [[T; 3]; G],
+    /// Which of them are inputs.
+    is_guide: [bool; G],
+    is_course: [bool; C],
+    /// Courses are other than those that the accelerations were made with.
+    pub(crate) has_new: bool,
 }
 
 impl<T: Real, const G: usize, const C: usize> Values<G, C, T> {
     /// The inputs at the start.
     pub(crate) fn new(from: &Prescriptions<'_, T>) -> Self {
-        let mut values = Self { guides: [[T::ZERO; 3]; G], courses: [[T::ZERO; 3]; C] };
-        for (to, law) in values.guides.iter_mut().zip(from.guides) {
+        let mut values = Self {
+            guides: [[T::ZERO; 3]; G],
+            courses: [[T::ZERO; 3]; C],
+            ended: [[T::ZERO; 3]; G],
+            is_guide: [false; G],
+            is_course: [false; C],
+            has_new: false,
+        };
+        for ((to, is_input), law) in
+            values.guides.iter_mut().zip(&mut values.is_guide).zip(from.guides)
+        {
             if let GuideLaw::Input(first) = law {
-                *to = *first;
+                (*to, *is_input) = (*first, true);
             }
         }
-        for (to, law) in values.courses.iter_mut().zip(from.courses) {
+        for ((to, is_input), law) in
+            values.courses.iter_mut().zip(&mut values.is_course).zip(from.courses)
+        {
             if let CourseLaw::Input(first) = law {
-                *to = *first;
+                (*to, *is_input) = (*first, true);
             }
         }
+        values.ended = values.guides;
         values
+    }
+
+    /// The state is at the beginning of the model again, where inputs were those at the start.
+    pub(crate) fn restart(&mut self, from: &Prescriptions<'_, T>) {
+        let first = Self::new(from);
+        (self.ended, self.has_new) = (first.guides, self.courses != first.courses);
+    }
+
+    /// Writes a course that is an input.
+    pub(crate) fn set_course(&mut self, number: usize, value: [T; 3]) -> Result<(), InputError> {
+        InputError::check(number, &value)?;
+        let (Some(to), Some(true)) = (self.courses.get_mut(number), self.is_course.get(number))
+        else {
+            return Err(InputError::NotAnInput { number });
+        };
+        self.has_new |= *to != value;
+        *to = value;
+        Ok(())
+    }
+
+    /// Writes a guide that is an input.
+    pub(crate) fn set_guide(&mut self, number: usize, motion: [T; 3]) -> Result<(), InputError> {
+        InputError::check(number, &motion)?;
+        let (Some(to), Some(true)) = (self.guides.get_mut(number), self.is_guide.get(number))
+        else {
+            return Err(InputError::NotAnInput { number });
+        };
+        *to = motion;
+        Ok(())
     }
 }
 
 /// Laws and written values together: what a step asks for.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Written<'a, T> {
     pub(crate) laws: Prescriptions<'a, T>,
     pub(crate) guides: &'a [[T; 3]],

@@ -20,7 +20,7 @@ pub use check::{Checked, LoadError, Sizes};
 pub use inputs::{CourseLaw, GuideLaw, Prescriptions, Values};
 pub use ladder::Ladder;
 pub use mbs_core::Real;
-pub use mbs_core::step::StepError;
+pub use mbs_core::step::{InputError, StepError};
 pub use mbs_recursive::bounded::{BoundedReport, Bounds, Unwatched, Watch};
 pub use mbs_recursive::{Options, Planar, Spatial};
 pub use model::{Beginning, Model};

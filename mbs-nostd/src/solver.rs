@@ -4,11 +4,11 @@ use crate::check::{Checked, LoadError, Sizes};
 use crate::inputs::{Values, Written};
 use crate::ladder::Ladder;
 use mbs_core::Real;
-use mbs_core::step::StepError;
+use mbs_core::step::{InputError, StepError};
 use mbs_recursive::bounded::{self, BoundedReport, Bounds, Watch};
 use mbs_recursive::link::{Condensed, Placed};
 use mbs_recursive::loops::LoopStore;
-use mbs_recursive::mechanism::{Counts, Store};
+use mbs_recursive::mechanism::{Counts, Inputs, Store};
 use mbs_recursive::space::{Numbers, Space};
 use mbs_recursive::trapezoidal::Start;
 use mbs_recursive::{Options, Outside};
@@ -145,6 +145,7 @@ impl<
         let from = &model.model().beginning;
         self.t = from.t;
         (self.z, self.v, self.a) = (taken(from.z), taken(from.v), taken(from.a));
+        self.inputs.restart(&model.model().prescriptions);
     }
 
     /// Time [s].
@@ -172,22 +173,26 @@ impl<
         self.lambda.get(..self.sizes.rows).unwrap_or(&[])
     }
 
-    /// Writes the vector of a course from now on; says whether there is such a course. It is read if the course is an input.
-    pub fn set_course(&mut self, course: usize, value: [T; 3]) -> bool {
-        let place = self.inputs.courses.get_mut(..self.sizes.courses);
-        place.and_then(|all| all.get_mut(course)).map(|to| *to = value).is_some()
+    /// Writes the vector of a course from now on: the next step is made with it from its beginning.
+    ///
+    /// # Errors
+    /// [`InputError`] where there is no such course, it is no input, or a component is not finite. Nothing is written then.
+    pub fn set_course(&mut self, course: usize, value: [T; 3]) -> Result<(), InputError> {
+        self.inputs.set_course(course, value)
     }
 
-    /// Writes value, rate and acceleration that a guide has at the end of the next step; says whether there is such a guide. They
-    /// are read if the guide is an input.
-    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> bool {
-        let place = self.inputs.guides.get_mut(..self.sizes.guides);
-        place.and_then(|all| all.get_mut(guide)).map(|to| *to = motion).is_some()
+    /// Writes value, rate and acceleration that a guide has at the end of the next step.
+    ///
+    /// # Errors
+    /// [`InputError`] where there is no such guide, it is no input, or a component is not finite. Nothing is written then.
+    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
+        self.inputs.set_guide(guide, motion)
     }
 
     /// Advances by one step of length `dt` [s]: work within the bounds, as long as `watch` says that there is time.
     ///
-    /// The rung of the ladder says which effects act, and takes note of the step.
+    /// The rung of the ladder says which effects act, and takes note of the step. Where a course was written since the last step,
+    /// the accelerations at the beginning are evaluated anew first, whatever `watch` says.
     ///
     /// # Errors
     /// [`StepError`]; the state is then unchanged. [`StepError::Tables`] if the model is not the solver's.
@@ -207,13 +212,27 @@ impl<
             courses: &self.inputs.courses,
         };
         let sizes = &self.sizes;
+        let mut s = self.scratch.store(sizes).map_err(|Outside| StepError::Tables)?;
+        if self.inputs.has_new {
+            // Guides are those that the last step ended with: those of now are of the end of this one.
+            let ended = Written { guides: &self.inputs.ended, ..inputs };
+            ended.evaluate(self.t, s.guides, s.courses);
+            let place = (
+                self.z.get(..sizes.coordinates).unwrap_or(&[]),
+                self.v.get(..sizes.freedoms).unwrap_or(&[]),
+            );
+            bounded::begin(&mechanism, (&self.options, self.bounds), place, &mut s)?;
+            for (to, from) in self.a.iter_mut().zip(&*s.zdd) {
+                *to = *from;
+            }
+            self.inputs.has_new = false;
+        }
         let start = Start {
             t: self.t,
             z: self.z.get(..sizes.coordinates).unwrap_or(&[]),
             v: self.v.get(..sizes.freedoms).unwrap_or(&[]),
             a: self.a.get(..sizes.freedoms).unwrap_or(&[]),
         };
-        let mut s = self.scratch.store(sizes).map_err(|Outside| StepError::Tables)?;
         let work = (dt, &self.options, self.bounds);
         let report = bounded::step(&mechanism, &inputs, work, (start, watch), &mut s)?;
         // The step has checked the lengths.
@@ -228,6 +247,7 @@ impl<
             }
         }
         self.t += dt;
+        self.inputs.ended = self.inputs.guides;
         self.ladder.note(report.is_cut_short, n_rungs);
         Ok(report)
     }

@@ -108,6 +108,32 @@ pub fn step<T: Real, S: Space<T>>(
     }
 }
 
+/// Accelerations and multipliers at (`z`, `v`) with guides and courses as they stand in `s`, in `s.zdd` and `s.lambda`: where inputs were set
+/// since the last step, the next one begins with these.
+///
+/// Cost: one evaluation; no allocation.
+///
+/// # Errors
+/// As for [`step`].
+pub fn begin<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    (options, bounds): (&Options<T>, Bounds),
+    (z, v): (&[T], &[T]),
+    s: &mut Store<'_, T, S>,
+) -> Result<(), StepError> {
+    let place = |s: &mut Store<'_, T, S>| -> Result<(), Fault<T>> {
+        copy(z, s.z)?;
+        copy(v, s.v)?;
+        accelerations(m, options, Level::Fixed(bounds.sweeps), s).map(drop)
+    };
+    place(s).map_err(|fault| failure(m, fault))?;
+    if s.zdd.iter().all(|x| x.is_finite()) {
+        Ok(())
+    } else {
+        Err(StepError::NotFinite { unknown: largest_or_nan(s.zdd) })
+    }
+}
+
 /// The step at given inputs.
 fn advance_by<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,

@@ -120,6 +120,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         accelerations(&m, &options, Level::Fine, &mut s).map_err(fault)?;
         state.power = own(crate::ledger::power(&m, &mut s));
+        self.prescribed.keep(&mut state.inputs);
         state.z.copy_from_slice(s.z);
         state.v.copy_from_slice(s.v);
         state.a.copy_from_slice(s.zdd);

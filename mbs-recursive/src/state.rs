@@ -26,6 +26,9 @@ pub struct TreeState<T> {
     pub a: Vec<T>,
     /// Multipliers of the cut joints' equations [N, N m].
     pub lambda: Vec<T>,
+    /// The inputs that accelerations, multipliers and power were made with: see
+    /// [`Prescribed::inputs`](mbs_core::inputs::Prescribed::inputs).
+    pub inputs: Vec<[T; 3]>,
     /// Work done by dampers, courses and guides since the start [J].
     pub work: T,
     /// Their power at this instant [W].
@@ -44,6 +47,7 @@ impl<T: Real> TreeState<T> {
             v: vec![T::ZERO; model.n_freedoms],
             a: vec![T::ZERO; model.n_freedoms],
             lambda: vec![T::ZERO; model.rows.len()],
+            inputs: model.prescribed.inputs(),
             work: T::ZERO,
             power: T::ZERO,
         }
@@ -56,6 +60,10 @@ impl<T: Real> TreeState<T> {
         self.v.copy_from_slice(&other.v);
         self.a.copy_from_slice(&other.a);
         self.lambda.copy_from_slice(&other.lambda);
+        // A tree with other effects has other inputs; to settle there takes its own.
+        if self.inputs.len() == other.inputs.len() {
+            self.inputs.copy_from_slice(&other.inputs);
+        }
         self.work = other.work;
         self.power = other.power;
     }

@@ -23,6 +23,7 @@ use mbs_core::inputs::Prescribed;
 use mbs_core::model::Owner;
 use mbs_core::natural::joint_axes;
 use mbs_core::scene::{BodyRef, Joint, JointKind, Scene};
+use mbs_core::step::InputError;
 
 /// A part of a joint: one link of the recursion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -344,15 +345,22 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         &self.prescribed
     }
 
-    /// Sets the input of `scene.effects[effect]` between two steps; it holds until it is set again. Returns whether the effect has
-    /// one: an enabled effect whose course is [`Course::Input`](mbs_core::scene::Course::Input).
-    pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> bool {
+    /// Sets the input of `scene.effects[effect]` between two steps; it holds until it is set again, and the next step is
+    /// made with it from its beginning.
+    ///
+    /// # Errors
+    /// [`InputError`] where the effect has none (it has one where it is enabled and its course is
+    /// [`Course::Input`](mbs_core::scene::Course::Input)), or where a component is not finite.
+    pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
         self.prescribed.set_course(effect, value)
     }
 
-    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. Returns whether the guide is
-    /// an input: [`GuideLaw::Input`](mbs_core::scene::GuideLaw::Input).
-    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> bool {
+    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step.
+    ///
+    /// # Errors
+    /// [`InputError`] where the guide is no input ([`GuideLaw::Input`](mbs_core::scene::GuideLaw::Input)), or where a component is
+    /// not finite.
+    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
         self.prescribed.set_guide(guide, motion)
     }
 

@@ -8,6 +8,7 @@ mod chart;
 mod dense;
 pub mod elimination;
 mod history;
+mod inputs;
 mod jacobian;
 mod options;
 mod place;
@@ -15,6 +16,7 @@ mod step;
 mod workspace;
 
 pub use history::History;
+pub use inputs::take_inputs;
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use options::{Coordinates, Options, Rechoice};
 pub use step::step;

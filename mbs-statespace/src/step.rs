@@ -12,6 +12,7 @@
 //! geometric stiffness, the curvature of the surface on which R lives, which makes Newton quadratic but for velocity terms;
 //! without it (an option) it is the printed one. f is evaluated as (M a - Q)_i + J_i^T lambda, the same without R.
 
+use crate::inputs::take_inputs;
 use crate::options::{Coordinates, Options, Rechoice};
 use crate::workspace::Workspace;
 use mbs_core::algebra::norm_inf;
@@ -42,6 +43,7 @@ pub fn step<T: Real, M: Model<T>>(
     s: &mut State<T>,
     w: &mut Workspace<T>,
 ) -> Result<StepReport<T>, StepError> {
+    take_inputs(model, s, w)?;
     let rule = options.integrator.rule(dt);
     w.counts = Counts::default();
     let is_new = w.is_stale || options.rechoice == Rechoice::EveryStep;
@@ -105,7 +107,7 @@ fn predict<T: Real, M: Model<T>>(model: &M, rule: &Rule<T>, s: &State<T>, w: &mu
 /// Chooses independent coordinates at the start of the step. The rank found at the start of the motion must stand.
 ///
 /// Rank is a matter of positions that fulfil the constraints: elsewhere rows that repeat each other need not.
-fn choose<T: Real, M: Model<T>>(
+pub(crate) fn choose<T: Real, M: Model<T>>(
     model: &M,
     s: &State<T>,
     w: &mut Workspace<T>,
@@ -181,7 +183,7 @@ fn residual<T: Real, M: Model<T>>(model: &M, s: &State<T>, w: &mut Workspace<T>)
     if model.has_forces() {
         model.evaluate_forces(&w.q, &w.v, &s.memory, &mut w.terms);
     }
-    w.balance(model);
+    w.balance(model, T::ONE);
     w.solve_transposed();
     w.jacobian.add_transposed(&w.lambda, &mut w.balance);
     for (d, &i) in w.d.iter_mut().zip(w.elimination.independent()) {

@@ -147,10 +147,10 @@ impl<T: Real> Workspace<T> {
         }
     }
 
-    /// balance = M a - Q, element by element.
-    pub(crate) fn balance(&mut self, model: &impl Model<T>) {
+    /// balance = M a - force Q, element by element.
+    pub(crate) fn balance(&mut self, model: &impl Model<T>, force: T) {
         self.balance.fill(T::ZERO);
-        let load = Load { mass: Some(&self.a[..]), multipliers: None, force: T::ONE };
+        let load = Load { mass: Some(&self.a[..]), multipliers: None, force };
         for e in 0..model.n_elements() {
             let clique = model.clique(e);
             let local = &mut self.local[..clique.len()];

@@ -156,6 +156,26 @@ where
         }
     }
 
+    /// Makes the state that of the inputs that are set now: what it changes is no part of a trial.
+    pub(crate) fn take_inputs(
+        &mut self,
+        model: &NaturalModel<T, D>,
+        state: &mut State<T>,
+    ) -> Result<(), StepError> {
+        match self {
+            Self::Augmented { workspace, .. } => {
+                mbs_augmented::take_inputs(model, state, workspace).map(drop)
+            }
+            Self::Classical { options, workspace, .. } => {
+                classical::take_inputs(model, options, state, workspace).map(drop)
+            }
+            Self::StateSpace { workspace, .. } => {
+                statespace::take_inputs(model, state, workspace).map(drop)
+            }
+            Self::Recursive(tree) => tree.take_inputs(model, state),
+        }
+    }
+
     /// Called before a trial of length `dt` [s] after `reductions` in a row; says whether it has changed the state.
     pub(crate) fn prepare(
         &mut self,

@@ -18,7 +18,7 @@ use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Scene;
 use mbs_core::start::Assembled;
-use mbs_core::step::{StepError, StepReport, largest};
+use mbs_core::step::{InputError, StepError, StepReport, largest};
 
 /// A scene ready to step, in D dimensions and scalar T.
 ///
@@ -101,6 +101,7 @@ where
     /// [`StepError`]; the state is then unchanged.
     pub fn advance(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
         let Self { model, state, engine, control, invariant, .. } = self;
+        engine.take_inputs(model, state)?;
         if let Some(control) = control {
             return control.step((model, engine), state, invariant, rest);
         }
@@ -146,20 +147,28 @@ where
     }
 
     /// Sets the input of `scene.effects[effect]` between two steps: a force, a torque, or what a law of your own asks for. It
-    /// holds until it is set again. Returns whether the effect has an input ([`Course::Input`](mbs_core::scene::Course::Input)).
-    pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> bool {
+    /// holds until it is set again, and acts in the whole of the next step: acceleration and power at its beginning are those with
+    /// the new input. What a law stores under another input is booked as work.
+    ///
+    /// # Errors
+    /// [`InputError`] where the effect has no input ([`Course::Input`](mbs_core::scene::Course::Input)), or where a component is not
+    /// finite. Nothing is set then.
+    pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
         if let Engine::Recursive(tree) = &mut self.engine {
-            let _ = tree.set_input(effect, value);
+            tree.set_input(effect, value)?;
         }
         self.model.set_input(effect, value)
     }
 
-    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. Returns whether the guide is
-    /// an input ([`GuideLaw::Input`](mbs_core::scene::GuideLaw::Input)). Where lengths are controlled, the first of the steps
-    /// within the next [`step`](Self::step) takes it over.
-    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> bool {
+    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. Where lengths are controlled, the
+    /// first of the steps within the next [`step`](Self::step) takes it over.
+    ///
+    /// # Errors
+    /// [`InputError`] where the guide is no input ([`GuideLaw::Input`](mbs_core::scene::GuideLaw::Input)), or where a component is not
+    /// finite. Nothing is set then.
+    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
         if let Engine::Recursive(tree) = &mut self.engine {
-            let _ = tree.set_guide(guide, motion);
+            tree.set_guide(guide, motion)?;
         }
         self.model.set_guide(guide, motion)
     }
@@ -193,7 +202,7 @@ where
     /// Goes on from what was kept; says whether it is of this simulation.
     pub(crate) fn go_on(&mut self, kept: &Kept<T>) -> bool {
         let Kept { state, engine, control, invariant, inputs: [courses, guides] } = kept;
-        let is_ours = match (&mut self.control, control) {
+        let mut is_ours = match (&mut self.control, control) {
             (Some(present), Some(control)) => present.go_on(control),
             (present, control) => present.is_none() && control.is_none(),
         };
@@ -203,12 +212,12 @@ where
         self.state.copy_from(state);
         self.invariant.set_history(*invariant);
         for &(effect, value) in courses {
-            self.set_input(effect, value);
+            is_ours &= self.set_input(effect, value).is_ok();
         }
         for &(guide, motion) in guides {
-            self.set_guide(guide, motion);
+            is_ours &= self.set_guide(guide, motion).is_ok();
         }
-        true
+        is_ours
     }
 
     /// Kinetic energy, potential energy, and work of dampers, guides and courses since the start [J].

@@ -9,7 +9,7 @@ use mbs_core::model::{Model, Owner, State, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
-use mbs_core::step::{StepError, StepReport};
+use mbs_core::step::{InputError, StepError, StepReport};
 use mbs_recursive::space::Space;
 use mbs_recursive::{
     Closure, Options, Planar, Spatial, StartError, TreeModel, TreeState, Workspace,
@@ -189,13 +189,25 @@ where
         self.state.work = work;
     }
 
-    /// Sets an effect's input; says whether it has one.
-    pub(crate) fn set_input(&mut self, effect: usize, value: [T; 3]) -> bool {
+    /// Makes the states those of the inputs that are set now.
+    pub(crate) fn take_inputs(
+        &mut self,
+        natural: &NaturalModel<T, D>,
+        state: &mut State<T>,
+    ) -> Result<(), StepError> {
+        if self.model.take_inputs(&self.options, &mut self.state, &mut self.workspace)? {
+            self.tell(natural, state);
+        }
+        Ok(())
+    }
+
+    /// Sets an effect's input.
+    pub(crate) fn set_input(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
         self.model.set_input(effect, value)
     }
 
-    /// Sets a guide's motion; says whether it is an input.
-    pub(crate) fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> bool {
+    /// Sets a guide's motion.
+    pub(crate) fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
         self.model.set_guide(guide, motion)
     }
 

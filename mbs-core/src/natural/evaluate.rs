@@ -4,6 +4,7 @@ use super::forces::Gauge;
 use super::model::NaturalModel;
 use crate::Real;
 use crate::elements::combine;
+use crate::inputs::Prescribed;
 use crate::model::{Load, Measure, Model, Owner, Tangent, Terms};
 use crate::team::Alone;
 use alloc::vec;
@@ -80,6 +81,10 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     }
     fn has_guides(&self) -> bool {
         !self.guided.is_empty()
+    }
+
+    fn inputs(&self) -> Option<&Prescribed<T>> {
+        Some(&self.prescribed)
     }
 
     fn terms(&self) -> Terms<T> {

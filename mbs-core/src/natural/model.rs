@@ -16,6 +16,7 @@ use crate::cluster::Clusters;
 use crate::elements::{Distance, Dot, Guided, Linear, Term};
 use crate::inputs::Prescribed;
 use crate::model::Owner;
+use crate::step::InputError;
 use alloc::vec::Vec;
 
 /// A mechanism in natural coordinates of D dimensions: shared points and unit vectors, constant mass matrix.
@@ -94,16 +95,22 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     }
 
     /// Sets the input of `scene.effects[effect]` between two steps: force, torque, or what its own law asks for. It holds until
-    /// it is set again. Returns whether the effect has one: an enabled effect whose course is
-    /// [`Course::Input`](crate::scene::Course::Input).
-    pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> bool {
+    /// it is set again, and the next step is made with it from its beginning.
+    ///
+    /// # Errors
+    /// [`InputError`] where the effect has none (it has one where it is enabled and its course is
+    /// [`Course::Input`](crate::scene::Course::Input)), or where a component is not finite.
+    pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
         self.prescribed.set_course(effect, value)
     }
 
-    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. Returns whether the guide is
-    /// an input: [`GuideLaw::Input`](crate::scene::GuideLaw::Input). Values that jump make accelerations jump with the square of
-    /// the step: pass what a smooth reference gives.
-    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> bool {
+    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. Values that jump make
+    /// accelerations jump with the square of the step: pass what a smooth reference gives.
+    ///
+    /// # Errors
+    /// [`InputError`] where the guide is no input ([`GuideLaw::Input`](crate::scene::GuideLaw::Input)), or where a component is not
+    /// finite.
+    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
         self.prescribed.set_guide(guide, motion)
     }
 

@@ -52,6 +52,54 @@ pub enum StepError {
     },
 }
 
+/// A value that cannot be set between steps. Nothing is set then.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum InputError {
+    /// There is no such effect or guide, it is switched off, or its values come from the scene.
+    NotAnInput {
+        /// Its number: of the effect or guide in the scene, of the course or guide in an exported model.
+        number: usize,
+    },
+    /// A component is infinite or NaN.
+    NotFinite {
+        /// The number of the effect, course or guide.
+        number: usize,
+        /// The component, from 0.
+        component: usize,
+    },
+}
+
+impl InputError {
+    /// Checks that a value is one that can be set.
+    ///
+    /// # Errors
+    /// [`InputError::NotFinite`] names the first component that is not finite.
+    pub fn check<T: crate::Real>(number: usize, value: &[T; 3]) -> Result<(), Self> {
+        match value.iter().position(|x| !x.is_finite()) {
+            Some(component) => Err(Self::NotFinite { number, component }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl core::fmt::Display for InputError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::NotAnInput { number } => write!(
+                f,
+                "number {number} has no input: give its course or guide as `Input` to set it between steps"
+            ),
+            Self::NotFinite { number, component } => write!(
+                f,
+                "component {component} of the input of number {number} is not finite: set a finite value"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for InputError {}
+
 impl core::fmt::Display for StepError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {

@@ -3,13 +3,17 @@
 #[cfg(feature = "alloc")]
 mod commit;
 mod error;
+#[cfg(feature = "alloc")]
+mod inputs;
 mod newton;
 mod report;
 mod scan;
 
 #[cfg(feature = "alloc")]
 pub use commit::{add_work, check_guides, take_coordinates};
-pub use error::{OptionError, StepError};
+pub use error::{InputError, OptionError, StepError};
+#[cfg(feature = "alloc")]
+pub use inputs::{add_response, has_new_inputs, load_at};
 pub use newton::{Yardstick, stopping};
 pub use report::{Counts, StepReport, Stop};
 pub use scan::{largest, largest_or_nan, step_scale};

@@ -24,8 +24,9 @@ enum mbs_status {
     MBS_NULL = 1,      /* a pointer is null */
     MBS_MEMORY = 2,    /* the memory is too small or not aligned */
     MBS_MODEL = 3,     /* the bytes are no model, or one that is too large or has an effect that is left out */
-    MBS_NO_INPUT = 4,  /* there is no such guide or course */
-    MBS_STOPPED = 5    /* the step could not be made; the state is as before */
+    MBS_NO_INPUT = 4,  /* there is no such guide or course, or it is no input: nothing is set */
+    MBS_STOPPED = 5,   /* the step could not be made; the state is as before */
+    MBS_NOT_FINITE = 6 /* a value is infinite or NaN: nothing is set */
 };
 
 typedef struct mbs_solver mbs_solver;
@@ -49,7 +50,8 @@ size_t mbs_align(void);
 /* Reads a model into `memory`; afterwards the bytes of the model are not needed. */
 int mbs_init(void *memory, size_t size, const uint8_t *model, size_t n, mbs_solver **solver);
 
-/* Inputs, between steps: a guide's value, rate and acceleration at the end of the next step; a course's vector. */
+/* Inputs, between steps: a guide's value, rate and acceleration at the end of the next step; a course's vector,
+ * with which the next step is made from its beginning. */
 int mbs_set_guide(mbs_solver *solver, size_t guide, const mbs_real motion[3]);
 int mbs_set_course(mbs_solver *solver, size_t course, const mbs_real value[3]);
 

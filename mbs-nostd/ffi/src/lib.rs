@@ -6,7 +6,7 @@
 #![no_std]
 
 use core::ffi::{c_int, c_void};
-use mbs_nostd::{Bounds, Solver, Spatial, Tables, Unwatched};
+use mbs_nostd::{Bounds, InputError, Solver, Spatial, Tables, Unwatched};
 
 #[cfg(feature = "single")]
 type Scalar = f32;
@@ -23,6 +23,7 @@ const MEMORY: c_int = 2;
 const MODEL: c_int = 3;
 const NO_INPUT: c_int = 4;
 const STOPPED: c_int = 5;
+const NOT_FINITE: c_int = 6;
 
 /// What lives in the caller's memory.
 #[allow(non_camel_case_types, reason = "the name in C")]
@@ -90,6 +91,15 @@ pub unsafe extern "C" fn mbs_init(
     OK
 }
 
+/// What became of a value that was to be set.
+fn status(done: Result<(), InputError>) -> c_int {
+    match done {
+        Ok(()) => OK,
+        Err(InputError::NotFinite { .. }) => NOT_FINITE,
+        Err(_) => NO_INPUT,
+    }
+}
+
 /// Writes a guide's motion.
 ///
 /// # Safety
@@ -104,7 +114,7 @@ pub unsafe extern "C" fn mbs_set_guide(
     let (Some(own), Some(motion)) = (unsafe { solver.as_mut() }, unsafe { motion.as_ref() }) else {
         return NULL;
     };
-    if own.solver.set_guide(guide, *motion) { OK } else { NO_INPUT }
+    status(own.solver.set_guide(guide, *motion))
 }
 
 /// Writes a course's vector.
@@ -121,7 +131,7 @@ pub unsafe extern "C" fn mbs_set_course(
     let (Some(own), Some(value)) = (unsafe { solver.as_mut() }, unsafe { value.as_ref() }) else {
         return NULL;
     };
-    if own.solver.set_course(course, *value) { OK } else { NO_INPUT }
+    status(own.solver.set_course(course, *value))
 }
 
 /// Says how much work a step may be.

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! step         inputs + (E + 1) reach + E evaluation + P projection          E evaluations, P projections, σ further sweeps
+//!              (+ inputs + evaluation where courses are written between steps)
 //! evaluation   Σ links [place, inertia, eliminate, advance, (+ inward shift unless on the ground)]
 //!              + Σ loops [rows, passes, elimination, opening, residual] + effects [spread, forces ahead] + σ (response + residual)
 //! response     Σ links [impulse, advance (+ shift)] + Σ loops [passes and eliminations of l alone, opening]
@@ -18,6 +19,7 @@ mod effects;
 mod joints;
 mod loops;
 
+use crate::inputs::CourseLaw;
 use crate::model::Model;
 use core::ops::{Add, AddAssign, Mul};
 use mbs_core::Real;
@@ -161,6 +163,11 @@ pub fn step<T: Real, S: Space<T>>(model: &Model<'_, T, S>, bounds: Bounds) -> Op
         }
         projection += Operations::new(0, freedoms);
         total += projection * u64::from(bounds.projections);
+    }
+    let written = |course: &CourseLaw<T>| matches!(course, CourseLaw::Input(_));
+    if model.prescriptions.courses.iter().any(written) {
+        // A step after a course was written begins with an evaluation.
+        total += evaluation + effects::inputs(&model.prescriptions);
     }
     total + evaluation * evaluations
 }

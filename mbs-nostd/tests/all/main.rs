@@ -4,3 +4,4 @@ mod support;
 
 mod agreement;
 mod bound;
+mod inputs;

@@ -171,9 +171,10 @@ fn walk_choice<T: Real>(history: &mut statespace::History<T>, tape: &mut impl Ta
 
 fn walk_tree<T: Real>(kept: &mut TreeKept<T>, tape: &mut impl Tape) -> Told {
     let TreeKept { state, history, energies } = kept;
-    let TreeState { t, z, v, a, lambda, work, power } = state;
+    let TreeState { t, z, v, a, lambda, inputs, work, power } = state;
     [t, work, power].into_iter().try_for_each(|x| tape.real(x))?;
     [z, v, a, lambda].into_iter().try_for_each(|x| tape.reals(x))?;
+    tape.places(inputs, |tape, value| tape.reals(value))?;
     let recursive::History { rank, pivots, pair, eighth, extrapolation, radau } = history;
     tape.index(rank, pivots.len() + 1)?;
     tape.reals(pivots)?;
@@ -231,13 +232,15 @@ pub(crate) trait Parts: Tape {
             reaction,
             phi,
             memory,
+            inputs,
             work,
             power,
         } = state;
         [t, dt, work, power].into_iter().try_for_each(|x| self.real(x))?;
         [q, q_low, v, a, a_aux, lambda, lambda_previous, reaction, phi, memory]
             .into_iter()
-            .try_for_each(|x| self.reals(x))
+            .try_for_each(|x| self.reals(x))?;
+        self.places(inputs, |tape, value| tape.reals(value))
     }
 }
 

@@ -24,7 +24,8 @@
 //! impl Work for Bench<'_> {
 //!     type Error = StopError;
 //!     fn step(&mut self, task: Task) -> Result<ControlFlow<()>, StopError> {
-//!         self.simulation.set_input(self.motor, [(self.wanted)(task.index), 0.0, 0.0]);
+//!         let torque = [(self.wanted)(task.index), 0.0, 0.0];
+//!         self.simulation.set_input(self.motor, torque).expect("the motor's torque is an input");
 //!         let stepped = self.simulation.step(1e-3);
 //!         stepped.map_err(|error| self.simulation.explain(error))?;
 //!         Ok(ControlFlow::Continue(()))

@@ -239,8 +239,8 @@ fn a_simulation_that_is_restored_goes_on_with_inputs_as_they_are_set() {
         let effect = scene.effects.len() - 1;
         for k in 0..50 {
             let t = 1e-3 * f64::from(k + 1);
-            assert!(first.set_guide(0, [t * t, 2.0 * t, 2.0]));
-            assert!(first.set_input(effect, [0.3, 0.0, 0.3]));
+            first.set_guide(0, [t * t, 2.0 * t, 2.0]).expect("an input");
+            first.set_input(effect, [0.3, 0.0, 0.3]).expect("an input");
             first.step(1e-3).expect("a regular step");
         }
         let mut bytes = Vec::new();

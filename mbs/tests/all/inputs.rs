@@ -6,6 +6,8 @@ use mbs::core::laws::body::{Action, BodyMotion};
 use mbs::core::laws::own::{OwnScalar, OwnWrench, ScalarLaw, WrenchLaw};
 use mbs::core::laws::scalar::Measure;
 use mbs::core::scene::{BodyRef, Course, Effect, EffectKind, GuideLaw, OwnLaw, Scene};
+use mbs::core::step::InputError;
+use mbs::scene_file::Document;
 use mbs::{Formulation, Overrides, Settings, Simulation};
 
 fn simulation(scene: &Scene<f64>, formulation: &str) -> Simulation<f64, 2> {
@@ -13,6 +15,201 @@ fn simulation(scene: &Scene<f64>, formulation: &str) -> Simulation<f64, 2> {
     let overrides = Overrides { formulation, step: Some(1e-3), ..Overrides::default() };
     let settings = Settings::new(scene, &overrides).expect("the settings are built");
     Simulation::new(scene, &settings).expect("the scene starts")
+}
+
+/// The same with an integrator, in steps of `step` [s].
+fn with_integrator(
+    scene: &Scene<f64>,
+    (formulation, integrator): (&str, &str),
+    step: f64,
+) -> Simulation<f64, 2> {
+    let [formulation, integrator] = [formulation, integrator].map(|name| Some(name.to_owned()));
+    let overrides = Overrides { formulation, integrator, step: Some(step), ..Overrides::default() };
+    let settings = Settings::new(scene, &overrides).expect("the settings are built");
+    Simulation::new(scene, &settings).expect("the scene starts")
+}
+
+/// Formulations with each of their integrators.
+fn methods() -> impl Iterator<Item = (&'static str, &'static str)> {
+    const RULES: [&str; 4] = ["trapezoidal", "newmark", "hht", "generalised-alpha"];
+    const SLOPES: [&str; 5] = ["rk4", "rk54", "rk853", "gbs", "radau5"];
+    let natural = ["index-1", "index-3", "classical", "state-space", "multi-index"];
+    let with = |name, rules: &'static [&'static str]| rules.iter().map(move |&rule| (name, rule));
+    // In the tree the two families with auxiliary accelerations are not built.
+    natural
+        .into_iter()
+        .flat_map(move |name| with(name, &RULES))
+        .chain(with("recursive", &RULES[..2]))
+        .chain(with("recursive", &SLOPES))
+}
+
+/// A wheel of 1 kg m^2 on a fixed axle, with a torque that is set between steps.
+fn wheel() -> Scene<f64> {
+    const TEXT: &str = r#"
+        [scene]
+        dimension = 2
+        duration = 1.0
+        [[body]]
+        name = "wheel"
+        mass = 1.0
+        center = [0.0, 0.0]
+        inertia = 1.0
+        [[joint]]
+        name = "axle"
+        kind = "revolute"
+        bodies = ["ground", "wheel"]
+        at = [0.0, 0.0]
+        [[initial]]
+        joint = "axle"
+        value = 0.0
+        rate = 0.0
+        [[output]]
+        name = "axle"
+        joint = "axle"
+        quantity = "value"
+    "#;
+    let document = Document::parse(TEXT, "wheel").unwrap_or_else(|e| panic!("{}", e.render()));
+    let mut scene = document.scene().unwrap_or_else(|e| panic!("{}", e.render()));
+    let kind = EffectKind::JointTorque { joint: 0, course: Course::Input([0.0; 3]) };
+    scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
+    scene
+}
+
+/// The turning speed of the first body [rad/s].
+fn speed(simulation: &Simulation<f64, 2>, scene: &Scene<f64>) -> f64 {
+    simulation.model().motion(scene, 0, simulation.state()).omega[2]
+}
+
+#[test]
+fn an_input_set_for_one_step_acts_in_that_whole_step_and_does_its_work_there() {
+    let (scene, h) = (wheel(), 1e-3);
+    for method in methods() {
+        let mut simulation = with_integrator(&scene, method, h);
+        for k in 0..6 {
+            let torque = if k == 2 { 1.0 } else { 0.0 };
+            simulation.set_input(0, [torque, 0.0, 0.0]).expect("an input");
+            simulation.step(h).expect("a regular step");
+            // 1 N m for one step on 1 kg m^2: the step's length in rad/s, and half its square in J.
+            let (rate, work) = if k < 2 { (0.0, 0.0) } else { (1.0, 5e-7) };
+            let (found, [_, _, done]) = (speed(&simulation, &scene) / h, simulation.energies());
+            assert!((found - rate).abs() < 1e-9, "{method:?}, step {k}: {found} of the step");
+            assert!((done - work).abs() < 1e-15, "{method:?}, step {k}: {done} J");
+        }
+    }
+}
+
+#[test]
+fn steps_of_controlled_length_begin_with_the_input_that_is_set() {
+    let (scene, h) = (wheel(), 1e-3);
+    for formulation in Formulation::ALL.map(Formulation::name) {
+        let overrides = Overrides {
+            formulation: Some(formulation.into()),
+            step: Some(h),
+            error_tolerance: Some(1e-6),
+            ..Overrides::default()
+        };
+        let settings = Settings::new(&scene, &overrides).expect("the settings are built");
+        let mut simulation =
+            Simulation::<f64, 2>::new(&scene, &settings).expect("the scene starts");
+        for k in 0..6 {
+            let torque = if k == 2 { 1.0 } else { 0.0 };
+            simulation.set_input(0, [torque, 0.0, 0.0]).expect("an input");
+            let report = simulation.step(h).expect("a regular step");
+            assert_eq!(report.rejected, 0, "{formulation}: what was set is no error of the step");
+        }
+        let (found, [_, _, done]) = (speed(&simulation, &scene) / h, simulation.energies());
+        assert!((found - 1.0).abs() < 1e-9, "{formulation}: {found} of the step");
+        assert!((done - 5e-7).abs() < 1e-15, "{formulation}: {done} J");
+    }
+}
+
+#[test]
+fn a_torque_that_is_set_every_ten_milliseconds_leaves_every_rule_its_order_in_a_closed_loop() {
+    let scene = {
+        let mut scene = common::scene("four-bar");
+        scene.outputs.clear();
+        let kind = EffectKind::JointTorque { joint: 0, course: Course::Input([0.0; 3]) };
+        scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
+        scene
+    };
+    let effect = scene.effects.len() - 1;
+    let torque = |sample: u32| 40.0 * f64::from(sample * 7 % 5) - 80.0;
+    let run = |method, per_sample: u32| {
+        let h = 1e-2 / f64::from(per_sample);
+        let mut simulation = with_integrator(&scene, method, h);
+        for sample in 0..20 {
+            simulation.set_input(effect, [torque(sample), 0.0, 0.0]).expect("an input");
+            for _ in 0..per_sample {
+                simulation.step(h).unwrap_or_else(|e| panic!("{method:?}: {e}"));
+            }
+        }
+        let [kinetic, potential, work] = simulation.energies();
+        let [k0, p0, _] = simulation.initial_energies();
+        let motion = simulation.model().motion(&scene, 0, simulation.state());
+        // Energy of the ledger: the power jumps with the input, and both sides of the jump are in it.
+        ([motion.rotation[(0, 0)], motion.omega[2]], kinetic + potential - work - k0 - p0)
+    };
+    let (right, _) = run(("recursive", "rk853"), 1);
+    // Steps of multi-index are as long as its energy rule lets them be.
+    let has_fixed_steps =
+        |(formulation, rule): &_| *formulation != "multi-index" && *rule != "rk853";
+    for method in methods().filter(has_fixed_steps) {
+        let error = |per_sample| {
+            let (found, ledger) = run(method, per_sample);
+            (f64::max((found[0] - right[0]).abs(), (found[1] - right[1]).abs()), ledger.abs())
+        };
+        let ((coarse, _), (fine, ledger)) = (error(5), error(10));
+        let order = (coarse / fine).log2();
+        // Newmark's rule damps and is of first order; half of an input in the wrong step would leave the others no more than that.
+        let least = if method.1 == "newmark" { 0.9 } else { 1.8 };
+        // Methods with control of their error, and of higher order.
+        let is_exact = fine < 1e-8;
+        assert!(is_exact || order > least, "{method:?}: order {order}, {coarse:e} and {fine:e}");
+        // Of some 10 J; twice what the rules leave at 1 ms.
+        let allowed = if method.1 == "newmark" { 1.2e-3 } else { 1e-6 };
+        assert!(ledger < allowed, "{method:?}: {ledger:e} J");
+    }
+}
+
+#[test]
+fn what_is_not_finite_is_refused_and_changes_nothing() {
+    let scene = wheel();
+    for formulation in Formulation::ALL.map(Formulation::name) {
+        let mut simulation = simulation(&scene, formulation);
+        simulation.set_input(0, [2.0, 0.0, 0.0]).expect("an input");
+        for (component, wrong) in
+            [f64::NAN, f64::INFINITY, f64::NEG_INFINITY].into_iter().enumerate()
+        {
+            let mut value = [1.0; 3];
+            value[component] = wrong;
+            let refused = simulation.set_input(0, value);
+            assert_eq!(refused, Err(InputError::NotFinite { number: 0, component }));
+        }
+        simulation.step(1e-3).expect("a regular step");
+        assert!((speed(&simulation, &scene) - 2e-3).abs() < 1e-12, "{formulation}");
+    }
+}
+
+#[test]
+fn what_a_spring_stores_when_its_input_is_set_is_booked_as_work() {
+    let (bodies, points) =
+        ([BodyRef::Ground, BodyRef::Body(1)], [[2.0, 1.0, 0.0], [2.0, 0.0, 0.0]]);
+    let law = OwnLaw::Length { bodies, points, law: OwnScalar::of::<Towards>() };
+    let scene = with(EffectKind::Own { law, course: Course::Input([0.7, 0.0, 0.0]) });
+    for method in methods() {
+        let mut simulation = with_integrator(&scene, method, 1e-3);
+        for k in 0..200_u32 {
+            let length = 0.7 + 0.1 * f64::from(k / 20 % 3);
+            simulation.set_input(0, [length, 0.0, 0.0]).expect("an input");
+            simulation.step(1e-3).expect("a regular step");
+        }
+        let [kinetic, potential, work] = simulation.energies();
+        let [k0, p0, _] = simulation.initial_energies();
+        let off = kinetic + potential - work - k0 - p0;
+        // Some 10 J are set in; the rules' own error is 1e-4 of the energy, and Newmark's damping 1e-2 of it.
+        let allowed = if method.1 == "newmark" { 1.0 } else { 1e-2 };
+        assert!(work.abs() > 1.0 && off.abs() < allowed, "{method:?}: {off} of {work} J");
+    }
 }
 
 fn with(effect: EffectKind<f64>) -> Scene<f64> {
@@ -42,10 +239,15 @@ fn an_input_that_is_set_to_a_constant_is_that_constant() {
         let mut plain = simulation(&with(torque(Course::Constant([3.0, 0.0, 0.0]))), formulation);
         let mut driven = simulation(&with(torque(Course::Input([3.0, 0.0, 0.0]))), formulation);
         let effect = 0;
-        assert!(!plain.set_input(effect, [0.0; 3]), "a constant is no input");
+        let refused = plain.set_input(effect, [0.0; 3]);
+        assert_eq!(
+            refused,
+            Err(InputError::NotAnInput { number: effect }),
+            "a constant is no input"
+        );
         for _ in 0..200 {
             plain.step(1e-3).expect("a regular step");
-            assert!(driven.set_input(effect, [3.0, 0.0, 0.0]));
+            driven.set_input(effect, [3.0, 0.0, 0.0]).expect("an input");
             driven.step(1e-3).expect("a regular step");
         }
         close(tip(&plain), tip(&driven), 1e-13, formulation);
@@ -63,7 +265,7 @@ fn an_input_changes_the_motion_from_the_next_step_on() {
         for k in 0..100 {
             if k == 50 {
                 close(tip(&still), tip(&driven), 0.0, formulation);
-                assert!(driven.set_input(0, [40.0, 0.0, 0.0]));
+                driven.set_input(0, [40.0, 0.0, 0.0]).expect("an input");
             }
             still.step(1e-3).expect("a regular step");
             driven.step(1e-3).expect("a regular step");
@@ -165,7 +367,7 @@ fn a_guide_that_is_set_follows_what_it_is_told() {
         let mut simulation = simulation(&scene, formulation);
         for k in 1..=500 {
             let t = f64::from(k) * 1e-3;
-            assert!(simulation.set_guide(0, [t * t, 2.0 * t, 2.0]), "{formulation}");
+            simulation.set_guide(0, [t * t, 2.0 * t, 2.0]).expect("an input");
             simulation.step(1e-3).unwrap_or_else(|e| panic!("{formulation} at {t}: {e}"));
         }
         let joint = &scene.joints[joint];

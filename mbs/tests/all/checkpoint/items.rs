@@ -78,7 +78,7 @@ impl Case {
     {
         let mut simulation = self.simulation();
         let motor = self.scene().effects.len() - 1;
-        assert!(simulation.set_input(motor, [0.3, 0.0, 0.3]));
+        simulation.set_input(motor, [0.3, 0.0, 0.3]).expect("an input");
         for _ in 0..self.steps[0] {
             simulation.advance(self.rest()).expect("a regular step");
         }
@@ -214,7 +214,8 @@ const NO_ERROR: &[u8] = &[1, 0, 0];
 
 #[test]
 fn every_item_of_the_natural_state_matters() {
-    every_item_matters::<2>(CASE, &[&STATE[..], &CARRIED].concat());
+    let inputs = [("inputs of the state", Left::Fresh)];
+    every_item_matters::<2>(CASE, &[&STATE[..], &CARRIED, &inputs].concat());
     for formulation in ["classical", "index-1"] {
         every_item_matters::<2>(Case { formulation, ..CASE }, &STATE);
     }

@@ -199,7 +199,8 @@ impl<'a> Walk<'a> {
             "residuals",
             "memory",
         ];
-        lists.into_iter().try_for_each(|name| self.named(name, Self::list_of_numbers))
+        lists.into_iter().try_for_each(|name| self.named(name, Self::list_of_numbers))?;
+        self.named("inputs of the state", |walk| walk.list(Self::list_of_numbers))
     }
 
     fn formulation(&mut self, formulation: Formulation) -> Option<()> {
@@ -255,6 +256,7 @@ impl<'a> Walk<'a> {
             self.named(name, Self::list_of_numbers)?;
         }
         self.list_of_numbers()?;
+        self.named("inputs of the tree", |walk| walk.list(Self::list_of_numbers))?;
         self.word()?;
         self.named("pivots", Self::list_of_numbers)?;
         self.named("error control of the tree", |walk| {

@@ -1,0 +1,75 @@
+//! Inputs that were set since the last step, taken into the state that the next one begins with.
+
+use crate::options::Options;
+use crate::workspace::{Mass, Workspace};
+use mbs_core::model::{Model, State};
+use mbs_core::step::{StepError, add_response, has_new_inputs, largest_or_nan, load_at};
+use mbs_core::team::norm_inf;
+use mbs_core::{Real, SymmetricSolver};
+
+/// Sweeps of the response: one is exact but for rounding and for delta.
+const MAX_SWEEPS: u32 = 12;
+
+/// Makes accelerations, multipliers and power those of the inputs that are set now, if others were set since the last step; says
+/// whether they were. Every step begins with this; a caller that keeps a state to go back to calls it before.
+///
+/// ```text
+/// [ M  J^T    ] ( da )   ( dQ )
+/// [ J  -delta ] ( dl ) = ( 0  )
+/// ```
+///
+/// Cost: nothing without a change; else two evaluations, a factorisation and two solutions; no allocation.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn take_inputs<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
+    model: &M,
+    options: &Options<T>,
+    s: &mut State<T>,
+    w: &mut Workspace<T, S>,
+) -> Result<bool, StepError> {
+    if !has_new_inputs(model, s) {
+        return Ok(false);
+    }
+    let n = w.n;
+    w.begin(options.regularisation);
+    for rows in [&mut w.mu, &mut w.lambda, &mut w.rates] {
+        rows.fill(T::ZERO);
+    }
+    w.a.fill(T::ZERO);
+
+    // -dQ = -Q(u) + Q(u_n)
+    let before = load_at(model, s, false, &mut w.terms);
+    model.evaluate(&s.q, &mut w.terms);
+    w.factor(model, (T::ZERO, T::ZERO), false, options.rank)?;
+    w.assemble(model, Mass::None, T::ONE, false);
+    w.change[..n].copy_from_slice(&w.f[..n]);
+    let after = load_at(model, s, true, &mut w.terms);
+    w.assemble(model, Mass::None, T::ONE, false);
+    for (change, &f) in w.change[..n].iter_mut().zip(&w.f) {
+        *change = f - *change;
+    }
+
+    let mut last = None;
+    for _ in 0..MAX_SWEEPS {
+        w.mu.copy_from_slice(&w.lambda);
+        w.assemble(model, Mass::Acceleration, T::ZERO, true);
+        for (f, &change) in w.f.iter_mut().zip(&w.change[..n]) {
+            *f += change;
+        }
+        w.solve();
+        w.correct(model, (T::ZERO, T::ZERO));
+        model.multiply_jacobian(&w.terms, &w.a, &mut w.rates);
+        let correction = norm_inf(model.team(), &w.f[..n]);
+        if !correction.is_finite() {
+            return Err(StepError::NotFinite { unknown: largest_or_nan(&w.f[..n]) });
+        }
+        let rounding = norm_inf(model.team(), &w.a) * T::EPSILON;
+        if correction <= rounding || last.is_some_and(|last| correction > last * T::HALF) {
+            break;
+        }
+        last = Some(correction);
+    }
+    add_response(model, s, (&w.a[..n], &w.lambda, after - before), &mut w.terms);
+    Ok(true)
+}

@@ -1,0 +1,61 @@
+//! Inputs that change between two steps: what they change at the state that the next step begins with.
+//!
+//! ```text
+//! M da + J^T dl = Q(q, v, u) - Q(q, v, u_n),   J da = 0
+//! a += da,   a_aux += da,   lambda_n += dl,   lambda_(n-1) += dl,   W += V(q, u) - V(q, u_n)
+//! ```
+//!
+//! A rule takes the force at the beginning of a step from the accelerations there: with these, an input acts in the whole step from the
+//! moment it is set. What a law stores under another input is booked as work. Formulations solve for (da, dl), each with its own matrix.
+
+use crate::Real;
+use crate::model::{Model, State, Terms};
+
+/// Are inputs set to other values than those that the accelerations of `s` were made with?
+#[inline]
+pub fn has_new_inputs<T: Real, M: Model<T>>(model: &M, s: &State<T>) -> bool {
+    !s.inputs.is_empty() && model.inputs().is_some_and(|inputs| inputs.differs(&s.inputs))
+}
+
+/// Evaluates the forces at `s` with the inputs that it was reached with, or with those that are set now if `is_new`; returns the
+/// potential energy [J].
+pub fn load_at<T: Real, M: Model<T>>(
+    model: &M,
+    s: &State<T>,
+    is_new: bool,
+    terms: &mut Terms<T>,
+) -> T {
+    if let Some(inputs) = model.inputs() {
+        inputs.write_end(s.t, (&s.inputs, is_new), (&mut terms.guides, &mut terms.courses));
+    }
+    model.evaluate_forces(&s.q, &s.v, &s.memory, terms);
+    model.potential_energy(&s.q, terms)
+}
+
+/// Adds the response of accelerations (over the unknowns, or more) and multipliers to the state, and books `work` [J]; `terms` are
+/// those of the new inputs.
+pub fn add_response<T: Real, M: Model<T>>(
+    model: &M,
+    s: &mut State<T>,
+    (da, dl, work): (&[T], &[T], T),
+    terms: &mut Terms<T>,
+) {
+    let n = model.n_unknowns();
+    for a in [&mut s.a, &mut s.a_aux] {
+        for (a, &da) in a[..n].iter_mut().zip(da) {
+            *a += da;
+        }
+    }
+    for lambda in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {
+        for (lambda, &dl) in lambda.iter_mut().zip(dl) {
+            *lambda += dl;
+        }
+    }
+    model.evaluate_phi_t(&s.q, terms);
+    s.power = model.power(&s.q, &s.v, &s.reaction, terms);
+    s.work += work;
+    if let Some(inputs) = model.inputs() {
+        // guides are those of the end of the next step: the state is not there yet
+        inputs.keep_courses(&mut s.inputs);
+    }
+}

@@ -1,0 +1,107 @@
+//! What is written between steps: in the step of fixed capacity, and in the bound of its work.
+
+use crate::support::start;
+use mbs_core::scene::{Course, Effect, EffectKind, GuideLaw, Scene};
+use mbs_nostd::export::{Gathered, bytes};
+use mbs_nostd::{Bounds, Checked, InputError, Options, Planar, Solver, Tables, Unwatched};
+use mbs_recursive::{Workspace, bounded_step};
+use mbs_testkit::file;
+
+type Room = Solver<f64, Planar, 8, 16, 16, 16, 256, 256, 2, 4>;
+type RoomTables = Tables<f64, Planar, 8, 12, 16, 64, 24, 64, 8, 40>;
+
+fn with_torques(name: &str) -> Scene<f64> {
+    let mut scene = file(name);
+    for (name, course) in
+        [("set", Course::Input([0.0; 3])), ("constant", Course::Constant([0.1, 0.0, 0.0]))]
+    {
+        let kind = EffectKind::JointTorque { joint: 0, course };
+        scene.effects.push(Effect { name: name.into(), enabled: true, kind });
+    }
+    scene
+}
+
+#[test]
+fn a_course_written_for_one_step_acts_in_that_whole_step() {
+    let mut scene = with_torques("simple-pendulum");
+    scene.gravity = None;
+    scene.initials.clear();
+    scene.effects.pop();
+    let (tree, begin) = start::<Planar, 2>(&scene);
+    let gathered = Gathered::new(&tree, &begin, &[]);
+    let text = bytes(&gathered.model(), false).expect("a scene without own laws");
+    let tables = RoomTables::read(&text).expect("a model");
+    let flash = Checked::new(&gathered.model()).expect("a model");
+    let mass = tree.mass_matrix(&begin, &mut Workspace::new(&tree)).expect("no loops")[0];
+    let h = 1e-3;
+    for model in [flash, tables.model()] {
+        let mut solver = Room::new(&model).expect("room");
+        for _ in 0..2 {
+            for k in 0..6 {
+                // one N m on each kg m^2 in the third step alone
+                let torque = if k == 2 { mass } else { 0.0 };
+                solver.set_course(0, [torque, 0.0, 0.0]).expect("an input");
+                solver.step(&model, h, &mut Unwatched).expect("a regular step");
+                let (found, right) = (solver.velocities()[0] / h, if k < 2 { 0.0 } else { 1.0 });
+                assert!((found - right).abs() < 1e-12, "step {k}: {found} of the step");
+            }
+            solver.restart(&model);
+        }
+    }
+}
+
+#[test]
+fn a_solver_of_fixed_capacity_takes_inputs_as_the_recursion_does() {
+    let mut scene = with_torques("guided-four-bar");
+    scene.guides[0].law = GuideLaw::Input([0.0, 0.0, 2.0]);
+    scene.initials.clear();
+    let (tree, begin) = start::<Planar, 2>(&scene);
+    let effect = scene.effects.len() - 2;
+    let gathered = Gathered::new(&tree, &begin, &[]);
+    let course = gathered
+        .model()
+        .prescriptions
+        .courses
+        .iter()
+        .position(|c| matches!(c, mbs_nostd::CourseLaw::Input(_)))
+        .expect("an input");
+    let flash = Checked::new(&gathered.model()).expect("a model");
+    let mut solver = Room::new(&flash).expect("room");
+    let (mut host, mut state) = start::<Planar, 2>(&scene);
+    let mut workspace = Workspace::new(&host);
+    for k in 1..=200 {
+        let t = f64::from(k) * 1e-3;
+        let (motion, torque) = ([t * t, 2.0 * t, 2.0], [f64::from(k / 10 % 3), 0.0, 0.0]);
+        host.set_guide(0, motion).expect("an input");
+        host.set_input(effect, torque).expect("an input");
+        solver.set_guide(0, motion).expect("an input");
+        solver.set_course(course, torque).expect("an input");
+        let work = (1e-3, &Options::default(), Bounds::default());
+        bounded_step(&host, work, &mut state, &mut workspace).expect("a regular step");
+        solver.step(&flash, 1e-3, &mut Unwatched).expect("a regular step");
+        // the host evaluates to rounding where inputs change, the solver with its bounded sweeps
+        for (x, y) in solver.velocities().iter().zip(&state.v) {
+            assert!((x - y).abs() < 1e-9 * (1.0 + y.abs()), "step {k}: {x} {y}");
+        }
+    }
+}
+
+#[test]
+fn what_is_no_input_or_not_finite_is_refused_and_changes_nothing() {
+    let scene = with_torques("double-pendulum");
+    let (tree, begin) = start::<Planar, 2>(&scene);
+    let gathered = Gathered::new(&tree, &begin, &[]);
+    let model = Checked::new(&gathered.model()).expect("a model");
+    let mut solver = Room::new(&model).expect("room");
+    let mut other = solver.clone();
+    assert_eq!(solver.set_course(1, [1.0; 3]), Err(InputError::NotAnInput { number: 1 }));
+    assert_eq!(solver.set_course(2, [1.0; 3]), Err(InputError::NotAnInput { number: 2 }));
+    assert_eq!(solver.set_guide(0, [1.0; 3]), Err(InputError::NotAnInput { number: 0 }));
+    let refused = solver.set_course(0, [0.0, f64::NAN, 0.0]);
+    assert_eq!(refused, Err(InputError::NotFinite { number: 0, component: 1 }));
+    for _ in 0..10 {
+        solver.step(&model, 1e-3, &mut Unwatched).expect("a regular step");
+        other.step(&model, 1e-3, &mut Unwatched).expect("a regular step");
+    }
+    assert_eq!(solver.coordinates(), other.coordinates());
+}

@@ -1,0 +1,73 @@
+//! Inputs that were set since the last step, taken into the state that the next one begins with.
+
+use crate::step::choose;
+use crate::workspace::Workspace;
+use mbs_core::model::{Load, Model, State, System, Tangent};
+use mbs_core::step::{StepError, add_response, has_new_inputs, load_at};
+use mbs_core::{Real, SpdSolver};
+
+/// Makes accelerations, multipliers and power those of the inputs that are set now, if others were set since the last step; says
+/// whether they were. Every step begins with this; a caller that keeps a state to go back to calls it before.
+///
+/// ```text
+/// R^T M R y = R^T dQ,   da = R y,   J_d^T dl = (dQ - M da)_d
+/// ```
+///
+/// Cost: nothing without a change; else two evaluations, two factorisations and two solutions; no allocation.
+///
+/// # Errors
+/// [`StepError`]; the state is then unchanged.
+pub fn take_inputs<T: Real, M: Model<T>>(
+    model: &M,
+    s: &mut State<T>,
+    w: &mut Workspace<T>,
+) -> Result<bool, StepError> {
+    if !has_new_inputs(model, s) {
+        return Ok(false);
+    }
+    let n = model.n_unknowns();
+    if w.is_stale {
+        choose(model, s, w)?;
+    }
+    w.a.fill(T::ZERO);
+    w.dq.fill(T::ZERO);
+
+    // -dQ = -Q(u) + Q(u_n), kept in the place of velocities
+    let before = load_at(model, s, false, &mut w.terms);
+    w.move_to(model, s)?;
+    w.basis.evaluate(&w.elimination);
+    w.balance(model, T::ONE);
+    w.v[..n].copy_from_slice(&w.balance);
+    let after = load_at(model, s, true, &mut w.terms);
+    w.balance(model, T::ONE);
+    for (load, balance) in w.v[..n].iter_mut().zip(&mut w.balance) {
+        *balance -= *load;
+        *load = *balance;
+    }
+
+    // R^T M R y = R^T dQ
+    w.solve_transposed();
+    w.jacobian.add_transposed(&w.lambda, &mut w.balance);
+    for (d, &i) in w.d.iter_mut().zip(w.elimination.independent()) {
+        *d = -w.balance[i as usize];
+    }
+    if !w.d.is_empty() {
+        let tangent =
+            Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty: &[], geometric: None };
+        let load = Load { mass: None, multipliers: None, force: T::ZERO };
+        let system = System { model, terms: &w.terms, tangent, load };
+        w.basis.project(&w.elimination, &system, &mut w.tangent);
+        SpdSolver::factor(&mut w.solver, &w.tangent)?;
+        SpdSolver::solve(&w.solver, &mut w.d, &mut w.wanted);
+        w.basis.expand(&w.elimination, &w.d, &mut w.a);
+    }
+
+    // J_d^T dl = (dQ - M da)_d
+    w.balance(model, T::ZERO);
+    for (balance, &load) in w.balance.iter_mut().zip(&w.v) {
+        *balance += load;
+    }
+    w.solve_transposed();
+    add_response(model, s, (&w.a[..n], &w.lambda, after - before), &mut w.terms);
+    Ok(true)
+}
