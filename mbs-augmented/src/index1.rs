@@ -17,7 +17,9 @@ use crate::projection::{Left, Level};
 use crate::workspace::{Mass, Workspace};
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
-use mbs_core::step::{Counts, StepError, StepReport, Stop, check_guides, largest, largest_or_nan};
+use mbs_core::step::{
+    Counts, StepError, StepReport, Stop, check_guides, check_rotations, largest, largest_or_nan,
+};
 use mbs_core::team::{add_product, norm_inf, on_stretches, set_sum, subtract};
 use mbs_core::{Real, SpdSolver};
 
@@ -78,6 +80,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let goal = size * rounding;
     let left = Left { goal, enough: goal, limit };
     let acceleration = w.project(model, Level::Acceleration, left, options.max_sweeps)?;
+    check_rotations(model, &w.terms)?;
     w.commit(model, &rule, options.compensated, T::ONE, s);
     let violation = [norm_inf(model.team(), &w.terms.phi), velocity, acceleration];
     let newton = (iterations, correction, done.unwrap_or(Stop::Tolerance));

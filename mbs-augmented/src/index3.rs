@@ -21,8 +21,8 @@ use crate::workspace::{Mass, Workspace};
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    Counts, StepError, StepReport, Stop, Yardstick, check_guides, largest, largest_or_nan,
-    step_scale, stopping,
+    Counts, StepError, StepReport, Stop, Yardstick, check_guides, check_rotations, largest,
+    largest_or_nan, step_scale, stopping,
 };
 use mbs_core::team::{add_product, norm_inf, on_stretches, set_product, set_sum};
 use mbs_core::{Real, SpdSolver};
@@ -55,6 +55,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
         a.iter_mut().for_each(|a| *a *= rule.acceleration)
     });
     let violation = clean(model, &rule, (since, length), options, w)?;
+    check_rotations(model, &w.terms)?;
     w.commit(model, &rule, options.compensated, rule.acceleration, s);
     Ok(w.report(newton, violation))
 }

@@ -22,8 +22,8 @@ use crate::workspace::{Mass, Workspace};
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    StepError, StepReport, Stop, Yardstick, check_guides, largest, largest_or_nan, step_scale,
-    stopping,
+    StepError, StepReport, Stop, Yardstick, check_guides, check_rotations, largest, largest_or_nan,
+    step_scale, stopping,
 };
 use mbs_core::team::{norm_inf, on_stretches};
 use mbs_core::{Real, SymmetricSolver};
@@ -62,6 +62,7 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         let acceleration = w.violation(model, Level::Acceleration);
         [norm_inf(model.team(), &w.terms.phi), velocity, acceleration]
     };
+    check_rotations(model, &w.terms)?;
     w.commit(model, &rule, options.compensated, T::ONE, s);
     Ok(StepReport::of_newton(newton, w.counts, violation))
 }

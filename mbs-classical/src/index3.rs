@@ -19,7 +19,7 @@ use crate::workspace::{Mass, Workspace};
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    StepError, StepReport, Stop, Yardstick, largest_or_nan, step_scale, stopping,
+    StepError, StepReport, Stop, Yardstick, check_rotations, largest_or_nan, step_scale, stopping,
 };
 use mbs_core::team::{norm_inf, on_stretches};
 use mbs_core::{Real, SymmetricSolver};
@@ -54,6 +54,7 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         factor(model, &rule, options, w)?;
     }
     let violation = w.clean(model, (length, rule.acceleration), options.max_sweeps, s)?;
+    check_rotations(model, &w.terms)?;
     w.commit(model, &rule, options.compensated, rule.acceleration, s);
     Ok(StepReport::of_newton(newton, w.counts, violation))
 }

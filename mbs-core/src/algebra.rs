@@ -246,6 +246,29 @@ pub fn rotation_vector<T: Real>(r: &Matrix<T, 3>) -> Vector<T, 3> {
     if n.dot(&w) < T::ZERO { n * -angle } else { n * angle }
 }
 
+/// The gradient of a component of the rotation vector w = log(R) by turns in the axes that R leads to: w_i' = g.omega.
+///
+/// ```text
+/// g = e_i + w x e_i / 2 + c w x (w x e_i),   c = (1 - a cot a) / |w|^2,   a = |w| / 2
+/// ```
+///
+/// It grows without limit towards a whole turn, where rotation vectors end.
+pub fn rotation_gradient<T: Real>(w: &Vector<T, 3>, i: usize) -> Vector<T, 3> {
+    let square = w.dot(w);
+    let c = if square < T::EPSILON.sqrt().sqrt() {
+        // 1/12 + |w|^2/720 + |w|^4/30240: the next term is below rounding
+        T::ONE / T::from_f64(12.0)
+            + square * (T::ONE / T::from_f64(720.0) + square / T::from_f64(30240.0))
+    } else {
+        let half = square.sqrt() * T::HALF;
+        let (s, c) = half.sin_cos();
+        (T::ONE - half * c / s) / square
+    };
+    let e = unit::<T>(i);
+    let across = cross(w, &e);
+    e + across * T::HALF + cross(w, &across) * c
+}
+
 /// Inverse of a small matrix by Gauss-Jordan elimination with row pivoting; `None` when singular.
 pub fn inverse<T: Real, const N: usize>(a: &SMatrix<T, N, N>) -> Option<SMatrix<T, N, N>> {
     let (mut a, mut b) = (*a, SMatrix::<T, N, N>::identity());
@@ -311,6 +334,23 @@ mod tests {
             let w = Vector::<f64, 3>::from_row_slice(&w);
             let back = rotation_vector(&rotation(&w));
             assert!(norm(&(back - w)) < 1e-10, "{w} {back}");
+        }
+    }
+
+    #[test]
+    fn the_gradient_of_a_rotation_vector_is_its_difference_quotient() {
+        for w in [[0.0, 0.0, 0.0], [1e-5, 0.0, 2e-5], [0.3, -0.2, 0.9], [-1.7, 1.5, 1.2]] {
+            let w = Vector::<f64, 3>::from_row_slice(&w);
+            for k in 0..3 {
+                // central differences: the square of the step, and rounding over it
+                let h = 1e-5;
+                let at = |x: f64| rotation_vector(&(rotation(&(unit(k) * x)) * rotation(&w)));
+                let difference = (at(h) - at(-h)) * (0.5 / h);
+                for i in 0..3 {
+                    let g = rotation_gradient(&w, i);
+                    assert!((g[k] - difference[i]).abs() < 1e-9, "{w} {i} {k}");
+                }
+            }
         }
     }
 

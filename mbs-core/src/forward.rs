@@ -116,6 +116,9 @@ macro_rules! forward_model {
         fn opposite_guide(&self, q: &[$T], terms: &$crate::model::Terms<$T>) -> Option<usize> {
             self.$model.opposite_guide(q, terms)
         }
+        fn overturned(&self, terms: &$crate::model::Terms<$T>) -> Option<$crate::model::Owner> {
+            self.$model.overturned(terms)
+        }
         fn owner_of_unknown(&self, unknown: usize) -> $crate::model::Owner {
             self.$model.owner_of_unknown(unknown)
         }

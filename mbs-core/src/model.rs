@@ -154,6 +154,10 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn power(&self, q: &[T], v: &[T], lambda: &[T], terms: &Terms<T>) -> T;
     /// The row of a guided angle that sits at the false root, half a turn from its guide, if there is one.
     fn opposite_guide(&self, q: &[T], terms: &Terms<T>) -> Option<usize>;
+    /// An effect that has turned by a whole turn or more in space, where its law ends; terms as last evaluated.
+    fn overturned(&self, _terms: &Terms<T>) -> Option<Owner> {
+        None
+    }
     /// What an unknown belongs to, for messages.
     fn owner_of_unknown(&self, unknown: usize) -> Owner;
     /// What a constraint row belongs to, for messages.

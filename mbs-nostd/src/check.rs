@@ -311,7 +311,11 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
         for (i, load) in self.m.loads.iter().enumerate() {
             let holds = match load {
                 Load::Between { links, gauge, law } => {
-                    let has_angle = S::DIMENSION == 2 || !matches!(gauge, Gauge::Turn);
+                    let has_angle = match gauge {
+                        Gauge::Turn => S::DIMENSION == 2,
+                        Gauge::Rotation { number } => S::DIMENSION == 3 && *number < 3,
+                        Gauge::Length { .. } | Gauge::Along { .. } => true,
+                    };
                     links.iter().all(|&link| is_link(link)) && has_angle && self.is_law(law)
                 }
                 Load::Angle { link, law } => {

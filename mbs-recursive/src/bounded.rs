@@ -13,7 +13,7 @@
 
 use crate::at::{Outside, at_mut, copy};
 use crate::evaluate::{Level, accelerations, accelerations_ahead, respond};
-use crate::loads::Reach;
+use crate::loads::{Reach, check_rotations};
 use crate::mechanism::{Counts, Inputs, Mechanism, Store};
 use crate::options::{Closure, Options};
 use crate::passes::{Fault, kinematics};
@@ -101,6 +101,7 @@ pub fn step<T: Real, S: Space<T>>(
     inputs.evaluate(start.t + dt, s.guides, s.courses);
     let report = advance_by(m, (dt, options, bounds), (start, watch), s);
     let report = report.map_err(|fault| failure(m, fault))?;
+    check_rotations(m, inputs, (&start, start.t + dt), s)?;
     if report.correction.is_finite() {
         Ok(report)
     } else {

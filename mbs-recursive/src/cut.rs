@@ -176,10 +176,13 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 let gauge = Gauge::Along { points, direction, offset: *offset };
                 Load::Between { links, gauge, law: *law }
             }
-            Action::Twist { bodies, sides, law } => {
+            Action::Turn { bodies, law } => {
                 let links = bodies.map(|body| self.link(body));
-                let sides = sides.map(|side| S::point_from(&Vector::from(side)));
-                Load::Between { links, gauge: Gauge::Twist { sides }, law: *law }
+                Load::Between { links, gauge: Gauge::Turn, law: *law }
+            }
+            Action::Rotation { bodies, number, law } => {
+                let links = bodies.map(|body| self.link(body));
+                Load::Between { links, gauge: Gauge::Rotation { number: *number }, law: *law }
             }
             Action::Constant { at, force } => {
                 let (link, point) = self.seat_point(BodyRef::Body(at.0), at.1);

@@ -12,6 +12,7 @@ use crate::at::Outside;
 use crate::evaluate::{Level, accelerations, is_redundant, is_tight};
 use crate::ledger;
 use crate::link::{Kind, Link};
+use crate::loads::check_rotations;
 use crate::mechanism::{Counts, Inputs, Mechanism, Store};
 use crate::options::{Closure, Options};
 use crate::project::{self, project};
@@ -213,7 +214,9 @@ pub fn rk4<T: Real, S: Space<T>>(
     let mut system = System::new(m, inputs, (options, Level::Fine), s);
     ode::rk4_step(&mut system, start.t, dt, y, scratch)?;
     system.clean(start.t + dt, y, project::rounding())?;
-    system.finish(start.t + dt, y)
+    let report = system.finish(start.t + dt, y)?;
+    check_rotations(m, inputs, (&start, start.t + dt), s)?;
+    Ok(report)
 }
 
 /// Advances by exactly `dt` [s] with the driver's method, in as many steps as the tolerance asks for.
@@ -259,5 +262,6 @@ pub fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     let count = |n: u64| u32::try_from(n).unwrap_or(u32::MAX);
     report.steps = count(after.accepted - before.accepted);
     report.rejected = count(after.rejected - before.rejected);
+    check_rotations(m, inputs, (&start, start.t + dt), s)?;
     Ok(report)
 }

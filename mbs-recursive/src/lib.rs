@@ -4,6 +4,8 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+#[cfg(feature = "alloc")]
+mod angles;
 mod at;
 pub mod bounded;
 #[cfg(feature = "alloc")]

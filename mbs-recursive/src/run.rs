@@ -38,7 +38,8 @@ pub fn step<T: Real, S: Space<T>>(
     let m = model.mechanism();
     let mut s = workspace.store();
     let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
-    let report = trapezoidal::step(&m, model, (dt, options), start, &mut s)?;
+    let report = trapezoidal::step(&m, model, (dt, options), start, &mut s);
+    let report = report.map_err(|error| model.with_effect(error))?;
     // Work by the trapezoidal rule in time.
     let power = own(ledger::power(&m, &mut s));
     state.work += (state.power + power) * dt * T::HALF;
@@ -65,7 +66,8 @@ pub fn bounded_step<T: Real, S: Space<T>>(
     let mut s = workspace.store();
     let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
     let start = (start, &mut Unwatched);
-    let report = bounded::step(&m, model, (dt, options, bounds), start, &mut s)?;
+    let report = bounded::step(&m, model, (dt, options, bounds), start, &mut s);
+    let report = report.map_err(|error| model.with_effect(error))?;
     take(model, (dt, state.power), &s, state);
     Ok(report)
 }
@@ -88,7 +90,8 @@ pub fn rk4_step<T: Real, S: Space<T>>(
     let (mut s, scratch) = workspace.parts();
     let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
     let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
-    let report = explicit::rk4(&m, model, (dt, options), memory, &mut s)?;
+    let report = explicit::rk4(&m, model, (dt, options), memory, &mut s);
+    let report = report.map_err(|error| model.with_effect(error))?;
     state.work += work(scratch);
     let power = own(ledger::power(&m, &mut s));
     take(model, (dt, power), &s, state);
@@ -211,7 +214,7 @@ fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
     let report = explicit::controlled(&m, model, (dt, options, &mut driver), memory, &mut s);
     *slot(scratch) = Some(driver);
-    let report = report?;
+    let report = report.map_err(|error| model.with_effect(error))?;
     state.work += work(scratch);
     let power = own(ledger::power(&m, &mut s));
     take(model, (dt, power), &s, state);
@@ -240,6 +243,13 @@ fn take<T: Real, S: Space<T>>(
 }
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
+    /// The error with the effect of a load in place of its number.
+    fn with_effect(&self, error: StepError) -> StepError {
+        let StepError::Overturned { effect: load } = error else { return error };
+        let effect = self.effects.get(load as usize).copied().unwrap_or(usize::MAX);
+        StepError::Overturned { effect: u32::try_from(effect).unwrap_or(u32::MAX) }
+    }
+
     /// Evaluates accelerations and multipliers of a state at its coordinates and velocities, without projection.
     ///
     /// Cost: one evaluation; no allocation.

@@ -17,9 +17,9 @@ use crate::tree::{Part, Seat, TreeModel, parts};
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
-use mbs_core::algebra::{Matrix, Vector, across, cross};
+use mbs_core::algebra::{Matrix, Vector, across, cross, rotation_vector};
 use mbs_core::model::State;
-use mbs_core::natural::{NaturalModel, unwrap};
+use mbs_core::natural::{NaturalModel, unwrap, unwrap_rotation};
 use mbs_core::outputs::start_values;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
@@ -148,6 +148,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 let (z, v) = (&mut state.z[link.z as usize..], &mut state.v[link.v as usize..]);
                 let rotation = S::rotation_from(&child.rotation);
                 S::write_rotation(&rotation, z);
+                orient::<T, S>(&child.rotation, values, z);
                 if S::DIMENSION == 2 {
                     z[0] = unwrap(z[0], values.last().copied().unwrap_or(T::ZERO));
                 }
@@ -161,6 +162,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 let (z, v) = (&mut state.z[link.z as usize..], &mut state.v[link.v as usize..]);
                 let relative = parent.rotation.transpose() * child.rotation;
                 S::write_rotation(&S::rotation_from(&relative), z);
+                orient::<T, S>(&relative, values, z);
                 let spin = child.rotation.transpose() * (child.omega - parent.omega);
                 own(write(&S::spin_from(&spin), v, 0));
             }
@@ -294,4 +296,19 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
 /// A vector of space without what the plane does not have.
 fn lifted<T: Real, S: Space<T>>(x: &Vector<T, 3>) -> Vector<T, 3> {
     S::point_into(&S::point_from(x))
+}
+
+/// Gives the quaternion in `z` the sign of the rotation vector that is nearest to the last three of `values`: half its angle is below a
+/// quarter turn, or above it.
+fn orient<T: Real, S: Space<T>>(rotation: &Matrix<T, 3>, values: &[T], z: &mut [T]) {
+    let Some((q, _)) = z.split_first_chunk_mut::<4>().filter(|_| S::DIMENSION == 3) else { return };
+    let mut last = Vector::<T, 3>::zeros();
+    if let Some(from) = values.last_chunk::<3>() {
+        last = Vector::from(*from);
+    }
+    let w = unwrap_rotation(&rotation_vector(rotation), &last);
+    let is_over = w.dot(&w).sqrt() > T::PI;
+    if (q[0] < T::ZERO) != is_over {
+        q.iter_mut().for_each(|x| *x = -*x);
+    }
 }

@@ -14,7 +14,7 @@
 
 use crate::at::{Outside, at, at_mut, copy};
 use crate::evaluate::{Level, accelerations, accelerations_ahead, is_redundant, note_rank};
-use crate::loads::Reach;
+use crate::loads::{Reach, check_rotations};
 use crate::mechanism::{Inputs, Mechanism, Store};
 use crate::mixing::Mixing;
 use crate::options::{Closure, Options};
@@ -78,6 +78,7 @@ pub fn step<T: Real, S: Space<T>>(
     } else if !m.loops.loops.is_empty() {
         violation = violations(m, s);
     }
+    check_rotations(m, inputs, (&start, start.t + dt), s)?;
     Ok(StepReport {
         iterations,
         factorizations: s.counts.condensations,

@@ -19,8 +19,8 @@ use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Load, Model, State, System, Tangent};
 use mbs_core::step::{
-    Counts, StepError, StepReport, Stop, add_work, check_guides, largest, largest_or_nan,
-    step_scale, take_coordinates,
+    Counts, StepError, StepReport, Stop, add_work, check_guides, check_rotations, largest,
+    largest_or_nan, step_scale, take_coordinates,
 };
 use mbs_core::{FactorError, Real, SpdSolver};
 
@@ -93,6 +93,7 @@ fn attempt<T: Real, M: Model<T>>(
     w.place(model, (rule, length), options, s)?;
     let newton = iterate(model, (rule, length), options, s, w)?;
     check_guides(model, &w.q, &w.terms)?;
+    check_rotations(model, &w.terms)?;
     let violation = check_violation(model, length, w)?;
     Ok((newton, violation))
 }

@@ -1,7 +1,9 @@
 //! What the channels of a run read: measures, and joint reactions where an output asks for one.
 
 use crate::checkpoint::tape::{Tape, Told, holds};
+use crate::simulation::Simulation;
 use crate::stop::StopError;
+use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
@@ -58,8 +60,16 @@ impl<T: Real, const D: usize> Channels<T, D> {
     }
 
     /// Follows angles at every step, so that no turn is lost.
-    pub(crate) fn track(&mut self, state: &State<T>) {
-        self.measures.track(state);
+    ///
+    /// # Errors
+    /// [`StopError::Step`] with the joint whose turns are not known.
+    pub(crate) fn track(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError>
+    where
+        Plane<D>: InSpace<T>,
+    {
+        let known = |joint, number| simulation.coordinate(joint, number);
+        let tracked = self.measures.track_with(simulation.state(), known);
+        tracked.map_err(|error| simulation.explain(error))
     }
 
     /// All components at a state.
@@ -77,7 +87,8 @@ impl<T: Real, const D: usize> Channels<T, D> {
         }
         let reactions = &self.reactions;
         let of = |joint| reactions.as_ref().map_or([T::ZERO; 6], |r| r.reaction(joint));
-        self.measures.write(state, of, out);
+        // A state that was tracked before: its turns are known.
+        let _ = self.measures.write(state, of, out);
         let Some(bad) = out.iter().position(|x| !x.to_f64().is_finite()) else { return Ok(()) };
         Err(StopError::Output { output: self.outputs.partition_point(|end| *end <= bad) })
     }

@@ -1,7 +1,7 @@
 //! Steps of controlled length, whatever the formulation.
 
 use crate::checkpoint::ControlKept;
-use crate::choice::StepRule;
+use crate::choice::{Formulation, StepRule};
 use crate::engine::Engine;
 use crate::settings::Settings;
 use crate::tree::{InSpace, Plane};
@@ -11,7 +11,7 @@ use mbs_core::control::{
 };
 use mbs_core::model::{Model, State};
 use mbs_core::natural::{ModelError, NaturalModel};
-use mbs_core::outputs::Events;
+use mbs_core::outputs::{Events, Turns};
 use mbs_core::scene::Scene;
 use mbs_core::step::StepError;
 
@@ -21,6 +21,8 @@ pub(crate) struct Control<T: Real, const D: usize> {
     driver: Driver<T>,
     estimate: Option<LocalError<T>>,
     events: Option<Events<T, D>>,
+    /// In natural coordinates: a tree has its turns.
+    turns: Option<Turns<T, D>>,
     saved: State<T>,
 }
 
@@ -56,7 +58,9 @@ where
         let driver = Driver::new(rules, lengths.step);
         let mut events = settings.events.then(|| Events::new(scene, model)).transpose()?;
         events.iter_mut().for_each(|events| events.start(state));
-        Ok(Some(Self { driver, estimate, events, saved: state.clone() }))
+        let is_tree = settings.formulation == Formulation::Recursive;
+        let turns = (!is_tree).then(|| Turns::new(scene, model));
+        Ok(Some(Self { driver, estimate, events, turns, saved: state.clone() }))
     }
 
     /// What the next step goes on from.
@@ -89,8 +93,9 @@ where
     ) -> Result<Accepted<T>, StepError> {
         self.saved.copy_from(state);
         engine.keep();
-        let Self { driver, estimate, events, saved } = self;
-        let mut trial = Trial { model, engine, state, saved, estimate: *estimate, events };
+        let Self { driver, estimate, events, turns, saved } = self;
+        let (estimate, turns) = (*estimate, turns.as_ref());
+        let mut trial = Trial { model, engine, state, saved, estimate, events, turns };
         let t = trial.state.t;
         driver.step(&mut trial, invariant, (t, rest))
     }
@@ -107,6 +112,7 @@ where
     saved: &'a mut State<T>,
     estimate: Option<LocalError<T>>,
     events: &'a mut Option<Events<T, D>>,
+    turns: Option<&'a Turns<T, D>>,
 }
 
 impl<T: Real, const D: usize> Stepper<T> for Trial<'_, T, D>
@@ -124,6 +130,10 @@ where
     fn attempt(&mut self, h: T) -> Result<Attempt<T>, StepError> {
         let report = self.engine.step(self.model, h, self.state);
         let report = report.inspect_err(|_| self.engine.undo())?;
+        if let Some(turns) = self.turns {
+            let checked = turns.check([self.saved, self.state]);
+            checked.inspect_err(|_| self.undo())?;
+        }
         let energies = self.engine.energies(self.model, self.state);
         let length = self.model.length();
         let error = self

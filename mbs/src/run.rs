@@ -301,16 +301,17 @@ where
         if let Some(to) = to {
             self.simulation.set_time(to);
         }
-        self.made(&accepted, clock);
+        self.made(&accepted, clock)?;
         Ok(accepted.is_last)
     }
 
     /// Takes a step that was made since the `clock`.
-    fn made(&mut self, accepted: &Accepted<T>, clock: &mut Instant) {
-        self.take(accepted);
+    fn made(&mut self, accepted: &Accepted<T>, clock: &mut Instant) -> Result<(), StopError> {
+        let taken = self.take(accepted);
         let now = Instant::now();
         self.counts.worst = self.counts.worst.max(now - *clock);
         *clock = now;
+        taken.or_else(|stop| self.stop(stop))
     }
 
     /// A row where one is due, and the alarm.
@@ -344,14 +345,14 @@ where
     }
 
     /// Counts and maxima of a step.
-    fn take(&mut self, accepted: &Accepted<T>) {
+    fn take(&mut self, accepted: &Accepted<T>) -> Result<(), StopError> {
         let report = &accepted.attempt.report;
         let t = self.simulation.state().t.to_f64();
         self.counts.steps += u64::from(report.steps);
         self.reached = t;
         self.counts.iterations += u64::from(report.iterations);
         self.counts.factorizations += u64::from(report.factorizations);
-        self.measures.track(self.simulation.state());
+        let tracked = self.measures.track(&self.simulation);
         self.contacts.watch(self.simulation.state());
         let index = self.simulation.index().map(|(index, _)| index);
         let is_controlled = self.simulation.is_controlled();
@@ -372,6 +373,7 @@ where
         };
         self.recorder.mark(&self.mark);
         self.counts.control.take(&self.mark.step);
+        tracked
     }
 
     fn finish(self, cpu: Duration, error: Option<StopError>) -> Outcome {

@@ -173,6 +173,15 @@ where
         self.model.set_guide(guide, motion)
     }
 
+    /// An angle or slide of a joint with its turns, by joint and number, where the formulation's own coordinates have it: in a tree, but for
+    /// joints that it cuts and rotations in space.
+    pub fn coordinate(&self, joint: usize, number: usize) -> Option<T> {
+        match &self.engine {
+            Engine::Recursive(tree) => tree.coordinate(joint, number),
+            _ => None,
+        }
+    }
+
     /// The natural-coordinate model: outputs are measured in it.
     pub fn model(&self) -> &NaturalModel<T, D> {
         &self.model

@@ -110,6 +110,8 @@ impl StopError {
             StepError::Violated { row: r, .. }
             | StepError::OppositeBranch { row: r }
             | StepError::RankLost { row: r, .. } => Some(row(r as usize)),
+            StepError::TurnTooLarge { joint, .. } => Some(Owner::Joint(joint as usize)),
+            StepError::Overturned { effect } => Some(Owner::Effect(effect as usize)),
             _ => None,
         };
         Self::Step(error, owner)
@@ -191,6 +193,8 @@ impl StopError {
             Self::Step(StepError::OppositeBranch { .. }, _) => "opposite-branch",
             Self::Step(StepError::RankLost { .. }, _) => "rank-lost",
             Self::Step(StepError::StepTooSmall { .. }, _) => "step-too-small",
+            Self::Step(StepError::TurnTooLarge { .. }, _) => "turn-too-large",
+            Self::Step(StepError::Overturned { .. }, _) => "overturned",
             Self::Step(..) => "step-failed",
             Self::Reaction(_) => "no-reactions",
             Self::Tree(..) => "no-tree",
@@ -238,6 +242,12 @@ impl StopError {
             }
             Self::Step(StepError::StepTooSmall { .. }, _) => {
                 "try a looser tolerance, or steps of fixed length by the trapezoidal rule: the motion may be stiff or not smooth here"
+            }
+            Self::Step(StepError::TurnTooLarge { .. }, _) => {
+                "make the step so short that the joint turns by less than a radian in it, or try the formulation recursive"
+            }
+            Self::Step(StepError::Overturned { .. }, _) => {
+                "a bushing in space ends at a whole turn: hold the turning by a joint, with a torsion spring about its axis"
             }
             Self::Step(..) => "try a smaller step, or another formulation",
             Self::Reaction(_) => "leave the reaction outputs out",
@@ -482,6 +492,14 @@ fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) -> core::fmt:
                 "the constraints on {name} could not be met: {} {unit} is left",
                 few(*violation)
             )
+        }
+        StepError::TurnTooLarge { turn, .. } => write!(
+            f,
+            "the joint turns by {} rad in one step, more than its position tells",
+            few(*turn)
+        ),
+        StepError::Overturned { .. } => {
+            write!(f, "the effect is turned by more than a whole turn, where its law ends")
         }
         StepError::OppositeBranch { .. } => {
             write!(f, "the guided angle jumped half a turn away from its guide")

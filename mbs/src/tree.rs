@@ -5,10 +5,11 @@ use crate::choice::IntegratorKind;
 use crate::settings::Settings;
 use crate::stop::StopError;
 use mbs_core::Real;
+use mbs_core::actions::{Action, Actions};
 use mbs_core::model::{Model, Owner, State, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::Scene;
+use mbs_core::scene::{BodyRef, JointKind, Scene};
 use mbs_core::step::{InputError, StepError, StepReport};
 use mbs_recursive::space::Space;
 use mbs_recursive::{
@@ -36,6 +37,51 @@ impl<T: Real> InSpace<T> for Plane<3> {
     type Space = Spatial;
 }
 
+/// An angle that the tree has with its turns.
+#[derive(Debug, Clone, Copy)]
+enum Angle {
+    /// A link's coordinate.
+    Of(u32),
+    /// Of the second body against the first, in the plane.
+    Between([BodyRef; 2]),
+}
+
+/// The angles that effects measure, by the place where the natural state remembers each: of a joint that is not cut, or in the plane.
+fn angles<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    natural: &NaturalModel<T, D>,
+    coordinates: &[Vec<Option<u32>>],
+) -> Vec<(usize, Angle)> {
+    // A scene that has a tree has actions.
+    let list = Actions::new(scene).map(|actions| actions.list).unwrap_or_default();
+    let angle = |(effect, action): &(usize, Action<T>)| {
+        let angle = match action {
+            // Joints with an effect about their axis have one angle.
+            Action::Angle { joint, .. } => {
+                let is_turn = |number: &usize| !is_slide(scene.joints[*joint].kind, *number);
+                let number = (0..coordinates[*joint].len()).find(is_turn)?;
+                Angle::Of(coordinates[*joint][number]?)
+            }
+            Action::Turn { bodies, .. } => Angle::Between(*bodies),
+            Action::Torque { body, .. } if D == 2 => {
+                Angle::Between([BodyRef::Ground, BodyRef::Body(*body)])
+            }
+            _ => return None,
+        };
+        Some((natural.memory_of_effect(*effect)?, angle))
+    };
+    list.iter().filter_map(angle).collect()
+}
+
+/// Is this coordinate of a joint a slide?
+fn is_slide(kind: JointKind, number: usize) -> bool {
+    match kind {
+        JointKind::Cylindrical => number == 0,
+        JointKind::Planar | JointKind::Free => number < 2,
+        _ => false,
+    }
+}
+
 /// A scene in relative coordinates.
 #[derive(Debug)]
 pub struct Tree<T: Real, const D: usize>
@@ -50,6 +96,10 @@ where
     integrator: IntegratorKind,
     motions: Vec<RigidMotion<T>>,
     terms: Terms<T>,
+    /// The links that have the coordinates of each joint.
+    coordinates: Vec<Vec<Option<u32>>>,
+    /// Where the natural state remembers angles that the tree has, and whose they are.
+    angles: Vec<(usize, Angle)>,
     rank: usize,
     energies: [f64; 2],
     saved_energies: [f64; 2],
@@ -71,7 +121,10 @@ where
         let mut workspace = Workspace::new(&model);
         let rank = model.rank(&start, &mut workspace).unwrap_or_else(|_| model.n_rows());
         let motions = (0..scene.bodies.len()).map(|b| natural.motion(scene, b, state)).collect();
+        let coordinates = model.coordinate_links(scene);
         let mut tree = Self {
+            angles: angles(scene, natural, &coordinates),
+            coordinates,
             saved: start.clone(),
             state: start,
             workspace,
@@ -153,8 +206,20 @@ where
         state.t = self.state.t;
         state.work = self.state.work;
         state.power = self.state.power;
+        for &(place, angle) in &self.angles {
+            state.memory[place] = match angle {
+                Angle::Of(link) => self.model.coordinate(&self.state, link),
+                Angle::Between(bodies) => self.model.turn_between(&self.state, bodies),
+            };
+        }
         tell(&self.motions, natural, &mut self.terms, state);
         self.watch();
+    }
+
+    /// An angle or slide of a joint with its turns, by its number; nothing where the joint is cut, or turns in space.
+    pub(crate) fn coordinate(&self, joint: usize, number: usize) -> Option<T> {
+        let link = (*self.coordinates.get(joint)?.get(number)?)?;
+        Some(self.model.coordinate(&self.state, link))
     }
 
     /// Takes kinetic and potential energy.

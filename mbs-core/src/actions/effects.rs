@@ -152,21 +152,21 @@ impl<T: Real> Compiler<'_, T> {
     }
 
     fn bushing(&mut self, bodies: [BodyRef; 2], at: [T; 3], (k, c): (&[T; 6], &[T; 6])) {
-        let law = |i: usize| {
-            let acts = !(k[i].is_zero() && c[i].is_zero());
-            acts.then(|| Law::SpringDamper { stiffness: k[i], damping: c[i], free: T::ZERO })
-        };
+        let acts = |i: usize| !(k[i].is_zero() && c[i].is_zero());
+        let law = |i| Law::SpringDamper { stiffness: k[i], damping: c[i], free: T::ZERO };
         let ends = bodies.map(|body| (body, at));
-        for i in 0..self.scene.dimension.count() {
-            if let Some(law) = law(i) {
-                self.push(Action::Along { ends, direction: unit(i).into(), offset: T::ZERO, law });
-            }
+        for i in (0..self.scene.dimension.count()).filter(|&i| acts(i)) {
+            let direction = unit(i).into();
+            self.push(Action::Along { ends, direction, offset: T::ZERO, law: law(i) });
         }
-        let is_planar = self.is_planar();
-        for i in (0..3).filter(|&i| i == 2 || !is_planar) {
-            if let Some(law) = law(3 + i) {
-                let sides = [unit((i + 1) % 3).into(), unit((i + 2) % 3).into()];
-                self.push(Action::Twist { bodies, sides, law });
+        if self.is_planar() {
+            if acts(5) {
+                self.push(Action::Turn { bodies, law: law(5) });
+            }
+        } else if (3..6).any(acts) {
+            // All three: a rotation is remembered as a whole.
+            for number in 0..3_u32 {
+                self.push(Action::Rotation { bodies, number, law: law(3 + number as usize) });
             }
         }
     }

@@ -50,13 +50,20 @@ pub enum Action<T> {
         /// The law.
         law: Law<T>,
     },
-    /// A law of the small rotation of the second body in the first about a x b: (b1.a2 - a1.b2) / 2, where 1 and 2 are the
-    /// bodies in which the unit vectors a and b turn.
-    Twist {
+    /// A law of the angle of the second body against the first in the plane, over any number of turns.
+    Turn {
         /// The bodies.
         bodies: [BodyRef; 2],
-        /// a and b, reference configuration.
-        sides: [[T; 3]; 2],
+        /// The law.
+        law: Law<T>,
+    },
+    /// A law of a component of the rotation vector of the second body against the first in space, along what was a global axis, in
+    /// the first; below a whole turn. An effect has three of them, one after the other, or none.
+    Rotation {
+        /// The bodies.
+        bodies: [BodyRef; 2],
+        /// The component, from 0.
+        number: u32,
         /// The law.
         law: Law<T>,
     },

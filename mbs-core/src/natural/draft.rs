@@ -53,8 +53,9 @@ pub(crate) enum EffectDraft<T: Real> {
         offset: T,
         law: Law<T>,
     },
-    Twist {
-        x: [Combination<T>; 4],
+    Rotation {
+        frames: [Vec<Combination<T>>; 2],
+        number: u32,
         law: Law<T>,
     },
     Angle {
@@ -85,7 +86,7 @@ impl<T: Real> EffectDraft<T> {
         match self {
             Self::Length { x, .. } => alloc::vec![x],
             Self::Along { x, d, .. } => alloc::vec![x, d],
-            Self::Twist { x, .. } => x.iter().collect(),
+            Self::Rotation { frames, .. } => frames.iter().flatten().collect(),
             Self::Angle { x1, x2, y, .. } => alloc::vec![x1, x2, y],
             Self::Force { point, frame, .. } | Self::OnBody { point, frame, .. } => {
                 let mut all = alloc::vec![point];

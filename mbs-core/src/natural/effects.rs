@@ -45,13 +45,15 @@ impl<T: Real> Builder<'_, T> {
                 let [x1, x2, y] = self.angle(&self.scene.joints[*joint]);
                 EffectDraft::Angle { x1, x2, y, law: *law }
             }
-            Action::Twist { bodies, sides, law } => {
+            Action::Turn { bodies: [first, second], law } => {
+                let [x, y] = [0, 1].map(unit);
+                let (x1, x2) = (self.direction(*first, x), self.direction(*first, y));
+                EffectDraft::Angle { x1, x2, y: self.direction(*second, x), law: *law }
+            }
+            Action::Rotation { bodies, number, law } => {
                 bodies.iter().try_for_each(|body| self.needs_rotation(*body))?;
-                let [a, b] = sides.map(Vector::<T, 3>::from);
-                let [first, second] = *bodies;
-                let sides = [(first, b), (second, a), (first, a), (second, b)];
-                let x = sides.map(|(body, d)| self.direction(body, d));
-                EffectDraft::Twist { x, law: *law }
+                let frames = bodies.map(|body| self.frame(body));
+                EffectDraft::Rotation { frames, number: *number, law: *law }
             }
             Action::Constant { at: (body, at), force } => {
                 // A constant force has a potential, -F.r: it joins gravity.
@@ -87,7 +89,7 @@ impl<T: Real> Builder<'_, T> {
         let draft = match action {
             Action::Force { at: (_, at), course, turns } => EffectDraft::Force {
                 point: self.point(me, *at),
-                frame: turns.then(|| self.frame(*body)),
+                frame: turns.then(|| self.frame(me)),
                 course: *course,
             },
             Action::Torque { course, .. } => {
@@ -103,7 +105,7 @@ impl<T: Real> Builder<'_, T> {
                         }
                     }
                     Dimension::Spatial => {
-                        EffectDraft::Torque { frame: self.frame(*body), course: *course }
+                        EffectDraft::Torque { frame: self.frame(me), course: *course }
                     }
                 }
             }
@@ -111,7 +113,7 @@ impl<T: Real> Builder<'_, T> {
                 if law.needs_rotation() {
                     self.needs_rotation(me)?;
                 }
-                let frame = law.needs_rotation().then(|| self.frame(*body));
+                let frame = law.needs_rotation().then(|| self.frame(me));
                 EffectDraft::OnBody { point: self.point(me, *at), frame, axis: *axis, law: *law }
             }
             _ => return Ok(()),
@@ -137,8 +139,8 @@ impl<T: Real> Builder<'_, T> {
     }
 
     /// The body's directions that were x, y, z in the reference configuration; in the plane x and y.
-    fn frame(&mut self, body: usize) -> Vec<Combination<T>> {
+    fn frame(&mut self, body: BodyRef) -> Vec<Combination<T>> {
         let n = self.scene.dimension.count();
-        (0..n).map(|i| self.direction(BodyRef::Body(body), unit(i))).collect()
+        (0..n).map(|i| self.direction(body, unit(i))).collect()
     }
 }

@@ -127,8 +127,12 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
 
     fn remember(&self, terms: &Terms<T>, memory: &mut [T]) {
         for (element, measure) in self.measures.iter().zip(&terms.measures) {
-            if let Gauge::Angle { memory: place, .. } = element.gauge {
-                memory[place as usize] = measure.value;
+            match element.gauge {
+                Gauge::Angle { memory: place, .. } => memory[place as usize] = measure.value,
+                Gauge::Rotation { number, memory: place, .. } => {
+                    memory[(place + number) as usize] = measure.value;
+                }
+                Gauge::Length { .. } | Gauge::Along { .. } => {}
             }
         }
     }
@@ -259,6 +263,16 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
             row.is_opposite::<T, D>(&self.pool, q, terms.guides[row.guide as usize][0])
         };
         self.guided.iter().find(is_opposite).map(|row| row.row as usize)
+    }
+
+    fn overturned(&self, terms: &Terms<T>) -> Option<Owner> {
+        let turn = T::TWO * T::PI;
+        let is_over = |&&(first, _): &&(u32, Owner)| {
+            let parts = terms.measures[first as usize..].iter().take(3);
+            let square = parts.fold(T::ZERO, |sum, part| sum + part.value * part.value);
+            !(square <= turn * turn)
+        };
+        self.rotations.iter().find(is_over).map(|&(_, owner)| owner)
     }
 
     fn owner_of_unknown(&self, unknown: usize) -> Owner {

@@ -134,6 +134,7 @@ impl<T: Real, const D: usize> Layout<T, D> {
             prescribed: actions.prescribed,
             n_memory: 0,
             angles: Vec::new(),
+            rotations: Vec::new(),
             point_forces: Vec::new(),
             torques: Vec::new(),
             row_owner: Vec::new(),
@@ -392,9 +393,18 @@ impl<T: Real, const D: usize> Layout<T, D> {
                 let (x, d) = (self.span(x, columns), self.span(d, columns));
                 self.add_measure(Gauge::Along { x, d, offset: *offset }, *law, group);
             }
-            EffectDraft::Twist { x, law } => {
-                let x = [0, 1, 2, 3].map(|i| self.span(&x[i], columns));
-                self.add_measure(Gauge::Twist { x }, *law, group);
+            EffectDraft::Rotation { frames, number, law } => {
+                let frames = [0, 1].map(|i| self.frame(&frames[i], columns));
+                if *number == 0 {
+                    // The three of a rotation follow each other: they share what is remembered.
+                    let (first, owner) = (self.model.n_memory, group.owner);
+                    self.model.n_memory += 3;
+                    let places = first..first + 3;
+                    self.model.angles.extend(places.map(|place| (owner, index(place))));
+                    self.model.rotations.push((index(self.model.measures.len()), owner));
+                }
+                let memory = index(self.model.n_memory - 3);
+                self.add_measure(Gauge::Rotation { frames, number: *number, memory }, *law, group);
             }
             EffectDraft::OnBody { point, frame, axis, law } => {
                 let point = self.span(point, columns);

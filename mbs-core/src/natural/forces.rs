@@ -6,6 +6,7 @@
 //! torque tau on a spatial body:     Q = 1/2 sum_i (tau x u_i) on its three orthonormal directions u_i
 //! ```
 
+use super::rotation::rotation;
 use crate::Real;
 use crate::algebra::{Vector, cross, lowered, norm, raised};
 use crate::elements::{Span, Term, combine};
@@ -19,8 +20,8 @@ pub(crate) enum Gauge<T> {
     Length { x: Span },
     /// Distance of a combination along a direction.
     Along { x: Span, d: Span, offset: T },
-    /// (x0.x1 - x2.x3) / 2 of four directions.
-    Twist { x: [Span; 4] },
+    /// A component of the rotation vector of the second frame against the first, nearest to the three numbers at `memory`.
+    Rotation { frames: [[Span; 3]; 2], number: u32, memory: u32 },
     /// Angle of y in the frame x1, x2, unwrapped against `memory`.
     Angle { x1: Span, x2: Span, y: Span, memory: u32 },
 }
@@ -69,11 +70,10 @@ impl<T: Real> MeasureElement<T> {
                     product::<T, D>([x, d].map(|x| x.of(pool)), (q, v), T::ONE, row);
                 (value - offset, rate)
             }
-            Gauge::Twist { x } => {
-                let x = x.map(|x| x.of(pool));
-                let first = product::<T, D>([x[0], x[1]], (q, v), T::HALF, row);
-                let second = product::<T, D>([x[2], x[3]], (q, v), -T::HALF, row);
-                (first.0 + second.0, first.1 + second.1)
+            Gauge::Rotation { frames, number, memory: place } => {
+                let last = &memory[place as usize..][..3];
+                let frames = frames.map(|frame| frame.map(|x| x.of(pool)));
+                rotation::<T, D>(frames, number as usize, (q, v), last, row)
             }
             Gauge::Angle { x1, x2, y, memory: turn } => {
                 let spans = [x1.of(pool), x2.of(pool), y.of(pool)];

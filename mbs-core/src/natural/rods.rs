@@ -110,7 +110,9 @@ impl<T: Real> Rods<T> {
                 self.rotation(ends[0].0);
                 self.point(ends[1].0, &ends[1].1);
             }
-            Action::Twist { bodies, .. } => bodies.iter().for_each(|b| self.rotation(*b)),
+            Action::Turn { bodies, .. } | Action::Rotation { bodies, .. } => {
+                bodies.iter().for_each(|b| self.rotation(*b))
+            }
             Action::Constant { at: (body, at), .. } => self.point(BodyRef::Body(*body), at),
             Action::Torque { body, .. } => self.rotation(BodyRef::Body(*body)),
             Action::Angle { joint, .. } => {

@@ -6,11 +6,12 @@
 //! turn    log(R1^T R2),   rate omega2 - omega1 in global axes
 //! ```
 
-use super::frame::{Frame, normalised};
+use super::frame::Frame;
 use crate::Real;
-use crate::algebra::{Vector, cross, norm, rotation_vector, unit};
-use crate::natural::{Affine, NaturalModel, angle_directions, joint_axes, unwrap};
-use crate::scene::{Joint, JointKind, Scene};
+use crate::algebra::{Vector, cross, rotation_vector, unit};
+use crate::model::State;
+use crate::natural::{Affine, NaturalModel, angle_directions, joint_axes, unwrap, unwrap_rotation};
+use crate::scene::{BodyRef, Joint, JointKind, Scene};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
@@ -77,6 +78,17 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         }
     }
 
+    /// The angle of the second body against the first, in the plane.
+    pub(super) fn between(model: &NaturalModel<T, D>, [first, second]: [BodyRef; 2]) -> Self {
+        let [x, y] = [0, 1].map(|i| unit::<T>(i).into());
+        Self::Angle {
+            x1: model.direction(first, x),
+            x2: model.direction(first, y),
+            y: model.direction(second, x),
+            sign: T::ONE,
+        }
+    }
+
     fn slide(model: &NaturalModel<T, D>, joint: &Joint<T>, along: [T; 3]) -> Self {
         let [first, second] = joint.bodies;
         let [p, q] = joint.points;
@@ -91,21 +103,56 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         if matches!(self, Self::Turn { .. }) { 3 } else { 1 }
     }
 
-    /// Replaces the last value by the present one, turns counted from the last.
-    pub(super) fn track(&self, q: &[T], last: &mut [T]) {
+    /// Is it one that turns more than once?
+    pub(super) fn is_angle(&self) -> bool {
+        matches!(self, Self::Angle { .. })
+    }
+
+    /// Replaces the last value by the present one, with the turns that lead nearest to the `expected` value.
+    pub(super) fn track(&self, q: &[T], expected: &[T], last: &mut [T]) {
         match self {
-            Self::Angle { x1, x2, y, sign } => {
-                let y = y.value(q);
-                let angle = x2.value(q).dot(&y).atan2(x1.value(q).dot(&y));
-                last[0] = unwrap(angle * *sign, last[0]);
-            }
+            Self::Angle { .. } => last[0] = unwrap(self.angle_at(q), expected[0]),
             Self::Slide { x, y } => last[0] = x.value(q).dot(&y.value(q)),
             Self::Turn { frames } => {
                 let r = frames[0].rotation(q).transpose() * frames[1].rotation(q);
-                let w = nearest(&rotation_vector(&r), &Vector::from_fn(|i, _| last[i]));
+                let w = unwrap_rotation(&rotation_vector(&r), &Vector::from_fn(|i, _| expected[i]));
                 last.copy_from_slice(w.as_slice());
             }
         }
+    }
+
+    /// The angle, within half a turn of zero; zero of what is none.
+    fn angle_at(&self, q: &[T]) -> T {
+        let Self::Angle { x1, x2, y, sign } = self else { return T::ZERO };
+        let y = y.value(q);
+        x2.value(q).dot(&y).atan2(x1.value(q).dot(&y)) * *sign
+    }
+
+    /// Where the angle is expected that was `last` before a time of `dt` [s] with these rates at both ends: where the mean rate leads.
+    pub(super) fn expected(last: T, [before, now]: [T; 2], dt: T) -> T {
+        last + (before + now) * dt * T::HALF
+    }
+
+    /// Is an angle that was to turn by `expected` so far from there that its turns are not known?
+    pub(super) fn is_lost(turned: T, expected: T) -> bool {
+        let quarter = T::PI * T::HALF;
+        expected.abs() > quarter && (turned - expected).abs() > quarter
+    }
+
+    /// Between two states, `dt` [s] apart: the turn that an angle's rates tell, if its positions do not fit it.
+    pub(super) fn lost_turn(&self, [from, to]: [&State<T>; 2]) -> Option<T> {
+        if !self.is_angle() {
+            return None;
+        }
+        let (mut before, mut now) = ([T::ZERO], [T::ZERO]);
+        self.rates(&from.q, &from.v, &mut before);
+        self.rates(&to.q, &to.v, &mut now);
+        let expected = Self::expected(T::ZERO, [before[0], now[0]], to.t - from.t);
+        if !(expected.abs() > T::PI * T::HALF) {
+            return None;
+        }
+        let turned = unwrap(self.angle_at(&to.q) - self.angle_at(&from.q), expected);
+        Self::is_lost(turned, expected).then_some(expected)
     }
 
     /// Writes the rates at (q, v).
@@ -129,22 +176,11 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
     }
 }
 
-/// The rotation vector of the same rotation as `w` that is nearest to `last`: its length may pass half a turn.
-fn nearest<T: Real>(w: &Vector<T, 3>, last: &Vector<T, 3>) -> Vector<T, 3> {
-    let angle = norm(w);
-    // After whole turns the axis of a vanishing angle is rounding: the last one is kept.
-    let n = if angle <= T::EPSILON.sqrt() && norm(last) > T::PI {
-        normalised(last)
-    } else {
-        normalised(w)
-    };
-    n * unwrap(n.dot(w), n.dot(last))
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::frame::normalised;
     use super::*;
-    use crate::algebra::rotation;
+    use crate::algebra::{norm, rotation};
 
     #[test]
     fn a_rotation_vector_grows_continuously_over_three_turns() {
@@ -152,7 +188,7 @@ mod tests {
         let mut last = Vector::<f64, 3>::zeros();
         for i in 0..=600 {
             let angle = f64::from(i) * core::f64::consts::PI / 100.0;
-            last = nearest(&rotation_vector(&rotation(&(axis * angle))), &last);
+            last = unwrap_rotation(&rotation_vector(&rotation(&(axis * angle))), &last);
             assert!(norm(&(last - axis * angle)) < 1e-7, "at {angle}: {last}");
         }
     }

@@ -6,18 +6,20 @@ use crate::inputs::GuideInput;
 use crate::model::State;
 use crate::natural::{Affine, ModelError, NaturalModel};
 use crate::scene::{BodyRef, InitialTarget, Joint, Quantity, Scene};
+use crate::step::StepError;
 use alloc::vec;
 use alloc::vec::Vec;
 
 /// Measures the output channels of a scene in the order of its file; without outputs, every joint coordinate.
 ///
-/// Angles are not wrapped: [`track`](Self::track) counts turns and must see every step, recorded or not. Counting starts
-/// from the scene's initial value (an `[[initial]]` entry or a guide at time zero), else from zero.
+/// Angles are not wrapped: [`track`](Self::track) counts turns and must see every step, recorded or not; more than half a turn a step is
+/// followed by the rates. Counting starts from the scene's initial value (an `[[initial]]` entry or a guide at time zero), else from zero.
 #[derive(Debug, Clone)]
 pub struct Measures<T: Real, const D: usize> {
     channels: Vec<Channel<T, D>>,
-    /// Last values of all tracked joint coordinates.
+    /// Last values of all tracked joint coordinates, then their rates, then their time.
     memory: Vec<T>,
+    n_values: usize,
     n_components: usize,
 }
 
@@ -27,8 +29,8 @@ enum Channel<T: Real, const D: usize> {
     Position(Affine<T, D>),
     Velocity(Affine<T, D>),
     Acceleration(Affine<T, D>),
-    /// Coordinates, and where their last values start in the memory.
-    Value(Vec<Coordinate<T, D>>, usize),
+    /// Coordinates, where their last values start in the memory, and the joint.
+    Value(Vec<Coordinate<T, D>>, usize, usize),
     Rate(Vec<Coordinate<T, D>>),
     Reaction(usize),
 }
@@ -42,7 +44,8 @@ impl<T: Real, const D: usize> Measures<T, D> {
         if scene.dimension.count() != D {
             return Err(ModelError::Dimension);
         }
-        let mut measures = Self { channels: Vec::new(), memory: Vec::new(), n_components: 0 };
+        let mut measures =
+            Self { channels: Vec::new(), memory: Vec::new(), n_values: 0, n_components: 0 };
         let starts = start_values(scene);
         if scene.outputs.is_empty() {
             for joint in 0..scene.joints.len() {
@@ -54,6 +57,10 @@ impl<T: Real, const D: usize> Measures<T, D> {
         for output in &scene.outputs {
             measures.add((scene, &starts), model, &output.quantity);
         }
+        measures.n_values = measures.memory.len();
+        measures.memory.resize(2 * measures.n_values, T::ZERO);
+        // No state was seen yet: the first one is followed from the start values.
+        measures.memory.push(-T::ONE);
         Ok(measures)
     }
 
@@ -72,7 +79,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
             Quantity::JointValue { joint } => {
                 let start = self.memory.len();
                 self.memory.extend_from_slice(&starts[joint]);
-                Channel::Value(coordinates(joint), start)
+                Channel::Value(coordinates(joint), start, joint)
             }
             Quantity::JointRate { joint } => Channel::Rate(coordinates(joint)),
             Quantity::Reaction { joint } => Channel::Reaction(joint),
@@ -92,7 +99,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
         self.channels.iter().map(Channel::len)
     }
 
-    /// The last values of the joint coordinates that are followed, with their turns.
+    /// The last values of the joint coordinates that are followed, with their turns; then their rates and their time.
     #[must_use]
     pub fn memory(&self) -> &[T] {
         &self.memory
@@ -106,17 +113,64 @@ impl<T: Real, const D: usize> Measures<T, D> {
     /// Follows all joint coordinates to `state`, so that no turn is lost. Call it at every step.
     ///
     /// Cost: a few products for each measured joint coordinate, one arc tangent for each angle; no allocation.
-    pub fn track(&mut self, state: &State<T>) {
-        for channel in &self.channels {
-            if let Channel::Value(coordinates, start) = channel {
-                let mut at = *start;
-                for coordinate in coordinates {
-                    let end = at + coordinate.len();
-                    coordinate.track(&state.q, &mut self.memory[at..end]);
-                    at = end;
+    ///
+    /// # Errors
+    /// [`StepError::TurnTooLarge`] names the joint whose turns are not known.
+    pub fn track(&mut self, state: &State<T>) -> Result<(), StepError> {
+        self.track_with(state, |_, _| None)
+    }
+
+    /// The same where some angles, by joint and number, are known with their turns, as those of a tree are.
+    ///
+    /// # Errors
+    /// As for [`track`](Self::track).
+    pub fn track_with(
+        &mut self,
+        state: &State<T>,
+        known: impl Fn(usize, usize) -> Option<T>,
+    ) -> Result<(), StepError> {
+        let Self { channels, memory, n_values, .. } = self;
+        let (values, rest) = memory.split_at_mut(*n_values);
+        let (rates, time) = rest.split_at_mut(*n_values);
+        let dt = state.t - time[0];
+        let has_passed = dt > T::ZERO && time[0] >= T::ZERO;
+        time[0] = state.t;
+        let mut lost = None;
+        for channel in channels {
+            let Channel::Value(coordinates, start, joint) = channel else { continue };
+            let mut at = *start;
+            for (number, coordinate) in coordinates.iter().enumerate() {
+                let end = at + coordinate.len();
+                let (value, rate) = (&mut values[at..end], &mut rates[at..end]);
+                if coordinate.is_angle() {
+                    let (last, before) = (value[0], rate[0]);
+                    coordinate.rates(&state.q, &state.v, rate);
+                    let mut expected = last;
+                    if let Some(known) = known(*joint, number) {
+                        expected = known;
+                        coordinate.track(&state.q, &[expected], value);
+                    } else {
+                        if has_passed {
+                            let rates = [before, rate[0]];
+                            expected = Coordinate::<T, D>::expected(last, rates, dt);
+                        }
+                        coordinate.track(&state.q, &[expected], value);
+                        let turn = expected - last;
+                        if Coordinate::<T, D>::is_lost(value[0] - last, turn) {
+                            lost.get_or_insert((*joint, turn));
+                        }
+                    }
+                } else {
+                    let mut last = [T::ZERO; 3];
+                    last[..value.len()].copy_from_slice(value);
+                    coordinate.track(&state.q, &last[..value.len()], value);
                 }
+                at = end;
             }
         }
+        let Some((joint, turn)) = lost else { return Ok(()) };
+        let joint = u32::try_from(joint).unwrap_or(u32::MAX);
+        Err(StepError::TurnTooLarge { joint, turn: turn.to_f64() })
     }
 
     /// Tracks `state` and writes all components in the order of the channels.
@@ -126,6 +180,9 @@ impl<T: Real, const D: usize> Measures<T, D> {
     ///
     /// Cost: as [`track`](Self::track), and a few products for each point; no allocation.
     ///
+    /// # Errors
+    /// As for [`track`](Self::track); all is written.
+    ///
     /// # Panics
     /// If `out` has not [`n_components`](Self::n_components) places.
     pub fn write(
@@ -133,9 +190,9 @@ impl<T: Real, const D: usize> Measures<T, D> {
         state: &State<T>,
         mut reaction: impl FnMut(usize) -> [T; 6],
         out: &mut [T],
-    ) {
+    ) -> Result<(), StepError> {
         assert_eq!(out.len(), self.n_components, "one place per component");
-        self.track(state);
+        let tracked = self.track(state);
         let mut rest = out;
         for channel in &self.channels {
             let (here, tail) = rest.split_at_mut(channel.len());
@@ -144,7 +201,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
                 Channel::Position(x) => copy(x.value(&state.q).as_slice(), here),
                 Channel::Velocity(x) => copy(x.rate(&state.v).as_slice(), here),
                 Channel::Acceleration(x) => copy(x.rate(&state.a).as_slice(), here),
-                Channel::Value(_, start) => copy(&self.memory[*start..], here),
+                Channel::Value(_, start, _) => copy(&self.memory[*start..self.n_values], here),
                 Channel::Rate(coordinates) => {
                     let mut at = 0;
                     for coordinate in coordinates {
@@ -158,6 +215,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
                 Channel::Reaction(joint) => copy(&reaction(*joint), here),
             }
         }
+        tracked
     }
 }
 
@@ -165,7 +223,7 @@ impl<T: Real, const D: usize> Channel<T, D> {
     fn len(&self) -> usize {
         match self {
             Self::Position(_) | Self::Velocity(_) | Self::Acceleration(_) => D,
-            Self::Value(coordinates, _) | Self::Rate(coordinates) => {
+            Self::Value(coordinates, ..) | Self::Rate(coordinates) => {
                 coordinates.iter().map(Coordinate::len).sum()
             }
             Self::Reaction(_) => 3 * (D - 1),

@@ -2,6 +2,7 @@
 //!
 //! Nothing here knows a formulation or an integrator: [`Measures`] reads positions, velocities and accelerations,
 //! [`Reactions`] closes the balance of every body of the scene from them, [`Contacts`] lists when one-sided effects touch,
+//! [`Turns`] whether positions tell how far joints have turned in a step,
 //! [`Events`] says where within a step a law's kink is passed, for steps that are to end there.
 
 mod contact;
@@ -16,6 +17,7 @@ mod minimum_norm;
 mod motion;
 mod peel;
 mod reaction;
+mod turns;
 mod wrench;
 
 pub use contact::{Contacts, Instant, MOST_INSTANTS};
@@ -23,4 +25,5 @@ pub use error::ReactionError;
 pub use event::{EventHistory, Events};
 pub use measure::{Measures, start_values};
 pub use reaction::{LARGEST_BLOCK, Reactions};
+pub use turns::Turns;
 pub use wrench::{Transmission, Wrench};

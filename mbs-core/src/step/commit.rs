@@ -3,7 +3,7 @@
 use super::error::StepError;
 use crate::Real;
 use crate::integrator::Rule;
-use crate::model::{Model, State, Terms};
+use crate::model::{Model, Owner, State, Terms};
 use crate::team::{Team, on_stretches};
 
 /// (q, q_low) += dq without rounding where `compensated`, q += dq where not; v and a are taken over, and the auxiliary
@@ -73,5 +73,18 @@ pub fn check_guides<T: Real, M: Model<T>>(
     match model.opposite_guide(q, terms) {
         Some(row) => Err(StepError::OppositeBranch { row: u32::try_from(row).unwrap_or(u32::MAX) }),
         None => Ok(()),
+    }
+}
+
+/// A rotation in space is known below a whole turn.
+///
+/// # Errors
+/// [`StepError::Overturned`] names the effect.
+pub fn check_rotations<T: Real, M: Model<T>>(model: &M, terms: &Terms<T>) -> Result<(), StepError> {
+    match model.overturned(terms) {
+        Some(Owner::Effect(effect)) => {
+            Err(StepError::Overturned { effect: u32::try_from(effect).unwrap_or(u32::MAX) })
+        }
+        _ => Ok(()),
     }
 }

@@ -45,6 +45,18 @@ pub enum StepError {
     },
     /// Numbers in a model's tables point outside of them, or a scratch is not the model's.
     Tables,
+    /// A joint turned by more in one step than its position at the end can tell: its turns would be lost.
+    TurnTooLarge {
+        /// The joint in the scene.
+        joint: u32,
+        /// Its rate times the step [rad].
+        turn: f64,
+    },
+    /// An effect that measures a rotation in space has turned by more than its law holds for: a whole turn.
+    Overturned {
+        /// The effect in the scene.
+        effect: u32,
+    },
     /// A guided angle ended at the false root, half a turn from its guide.
     OppositeBranch {
         /// The row of the guide.
@@ -133,6 +145,14 @@ impl core::fmt::Display for StepError {
             Self::Tables => {
                 write!(f, "the tables of the model do not fit each other: load it again")
             }
+            Self::TurnTooLarge { turn, .. } => write!(
+                f,
+                "the joint turns by {turn:.1} rad in one step, more than its position tells: make the step shorter"
+            ),
+            Self::Overturned { .. } => write!(
+                f,
+                "the effect is turned by more than a whole turn, where its law ends: give the joint's axis a torsion spring"
+            ),
             Self::OppositeBranch { .. } => {
                 write!(
                     f,

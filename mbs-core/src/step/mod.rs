@@ -10,7 +10,7 @@ mod report;
 mod scan;
 
 #[cfg(feature = "alloc")]
-pub use commit::{add_work, check_guides, take_coordinates};
+pub use commit::{add_work, check_guides, check_rotations, take_coordinates};
 pub use error::{InputError, OptionError, StepError};
 #[cfg(feature = "alloc")]
 pub use inputs::{add_response, has_new_inputs, load_at};

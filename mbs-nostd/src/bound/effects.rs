@@ -142,8 +142,12 @@ fn measured<T: Real, S: Space<T>>(
                 + ops(0, 1)
                 + rate
         }
-        Gauge::Twist { .. } => {
-            parts.turned * 4 + parts.wrench * 2 + ops(4, 4) + parts.points * 2 + rate
+        // The half angles of both links, by all that are on the way at most; the rotation vector, its gradient, and the moment.
+        Gauge::Rotation { .. } => {
+            let joint = ops(20, 12).and(0, 0, 1);
+            let vector = ops(24, 14).and(1, 1, 1);
+            let gradient = ops(28, 16).and(1, 1, 1);
+            joint * (2 * n_links as u64) + vector + gradient + parts.turned + rate
         }
         // The angles of both links, by all that are on the way at most.
         Gauge::Turn => ops(0, 2 * n_links as u64 + 1) + parts.wrench + rate,

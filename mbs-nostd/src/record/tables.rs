@@ -50,7 +50,7 @@ record_enum!([T: Real + Record, S: Axes<T>] Load<T, S> = Load {
 record_enum!([T: Real + Record, S: Axes<T>] Gauge<T, S> = Gauge {
     0 Length { points points },
     1 Along { points points, direction direction, offset offset },
-    2 Twist { sides sides },
+    2 Rotation { number number },
     3 Turn {},
 });
 

@@ -3,7 +3,7 @@
 //! ```text
 //! length   L = |p₂ − p₁|                       n on p₂, −n on p₁
 //! along    m = (p₂ − p₁)·d₁ − m₀               d₁ on p₂, −d₁ on the first link at the same place
-//! twist    m = (b₁·a₂ − a₁·b₂)/2               the moment (a₂ × b₁ − b₂ × a₁)/2 on the second, minus it on the first
+//! rotation wᵢ of w = log(R₁ᵀ R₂), in space      the moment R₁ ∂wᵢ on the second, minus it on the first
 //! turn     θ = θ₂ − θ₁, in the plane            the unit moment on the second, minus it on the first
 //! ```
 
@@ -11,6 +11,7 @@ use super::Instant;
 use crate::at::Outside;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
+use mbs_core::algebra::rotation_gradient;
 use mbs_core::laws::scalar::{Law, Measure};
 
 /// What a law measures; points from their links' origins, reference axes.
@@ -30,10 +31,11 @@ pub enum Gauge<T: Real, S: Space<T>> {
         /// What the distance is counted from [m].
         offset: T,
     },
-    /// The small rotation of the second link in the first about a × b.
-    Twist {
-        /// a and b, reference axes.
-        sides: [S::Point; 2],
+    /// A component of the rotation vector of the second link in the first, along what was a global axis: below a whole turn, as
+    /// the coordinates of the tree have it.
+    Rotation {
+        /// The component, from 0.
+        number: u32,
     },
     /// The angle of the second link in the first, in the plane: over any number of turns, as the coordinates of the tree have it.
     Turn,
@@ -61,12 +63,12 @@ impl<T: Real, S: Space<T>> Gauge<T, S> {
                 let gradient = [-S::wrench(&(arms[0] + gap), &d), S::wrench(&arms[1], &d)];
                 (gap.dot(&d) - *offset, gradient)
             }
-            Self::Twist { sides } => {
-                let (a1, b1) = (at.arm(links[0], &sides[0])?, at.arm(links[0], &sides[1])?);
-                let (a2, b2) = (at.arm(links[1], &sides[0])?, at.arm(links[1], &sides[1])?);
-                let moment = (S::moment(&a2, &b1) - S::moment(&b2, &a1)) * T::HALF;
-                let g = S::motion(moment, S::Point::zero());
-                ((b1.dot(&a2) - a1.dot(&b2)) * T::HALF, [-g, g])
+            Self::Rotation { number } => {
+                let (w, i) = (at.rotation(links)?, *number as usize);
+                let first = S::rotation_into(&at.placed(links[0])?.rotation);
+                let moment = first * rotation_gradient(&w, i.min(2));
+                let g = S::motion(S::spin_from(&moment), S::Point::zero());
+                (*crate::at::at(w.as_slice(), i)?, [-g, g])
             }
             Self::Turn => {
                 let (mut x, mut y) = (S::Point::zero(), S::Point::zero());

@@ -9,11 +9,13 @@
 mod gauge;
 mod instant;
 mod on_body;
+mod rotation;
 mod tangent;
 
 pub use gauge::Gauge;
 pub use instant::Instant;
 pub use on_body::OnBody;
+pub(crate) use rotation::check_rotations;
 pub use tangent::Reach;
 
 use crate::at::{Outside, at_mut};

@@ -282,7 +282,7 @@ where
             self.last = now;
         }
         let Some(channels) = &mut self.channels else { return Ok(!self.is_late) };
-        channels.track(simulation.state());
+        channels.track(simulation)?;
         let stop = self.alarm.rings(simulation, is_last);
         if self.is_fine {
             self.last = self.clock.seconds();

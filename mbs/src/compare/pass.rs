@@ -233,7 +233,7 @@ where
         for (most, v) in self.violation.iter_mut().zip(report.violation) {
             *most = most.max(v.to_f64());
         }
-        self.channels.track(simulation.state());
+        self.channels.track(simulation)?;
         let stop = self.alarm.rings(simulation, is_last);
         self.last = self.start.elapsed();
         stop.map_or(Ok(true), Err)

@@ -259,7 +259,7 @@ where
             simulation.set_time(to);
         }
         self.run.simulation.show(simulation);
-        self.run.made(&accepted, clock);
+        self.run.made(&accepted, clock)?;
         Ok(accepted.is_last)
     }
 

@@ -4,19 +4,19 @@
 //! length      tension f along the line of two points
 //! along       -f d on the second body's point, f d on the first body there
 //! angle       -f about the joint's axis on the second body, opposite on the first
-//! twist       -f (a2 x b1 - b2 x a1) / 2 on the second body, opposite on the first
+//! rotation    -f g on the second body, opposite on the first: g the gradient of a component of the rotation vector
 //! on a body   -f d at the law's point and -f m, over the law's actions
 //! ```
 
 use super::super::frame::Frame;
 use super::{Gauge, Load, Wrench};
 use crate::Real;
-use crate::algebra::{Matrix, Vector, cross, norm, raised, unit};
+use crate::algebra::{Matrix, Vector, norm, raised, rotation_gradient, rotation_vector, unit};
 use crate::laws::Supplies;
 use crate::laws::body::{Action, BodyMotion, MOST};
 use crate::laws::scalar::Law;
 use crate::model::State;
-use crate::natural::Affine;
+use crate::natural::{Affine, unwrap_rotation};
 use crate::scene::BodyRef;
 
 /// Where a wrench acts: a body and, for a force, a point.
@@ -98,10 +98,8 @@ impl<T: Real, const D: usize> Gauge<T, D> {
                 ([Some(r); 2], push(raised(&direction.value(&state.q)) * tension))
             }
             Self::Angle { axis, .. } => ([None; 2], twist(axes * axis * tension)),
-            Self::Twist { sides } => {
-                let [[a1, b1], [a2, b2]] = [0, 1]
-                    .map(|body| [0, 1].map(|side| raised(&sides[body][side].value(&state.q))));
-                let g = (cross(&a2, &b1) - cross(&b2, &a1)) * T::HALF;
+            Self::Rotation { number, .. } => {
+                let g = axes * rotation_gradient(&self.rotation(state), *number);
                 ([None; 2], twist(g * tension))
             }
         })
@@ -127,20 +125,26 @@ impl<T: Real, const D: usize> Gauge<T, D> {
             Self::Angle { angle, memory, .. } => {
                 let (mut value, mut rate) = ([T::ZERO], [T::ZERO]);
                 value[0] = memory.map_or(T::ZERO, |place| state.memory[place]);
-                angle.track(&state.q, &mut value);
+                angle.track(&state.q, &value.clone(), &mut value);
                 angle.rates(&state.q, &state.v, &mut rate);
                 [value[0], rate[0]]
             }
-            Self::Twist { sides } => {
-                let now =
-                    |x: &Affine<T, D>| (raised(&x.value(&state.q)), raised(&x.rate(&state.v)));
-                let [[(a1, a1_t), (b1, b1_t)], [(a2, a2_t), (b2, b2_t)]] =
-                    [0, 1].map(|body| [0, 1].map(|side| now(&sides[body][side])));
-                let value = b1.dot(&a2) - a1.dot(&b2);
-                let rate = b1_t.dot(&a2) + b1.dot(&a2_t) - a1_t.dot(&b2) - a1.dot(&b2_t);
-                [value * T::HALF, rate * T::HALF]
+            Self::Rotation { frames, number, .. } => {
+                let w = self.rotation(state);
+                let g: Vector<T, 3> = frames[0].rotation(&state.q) * rotation_gradient(&w, *number);
+                let [first, second] = [0, 1].map(|i| frames[i].turning(&state.q, &state.v));
+                [w[*number], g.dot(&(second - first))]
             }
         }
+    }
+
+    /// The rotation vector of a rotation, as the state remembers it.
+    fn rotation(&self, state: &State<T>) -> Vector<T, 3> {
+        let Self::Rotation { frames, memory, .. } = self else { return Vector::zeros() };
+        let [first, second] = [0, 1].map(|i| frames[i].rotation(&state.q));
+        let last =
+            memory.map_or(Vector::zeros(), |at| Vector::from_fn(|i, _| state.memory[at + i]));
+        unwrap_rotation(&rotation_vector(&(first.transpose() * second)), &last)
     }
 }
 

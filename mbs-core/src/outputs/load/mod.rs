@@ -11,13 +11,14 @@ use super::frame::Frame;
 use super::wrench::Wrench;
 use crate::Real;
 use crate::actions::{Action, ActionError, Actions, Seat, Tables};
-use crate::algebra::Vector;
+use crate::algebra::{Vector, unit};
 use crate::inputs::Prescribed;
 use crate::laws::Supplies;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
 use crate::natural::{Affine, NaturalModel, joint_axes};
 use crate::scene::{BodyRef, Scene};
+use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -70,9 +71,12 @@ pub(super) enum Gauge<T: Real, const D: usize> {
         /// Where the state remembers the angle; `None`: neither body moves.
         memory: Option<usize>,
     },
-    Twist {
-        /// a and b in the first body, then in the second.
-        sides: [[Affine<T, D>; 2]; 2],
+    /// A component of the rotation vector of the second body against the first.
+    Rotation {
+        frames: Box<[Frame<T, D>; 2]>,
+        number: usize,
+        /// Where the state remembers the rotation; `None`: neither body moves.
+        memory: Option<usize>,
     },
 }
 
@@ -152,9 +156,16 @@ impl<T: Real, const D: usize> Load<T, D> {
                 let gauge = Gauge::Angle { axis, angle, memory: model.memory_of_effect(effect) };
                 (joint.bodies, gauge, law)
             }
-            Action::Twist { bodies, sides, law } => {
-                let sides = bodies.map(|body| sides.map(|side| model.direction(body, side)));
-                (*bodies, Gauge::Twist { sides }, law)
+            Action::Turn { bodies, law } => {
+                let angle = Coordinate::between(model, *bodies);
+                let gauge =
+                    Gauge::Angle { axis: unit(2), angle, memory: model.memory_of_effect(effect) };
+                (*bodies, gauge, law)
+            }
+            Action::Rotation { bodies, number, law } => {
+                let frames = Box::new(bodies.map(|body| Frame::new(scene, model, body)));
+                let (number, memory) = (*number as usize, model.memory_of_effect(effect));
+                (*bodies, Gauge::Rotation { frames, number, memory }, law)
             }
             Action::Constant { at, force } => {
                 return Self::Constant { body: at.0, point: point(at), force: (*force).into() };

@@ -1,0 +1,83 @@
+//! Joint coordinates with their turns, as the tree has them: nothing of them is measured.
+
+use crate::link::Kind;
+use crate::space::Space;
+use crate::state::TreeState;
+use crate::tree::{TreeModel, parts};
+use alloc::vec;
+use alloc::vec::Vec;
+use mbs_core::Real;
+use mbs_core::scene::{BodyRef, Scene};
+
+impl<T: Real, S: Space<T>> TreeModel<T, S> {
+    /// The links that have the coordinates of each joint, by joint and number; none for those of cut joints and of rotations in space.
+    #[must_use]
+    pub fn coordinate_links(&self, scene: &Scene<T>) -> Vec<Vec<Option<u32>>> {
+        let count = |joint: &mbs_core::scene::Joint<T>| joint.kind.n_coordinates(scene.dimension);
+        let mut links: Vec<_> = scene.joints.iter().map(|joint| vec![None; count(joint)]).collect();
+        for seat in &self.seats {
+            let Some(joint) = seat.branch.joint else { continue };
+            let kind = self.links[seat.link as usize].kind;
+            match kind {
+                // The first coordinate of a free link in the plane is its angle against the ground, the last one of its joint.
+                Kind::Free => {
+                    let is_plain = S::DIMENSION == 2 && !seat.branch.is_reversed;
+                    if let (true, Some(last)) = (is_plain, links[joint].last_mut()) {
+                        *last = Some(seat.link);
+                    }
+                }
+                Kind::Ball => {}
+                _ => {
+                    for (link, part) in
+                        (seat.first..).zip(parts(scene, &seat.branch, kind.is_guided()))
+                    {
+                        links[joint][part.number] = Some(link);
+                    }
+                }
+            }
+        }
+        links
+    }
+
+    /// The coordinate of a link of one freedom, or the angle of a free one in the plane, with its turns [rad or m].
+    ///
+    /// Cost: none; for a guided joint, its law.
+    ///
+    /// # Panics
+    /// If there is no such link.
+    #[must_use]
+    pub fn coordinate(&self, state: &TreeState<T>, link: u32) -> T {
+        let link = &self.links[link as usize];
+        if link.kind.is_guided() {
+            self.prescribed.guides()[link.v as usize].at(state.t)[0]
+        } else {
+            state.z[link.z as usize]
+        }
+    }
+
+    /// The angle of the second body against the first in the plane, with its turns [rad].
+    ///
+    /// # Panics
+    /// If there is no such body.
+    #[must_use]
+    pub fn turn_between(&self, state: &TreeState<T>, bodies: [BodyRef; 2]) -> T {
+        let turn = |body| {
+            let (mut sum, mut number) = (
+                T::ZERO,
+                match body {
+                    BodyRef::Ground => 0,
+                    BodyRef::Body(body) => self.link_of_body[body],
+                },
+            );
+            while number > 0 {
+                let link = &self.links[number as usize];
+                if !matches!(link.kind, Kind::Prismatic | Kind::GuidedPrismatic) {
+                    sum += self.coordinate(state, number);
+                }
+                number = if link.kind == Kind::Free { 0 } else { link.parent };
+            }
+            sum
+        };
+        turn(bodies[1]) - turn(bodies[0])
+    }
+}

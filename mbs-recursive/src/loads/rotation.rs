@@ -1,0 +1,52 @@
+//! Where the laws of rotations in space end: at a whole turn.
+//!
+//! Beyond it the half angles of a tree tell of the turn the other way round: the rotation vector has turned over.
+
+use super::{Gauge, Instant, Load};
+use crate::at::Outside;
+use crate::mechanism::{Inputs, Mechanism, Store};
+use crate::space::Space;
+use crate::trapezoidal::{Start, failure};
+use mbs_core::Real;
+use mbs_core::laws::Supplies;
+use mbs_core::step::StepError;
+
+/// Looks whether a rotation has passed a whole turn in the step from `start` to the time `end` and (`s.z`, `s.v`).
+///
+/// Cost: one look at each effect; for a rotation, the half angles on the way at both ends.
+///
+/// # Errors
+/// [`StepError::Overturned`] with the number of the load in place of the effect.
+pub(crate) fn check_rotations<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    inputs: &impl Inputs<T>,
+    (start, end): (&Start<'_, T>, T),
+    s: &mut Store<'_, T, S>,
+) -> Result<(), StepError> {
+    for (number, load) in m.loads.iter().enumerate() {
+        let Load::Between { links, gauge: Gauge::Rotation { number: 0 }, .. } = load else {
+            continue;
+        };
+        let failed = |outside: Outside| failure(m, outside.into());
+        inputs.evaluate(start.t, s.guides, s.courses);
+        let before = instant(m, (start.z, start.v, s.guides), s.placed);
+        let before = before.rotation(*links).map_err(failed)?;
+        inputs.evaluate(end, s.guides, s.courses);
+        let now = instant(m, (s.z, s.v, s.guides), s.placed).rotation(*links).map_err(failed)?;
+        let [b, n] = [before, now].map(|w| w.dot(&w).sqrt());
+        if before.dot(&now) < T::ZERO && b + n > T::TWO * T::PI {
+            return Err(StepError::Overturned {
+                effect: u32::try_from(number).unwrap_or(u32::MAX),
+            });
+        }
+    }
+    Ok(())
+}
+
+fn instant<'a, T: Real, S: Space<T>>(
+    m: &Mechanism<'a, T, S>,
+    coordinates: (&'a [T], &'a [T], &'a [[T; 3]]),
+    placed: &'a [crate::link::Placed<T, S>],
+) -> Instant<'a, T, S> {
+    Instant { links: m.links, placed, coordinates, supplies: Supplies::courses(&[]), base: m.base }
+}
