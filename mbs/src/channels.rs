@@ -67,9 +67,12 @@ impl<T: Real, const D: usize> Channels<T, D> {
     where
         Plane<D>: InSpace<T>,
     {
-        let known = |joint, number| simulation.coordinate(joint, number);
-        let tracked = self.measures.track_with(simulation.state(), known);
-        tracked.map_err(|error| simulation.explain(error))
+        let state = simulation.state();
+        if simulation.has_own_coordinates() {
+            self.measures.track_with(state, |joint, number| simulation.coordinate(joint, number));
+            return Ok(());
+        }
+        self.measures.track(state).map_err(|error| simulation.explain(error))
     }
 
     /// All components at a state.

@@ -182,6 +182,11 @@ where
         }
     }
 
+    /// Does the formulation step coordinates of its own, those of a tree?
+    pub(crate) fn has_own_coordinates(&self) -> bool {
+        matches!(self.engine, Engine::Recursive(_))
+    }
+
     /// The natural-coordinate model: outputs are measured in it.
     pub fn model(&self) -> &NaturalModel<T, D> {
         &self.model

@@ -10,6 +10,10 @@ use crate::step::StepError;
 use alloc::vec;
 use alloc::vec::Vec;
 
+/// The part of all turns that positions and rates may differ by before an angle is no longer known: that of the trapezoidal rule at half a
+/// radian a step.
+const MISFIT: f64 = 2e-2;
+
 /// Measures the output channels of a scene in the order of its file; without outputs, every joint coordinate.
 ///
 /// Angles are not wrapped: [`track`](Self::track) counts turns and must see every step, recorded or not; more than half a turn a step is
@@ -17,7 +21,8 @@ use alloc::vec::Vec;
 #[derive(Debug, Clone)]
 pub struct Measures<T: Real, const D: usize> {
     channels: Vec<Channel<T, D>>,
-    /// Last values of all tracked joint coordinates, then their rates, then their time.
+    /// Last values of all tracked joint coordinates, then their rates, then what the rates tell of their turns since the start, then what the
+    /// positions do less, then the time.
     memory: Vec<T>,
     n_values: usize,
     n_components: usize,
@@ -58,7 +63,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
             measures.add((scene, &starts), model, &output.quantity);
         }
         measures.n_values = measures.memory.len();
-        measures.memory.resize(2 * measures.n_values, T::ZERO);
+        measures.memory.resize(4 * measures.n_values, T::ZERO);
         // No state was seen yet: the first one is followed from the start values.
         measures.memory.push(-T::ONE);
         Ok(measures)
@@ -99,7 +104,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
         self.channels.iter().map(Channel::len)
     }
 
-    /// The last values of the joint coordinates that are followed, with their turns; then their rates and their time.
+    /// The last values of the joint coordinates that are followed, with their turns; then what following them goes on from.
     #[must_use]
     pub fn memory(&self) -> &[T] {
         &self.memory
@@ -115,62 +120,69 @@ impl<T: Real, const D: usize> Measures<T, D> {
     /// Cost: a few products for each measured joint coordinate, one arc tangent for each angle; no allocation.
     ///
     /// # Errors
-    /// [`StepError::TurnTooLarge`] names the joint whose turns are not known.
+    /// [`StepError::TurnTooLarge`] names a joint whose turns are not known: its positions tell a quarter of a turn less than its rates, and
+    /// a fiftieth of all turns.
     pub fn track(&mut self, state: &State<T>) -> Result<(), StepError> {
-        self.track_with(state, |_, _| None)
+        self.follow(state, |_, _| None, true)
     }
 
-    /// The same where some angles, by joint and number, are known with their turns, as those of a tree are.
-    ///
-    /// # Errors
-    /// As for [`track`](Self::track).
-    pub fn track_with(
+    /// The same where angles, by joint and number, are known with their turns, as most of a tree are. Its steps may be any number of steps of
+    /// its rule: rates do not tell what is between them, and nothing is refused.
+    pub fn track_with(&mut self, state: &State<T>, known: impl Fn(usize, usize) -> Option<T>) {
+        // Without a check there is no error.
+        let _ = self.follow(state, known, false);
+    }
+
+    fn follow(
         &mut self,
         state: &State<T>,
         known: impl Fn(usize, usize) -> Option<T>,
+        is_checked: bool,
     ) -> Result<(), StepError> {
-        let Self { channels, memory, n_values, .. } = self;
-        let (values, rest) = memory.split_at_mut(*n_values);
-        let (rates, time) = rest.split_at_mut(*n_values);
+        let Self { channels, memory, n_values: n, .. } = self;
+        let (values, rest) = memory.split_at_mut(*n);
+        let (rates, rest) = rest.split_at_mut(*n);
+        let (turns, rest) = rest.split_at_mut(*n);
+        let (misfits, time) = rest.split_at_mut(*n);
         let dt = state.t - time[0];
         let has_passed = dt > T::ZERO && time[0] >= T::ZERO;
         time[0] = state.t;
-        let mut lost = None;
+        let mut lost = Ok(());
         for channel in channels {
             let Channel::Value(coordinates, start, joint) = channel else { continue };
             let mut at = *start;
             for (number, coordinate) in coordinates.iter().enumerate() {
                 let end = at + coordinate.len();
-                let (value, rate) = (&mut values[at..end], &mut rates[at..end]);
-                if coordinate.is_angle() {
-                    let (last, before) = (value[0], rate[0]);
-                    coordinate.rates(&state.q, &state.v, rate);
-                    let mut expected = last;
-                    if let Some(known) = known(*joint, number) {
-                        expected = known;
-                        coordinate.track(&state.q, &[expected], value);
-                    } else {
-                        if has_passed {
-                            let rates = [before, rate[0]];
-                            expected = Coordinate::<T, D>::expected(last, rates, dt);
-                        }
-                        coordinate.track(&state.q, &[expected], value);
-                        let turn = expected - last;
-                        if Coordinate::<T, D>::is_lost(value[0] - last, turn) {
-                            lost.get_or_insert((*joint, turn));
-                        }
+                let mut expected = [T::ZERO; 3];
+                let expected = &mut expected[..end - at];
+                expected.copy_from_slice(&values[at..end]);
+                if !coordinate.is_angle() {
+                    coordinate.track(&state.q, expected, &mut values[at..end]);
+                    at = end;
+                    continue;
+                }
+                let (last, before) = (values[at], rates[at]);
+                coordinate.rates(&state.q, &state.v, &mut rates[at..end]);
+                if let Some(known) = known(*joint, number) {
+                    expected[0] = known;
+                } else if has_passed {
+                    expected[0] = Coordinate::<T, D>::expected(last, [before, rates[at]], dt);
+                }
+                coordinate.track(&state.q, expected, &mut values[at..end]);
+                if is_checked && has_passed {
+                    turns[at] += expected[0] - last;
+                    misfits[at] += expected[0] - values[at];
+                    let (turn, misfit) = (expected[0] - last, misfits[at].abs());
+                    let most = (T::PI * T::HALF).max(turns[at].abs() * T::from_f64(MISFIT));
+                    if misfit > most && lost.is_ok() {
+                        let joint = u32::try_from(*joint).unwrap_or(u32::MAX);
+                        lost = Err(StepError::TurnTooLarge { joint, turn: turn.to_f64() });
                     }
-                } else {
-                    let mut last = [T::ZERO; 3];
-                    last[..value.len()].copy_from_slice(value);
-                    coordinate.track(&state.q, &last[..value.len()], value);
                 }
                 at = end;
             }
         }
-        let Some((joint, turn)) = lost else { return Ok(()) };
-        let joint = u32::try_from(joint).unwrap_or(u32::MAX);
-        Err(StepError::TurnTooLarge { joint, turn: turn.to_f64() })
+        lost
     }
 
     /// Tracks `state` and writes all components in the order of the channels.

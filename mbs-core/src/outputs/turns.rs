@@ -5,7 +5,7 @@
 //! ```
 //!
 //! An angle of a position is known but for whole turns. Within half a turn a step the nearest value is the right one; beyond, that which the
-//! rates lead to, as long as the rule's rates and positions tell of the same motion.
+//! rates lead to. Beyond a third of a radian the positions of a step must fit the rates to a hundredth: else the rule does not resolve the turn.
 
 use super::coordinate::Coordinate;
 use crate::Real;
