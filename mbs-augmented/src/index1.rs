@@ -18,7 +18,8 @@ use crate::workspace::{Mass, Workspace};
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    Counts, StepError, StepReport, Stop, check_guides, check_rotations, largest, largest_or_nan,
+    Counts, StepError, StepReport, Stop, check_guides, check_rotations, keep_inputs, largest,
+    largest_or_nan,
 };
 use mbs_core::team::{add_product, norm_inf, on_stretches, set_sum, subtract};
 use mbs_core::{Real, SpdSolver};
@@ -151,9 +152,7 @@ pub fn settle<T: Real, M: Model<T>, S: SpdSolver<T>>(
     for to in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {
         to.copy_from_slice(&w.lambda);
     }
-    if let Some(inputs) = model.inputs() {
-        inputs.keep(&mut s.inputs);
-    }
+    keep_inputs(model, s);
     if model.has_forces() || model.has_guides() {
         s.power = model.power(&s.q, &s.v, &s.reaction, &w.terms);
     }

@@ -1,5 +1,8 @@
 //! Why a run stopped, in words and with names.
 
+mod step;
+
+use self::step::{step_hint, write_step};
 use crate::words::few;
 
 use mbs_core::actions::ActionError;
@@ -231,25 +234,7 @@ impl StopError {
             Self::Start(_) => {
                 "start a little away from this position, or check that guides and joints fit together"
             }
-            Self::Step(StepError::Singular(_), _) => {
-                "try a smaller step; give every body that can move mass and inertia"
-            }
-            Self::Step(StepError::Violated { .. }, _) => {
-                "try a smaller step or another formulation; if it always stops here, the mechanism locks or cannot follow its guides"
-            }
-            Self::Step(StepError::RankLost { .. }, _) => {
-                "joints repeat each other, or the mechanism stands in a singular position: index-3 and index-1 pass both"
-            }
-            Self::Step(StepError::StepTooSmall { .. }, _) => {
-                "try a looser tolerance, or steps of fixed length by the trapezoidal rule: the motion may be stiff or not smooth here"
-            }
-            Self::Step(StepError::TurnTooLarge { .. }, _) => {
-                "make the step so short that the joint turns by less than a radian in it, or try the formulation recursive"
-            }
-            Self::Step(StepError::Overturned { .. }, _) => {
-                "a bushing in space ends at a whole turn: hold the turning by a joint, with a torsion spring about its axis"
-            }
-            Self::Step(..) => "try a smaller step, or another formulation",
+            Self::Step(error, _) => step_hint(error),
             Self::Reaction(_) => "leave the reaction outputs out",
             Self::Tree(TreeError::GuideCut { .. } | TreeError::EffectCut { .. }, _) => {
                 "leave one of the guides or joint effects of the loop out, or try index-3"
@@ -458,52 +443,6 @@ fn write_linear(error: &LinearError, f: &mut core::fmt::Formatter<'_>) -> core::
             write!(f, "accelerations next to this position miss the joints by {} m/s^2", few(*left))
         }
         LinearError::NotFinite => write!(f, "a force became infinite or not a number"),
-        other => write!(f, "{other}"),
-    }
-}
-
-/// What happened; what to try is the hint's.
-fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-    match error {
-        StepError::NotConverged { iterations, correction, .. } => write!(
-            f,
-            "the step did not converge in {iterations} iterations; the last correction was {} of the scene's length",
-            few(*correction)
-        ),
-        StepError::Singular(_) => write!(
-            f,
-            "the tangent matrix is not positive definite: a force meets no inertia, or nothing determines a coordinate"
-        ),
-        StepError::NotFinite { .. } => write!(f, "a number became infinite or not a number"),
-        StepError::RankLost { pivot, .. } => {
-            write!(f, "the constraints depend on each other (relative pivot {})", few(*pivot))
-        }
-        StepError::StepTooSmall { step } => {
-            write!(f, "the control of the step asked for a step of {} s", few(*step))
-        }
-        StepError::Violated { level, violation, .. } => {
-            let (name, unit) = [
-                ("positions", "m (or rad)"),
-                ("velocities", "m/s (or rad/s)"),
-                ("accelerations", "m/s^2 (or rad/s^2)"),
-            ][usize::from(*level).min(2)];
-            write!(
-                f,
-                "the constraints on {name} could not be met: {} {unit} is left",
-                few(*violation)
-            )
-        }
-        StepError::TurnTooLarge { turn, .. } => write!(
-            f,
-            "the joint turns by {} rad in one step, more than its position tells",
-            few(*turn)
-        ),
-        StepError::Overturned { .. } => {
-            write!(f, "the effect is turned by more than a whole turn, where its law ends")
-        }
-        StepError::OppositeBranch { .. } => {
-            write!(f, "the guided angle jumped half a turn away from its guide")
-        }
         other => write!(f, "{other}"),
     }
 }

@@ -102,11 +102,9 @@ impl<T: Real, const D: usize> Layout<T, D> {
             }
         }
         let n_unknowns = order.len() * D;
-        for (e, entity) in entities.iter().enumerate() {
-            if entity.is_constant {
-                entity_at[e] = index(order.len() * D);
-                order.push(e);
-            }
+        for e in (0..entities.len()).filter(|&e| entities[e].is_constant) {
+            entity_at[e] = index(order.len() * D);
+            order.push(e);
         }
         let at = |&e: &usize| entities[e].at.iter().copied().take(D);
         let reference: Vec<T> = order.iter().flat_map(at).collect();
@@ -396,12 +394,11 @@ impl<T: Real, const D: usize> Layout<T, D> {
             EffectDraft::Rotation { frames, number, law } => {
                 let frames = [0, 1].map(|i| self.frame(&frames[i], columns));
                 if *number == 0 {
-                    // The three of a rotation follow each other: they share what is remembered.
-                    let (first, owner) = (self.model.n_memory, group.owner);
-                    self.model.n_memory += 3;
-                    let places = first..first + 3;
-                    self.model.angles.extend(places.map(|place| (owner, index(place))));
+                    // The three of a rotation follow each other and share what is remembered.
+                    let (first, owner) = (index(self.model.n_memory), group.owner);
+                    self.model.angles.extend([0, 1, 2].map(|i| (owner, first + i)));
                     self.model.rotations.push((index(self.model.measures.len()), owner));
+                    self.model.n_memory += 3;
                 }
                 let memory = index(self.model.n_memory - 3);
                 self.add_measure(Gauge::Rotation { frames, number: *number, memory }, *law, group);

@@ -88,9 +88,7 @@ fn keep<T: Real, M: Model<T>>(model: &M, s: &mut State<T>, lambda: &[T], terms: 
     }
     s.phi.copy_from_slice(&terms.phi);
     model.remember(terms, &mut s.memory);
-    if let Some(inputs) = model.inputs() {
-        inputs.keep(&mut s.inputs);
-    }
+    crate::step::keep_inputs(model, s);
     s.power = model.power(&s.q, &s.v, &s.reaction, terms);
 }
 

@@ -50,9 +50,7 @@ pub fn add_work<T: Real, M: Model<T>>(model: &M, dt: T, s: &mut State<T>, terms:
         model.evaluate_forces(&s.q, &s.v, &s.memory, terms);
         model.remember(terms, &mut s.memory);
     }
-    if let Some(inputs) = model.inputs() {
-        inputs.keep(&mut s.inputs);
-    }
+    super::keep_inputs(model, s);
     let power = model.power(&s.q, &s.v, &s.reaction, terms);
     s.work += (s.power + power) * dt * T::HALF;
     s.power = power;

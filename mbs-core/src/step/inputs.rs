@@ -17,6 +17,14 @@ pub fn has_new_inputs<T: Real, M: Model<T>>(model: &M, s: &State<T>) -> bool {
     !s.inputs.is_empty() && model.inputs().is_some_and(|inputs| inputs.differs(&s.inputs))
 }
 
+/// Keeps the inputs that are set now: those that `s` is made with.
+#[inline]
+pub fn keep_inputs<T: Real, M: Model<T>>(model: &M, s: &mut State<T>) {
+    if let Some(inputs) = model.inputs() {
+        inputs.keep(&mut s.inputs);
+    }
+}
+
 /// Evaluates the forces at `s` with the inputs that it was reached with, or with those that are set now if `is_new`; returns the
 /// potential energy [J].
 pub fn load_at<T: Real, M: Model<T>>(

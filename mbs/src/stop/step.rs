@@ -1,0 +1,75 @@
+//! Steps that could not be made, in words.
+
+use crate::words::few;
+use mbs_core::step::StepError;
+
+/// What happened; what to try is the hint's.
+pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+    match error {
+        StepError::NotConverged { iterations, correction, .. } => write!(
+            f,
+            "the step did not converge in {iterations} iterations; the last correction was {} of the scene's length",
+            few(*correction)
+        ),
+        StepError::Singular(_) => write!(
+            f,
+            "the tangent matrix is not positive definite: a force meets no inertia, or nothing determines a coordinate"
+        ),
+        StepError::NotFinite { .. } => write!(f, "a number became infinite or not a number"),
+        StepError::RankLost { pivot, .. } => {
+            write!(f, "the constraints depend on each other (relative pivot {})", few(*pivot))
+        }
+        StepError::StepTooSmall { step } => {
+            write!(f, "the control of the step asked for a step of {} s", few(*step))
+        }
+        StepError::Violated { level, violation, .. } => {
+            let (name, unit) = [
+                ("positions", "m (or rad)"),
+                ("velocities", "m/s (or rad/s)"),
+                ("accelerations", "m/s^2 (or rad/s^2)"),
+            ][usize::from(*level).min(2)];
+            write!(
+                f,
+                "the constraints on {name} could not be met: {} {unit} is left",
+                few(*violation)
+            )
+        }
+        StepError::TurnTooLarge { turn, .. } => write!(
+            f,
+            "the joint turns by {} rad in one step, more than its position tells",
+            few(*turn)
+        ),
+        StepError::Overturned { .. } => {
+            write!(f, "the effect is turned by more than a whole turn, where its law ends")
+        }
+        StepError::OppositeBranch { .. } => {
+            write!(f, "the guided angle jumped half a turn away from its guide")
+        }
+        other => write!(f, "{other}"),
+    }
+}
+
+/// What to try where a step could not be made.
+pub(super) fn step_hint(error: &StepError) -> &'static str {
+    match error {
+        StepError::Singular(_) => {
+            "try a smaller step; give every body that can move mass and inertia"
+        }
+        StepError::Violated { .. } => {
+            "try a smaller step or another formulation; if it always stops here, the mechanism locks or cannot follow its guides"
+        }
+        StepError::RankLost { .. } => {
+            "joints repeat each other, or the mechanism stands in a singular position: index-3 and index-1 pass both"
+        }
+        StepError::StepTooSmall { .. } => {
+            "try a looser tolerance, or steps of fixed length by the trapezoidal rule: the motion may be stiff or not smooth here"
+        }
+        StepError::TurnTooLarge { .. } => {
+            "make the step so short that the joint turns by a third of a radian in it, or try the formulation recursive"
+        }
+        StepError::Overturned { .. } => {
+            "a bushing in space ends at a whole turn: hold the turning by a joint, with a torsion spring about its axis"
+        }
+        _ => "try a smaller step, or another formulation",
+    }
+}
