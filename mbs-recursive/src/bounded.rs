@@ -101,7 +101,7 @@ pub fn step<T: Real, S: Space<T>>(
     inputs.evaluate(start.t + dt, s.guides, s.courses);
     let report = advance_by(m, (dt, options, bounds), (start, watch), s);
     let report = report.map_err(|fault| failure(m, fault))?;
-    check_rotations(m, inputs, (&start, start.t + dt), s)?;
+    check_rotations(m, inputs, (&start, dt), s)?;
     if report.correction.is_finite() {
         Ok(report)
     } else {

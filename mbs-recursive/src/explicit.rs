@@ -215,7 +215,7 @@ pub fn rk4<T: Real, S: Space<T>>(
     ode::rk4_step(&mut system, start.t, dt, y, scratch)?;
     system.clean(start.t + dt, y, project::rounding())?;
     let report = system.finish(start.t + dt, y)?;
-    check_rotations(m, inputs, (&start, start.t + dt), s)?;
+    check_rotations(m, inputs, (&start, dt), s)?;
     Ok(report)
 }
 
@@ -262,6 +262,6 @@ pub fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     let count = |n: u64| u32::try_from(n).unwrap_or(u32::MAX);
     report.steps = count(after.accepted - before.accepted);
     report.rejected = count(after.rejected - before.rejected);
-    check_rotations(m, inputs, (&start, start.t + dt), s)?;
+    check_rotations(m, inputs, (&start, dt), s)?;
     Ok(report)
 }

@@ -78,7 +78,7 @@ pub fn step<T: Real, S: Space<T>>(
     } else if !m.loops.loops.is_empty() {
         violation = violations(m, s);
     }
-    check_rotations(m, inputs, (&start, start.t + dt), s)?;
+    check_rotations(m, inputs, (&start, dt), s)?;
     Ok(StepReport {
         iterations,
         factorizations: s.counts.condensations,

@@ -11,7 +11,7 @@ use mbs_core::Real;
 use mbs_core::laws::Supplies;
 use mbs_core::step::StepError;
 
-/// Looks whether a rotation has passed a whole turn in the step from `start` to the time `end` and (`s.z`, `s.v`).
+/// Looks whether a rotation has passed a whole turn in the step of `dt` [s] from `start` to (`s.z`, `s.v`).
 ///
 /// Cost: one look at each effect; for a rotation, the half angles on the way at both ends.
 ///
@@ -20,7 +20,7 @@ use mbs_core::step::StepError;
 pub(crate) fn check_rotations<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     inputs: &impl Inputs<T>,
-    (start, end): (&Start<'_, T>, T),
+    (start, dt): (&Start<'_, T>, T),
     s: &mut Store<'_, T, S>,
 ) -> Result<(), StepError> {
     for (number, load) in m.loads.iter().enumerate() {
@@ -31,7 +31,7 @@ pub(crate) fn check_rotations<T: Real, S: Space<T>>(
         inputs.evaluate(start.t, s.guides, s.courses);
         let before = instant(m, (start.z, start.v, s.guides), s.placed);
         let before = before.rotation(*links).map_err(failed)?;
-        inputs.evaluate(end, s.guides, s.courses);
+        inputs.evaluate(start.t + dt, s.guides, s.courses);
         let now = instant(m, (s.z, s.v, s.guides), s.placed).rotation(*links).map_err(failed)?;
         let [b, n] = [before, now].map(|w| w.dot(&w).sqrt());
         if before.dot(&now) < T::ZERO && b + n > T::TWO * T::PI {
