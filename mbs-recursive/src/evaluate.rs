@@ -223,7 +223,7 @@ fn sweep<T: Real, S: Space<T>>(
     for _ in 0..MAX_SWEEPS {
         let (worst, row, scale) = residual(m, s)?;
         let is_stuck = last.is_some_and(|last| !(worst < last * T::HALF));
-        if worst <= share * scale || (is_stuck && worst <= enough * scale) {
+        if worst <= share * scale || (is_stuck && worst <= enough * scale.max(acting(m, row, s)?)) {
             return Ok(worst);
         }
         if is_stuck || !worst.is_finite() {
@@ -233,11 +233,35 @@ fn sweep<T: Real, S: Space<T>>(
         improve(m, s)?;
     }
     let (worst, row, scale) = residual(m, s)?;
-    if worst <= enough * scale {
+    if worst <= enough * scale.max(acting(m, row, s)?) {
         Ok(worst)
     } else {
         Err(Fault::Unreached { level: 2, row, violation: worst })
     }
+}
+
+/// The acceleration that gravity, the rows' speeds, or their forces alone would make along a row: what rounding is small against where
+/// all accelerations cancel, as in a structure or in free fall. Rates of a rounding each second are rest.
+fn acting<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    row: u32,
+    s: &Store<'_, T, S>,
+) -> Result<T, Outside> {
+    let size = |k: usize| Ok(if at(m.loops.rows, k)?.is_angle() { T::ONE } else { m.length });
+    let n = m.loops.rows.len();
+    // Squares of rates, whatever the row [1/s^2].
+    let mut acting = T::EPSILON.max(m.gravity.dot(&m.gravity).sqrt() / m.length);
+    for lap in m.loops.loops {
+        let [a, b] = lap.links;
+        let speeds = [at(s.placed, a as usize)?.velocity, at(s.placed, b as usize)?.velocity];
+        for k in lap.range() {
+            let (first, second) = (at(s.gradient, k)?, at(s.gradient, n + k)?);
+            let rate = (first.parts(&speeds[0]) + second.parts(&speeds[1])) / size(k)?;
+            let forced = at(s.lambda, k)?.abs() * *at(s.loops.scales, k)? / size(k)?;
+            acting = acting.max(rate * rate).max(forced);
+        }
+    }
+    Ok(acting * size(row as usize)?)
 }
 
 /// Adds the response to l = J a + bias to accelerations and multipliers.
