@@ -243,9 +243,6 @@ fn velocities<T: Real, M: Model<T>, S: SpdSolver<T>>(
     Ok(left)
 }
 
-/// Position residual that is accepted when no sweep lowers it further, relative to the scene's length.
-const LIMIT: f64 = 1e-11;
-
 /// W d = -[M (q - q*) + J^T (sigma + s phi)],   q += d,   sigma += s phi: until phi is at rounding.
 fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
@@ -255,7 +252,8 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<(), StepError> {
     let goal = length * T::EPSILON * T::from_f64(if options.compensated { 0.01 } else { 4.0 });
-    let limit = length * T::from_f64(LIMIT).max(T::EPSILON * T::from_f64(256.0));
+    // The iteration knows positions to its tolerance: a residual below it that no sweep lowers says nothing more.
+    let limit = length * options.tolerance.max(T::EPSILON * T::from_f64(256.0));
     w.sigma.fill(T::ZERO);
     move_to(model, options, s, w);
     let mut violation = norm_inf(model.team(), &w.terms.phi);

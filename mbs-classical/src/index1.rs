@@ -28,9 +28,6 @@ use mbs_core::step::{
 use mbs_core::team::{norm_inf, on_stretches};
 use mbs_core::{Real, SymmetricSolver};
 
-/// Position violation that is accepted when no sweep lowers it further, relative to the scene's length.
-const LIMIT: f64 = 1e-11;
-
 /// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
 ///
 /// Cost: an evaluation, a factorisation and a solution for each iteration, three to five are usual; with projection one or two
@@ -162,7 +159,8 @@ fn positions<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     w: &mut Workspace<T, S>,
 ) -> Result<(), StepError> {
     let goal = length * T::EPSILON * T::from_f64(if options.compensated { 0.01 } else { 4.0 });
-    let limit = length * T::from_f64(LIMIT).max(T::EPSILON * T::from_f64(256.0));
+    // The iteration knows positions to its tolerance: a residual below it that no sweep lowers says nothing more.
+    let limit = length * options.tolerance.max(T::EPSILON * T::from_f64(256.0));
     w.sigma.fill(T::ZERO);
     w.change.fill(T::ZERO);
     let mut violation = norm_inf(model.team(), &w.terms.phi);
