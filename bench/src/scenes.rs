@@ -81,7 +81,7 @@ impl<const D: usize, T: Real> Prepared<D, T> {
             assemble(&scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver)
                 .map_err(|e| e.to_string())?;
         if scene.start == Start::Equilibrium {
-            mbs::equilibrium_start(&scene, &model, &mut solver, &mut start)
+            mbs::equilibrium_start(&scene, &model, mbs::Search::Down, &mut solver, &mut start)
                 .map_err(|e| e.to_string())?;
         }
         let (dt, n_steps) = steps(&scene);

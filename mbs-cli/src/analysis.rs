@@ -7,7 +7,7 @@ use crate::{STOPPED, refuse};
 use clap::{Args, ValueEnum};
 use mbs::core::scene::Scene;
 use mbs::scene_file::{Channel, Document};
-use mbs::{Names, Place, Still, StopError, words};
+use mbs::{LeftOut, Names, Place, Search, Still, StopError, words};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -25,6 +25,15 @@ pub(crate) struct Common {
     /// Directory for the same JSON object as a file, equilibrium.json or modes.json; made if missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// The equilibrium near the start, stable or not, by Newton's method. Default: the search goes down to a stable one.
+    #[arg(long)]
+    near: bool,
+}
+
+impl Common {
+    fn search(&self) -> Search {
+        if self.near { Search::Near } else { Search::Down }
+    }
 }
 
 /// Arguments of `mbs equilibrium`.
@@ -54,7 +63,8 @@ enum At {
 
 /// Runs `mbs equilibrium`.
 pub(crate) fn equilibrium(arguments: &Equilibrium) -> ExitCode {
-    let told = |scene: &Scene<f64>| Still::new(scene).map(|s| (s.to_json(), still(&s)));
+    let search = arguments.common.search();
+    let told = |scene: &Scene<f64>| Still::new(scene, search).map(|s| (s.to_json(), still(&s)));
     command(&arguments.common, "equilibrium.json", told)
 }
 
@@ -65,7 +75,13 @@ pub(crate) fn modes(arguments: &Modes) -> ExitCode {
         At::Initial => Place::Initial,
         At::Moving => Place::Moving,
     };
-    let analysed = |scene: &Scene<f64>| mbs::Modes::new(scene, place);
+    let search = arguments.common.search();
+    if place == Place::Initial && search == Search::Near {
+        return refuse(
+            "--near seeks an equilibrium, and --at initial needs none: leave one of them out",
+        );
+    }
+    let analysed = |scene: &Scene<f64>| mbs::Modes::new(scene, place, search);
     let told = |scene: &Scene<f64>| analysed(scene).map(|m| (m.to_json(), spectrum(&m)));
     command(&arguments.common, "modes.json", told)
 }
@@ -151,6 +167,7 @@ fn still(s: &Still) -> String {
             ),
         ),
         ("largest violation", format!("{} m (or rad)", words::size(found.violation))),
+        ("from the start", moved(s)),
         ("search", format!("{} steps, {} factorisations", found.iterations, found.factorizations)),
         ("potential energy", format!("{} J", fixed(s.potential))),
     ];
@@ -168,10 +185,34 @@ fn still(s: &Still) -> String {
             let _ = writeln!(text, "  {:<24} {}", channel.name, told(channel, values));
         }
     }
+    leave_out(&s.left_out, &mut text);
     for joint in &s.not_unique {
         let _ = writeln!(text, "note: {}", words::not_unique(joint));
     }
     text
+}
+
+/// How far it went.
+fn moved(s: &Still) -> String {
+    let Some([way, turn]) = &s.moved else { return "no body".to_owned() };
+    let part = |size: f64, unit: &str, body: &str| {
+        if size > 0.0 {
+            format!("{} {unit} (`{body}`)", words::few(size))
+        } else {
+            format!("0 {unit}")
+        }
+    };
+    format!("{}, {}", part(way.size, "m", &way.body), part(turn.size, "rad", &turn.body))
+}
+
+/// A note for what is left out.
+fn leave_out(left_out: &[LeftOut], text: &mut String) {
+    if left_out.is_empty() {
+        return;
+    }
+    let parts: Vec<_> = left_out.iter().map(|l| format!("{} of `{}`", l.part, l.effect)).collect();
+    // Writing into a String has nothing to fail on.
+    let _ = writeln!(text, "note: left out of this analysis: {}", parts.join(", "));
 }
 
 /// Values with their units.
@@ -214,6 +255,7 @@ fn spectrum(m: &mbs::Modes) -> String {
             mode.undamped_frequency(),
         );
     }
+    leave_out(&m.left_out, &mut text);
     if m.place != Place::Equilibrium && (m.acceleration > 1e-6 || m.turning > 1e-6) {
         let _ = writeln!(
             text,

@@ -49,6 +49,12 @@ macro_rules! forward_model {
         fn write_reference(&self, q: &mut [$T]) {
             self.$model.write_reference(q);
         }
+        fn write_sizes(&self, sizes: &mut [$T]) {
+            self.$model.write_sizes(sizes);
+        }
+        fn approaches(&self, q: &[$T], to: &[$T], take: impl FnMut($T)) {
+            self.$model.approaches(q, to, take);
+        }
         fn set_inputs(&self, t: $T, terms: &mut $crate::model::Terms<$T>) {
             self.$model.set_inputs(t, terms);
         }

@@ -98,6 +98,12 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn inputs(&self) -> Option<&Prescribed<T>> {
         None
     }
+    /// Writes the size of each unknown in the scene: the scene's length for a point's [m], one for a direction's. Measured in these,
+    /// nothing depends on the unit of length.
+    fn write_sizes(&self, sizes: &mut [T]);
+    /// Hands out the ratios of the straight way from `q` to `to` at which two points that a law may push apart come close, where they
+    /// pass each other: just before they are closest, and before that, where the force is not across the way.
+    fn approaches(&self, q: &[T], to: &[T], take: impl FnMut(T));
     /// Evaluates the scene's guides and courses at time `t` into `terms`.
     fn set_inputs(&self, t: T, terms: &mut Terms<T>);
     /// phi and J at `q`.

@@ -7,6 +7,9 @@
 //! z = L^T Q2^T (q - q0),   z' = L^T Q2^T q',   z'' = L^T Q2^T q'',      B^T M B = 1
 //! ```
 //!
+//! Coordinates count in their sizes, q = S x with S the scene's length for points and one for directions: the formulas are in x, with
+//! J S and S M S, and the split does not depend on the unit of length.
+//!
 //! With the inertia a unit matrix the stiffness of conservative forces is symmetric and eigenvalues are well conditioned.
 
 use alloc::vec;
@@ -26,7 +29,9 @@ pub(crate) struct Chart<T> {
     r: Vec<T>,
     /// L, f x f, lower triangle.
     l: Vec<T>,
-    /// B, n x f.
+    /// S, the sizes of the coordinates.
+    sizes: Vec<T>,
+    /// S B, n x f.
     pub(crate) basis: Vec<T>,
 }
 
@@ -38,16 +43,21 @@ impl<T: Real> Chart<T> {
     ///
     /// Fails with the index of the freedom without inertia.
     pub(crate) fn new(
-        n: usize,
+        sizes: &[T],
         mut jacobian: Vec<T>,
         mut mass: impl FnMut(&[T]) -> Vec<T>,
     ) -> Result<Self, usize> {
+        let n = sizes.len();
+        let scaled = |x: &[T]| -> Vec<T> { x.iter().zip(sizes).map(|(&x, &s)| x * s).collect() };
+        for row in jacobian.chunks_exact_mut(n.max(1)) {
+            row.copy_from_slice(&scaled(row));
+        }
         let (rows, lengths, q, r) = factor(n, &mut jacobian);
         let rank = rows.len();
         let f = n - rank;
         let mut l = vec![T::ZERO; f * f];
         for j in 0..f {
-            let product = mass(column(&q, n, rank + j));
+            let product = scaled(&mass(&scaled(column(&q, n, rank + j))));
             for i in j..f {
                 l[j * f + i] = dot(column(&q, n, rank + i), &product);
             }
@@ -66,7 +76,10 @@ impl<T: Real> Chart<T> {
             let inverse = T::ONE / l[j * f + j];
             basis[j * n..(j + 1) * n].iter_mut().for_each(|x| *x *= inverse);
         }
-        Ok(Self { n, rows, lengths, q, r, l, basis })
+        for column in basis.chunks_exact_mut(n.max(1)) {
+            column.copy_from_slice(&scaled(column));
+        }
+        Ok(Self { n, rows, lengths, q, r, l, sizes: sizes.to_vec(), basis })
     }
 
     /// Number of freedoms f.
@@ -86,20 +99,23 @@ impl<T: Real> Chart<T> {
             y[i] = sum / self.r[i * rank + i];
         }
         for (k, &y) in y.iter().enumerate() {
-            for (x, &q) in x.iter_mut().zip(column(&self.q, self.n, k)) {
-                *x -= q * y;
+            for (x, (&q, &size)) in
+                x.iter_mut().zip(column(&self.q, self.n, k).iter().zip(&self.sizes))
+            {
+                *x -= q * size * y;
             }
         }
     }
 
-    /// z of a vector x of n: L^T Q2^T x.
-    pub(crate) fn reduce(&self, x: &[T]) -> Vec<T> {
+    /// z of a vector q of n: L^T Q2^T S^-1 q.
+    pub(crate) fn reduce(&self, q: &[T]) -> Vec<T> {
         let (rank, f) = (self.rows.len(), self.n_freedoms());
-        let e: Vec<T> = (0..f).map(|j| dot(column(&self.q, self.n, rank + j), x)).collect();
+        let x: Vec<T> = q.iter().zip(&self.sizes).map(|(&q, &size)| q / size).collect();
+        let e: Vec<T> = (0..f).map(|j| dot(column(&self.q, self.n, rank + j), &x)).collect();
         (0..f).map(|j| (j..f).fold(T::ZERO, |sum, i| sum + self.l[j * f + i] * e[i])).collect()
     }
 
-    /// Direction of one freedom: a column of B.
+    /// Direction of one freedom: a column of S B.
     pub(crate) fn direction(&self, freedom: usize) -> &[T] {
         column(&self.basis, self.n, freedom)
     }
@@ -211,7 +227,7 @@ mod tests {
         // x + y = 0 twice and z = 0 in four coordinates, mass diag(1, 3, 1, 4): freedoms x - y with mass 4/2 and w.
         let jacobian = vec![1.0, 1.0, 0.0, 0.0, 2.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
         let mass = |x: &[f64]| vec![x[0], 3.0 * x[1], x[2], 4.0 * x[3]];
-        let chart = Chart::new(4, jacobian, mass).expect("every freedom has mass");
+        let chart = Chart::new(&[1.0; 4], jacobian, mass).expect("every freedom has mass");
         assert_eq!(chart.n_freedoms(), 2);
         for j in 0..2 {
             let b = chart.direction(j);
@@ -233,6 +249,6 @@ mod tests {
     #[test]
     fn a_freedom_without_inertia_is_named() {
         let mass = |x: &[f64]| vec![x[0], 0.0];
-        assert!(Chart::new(2, vec![], mass).is_err());
+        assert!(Chart::new(&[1.0; 2], vec![], mass).is_err());
     }
 }

@@ -12,13 +12,17 @@
 //!
 //! - the matrix is not positive where J d = 0 (inertia not (n, m, 0), N. Gould 1985): towards no minimum of energy;
 //! - it turns the mechanism so far that the constraints are broken by a quarter of it;
-//! - the forces at its end work against it by more than half of what they did for it at its start: it went too far.
+//! - the forces at its end work against it by more than half of what they did for it at its start: it went too far;
+//! - they do so where two points that a law may push apart pass each other on the way: it would go through a stop.
 //!
 //! Work along the step takes the place of the residual's norm in the line search, because on the way down from a steep or
 //! unstable place forces must be allowed to grow. So the search leaves unstable places unless it starts exactly on one.
 //!
 //! Neutral directions, in which no force acts and K is singular, have the step s (force) / M: rounding alone. s is bounded so
 //! that this moves them by at most sqrt(eps)/10 of the scene's length in each step, and they stay where they started.
+//!
+//! Forces are small beside the largest met on a coordinate, and beside what its stiffness makes of a displacement of the scene's
+//! size: where a spring alone holds a slide both forces vanish together.
 
 use crate::error::EquilibriumError;
 use crate::options::Options;
@@ -39,7 +43,8 @@ pub struct Equilibrium<T> {
     pub factorizations: u32,
     /// Largest force left on a coordinate [N, N m for directions].
     pub residual: T,
-    /// The same relative to the largest sum of absolute forces on a coordinate [-]; 0 without forces.
+    /// The same, by the work along the scene's length, relative to the largest sum of absolute forces that a coordinate met, or to
+    /// what its stiffness makes of a displacement of that size [-]; 0 without forces.
     pub relative: T,
     /// Largest constraint violation [m or rad].
     pub violation: T,
@@ -69,12 +74,14 @@ const GROW: f64 = 10.0;
 const PATIENCE: u32 = 40;
 /// Sweeps that close the constraints after a step.
 const SWEEPS: u32 = 20;
+/// A step shorter than this many roundings of the scene's size goes nowhere.
+const NOWHERE: f64 = 8.0;
 /// Constraint violation of a step relative to its size that is still closed.
 const BROKEN: f64 = 0.25;
 /// Times the scene's length: farther than this nothing is sought.
 const FAR: f64 = 1e6;
 
-/// Moves `s` to a static equilibrium near it, in a scene of the given `length` [m].
+/// Moves `s` to a static equilibrium near it.
 ///
 /// Guides keep their values of time `s.t`. Forces that depend on velocity are taken at the velocity in `s`: zero it for an
 /// equilibrium at rest. Positions, multipliers (also as `reaction`) and measured angles are written, accelerations become
@@ -86,33 +93,21 @@ const FAR: f64 = 1e6;
 /// [`EquilibriumError`]; the state is then unchanged.
 pub fn equilibrium<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
-    length: T,
     options: &Options<T>,
     s: &mut State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<Equilibrium<T>, EquilibriumError> {
     options.validate()?;
-    let mut search = Search::new(model, length, s, w);
+    let mut search = Search::new(model, s, w);
     search.begin()?;
     search.descend(options)?;
-    let report = search.report(s);
-    let Search { q, memory, lambda, w, .. } = search;
-    s.q.copy_from_slice(&q);
-    s.q_low.fill(T::ZERO);
-    s.a.fill(T::ZERO);
-    s.a_aux.fill(T::ZERO);
-    s.memory.copy_from_slice(&memory);
-    s.phi.copy_from_slice(&w.terms.phi);
-    for to in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {
-        to.copy_from_slice(&lambda);
-    }
-    Ok(report)
+    let from = s.q.clone();
+    Ok(search.finish(&from, s))
 }
 
-struct Search<'a, T, M, S> {
+pub(crate) struct Search<'a, T, M, S> {
     model: &'a M,
     w: &'a mut Workspace<T, S>,
-    length: T,
     v: Vec<T>,
     /// Positions, multipliers, measured angles and J^T lambda - Q, as accepted.
     q: Vec<T>,
@@ -124,8 +119,15 @@ struct Search<'a, T, M, S> {
     next: Vec<T>,
     next_lambda: Vec<T>,
     next_residual: Vec<T>,
-    /// Largest sum of absolute forces on a coordinate [N].
+    /// Positions at the start.
+    from: Vec<T>,
+    /// Largest sum of absolute forces on a coordinate, as work along its size [J]: now, and met so far.
     scale: T,
+    met: T,
+    /// Largest acceleration that a force would have given alone so far, in sizes [1/s^2].
+    lively: T,
+    /// What the matrix of the last step makes of a displacement of a coordinate's size, at most [J].
+    stiff: T,
     /// Pseudo-time step squared and its bound [s^2].
     s: T,
     bound: T,
@@ -134,14 +136,13 @@ struct Search<'a, T, M, S> {
 }
 
 impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
-    fn new(model: &'a M, length: T, s: &State<T>, w: &'a mut Workspace<T, S>) -> Self {
+    pub(crate) fn new(model: &'a M, s: &State<T>, w: &'a mut Workspace<T, S>) -> Self {
         let zeros = |k| vec![T::ZERO; k];
         model.set_inputs(s.t, &mut w.terms);
         let (n, m) = (w.n, w.m);
         Self {
             model,
             w,
-            length,
             v: s.v.clone(),
             q: s.q.clone(),
             lambda: zeros(m),
@@ -151,7 +152,11 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
             next: s.q.clone(),
             next_lambda: zeros(m),
             next_residual: zeros(n),
+            from: s.q.clone(),
             scale: T::ZERO,
+            met: T::ZERO,
+            lively: T::ZERO,
+            stiff: T::ZERO,
             s: T::ONE,
             bound: T::ONE,
             iterations: 0,
@@ -160,14 +165,14 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     }
 
     /// Closes the constraints and finds the multipliers and accelerations at rest, and from them the first s.
-    fn begin(&mut self) -> Result<(), EquilibriumError> {
+    pub(crate) fn begin(&mut self) -> Result<(), EquilibriumError> {
         self.model.evaluate(&self.next, &mut self.w.terms);
         let has_mass = self.factor(T::ZERO);
         if has_mass {
             self.close();
         }
-        let violation = norm_inf(&self.w.terms.phi);
-        if !(violation <= self.length * T::from_f64(1e-6)) {
+        if !(self.w.openness(&self.w.terms.phi) <= T::from_f64(1e-6)) {
+            let violation = norm_inf(&self.w.terms.phi);
             let row = largest_or_nan(&self.w.terms.phi);
             return Err(EquilibriumError::NotClosed { violation: violation.to_f64(), row });
         }
@@ -177,15 +182,15 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         for _ in 0..if has_mass { 2 } else { 0 } {
             self.load(T::ONE, &self.next_residual.clone());
             self.w.solve();
-            acceleration = norm_inf(&self.w.f[..self.w.n]);
             let n = self.w.n;
+            acceleration = self.w.extent(&self.w.f[..n]);
             for (l, &e) in self.next_lambda.iter_mut().zip(&self.w.f[n..]) {
                 *l += e;
             }
             self.measure();
         }
         self.accept();
-        self.s = if acceleration > T::ZERO { self.length / acceleration } else { self.bound };
+        self.s = if acceleration > T::ZERO { T::ONE / acceleration } else { self.bound };
         self.s = self.s.min(self.bound);
         self.check_finite()
     }
@@ -198,8 +203,8 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
             if self.scale == T::ZERO {
                 return Ok(());
             }
-            let before = norm_inf(&self.residual);
-            let is_balanced = before <= options.tolerance * self.scale;
+            let before = self.w.work(&self.residual);
+            let is_balanced = before <= options.tolerance * (self.scale + self.stiff);
             let Some(size) = self.step(is_balanced) else {
                 self.s *= T::from_f64(SHRINK);
                 was_refused = true;
@@ -210,13 +215,14 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
             };
             self.check_finite()?;
             self.check_far()?;
-            let left = norm_inf(&self.residual);
+            let left = self.w.work(&self.residual);
             let is_progress = left < before * T::HALF;
-            if left <= options.tolerance * self.scale {
+            if left <= options.tolerance * (self.scale + self.stiff) {
                 // A small s tells of an unstable place: what looks still there only begins to move.
                 let is_newton = self.s >= self.bound * T::from_f64(SHRINK);
-                let is_still = size <= self.length * T::EPSILON.sqrt() && is_newton;
-                let is_rounding = left <= self.scale * T::EPSILON * T::from_f64(4.0);
+                let is_still = size <= T::EPSILON.sqrt() && is_newton;
+                let is_rounding = left <= self.scale * T::EPSILON * T::from_f64(4.0)
+                    || (is_newton && size <= T::EPSILON * T::from_f64(NOWHERE));
                 idle = if is_progress { 0 } else { idle + 1 };
                 if is_rounding || (is_still && !is_progress) || idle > PATIENCE {
                     return Ok(());
@@ -242,18 +248,20 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         }
         self.load(self.s, &self.residual.clone());
         self.w.solve();
-        let size = norm_inf(&self.w.f[..n]);
+        self.stiff = norm_inf(self.w.diagonal()) / self.s;
+        let size = self.w.extent(&self.w.f[..n]);
         for i in 0..n {
             self.next[i] = self.q[i] + self.w.f[i];
         }
         for k in 0..self.lambda.len() {
             self.next_lambda[k] = self.lambda[k] + self.w.f[n + k] / self.s;
         }
+        if !is_balanced && self.goes_through() {
+            return None;
+        }
         self.model.evaluate(&self.next, &mut self.w.terms);
-        let broken = norm_inf(&self.w.terms.phi);
-        if !(broken <= size * T::from_f64(BROKEN) + norm_inf(&self.phi) + self.floor())
-            || !self.close()
-        {
+        let [broken, before] = [&self.w.terms.phi, &self.phi].map(|phi| self.w.openness(phi));
+        if !(broken <= size * T::from_f64(BROKEN) + before + self.floor()) || !self.close() {
             return None;
         }
         self.evaluate();
@@ -269,6 +277,29 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         self.iterations += 1;
         self.accept();
         Some(size)
+    }
+
+    /// Do forces work against the straight way to `next` where points that a law may push apart pass each other?
+    fn goes_through(&mut self) -> bool {
+        let mut closest = Vec::new();
+        self.model.approaches(&self.q, &self.next, |ratio| closest.push(ratio));
+        if closest.is_empty() {
+            return false;
+        }
+        let way: Vec<T> = self.next.iter().zip(&self.q).map(|(&to, &q)| to - q).collect();
+        let work = |force: &[T]| force.iter().zip(&way).fold(T::ZERO, |sum, (&f, &d)| sum - f * d);
+        let given = work(&self.residual).abs();
+        let (mut there, mut force) = (self.q.clone(), self.residual.clone());
+        let free = vec![T::ZERO; self.lambda.len()];
+        closest.into_iter().any(|ratio| {
+            for (there, (&q, &d)) in there.iter_mut().zip(self.q.iter().zip(&way)) {
+                *there = q + ratio * d;
+            }
+            self.model.evaluate(&there, &mut self.w.terms);
+            self.model.evaluate_forces(&there, &self.v, &self.memory, &mut self.w.terms);
+            self.w.residual(self.model, None, &free, &mut force);
+            !(work(&force) >= -given * T::HALF)
+        })
     }
 
     /// Factors at the present terms; is the matrix positive where J d = 0?
@@ -292,7 +323,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     /// Closes the constraints at `next` by sweeps with the factor at hand: the smallest changes in its metric.
     fn close(&mut self) -> bool {
         let n = self.w.n;
-        let mut violation = norm_inf(&self.w.terms.phi);
+        let mut violation = self.w.openness(&self.w.terms.phi);
         for _ in 0..SWEEPS {
             if violation <= self.floor() {
                 return true;
@@ -306,7 +337,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
                 self.next[i] += self.w.f[i];
             }
             self.model.evaluate(&self.next, &mut self.w.terms);
-            let left = norm_inf(&self.w.terms.phi);
+            let left = self.w.openness(&self.w.terms.phi);
             if !(left <= violation * T::HALF) && left <= self.floor() * T::from_f64(64.0) {
                 return true;
             }
@@ -315,9 +346,9 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         violation <= self.floor() * T::from_f64(64.0)
     }
 
-    /// Rounding of a constraint row.
+    /// Rounding of a constraint row, as a coordinate of its size moves it [-].
     fn floor(&self) -> T {
-        (norm_inf(&self.next) + self.length) * T::EPSILON * T::from_f64(8.0)
+        (self.w.extent(&self.next[..self.w.n]) + T::ONE) * T::EPSILON * T::from_f64(8.0)
     }
 
     /// Forces at `next`.
@@ -335,14 +366,28 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     /// Takes the trial over.
     fn accept(&mut self) {
         let lively = self.w.liveliness(self.model);
+        self.lively = self.lively.max(lively);
+        // Where all forces vanish together their rounding does so with those that were met.
+        let lively = lively.max(self.lively * T::EPSILON.sqrt());
         if lively > T::ZERO {
-            self.bound = self.length / (T::from_f64(10.0) * T::EPSILON.sqrt() * lively);
+            self.bound = T::ONE / (T::from_f64(10.0) * T::EPSILON.sqrt() * lively);
         }
+        self.met = self.met.max(self.scale);
         self.model.remember(&self.w.terms, &mut self.memory);
         self.q.copy_from_slice(&self.next);
         self.lambda.copy_from_slice(&self.next_lambda);
         self.residual.copy_from_slice(&self.next_residual);
         self.phi.copy_from_slice(&self.w.terms.phi);
+    }
+
+    /// Are the forces balanced where the search began?
+    pub(crate) fn check_balance(&mut self, options: &Options<T>) -> Result<(), EquilibriumError> {
+        self.factor(self.bound);
+        self.stiff = norm_inf(self.w.diagonal()) / self.bound;
+        if self.w.work(&self.residual) <= options.tolerance * (self.scale + self.stiff) {
+            return Ok(());
+        }
+        Err(EquilibriumError::NotNear)
     }
 
     fn check_finite(&self) -> Result<(), EquilibriumError> {
@@ -353,11 +398,12 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     }
 
     fn check_far(&self) -> Result<(), EquilibriumError> {
-        let q = &self.q[..self.w.n];
-        if norm_inf(q) <= self.length * T::from_f64(FAR) {
+        let gone = self.q[..self.w.n].iter().zip(&self.from).map(|(&q, &from)| q - from);
+        let gone: Vec<T> = gone.collect();
+        if self.w.extent(&gone) <= T::from_f64(FAR) {
             return Ok(());
         }
-        Err(EquilibriumError::Escapes { unknown: largest(q) })
+        Err(EquilibriumError::Escapes { unknown: largest(&gone) })
     }
 
     fn not_converged(&mut self) -> EquilibriumError {
@@ -369,9 +415,25 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         EquilibriumError::NotConverged { residual, unknown: largest(&self.residual) }
     }
 
+    /// Writes what was found into the state.
+    pub(crate) fn finish(mut self, from: &[T], s: &mut State<T>) -> Equilibrium<T> {
+        let report = self.report(from);
+        let Search { q, memory, lambda, w, .. } = self;
+        s.q.copy_from_slice(&q);
+        s.q_low.fill(T::ZERO);
+        s.a.fill(T::ZERO);
+        s.a_aux.fill(T::ZERO);
+        s.memory.copy_from_slice(&memory);
+        s.phi.copy_from_slice(&w.terms.phi);
+        for to in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {
+            to.copy_from_slice(&lambda);
+        }
+        report
+    }
+
     /// Counts the signs of K + K_geo where J d = 0: s K + M has a negative direction where omega^2 < -1/s, and M - s K where
     /// omega^2 > 1/s.
-    fn report(&mut self, start: &State<T>) -> Equilibrium<T> {
+    fn report(&mut self, from: &[T]) -> Equilibrium<T> {
         self.model.evaluate(&self.q, &mut self.w.terms);
         self.model.evaluate_forces(&self.q, &self.v, &self.memory, &mut self.w.terms);
         let bound = self.bound;
@@ -382,12 +444,13 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
         let rank = mbs_core::start::constraint_rank(self.model, &self.w.terms);
         let neutral = (self.w.n - rank).saturating_sub(unstable + stiff);
         let residual = norm_inf(&self.residual);
-        let change = start.q.iter().zip(&self.q).map(|(&a, &b)| (a - b).abs());
+        let forces = self.met.max(self.stiff);
+        let change = from.iter().zip(&self.q).map(|(&a, &b)| (a - b).abs());
         Equilibrium {
             iterations: self.iterations,
             factorizations: self.factorizations,
             residual,
-            relative: if self.scale > T::ZERO { residual / self.scale } else { T::ZERO },
+            relative: if forces > T::ZERO { self.w.work(&self.residual) / forces } else { T::ZERO },
             violation: norm_inf(&self.w.terms.phi),
             change: change.fold(T::ZERO, T::max),
             unstable,

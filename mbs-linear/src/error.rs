@@ -15,6 +15,8 @@ pub enum EquilibriumError {
         /// The coordinate it acts on.
         unknown: u32,
     },
+    /// Newton's method from the state leads to no equilibrium.
+    NotNear,
     /// Nothing holds it: the mechanism fell or drove farther than a million times the scene's length.
     Escapes {
         /// The coordinate that went farthest.
@@ -46,6 +48,10 @@ impl core::fmt::Display for EquilibriumError {
             Self::NotConverged { residual, .. } => write!(
                 f,
                 "no equilibrium was found: a force of {residual:.3e} N (or N m) is left; start nearer to it"
+            ),
+            Self::NotNear => write!(
+                f,
+                "no equilibrium was found near the start; start nearer to it, or let the search go down"
             ),
             Self::Escapes { .. } => write!(
                 f,

@@ -8,6 +8,7 @@ mod eigen;
 mod equilibrium;
 mod error;
 mod linearise;
+mod near;
 mod options;
 mod workspace;
 
@@ -17,5 +18,6 @@ pub use error::{EquilibriumError, LinearError};
 pub use linearise::{Instant, Linear, linearise};
 pub use mbs_core::saddle::Saddle;
 pub use mbs_core::step::OptionError;
+pub use near::equilibrium_near;
 pub use options::{LinearOptions, Options};
 pub use workspace::Workspace;

@@ -76,7 +76,7 @@ const SWEEPS: u32 = 60;
 /// Closing the constraints moves by this share of a difference at most: the curvature of the constraints takes some 1e-4.
 const CURVED: f64 = 0.1;
 
-/// Linearises about the consistent state `s` of a scene of the given `length` [m]. Time and measured angles stand still.
+/// Linearises about the consistent state `s`. Time and measured angles stand still.
 ///
 /// At a kink of a force (a contact that begins, a damper with two branches at rest) the mean of both sides is given.
 ///
@@ -86,37 +86,25 @@ const CURVED: f64 = 0.1;
 /// [`LinearError`] when the state is not closed, stands next to a singular position, or lacks inertia.
 pub fn linearise<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
-    length: T,
     (instant, options): (Instant, &LinearOptions<T>),
     s: &State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<Linear<T>, LinearError> {
     options.validate()?;
-    model.set_inputs(s.t, &mut w.terms);
-    if instant == Instant::Rest {
-        for guide in &mut w.terms.guides {
-            *guide = [guide[0], T::ZERO, T::ZERO];
-        }
-    }
-    let mut field = Field::new(model, length, s, w)?;
+    let mut field = Field::new(model, instant, s, w)?;
     let f = field.chart.n_freedoms();
     let acceleration = field.at_rest_of(&s.v)?;
     let turning = norm_inf(&field.w.terms.phi_bias);
-    let reach = options.step * length;
-    let (mut stiffness, mut damping) = (Vec::new(), Vec::new());
+    let reach = options.step;
+    let stiffness = field.stiffness(reach)?;
+    field.return_to(&s.q)?;
+    let mut damping = Vec::new();
     for j in 0..f {
-        let size = norm_inf(field.chart.direction(j));
-        let h = reach / size;
-        let slope = difference(h, |z| field.displaced(j, z))?;
-        stiffness.extend(slope.into_iter().map(|x| -x));
-    }
-    field.return_to(s)?;
-    for j in 0..f {
-        let h = reach / norm_inf(field.chart.direction(j));
+        let h = reach / field.w.extent(field.chart.direction(j));
         let slope = difference(h, |z| field.hurried(j, z))?;
         damping.extend(slope.into_iter().map(|x| -x));
     }
-    let noise = T::EPSILON * T::from_f64(16.0) * (norm_inf(&stiffness) + field.lively / reach);
+    let noise = field.noise(&stiffness, reach);
     let basis = field.chart.basis;
     Ok(Linear { n_freedoms: f, stiffness, damping, basis, acceleration, turning, noise })
 }
@@ -133,27 +121,32 @@ fn difference<T: Real>(
 }
 
 /// z'' as a function of z and z'.
-struct Field<'a, T, M, S> {
+pub(crate) struct Field<'a, T, M, S> {
     model: &'a M,
-    w: &'a mut Workspace<T, S>,
-    length: T,
+    pub(crate) w: &'a mut Workspace<T, S>,
     start: &'a State<T>,
-    chart: Chart<T>,
+    pub(crate) chart: Chart<T>,
     /// Position and velocity at hand, extended.
-    q: Vec<T>,
+    pub(crate) q: Vec<T>,
     v: Vec<T>,
-    /// Largest acceleration that a force would give alone [m/s^2].
+    /// Largest acceleration that a force would give alone, in sizes of coordinates [1/s^2].
     lively: T,
 }
 
 impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
-    fn new(
+    pub(crate) fn new(
         model: &'a M,
-        length: T,
+        instant: Instant,
         s: &'a State<T>,
         w: &'a mut Workspace<T, S>,
     ) -> Result<Self, LinearError> {
         let n = w.n;
+        model.set_inputs(s.t, &mut w.terms);
+        if instant == Instant::Rest {
+            for guide in &mut w.terms.guides {
+                *guide = [guide[0], T::ZERO, T::ZERO];
+            }
+        }
         model.evaluate(&s.q, &mut w.terms);
         let mut jacobian = vec![T::ZERO; w.m * n];
         let (mut unit, mut rates) = (vec![T::ZERO; model.n_extended()], vec![T::ZERO; w.m]);
@@ -166,7 +159,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             }
         }
         let mut local = Vec::new();
-        let chart = Chart::new(n, jacobian, |x| {
+        let chart = Chart::new(&w.sizes, jacobian, |x| {
             unit[..n].copy_from_slice(x);
             let load = Load { mass: Some(&unit), multipliers: None, force: T::ZERO };
             let mut product = vec![T::ZERO; n];
@@ -184,37 +177,77 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             unknown: u32::try_from(unknown).unwrap_or(u32::MAX),
         })?;
         let (q, v) = (s.q.clone(), s.v.clone());
-        let mut field = Self { model, w, length, start: s, chart, q, v, lively: T::ZERO };
+        let mut field = Self { model, w, start: s, chart, q, v, lively: T::ZERO };
+        // The sizes of the rows come with the factor.
+        field.factor()?;
         field.close()?;
         field.factor()?;
         Ok(field)
     }
 
+    /// -dz''/dz by differences that move coordinates by `reach` of their sizes.
+    pub(crate) fn stiffness(&mut self, reach: T) -> Result<Vec<T>, LinearError> {
+        let f = self.chart.n_freedoms();
+        let mut stiffness = Vec::with_capacity(f * f);
+        let mut change = vec![T::ZERO; f];
+        for j in 0..f {
+            let h = reach / self.w.extent(self.chart.direction(j));
+            let slope = difference(h, |z| {
+                change[j] = z;
+                self.displaced(&change)
+            })?;
+            change[j] = T::ZERO;
+            stiffness.extend(slope.into_iter().map(|x| -x));
+        }
+        Ok(stiffness)
+    }
+
+    /// Rounding to be expected in a stiffness that was found so [1/s^2].
+    pub(crate) fn noise(&self, stiffness: &[T], reach: T) -> T {
+        T::EPSILON * T::from_f64(16.0) * (norm_inf(stiffness) + self.lively / reach)
+    }
+
     /// z'' at the state itself, with the velocity `v`.
-    fn at_rest_of(&mut self, v: &[T]) -> Result<Vec<T>, LinearError> {
+    pub(crate) fn at_rest_of(&mut self, v: &[T]) -> Result<Vec<T>, LinearError> {
         self.v.copy_from_slice(v);
         self.acceleration()
     }
 
     /// Back to the position of the state, for velocities to be changed there.
-    fn return_to(&mut self, s: &State<T>) -> Result<(), LinearError> {
-        self.q.copy_from_slice(&s.q);
+    fn return_to(&mut self, q: &[T]) -> Result<(), LinearError> {
+        self.q.copy_from_slice(q);
         self.close()?;
         self.factor()
     }
 
-    /// z'' with one z changed.
-    fn displaced(&mut self, freedom: usize, z: T) -> Result<Vec<T>, LinearError> {
+    /// How far a change of z moves coordinates, in their sizes [-].
+    pub(crate) fn extent(&self, change: &[T]) -> T {
+        let mut way = vec![T::ZERO; self.w.n];
+        for (j, &z) in change.iter().enumerate() {
+            way.iter_mut().zip(self.chart.direction(j)).for_each(|(way, &b)| *way += b * z);
+        }
+        self.w.extent(&way)
+    }
+
+    /// z'' with z changed.
+    pub(crate) fn displaced(&mut self, change: &[T]) -> Result<Vec<T>, LinearError> {
         self.q.copy_from_slice(&self.start.q);
         self.v.copy_from_slice(&self.start.v);
-        for (q, &b) in self.q.iter_mut().zip(self.chart.direction(freedom)) {
-            *q += b * z;
+        for (j, &z) in change.iter().enumerate() {
+            for (q, &b) in self.q.iter_mut().zip(self.chart.direction(j)) {
+                *q += b * z;
+            }
         }
+        let n = self.w.n;
         let open = self.q.clone();
         self.close()?;
         // Of second order in z, unless a row is next to being dependent.
-        let moved = self.q.iter().zip(&open).fold(T::ZERO, |m, (&a, &b)| m.max((a - b).abs()));
-        if moved > norm_inf(self.chart.direction(freedom)) * z.abs() * T::from_f64(CURVED) {
+        let extent = |field: &Self, from: &[T]| {
+            let way: Vec<T> = field.q[..n].iter().zip(from).map(|(&q, &from)| q - from).collect();
+            field.w.extent(&way)
+        };
+        let freedom = change.iter().position(|&z| z != T::ZERO).unwrap_or(0);
+        if extent(self, &open) > extent(self, &self.start.q) * T::from_f64(CURVED) {
             return Err(LinearError::Singular { freedom });
         }
         self.factor()?;
@@ -232,12 +265,12 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
 
     /// Moves `q` onto the constraints without changing z; the terms are those of `q` then.
     fn close(&mut self) -> Result<(), LinearError> {
-        let floor = (self.length + norm_inf(&self.q)) * T::EPSILON;
         let n = self.w.n;
+        let floor = (T::ONE + self.w.extent(&self.q[..n])) * T::EPSILON;
         let mut last = None;
         for _ in 0..SWEEPS {
             self.model.evaluate(&self.q, &mut self.w.terms);
-            let violation = norm_inf(&self.w.terms.phi);
+            let violation = self.w.openness(&self.w.terms.phi);
             if last.is_some_and(|last| violation > last * T::HALF) || violation == T::ZERO {
                 break;
             }
@@ -245,10 +278,10 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             self.chart.correct(&self.w.terms.phi, &mut self.q[..n]);
         }
         self.model.evaluate(&self.q, &mut self.w.terms);
-        let violation = norm_inf(&self.w.terms.phi);
-        if violation <= floor * T::from_f64(1e3) {
+        if self.w.openness(&self.w.terms.phi) <= floor * T::from_f64(1e3) {
             return Ok(());
         }
+        let violation = norm_inf(&self.w.terms.phi);
         Err(LinearError::NotClosed { violation: violation.to_f64() })
     }
 
@@ -260,25 +293,25 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
     /// z'' at (q, v), v moved onto the constraints first; the matrix is factored at q.
     fn acceleration(&mut self) -> Result<Vec<T>, LinearError> {
         let (n, m) = (self.w.n, self.w.m);
-        let terms = &mut self.w.terms;
-        self.model.evaluate_phi_t(&self.q, terms);
+        self.model.evaluate_phi_t(&self.q, &mut self.w.terms);
         let mut rates = vec![T::ZERO; m];
         let mut last = None;
         for _ in 0..SWEEPS {
-            self.model.multiply_jacobian(terms, &self.v, &mut rates);
-            rates.iter_mut().zip(&terms.phi_t).for_each(|(r, &b)| *r += b);
-            let violation = norm_inf(&rates);
+            self.model.multiply_jacobian(&self.w.terms, &self.v, &mut rates);
+            rates.iter_mut().zip(&self.w.terms.phi_t).for_each(|(r, &b)| *r += b);
+            let violation = self.w.openness(&rates);
             if last.is_some_and(|last| violation > last * T::HALF) || violation == T::ZERO {
                 break;
             }
             last = Some(violation);
             self.chart.correct(&rates, &mut self.v[..n]);
         }
-        self.model.evaluate_forces(&self.q, &self.v, &self.start.memory, terms);
+        let (memory, terms) = (&self.start.memory, &mut self.w.terms);
+        self.model.evaluate_forces(&self.q, &self.v, memory, terms);
         self.model.evaluate_bias(&self.q, &self.v, terms);
         let mut a = vec![T::ZERO; self.model.n_extended()];
         let (mut lambda, mut residual) = (vec![T::ZERO; m], vec![T::ZERO; n]);
-        let (mut last, mut open) = (None, T::ZERO);
+        let (mut last, mut open, mut left) = (None, T::ZERO, T::ZERO);
         // Corrections: each removes what rounding and the regularisation of the rows left.
         for _ in 0..SWEEPS {
             self.w.residual(self.model, Some(&a), &lambda, &mut residual);
@@ -289,9 +322,9 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             for k in 0..m {
                 self.w.f[n + k] = -(rates[k] + self.w.terms.phi_bias[k]);
             }
-            open = norm_inf(&self.w.f[n..]);
+            (open, left) = (self.w.openness(&self.w.f[n..]), norm_inf(&self.w.f[n..]));
             self.w.solve();
-            let correction = norm_inf(&self.w.f[..n]);
+            let correction = self.w.extent(&self.w.f[..n]);
             if !correction.is_finite() {
                 return Err(LinearError::NotFinite);
             }
@@ -311,8 +344,8 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             self.lively = self.w.liveliness(self.model);
         }
         // What rounding leaves of a coordinate with hardly any inertia is no fault; rows that stay open are.
-        if !(open <= self.lively.max(norm_inf(&a)) * T::EPSILON.sqrt()) {
-            return Err(LinearError::NotSettled { left: open.to_f64() });
+        if !(open <= self.lively.max(self.w.extent(&a[..n])) * T::EPSILON.sqrt()) {
+            return Err(LinearError::NotSettled { left: left.to_f64() });
         }
         Ok(self.chart.reduce(&a[..n]))
     }

@@ -5,6 +5,9 @@
 //! [ J                          -delta ] ( e )  =  ( c ),      delta_k = 1e-9 J_k J_k^T / W_k,   W_k = max W_uu, J_ku != 0
 //! ```
 //!
+//! Coordinates count in their sizes, which are the scene's length for a point's and one for a direction's: nothing depends on the
+//! unit of length.
+//!
 //! delta lets rows repeat each other; what it leaves open is removed by iteration of the multipliers, so that no result
 //! depends on it. W_k is the heaviest coordinate of the row, so that delta is small beside the compliance of the row in
 //! every mechanism: one taken from massless coordinates would leave their rows open by more than an iteration removes.
@@ -28,6 +31,9 @@ pub struct Workspace<T, S> {
     saddle: Saddle,
     pub(crate) terms: Terms<T>,
     jacobian: Vec<T>,
+    /// Size of each coordinate in the scene [m or -], and what a coordinate of its size moves of each row at most.
+    pub(crate) sizes: Vec<T>,
+    row_sizes: Vec<T>,
     delta: Vec<T>,
     diagonal: Vec<T>,
     /// One block, Jacobian or residual of an element.
@@ -45,10 +51,14 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
     pub fn new(model: &impl Model<T>, solver: S) -> Self {
         let (n, m) = (model.n_unknowns(), model.n_constraints());
         let saddle = Saddle::new(model);
+        let mut sizes = vec![T::ONE; n];
+        model.write_sizes(&mut sizes);
         let largest = (0..model.n_elements()).map(|e| model.clique(e).len()).max().unwrap_or(0);
         Self {
             terms: model.terms(),
             jacobian: vec![T::ZERO; saddle.n_jacobian()],
+            sizes,
+            row_sizes: vec![T::ONE; m],
             delta: vec![T::ZERO; m],
             diagonal: vec![T::ZERO; n],
             local: vec![T::ZERO; largest * (largest + 1)],
@@ -78,16 +88,20 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         let geometric = (s != T::ZERO).then_some(&self.scaled[..]);
         let tangent = Tangent { stiffness: s, damping: T::ZERO, penalty: &[], geometric };
         sum_diagonal(model, &self.terms, &tangent, &mut self.local, &mut self.diagonal);
+        weigh(&self.sizes, &self.sizes, &mut self.diagonal);
         let least = norm_inf(&self.diagonal) * T::from_f64(LIGHT);
         for e in 0..model.n_elements() {
             let clique = model.clique(e);
             let rows = &self.jacobian[self.saddle.jacobian(e)];
             for (row, g) in model.rows(e).zip(rows.chunks_exact(clique.len().max(1))) {
-                let (mut square, mut weight) = (T::ZERO, least);
+                let (mut square, mut largest, mut weight) = (T::ZERO, T::ZERO, least);
                 for (&u, &g) in clique.iter().zip(g).filter(|(_, g)| **g != T::ZERO) {
+                    let g = g * self.sizes[u as usize];
                     square += g * g;
+                    largest = largest.max(g.abs());
                     weight = weight.max(self.diagonal[u as usize].abs());
                 }
+                self.row_sizes[row] = if largest > T::ZERO { largest } else { T::ONE };
                 let compliance = square / if weight > T::ZERO { weight } else { T::ONE };
                 self.delta[row] = compliance * T::from_f64(DELTA);
             }
@@ -109,7 +123,28 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         self.solver.solve(&mut self.f, &mut self.scratch);
     }
 
-    /// residual = M a + J^T lambda - Q; returns, for each coordinate, nothing, but the largest sum of absolute parts [N].
+    /// The diagonal of M + s (K + K_geo) as last factored, as work along the coordinates' sizes [J s^2 / s^2].
+    pub(crate) fn diagonal(&self) -> &[T] {
+        &self.diagonal
+    }
+
+    /// How far coordinates move, in their sizes [-].
+    pub(crate) fn extent(&self, x: &[T]) -> T {
+        let ratios = x.iter().zip(&self.sizes).map(|(&x, &size)| x / size);
+        largest_of(ratios)
+    }
+
+    /// The work of forces along coordinates' sizes, at most [J].
+    pub(crate) fn work(&self, force: &[T]) -> T {
+        largest_of(force.iter().zip(&self.sizes).map(|(&f, &size)| f * size))
+    }
+
+    /// How far rows are off, as a coordinate of its size would move them [-]. They are as last factored.
+    pub(crate) fn openness(&self, rows: &[T]) -> T {
+        largest_of(rows.iter().zip(&self.row_sizes).map(|(&x, &size)| x / size))
+    }
+
+    /// residual = M a + J^T lambda - Q; returns the largest sum of absolute parts, as work along a coordinate's size [J].
     pub(crate) fn residual<M: Model<T>>(
         &mut self,
         model: &M,
@@ -136,22 +171,34 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
                 }
             }
         }
-        norm_inf(&self.diagonal)
+        self.work(&self.diagonal)
     }
 
-    /// The largest acceleration that the parts of the last residual would give alone [m/s^2]: what rounding is relative to.
+    /// The largest acceleration that the parts of the last residual would give alone, in sizes [1/s^2]: what rounding is relative to.
     /// Coordinates with little mass are left out.
     pub(crate) fn liveliness<M: Model<T>>(&mut self, model: &M) -> T {
         let forces = self.diagonal.clone();
         let tangent =
             Tangent { stiffness: T::ZERO, damping: T::ZERO, penalty: &[], geometric: None };
         sum_diagonal(model, &self.terms, &tangent, &mut self.local, &mut self.diagonal);
+        weigh(&self.sizes, &self.sizes, &mut self.diagonal);
         let floor = norm_inf(&self.diagonal) * T::from_f64(1e-6);
-        forces
-            .iter()
-            .zip(&self.diagonal)
-            .fold(T::ZERO, |most, (&f, &m)| if m > floor { most.max(f / m) } else { most })
+        let work = forces.iter().zip(&self.sizes).map(|(&f, &size)| f * size);
+        work.zip(&self.diagonal)
+            .fold(T::ZERO, |most, (f, &m)| if m > floor { most.max(f / m) } else { most })
     }
+}
+
+/// x_u *= a_u b_u.
+fn weigh<T: Real>(a: &[T], b: &[T], x: &mut [T]) {
+    for (x, (&a, &b)) in x.iter_mut().zip(a.iter().zip(b)) {
+        *x *= a * b;
+    }
+}
+
+/// The largest absolute value, or a NaN.
+fn largest_of<T: Real>(x: impl Iterator<Item = T>) -> T {
+    x.fold(T::ZERO, |most, x| if x.abs() <= most || !(most >= T::ZERO) { most } else { x.abs() })
 }
 
 /// The diagonal of the sum of all blocks.

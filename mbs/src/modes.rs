@@ -5,7 +5,8 @@
 //! ```
 
 use crate::ready::Ready;
-use crate::statics::{at_rest, equilibrium_start, settle, workspace};
+use crate::rest::{LeftOut, at_rest, left_out};
+use crate::statics::{Search, left_out_json, settle, workspace};
 use crate::stop::StopError;
 use core::f64::consts::TAU;
 use mbs_core::scene::{Dimension, Scene};
@@ -82,6 +83,8 @@ pub struct Modes {
     pub place: Place,
     /// The equilibrium, if that is the place.
     pub found: Option<Equilibrium<f64>>,
+    /// What is left out, of the equilibrium too.
+    pub left_out: Vec<LeftOut>,
     /// Freedoms.
     pub dof: usize,
     /// Largest acceleration at the state, of coordinates with unit inertia [m sqrt(kg)/s^2]; zero in an equilibrium.
@@ -94,37 +97,47 @@ pub struct Modes {
 }
 
 impl Modes {
-    /// Assembles a scene, lets it settle if its equilibrium is the place, and linearises it.
+    /// Assembles a scene, seeks its equilibrium if that is the place, and linearises it.
     ///
     /// # Errors
     /// [`StopError`] when there is no model, consistent start, equilibrium or linearisation.
-    pub fn new(scene: &Scene<f64>, place: Place) -> Result<Self, StopError> {
+    pub fn new(scene: &Scene<f64>, place: Place, search: Search) -> Result<Self, StopError> {
         match scene.dimension {
-            Dimension::Planar => Self::in_space::<2>(scene, place),
-            Dimension::Spatial => Self::in_space::<3>(scene, place),
+            Dimension::Planar => Self::in_space::<2>(scene, place, search),
+            Dimension::Spatial => Self::in_space::<3>(scene, place, search),
         }
     }
 
-    fn in_space<const D: usize>(scene: &Scene<f64>, place: Place) -> Result<Self, StopError> {
-        let still = at_rest(scene);
-        let scene = if place == Place::Equilibrium { &still } else { scene };
-        let Ready { model, mut solver, mut start, .. } = Ready::<f64, D>::assembled(scene)?;
-        let (found, instant) = match place {
-            Place::Equilibrium => (Some(settle(scene, &model, &mut start.state)?), Instant::Rest),
-            Place::Initial => (None, Instant::Motion),
+    fn in_space<const D: usize>(
+        scene: &Scene<f64>,
+        place: Place,
+        search: Search,
+    ) -> Result<Self, StopError> {
+        let left_out = if place == Place::Initial { Vec::new() } else { left_out(scene) };
+        let (Ready { model, start, .. }, found) = match place {
+            Place::Equilibrium => {
+                let still = at_rest(scene);
+                let mut ready = Ready::<f64, D>::assembled(&still)?;
+                let found = settle(&still, &ready.model, search, &mut ready.start.state)?;
+                (ready, Some(found))
+            }
+            Place::Initial => (Ready::assembled(scene)?, None),
             Place::Moving => {
-                let found = equilibrium_start(scene, &model, &mut solver, &mut start)?;
-                (Some(found), Instant::Motion)
+                let (ready, found) = Ready::settled(scene, search)?;
+                (ready, Some(found))
             }
         };
+        let is_at_rest = place == Place::Equilibrium;
+        let instant = if is_at_rest { Instant::Rest } else { Instant::Motion };
         let how = (instant, &LinearOptions::default());
-        let linear = linearise(&model, model.length(), how, &start.state, &mut workspace(&model))
+        let linear = linearise(&model, how, &start.state, &mut workspace(&model))
             .map_err(StopError::Linear)?;
         let acceleration = linear.acceleration.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         Ok(Self {
             scene: scene.name.clone(),
             place,
             found,
+            left_out,
             dof: linear.n_freedoms,
             acceleration,
             turning: linear.turning,
@@ -160,6 +173,7 @@ impl Modes {
             "stable": self.is_stable(),
             "acceleration": self.acceleration,
             "turning": self.turning,
+            "left_out": left_out_json(&self.left_out),
             "equilibrium_residual": self.found.map(|f| f.residual),
             "modes": self.modes.iter().map(mode).collect::<Vec<_>>(),
         })

@@ -1,13 +1,15 @@
 //! What every way to simulate a scene begins from.
 
+use crate::rest::without_rates;
 use crate::simulation;
-use crate::statics::equilibrium_start;
+use crate::statics::{Search, equilibrium_start};
 use crate::stop::StopError;
 use mbs_core::model::Model;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Scene, Start};
 use mbs_core::start::{Assembled, assemble};
 use mbs_core::{Cliques, Real};
+use mbs_linear::Equilibrium;
 use mbs_sparse::Multifrontal;
 
 /// A model, its solver, and its consistent start.
@@ -25,12 +27,24 @@ impl<T: Real, const D: usize> Ready<T, D> {
     /// # Errors
     /// [`StopError`] when there is no model, no consistent start or no equilibrium.
     pub(crate) fn new(scene: &Scene<T>) -> Result<Self, StopError> {
-        let mut ready = Self::assembled(scene)?;
         if scene.start == Start::Equilibrium {
-            let Self { model, solver, start, .. } = &mut ready;
-            equilibrium_start(scene, model, solver, start)?;
+            return Ok(Self::settled(scene, Search::Down)?.0);
         }
-        Ok(ready)
+        Self::assembled(scene)
+    }
+
+    /// Builds the model of a scene, and starts it from an equilibrium with the scene's initial velocities.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub(crate) fn settled(
+        scene: &Scene<T>,
+        search: Search,
+    ) -> Result<(Self, Equilibrium<T>), StopError> {
+        let mut ready = Self::assembled(&without_rates(scene.clone()))?;
+        let Self { model, solver, start, .. } = &mut ready;
+        let found = equilibrium_start(scene, model, search, solver, start)?;
+        Ok((ready, found))
     }
 
     /// Builds the model of a scene and assembles it, no more.

@@ -3,16 +3,20 @@
 use crate::channels::Channels;
 use crate::modes::{eigenvalues, neutral_directions};
 use crate::ready::Ready;
+use crate::rest::{LeftOut, at_rest, left_out};
 use crate::simulation::rank;
 use crate::stop::StopError;
 use crate::tree;
+use mbs_core::algebra::{norm, rotation_vector};
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{Dimension, EffectKind, Output, Quantity, Scene};
+use mbs_core::rigid::RigidMotion;
+use mbs_core::scene::{Dimension, Output, Quantity, Scene};
 use mbs_core::start::{Assembled, restart};
 use mbs_core::{Cliques, Real, SpdSolver};
 use mbs_linear::{
-    Equilibrium, Instant, LinearOptions, Options, Saddle, Workspace, equilibrium, linearise,
+    Equilibrium, Instant, LinearOptions, Options, Saddle, Workspace, equilibrium, equilibrium_near,
+    linearise,
 };
 use mbs_scene::Channel;
 use mbs_sparse::{Indefinite, Multifrontal};
@@ -26,42 +30,36 @@ pub(crate) fn workspace<T: Real, const D: usize>(
     Workspace::new(model, solver)
 }
 
-/// A scene as it is at rest: without what only motion makes, which is drives, drag, friction, and what a tire does when it rolls.
-pub(crate) fn at_rest<T: Real>(scene: &Scene<T>) -> Scene<T> {
-    let mut still = scene.clone();
-    for effect in &mut still.effects {
-        match &mut effect.kind {
-            EffectKind::SpeedHold { .. }
-            | EffectKind::AeroDrag { .. }
-            | EffectKind::Friction { .. } => effect.enabled = false,
-            EffectKind::Tire { side, rolling_resistance, .. } => {
-                (*side, *rolling_resistance) = (None, T::ZERO);
-            }
-            _ => {}
-        }
-    }
-    still
+/// How an equilibrium is sought.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Search {
+    /// Down from the start, to one that is stable.
+    #[default]
+    Down,
+    /// By Newton's method from the start, to the one nearby, stable or not.
+    Near,
 }
 
-/// Moves a state to the static equilibrium near it, at rest and with guides at their values of that time. What only motion makes
-/// does not act: drives, drag, friction, and what a tire does when it rolls.
+/// Moves a state to a static equilibrium, at rest and with guides at their values at the start. What only motion makes does not act:
+/// drives, drag, dry friction, and what a tire does when it rolls.
 ///
 /// # Errors
 /// [`StopError::Equilibrium`]; positions are then unchanged.
 pub fn settle<T: Real, const D: usize>(
     scene: &Scene<T>,
     model: &NaturalModel<T, D>,
+    search: Search,
     state: &mut State<T>,
 ) -> Result<Equilibrium<T>, StopError> {
     let still = at_rest(scene);
     if still == *scene {
-        return settle_model(model, state);
+        return settle_model(model, search, state);
     }
     let quiet = NaturalModel::<T, D>::new(&still).map_err(|e| StopError::Start(e.into()))?;
     let mut there = State::at_rest(&quiet);
     there.t = state.t;
     tell((scene, model), state, &quiet, &mut there);
-    let found = settle_model(&quiet, &mut there)?;
+    let found = settle_model(&quiet, search, &mut there)?;
     tell((&still, &quiet), &there, model, state);
     Ok(found)
 }
@@ -79,11 +77,16 @@ fn tell<T: Real, const D: usize>(
 
 fn settle_model<T: Real, const D: usize>(
     model: &NaturalModel<T, D>,
+    search: Search,
     state: &mut State<T>,
 ) -> Result<Equilibrium<T>, StopError> {
     state.v.fill(T::ZERO);
-    let (length, options) = (model.length(), Options::default());
-    equilibrium(model, length, &options, state, &mut workspace(model)).map_err(|error| {
+    let (options, mut workspace) = (Options::default(), workspace(model));
+    let found = match search {
+        Search::Down => equilibrium(model, &options, state, &mut workspace),
+        Search::Near => equilibrium_near(model, &options, state, &mut workspace),
+    };
+    found.map_err(|error| {
         let n = model.n_unknowns();
         StopError::equilibrium(
             error,
@@ -102,10 +105,11 @@ fn settle_model<T: Real, const D: usize>(
 pub fn equilibrium_start<T: Real, const D: usize>(
     scene: &Scene<T>,
     model: &NaturalModel<T, D>,
+    search: Search,
     solver: &mut impl SpdSolver<T>,
     start: &mut Assembled<T>,
 ) -> Result<Equilibrium<T>, StopError> {
-    let found = settle(scene, model, &mut start.state)?;
+    let found = settle(scene, model, search, &mut start.state)?;
     let analyse = mbs_sparse::Options::default();
     let state = &mut start.state;
     let residual = restart(scene, model, |p| Multifrontal::analyse(p, analyse), solver, state);
@@ -117,6 +121,15 @@ pub fn equilibrium_start<T: Real, const D: usize>(
     Ok(found)
 }
 
+/// How far bodies are from where they started: a way or a turn at most, and which body's it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Moved {
+    /// Of a centre of mass [m], or about any axis, from 0 to pi [rad].
+    pub size: f64,
+    /// Name of the body.
+    pub body: String,
+}
+
 /// A static equilibrium, told.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Still {
@@ -126,6 +139,10 @@ pub struct Still {
     pub sizes: [usize; 3],
     /// What the search found.
     pub found: Equilibrium<f64>,
+    /// How far centres of mass went from the start, and how far bodies turned; without bodies nothing.
+    pub moved: Option<[Moved; 2]>,
+    /// What is left out.
+    pub left_out: Vec<LeftOut>,
     /// Modes that grow, by the eigenvalues of the equations of motion; `None` where they cannot be linearised.
     pub unstable: Option<usize>,
     /// Directions in which it may stand anywhere; likewise.
@@ -147,18 +164,24 @@ impl Still {
     ///
     /// # Errors
     /// [`StopError`] when there is no model, no consistent start or no equilibrium.
-    pub fn new(scene: &Scene<f64>) -> Result<Self, StopError> {
+    pub fn new(scene: &Scene<f64>, search: Search) -> Result<Self, StopError> {
         match scene.dimension {
-            Dimension::Planar => Self::in_space::<2>(scene),
-            Dimension::Spatial => Self::in_space::<3>(scene),
+            Dimension::Planar => Self::in_space::<2>(scene, search),
+            Dimension::Spatial => Self::in_space::<3>(scene, search),
         }
     }
 
-    fn in_space<const D: usize>(scene: &Scene<f64>) -> Result<Self, StopError> {
+    fn in_space<const D: usize>(scene: &Scene<f64>, search: Search) -> Result<Self, StopError> {
+        let left_out = left_out(scene);
         let scene = &at_rest(scene);
         let Ready { model, start, .. } = Ready::<f64, D>::assembled(scene)?;
         let mut state = start.state;
-        let found = settle(scene, &model, &mut state)?;
+        let places = |state: &State<f64>| -> Vec<RigidMotion<f64>> {
+            (0..scene.bodies.len()).map(|body| model.motion(scene, body, state)).collect()
+        };
+        let from = places(&state);
+        let found = settle(scene, &model, search, &mut state)?;
+        let moved = moved(scene, &from, &places(&state));
         let joints = (0..scene.joints.len())
             .filter(|&j| scene.joints[j].kind.n_coordinates(scene.dimension) > 0)
             .map(|joint| Quantity::JointValue { joint });
@@ -177,6 +200,8 @@ impl Still {
             scene: scene.name.clone(),
             sizes,
             found,
+            moved,
+            left_out,
             unstable: stability.map(|s| s[0]),
             neutral: stability.map(|s| s[1]),
             potential: model.potential_energy(&state.q, &terms),
@@ -192,6 +217,8 @@ impl Still {
     pub fn to_json(&self) -> Value {
         let found = &self.found;
         let [coordinates, constraints, rank] = self.sizes;
+        let [way, turn] = self.moved.clone().map_or([None, None], |both| both.map(Some));
+        let moved = |m: Option<Moved>| m.map(|m| json!({ "size": m.size, "body": m.body }));
         json!({
             "scene": self.scene,
             "completed": true,
@@ -207,6 +234,8 @@ impl Still {
             "relative_residual": found.relative,
             "violation": found.violation,
             "change": found.change,
+            "moved": { "distance": moved(way), "turn": moved(turn) },
+            "left_out": left_out_json(&self.left_out),
             "iterations": found.iterations,
             "factorizations": found.factorizations,
             "potential_energy": self.potential,
@@ -218,13 +247,40 @@ impl Still {
     }
 }
 
+/// As it stands in JSON.
+pub(crate) fn left_out_json(left_out: &[LeftOut]) -> Value {
+    left_out.iter().map(|l| json!({ "effect": l.effect, "part": l.part })).collect()
+}
+
+/// The longest way of a centre of mass, and the largest turn.
+fn moved(
+    scene: &Scene<f64>,
+    from: &[RigidMotion<f64>],
+    to: &[RigidMotion<f64>],
+) -> Option<[Moved; 2]> {
+    let of_body = |b: usize| {
+        let center = scene.bodies[b].center.into();
+        let [way, turn] = [
+            to[b].point(&center)[0] - from[b].point(&center)[0],
+            rotation_vector(&(to[b].rotation * from[b].rotation.transpose())),
+        ];
+        [norm(&way), norm(&turn)]
+    };
+    let most = |k: usize| {
+        let sizes = (0..scene.bodies.len()).map(|b| (of_body(b)[k], b));
+        let (size, body) = sizes.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(Moved { size, body: scene.bodies[body].name.clone() })
+    };
+    Some([most(0)?, most(1)?])
+}
+
 /// Growing modes and neutral directions at an equilibrium; none where there is no linearisation.
 fn stability<const D: usize>(
     model: &NaturalModel<f64, D>,
     state: &State<f64>,
 ) -> Option<[usize; 2]> {
     let how = (Instant::Rest, &LinearOptions::default());
-    let linear = linearise(model, model.length(), how, state, &mut workspace(model)).ok()?;
+    let linear = linearise(model, how, state, &mut workspace(model)).ok()?;
     let growing = eigenvalues(&linear).ok()?.iter().filter(|mode| mode.grows()).count();
     Some([growing, neutral_directions(&linear).ok()?])
 }

@@ -248,6 +248,9 @@ impl StopError {
             | Self::Linear(LinearError::NoInertia { .. }) => {
                 "give the body mass and inertia, or remove the freedom nothing determines"
             }
+            Self::Equilibrium(EquilibriumError::NotNear, _) => {
+                "start nearer to it with [[initial]] values, or leave --near out: the search then goes down to a stable one"
+            }
             Self::Equilibrium(..) => "start nearer to the equilibrium with [[initial]] values",
             Self::Linear(LinearError::NotClosed { .. } | LinearError::Singular { .. }) => {
                 "move away from the singular position with an [[initial]] value"
@@ -403,6 +406,9 @@ fn write_equilibrium(
     match error {
         EquilibriumError::NotConverged { residual, .. } => {
             write!(f, "no static equilibrium was found: {} N (or N m) is left", few(*residual))
+        }
+        EquilibriumError::NotNear => {
+            write!(f, "there is no static equilibrium near the start")
         }
         EquilibriumError::Escapes { .. } => {
             write!(f, "there is no static equilibrium: nothing holds the mechanism")

@@ -70,3 +70,32 @@ fn what_cannot_be_done_has_status_two_and_what_cannot_be_meant_one() {
         assert_eq!(run(arguments[0], &arguments[1..]).status.code(), Some(1), "{arguments:?}");
     }
 }
+
+#[test]
+fn near_its_start_a_pendulum_stands_and_the_text_says_how_far_it_went() {
+    let pendulum = "[scene]\nname = \"pendulum\"\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n\n\
+        [[body]]\nname = \"rod\"\nmass = 1.0\nrod = { from = [0.0, 0.0], to = [0.0, -1.0] }\n\n\
+        [[joint]]\nname = \"pivot\"\nkind = \"revolute\"\nbodies = [\"ground\", \"rod\"]\nat = [0.0, 0.0]\n\n\
+        [[effect]]\nname = \"rub\"\nkind = \"friction\"\njoint = \"pivot\"\ncoulomb = 0.5\n\n\
+        [[initial]]\njoint = \"pivot\"\nvalue = 3.0\n";
+    let file = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("standing.toml");
+    std::fs::write(&file, pendulum).expect("the directory is ours");
+    let file = file.to_str().expect("a plain path");
+    let value = json(&run("equilibrium", &[file, "--near", "--json"]));
+    assert_eq!((&value["stable"], &value["unstable_modes"]), (&false.into(), &1.into()), "{value}");
+    let turn = value["moved"]["turn"]["size"].as_f64().expect("a number");
+    assert!((turn - (std::f64::consts::PI - 3.0)).abs() < 1e-9, "{turn}");
+    assert_eq!(value["left_out"][0]["effect"], "rub");
+    let told = |arguments: &[&str]| {
+        let output = run(arguments[0], &arguments[1..]);
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}");
+        String::from_utf8(output.stdout).expect("it is text")
+    };
+    let text = told(&["equilibrium", file]);
+    assert!(text.contains("from the start") && text.contains("3 rad (`rod`)"), "{text}");
+    assert!(text.contains("left out of this analysis: dry friction of `rub`"), "{text}");
+    let text = told(&["modes", file, "--near"]);
+    assert!(text.contains("unstable") && text.contains("dry friction of `rub`"), "{text}");
+    assert!(!told(&["modes", file, "--at", "initial"]).contains("left out"));
+    assert_eq!(run("modes", &[file, "--near", "--at", "initial"]).status.code(), Some(1));
+}

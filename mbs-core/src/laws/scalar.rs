@@ -145,6 +145,20 @@ impl<T: Real> Law<T> {
         }
     }
 
+    /// May it stand in the way like a wall, with a force that begins somewhere?
+    #[must_use]
+    pub fn may_push(&self) -> bool {
+        match self {
+            #[cfg(feature = "bumper")]
+            Self::Bumper { .. } => true,
+            #[cfg(feature = "polynomial")]
+            Self::Polynomial { of_rate, .. } => !of_rate,
+            #[cfg(feature = "own-laws")]
+            Self::Own { .. } => true,
+            _ => false,
+        }
+    }
+
     /// Stored energy [J] of the elastic part at a value.
     #[inline]
     pub fn energy(&self, value: T, supplies: &Supplies<'_, T>) -> T {

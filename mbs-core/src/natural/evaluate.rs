@@ -3,6 +3,7 @@
 use super::forces::Gauge;
 use super::model::NaturalModel;
 use crate::Real;
+use crate::algebra::norm;
 use crate::elements::combine;
 use crate::inputs::Prescribed;
 use crate::model::{Load, Measure, Model, Owner, Tangent, Terms};
@@ -66,6 +67,9 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     }
 }
 
+/// Cotangents of the angles to the way under which the line of two points that pass each other is looked at.
+const OBLIQUE: [f64; 4] = [0.0625, 0.25, 1.0, 4.0];
+
 impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
     fn n_extended(&self) -> usize {
         self.reference.len()
@@ -107,6 +111,33 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
 
     fn write_reference(&self, q: &mut [T]) {
         q.copy_from_slice(&self.reference);
+    }
+
+    fn write_sizes(&self, sizes: &mut [T]) {
+        sizes.copy_from_slice(&self.sizes());
+    }
+
+    fn approaches(&self, q: &[T], to: &[T], mut take: impl FnMut(T)) {
+        for element in self.measures.iter().filter(|element| element.law.may_push()) {
+            let Gauge::Length { x } = element.gauge else { continue };
+            let [from, to] = [q, to].map(|q| combine::<T, D>(x.of(&self.pool), q));
+            // |r + x (r' - r)| is least at x = -r.(r' - r) / |r' - r|^2
+            let way = to - from;
+            let [length, speed] = [norm(&from), norm(&way)];
+            let closest = -from.dot(&way) / (speed * speed);
+            if !(closest > T::ZERO && closest < T::ONE) {
+                continue;
+            }
+            let passed = norm(&(from + way * closest)) / speed;
+            // A hair before, as at no distance a force has no direction; and where the line stands oblique to the way.
+            let hair = length / speed * T::EPSILON.sqrt();
+            for share in OBLIQUE {
+                let before = closest - passed * T::from_f64(share) - hair;
+                if before > T::ZERO {
+                    take(before);
+                }
+            }
+        }
     }
 
     fn set_inputs(&self, t: T, terms: &mut Terms<T>) {

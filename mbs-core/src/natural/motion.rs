@@ -22,6 +22,13 @@ pub(crate) struct Carried<T: Real> {
     reference: Vector<T, 3>,
 }
 
+impl<T: Real> Carried<T> {
+    /// The first coordinate of a point.
+    pub(super) fn point(&self) -> Option<usize> {
+        self.is_point.then_some(self.at as usize)
+    }
+}
+
 /// One carrier for each unknown entity: the first body that has it.
 pub(super) fn carriers<T: Real>(
     entities: &[Entity<T>],

@@ -158,11 +158,87 @@ fn single_precision_balances_to_its_own_rounding() {
     let start = assemble(&scene, &model, |p| Dense::new(p), &mut Dense::new(&model));
     let mut state = start.expect("it assembles").state;
     let mut w = Workspace::new(&model, Dense::new(&Saddle::new(&model)));
-    let found = equilibrium(&model, model.length(), &Options::default(), &mut state, &mut w);
+    let found = equilibrium(&model, &Options::default(), &mut state, &mut w);
     let found = found.unwrap_or_else(|e| panic!("{e}"));
     assert!(found.relative < 1e-6 && found.unstable == 0, "{found:?}");
     let at = mbs_core::scene::BodyRef::Body(0);
     let tip = model.point(at, [0.0, -1.0, 0.0]).value(&state.q);
     // A thousand roundings: the search ends where the force is rounding, and K is of order one.
     assert!(tip[0].abs() < 1e-4, "{tip:?}");
+}
+
+/// A block of 5 kg on a pad of 20,000 N/m that it touches at the start.
+const PAD: &str = include_str!("../../../mbs/tests/field/02-pad.toml");
+/// The same with a spring of 1 N/m beside it.
+const PAD_WITH_SPRING: &str = include_str!("../../../mbs/tests/field/02-pad-with-spring.toml");
+
+#[test]
+fn the_search_does_not_go_through_a_stop() {
+    for (text, stiffness) in [(PAD, 20_000.0), (PAD_WITH_SPRING, 20_001.0)] {
+        for height in [0.0, -0.001, 0.02, 0.5, 30.0] {
+            let text = format!("{text}\n[[initial]]\njoint = \"post\"\nvalue = {height}\n");
+            let mut case = Case::<2>::new(&text);
+            let found = case.settle().unwrap_or_else(|e| panic!("{height}: {e}"));
+            let y = case.point(0, [0.0, 0.4, 0.0])[1] - 0.4;
+            assert!((y + 5.0 * 9.81 / stiffness).abs() < CLOSE, "{height}: {y}");
+            assert!(found.is_stable() && found.neutral == 0);
+        }
+    }
+}
+
+/// A slide in space on one spring, no gravity: the forces vanish together with all that they could be compared with.
+const SLIDE: &str = include_str!("../../../mbs/tests/field/05-slide-on-a-spring.toml");
+
+#[test]
+fn a_slide_on_one_spring_rests_where_the_spring_has_its_length() {
+    for axis in ["[2.0, 1.0, -2.0]", "[1.0, 0.3, -2.0]", "[-2.0, -1.0, 2.0]"] {
+        let mut case = Case::<3>::new(&SLIDE.replace("[2.0, 1.0, -2.0]", axis));
+        let found = case.settle().unwrap_or_else(|e| panic!("{axis}: {e}"));
+        let place = case.point(0, [0.2, 0.1, -0.2]);
+        let length = place.iter().map(|x| x * x).sum::<f64>().sqrt();
+        assert!((length - 0.28).abs() < CLOSE, "{axis}: {length}");
+        assert_eq!((found.unstable, found.neutral), (0, 0), "{axis}: {found:?}");
+        assert!(found.relative < 1e-13);
+    }
+}
+
+#[test]
+fn near_the_start_newtons_method_finds_what_no_search_downwards_does() {
+    for (angle, place) in [(3.0, 1.0), (0.3, -1.0), (PI, 1.0)] {
+        let mut case = Case::<2>::new(&pendulum(angle));
+        let found = case.approach().unwrap_or_else(|e| panic!("{angle}: {e}"));
+        assert!((case.point(0, [0.0, -1.0, 0.0])[1] - place).abs() < CLOSE, "{angle}");
+        assert_eq!(found.unstable, usize::from(place > 0.0), "{angle}");
+    }
+    for height in [0.0, -0.01, 0.1] {
+        let text = format!("{PAD}\n[[initial]]\njoint = \"post\"\nvalue = {height}\n");
+        let mut case = Case::<2>::new(&text);
+        case.approach().unwrap_or_else(|e| panic!("{height}: {e}"));
+        let y = case.point(0, [0.0, 0.4, 0.0])[1] - 0.4;
+        assert!((y + 5.0 * 9.81 / 20_000.0).abs() < CLOSE, "{height}: {y}");
+    }
+    // High above the pad nothing holds it.
+    let mut case = Case::<2>::new(&format!("{PAD}\n[[initial]]\njoint = \"post\"\nvalue = 3.0\n"));
+    assert_eq!(case.approach(), Err(EquilibriumError::NotNear));
+}
+
+#[test]
+fn the_search_does_not_slip_past_a_stop_beside_its_way() {
+    // The pad's place on the ground 1 mm and 0.1 m beside the block's way: its force turns aside as the block comes down.
+    for aside in [0.001, 0.1] {
+        for height in [0.0, 0.001, 0.3, 7.0] {
+            let text = PAD.replace(
+                "points = [[0, 0], [0, 0.4]]",
+                &format!("points = [[{aside}, 0], [0, 0.4]]"),
+            );
+            let text = format!("{text}\n[[initial]]\njoint = \"post\"\nvalue = {height}\n");
+            let mut case = Case::<2>::new(&text);
+            case.settle().unwrap_or_else(|e| panic!("{aside} {height}: {e}"));
+            let y = case.point(0, [0.0, 0.4, 0.0])[1];
+            // The pad's force has the part y / length along the way.
+            let (free, length) = (0.4_f64.hypot(aside), y.hypot(aside));
+            let carried = 20_000.0 * (free - length) * y / length;
+            assert!(y > 0.38 && (carried - 5.0 * 9.81).abs() < 1e-6, "{aside} {height}: {y}");
+        }
+    }
 }

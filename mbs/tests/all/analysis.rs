@@ -25,7 +25,7 @@ fn rests<const D: usize>(scene: &mbs::core::scene::Scene<f64>) {
     let mut solver = Multifrontal::analyse(&model, analyse);
     let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver);
     let mut start = start.expect("it assembles");
-    let found = mbs::equilibrium_start(scene, &model, &mut solver, &mut start)
+    let found = mbs::equilibrium_start(scene, &model, mbs::Search::Down, &mut solver, &mut start)
         .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     assert!(found.relative < 1e-12, "{}: {found:?}", scene.name);
     assert!(start.state.v.iter().all(|v| *v == 0.0), "{}", scene.name);
@@ -51,7 +51,8 @@ fn a_start_from_equilibrium_takes_the_initial_velocities() {
     let mut solver = Multifrontal::analyse(&model, analyse);
     let start = assemble(&scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver);
     let mut start = start.expect("it assembles");
-    mbs::equilibrium_start(&scene, &model, &mut solver, &mut start).expect("it hangs");
+    mbs::equilibrium_start(&scene, &model, mbs::Search::Down, &mut solver, &mut start)
+        .expect("it hangs");
     // Hanging straight down, turning at 2 rad/s: the centripetal acceleration is 4 m/s^2 for 1 m.
     let tip = model.point(mbs::core::scene::BodyRef::Body(0), [-1.0, 0.0, 0.0]);
     let (x, v, a) = (tip.value(&start.state.q), tip.rate(&start.state.v), tip.rate(&start.state.a));

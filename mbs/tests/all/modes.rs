@@ -10,7 +10,7 @@ use mbs::core::scene::{InitialTarget, Road};
 use mbs::core::start::assemble;
 use mbs::linear::{Instant, Linear, LinearOptions, Saddle, linearise};
 use mbs::sparse::{Indefinite, Multifrontal};
-use mbs::{Modes, Place, equilibrium_start};
+use mbs::{Modes, Place, Search, equilibrium_start};
 
 /// Pitch, bounce, and the hops in phase and out of phase of the axles: eigenvalues of the vehicle at rest on its tires, moving in
 /// its plane of symmetry.
@@ -26,7 +26,7 @@ const IN_PLANE: [[f64; 2]; 4] = [
 
 #[test]
 fn modes_at_rest_are_those_of_an_independent_model_of_the_plane_of_symmetry() {
-    let modes = Modes::new(&common::scene("iltis-equilibrium"), Place::Equilibrium)
+    let modes = Modes::new(&common::scene("iltis-equilibrium"), Place::Equilibrium, Search::Down)
         .expect("it rests and is linearised")
         .modes;
     for [real, imaginary] in IN_PLANE {
@@ -89,7 +89,8 @@ fn a_rolling_vehicle_moves_as_its_linearisation_says() {
     let mut solver = Multifrontal::analyse(&model, analyse);
     let mut start = assemble(&scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver)
         .expect("start");
-    equilibrium_start(&scene, &model, &mut solver, &mut start).expect("it rests on its tires");
+    equilibrium_start(&scene, &model, Search::Down, &mut solver, &mut start)
+        .expect("it rests on its tires");
 
     let mut w = Workspace::new(&model, solver);
     let mut run = |mut s: State<f64>, (step, steps): (f64, u32)| {
@@ -105,7 +106,7 @@ fn a_rolling_vehicle_moves_as_its_linearisation_says() {
     let mut scratch =
         mbs::linear::Workspace::new(&model, Indefinite::analyse(&Saddle::new(&model), analyse));
     let how = (Instant::Motion, &LinearOptions::default());
-    let linear = linearise(&model, model.length(), how, &state, &mut scratch).expect("regular");
+    let linear = linearise(&model, how, &state, &mut scratch).expect("regular");
     assert_eq!(linear.n_freedoms, 10);
 
     let t = 0.15;

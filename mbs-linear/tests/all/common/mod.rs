@@ -6,7 +6,7 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::scene::BodyRef;
 use mbs_linear::{
     Equilibrium, EquilibriumError, Instant, Linear, LinearError, LinearOptions, Options, Saddle,
-    Workspace, equilibrium, linearise,
+    Workspace, equilibrium, equilibrium_near, linearise,
 };
 use mbs_sparse::Indefinite;
 use mbs_testkit::{scene, start};
@@ -29,13 +29,18 @@ impl<const D: usize> Case<D> {
     /// Moves to the equilibrium at rest.
     pub(crate) fn settle(&mut self) -> Result<Equilibrium<f64>, EquilibriumError> {
         self.state.v.fill(0.0);
-        let length = self.model.length();
-        equilibrium(&self.model, length, &Options::default(), &mut self.state, &mut self.w)
+        equilibrium(&self.model, &Options::default(), &mut self.state, &mut self.w)
+    }
+
+    /// Moves to the equilibrium that Newton's method finds, at rest.
+    pub(crate) fn approach(&mut self) -> Result<Equilibrium<f64>, EquilibriumError> {
+        self.state.v.fill(0.0);
+        equilibrium_near(&self.model, &Options::default(), &mut self.state, &mut self.w)
     }
 
     pub(crate) fn linear(&mut self, instant: Instant) -> Result<Linear<f64>, LinearError> {
         let how = (instant, &LinearOptions::default());
-        linearise(&self.model, self.model.length(), how, &self.state, &mut self.w)
+        linearise(&self.model, how, &self.state, &mut self.w)
     }
 
     /// Eigenvalues with their imaginary part, if any, positive; sorted by size, then by real part.

@@ -1,1 +1,5 @@
 //! Equilibria and modes, and what an alarm takes for a fault.
+
+mod modes;
+mod rest;
+mod units;

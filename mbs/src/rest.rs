@@ -1,0 +1,78 @@
+//! A scene as it is at rest, and what is left out of it.
+
+use mbs_core::Real;
+use mbs_core::inputs::GuideInput;
+use mbs_core::scene::{EffectKind, GuideLaw, InitialTarget, Scene};
+
+/// What an analysis at rest leaves out of a scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Name of the effect.
+    pub effect: String,
+    /// The part of it.
+    pub part: &'static str,
+}
+
+/// A scene as it is at rest at its start: guides hold their values, no velocity is asked for, and what only motion makes is left out.
+/// That is dry friction, drives, and what a tire does when it rolls. Viscous friction stays: it damps small motions. Drag does not, as
+/// it grows with the square of the speed.
+pub(crate) fn at_rest<T: Real>(scene: &Scene<T>) -> Scene<T> {
+    let mut still = scene.clone();
+    for effect in &mut still.effects {
+        match &mut effect.kind {
+            EffectKind::SpeedHold { .. } | EffectKind::AeroDrag { .. } => effect.enabled = false,
+            EffectKind::Friction { coulomb, r#static, viscous, .. } => {
+                (*coulomb, *r#static) = (T::ZERO, T::ZERO);
+                effect.enabled &= *viscous > T::ZERO;
+            }
+            EffectKind::Tire { side, rolling_resistance, .. } => {
+                (*side, *rolling_resistance) = (None, T::ZERO);
+            }
+            _ => {}
+        }
+    }
+    for guide in &mut still.guides {
+        let [value, ..] = GuideInput::new(&guide.law).at(T::ZERO);
+        guide.law = GuideLaw::Input([value, T::ZERO, T::ZERO]);
+    }
+    without_rates(still)
+}
+
+/// A scene whose start asks for no velocity: those of a start need not fit to where a search for an equilibrium begins.
+pub(crate) fn without_rates<T: Real>(mut scene: Scene<T>) -> Scene<T> {
+    for initial in &mut scene.initials {
+        match &mut initial.target {
+            InitialTarget::Joint { rate, .. } => *rate = None,
+            InitialTarget::Body { velocity, angular_velocity, .. } => {
+                (*velocity, *angular_velocity) = (None, None);
+            }
+        }
+    }
+    scene
+}
+
+/// What [`at_rest`] leaves out that could act at rest, or on small motions about it.
+pub(crate) fn left_out<T: Real>(scene: &Scene<T>) -> Vec<LeftOut> {
+    let mut all = Vec::new();
+    for effect in scene.effects.iter().filter(|effect| effect.enabled) {
+        let mut leave = |part| all.push(LeftOut { effect: effect.name.clone(), part });
+        match &effect.kind {
+            EffectKind::SpeedHold { .. } => leave("drive"),
+            EffectKind::Friction { coulomb, r#static, .. }
+                if *coulomb > T::ZERO || *r#static > T::ZERO =>
+            {
+                leave("dry friction");
+            }
+            EffectKind::Tire { side, rolling_resistance, .. } => {
+                if side.is_some() {
+                    leave("side force");
+                }
+                if *rolling_resistance > T::ZERO {
+                    leave("rolling resistance");
+                }
+            }
+            _ => {}
+        }
+    }
+    all
+}
