@@ -8,6 +8,7 @@ use crate::checkpoint::{Kept, inputs};
 use crate::choice::Formulation;
 use crate::control::Control;
 use crate::engine::Engine;
+use crate::explain::kinds::damps;
 use crate::ready::Ready;
 use crate::settings::Settings;
 use crate::stop::StopError;
@@ -16,7 +17,7 @@ use mbs_core::Real;
 use mbs_core::control::{Accepted, Attempt, Invariant, Limit};
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::Scene;
+use mbs_core::scene::{Course, EffectKind, Scene};
 use mbs_core::start::Assembled;
 use mbs_core::step::{InputError, StepError, StepReport, largest};
 
@@ -66,8 +67,10 @@ where
         let control = Control::new(scene, settings, &model, &state);
         let control = control.map_err(|e| StopError::Start(e.into()))?.map(Box::new);
         let [kinetic, potential] = initial_energy;
-        let ground = weight(scene) * model.length().to_f64();
-        let invariant = Invariant::new([kinetic, potential, 0.0], ground, T::EPSILON.to_f64());
+        let is_damped = scene.effects.iter().any(|effect| effect.enabled && damps(&effect.kind));
+        let (ground, epsilon) = (ground(scene, settings, &model), T::EPSILON.to_f64());
+        let invariant = Invariant::new([kinetic, potential, 0.0], ground, epsilon);
+        let invariant = invariant.with_dampers(is_damped);
         Ok(Self { model, state, engine, start, sizes, initial_energy, control, invariant })
     }
 
@@ -272,11 +275,45 @@ where
     }
 }
 
-/// Weight of all bodies [N].
-fn weight<T: Real>(scene: &Scene<T>) -> f64 {
+/// Roundings of places in a step that make a velocity.
+const ROUNDINGS: f64 = 64.0;
+
+/// The energy that the scene has anyway, of which a root of the precision is nothing [J]: weight and given forces over its length, and
+/// a motion of all masses that the run would not show, or that is rounding of places in a step.
+fn ground<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    model: &NaturalModel<T, D>,
+) -> f64 {
+    let (length, epsilon) = (model.length().to_f64(), T::EPSILON.to_f64().max(f64::EPSILON));
     let mass: f64 = scene.bodies.iter().map(|body| body.mass.to_f64()).sum();
-    let squares = scene.gravity.map_or(0.0, |g| g.iter().map(|x| x.to_f64() * x.to_f64()).sum());
-    mass * f64::sqrt(squares)
+    let gravity = scene.gravity.map_or(0.0, |g| size(g));
+    let loads: f64 = scene.effects.iter().map(|effect| given(&effect.kind, length)).sum();
+    let slow = epsilon.sqrt() / settings.duration.max(settings.step_max);
+    let rounded = ROUNDINGS * epsilon / settings.step_max;
+    let still = 0.5 * mass * length * length * (slow * slow + rounded * rounded);
+    mass * gravity * length + loads + still / epsilon.sqrt()
+}
+
+/// Largest force or torque that an effect is given, as work over the scene's length or a radian [J].
+fn given<T: Real>(kind: &EffectKind<T>, length: f64) -> f64 {
+    let (course, arm) = match kind {
+        EffectKind::Force { course, .. } | EffectKind::Actuator { course, .. } => (course, length),
+        EffectKind::BodyTorque { course, .. } | EffectKind::JointTorque { course, .. } => {
+            (course, 1.0)
+        }
+        _ => return 0.0,
+    };
+    let largest = match course {
+        Course::Constant(value) | Course::Input(value) => size(*value),
+        Course::Table(rows) => rows.iter().map(|(_, value)| size(*value)).fold(0.0, f64::max),
+    };
+    largest * arm
+}
+
+/// Length of a vector.
+fn size<T: Real>(x: [T; 3]) -> f64 {
+    x.iter().map(|x| x.to_f64() * x.to_f64()).sum::<f64>().sqrt()
 }
 
 /// Rank of the constraints at a state.

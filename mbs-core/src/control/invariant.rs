@@ -2,7 +2,12 @@
 //!
 //! ```text
 //! Pi = T + V - W = constant,   W work of dampers, courses and guides                  [P2 (31)]
+//! G <- max(0, G + d(T + V) - dW)          where nothing damps:  dW what enters or leaves
+//! G <- max(0, G + d(T + V) - max(0, dW))  where dampers act
 //! ```
+//!
+//! W sums powers at the ends of steps. A damper that brings a motion to rest within a step is booked far too high so, while the motion
+//! creeps on as it should: Pi rises, and no energy does. G is the energy that nobody gave.
 
 /// Rounding of a sum of energies, in units of the largest of its parts and of the precision.
 const ROUNDINGS: f64 = 64.0;
@@ -22,6 +27,9 @@ pub struct Invariant {
     /// Energy below which nothing is told from rounding, for one epsilon.
     ground: f64,
     epsilon: f64,
+    /// Energy may be taken by dampers.
+    is_damped: bool,
+    growth: f64,
     line: Line,
 }
 
@@ -39,7 +47,8 @@ struct Line {
 
 impl Invariant {
     /// Starts from kinetic energy, potential energy and work [J]; `ground` is the energy that the scene's loads have anyway
-    /// [J], such as its weight times its length, and `epsilon` that of the scalar; energies are no finer than `f64`.
+    /// [J], such as its weight times its length, of which a root of the precision is nothing; `epsilon` is that of the scalar; energies
+    /// are no finer than `f64`.
     #[must_use]
     pub fn new(energies: [f64; 3], ground: f64, epsilon: f64) -> Self {
         let [kinetic, potential, work] = energies;
@@ -53,8 +62,16 @@ impl Invariant {
             gross_work: 0.0,
             ground,
             epsilon: epsilon.max(f64::EPSILON),
+            is_damped: false,
+            growth: 0.0,
             line: Line::default(),
         }
+    }
+
+    /// Says whether dampers act: what they take is then no measure of an error, only what nobody gave is.
+    #[must_use]
+    pub fn with_dampers(self, is_damped: bool) -> Self {
+        Self { is_damped, ..self }
     }
 
     /// Takes the energies after a step that ended at `t` [s].
@@ -68,7 +85,10 @@ impl Invariant {
         }
         self.max_kinetic = self.max_kinetic.max(kinetic);
         self.potential = [self.potential[0].min(potential), self.potential[1].max(potential)];
-        self.gross_work += (work - self.last[2]).abs();
+        let entered = work - self.last[2];
+        self.gross_work += entered.abs();
+        let taken = if self.is_damped { entered.min(0.0) } else { 0.0 };
+        self.growth = (self.growth + change + taken).max(0.0);
         self.last = energies;
         self.line.take(t, self.error, change);
     }
@@ -137,12 +157,13 @@ impl Invariant {
         (self.last[0] + self.last[1].abs()).max(self.ground) * libm::sqrt(self.epsilon)
     }
 
-    /// Is the invariant off by more than `share` of the energy turned over? Nothing is said while what was turned over is
-    /// rounding of what is stored. A NaN is off.
+    /// Is the invariant off by more than `share` of the energy turned over, by energy that was lost or that nobody gave? Nothing is
+    /// said while that is rounding of what is stored, or of the ground. A NaN is off.
     #[must_use]
     pub fn is_off(&self, share: f64) -> bool {
-        let error = self.error.abs();
-        !(error <= share * self.turned_over()) && !(error <= self.untold())
+        let limit = (share * self.turned_over()).max(self.untold());
+        let is_given = self.error > 0.0 && self.growth <= limit;
+        !(self.error.abs() <= limit || is_given)
     }
 
     /// Root of the mean square of the changes from step to step [J].
@@ -160,7 +181,7 @@ impl Invariant {
 
 impl Invariant {
     /// Numbers of a [`history`](Self::history).
-    pub const N_HISTORY: usize = 16;
+    pub const N_HISTORY: usize = 17;
 
     /// What was seen so far, as numbers: what a run that is taken up again goes on from.
     #[must_use]
@@ -168,7 +189,7 @@ impl Invariant {
         let Self { initial, last: [k, p, w], error, max_error, max_kinetic, .. } = *self;
         let ([least, most], gross, l) = (self.potential, self.gross_work, self.line);
         let seen = [initial, k, p, w, error, max_error, max_kinetic, least, most, gross];
-        let line = [l.n, l.squares, l.t, l.e, l.tt, l.te];
+        let line = [l.n, l.squares, l.t, l.e, l.tt, l.te, self.growth];
         core::array::from_fn(|i| if i < seen.len() { seen[i] } else { line[i - seen.len()] })
     }
 
@@ -176,7 +197,7 @@ impl Invariant {
     pub fn set_history(&mut self, history: [f64; Self::N_HISTORY]) {
         let [initial, k, p, w, error, max_error, max_kinetic, least, most, gross, rest @ ..] =
             history;
-        let [n, squares, t, e, tt, te] = rest;
+        let [n, squares, t, e, tt, te, growth] = rest;
         *self = Self {
             initial,
             last: [k, p, w],
@@ -185,6 +206,7 @@ impl Invariant {
             max_kinetic,
             potential: [least, most],
             gross_work: gross,
+            growth,
             line: Line { n, squares, t, e, tt, te },
             ..*self
         };

@@ -40,7 +40,7 @@ pub(super) fn springs<T: Real>(kind: &EffectKind<T>) -> bool {
 }
 
 /// Can it take energy out by a rate?
-pub(super) fn damps<T: Real>(kind: &EffectKind<T>) -> bool {
+pub(crate) fn damps<T: Real>(kind: &EffectKind<T>) -> bool {
     match kind {
         EffectKind::SpringDamper { damping, .. }
         | EffectKind::TorsionSpring { damping, .. }

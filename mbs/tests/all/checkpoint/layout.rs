@@ -6,7 +6,7 @@ use mbs::{Formulation, Settings};
 /// Bytes before those that are counted and summed.
 const N_HEAD: usize = 28;
 /// Numbers of the energy invariant.
-const N_INVARIANT: usize = 16;
+const N_INVARIANT: usize = mbs::core::control::Invariant::N_HISTORY;
 /// Numbers of a spring as last evaluated.
 const N_MEASURE: u64 = 7;
 /// Numbers in a picture at most, in the scenes that are tried.
