@@ -18,7 +18,7 @@ use crate::options::{Multipliers, Options, Penalty, Projection};
 use crate::pace::Pace;
 use crate::projection::Level;
 use crate::workspace::{Mass, Workspace};
-use mbs_core::integrator::Rule;
+use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
     Counts, StepError, StepReport, Stop, Yardstick, check_guides, check_rotations, largest,
@@ -46,9 +46,10 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w.counts = Counts::default();
     w.boost = w.kept_boost();
     w.base = options.penalty.factor();
-    begin(model, &rule, options, s, w);
+    let scale = step_scale(model.team(), rule.dt, &s.a[..w.f.len()]);
+    begin(model, (&rule, is_far(scale, length)), options, s, w);
 
-    let (newton, since) = iterate(model, &rule, length, options, s, w)?;
+    let (newton, since) = iterate(model, &rule, (scale, length), options, s, w)?;
 
     // The accelerations leave the scaling of the iteration.
     on_stretches(model.team(), [&mut w.a], |_, [a]| {
@@ -63,7 +64,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
 /// Predicts q, v, a and lambda at the end of the step, and evaluates there.
 fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
-    rule: &Rule<T>,
+    (rule, is_far): (&Rule<T>, bool),
     options: &Options<T>,
     s: &State<T>,
     w: &mut Workspace<T, S>,
@@ -79,6 +80,12 @@ fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
             q[k] = s.q[i] + dq[k];
         }
     });
+    if is_far {
+        rule.hold_back(inverse, [&mut w.dq[..n], &mut w.v, &mut w.a], &s.a_aux);
+        for (k, q) in w.q[..n].iter_mut().enumerate() {
+            *q = s.q[k] + w.dq[k];
+        }
+    }
     let (expected, boost, masses) = (s.extrapolated(rule.dt), w.boost, &w.masses);
     let rows = [&mut w.lambda[..], &mut w.penalty];
     on_stretches(model.team(), rows, |first, [lambda, penalty]| {
@@ -118,13 +125,12 @@ fn evaluate<T: Real, M: Model<T>, S: SpdSolver<T>>(
 fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     rule: &Rule<T>,
-    length: T,
+    (scale, length): (T, T),
     options: &Options<T>,
     s: &State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<((u32, T, Stop), T), StepError> {
     let inverse = T::ONE / rule.acceleration;
-    let scale = step_scale(model.team(), rule.dt, &s.a[..w.f.len()]);
     let mut pace = Pace::new(model, options);
     for iterations in 1..=options.max_iterations {
         let is_kept = pace.keeps_factor(rule, w);

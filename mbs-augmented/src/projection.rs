@@ -15,7 +15,7 @@ use alloc::vec::Vec;
 use mbs_core::model::Model;
 use mbs_core::step::{StepError, largest};
 use mbs_core::team::{add, add_product, norm_inf, on_stretches, set_sum, subtract, sum};
-use mbs_core::{Real, SpdSolver};
+use mbs_core::{FactorError, Real, SpdSolver};
 
 /// What one correction may leave of the multiplier of the least felt combination of constraints.
 const FELT: f64 = 0.003;
@@ -23,6 +23,8 @@ const FELT: f64 = 0.003;
 const FOLLOWED: f64 = 0.001;
 /// Most that penalties may be, in effective masses times EPSILON: above, rounding of T^-1 looks like a lost direction.
 const MOST: f64 = 0.2;
+/// By how much penalties that are too large are lowered at a time.
+const LOWERED: f64 = 1.0 / 16.0;
 
 /// A sweep that leaves more than the first of these shares of a violation, and less than the second, has met combinations of constraints
 /// that are felt little, of which it takes in the same share each: it is lengthened.
@@ -114,7 +116,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             }
             let is_slow = contraction > T::from_f64(0.1) && violation > limit;
             if is_slow && self.raise_penalties(contraction) {
-                self.factor(model, (T::ZERO, T::ZERO), false)?;
+                self.factor_raised(model)?;
             }
         }
         if violation <= limit {
@@ -250,6 +252,19 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
     /// Raises the penalties after a slow sweep; returns whether they changed.
     pub(crate) fn raise_penalties(&mut self, contraction: T) -> bool {
         self.stiffen(contraction.min(T::ONE), self.room())
+    }
+
+    /// Factors W, whose penalties may have been raised. Where they are too large for the digits there are, that the mass is lost beside them,
+    /// they are lowered until W is positive definite.
+    pub(crate) fn factor_raised<M: Model<T>>(&mut self, model: &M) -> Result<(), FactorError> {
+        loop {
+            match self.factor(model, (T::ZERO, T::ZERO), false) {
+                Err(_) if self.boost > T::ONE => {
+                    self.scale_penalties((T::ONE / self.boost).max(T::from_f64(LOWERED)));
+                }
+                result => return result,
+            }
+        }
     }
 
     /// Takes raised penalties back; returns whether there were any.

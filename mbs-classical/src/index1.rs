@@ -46,7 +46,7 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     take_inputs(model, options, s, w)?;
     let rule = options.integrator.rule(dt);
     w.begin(options.regularisation);
-    predict(model, &rule, options, s, w);
+    predict(model, (&rule, length), options, s, w);
     let newton = iterate(model, &rule, length, options, s, w)?;
     let violation = if options.stabilisation == Stabilisation::Projection {
         positions(model, &rule, length, options, s, w)?;
@@ -67,12 +67,12 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
 /// q, v, a at the end of the step by extrapolation, lambda of the last step, and everything evaluated there.
 fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
-    rule: &Rule<T>,
+    (rule, length): (&Rule<T>, T),
     options: &Options<T>,
     s: &State<T>,
     w: &mut Workspace<T, S>,
 ) {
-    w.predict(model, (rule, T::ONE), s);
+    w.predict(model, (rule, T::ONE, length), s);
     w.lambda.copy_from_slice(&s.lambda);
     model.set_inputs(s.t + rule.dt, &mut w.terms);
     evaluate(model, options, s, w);

@@ -42,7 +42,7 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     take_inputs(model, options, s, w)?;
     let rule = options.integrator.rule(dt);
     w.begin(options.regularisation);
-    predict(model, &rule, options, s, w);
+    predict(model, (&rule, length), options, s, w);
     let newton = iterate(model, &rule, length, options, s, w)?;
 
     // The accelerations leave the scaling of the iteration.
@@ -62,13 +62,13 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
 /// q, v, a and lambda at the end of the step by extrapolation, and everything evaluated there.
 fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
-    rule: &Rule<T>,
+    (rule, length): (&Rule<T>, T),
     options: &Options<T>,
     s: &State<T>,
     w: &mut Workspace<T, S>,
 ) {
     let inverse = T::ONE / rule.acceleration;
-    w.predict(model, (rule, inverse), s);
+    w.predict(model, (rule, inverse, length), s);
     // lambda = 2 lambda_n - lambda_(n-1)   [P3 (3)]
     let expected = s.extrapolated(rule.dt);
     on_stretches(model.team(), [&mut w.lambda], |first, [lambda]| {

@@ -2,10 +2,10 @@
 
 use alloc::vec;
 use alloc::vec::Vec;
-use mbs_core::integrator::Rule;
+use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Load, Model, Owner, State, Tangent, Terms};
 use mbs_core::saddle::{Saddle, SaddleSystem};
-use mbs_core::step::{Counts, StepError, Stop, add_work, largest, take_coordinates};
+use mbs_core::step::{Counts, StepError, Stop, add_work, largest, step_scale, take_coordinates};
 use mbs_core::team::{norm_inf, on_elements, on_stretches, subtract};
 use mbs_core::{FactorError, Real, SymmetricSolver};
 
@@ -131,7 +131,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
     pub(crate) fn predict<M: Model<T>>(
         &mut self,
         model: &M,
-        (rule, weight): (&Rule<T>, T),
+        (rule, weight, length): (&Rule<T>, T, T),
         s: &State<T>,
     ) {
         let n = self.n;
@@ -143,6 +143,9 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
                 (dq[k], v[k], a[k]) = (predicted.0, predicted.1, predicted.2 * weight);
             }
         });
+        if is_far(step_scale(model.team(), rule.dt, &s.a[..n]), length) {
+            rule.hold_back(weight, [&mut self.dq[..n], &mut self.v, &mut self.a], &s.a_aux);
+        }
     }
 
     /// q += x d,   v += y d,   a += d,   lambda += d_lambda   with (d, d_lambda) = -f
@@ -236,11 +239,13 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             return StepError::NotFinite { unknown: error.unknown.min(self.last_coordinate()) };
         }
         self.solver.null_vector(&mut self.null, &mut self.scratch);
+        if !self.has_dependent_rows(model, error.unknown) {
+            let is_coordinate = (error.unknown as usize) < self.n;
+            let unknown = if is_coordinate { error.unknown } else { largest(&self.null[..self.n]) };
+            return StepError::Singular(FactorError { unknown, ..error });
+        }
         let rows = &self.null[self.n..];
         let most = norm_inf(model.team(), rows);
-        if (error.unknown as usize) < self.n && !(most > T::EPSILON.sqrt()) {
-            return StepError::Singular(error);
-        }
         let part = |row: &usize| rows[*row].abs() > most * T::from_f64(1e-3);
         let is_of_joint = |row: &usize| matches!(model.owner_of_row(*row), Owner::Joint(_));
         let row = (0..rows.len())
@@ -248,6 +253,14 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             .or_else(|| (error.unknown as usize).checked_sub(self.n))
             .unwrap_or_else(|| largest(rows) as usize);
         StepError::RankLost { row: u32::try_from(row).unwrap_or(u32::MAX), pivot: error.pivot }
+    }
+
+    /// Does the null vector, with a one at `unknown`, tell of rows that depend on each other, or nearly do? Pivots are measured by inertias: a light
+    /// piece that carries heavy ones makes them small too, and so does a coordinate that nothing determines.
+    fn has_dependent_rows<M: Model<T>>(&mut self, model: &M, unknown: u32) -> bool {
+        let most = norm_inf(model.team(), &self.null[self.n..]);
+        let has_rows = unknown as usize >= self.n || most > T::EPSILON.sqrt();
+        has_rows && !(self.cancellation(model) > T::from_f64(DEPENDENT))
     }
 
     /// Near a singular position two branches cross, as far from each other as the mechanism is from it. The correction of the
@@ -268,7 +281,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             return Ok(());
         }
         self.solver.null_vector(&mut self.null, &mut self.scratch);
-        if self.cancellation(model) > T::from_f64(DEPENDENT) {
+        if !self.has_dependent_rows(model, weakest.unknown) {
             return Ok(());
         }
         let (x, d) = (&self.null[..self.n], &self.f[..self.n]);

@@ -98,6 +98,24 @@ impl<T: Real> Rule<T> {
         };
         (dq, v + h * a_aux, a_next)
     }
+
+    /// The prediction of a whole step whose accelerations alone would carry it far, as those of a stiff effect that is let go: at the
+    /// rates that it begins with. It is another point of the same rule. `a` is in units of 1 / `unit`.
+    pub fn hold_back(&self, unit: T, [dq, v, a]: [&mut [T]; 3], a_aux: &[T]) {
+        let half_square = self.dt * self.dt * T::HALF;
+        for (i, dq) in dq.iter_mut().enumerate() {
+            let back = half_square * a_aux[i];
+            *dq -= back;
+            v[i] -= self.velocity * back;
+            a[i] -= self.acceleration * unit * back;
+        }
+    }
+}
+
+/// Accelerations carry a step far that move a direction by half a radian, or a place by half a metre and by some hundredths of the scene's
+/// length: `moved`, their part of the displacement, is judged so.
+pub fn is_far<T: Real>(moved: T, length: T) -> bool {
+    moved > (length * T::from_f64(1.0 / 64.0)).max(T::HALF)
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ use mbs_core::algebra::cross;
 use mbs_core::cluster::mass_properties;
 use mbs_core::outputs::{Transmission, Wrench};
 use mbs_core::rigid::RigidMotion;
+use mbs_core::scene::align::aligned;
 use mbs_core::scene::{BodyRef, Dimension, Joint, JointKind, Scene};
 use std::ops::Range;
 
@@ -97,6 +98,7 @@ impl Linkage {
     /// Takes a scene that passed its check. Cost: in proportion to bodies and joints.
     #[must_use]
     pub fn new(scene: &Scene<f64>) -> Self {
+        let scene = &*aligned(scene);
         let is_guided = |j| scene.guides.iter().any(|guide| guide.joint == j);
         let joints = scene.joints.iter().enumerate();
         let links = joints.map(|(j, x)| Link::new(x, scene.dimension, is_guided(j))).collect();

@@ -22,6 +22,7 @@ use mbs_core::cluster::{Cluster, Clusters, scene_length};
 use mbs_core::inputs::Prescribed;
 use mbs_core::model::Owner;
 use mbs_core::natural::joint_axes;
+use mbs_core::scene::align::aligned;
 use mbs_core::scene::{BodyRef, Joint, JointKind, Scene};
 use mbs_core::step::InputError;
 
@@ -87,6 +88,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         if scene.dimension.count() != S::DIMENSION {
             return Err(TreeError::Dimension);
         }
+        let scene = &*aligned(scene);
         let clusters = Clusters::new(scene);
         let actions = Actions::new(scene)?;
         let graph = span(scene, &actions, &clusters)?;

@@ -16,7 +16,7 @@ use crate::inputs::take_inputs;
 use crate::options::{Coordinates, Options, Rechoice};
 use crate::workspace::Workspace;
 use mbs_core::algebra::norm_inf;
-use mbs_core::integrator::Rule;
+use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Load, Model, State, System, Tangent};
 use mbs_core::step::{
     Counts, StepError, StepReport, Stop, add_work, check_guides, check_rotations, largest,
@@ -80,13 +80,13 @@ fn attempt<T: Real, M: Model<T>>(
     if is_new {
         choose(model, s, w)?;
     }
-    predict(model, rule, s, w);
+    predict(model, (rule, length), s, w);
     if !norm_inf(&w.dq[..n]).is_finite() {
         return Err(StepError::NotFinite { unknown: largest_or_nan(&w.dq[..n]) });
     }
     if options.coordinates == Coordinates::Tangent {
         w.set_chart(model, rule.dt, s)?;
-        predict(model, rule, s, w);
+        predict(model, (rule, length), s, w);
         w.predict_chart();
     }
     model.set_inputs(s.t + rule.dt, &mut w.terms);
@@ -99,9 +99,18 @@ fn attempt<T: Real, M: Model<T>>(
 }
 
 /// The predicted increment, velocity and acceleration of all unknowns.
-fn predict<T: Real, M: Model<T>>(model: &M, rule: &Rule<T>, s: &State<T>, w: &mut Workspace<T>) {
-    for i in 0..model.n_unknowns() {
+fn predict<T: Real, M: Model<T>>(
+    model: &M,
+    (rule, length): (&Rule<T>, T),
+    s: &State<T>,
+    w: &mut Workspace<T>,
+) {
+    let n = model.n_unknowns();
+    for i in 0..n {
         (w.dq[i], w.v[i], w.a[i]) = rule.predict(s.v[i], s.a[i], s.a_aux[i]);
+    }
+    if is_far(step_scale(model.team(), rule.dt, &s.a[..n]), length) {
+        rule.hold_back(T::ONE, [&mut w.dq[..n], &mut w.v, &mut w.a], &s.a_aux);
     }
 }
 

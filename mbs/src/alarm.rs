@@ -37,10 +37,26 @@ impl Alarm {
     where
         Plane<D>: InSpace<T>,
     {
+        self.rings_for(simulation, is_last, None)
+    }
+
+    /// The same, with another reason for which steps in a row may be off.
+    pub(crate) fn rings_for<T: Real, const D: usize>(
+        &mut self,
+        simulation: &Simulation<T, D>,
+        is_last: bool,
+        reason: Option<StopError>,
+    ) -> Option<StopError>
+    where
+        Plane<D>: InSpace<T>,
+    {
         let invariant = simulation.invariant();
         let is_off = invariant.is_off(self.share);
         let (error, turned_over) = (invariant.error().abs(), invariant.turned_over());
-        self.off = if is_off { self.off + 1 } else { 0 };
+        self.off = if is_off || reason.is_some() { self.off + 1 } else { 0 };
+        if self.off >= PATIENCE && reason.is_some() {
+            return reason;
+        }
         let is_stop = self.off >= PATIENCE || (is_off && is_last) || !error.is_finite();
         is_stop.then(|| StopError::Energy {
             error,

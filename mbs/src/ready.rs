@@ -4,6 +4,7 @@ use crate::rest::without_rates;
 use crate::simulation;
 use crate::statics::{Search, equilibrium_start};
 use crate::stop::StopError;
+use crate::tilt;
 use mbs_core::model::Model;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Scene, Start};
@@ -50,9 +51,12 @@ impl<T: Real, const D: usize> Ready<T, D> {
     /// Builds the model of a scene and assembles it, no more.
     ///
     /// # Errors
-    /// [`StopError::Start`] when there is no model or no consistent start.
+    /// [`StopError::Start`] when there is no model or no consistent start, [`StopError::AlmostDependent`] for an axis that is off.
     pub(crate) fn assembled(scene: &Scene<T>) -> Result<Self, StopError> {
         let model = NaturalModel::new(scene).map_err(|e| StopError::Start(e.into()))?;
+        if let Some(tilt) = tilt::almost_dependent::<T, D>(scene) {
+            return Err(StopError::AlmostDependent(tilt));
+        }
         let analyse = mbs_sparse::Options::default();
         let mut solver = Multifrontal::analyse(&model, analyse);
         let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver);

@@ -12,10 +12,12 @@ use crate::channels::Channels;
 use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Keeping};
 use crate::digits::is_finer;
 use crate::figure::Figure;
+use crate::friction::Frictions;
+use crate::names::Names;
 use crate::recorder::{Keep, Recorder, StepMark};
 use crate::settings::{Lengths, Settings};
 use crate::simulation::Simulation;
-use crate::stop::{Names, StopError};
+use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use crate::words::{limit_name, notes, stop_text, summary_rows};
 use core::time::Duration;
@@ -127,6 +129,7 @@ where
     /// Time reached [s].
     reached: f64,
     alarm: Alarm,
+    frictions: Frictions,
     /// Steps of the record's count that are made.
     done: u64,
     clock: Clock,
@@ -183,6 +186,7 @@ where
             counts: Counts::default(),
             reached: 0.0,
             alarm: Alarm::new(settings.energy_alarm),
+            frictions: Frictions::new(scene, settings),
             done: 0,
             clock: Clock::new(),
             kept: None,
@@ -327,7 +331,8 @@ where
             progress.reached(mark.t);
         }
         // energy that is lost says more than an output that is not finite for it
-        match self.alarm.rings(&self.simulation, is_last) {
+        let passed = self.frictions.passed(self.scene, &self.simulation);
+        match self.alarm.rings_for(&self.simulation, is_last, passed) {
             Some(stop) => self.stop(stop),
             None => recorded,
         }

@@ -3,62 +3,20 @@
 mod step;
 
 use self::step::{step_hint, write_step};
+use crate::names::Names;
+use crate::tilt::AlmostDependent;
 use crate::words::few;
 
 use mbs_core::actions::ActionError;
 use mbs_core::model::Owner;
 use mbs_core::natural::ModelError;
 use mbs_core::outputs::ReactionError;
-use mbs_core::scene::{BodyRef, Entry, Scene};
+use mbs_core::scene::Entry;
 use mbs_core::start::AssemblyError;
 use mbs_core::step::StepError;
 use mbs_linear::{EquilibriumError, LinearError};
 use mbs_recursive::TreeError;
 use mbs_scene::RunError;
-
-/// Names of bodies and joints, and which joint holds which body: what errors need to speak.
-#[derive(Debug, Clone)]
-pub struct Names {
-    bodies: Vec<String>,
-    joints: Vec<String>,
-    effects: Vec<String>,
-    outputs: Vec<String>,
-    /// First joint in the file that touches each body.
-    joint_of_body: Vec<Option<usize>>,
-}
-
-impl Names {
-    /// Takes the names of a scene.
-    pub fn new<T>(scene: &Scene<T>) -> Self {
-        let mut joint_of_body = vec![None; scene.bodies.len()];
-        for (j, joint) in scene.joints.iter().enumerate() {
-            for body in joint.bodies {
-                if let BodyRef::Body(b) = body {
-                    joint_of_body[b].get_or_insert(j);
-                }
-            }
-        }
-        Self {
-            bodies: scene.bodies.iter().map(|b| b.name.clone()).collect(),
-            joints: scene.joints.iter().map(|j| j.name.clone()).collect(),
-            effects: scene.effects.iter().map(|e| e.name.clone()).collect(),
-            outputs: scene.outputs.iter().map(|o| o.name.clone()).collect(),
-            joint_of_body,
-        }
-    }
-
-    /// Joint and body names of an owner.
-    fn of(&self, owner: Owner) -> (Option<String>, Option<String>) {
-        match owner {
-            Owner::Joint(j) => (self.joints.get(j).cloned(), None),
-            Owner::Body(b) => {
-                let joint = self.joint_of_body.get(b).copied().flatten();
-                (joint.and_then(|j| self.joints.get(j).cloned()), self.bodies.get(b).cloned())
-            }
-            Owner::Effect(e) => (None, self.effects.get(e).cloned()),
-        }
-    }
-}
 
 /// Why a run stopped early.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,6 +24,8 @@ impl Names {
 pub enum StopError {
     /// No consistent start.
     Start(AssemblyError),
+    /// Constraints that depend on each other but for a small tilt of an axis.
+    AlmostDependent(AlmostDependent),
     /// Joint reactions were asked for that cannot be given.
     Reaction(ReactionError),
     /// A step that could not be made, and whose it is.
@@ -84,6 +44,15 @@ pub enum StopError {
     Output {
         /// Its number in the scene.
         output: usize,
+    },
+    /// Friction that the steps of an explicit method pass over.
+    Friction {
+        /// The effect.
+        effect: usize,
+        /// Rate below which it falls [rad/s or m/s].
+        regularisation: f64,
+        /// Length of the steps [s].
+        step: f64,
     },
     /// The energy invariant drifted by more than a tenth of the energy turned over.
     Energy {
@@ -167,6 +136,8 @@ impl StopError {
             Self::Step(_, owner) | Self::Tree(_, owner) | Self::Equilibrium(_, owner) => (*owner)?,
             Self::Energy { owner, .. } => *owner,
             Self::Output { output } => return Some(Entry::Output(*output)),
+            Self::AlmostDependent(tilt) => Owner::Joint(tilt.joints[0]),
+            Self::Friction { effect, .. } => Owner::Effect(*effect),
             Self::Reaction(_) | Self::Linear(_) | Self::Eigenvalues | Self::NoThreads(_) => {
                 return None;
             }
@@ -199,8 +170,10 @@ impl StopError {
             Self::Step(StepError::TurnTooLarge { .. }, _) => "turn-too-large",
             Self::Step(StepError::Overturned { .. }, _) => "overturned",
             Self::Step(..) => "step-failed",
+            Self::AlmostDependent(_) => "almost-dependent",
             Self::Reaction(_) => "no-reactions",
             Self::Tree(..) => "no-tree",
+            Self::Friction { .. } => "friction-not-resolved",
             Self::Energy { .. } => "energy-drift",
             Self::Output { .. } => "output-not-finite",
             Self::Equilibrium(..) => "no-equilibrium",
@@ -212,6 +185,7 @@ impl StopError {
 
     /// What to try.
     #[must_use]
+    #[allow(clippy::too_many_lines, reason = "one line or two for each error")]
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Start(AssemblyError::Model(ModelError::LeftOut { .. })) => "set enabled = false",
@@ -235,6 +209,9 @@ impl StopError {
                 "start a little away from this position, or check that guides and joints fit together"
             }
             Self::Step(error, _) => step_hint(error),
+            Self::AlmostDependent(_) => {
+                "write that axis; a tilt that is meant and holds the mechanism is larger than 0.001 rad"
+            }
             Self::Reaction(_) => "leave the reaction outputs out",
             Self::Tree(TreeError::GuideCut { .. } | TreeError::EffectCut { .. }, _) => {
                 "leave one of the guides or joint effects of the loop out, or try index-3"
@@ -263,6 +240,9 @@ impl StopError {
             Self::Output { .. } => {
                 "measure a point nearer to the body, try a smaller step, or leave the output out"
             }
+            Self::Friction { .. } => {
+                "use the trapezoidal rule, radau5 or rk54; or give the friction a larger regularisation, or the run smaller steps"
+            }
             Self::Energy { .. } => {
                 "try a smaller step; if it always stops here, the mechanism locks, or cannot follow its guides"
             }
@@ -278,6 +258,7 @@ impl StopError {
             }
             Self::Start(AssemblyError::Position { initial: Some(_), .. }) => &["value"],
             Self::Output { .. } => &["at", "name"],
+            Self::AlmostDependent(_) => &["axis", "axes", "name"],
             _ => &["name"],
         }
     }
@@ -289,7 +270,9 @@ impl StopError {
             Self::Start(error) => start_owner(error),
             Self::Step(_, owner) | Self::Tree(_, owner) | Self::Equilibrium(_, owner) => *owner,
             Self::Energy { owner, .. } => Some(*owner),
+            Self::AlmostDependent(tilt) => Some(Owner::Joint(tilt.joints[0])),
             Self::Reaction(_)
+            | Self::Friction { .. }
             | Self::Output { .. }
             | Self::Linear(_)
             | Self::Eigenvalues
@@ -298,6 +281,7 @@ impl StopError {
         let (joint, body) = owner.map_or((None, None), |o| names.of(o));
         let named = match self {
             Self::Output { output } => names.outputs.get(*output),
+            Self::Friction { effect, .. } => names.effects.get(*effect),
             _ => None,
         };
         let message = named.map_or_else(|| self.to_string(), |name| format!("`{name}`: {self}"));
@@ -332,6 +316,7 @@ impl core::fmt::Display for StopError {
             Self::Start(error) => write_start(error, f),
             Self::Step(error, _) => write_step(error, f),
             Self::Reaction(error) => write!(f, "{error}"),
+            Self::AlmostDependent(tilt) => write!(f, "{tilt}"),
             Self::Tree(error, _) => write_tree(error, f),
             Self::Equilibrium(error, _) => write_equilibrium(error, f),
             Self::Linear(error) => write_linear(error, f),
@@ -340,6 +325,12 @@ impl core::fmt::Display for StopError {
             Self::Output { .. } => {
                 write!(f, "an output is not finite: it is larger than numbers can be")
             }
+            Self::Friction { regularisation, step, .. } => write!(
+                f,
+                "friction rises within {} rad/s (or m/s) of rest, and the explicit steps of {} s pass over that: it cannot hold",
+                few(*regularisation),
+                few(*step)
+            ),
             Self::Energy { error, turned_over, share, .. } => write!(
                 f,
                 "the energy is off by {} J, more than {} % of the {} J turned over: the motion is not resolved",

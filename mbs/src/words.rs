@@ -181,6 +181,7 @@ pub(crate) fn notes<T: Real>(
             notes.push(format!("body `{}` has no joint: it moves freely", body.name));
         }
     }
+    notes.extend(crate::tilt::notes(scene).into_iter().map(|(_, note)| note));
     if change > 1e-6 {
         notes.push(format!(
             "the start differs from the reference configuration by up to {} m (or rad)",

@@ -30,16 +30,44 @@ impl<T: Real> Friction<T> {
     /// tangent with its negative slope could lose definiteness).
     #[inline]
     pub fn force(&self, rate: T) -> (T, T) {
-        let (e, s) = (self.regularisation, rate / self.stribeck);
+        let (share, _, level) = self.parts(rate);
+        (level * share + self.viscous * rate, self.slope(rate, share))
+    }
+
+    /// The derivative with another share of the level, from -1 to 1, in one of the two places of r / sqrt(r^2 + e^2) in it:
+    ///
+    /// ```text
+    /// g / sqrt(r^2 + e^2) (1 - w r / sqrt(r^2 + e^2)) + g' r / sqrt(r^2 + e^2) + v
+    /// ```
+    ///
+    /// With the share that the last iterate's slope foresees Newton's method converges from anywhere, and as fast near the solution,
+    /// where w is that of the rate (Chan, Golub and Mulet 1999).
+    #[inline]
+    pub fn slope(&self, rate: T, w: T) -> T {
+        let (share, root, level) = self.parts(rate);
+        let s = rate / self.stribeck;
         let bell = T::ONE / (T::ONE + s * s);
         let rise = self.r#static - self.coulomb;
-        let level = self.coulomb + rise * bell;
+        let fall = share * rise * T::TWO * s * bell * bell / self.stribeck;
+        (level / root * (T::ONE - w * share) - fall + self.viscous).max(T::ZERO)
+    }
+
+    /// What [`slope`](Self::slope) takes where an iteration came from the `before` to this rate: its force and slope there.
+    #[inline]
+    pub fn foreseen(&self, rate: T, (before, force, slope): (T, T, T)) -> T {
+        let (_, _, level) = self.parts(rate);
+        let foreseen = force + slope * (rate - before) - self.viscous * rate;
+        if level > T::ZERO { (foreseen / level).max(-T::ONE).min(T::ONE) } else { T::ZERO }
+    }
+
+    /// r / sqrt(r^2 + e^2), the root, and g.
+    #[inline(always)]
+    fn parts(&self, rate: T) -> (T, T, T) {
+        let (e, s) = (self.regularisation, rate / self.stribeck);
+        let bell = T::ONE / (T::ONE + s * s);
+        let level = self.coulomb + (self.r#static - self.coulomb) * bell;
         let root = (rate * rate + e * e).sqrt();
-        let share = rate / root;
-        let slope = level * e * e / (root * root * root)
-            - share * rise * T::TWO * s * bell * bell / self.stribeck
-            + self.viscous;
-        (level * share + self.viscous * rate, slope.max(T::ZERO))
+        (rate / root, root, level)
     }
 }
 
@@ -71,6 +99,30 @@ mod tests {
         // At 1e-2 the bell is 0.99 and the regularisation 0.995.
         assert!((LAW.force(1e-2).0 - 2.975).abs() < 0.02);
         assert!((LAW.force(10.0).0 - 2.5).abs() < 1e-3);
+    }
+
+    #[test]
+    fn newtons_method_by_the_foreseen_share_converges_from_anywhere() {
+        // r + c f(r) = b: c a step over an inertia, b what the rate would be without friction.
+        let law = Friction { r#static: 2.0, ..LAW };
+        for (c, b) in [(1e-3, 1e-2), (1e-2, 0.019), (1e-2, 0.021), (0.1, 0.12), (10.0, 19.0)] {
+            for start in [-5.0, -0.01, 0.0, 0.02, 3.0] {
+                let (mut rate, mut last, mut n) = (start, None, 0);
+                loop {
+                    let (force, tangent) = law.force(rate);
+                    let slope =
+                        last.map_or(tangent, |last| law.slope(rate, law.foreseen(rate, last)));
+                    let correction = -(rate + c * force - b) / (1.0 + c * slope);
+                    last = Some((rate, force, slope));
+                    rate += correction;
+                    n += 1;
+                    assert!(n < 30, "c = {c}, b = {b}, from {start}: {rate}");
+                    if correction.abs() < 1e-14 {
+                        break;
+                    }
+                }
+            }
+        }
     }
 
     #[test]

@@ -159,6 +159,21 @@ impl<T: Real> Law<T> {
         }
     }
 
+    /// The slope of friction by what the iterate `before` foresaw of its force: see [`Friction::slope`](super::friction::Friction::slope).
+    /// By the tangents at the ends alone, which know nothing of the rise between them, an iteration across rest goes to and fro. An iterate
+    /// without a rate is none: the first one of a step has the tangent.
+    #[inline]
+    pub fn look_back(&self, measure: &mut Measure<T>, before: &Measure<T>) {
+        #[cfg(feature = "friction")]
+        if let Self::Friction(friction) = self
+            && before.rate != T::ZERO
+        {
+            let last = (before.rate, before.tension, before.damping);
+            let foreseen = friction.foreseen(measure.rate, last);
+            measure.damping = friction.slope(measure.rate, foreseen);
+        }
+    }
+
     /// Stored energy [J] of the elastic part at a value.
     #[inline]
     pub fn energy(&self, value: T, supplies: &Supplies<'_, T>) -> T {

@@ -13,6 +13,7 @@ use crate::actions::Actions;
 use crate::algebra::Vector;
 use crate::cluster::{Clusters, scene_length};
 use crate::model::Owner;
+use crate::scene::align::aligned;
 use crate::scene::{BodyRef, Dimension, Scene};
 use alloc::vec::Vec;
 
@@ -28,6 +29,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         if scene.dimension.count() != D {
             return Err(ModelError::Dimension);
         }
+        let scene = &*aligned(scene);
         let actions = Actions::new(scene)?;
         let mut builder = Builder::new(scene, &actions)?;
         builder.add_bodies();

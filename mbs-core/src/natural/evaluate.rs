@@ -142,6 +142,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
 
     fn set_inputs(&self, t: T, terms: &mut Terms<T>) {
         self.prescribed.write(t, &mut terms.guides, &mut terms.courses);
+        terms.measures.iter_mut().for_each(|measure| measure.rate = T::ZERO);
     }
 
     fn evaluate(&self, q: &[T], terms: &mut Terms<T>) {

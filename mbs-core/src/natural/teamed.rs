@@ -81,7 +81,9 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             for (element, measure) in part.measures(&self.measures).iter().zip(measures) {
                 let mut element = *element;
                 element.place = part.place(element.place);
+                let before = *measure;
                 *measure = element.evaluate::<D>(&self.pool, (q, v, memory), &supplies, jacobian);
+                element.law.look_back(measure, &before);
             }
             for element in part.body_elements(&self.body_elements) {
                 let mut element = *element;

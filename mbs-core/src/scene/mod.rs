@@ -3,6 +3,7 @@
 //! Everything is given in global axes in the *reference configuration* (hard points). Planar scenes keep the
 //! third component of every vector at zero. Names live here and nowhere below; references are indices.
 
+pub mod align;
 mod check;
 mod data;
 mod effect;

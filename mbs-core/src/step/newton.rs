@@ -18,7 +18,8 @@ impl<T: Real> Yardstick<T> {
     /// For corrections of the coordinates themselves at iteration `iterations`, in a scene of the given `length` [m].
     ///
     /// Rounding is that of the increment `moved` [m] where increments are carried, else of the coordinates. At rest nothing moves
-    /// but the rounding of forces in balance: what no longer shrinks below the last digit of the coordinates is that.
+    /// but the rounding of forces in balance: what no longer shrinks below the last digit of the coordinates, of which directions are of
+    /// order one, is that; and what is below the last digit of a pair of numbers is nothing.
     pub fn of_coordinates(
         iterations: u32,
         (scale, tolerance): (T, T),
@@ -26,8 +27,9 @@ impl<T: Real> Yardstick<T> {
         moved: Option<T>,
     ) -> Self {
         let rounding = moved.unwrap_or(length) * T::EPSILON * T::from_f64(64.0);
-        let digit = if iterations > 5 { length * T::EPSILON } else { T::ZERO };
-        Self { scale, goal: scale * tolerance, noise: rounding.max(digit) }
+        let digit = if iterations > 5 { length.max(T::ONE) * T::EPSILON } else { T::ZERO };
+        let nothing = length * T::EPSILON * T::EPSILON;
+        Self { scale, goal: (scale * tolerance).max(nothing), noise: rounding.max(digit) }
     }
 }
 

@@ -2,8 +2,9 @@
 
 use crate::choice::Formulation;
 use crate::compare::method::Method;
+use crate::names::Names;
 use crate::ready::Ready;
-use crate::stop::{Names, StopError};
+use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::scene::{BodyRef, Effect, EffectKind, Scene};

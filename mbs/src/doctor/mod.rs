@@ -21,10 +21,11 @@ pub use motion::{Motion, Nearest, Straight};
 pub use report::report;
 pub use start::Moved;
 
+use crate::names::Names;
 use crate::ready::Ready;
 use crate::settings::Settings;
 use crate::simulation::rank;
-use crate::stop::{Names, StopError};
+use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Cliques;
 use mbs_core::model::{Model, State};
@@ -141,6 +142,7 @@ where
     sound::findings(scene, (&joint_level, natural), massless.as_deref(), &mut findings);
     masses::findings(scene, massless.as_deref(), &mut findings);
     units::findings(scene, &mut findings);
+    start::tilts(scene, &mut findings);
     let is_dependent = joint_level.sets.iter().any(|set| set.is_exact)
         || natural.is_some_and(|[_, constraints, rank]| rank < constraints);
     let (mut methods, mut motion, mut start) = (Vec::new(), None, None);

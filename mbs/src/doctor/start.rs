@@ -38,6 +38,14 @@ pub(super) fn no_start(scene: &Scene<f64>, error: &StopError, findings: &mut Vec
     findings.push(finding);
 }
 
+/// Axes that are taken as parallel, or as across each other, though they are off by a little.
+pub(super) fn tilts(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
+    for (joint, message) in crate::tilt::notes(scene) {
+        let finding = Finding::new(Severity::Note, (Topic::Start, "axis-off"), message, "");
+        findings.push(finding.joints(vec![joint]));
+    }
+}
+
 /// Ways below this share of the scene's length are rounding of the file's numbers.
 const STILL: f64 = 1e-6;
 

@@ -16,11 +16,12 @@ mod timing;
 pub use report::report;
 
 use crate::choice::StepRule;
+use crate::names::Names;
 use crate::precision::{PrecisionError, ReadScene, Work};
 use crate::run;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
-use crate::stop::{Names, StopError};
+use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::scene::Scene;

@@ -1,9 +1,10 @@
 //! What is simulated: bodies, joints, guides, and the sizes of the model in both kinds of coordinates.
 
 use crate::choice::{Formulation, IntegratorKind};
+use crate::names::Names;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
-use crate::stop::{Names, StopError};
+use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::natural::NaturalModel;

@@ -1,8 +1,9 @@
 //! Parts of a run's summary.
 
 use super::Outcome;
+use crate::names::Names;
 use crate::settings::Settings;
-use crate::stop::{Names, StopError};
+use crate::stop::StopError;
 use crate::words::{stop_text, summary_rows};
 use mbs_core::Real;
 use mbs_core::control::Invariant;

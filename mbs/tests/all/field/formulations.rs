@@ -1,1 +1,226 @@
-//! What single formulations stopped at.
+//! What single formulations stopped at: sizes, light pieces, friction, axes that are almost parallel.
+
+use super::{field, read, text};
+use crate::common::random::tree;
+use crate::common::{Bench, settings};
+use mbs::core::scene::{BodyRef, Dimension, Effect, EffectKind, Inertia, Scene};
+use mbs::core::step::StepError;
+use mbs::doctor::{Effort, Severity, examine};
+use mbs::{InSpace, Overrides, Plane, Settings, StopError};
+
+/// Formulations in natural coordinates with steps of fixed length.
+const NATURAL: [&str; 4] = ["index-3", "index-1", "classical", "state-space"];
+/// What formulations differ by that make the same step: the tolerance of their iterations, summed over a run [m or rad].
+const AGREED: f64 = 1e-9;
+/// What the rule's first steps from rest add to a creep of ten seconds [-].
+const CREEP: f64 = 1e-2;
+/// Tolerances of the iterations, of 1e-10 a step, over the steps of a motion from rest [lengths].
+const ALIKE: f64 = 1e-7;
+
+/// Centres of the bodies after `n` steps of `dt` [s].
+fn centres<const D: usize>(
+    scene: &Scene<f64>,
+    formulation: &str,
+    (dt, n): (f64, u32),
+) -> Result<Vec<[f64; D]>, StepError>
+where
+    Plane<D>: InSpace<f64>,
+{
+    let mut bench = Bench::<D>::of_scene(scene, formulation, dt);
+    for _ in 0..n {
+        bench.step()?;
+    }
+    let model = bench.simulation.model();
+    let place = |b: usize| {
+        let point = model.point(BodyRef::Body(b), scene.bodies[b].center);
+        point.value(&bench.simulation.state().q).into()
+    };
+    Ok((0..scene.bodies.len()).map(place).collect())
+}
+
+/// The scene at rest with all lengths multiplied.
+fn sized(scene: &Scene<f64>, size: f64) -> Scene<f64> {
+    let mut scene = scene.clone();
+    scene.initials.clear();
+    for body in &mut scene.bodies {
+        body.center = body.center.map(|x| x * size);
+        match &mut body.inertia {
+            Inertia::Planar(inertia) => *inertia *= size * size,
+            Inertia::Spatial(all) => all.iter_mut().for_each(|x| *x *= size * size),
+            _ => {}
+        }
+    }
+    for joint in &mut scene.joints {
+        joint.points = joint.points.map(|p| p.map(|x| x * size));
+    }
+    scene
+}
+
+#[test]
+fn index_1_runs_a_sprung_leg_as_the_others_do() {
+    let scene = field("13-leg-index-1");
+    let run = |formulation| {
+        let outcome = mbs::run::<f64, 3>(&scene, &settings(&scene, formulation, None), &mut ());
+        assert_eq!(outcome.error, None, "{formulation}");
+        outcome.rows().last().expect("a row").1[..4].to_vec()
+    };
+    let expected = run("index-3");
+    for formulation in ["index-1", "classical", "state-space", "recursive"] {
+        let values = run(formulation);
+        let apart = values.iter().zip(&expected).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+        assert!(apart < AGREED, "{formulation}: {apart:e}");
+    }
+}
+
+#[test]
+fn a_motion_from_rest_does_not_depend_on_the_size() {
+    fn check<const D: usize>(seed: u64, dimension: Dimension)
+    where
+        Plane<D>: InSpace<f64>,
+    {
+        let scene = tree(seed, dimension, 4);
+        for formulation in NATURAL {
+            let run = |size: f64| {
+                let step = (1e-3 * size.sqrt(), 100);
+                centres::<D>(&sized(&scene, size), formulation, step)
+                    .unwrap_or_else(|e| panic!("{formulation}, {seed}, size {size}: {e}"))
+            };
+            let expected = run(1.0);
+            for size in [1e-3, 1e2] {
+                for (x, y) in run(size).iter().zip(&expected) {
+                    for k in 0..D {
+                        let off = (x[k] / size - y[k]).abs();
+                        assert!(off < ALIKE, "{formulation}, {seed}, size {size}: {off:e}");
+                    }
+                }
+            }
+        }
+    }
+    for seed in 1..=4 {
+        check::<2>(seed, Dimension::Planar);
+        check::<3>(seed, Dimension::Spatial);
+    }
+}
+
+#[test]
+fn classical_does_not_take_thin_legs_for_dependent_constraints() {
+    let scene = field("10-hexapod-thin-legs");
+    let settings = settings(&scene, "classical", None);
+    let outcome = mbs::run::<f64, 3>(&scene, &settings, &mut ());
+    let is_true = match outcome.error {
+        None => true,
+        Some(StopError::Step(error, _)) => matches!(error, StepError::Singular(_)),
+        Some(_) => false,
+    };
+    assert!(is_true, "{:?}", outcome.error);
+}
+
+#[test]
+fn an_arm_held_by_friction_creeps_as_the_law_says() {
+    let scene = field("08-friction-holds");
+    for formulation in NATURAL.into_iter().chain(["recursive", "multi-index"]) {
+        let mut bench = Bench::<2>::of_scene(&scene, formulation, 1e-3);
+        bench.run(10.0, |_| {}).unwrap_or_else(|(t, e)| panic!("{formulation} at {t} s: {e}"));
+        let tip = bench.position(&bench.point(0, [1.0, 0.0, 0.0]));
+        let angle = tip[1].atan2(tip[0]);
+        let right = -7.761_090e-3;
+        assert!((angle - right).abs() < -CREEP * right, "{formulation}: {angle:e}");
+    }
+}
+
+#[test]
+fn several_frictions_are_followed_in_natural_coordinates() {
+    for seed in 1..=6 {
+        let mut scene = tree(seed, Dimension::Planar, 4);
+        for joint in 0..scene.joints.len() {
+            let coulomb = 10.0 / (1 + joint) as f64;
+            let r#static = coulomb * (1.0 + 0.5 * (joint % 2) as f64);
+            let kind = EffectKind::Friction {
+                joint,
+                coulomb,
+                r#static,
+                stribeck: 1e-2,
+                viscous: 0.0,
+                regularisation: 1e-3,
+            };
+            scene.effects.push(Effect { name: format!("f{joint}"), enabled: true, kind });
+        }
+        for formulation in NATURAL {
+            let centres = centres::<2>(&scene, formulation, (1e-3, 200));
+            assert!(centres.is_ok(), "{formulation}, {seed}: {centres:?}");
+        }
+    }
+}
+
+#[test]
+fn explicit_steps_that_pass_over_a_friction_stop_and_name_it() {
+    let scene = field("08-friction-holds");
+    let [formulation, integrator] = ["recursive", "rk4"].map(|x| Some(x.to_owned()));
+    let overrides = Overrides { formulation, integrator, ..Overrides::default() };
+    let settings = Settings::new(&scene, &overrides).expect("the settings are built");
+    let outcome = mbs::run::<f64, 2>(&scene, &settings, &mut ());
+    assert!(matches!(outcome.error, Some(StopError::Friction { effect: 0, .. })));
+    let error = outcome.summary.error.expect("an error in the summary");
+    assert_eq!(error.code, "friction-not-resolved");
+    assert!(error.message.starts_with("`brake`"), "{}", error.message);
+}
+
+/// The four-bar whose third axis is off by so many radians.
+fn tilted(angle: f64) -> Scene<f64> {
+    let text = text("11-axis-off-by-1e-7");
+    let axis = format!("axis = [{}, 0, {}]", angle.sin(), angle.cos());
+    read(&text.replace("axis = [9.999999999999982e-08, 0, 0.999999999999995]", &axis), "tilted")
+}
+
+#[test]
+fn an_axis_that_is_off_by_a_millionth_runs_as_the_parallel_one_with_a_note() {
+    let straight = centres::<3>(&tilted(0.0), "index-3", (1e-3, 200)).expect("it runs");
+    for angle in [1e-9, 1e-7, 9e-7] {
+        let scene = tilted(angle);
+        for formulation in ["index-3", "recursive"] {
+            let settings = settings(&scene, formulation, None);
+            let outcome = mbs::run::<f64, 3>(&scene, &settings, &mut ());
+            assert_eq!(outcome.error, None, "{formulation}, {angle:e}");
+            let is_named = outcome.notes().iter().any(|note| note.contains("`C`"));
+            assert!(is_named, "{angle:e}: {:?}", outcome.notes());
+        }
+        let centres = centres::<3>(&scene, "index-3", (1e-3, 200)).expect("it runs");
+        assert_eq!(centres, straight, "{angle:e}");
+    }
+}
+
+#[test]
+fn an_axis_that_is_off_by_more_is_refused_with_the_axis_that_mends_it() {
+    for angle in [1e-5, 1e-4, 9e-4] {
+        let scene = tilted(angle);
+        let outcome = mbs::run::<f64, 3>(&scene, &settings(&scene, "index-3", None), &mut ());
+        let Some(StopError::AlmostDependent(tilt)) = outcome.error else {
+            panic!("{angle:e}: {:?}", outcome.error)
+        };
+        assert_eq!((tilt.joints[0], tilt.axis), (2, [0.0, 0.0, 1.0]));
+        assert!((tilt.angle - angle).abs() < 1e-9);
+        let error = outcome.summary.error.expect("an error in the summary");
+        assert_eq!((error.code.as_str(), error.joint.as_deref()), ("almost-dependent", Some("C")));
+    }
+    // What is meant, or holds nothing, is left alone.
+    let outcome = Settings::new(&tilted(1e-2), &Overrides::default())
+        .map(|settings| mbs::run::<f64, 3>(&tilted(1e-2), &settings, &mut ()).error);
+    assert!(!matches!(outcome, Ok(Some(StopError::AlmostDependent(_)))));
+    let mut open = tilted(1e-4);
+    open.joints.retain(|joint| joint.name != "D");
+    assert!(centres::<3>(&open, "index-3", (1e-3, 5)).is_ok());
+}
+
+#[test]
+fn the_doctor_names_the_axis_that_is_off() {
+    let effort = Effort { positions: 0, seconds: 1.0 };
+    for (angle, code, severity) in
+        [(1e-7, "axis-off", Severity::Note), (1e-4, "almost-dependent", Severity::Fault)]
+    {
+        let scene = tilted(angle);
+        let checkup = examine(&scene, &settings(&scene, "index-3", None), &effort);
+        let found = checkup.findings.iter().find(|f| f.code == code && f.severity == severity);
+        let found = found.unwrap_or_else(|| panic!("{angle:e}: {:?}", checkup.findings));
+        assert_eq!(found.joints, [2], "{angle:e}");
+    }
+}
