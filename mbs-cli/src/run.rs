@@ -4,8 +4,9 @@ use crate::bar::{bar, ticks};
 use crate::{STOPPED, files, keep, named, realtime, refuse, table, unbuilt};
 use clap::Args;
 use indicatif::ProgressBar;
-use mbs::auto::{Goal, Plan, Processor, plan, run_plan, time};
+use mbs::auto::{Clock, Goal, Plan, Processor, plan, run_plan, time};
 use mbs::core::scene::Scene;
+use mbs::estimate::estimate;
 use mbs::realtime::Pacing;
 use mbs::scene_file::{Document, Provenance, RunError, readable};
 use mbs::{Outcome, Overrides, Precision, Settings, run_document_kept, words};
@@ -84,6 +85,9 @@ pub(crate) struct Arguments {
     /// are slowest, as accurately as that allows (with --error: as cheaply as the error allows).
     #[arg(long, value_name = "S", value_parser = time, allow_negative_numbers = true, conflicts_with_all = NOT_CHOSEN)]
     deadline: Option<f64>,
+    /// Leaves out the estimate of the outputs' errors, which takes up to 30 % of the run's time.
+    #[arg(long)]
+    no_estimate: bool,
     #[command(flatten)]
     realtime: realtime::Arguments,
 }
@@ -153,8 +157,9 @@ fn switch(text: &str) -> Result<bool, String> {
 
 /// Runs the command.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    let mut clock = Processor::new(arguments.threads.unwrap_or(1));
     match begin(arguments) {
-        Ok(begun) => go(arguments, begun),
+        Ok(begun) => go(arguments, begun, &mut clock),
         Err(Refusal::Message(message)) => refuse(&message),
         Err(Refusal::Unbuilt(precision)) => unbuilt(precision),
     }
@@ -206,15 +211,19 @@ fn begin(arguments: &Arguments) -> Result<Begun, Refusal> {
     Ok(Begun { document, scene, plan, overrides, pacing, kept })
 }
 
-fn go(arguments: &Arguments, mut begun: Begun) -> ExitCode {
-    match run(arguments, &mut begun) {
+fn go(arguments: &Arguments, mut begun: Begun, clock: &mut dyn Clock) -> ExitCode {
+    match run(arguments, &mut begun, clock) {
         Ok((outcome, settings)) => report(&outcome, arguments, (&begun, &settings)),
         Err(message) => refuse(&message),
     }
 }
 
 /// Runs it, at the pace of a clock or as fast as it can, and tells with what settings; else the refusal.
-fn run(arguments: &Arguments, begun: &mut Begun) -> Result<(Outcome, Settings), String> {
+fn run(
+    arguments: &Arguments,
+    begun: &mut Begun,
+    clock: &mut dyn Clock,
+) -> Result<(Outcome, Settings), String> {
     let Begun { document, scene, plan, pacing, kept, .. } = begun;
     let settings = plan.first();
     if let Some(pacing) = pacing {
@@ -232,7 +241,14 @@ fn run(arguments: &Arguments, begun: &mut Begun) -> Result<(Outcome, Settings), 
     let outcome = run_document_kept((document, scene), settings, &mut reached, parts);
     bar.bar.finish_and_clear();
     match outcome {
-        Ok(Ok(outcome)) => Ok((outcome, settings.clone())),
+        Ok(Ok(mut outcome)) => {
+            if !arguments.no_estimate {
+                // of a run that was resumed, all starts count
+                let whole = clock.seconds().max(outcome.summary.cpu_seconds);
+                estimate(scene, settings, &mut outcome, (clock, whole));
+            }
+            Ok((outcome, settings.clone()))
+        }
         Ok(Err(error)) => Err(keep::said(&error)),
         Err(error) => Err(error.render()),
     }

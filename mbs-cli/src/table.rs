@@ -84,6 +84,7 @@ fn rows(s: &RunSummary) -> Vec<(&str, String)> {
         let values: Vec<String> = values.iter().map(|v| fixed(*v)).collect();
         rows.push((name, values.join("  ")));
     }
+    rows.extend(s.estimate.iter().flat_map(|e| words::estimate(e)));
     rows
 }
 

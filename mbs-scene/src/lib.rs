@@ -20,9 +20,9 @@ pub use record::{
 pub use report::{Report, Section};
 pub use write::{
     Absence, Candidate, Change, Choice, Chosen, Contact, ControlSummary, ControllerStep, CsvWriter,
-    Degraded, EffectEntry, EnergySummary, Explanation, Fallback, GuideEntry, JointGroup,
-    LargestStep, MarginSummary, Outputs, Overrun, PilotReference, Price, Prices, RealtimeSummary,
-    Relative, Rod, RunError, RunSummary, SearchEnd, Simulated, Sizes, Times, TrialEntry,
-    ViolationSummary, append_steps, long, readable, shortest, write_choice, write_overruns,
-    write_steps,
+    Degraded, EffectEntry, EnergySummary, ErrorEstimate, Explanation, Fallback, GuideEntry,
+    JointGroup, LargestStep, MarginSummary, Outputs, Overrun, PilotReference, Price, Prices,
+    RealtimeSummary, Relative, Rod, RunError, RunSummary, SearchEnd, Simulated, Sizes, Times,
+    TrialEntry, ViolationSummary, append_steps, long, readable, shortest, write_choice,
+    write_overruns, write_steps,
 };

@@ -11,6 +11,7 @@ mod digits;
 pub mod doctor;
 mod document;
 mod engine;
+pub mod estimate;
 pub mod explain;
 pub mod export;
 mod figure;

@@ -4,7 +4,7 @@ use crate::settings::Settings;
 use mbs_core::Real;
 use mbs_core::control::Limit;
 use mbs_core::scene::{Body, BodyRef, Inertia, Scene};
-use mbs_scene::{Contact, ControlSummary, RunError, RunSummary, readable};
+use mbs_scene::{Contact, ControlSummary, ErrorEstimate, RunError, RunSummary, readable};
 
 /// Three significant digits: the size is what matters.
 #[must_use]
@@ -61,7 +61,35 @@ pub(crate) fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
     let paced = s.realtime.iter().flat_map(crate::realtime::rows);
     rows.extend(paced.map(|(label, value)| row(label, value)));
     rows.extend(contacts(s).map(|text| row("contacts", text)));
+    rows.extend(s.estimate.iter().flat_map(estimate).map(|(label, value)| row(label, value)));
     rows
+}
+
+/// The estimate of the errors, for a table.
+#[must_use]
+pub fn estimate(e: &ErrorEstimate) -> Vec<(&'static str, String)> {
+    const LABEL: &str = "estimated error";
+    if let Some(why) = &e.missing {
+        return vec![(LABEL, format!("no estimate: {why}"))];
+    }
+    let (Some(outputs), Some(basis)) = (&e.outputs, &e.basis) else { return Vec::new() };
+    let one = |(name, errors): &(String, Vec<f64>)| {
+        format!("{name} {}", small(errors.iter().copied().fold(0.0, f64::max)))
+    };
+    let first = outputs.0.iter().take(FIRST).map(one).collect::<Vec<_>>().join(", ");
+    let more = outputs.0.len().saturating_sub(FIRST);
+    let more = if more > 0 { format!(", and {more} more in the JSON") } else { String::new() };
+    let mut rows = vec![(LABEL, first + &more)];
+    if let (Some(largest), Some(output)) = (e.largest, &e.worst_output) {
+        rows.push(("", format!("at most {} of an output's range: {output}", small(largest))));
+    }
+    rows.push(("", format!("by {basis}; {} of CPU time", duration(e.cpu_seconds))));
+    rows
+}
+
+/// Two digits: an estimate has no more.
+fn small(x: f64) -> String {
+    if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") }
 }
 
 /// Drift and scatter of the energy invariant, for a table.
@@ -76,8 +104,8 @@ pub fn control(c: &ControlSummary) -> String {
     let rule = match c.rule {
         "energy" => "by the energy invariant",
         "energy-printed" => "by the energy invariant as printed",
-        "error" => "by the error estimate",
-        _ => "by the energy invariant and the error estimate",
+        "error" => "by the estimated error of each step, not of the run",
+        _ => "by the energy invariant and the estimated error of each step, not of the run",
     };
     let mut text = format!("{rule}; {} trials rejected", c.rejected);
     if c.index_1_steps > 0 {
@@ -89,9 +117,11 @@ pub fn control(c: &ControlSummary) -> String {
     text
 }
 
+/// Contacts and outputs that a line has at most.
+const FIRST: usize = 8;
+
 /// The first contacts of a run, and how many there were.
 fn contacts(s: &RunSummary) -> Option<String> {
-    const FIRST: usize = 8;
     if s.contacts.is_empty() {
         return None;
     }

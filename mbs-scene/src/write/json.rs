@@ -1,6 +1,7 @@
 //! JSON: the summary of a run, with the keys of the scene format.
 
 use super::choice::Choice;
+use super::estimate::ErrorEstimate;
 use super::realtime::RealtimeSummary;
 use crate::record::StepRow;
 use serde::ser::{Serialize, SerializeMap, Serializer};
@@ -59,6 +60,9 @@ pub struct RunSummary {
     /// The same as texts of 32 digits, where the run had them: most readers of JSON keep no more than 17.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub digits: Option<Outputs<String>>,
+    /// How accurate the outputs are; absent where no estimate was made.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub estimate: Option<ErrorEstimate>,
     /// What `auto` chose and why.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chosen: Option<Chosen>,

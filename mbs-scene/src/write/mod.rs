@@ -2,6 +2,7 @@
 
 mod choice;
 mod csv;
+mod estimate;
 mod explanation;
 mod json;
 mod readable;
@@ -11,6 +12,7 @@ mod tests;
 
 pub use choice::{Candidate, Choice, Fallback, PilotReference, TrialEntry, write_choice};
 pub use csv::{CsvWriter, append_steps, long, shortest, write_steps};
+pub use estimate::ErrorEstimate;
 pub use explanation::{
     Absence, Change, ControllerStep, EffectEntry, Explanation, GuideEntry, JointGroup, LargestStep,
     Price, Prices, Relative, Rod, SearchEnd, Simulated, Sizes,

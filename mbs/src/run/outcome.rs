@@ -2,8 +2,9 @@
 
 use crate::checkpoint::write_rows;
 use crate::stop::StopError;
+use crate::words::summary_rows;
 use mbs_core::real::DoubleDouble;
-use mbs_scene::{Channel, Provenance, RunRecord, RunSummary, StepSeries};
+use mbs_scene::{Channel, ErrorEstimate, Provenance, RunRecord, RunSummary, StepSeries};
 use std::io;
 
 /// What a run gives.
@@ -57,6 +58,13 @@ impl Outcome {
     #[must_use]
     pub fn rows(&self) -> &[(f64, Vec<f64>)] {
         &self.table
+    }
+
+    /// Takes an estimate of the errors; warnings become notes.
+    pub(crate) fn take_estimate(&mut self, estimate: ErrorEstimate) {
+        self.record.notes.extend(estimate.warnings.iter().cloned());
+        self.summary.estimate = Some(estimate);
+        self.record.summary = summary_rows(&self.summary);
     }
 
     /// Least and largest value of each component of each channel, over the rows; empty when the run did not start.

@@ -1,0 +1,34 @@
+//! How accurate a run is, as far as a second look at its motion tells.
+
+use super::json::Outputs;
+
+/// An estimate of the errors of a run's outputs.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+pub struct ErrorEstimate {
+    /// What it is based on; absent where there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub basis: Option<String>,
+    /// Why there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub missing: Option<String>,
+    /// The largest error of each component over the run, in its unit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub outputs: Option<Outputs>,
+    /// The largest of them, each relative to the range of its output [-].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest: Option<f64>,
+    /// The output that has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub worst_output: Option<String>,
+    /// CPU time of the look [s].
+    pub cpu_seconds: f64,
+    /// The largest turn of a body in a step [rad].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turn_per_step: Option<f64>,
+    /// Steps in a period of the stiffest force.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps_per_period: Option<f64>,
+    /// What makes the steps too long for the motion.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
+}

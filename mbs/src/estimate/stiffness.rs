@@ -1,0 +1,87 @@
+//! The period of the stiffest force at a state.
+//!
+//! ```text
+//! K x = lambda M x  where J x = 0,   period = 2 pi / sqrt(lambda),   the largest lambda by power iteration:
+//! x <- (M + J^T s J)^-1 K x,         K x by a difference of the applied forces
+//! ```
+//!
+//! Dampers and the motion have no part in it, nor has gravity.
+
+use core::f64::consts::TAU;
+use mbs_core::SpdSolver;
+use mbs_core::model::{Load, Model, State, System, Tangent};
+use mbs_core::natural::NaturalModel;
+use mbs_sparse::Multifrontal;
+
+/// Iterations: the square root of the eigenvalue is then met to some per cent unless others lie close by, which give the same.
+const ITERATIONS: u32 = 12;
+/// Penalty of the constraints in effective masses: what moves across them is a millionth.
+const PENALTY: f64 = 1e6;
+/// Difference of coordinates relative to the length of the model.
+const DIFFERENCE: f64 = 1e-6;
+/// A stiffness is rounding below this ratio of a difference of forces to the forces themselves.
+const NOISE: f64 = 1e-9;
+
+/// The period of the stiffest force [s]; nothing where no force grows with a displacement.
+///
+/// Cost: a factorisation, and as many evaluations of the forces and solutions as there are iterations; allocates.
+pub(super) fn shortest_period<const D: usize>(
+    model: &NaturalModel<f64, D>,
+    solver: &mut Multifrontal<f64>,
+    state: &State<f64>,
+) -> Option<f64> {
+    if !model.has_forces() {
+        return None;
+    }
+    let n = mbs_core::Cliques::n_unknowns(model);
+    let mut terms = model.terms();
+    model.set_inputs(state.t, &mut terms);
+    model.evaluate(&state.q, &mut terms);
+    model.evaluate_forces(&state.q, &state.v, &state.memory, &mut terms);
+    let mut penalty = vec![0.0; model.n_constraints()];
+    model.effective_masses(&terms, &mut penalty);
+    penalty.iter_mut().for_each(|s| *s *= PENALTY);
+    let tangent = Tangent { stiffness: 0.0, damping: 0.0, penalty: &penalty, geometric: None };
+    let load = Load { mass: None, multipliers: None, force: 1.0 };
+    solver.factor(&System { model, terms: &terms, tangent, load }).ok()?;
+    let mut forces = vec![0.0; n];
+    solver.assemble(&System { model, terms: &terms, tangent, load }, &mut forces);
+    let size = forces.iter().fold(0.0, |most: f64, f| most.max(f.abs()));
+    let mut scratch = vec![0.0; solver.n_scratch()];
+    // numbers without a pattern of their own: the fractional parts of multiples of the golden ratio
+    let mut x: Vec<f64> =
+        (1..=n).map(|i| (crate::compare::ladder::count(i) * 0.618_034).fract() - 0.5).collect();
+    let (mut q, mut moved, mut lambda) = (state.q.clone(), vec![0.0; n], 0.0);
+    let mut extended = vec![0.0; state.q.len()];
+    for _ in 0..ITERATIONS {
+        let most = x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let step = DIFFERENCE * model.length() / most;
+        if !step.is_finite() {
+            return None;
+        }
+        for ((q, at), x) in q.iter_mut().zip(&state.q).zip(&x) {
+            *q = at + step * x;
+        }
+        model.evaluate(&q, &mut terms);
+        model.evaluate_forces(&q, &state.v, &state.memory, &mut terms);
+        solver.assemble(&System { model, terms: &terms, tangent, load }, &mut moved);
+        let change =
+            moved.iter().zip(&forces).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+        if !(change > NOISE * size) {
+            return None;
+        }
+        let y: Vec<f64> = {
+            let mut y: Vec<f64> = moved.iter().zip(&forces).map(|(a, b)| (a - b) / step).collect();
+            solver.solve(&mut y, &mut scratch);
+            y
+        };
+        let mut energy = |x: &[f64]| {
+            extended[..n].copy_from_slice(x);
+            model.kinetic_energy(&extended)
+        };
+        lambda = (energy(&y) / energy(&x)).sqrt();
+        x = y;
+    }
+    let period = TAU / lambda.sqrt();
+    (period > 0.0 && period.is_finite()).then_some(period)
+}
