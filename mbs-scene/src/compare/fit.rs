@@ -6,6 +6,13 @@ use super::data::Fit;
 const SAME_SLOPE: f64 = 0.4;
 /// Errors above this share of the outputs' ranges have lost the motion: they say nothing of the order.
 const LOST: f64 = 0.2;
+/// A line has three steps at least, this factor apart in all, misses no logarithm of an error by more than this [decades] in the root of the
+/// mean square, and an order that a method can have.
+const SPAN: f64 = 4.0;
+const RESIDUAL: f64 = 0.15;
+const MOST_ORDER: f64 = 20.0;
+/// Steps that differ by less than this share are the same: the instants of the results hold them.
+const SAME_STEP: f64 = 1e-6;
 /// Rounding: errors that are this many times the least one, at shorter steps.
 const GROWN: f64 = 2.0;
 
@@ -17,15 +24,32 @@ pub(super) fn fit(points: &[(f64, f64)], floor: f64) -> Option<Fit> {
     let rounding_below = is_rounding.then_some(points[least].0);
     // the least error itself is bent by what makes the others grow
     let end = if is_rounding { least } else { points.len() };
-    let told: Vec<(f64, f64)> =
+    let mut told: Vec<(f64, f64)> =
         points[..end].iter().copied().filter(|&(_, e)| e > floor && e < LOST).collect();
+    told.dedup_by(|next, last| (next.0 / last.0 - 1.0).abs() < SAME_STEP);
     let line = straight(&told);
+    let is_line = is_line(line);
     Some(Fit {
-        order: (line.len() >= 3).then(|| slope(line)),
-        steps: (line.len() >= 3).then(|| [line[0].0, line[line.len() - 1].0]),
-        points: if line.len() >= 3 { line.len() } else { 0 },
+        order: is_line.then(|| slope(line)),
+        steps: is_line.then(|| [line[0].0, line[line.len() - 1].0]),
+        points: if is_line { line.len() } else { 0 },
         rounding_below,
     })
+}
+
+/// Does a stretch tell an order?
+fn is_line(points: &[(f64, f64)]) -> bool {
+    let [first, _, .., last] = points else { return false };
+    let order = slope(points);
+    if !(first.0 / last.0 >= SPAN && order > 0.0 && order <= MOST_ORDER) {
+        return false;
+    }
+    #[allow(clippy::cast_precision_loss, reason = "a few points")]
+    let n = points.len() as f64;
+    let rest = |&(h, e): &(f64, f64)| libm::log10(e) - order * libm::log10(h);
+    let mean = points.iter().map(rest).sum::<f64>() / n;
+    let squares: f64 = points.iter().map(|p| (rest(p) - mean) * (rest(p) - mean)).sum();
+    points.len() >= 3 && libm::sqrt(squares / n) <= RESIDUAL
 }
 
 /// The longest stretch of neighbours with one slope; of equally long ones that at the shortest steps.
@@ -93,6 +117,14 @@ mod tests {
         let fit = fit(&points, 3e-4).unwrap();
         assert!((fit.order.unwrap() - 2.0).abs() < 1e-9, "{fit:?}");
         assert!(fit.points < 9 && fit.rounding_below.is_none());
+    }
+
+    #[test]
+    fn steps_that_the_results_hold_have_no_order_and_no_number_that_is_none() {
+        let held = [(1e-2, 1.4e-6), (1e-2, 1.3e-6), (1e-2, 1.2e-6), (9e-3, 1.1e-6)];
+        assert_eq!(fit(&held, 0.0).unwrap().order, None);
+        let near = [(1e-2, 1e-6), (8e-3, 6.4e-7), (6e-3, 3.6e-7)];
+        assert_eq!(fit(&near, 0.0).unwrap().order, None, "three steps within a factor of two");
     }
 
     #[test]

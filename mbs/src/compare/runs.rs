@@ -23,6 +23,9 @@ struct Refined {
     last: Option<(f64, f64, f64)>,
     best: Option<f64>,
     no_better: u32,
+    /// Steps, iterations and errors, to the bit, of the last run that was completed: a setting that changes none of them is held by the
+    /// instants of the results, and says nothing of finer ones.
+    same: Option<[u64; 4]>,
     /// Nothing finer is run; why.
     over: Option<String>,
 }
@@ -155,6 +158,11 @@ impl Refined {
         }
         self.last = Some((work, entry.clocked_seconds, entry.setting));
         let Some(error) = entry.error else { return };
+        let bits = |x: Option<f64>| x.map_or(0, f64::to_bits);
+        let same = [entry.steps, entry.iterations, bits(entry.error), bits(entry.error_rms)];
+        if self.same.replace(same) == Some(same) {
+            return;
+        }
         match self.best {
             Some(best) if error >= best => self.no_better += u32::from(best < GOOD),
             _ => {
@@ -180,5 +188,19 @@ mod tests {
         };
         assert_eq!([0.5, 0.6, 0.7, 0.4].map(&mut take), [0, 0, 0, 0]);
         assert_eq!([1e-3, 2e-3, 1e-4, 3e-4, 2e-4].map(&mut take), [0, 1, 0, 1, 2]);
+    }
+
+    #[test]
+    fn settings_that_change_no_step_do_not_end_the_refinement() {
+        let mut refined = Refined::default();
+        let mut take = |steps, error| {
+            let status = Status::Completed;
+            let entry = RunEntry { status, steps, error: Some(error), ..RunEntry::default() };
+            refined.take(&entry, 1.0);
+            refined.no_better
+        };
+        let held = [(102, 1.4e-6), (102, 1.4e-6), (102, 1.4e-6), (105, 9.7e-8), (105, 9.7e-8)];
+        assert_eq!(held.map(|(steps, error)| take(steps, error)), [0; 5]);
+        assert_eq!([(200, 2e-7), (400, 3e-7)].map(|(n, e)| take(n, e)), [1, 2]);
     }
 }
