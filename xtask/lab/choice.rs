@@ -80,7 +80,7 @@ fn run(names: &[String]) -> Result<bool, String> {
 }
 
 /// The scene files, in the order of their names.
-fn scenes(names: &[String]) -> Result<Vec<PathBuf>, String> {
+pub(crate) fn scenes(names: &[String]) -> Result<Vec<PathBuf>, String> {
     if !names.is_empty() {
         return Ok(names.iter().map(|name| crate::mbs::scene(name)).collect());
     }

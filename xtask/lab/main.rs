@@ -4,6 +4,7 @@ mod bench;
 mod chart;
 mod choice;
 mod digits;
+mod estimate;
 mod gauntlet;
 mod grades;
 mod lab;
@@ -78,6 +79,12 @@ enum Job {
         #[arg(value_name = "SCENE")]
         scenes: Vec<String>,
     },
+    #[command(about = jobs::ESTIMATE)]
+    Estimate {
+        /// These scenes alone
+        #[arg(value_name = "SCENE")]
+        scenes: Vec<String>,
+    },
     #[command(about = jobs::PEERS)]
     Peers {
         /// Fewer and shorter turns
@@ -116,6 +123,7 @@ fn main() -> ExitCode {
             bench::bench(&bench::Asked { threads, quick, scenes })
         }
         Job::Choice { scenes } => choice::choice(&scenes),
+        Job::Estimate { scenes } => estimate::estimate(&scenes),
         Job::Peers { quick, names } => peers::peers(quick, &names),
         Job::Profile { keep, scenes } => profile::profile(keep, &scenes),
         Job::Gauntlet { count, jobs } => gauntlet::gauntlet(count, jobs),

@@ -11,6 +11,8 @@ pub const STEPS: &str = "Run the experiments on variable steps beside fixed ones
 pub const BENCH: &str = "Time a step in each formulation and scene, its phases, faer beside it, and what threads gain: text, JSON and HTML under target/bench";
 /// `cargo xtask choice`.
 pub const CHOICE: &str = "Hold the choice by measurement against the best of all methods, on every scene at three errors: text and CSV under target/choice";
+/// `cargo xtask estimate`.
+pub const ESTIMATE: &str = "Compare the errors that a run states with those that it has, on every scene: text under target/estimate";
 /// `cargo xtask peers`.
 pub const PEERS: &str = "Time mbs and its peers on the same problems by turns (docs/PEERS.md): text, Markdown, CSV and HTML under target/peers";
 /// `cargo xtask profile`.

@@ -56,6 +56,8 @@ enum Job {
     Bench(Words),
     #[command(disable_help_flag = true, about = jobs::CHOICE)]
     Choice(Words),
+    #[command(disable_help_flag = true, about = jobs::ESTIMATE)]
+    Estimate(Words),
     #[command(disable_help_flag = true, about = jobs::PEERS)]
     Peers(Words),
     /// Count the instructions of a step under callgrind: what is absent or switched off costs nothing
@@ -102,6 +104,7 @@ fn main() -> ExitCode {
         Job::Steps(words) => lab("steps", &words),
         Job::Bench(words) => lab("bench", &words),
         Job::Choice(words) => lab("choice", &words),
+        Job::Estimate(words) => lab("estimate", &words),
         Job::Peers(words) => lab("peers", &words),
         Job::Counts => counts::counts(),
         Job::Profile(words) => lab("profile", &words),

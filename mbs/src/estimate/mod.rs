@@ -58,6 +58,8 @@ const ITERATION: f64 = 1e-10;
 const MOST_TURN: f64 = 0.3;
 /// Steps in a period of the stiffest force below which its swing is wrong by much.
 const FEWEST_STEPS: f64 = 20.0;
+/// Differences above this share of an output's range are no small errors of its motion, and follow no order.
+const LOST: f64 = 0.1;
 /// Roundings of an output that no look sees below.
 const ROUNDINGS: f64 = 8.0;
 
@@ -174,7 +176,10 @@ impl Judge<'_> {
         let seen = see(&settings, &instants, step);
         if seen.end == End::Whole {
             let divisor = ((COARSER - 1.0) * (COARSER * COARSER - 1.0)).sqrt();
-            let errors = seen.differences.iter().map(|d| d / divisor).collect();
+            // where the long steps have lost the motion, they say no more than that
+            let is_lost = |c: usize, d: f64| d > LOST * differences::range(rows, c);
+            let of = |(c, d): (usize, &f64)| if is_lost(c, *d) { *d } else { d / divisor };
+            let errors = seen.differences.iter().enumerate().map(of).collect();
             let basis = format!("the same method with {} times the step", few(COARSER));
             return Ok(Found { basis, errors, floor: true });
         }

@@ -1,14 +1,16 @@
 //! What a run says of its own accuracy.
 
 use super::{field, read, text};
-use mbs::auto::{Clock, Processor};
+use mbs::auto::{Clock, Goal, Processor, plan, run_plan};
 use mbs::core::scene::{Dimension, Scene};
 use mbs::estimate::estimate;
-use mbs::scene_file::ErrorEstimate;
+use mbs::scene_file::{Document, ErrorEstimate};
 use mbs::{Outcome, Overrides, Settings};
 
-/// Estimates are of this size: neither a third of the error, nor ten times.
-const NEAR: [f64; 2] = [1.0 / 3.0, 10.0];
+/// An error is stated if it is no more than so many times the estimate; estimates are of the size of the errors if the median of the
+/// quotients lies between its inverse and the second.
+const STATED: f64 = 3.0;
+const MEDIAN: f64 = 10.0;
 /// Rounding of a result in an error-controlled run, relative.
 const CONTROLLED: f64 = 1e-6;
 
@@ -96,10 +98,10 @@ fn twenty_arms_with_light_wrists_state_errors_of_the_size_that_they_have() {
         all.extend(ratios(&arm(seed)));
     }
     all.sort_by(f64::total_cmp);
-    let below = all.iter().filter(|ratio| **ratio <= 3.0).count();
+    let below = all.iter().filter(|ratio| **ratio <= STATED).count();
     assert!(100 * below >= 95 * all.len(), "{all:?}");
     let median = all[all.len() / 2];
-    assert!(median > 0.1 && median < NEAR[1], "{median}");
+    assert!((1.0 / MEDIAN..MEDIAN).contains(&median), "{median}");
 }
 
 #[test]
@@ -116,7 +118,7 @@ fn a_spring_too_stiff_for_the_step_is_said() {
     assert!((steps - 6.283).abs() < 0.1, "{steps}");
     assert!(outcome.notes().iter().any(|note| note.contains("stiffest force")));
     let ratios = ratios(&read(scene, "stiff"));
-    assert!(ratios.iter().all(|r| *r < 3.0), "{ratios:?}");
+    assert!(ratios.iter().all(|r| *r < STATED), "{ratios:?}");
 }
 
 #[test]
@@ -163,4 +165,89 @@ fn arm(seed: u32) -> Scene<f64> {
         out.push('\n');
     }
     read(&out, "arm")
+}
+
+/// Formulations in natural coordinates.
+const NATURAL: [&str; 5] = ["index-3", "index-1", "multi-index", "classical", "state-space"];
+/// Ten times what the trapezoidal rule errs by in directions that turn at 8.4 rad/s, (w h)²/12 at 1 ms, relative.
+const AT_A_MILLISECOND: f64 = 6e-5;
+
+/// The last value of an output's components.
+fn last(outcome: &Outcome, name: &str) -> Vec<f64> {
+    let found = outcome.summary.outputs.0.iter().find(|(n, _)| n == name);
+    found.unwrap_or_else(|| panic!("no output {name}")).1.clone()
+}
+
+#[test]
+fn a_torque_acts_on_the_angle_of_a_planar_free_joint() {
+    let scene = field("17-torque-on-planar-free-joint");
+    for formulation in NATURAL {
+        let (_, outcome) = run(&scene, &by(formulation, "trapezoidal", None));
+        let rates = last(&outcome, "j_rate");
+        let rate = rates.last().copied().unwrap_or_default();
+        assert!((rate - 8.4).abs() < AT_A_MILLISECOND * 8.4, "{formulation}: {rate}");
+    }
+}
+
+#[test]
+fn a_torque_acts_on_the_angle_of_a_cylindrical_joint_whose_bodies_stand_in_reverse() {
+    let scene = field("17-torque-on-reversed-cylindrical");
+    for formulation in NATURAL {
+        let (_, outcome) = run(&scene, &by(formulation, "trapezoidal", None));
+        for (rate, right) in last(&outcome, "j_rate").iter().zip([1.661_124_909, 5.317_300_217]) {
+            assert!(
+                (rate - right).abs() < AT_A_MILLISECOND * right,
+                "{formulation}: {rate} for {right}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_choice_by_measurement_is_right_or_refused_where_coordinates_disagree() {
+    let cases = [
+        ("17-torque-on-planar-free-joint", 2, 8.4),
+        ("17-torque-on-reversed-cylindrical", 1, 5.317_300_217),
+    ];
+    for (name, component, right) in cases {
+        let document = Document::parse(&text(name), name).expect("it is a document");
+        let scene = document.scene::<f64>().expect("it is a scene");
+        let base = Overrides::default();
+        let settings = Settings::new(&scene, &base).expect("the settings go together");
+        let goal = Goal { error: Some(1e-4), deadline: None };
+        let clock = &mut Processor::new(1);
+        let Ok(plan) = plan((&document, &scene), (&base, settings), goal, clock) else { continue };
+        let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
+        let rate = last(&outcome, "j_rate")[component];
+        let limit = 1e-3 * right;
+        assert!((rate - right).abs() < limit, "{name}: {rate} by {:?}", settings.formulation);
+    }
+}
+
+#[test]
+fn a_choice_for_a_vehicle_that_jumps_sees_its_landing_and_keeps_its_error() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/iltis-jump.toml");
+    let document = Document::parse(&std::fs::read_to_string(path).unwrap(), path).unwrap();
+    let scene = document.scene::<f64>().expect("it is a scene");
+    let base = Overrides { formulation: Some("auto".to_owned()), ..Overrides::default() };
+    let settings = Settings::new(&scene, &base).expect("the settings go together");
+    let goal = Goal { error: Some(1e-2), deadline: None };
+    let plan = plan((&document, &scene), (&base, settings), goal, &mut Processor::new(1)).unwrap();
+    let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
+    let exact = Overrides { step: Some(0.05), ..by("recursive", "rk853", Some(1e-10)) };
+    let (_, reference) = run(&scene, &exact);
+    let chassis = |row: &[f64]| [row[0], row[2]];
+    let mut compared = 0;
+    for (t, row) in outcome.rows() {
+        let same = reference.rows().iter().find(|(other, _)| (other - t).abs() < 1e-9);
+        let Some((_, right)) = same else { continue };
+        compared += 1;
+        for (a, b) in chassis(row).into_iter().zip(chassis(right)) {
+            // the chassis goes 50 m far, and its channel has one range
+            assert!((a - b).abs() < 2.0 * 1e-2 * 50.0, "{t} s: {a} for {b} by {settings:?}");
+        }
+    }
+    assert!(compared > 100, "{compared}");
+    let choice = plan.first().choice.as_ref().expect("a choice");
+    assert!((choice.span - 10.0).abs() < 1e-9, "it saw {} s", choice.span);
 }
