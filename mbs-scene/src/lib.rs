@@ -22,7 +22,7 @@ pub use write::{
     Absence, Candidate, Change, Choice, Chosen, Contact, ControlSummary, ControllerStep, CsvWriter,
     Degraded, EffectEntry, EnergySummary, ErrorEstimate, Explanation, Fallback, GuideEntry,
     JointGroup, LargestStep, MarginSummary, Outputs, Overrun, PilotReference, Price, Prices,
-    RealtimeSummary, Relative, Rod, RunError, RunSummary, SearchEnd, Simulated, Sizes, Times,
-    TrialEntry, ViolationSummary, append_steps, long, readable, shortest, write_choice,
+    RealtimeSummary, Relative, Rod, RunError, RunSummary, SearchEnd, SecondLook, Simulated, Sizes,
+    Times, TrialEntry, ViolationSummary, append_steps, long, readable, shortest, write_choice,
     write_overruns, write_steps,
 };

@@ -90,8 +90,8 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// depend on the unit of length, nor do masses times its square.
     pub(crate) fn sizes(&self) -> Vec<T> {
         let mut sizes = alloc::vec![T::ONE; self.n_unknowns()];
-        for entity in self.carried.iter().filter(|entity| entity.is_point) {
-            sizes[entity.at as usize..entity.at as usize + D].fill(self.length());
+        for at in self.carried.iter().filter_map(Carried::point) {
+            sizes[at..at + D].fill(self.length());
         }
         sizes
     }

@@ -24,12 +24,26 @@ pub struct Choice {
     pub pilot_budget: f64,
     /// What errors were taken against, and how well that is known.
     pub reference: Option<PilotReference>,
+    /// How far the chosen one is from index-3, where it is in relative coordinates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub second_look: Option<SecondLook>,
     /// All that were considered: the chosen one first, then by predicted CPU time, then those that are out.
     pub candidates: Vec<Candidate>,
     /// Candidates that were chosen and stopped in the run.
     pub fallbacks: Vec<Fallback>,
     /// What the reader should know.
     pub notes: Vec<String>,
+}
+
+/// A comparison of the chosen candidate with one in other coordinates, which shares no model with it.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct SecondLook {
+    /// Largest distance of the outputs, each in its scale.
+    pub distance: Option<f64>,
+    /// What the look itself errs by.
+    pub own_error: Option<f64>,
+    /// The distance cannot be an error of either: the models differ.
+    pub differs: bool,
 }
 
 /// The most accurate run of the pilot.

@@ -10,7 +10,9 @@ mod realtime;
 #[cfg(test)]
 mod tests;
 
-pub use choice::{Candidate, Choice, Fallback, PilotReference, TrialEntry, write_choice};
+pub use choice::{
+    Candidate, Choice, Fallback, PilotReference, SecondLook, TrialEntry, write_choice,
+};
 pub use csv::{CsvWriter, append_steps, long, shortest, write_steps};
 pub use estimate::ErrorEstimate;
 pub use explanation::{

@@ -179,7 +179,11 @@ impl Entrant {
 
     /// Its largest and its finest error do not differ over two refinements: rounding, or another motion.
     pub(crate) fn is_at_its_floor(&self) -> bool {
-        let points = self.points();
+        let mut points = self.points();
+        // the instants of the results hold the steps: a finer setting has not been seen yet
+        points.dedup_by(|fine, coarse| {
+            fine.steps == coarse.steps && fine.error.to_bits() == coarse.error.to_bits()
+        });
         let [.., a, b, c] = &points[..] else { return false };
         let fell = |coarse: &Point, fine: &Point| fine.error < 0.7 * coarse.error;
         a.error < LOST && !fell(a, b) && !fell(b, c) && a.setting > 2.0 * c.setting

@@ -28,6 +28,8 @@ pub enum GoalError {
     OwnSteps,
     /// Nothing is left to choose from.
     NoCandidate,
+    /// The chosen method and one in other coordinates differ by this, beside the ranges of the outputs.
+    Differs(f64),
 }
 
 /// Options that the choice decides.
@@ -100,6 +102,9 @@ impl GoalError {
             }
             Self::OwnSteps => "leave --integrator out, or take rk4 or an implicit one",
             Self::NoCandidate => "leave --formulation or --integrator out",
+            Self::Differs(_) => {
+                "one of the two is wrong: run it with --formulation index-3 and with --formulation recursive, and report the scene"
+            }
         }
     }
 }
@@ -136,6 +141,11 @@ impl Display for GoalError {
             Self::NoCandidate => {
                 write!(f, "no method goes with this formulation and this integrator")
             }
+            Self::Differs(apart) => write!(
+                f,
+                "relative and natural coordinates disagree by {} of an output's range, more than both can err by",
+                few(*apart)
+            ),
         }
     }
 }

@@ -13,6 +13,7 @@ mod plan;
 mod race;
 mod reference;
 mod report;
+mod second;
 mod structure;
 #[cfg(test)]
 mod tests;
@@ -23,7 +24,7 @@ pub use goal::{Goal, GoalError, time};
 pub use plan::{Plan, PlanError, Processor, plan, run_plan};
 pub(crate) use report::reasons;
 
-use crate::choice::{IntegratorKind, Precision};
+use crate::choice::{Formulation, IntegratorKind, Precision};
 use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, Method};
 use crate::names::Names;
@@ -146,6 +147,7 @@ where
     let ready = Ready::<T, D>::new(scene);
     let mut ready = ready.map_err(|e| Box::new(e.report(0.0, &Names::new(scene))));
     let structure = structure::structure(scene, task.settings.duration, ready.as_mut().ok());
+    let methods = &few_methods(task, methods, &structure)[..];
     let (wanted, mut instants) = (wanted(&task.goal), task.instants);
     let mut spent = clock.seconds() - begun;
     let mut before = spent;
@@ -164,7 +166,11 @@ where
             instants.count /= CUT;
             continue;
         }
+        let second = (structure.loops.is_ok() && task.goal.error.is_some())
+            .then(|| second::look(&mut race, &places, instants))
+            .flatten();
         let mut choice = report::evidence(&mut race, &places, &structure);
+        choice.second_look = second;
         choice.pilot_seconds += before - spent;
         let picks = picks(&race, &places, scaled(task.instants, instants));
         choice.instants = instants.count;
@@ -173,6 +179,22 @@ where
         return (picks, choice);
     }
     (Vec::new(), Choice::default())
+}
+
+/// Of all methods those that were the cheapest on some scene, for some error, where a tree and the caller leave them: explicit and
+/// collocation methods, and error control, in relative coordinates, and index-3. The others take up the time that these need.
+fn few_methods(
+    task: &Task<'_>,
+    methods: &[Method],
+    structure: &structure::Structure,
+) -> Vec<Method> {
+    let is_free = task.settings.asked == "auto" && task.goal.deadline.is_none();
+    let is_few = |m: &&Method| match m.formulation {
+        Formulation::Recursive => m.control != Control::Fixed || m.integrator.is_explicit(),
+        formulation => formulation == Formulation::Index3 && m.control == Control::Fixed,
+    };
+    let few: Vec<Method> = methods.iter().filter(is_few).copied().collect();
+    if !is_free || structure.loops.is_err() || few.is_empty() { methods.to_vec() } else { few }
 }
 
 /// How many times the pilot's span the run is.

@@ -9,7 +9,7 @@ use super::trial::End;
 /// most, has more of it.
 const LOOK: f64 = 0.25;
 const GLANCE: f64 = 0.5;
-const GLIMPSE: [f64; 2] = [0.2, 0.125];
+const GLIMPSE: [f64; 2] = [0.5, 0.3];
 /// What a stop leaves of it to who has not completed a trial.
 const STOPPED: f64 = 0.6;
 /// Natural coordinates take about the same steps as relative ones with the same rule, and longer for each in all but small scenes: so

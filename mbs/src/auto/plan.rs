@@ -95,6 +95,10 @@ pub fn plan(
     let task = Task { base, settings: &settings, goal, instants };
     let read = ReadScene::new((document, scene), settings.precision).map_err(PlanError::Read)?;
     let (picks, choice) = read.work(Pilot { task: &task, methods: &methods, clock });
+    if let Some(look) = choice.second_look.as_ref().filter(|look| look.differs) {
+        let apart = look.distance.unwrap_or(f64::INFINITY);
+        return Err(PlanError::Goal(GoalError::Differs(apart)));
+    }
     Ok(Plan { ranked: ranked(scene, &task, (&picks, &methods), &choice) })
 }
 

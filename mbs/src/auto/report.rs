@@ -158,6 +158,13 @@ pub(crate) fn reasons(choice: &Choice) -> Vec<String> {
         choice.instants,
         duration(choice.pilot_seconds)
     ));
+    if let Some(look) = &choice.second_look {
+        reasons.push(format!(
+            "index-3, which shares no model with it, differs by {} and errs by {} itself",
+            number(look.distance),
+            number(look.own_error)
+        ));
+    }
     reasons.extend(choice.notes.iter().cloned());
     reasons.extend(choice.fallbacks.iter().map(fallback));
     reasons

@@ -95,11 +95,11 @@ impl Structure {
         }
     }
 
-    /// Place in the order of trials: those of high order first, where no spring is too stiff for them and no contact kinks the motion; relative coordinates before
+    /// Place in the order of trials: those of high order first, where no spring is too stiff for them; relative coordinates before
     /// others; what takes about the same steps as another, but more work in each, last.
     pub(crate) fn promise(&self, method: &Method) -> usize {
         let steps = STEPS_A_PERIOD * self.frequency * self.duration / core::f64::consts::TAU;
-        let is_stiff = steps > STIFF || self.contacts > 0;
+        let is_stiff = steps > STIFF;
         let is_controlled = !method.is_fixed();
         match (method.formulation, method.integrator.is_explicit()) {
             (Formulation::Recursive, true) if !is_stiff => usize::from(!is_controlled),

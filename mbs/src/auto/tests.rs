@@ -4,8 +4,10 @@ use super::entrant::Entrant;
 use super::goal::Goal;
 use super::law::Law;
 use super::race::{BUDGET, Race, Wanted};
+use super::second;
 use super::trial::{Aim, Bench, End, Rows, Time, Trial};
 use crate::choice::{Formulation, Precision};
+use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, Method};
 use crate::settings::{Overrides, Settings};
 use mbs_scene::RunError;
@@ -326,4 +328,42 @@ fn an_error_that_nobody_reaches_gives_the_least_and_says_so() {
     let (first, _) = chosen(nature, 1e-9, None);
     let (_, _, reaches) = first.unwrap();
     assert!(!reaches);
+}
+
+/// A bench whose index-3 is off by a constant: another model.
+struct Apart<F: Fn(&Method) -> Nature>(Fake<F>, f64);
+
+impl<F: Fn(&Method) -> Nature> Bench for Apart<F> {
+    fn trial(&mut self, method: &Method, setting: f64, aim: Aim, time: Time) -> Trial {
+        let mut trial = self.0.trial(method, setting, aim, time);
+        if method.formulation == Formulation::Index3 {
+            trial.rows.iter_mut().for_each(|row| row[0] += self.1);
+        }
+        trial
+    }
+
+    fn spent(&mut self) -> f64 {
+        self.0.spent()
+    }
+
+    fn distance(&self, a: &Rows, b: &Rows) -> f64 {
+        self.0.distance(a, b)
+    }
+}
+
+#[test]
+fn a_look_from_the_other_coordinates_finds_two_models_that_differ() {
+    let nature = |_: &Method| Nature { seconds: 1e-4, error: 1e-5, ..TAME };
+    let relative = |m: &Method| m.formulation == Formulation::Recursive;
+    let methods: Vec<Method> = all().into_iter().filter(relative).collect();
+    for (apart, differs) in [(0.0, false), (0.5, true)] {
+        let mut bench = Apart(Fake::new(nature), apart);
+        let wanted = Wanted { error: 1e-4, deadline: None };
+        let mut race = Race::new(&mut bench, entrants(&methods, 1e-4), wanted);
+        let places = race.run();
+        let instants = Instants { count: 200, interval: 0.01 };
+        let look = second::look(&mut race, &places, instants).expect("index-3 runs");
+        assert_eq!(look.differs, differs, "{look:?}");
+        assert!((look.distance.unwrap() - apart).abs() < 1e-2);
+    }
 }

@@ -5,10 +5,11 @@ use crate::alarm::Alarm;
 use crate::auto::Clock;
 use crate::channels::Channels;
 use crate::engine::Engine;
+use crate::names::Names;
 use crate::ready::Ready;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
-use crate::stop::{Names, StopError};
+use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::scene::Scene;
 use mbs_core::step::StepError;
@@ -212,7 +213,9 @@ where
                 return Err(self.stopped(&stop));
             }
             self.simulation.set_time(t);
-            self.channels.track(self.simulation.state());
+            if let Err(stop) = self.channels.track(&self.simulation) {
+                return Err(self.stopped(&stop));
+            }
             if let Some(stop) = self.alarm.rings(&self.simulation, is_last && j == count) {
                 return Err(self.stopped(&stop));
             }
