@@ -54,11 +54,15 @@ pub fn mechanism(dice: &mut Dice) -> String {
         body(&mut text, k, (&space, size), dice);
     }
     let joints = bodies + dice.below(3);
+    let mut simple = Vec::new();
     for k in 0..joints {
         // a tree first, then loops
         let second = if k < bodies { k } else { dice.below(bodies) };
         let first = if k < bodies { dice.below(k + 1) } else { dice.below(bodies + 1) };
-        joint(&mut text, (k, [name(first), name(second + 1)]), (&space, size), dice);
+        let kind = joint(&mut text, (k, [name(first), name(second + 1)]), (&space, size), dice);
+        if matches!(kind, "revolute" | "prismatic") {
+            simple.push(k);
+        }
     }
     for k in 0..dice.below(3) {
         effect(&mut text, (k, bodies), (&space, size), dice);
@@ -66,7 +70,7 @@ pub fn mechanism(dice: &mut Dice) -> String {
     // sometimes several, or all of a chain
     if dice.once_in(3) {
         let share = 1 + dice.below(3);
-        for k in 0..joints {
+        for k in simple {
             if dice.once_in(share) {
                 guide(&mut text, k, size, dice);
             }
@@ -106,7 +110,7 @@ fn joint(
     (k, bodies): (usize, [String; 2]),
     (space, size): (&Space, f64),
     dice: &mut Dice,
-) {
+) -> &'static str {
     let &(kind, axes) = dice.one_of(&JOINTS);
     let [first, second] = bodies;
     let _ = writeln!(
@@ -124,6 +128,7 @@ fn joint(
         let _ = writeln!(text, "direction = {}", space.vector(dice, 1.0));
     }
     text.push('\n');
+    kind
 }
 
 fn effect(

@@ -254,8 +254,6 @@ fn velocities<T: Real, M: Model<T>, S: SpdSolver<T>>(
 const HARD: u32 = 8;
 /// What rounding leaves of the constraints, in EPSILON of what their coordinates went: penalties are not raised for it.
 const ROUNDING: f64 = 64.0;
-/// The start leaves as much of repeated rows as rounding of a way of so many lengths of the scene: no sweep changes it.
-const LEFT: f64 = 4.0;
 
 /// W d = -J^T s phi,   q += d: until phi is at rounding.
 ///
@@ -274,7 +272,7 @@ fn positions<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let limit = length * options.tolerance.max(T::EPSILON * T::from_f64(256.0));
     move_to(model, options, s, w);
     // Directions are numbers without a unit: in a scene of a millimetre they go further than the places.
-    let moved = norm_inf(model.team(), &w.dq[..w.f.len()]).max(length * T::from_f64(LEFT));
+    let moved = norm_inf(model.team(), &w.dq[..w.f.len()]).max(length * T::EPSILON);
     let moved = if options.compensated { moved } else { length.max(T::ONE) };
     let rounding = moved * T::EPSILON * T::from_f64(ROUNDING);
     let mut violation = norm_inf(model.team(), &w.terms.phi);

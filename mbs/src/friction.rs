@@ -44,9 +44,11 @@ impl Frictions {
         let is_explicit = settings.formulation == Formulation::Recursive
             && settings.integrator == IntegratorKind::Rk4;
         let friction = |(effect, e): (usize, &Effect<T>)| match &e.kind {
-            EffectKind::Friction { joint, regularisation, .. } if e.enabled => {
-                let regularisation = regularisation.to_f64();
-                Some(Friction { effect, joint: *joint, regularisation })
+            EffectKind::Friction { joint, coulomb, r#static, regularisation, .. } if e.enabled => {
+                let (joint, regularisation) = (*joint, regularisation.to_f64());
+                // What is viscous alone rises nowhere.
+                let has_rise = coulomb.max(*r#static) > T::ZERO;
+                has_rise.then_some(Friction { effect, joint, regularisation })
             }
             _ => None,
         };

@@ -6,10 +6,10 @@ use super::trial::End;
 
 /// A first look at a candidate takes this share of the time of the best; where there is none, this share of the fastest trial (more
 /// where it is of high order, or in relative coordinates), or of what is left, so that each has one; the first of all, which promises
-/// most, has more of it.
+/// most, has more of it. What is left is shared out among all: in equal shares, times these, and at most half of it.
 const LOOK: f64 = 0.25;
 const GLANCE: f64 = 0.5;
-const GLIMPSE: [f64; 2] = [0.5, 0.3];
+const GLIMPSE: [f64; 2] = [3.6, 2.25];
 /// What a stop leaves of it to who has not completed a trial.
 const STOPPED: f64 = 0.6;
 /// Natural coordinates take about the same steps as relative ones with the same rule, and longer for each in all but small scenes: so
@@ -39,7 +39,9 @@ impl Race<'_> {
                 let is_likely = is_high || is_relative(&entrant.method);
                 let share = if is_likely { LOSING } else { GLANCE };
                 let is_any_tried = self.entrants.iter().any(|e| !e.tries.is_empty());
-                let glimpse = GLIMPSE[usize::from(is_any_tried)] * self.left();
+                #[allow(clippy::cast_precision_loss, reason = "a small count")]
+                let times = GLIMPSE[usize::from(is_any_tried)] / self.entrants.len() as f64;
+                let glimpse = times.min(0.5) * self.left();
                 let Some(fastest) = self.fastest(|_| true) else { return Some(glimpse) };
                 // coarse steps of second order are soon done, and tell nothing of what a small error takes by others
                 let alike = self.fastest(is_cheap).filter(|_| is_high);

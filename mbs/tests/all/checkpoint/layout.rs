@@ -28,16 +28,18 @@ impl Parts {
         Self { places: walk.places, bytes }
     }
 
-    /// Of the checkpoint of a run. How many numbers a picture has is not in it: as many as make it end where it does.
-    pub(super) fn of_run(bytes: Vec<u8>, settings: &Settings) -> Self {
-        let places = (0..MOST_IN_PICTURE).rev().find_map(|n| {
-            let mut walk = Walk::new(&bytes);
+    /// Of checkpoints of one run. How many numbers a picture has is not in them: as many as make all end where they do, which a single
+    /// picture among zeros leaves open.
+    pub(super) fn of_run<const N: usize>(all: [Vec<u8>; N], settings: &Settings) -> [Self; N] {
+        let places = |bytes: &[u8], n| {
+            let mut walk = Walk::new(bytes);
             walk.simulation(settings)?;
             walk.record(n)?;
             (walk.at == bytes.len()).then_some(walk.places)
-        });
-        let places = places.expect("all is there, and nothing else");
-        Self { places, bytes }
+        };
+        let fits = |n: &usize| all.iter().all(|bytes| places(bytes, *n).is_some());
+        let n = (0..MOST_IN_PICTURE).rev().find(fits).expect("all is there, and nothing else");
+        all.map(|bytes| Self { places: places(&bytes, n).expect("it fits"), bytes })
     }
 
     /// The bytes of the whole file.

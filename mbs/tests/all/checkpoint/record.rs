@@ -40,8 +40,7 @@ where
     let whole = told(&whole.expect("no checkpoint to refuse"));
     std::fs::remove_dir_all(&out).expect("it is ours");
     let Copies { first, bytes, .. } = copies;
-    let parts = [first, bytes].map(|bytes| Parts::of_run(bytes, settings));
-    (whole, parts)
+    (whole, Parts::of_run([first, bytes], settings))
 }
 
 /// That a run gives the same from its checkpoint before time `at`, and something else where one of the items is left out: it is
@@ -69,6 +68,14 @@ where
             "count of steps" => {
                 let done = u64::from_le_bytes(kept.part(item).try_into().expect("eight bytes"));
                 kept.with(item, &(done + 1).to_le_bytes())
+            }
+            "turns of angles" => {
+                // with its time, the last number, a rate that is even tells the turns again
+                let (mut turns, now) = (first.part(item).to_vec(), kept.part(item));
+                let n = u64::from_le_bytes(now[..8].try_into().expect("eight bytes"));
+                let time = 8 * usize::try_from(n).expect("a small count");
+                turns[time..time + 8].copy_from_slice(&now[time..time + 8]);
+                kept.with(item, &turns)
             }
             _ => kept.with(item, first.part(item)),
         };
