@@ -28,7 +28,7 @@ pub(super) fn look(
     if chosen.method.formulation != Formulation::Recursive {
         return None;
     }
-    let best = chosen.done().filter(|t| t.error.is_some()).last()?;
+    let best = chosen.done().rfind(|t| t.error.is_some())?;
     let (rows, error) = (best.trial.rows.clone(), best.error.unwrap_or_default());
     let method = Method {
         formulation: Formulation::Index3,

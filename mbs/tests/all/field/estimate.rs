@@ -115,7 +115,7 @@ fn a_spring_too_stiff_for_the_step_is_said() {
     let (outcome, estimate) = estimated(&read(scene, "stiff"));
     // 2 pi / sqrt(k / m) = 6.28 ms
     let steps = estimate.steps_per_period.expect("a period");
-    assert!((steps - 6.283).abs() < 0.1, "{steps}");
+    assert!((steps - core::f64::consts::TAU).abs() < 0.1, "{steps}");
     assert!(outcome.notes().iter().any(|note| note.contains("stiffest force")));
     let ratios = ratios(&read(scene, "stiff"));
     assert!(ratios.iter().all(|r| *r < STATED), "{ratios:?}");
@@ -152,7 +152,8 @@ fn arm(seed: u32) -> Scene<f64> {
             format!("mass = {}", scale * mass)
         } else if let Some(list) = line.strip_prefix("inertia = [") {
             let numbers = list.trim_end_matches(']').split(',').map(|x| x.trim().parse::<f64>());
-            let scaled: Vec<_> = numbers.map(|x| format!("{:e}", scale * x.unwrap())).collect();
+            let scaled: Vec<_> =
+                numbers.map(|x| format!("{:e}", scale * x.expect("a number"))).collect();
             format!("inertia = [{}]", scaled.join(", "))
         } else if let Some(value) = number("value = ") {
             format!("value = {}", value * random(0.5, 1.5))
