@@ -17,7 +17,19 @@ use mbs_core::step::StepError;
 ///
 /// # Errors
 /// [`StepError::Overturned`] with the number of the load in place of the effect.
+#[inline(always)]
 pub(crate) fn check_rotations<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    inputs: &impl Inputs<T>,
+    step: (&Start<'_, T>, T),
+    s: &mut Store<'_, T, S>,
+) -> Result<(), StepError> {
+    let is_rotation =
+        |load: &Load<T, S>| matches!(load, Load::Between { gauge: Gauge::Rotation { .. }, .. });
+    if m.loads.iter().any(is_rotation) { check(m, inputs, step, s) } else { Ok(()) }
+}
+
+fn check<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     inputs: &impl Inputs<T>,
     (start, dt): (&Start<'_, T>, T),
