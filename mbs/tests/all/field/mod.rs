@@ -11,20 +11,17 @@ use mbs::core::scene::Scene;
 use mbs::scene_file::Document;
 
 /// A scene of `mbs/tests/field`.
-#[allow(dead_code, reason = "used by tests to come")]
 pub(crate) fn field(name: &str) -> Scene<f64> {
     read(&text(name), name)
 }
 
 /// The text of a scene of `mbs/tests/field`, to be changed.
-#[allow(dead_code, reason = "used by tests to come")]
 pub(crate) fn text(name: &str) -> String {
     let path = format!("{}/tests/field/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"))
 }
 
 /// A scene from its text.
-#[allow(dead_code, reason = "used by tests to come")]
 pub(crate) fn read(text: &str, name: &str) -> Scene<f64> {
     let document = Document::parse(text, name).unwrap_or_else(|e| panic!("{}", e.render()));
     document.scene().unwrap_or_else(|e| panic!("{}\n{text}", e.render()))
