@@ -61,23 +61,6 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// If there is no such body.
     #[must_use]
     pub fn turn_between(&self, state: &TreeState<T>, bodies: [BodyRef; 2]) -> T {
-        let turn = |body| {
-            let (mut sum, mut number) = (
-                T::ZERO,
-                match body {
-                    BodyRef::Ground => 0,
-                    BodyRef::Body(body) => self.link_of_body[body],
-                },
-            );
-            while number > 0 {
-                let link = &self.links[number as usize];
-                if !matches!(link.kind, Kind::Prismatic | Kind::GuidedPrismatic) {
-                    sum += self.coordinate(state, number);
-                }
-                number = if link.kind == Kind::Free { 0 } else { link.parent };
-            }
-            sum
-        };
-        turn(bodies[1]) - turn(bodies[0])
+        self.turn_of(state, bodies.map(|body| self.link(body)))
     }
 }

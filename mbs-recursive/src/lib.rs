@@ -47,6 +47,8 @@ mod told;
 pub mod trapezoidal;
 #[cfg(feature = "alloc")]
 mod tree;
+#[cfg(feature = "alloc")]
+mod turns;
 
 pub use at::Outside;
 #[cfg(feature = "alloc")]

@@ -74,6 +74,17 @@ pub struct Link<T: Real, S: Space<T>> {
     pub tensor: S::Tensor,
 }
 
+impl<T: Real, S: Space<T>> Link<T, S> {
+    /// The angle against its parent in the plane, at a coordinate; of a free link against the ground [rad].
+    pub(crate) fn turn(&self, coordinate: T) -> T {
+        match self.kind {
+            Kind::Prismatic | Kind::GuidedPrismatic => T::ZERO,
+            Kind::Revolute | Kind::GuidedRevolute => self.axis[0] * coordinate,
+            Kind::Ball | Kind::Free => coordinate,
+        }
+    }
+}
+
 /// Where a link is and how it moves, world axes, about its own origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placed<T: Real, S: Space<T>> {

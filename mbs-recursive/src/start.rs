@@ -72,7 +72,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     ) -> Result<TreeState<T>, StartError> {
         let motions: Vec<_> =
             (0..scene.bodies.len()).map(|body| natural.motion(scene, body, state)).collect();
-        self.start_from(scene, state.t, &motions)
+        let mut start = self.read(scene, state.t, &motions);
+        self.take_turns(natural, state, &mut start);
+        self.settle(&mut start, &mut Workspace::new(self))?;
+        Ok(start)
     }
 
     /// The same from the motions of the scene's bodies at time `t`, one for each.
@@ -88,6 +91,13 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         t: T,
         motions: &[RigidMotion<T>],
     ) -> Result<TreeState<T>, StartError> {
+        let mut state = self.read(scene, t, motions);
+        self.settle(&mut state, &mut Workspace::new(self))?;
+        Ok(state)
+    }
+
+    /// Coordinates and velocities of motions.
+    fn read(&self, scene: &Scene<T>, t: T, motions: &[RigidMotion<T>]) -> TreeState<T> {
         let mut state = TreeState::at_rest(self);
         state.t = t;
         let starts = start_values(scene);
@@ -95,8 +105,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             let values = seat.branch.joint.map_or(&[][..], |joint| &starts[joint]);
             self.read_seat((scene, values), seat, motions, &mut state);
         }
-        self.settle(&mut state, &mut Workspace::new(self))?;
-        Ok(state)
+        state
     }
 
     /// Projects positions and velocities on the loops and evaluates accelerations and multipliers.
@@ -143,14 +152,21 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let origin = &self.origins[seat.link as usize];
         let [position, velocity, _] = child.point(origin);
         let link = &self.links[seat.link as usize];
+        // How far the child turned against the parent: its last numbers, in reverse the other way round.
+        let turned = |values: &[T]| {
+            let sign = if seat.branch.is_reversed { -T::ONE } else { T::ONE };
+            let mut last = Vector::<T, 3>::zeros();
+            last.iter_mut().rev().zip(values.iter().rev()).for_each(|(to, x)| *to = *x * sign);
+            last
+        };
         match link.kind {
             Kind::Free => {
                 let (z, v) = (&mut state.z[link.z as usize..], &mut state.v[link.v as usize..]);
                 let rotation = S::rotation_from(&child.rotation);
                 S::write_rotation(&rotation, z);
-                orient::<T, S>(&child.rotation, values, z);
+                orient::<T, S>(&child.rotation, turned(values), z);
                 if S::DIMENSION == 2 {
-                    z[0] = unwrap(z[0], values.last().copied().unwrap_or(T::ZERO));
+                    z[0] = unwrap(z[0], turned(values)[2]);
                 }
                 let spin = S::spin_from(&child.omega);
                 own(write(&S::unrotate_spin(&rotation, &spin), v, 0));
@@ -162,7 +178,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 let (z, v) = (&mut state.z[link.z as usize..], &mut state.v[link.v as usize..]);
                 let relative = parent.rotation.transpose() * child.rotation;
                 S::write_rotation(&S::rotation_from(&relative), z);
-                orient::<T, S>(&relative, values, z);
+                orient::<T, S>(&relative, turned(values), z);
                 let spin = child.rotation.transpose() * (child.omega - parent.omega);
                 own(write(&S::spin_from(&spin), v, 0));
             }
@@ -298,14 +314,10 @@ fn lifted<T: Real, S: Space<T>>(x: &Vector<T, 3>) -> Vector<T, 3> {
     S::point_into(&S::point_from(x))
 }
 
-/// Gives the quaternion in `z` the sign of the rotation vector that is nearest to the last three of `values`: half its angle is below a
-/// quarter turn, or above it.
-fn orient<T: Real, S: Space<T>>(rotation: &Matrix<T, 3>, values: &[T], z: &mut [T]) {
+/// Gives the quaternion in `z` the sign of the rotation vector that is nearest to `last`: half its angle is below a quarter turn, or
+/// above it.
+fn orient<T: Real, S: Space<T>>(rotation: &Matrix<T, 3>, last: Vector<T, 3>, z: &mut [T]) {
     let Some((q, _)) = z.split_first_chunk_mut::<4>().filter(|_| S::DIMENSION == 3) else { return };
-    let mut last = Vector::<T, 3>::zeros();
-    if let Some(from) = values.last_chunk::<3>() {
-        last = Vector::from(*from);
-    }
     let w = unwrap_rotation(&rotation_vector(rotation), &last);
     let is_over = w.dot(&w).sqrt() > T::PI;
     if (q[0] < T::ZERO) != is_over {

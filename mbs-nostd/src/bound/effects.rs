@@ -150,7 +150,7 @@ fn measured<T: Real, S: Space<T>>(
             joint * (2 * n_links as u64) + vector + gradient + parts.turned + rate
         }
         // The angles of both links, by all that are on the way at most.
-        Gauge::Turn => ops(0, 2 * n_links as u64 + 1) + parts.wrench + rate,
+        Gauge::Turn => ops(2 * n_links as u64, 2 * n_links as u64 + 1) + parts.wrench + rate,
     }
 }
 

@@ -36,13 +36,11 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
     }
 
     /// Angle of a link against the ground, in the plane: the sum of the angles on the way there.
-    pub(super) fn turn(&self, link: u32) -> Result<T, Outside> {
+    pub(crate) fn turn(&self, link: u32) -> Result<T, Outside> {
         let (mut sum, mut number) = (T::ZERO, link);
         while number > 0 {
             let link = at(self.links, number as usize)?;
-            if !matches!(link.kind, Kind::Prismatic | Kind::GuidedPrismatic) {
-                sum += self.coordinate(number)?[0];
-            }
+            sum += link.turn(self.coordinate(number)?[0]);
             // The first coordinate of a free link is its angle against the ground.
             number = if link.kind == Kind::Free { 0 } else { link.parent };
         }
@@ -51,7 +49,7 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
 
     /// The rotation vector of the second link against the first, in space and the first's axes: twice the half angles of the joints on
     /// the way make it known below a whole turn.
-    pub(super) fn rotation(&self, links: [u32; 2]) -> Result<Vector<T, 3>, Outside> {
+    pub(crate) fn rotation(&self, links: [u32; 2]) -> Result<Vector<T, 3>, Outside> {
         let [[s, x, y, z], second] = [self.quaternion(links[0])?, self.quaternion(links[1])?];
         let [s, x, y, z] = product([s, -x, -y, -z], second);
         let v = Vector::<T, 3>::new(x, y, z);

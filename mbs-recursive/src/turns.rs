@@ -1,0 +1,121 @@
+//! Whole turns at the start: the angles that effects measure begin with the turns that the assembly counted on its way there.
+//!
+//! A coordinate of a joint begins nearest to its given value. A free link has the turns of the matrix alone, within half a turn: all that
+//! is between a free link and others may lack whole turns, which the natural state remembers.
+
+use crate::at::own;
+use crate::link::{Kind, Link};
+use crate::loads::{Gauge, Instant, Load};
+use crate::space::{Numbers, Space};
+use crate::state::TreeState;
+use crate::tree::TreeModel;
+use alloc::vec::Vec;
+use mbs_core::Real;
+use mbs_core::laws::Supplies;
+use mbs_core::model::State;
+use mbs_core::natural::{NaturalModel, unwrap};
+
+/// Links whose turns are known against each other: the free link that each hangs from, 0 for the ground.
+struct Groups {
+    /// The group of each root.
+    of: Vec<u32>,
+}
+
+impl Groups {
+    fn of(&self, root: u32) -> u32 {
+        self.of[root as usize]
+    }
+
+    /// Joins the second group to the first; the first keeps its name.
+    fn join(&mut self, [first, second]: [u32; 2]) {
+        self.of.iter_mut().filter(|of| **of == second).for_each(|of| *of = first);
+    }
+}
+
+impl<T: Real, S: Space<T>> TreeModel<T, S> {
+    /// Gives coordinates the whole turns that the natural state remembers of the effects.
+    pub(crate) fn take_turns<const D: usize>(
+        &self,
+        natural: &NaturalModel<T, D>,
+        from: &State<T>,
+        state: &mut TreeState<T>,
+    ) {
+        #[allow(clippy::cast_possible_truncation, reason = "links are numbered by u32")]
+        let mut groups = Groups { of: (0..self.links.len() as u32).collect() };
+        for (load, &effect) in self.loads.iter().zip(&self.effects) {
+            let Some(place) = natural.memory_of_effect(effect) else { continue };
+            match load {
+                Load::Angle { link, .. } => {
+                    let whole = unwrap(T::ZERO, from.memory[place] - self.coordinate(state, *link));
+                    if !self.links[*link as usize].kind.is_guided() {
+                        state.z[self.links[*link as usize].z as usize] += whole;
+                    }
+                }
+                Load::Between {
+                    links, gauge: Gauge::Turn | Gauge::Rotation { number: 0 }, ..
+                } => {
+                    let whole = self.missing(state, *links, &from.memory[place..]);
+                    let roots = links.map(|link| groups.of(self.root(link)));
+                    if roots[0] == roots[1] {
+                        continue;
+                    }
+                    // The ground stays.
+                    let (roots, whole) =
+                        if roots[1] == 0 { ([0, roots[0]], -whole) } else { (roots, whole) };
+                    if whole != T::ZERO {
+                        let turned = (0..self.links.len()).filter(|&l| groups.of[l] == roots[1]);
+                        turned.for_each(|l| turn(&self.links[l], whole, &mut state.z));
+                    }
+                    groups.join(roots);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// The free link that a link hangs from; 0 where it hangs from the ground.
+    fn root(&self, mut link: u32) -> u32 {
+        while link > 0 && self.links[link as usize].kind != Kind::Free {
+            link = self.links[link as usize].parent;
+        }
+        link
+    }
+
+    /// The whole turns that the rotation of the second link against the first lacks of what was remembered [rad].
+    fn missing(&self, state: &TreeState<T>, links: [u32; 2], last: &[T]) -> T {
+        if S::DIMENSION == 2 {
+            return unwrap(T::ZERO, last[0] - self.turn_of(state, links));
+        }
+        let w = self.with_angles(state, |at| own(at.rotation(links)));
+        let gap = (0..3).map(|i| (w[i] - last[i]) * (w[i] - last[i])).fold(T::ZERO, |a, x| a + x);
+        if gap.sqrt() > T::PI { T::TWO * T::PI } else { T::ZERO }
+    }
+
+    /// The angle of the second link against the first in the plane, with its turns [rad].
+    pub(crate) fn turn_of(&self, state: &TreeState<T>, links: [u32; 2]) -> T {
+        self.with_angles(state, |at| own(at.turn(links[1])) - own(at.turn(links[0])))
+    }
+
+    /// What an instant says that has coordinates, and no places.
+    fn with_angles<R>(&self, state: &TreeState<T>, f: impl FnOnce(&Instant<'_, T, S>) -> R) -> R {
+        let guides: Vec<_> =
+            self.prescribed.guides().iter().map(|guide| guide.at(state.t)).collect();
+        f(&Instant {
+            links: &self.links,
+            placed: &[],
+            coordinates: (&state.z, &state.v, &guides),
+            supplies: Supplies::courses(&[]),
+            base: S::Point::zero(),
+        })
+    }
+}
+
+/// Turns a free link by whole turns [rad]: its angle in the plane, the sign of its quaternion in space.
+fn turn<T: Real, S: Space<T>>(link: &Link<T, S>, whole: T, z: &mut [T]) {
+    let first = link.z as usize;
+    match (link.kind, S::DIMENSION) {
+        (Kind::Free, 2) => z[first] += whole,
+        (Kind::Free, _) => z[first..][..4].iter_mut().for_each(|x| *x = -*x),
+        _ => {}
+    }
+}
