@@ -5,6 +5,8 @@ use crate::vector::{compose, scale};
 
 /// Parts of the step in each row of the table.
 const PARTS: [usize; 4] = [2, 4, 6, 8];
+/// A step sees nothing of its last eighth: one that is longer by this sees a kink there.
+const BEYOND: f64 = 8.0 / 7.0;
 /// Steps of controlled length that may be tried in one call.
 const MOST_TRIALS: usize = 1_000;
 
@@ -135,7 +137,12 @@ impl Mechanism {
             let y = Self::pack(state);
             let first = self.derivative(&y, state.t);
             let (next, error) = self.extrapolate(&y, &first, state.t, length);
-            let ratio = self.error_ratio(&y, &next, &error, length, tolerance);
+            let mut ratio = self.error_ratio(&y, &next, &error, span, tolerance);
+            if ratio <= 1.0 {
+                let beyond = length * BEYOND;
+                let (next, error) = self.extrapolate(&y, &first, state.t, beyond);
+                ratio = ratio.max(self.error_ratio(&y, &next, &error, span, tolerance));
+            }
             if !ratio.is_finite() && length < 1e-9 * span {
                 return Err(Stop::NotFinite(state.t));
             }
@@ -161,8 +168,15 @@ impl Mechanism {
         Ok(())
     }
 
-    /// The largest error beside what is allowed: the tolerance of the mechanism's length, of a turn, and of what both are in a step.
-    fn error_ratio(&self, y: &[f64], next: &[f64], error: &[f64], h: f64, tolerance: f64) -> f64 {
+    /// The largest error beside what is allowed: the tolerance of the mechanism's length, of a turn, and of what both are in a time.
+    fn error_ratio(
+        &self,
+        y: &[f64],
+        next: &[f64],
+        error: &[f64],
+        span: f64,
+        tolerance: f64,
+    ) -> f64 {
         let length = self.length();
         let fastest = y.chunks_exact(14).take(self.scene.bodies.len());
         let speed = fastest
@@ -178,8 +192,8 @@ impl Mechanism {
             let allowed = match i % 14 {
                 0..=2 => length,
                 3..=7 => 1.0,
-                8..=10 => speed.max(length / h * 0.01),
-                _ => spin.max(0.01 / h),
+                8..=10 => speed.max(length / span * 0.01),
+                _ => spin.max(0.01 / span),
             };
             let ratio = e / (tolerance * allowed);
             if !ratio.is_finite() || !next[i].is_finite() {

@@ -1,4 +1,5 @@
-//! `judge --seeds A..B [--formulation F] [--scene SEED] [--look SEED]`: random scenes by seed through the crates, held against the judge.
+//! `judge --seeds A..B [--formulation F]`: random scenes by seed through the crates, held against the judge; `--cases [STRIDE]`: the
+//! enumerated ones. `--scene` prints the scene of a seed or a case, `--look` what is off in it.
 
 mod trial;
 
@@ -23,15 +24,25 @@ fn main() -> ExitCode {
     let value = |key: &str| {
         arguments.iter().position(|a| a == key).and_then(|i| arguments.get(i + 1)).cloned()
     };
-    let only = value("--formulation");
+    let (only, integrator) = (value("--formulation"), value("--integrator"));
     let out = &mut std::io::stdout();
-    if let Some(seed) = value("--scene").and_then(|s| s.parse().ok()) {
-        let drawn = random::scene(seed);
-        let _ = writeln!(out, "# step {:?}, {} steps\n{}", drawn.step, drawn.steps, drawn.text);
+    if let Some(name) = value("--scene") {
+        let _ = match drawn(&name) {
+            Some(drawn) => {
+                writeln!(out, "# step {:?}, {} steps\n{}", drawn.step, drawn.steps, drawn.text)
+            }
+            None => writeln!(out, "no case of this name"),
+        };
         return ExitCode::SUCCESS;
     }
-    if let Some(seed) = value("--look").and_then(|s| s.parse().ok()) {
-        let _ = write!(out, "{}", look(seed, only.as_deref().unwrap_or("index-3")));
+    if let Some(name) = value("--look") {
+        let is_asked = |[f, i]: &Method| {
+            only.as_deref().unwrap_or("index-3") == *f
+                && integrator.as_deref().unwrap_or("trapezoidal") == *i
+        };
+        let method = trial::oracle::methods().into_iter().find(is_asked).unwrap_or(METHODS[0]);
+        let text = drawn(&name).map_or("no case of this name".to_owned(), |d| look(&d, method));
+        let _ = write!(out, "{text}");
         return ExitCode::SUCCESS;
     }
     // a panic of a run is a verdict
@@ -64,7 +75,7 @@ fn main() -> ExitCode {
         seeds.split_once("..").and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)))
     else {
         eprintln!(
-            "usage: judge --seeds A..B [--formulation F] [--scene SEED] [--look SEED] [--cases [STRIDE]]"
+            "usage: judge --seeds A..B [--formulation F] [--integrator I] [--scene SEED|CASE] [--look SEED|CASE] [--cases [STRIDE]]"
         );
         return ExitCode::FAILURE;
     };
@@ -77,11 +88,18 @@ fn main() -> ExitCode {
     ExitCode::from(u8::from(tally.differences > 0))
 }
 
-/// Channels of a seed that are off, at the start and at the end: as the crates have them, as the judge has them.
-fn look(seed: u64, formulation: &str) -> String {
-    let drawn = random::scene(seed);
+/// The scene of a seed or of a case.
+fn drawn(name: &str) -> Option<random::Drawn> {
+    if let Ok(seed) = name.parse() {
+        return Some(random::scene(seed));
+    }
+    let text = random::cases().into_iter().find(|case| case.name == name)?.text;
+    Some(random::Drawn { text, step: trial::oracle::STEP, steps: trial::oracle::STEPS })
+}
+
+/// Channels of a scene that are off, at the start and at the end: as the crates have them, as the judge has them.
+fn look(drawn: &random::Drawn, method: Method) -> String {
     let mut out = random::kinds(&drawn.text).join(", ");
-    let method = METHODS.into_iter().find(|m| m[0] == formulation).unwrap_or(METHODS[0]);
     let (judged, scene) =
         match (trial::judge(&drawn.text, drawn.step, drawn.steps), trial::document(&drawn.text)) {
             (Ok(judged), Ok(scene)) => (judged, scene),

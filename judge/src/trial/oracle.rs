@@ -6,8 +6,8 @@ use mbs::core::scene::Scene;
 use std::collections::BTreeMap;
 
 /// A step that resolves all cases [s], and steps.
-const STEP: f64 = 2e-3;
-const STEPS: u32 = 10;
+pub(crate) const STEP: f64 = 2e-3;
+pub(crate) const STEPS: u32 = 10;
 
 /// What came of the enumeration.
 #[derive(Default)]
