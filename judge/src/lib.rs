@@ -3,7 +3,7 @@
 //! Written from the contract of scene files alone: an own reader, own laws and an own start. Bodies have absolute coordinates, the place of
 //! the centre of mass and a quaternion; the equations are those of Newton and Euler with constraints at the level of accelerations, solved
 //! as one dense saddle system with full pivoting. Steps are of order 8, and each is brought back onto the constraints by the least
-//! mass-weighted change. It is made to be right and plain, not fast.
+//! mass-weighted change. It is made to be right and plain, not fast. `trial` alone knows the crates: it runs what is judged.
 
 mod advance;
 mod curves;
@@ -20,6 +20,7 @@ mod read_effect;
 mod rows;
 pub mod scene;
 mod start;
+pub mod trial;
 pub mod vector;
 mod wheel;
 

@@ -1,23 +1,11 @@
 //! `judge --seeds A..B [--formulation F]`: random scenes by seed through the crates, held against the judge; `--cases [STRIDE]`: the
 //! enumerated ones. `--scene` prints the scene of a seed or a case, `--look` what is off in it.
 
-mod trial;
-
 use judge::random;
-use std::collections::BTreeMap;
+use judge::trial::{self, Method};
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::process::ExitCode;
-use trial::{Method, Verdict};
-
-const METHODS: [Method; 6] = [
-    ["index-3", "trapezoidal"],
-    ["index-1", "trapezoidal"],
-    ["classical", "trapezoidal"],
-    ["state-space", "trapezoidal"],
-    ["recursive", "trapezoidal"],
-    ["multi-index", "trapezoidal"],
-];
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -40,8 +28,11 @@ fn main() -> ExitCode {
             only.as_deref().unwrap_or("index-3") == *f
                 && integrator.as_deref().unwrap_or("trapezoidal") == *i
         };
-        let method = trial::oracle::methods().into_iter().find(is_asked).unwrap_or(METHODS[0]);
-        let text = drawn(&name).map_or("no case of this name".to_owned(), |d| look(&d, method));
+        let method =
+            trial::oracle::methods().into_iter().find(is_asked).unwrap_or(trial::seeds::METHODS[0]);
+        let share = value("--share").and_then(|s| s.parse().ok()).unwrap_or(1);
+        let text =
+            drawn(&name).map_or("no case of this name".to_owned(), |d| look(&d, method, share));
         let _ = write!(out, "{text}");
         return ExitCode::SUCCESS;
     }
@@ -79,9 +70,9 @@ fn main() -> ExitCode {
         );
         return ExitCode::FAILURE;
     };
-    let mut tally = Tally::default();
+    let mut tally = trial::seeds::Tally::default();
     for seed in first..=last {
-        let lines = one(seed, only.as_deref(), &mut tally);
+        let lines = tally.add(seed, only.as_deref());
         let _ = write!(out, "{lines}");
     }
     let _ = write!(out, "{}", tally.text());
@@ -97,22 +88,19 @@ fn drawn(name: &str) -> Option<random::Drawn> {
     Some(random::Drawn { text, step: trial::oracle::STEP, steps: trial::oracle::STEPS })
 }
 
-/// Channels of a scene that are off, at the start and at the end: as the crates have them, as the judge has them.
-fn look(drawn: &random::Drawn, method: Method) -> String {
+/// Channels of a scene that are off by more than `1e-7` of their size, by steps over `share`: as the crates and the judge have them.
+fn look(drawn: &random::Drawn, method: Method, share: u32) -> String {
     let mut out = random::kinds(&drawn.text).join(", ");
     let (judged, scene) =
         match (trial::judge(&drawn.text, drawn.step, drawn.steps), trial::document(&drawn.text)) {
             (Ok(judged), Ok(scene)) => (judged, scene),
             (Err(why), _) | (_, Err(why)) => return why,
         };
-    let rows = match trial::rows(&scene, method, drawn.step, drawn.steps, 1) {
+    let rows = match trial::rows(&scene, method, (drawn.step, drawn.steps), share) {
         Ok(rows) => rows,
         Err(verdict) => return format!("{out}\n{verdict:?}\n"),
     };
     for (i, (row, right)) in rows.iter().zip(&judged.rows).enumerate() {
-        if i != 0 && i + 1 != rows.len() {
-            continue;
-        }
         let _ = writeln!(out, "\nrow {i}");
         for part in trial::parts(&judged) {
             let output = &judged.mechanism.scene.outputs[part.output];
@@ -126,92 +114,4 @@ fn look(drawn: &random::Drawn, method: Method) -> String {
         }
     }
     out
-}
-
-#[derive(Default)]
-struct Tally {
-    scenes: usize,
-    unjudged: usize,
-    differences: usize,
-    verdicts: BTreeMap<(String, String), usize>,
-    kinds: BTreeMap<String, usize>,
-}
-
-fn one(seed: u64, only: Option<&str>, tally: &mut Tally) -> String {
-    let mut out = String::new();
-    let drawn = random::scene(seed);
-    tally.scenes += 1;
-    for kind in random::kinds(&drawn.text) {
-        *tally.kinds.entry(kind).or_default() += 1;
-    }
-    let judged = match trial::judge(&drawn.text, drawn.step, drawn.steps) {
-        Ok(judged) => judged,
-        Err(why) => {
-            tally.unjudged += 1;
-            let _ = writeln!(out, "{seed:5} {why}");
-            return out;
-        }
-    };
-    let scene = match trial::document(&drawn.text) {
-        Ok(scene) => scene,
-        Err(why) => {
-            tally.unjudged += 1;
-            let _ = writeln!(out, "{seed:5} unread: {why}");
-            return out;
-        }
-    };
-    for method in METHODS {
-        if only.is_some_and(|o| o != method[0]) {
-            continue;
-        }
-        let verdict = trial::trial(&judged, &scene, method, drawn.step, drawn.steps);
-        let key = match &verdict {
-            Verdict::Agrees => "agrees".to_owned(),
-            Verdict::Differs { channel, off, allowed, size, start } => {
-                tally.differences += 1;
-                let _ = writeln!(
-                    out,
-                    "{seed:5} {:12} DIFFERS  {} {channel}: off {off:.2e}, allowed {allowed:.2e}, size {size:.2e}; least pivot {:.1e}",
-                    method[0],
-                    if *start { "at the start" } else { "" },
-                    judged.least_pivot
-                );
-                if *start { "differs (start)" } else { "differs (run)" }.to_owned()
-            }
-            Verdict::Stops { code, time, message } => {
-                let place = if *time > 0.0 { "run" } else { "start" };
-                let _ = writeln!(
-                    out,
-                    "{seed:5} {:12} stops    {code} at {time:.3e} s of {:.3e}: {message}; least pivot {:.1e}",
-                    method[0],
-                    f64::from(drawn.steps) * drawn.step,
-                    judged.least_pivot
-                );
-                format!("{code} ({place})")
-            }
-            Verdict::Panics => {
-                let _ = writeln!(out, "{seed:5} {:12} PANICS", method[0]);
-                tally.differences += 1;
-                "panics".to_owned()
-            }
-        };
-        *tally.verdicts.entry((method[0].to_owned(), key)).or_default() += 1;
-    }
-    out
-}
-
-impl Tally {
-    fn text(&self) -> String {
-        let mut out = String::new();
-        let _ = writeln!(out, "\n{} scenes, {} without a judgement", self.scenes, self.unjudged);
-        for ((method, verdict), n) in &self.verdicts {
-            let _ = writeln!(out, "{method:12} {verdict:28} {n}");
-        }
-        for (kind, n) in &self.kinds {
-            #[allow(clippy::cast_precision_loss, reason = "a share to show")]
-            let share = 100.0 * *n as f64 / self.scenes as f64;
-            let _ = writeln!(out, "{kind:28} in {share:.1} % of the scenes");
-        }
-        out
-    }
 }

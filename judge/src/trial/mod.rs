@@ -1,18 +1,19 @@
-//! A scene through the crates, beside the judge. Used by the program and by tests; the library knows nothing of it.
+//! A scene through the crates, beside the judge: this folder alone knows them.
 
-pub(crate) mod oracle;
+pub mod oracle;
+pub mod seeds;
 
-use judge::scene::Quantity;
-use judge::{Mechanism, State};
+use crate::scene::Quantity;
+use crate::{Mechanism, State};
 use mbs::core::scene::Scene;
 use mbs::scene_file::Document;
 use mbs::{Overrides, Settings};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Times its own error, by steps of h and h/2, that a rule may be off.
-pub(crate) const SHARE: f64 = 10.0;
+pub const SHARE: f64 = 10.0;
 /// Share of a channel's size below which a difference is rounding.
-pub(crate) const ROUNDING: f64 = 1e-7;
+pub const ROUNDING: f64 = 1e-7;
 /// Share of the largest channel of its kind that every channel has as size at least.
 const SMALLEST: f64 = 1e-2;
 /// Tolerance of the judge's steps.
@@ -20,44 +21,67 @@ const TOLERANCE: f64 = 1e-11;
 
 /// Short steps are the given ones over this.
 const SHORT: u32 = 8;
+/// What is off goes to this share at least by short steps, where it is the rule's: an eighth, by order 1.
+const GONE: f64 = 0.25;
 
 /// Its steps are steered by the energy.
 const MULTI: &str = "multi-index";
 
 /// A formulation with an integrator.
-pub(crate) type Method = [&'static str; 2];
+pub type Method = [&'static str; 2];
 
 /// What became of a run.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Verdict {
+pub enum Verdict {
     /// As the judge says.
     Agrees,
-    /// Ends well, and is off: the channel, how far, and what was allowed.
-    Differs { channel: String, off: f64, allowed: f64, size: f64, start: bool },
-    /// Stops, at a time, with a code and a message; at the start or later.
-    Stops { code: String, time: f64, message: String },
+    /// Ends well, and is off.
+    Differs {
+        /// The output that is off most, beside what is allowed.
+        channel: String,
+        /// How far.
+        off: f64,
+        /// How far it may be off.
+        allowed: f64,
+        /// Its largest value.
+        size: f64,
+        /// Is it off at the start already?
+        start: bool,
+    },
+    /// Stops.
+    Stops {
+        /// The code of the stop, or `refused`.
+        code: String,
+        /// When; 0 at the start [s].
+        time: f64,
+        /// What the command says.
+        message: String,
+    },
     /// It panics.
     Panics,
 }
 
 /// Rows of all channels at multiples of a step.
-pub(crate) type Rows = Vec<Vec<f64>>;
+pub type Rows = Vec<Vec<f64>>;
 
 /// What the judge says of a scene.
-pub(crate) struct Judged {
-    pub(crate) mechanism: Mechanism,
-    pub(crate) rows: Rows,
+#[derive(Debug)]
+pub struct Judged {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// Its outputs at the ends of the steps.
+    pub rows: Rows,
     /// A time in which the motion changes [s].
-    pub(crate) time: f64,
+    pub time: f64,
     /// Number of components, and whether the channel is unique, of each output.
-    pub(crate) channels: Vec<(usize, bool)>,
+    pub channels: Vec<(usize, bool)>,
     /// The smallest pivot along the motion.
-    pub(crate) least_pivot: f64,
+    pub least_pivot: f64,
 }
 
 /// Runs the judge.
-pub(crate) fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
-    let mechanism = Mechanism::new(judge::read(text).map_err(|e| e.0)?);
+pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
+    let mechanism = Mechanism::new(crate::read(text).map_err(|e| e.0)?);
     let mut state = mechanism.start().map_err(|e| format!("judge: {e:?}"))?;
     let begun = mechanism.evaluate(&state);
     if begun.unmet > 1e-9 {
@@ -94,26 +118,28 @@ pub(crate) fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String>
 }
 
 /// A scene as the crates read it.
-pub(crate) fn document(text: &str) -> Result<Scene<f64>, String> {
+pub fn document(text: &str) -> Result<Scene<f64>, String> {
     let document = Document::parse(text, "drawn.toml").map_err(|e| e.render())?;
     document.scene().map_err(|e| e.render())
 }
 
-/// Runs the crates, and keeps every `every`-th row.
-pub(crate) fn rows(
+/// Runs the crates by steps over `share`, and keeps the rows of whole steps.
+///
+/// # Errors
+/// What became of a run that does not end well.
+pub fn rows(
     scene: &Scene<f64>,
     [formulation, integrator]: Method,
-    step: f64,
-    steps: u32,
-    every: u32,
+    (step, steps): (f64, u32),
+    share: u32,
 ) -> Result<Rows, Verdict> {
     let overrides = Overrides {
         formulation: Some(formulation.to_owned()),
         integrator: Some(integrator.to_owned()),
-        step: Some(step),
+        step: Some(step / f64::from(share)),
         // a step that the energy steers is halved by a tolerance of an eighth
-        energy_tolerance: (formulation == MULTI && every > 1).then(|| {
-            let n = f64::from(every);
+        energy_tolerance: (formulation == MULTI && share > 1).then(|| {
+            let n = f64::from(share);
             [1e-5, 1e-7].map(|x| x / (n * n * n))
         }),
         // these hold their error to a tolerance, whatever the step
@@ -135,10 +161,9 @@ pub(crate) fn rows(
     if let Some(error) = outcome.summary.error {
         return Err(stops(&error.code, error.time, error.message));
     }
-    let last = steps / every;
     // steps that are steered end at the grid's end alone
-    let wanted = (0..=last).filter(|i| formulation != MULTI || *i == 0 || *i == last);
-    let wanted = wanted.map(|i| f64::from(i * every) * step);
+    let wanted = (0..=steps).filter(|i| formulation != MULTI || *i == 0 || *i == steps);
+    let wanted = wanted.map(|i| f64::from(i) * step);
     let mut rows = Vec::new();
     let mut all = outcome.rows().iter();
     for t in wanted {
@@ -152,35 +177,36 @@ pub(crate) fn rows(
 
 /// Holds a method against the judge. What is off is looked at once more with short steps: the error of a rule across a kink of a law, which
 /// two steps may hide, goes with the step; what is wrong stays.
-pub(crate) fn trial(
+#[must_use]
+pub fn trial(
     judged: &Judged,
     scene: &Scene<f64>,
     method: Method,
     step: f64,
     steps: u32,
 ) -> Verdict {
-    let verdict = by_two(judged, scene, method, (step, steps), 1);
-    match verdict {
-        Verdict::Differs { start: false, .. } => {
-            match by_two(judged, scene, method, (step, steps), SHORT) {
-                Verdict::Agrees => Verdict::Agrees,
-                Verdict::Differs { .. } => verdict,
-                stops => stops,
-            }
+    let first = by_two(judged, scene, method, (step, steps), 1);
+    let Verdict::Differs { start: false, off, size, .. } = first else { return first };
+    match by_two(judged, scene, method, (step, steps), SHORT) {
+        Verdict::Differs { start: false, off: then, size: of, .. }
+            if then * size < GONE * off * of =>
+        {
+            Verdict::Agrees
         }
+        Verdict::Differs { .. } => first,
         other => other,
     }
 }
 
-/// By steps of h over `share` and half of it.
+/// By steps over `share` and half of them.
 fn by_two(
     judged: &Judged,
     scene: &Scene<f64>,
     method: Method,
-    (step, steps): (f64, u32),
+    step: (f64, u32),
     share: u32,
 ) -> Verdict {
-    let by = |n: u32| rows(scene, method, step / f64::from(n), n * steps, n);
+    let by = |share| rows(scene, method, step, share);
     match by(share).and_then(|coarse| Ok((coarse, by(2 * share)?))) {
         Ok((coarse, fine)) if method[0] == MULTI => {
             let ends: Rows =
@@ -205,13 +231,18 @@ fn kind(quantity: Quantity) -> usize {
 }
 
 /// A channel: its output and its components, parted where these have different units.
-pub(crate) struct Part {
-    pub(crate) output: usize,
-    pub(crate) components: std::ops::Range<usize>,
-    pub(crate) kind: usize,
+#[derive(Debug)]
+pub struct Part {
+    /// The output.
+    pub output: usize,
+    /// Where its components stand in a row.
+    pub components: std::ops::Range<usize>,
+    kind: usize,
 }
 
-pub(crate) fn parts(judged: &Judged) -> Vec<Part> {
+/// The channels of a scene that are unique.
+#[must_use]
+pub fn parts(judged: &Judged) -> Vec<Part> {
     let (mut at, mut list) = (0, Vec::new());
     let scene = &judged.mechanism.scene;
     for (output, &(n, unique)) in judged.channels.iter().enumerate() {
@@ -227,12 +258,12 @@ pub(crate) fn parts(judged: &Judged) -> Vec<Part> {
             }
             (Quantity::Value(_) | Quantity::Rate(_), 2 | 6) => n / 2,
             (Quantity::Value(j) | Quantity::Rate(j), 3)
-                if scene.joints[j].kind != judge::scene::Kind::Spherical =>
+                if scene.joints[j].kind != crate::scene::Kind::Spherical =>
             {
                 2
             }
             (Quantity::Value(j) | Quantity::Rate(j), 1)
-                if scene.joints[j].kind == judge::scene::Kind::Prismatic =>
+                if scene.joints[j].kind == crate::scene::Kind::Prismatic =>
             {
                 1
             }

@@ -1,33 +1,34 @@
 //! The enumerated oracle: every case of joints and effects, by every formulation with every integrator.
 
 use super::{Judged, Method, Verdict, compare, document, judge, rows, trial};
-use judge::random::Case;
+use crate::random::Case;
 use mbs::core::scene::Scene;
 use std::collections::BTreeMap;
 
-/// A step that resolves all cases [s], and steps.
-pub(crate) const STEP: f64 = 2e-3;
-pub(crate) const STEPS: u32 = 10;
+/// A step that resolves all cases [s].
+pub const STEP: f64 = 2e-3;
+/// Steps of a case.
+pub const STEPS: u32 = 10;
 
 /// What came of the enumeration.
-#[derive(Default)]
-pub(crate) struct Tally {
+#[derive(Debug, Default)]
+pub struct Tally {
     /// Combinations that ran and agree.
-    pub(crate) agree: usize,
+    pub agree: usize,
     /// Combinations left out, by the reason that the command gives.
-    pub(crate) left_out: BTreeMap<String, usize>,
+    pub left_out: BTreeMap<String, usize>,
     /// Combinations that are wrong.
-    pub(crate) wrong: Vec<String>,
+    pub wrong: Vec<String>,
 }
 
 /// Formulations with the integrators that they can have; the others are refused as settings, whatever the scene.
-pub(crate) fn methods() -> Vec<[&'static str; 2]> {
+pub fn methods() -> Vec<[&'static str; 2]> {
     let formulations = mbs::FORMULATIONS.iter().filter(|f| **f != "auto");
     formulations.flat_map(|f| mbs::INTEGRATORS.map(|i| [*f, i])).collect()
 }
 
 /// Tries one case in every method.
-pub(crate) fn case(case: &Case, tally: &mut Tally) {
+pub fn case(case: &Case, tally: &mut Tally) {
     let judged = match judge(&case.text, STEP, STEPS) {
         Ok(judged) => judged,
         Err(why) => return tally.wrong.push(format!("{}: {why}", case.name)),
@@ -50,7 +51,7 @@ pub(crate) fn case(case: &Case, tally: &mut Tally) {
 /// By steps of h alone where these agree with the judge to rounding.
 fn briefly(judged: &Judged, scene: &Scene<f64>, method: Method, step: f64, steps: u32) -> Verdict {
     if method[1] != "trapezoidal" {
-        match rows(scene, method, step, steps, 1) {
+        match rows(scene, method, (step, steps), 1) {
             Err(verdict) => return verdict,
             Ok(rows) if rows.len() == judged.rows.len() => {
                 if compare(judged, &judged.rows, &rows, &rows) == Verdict::Agrees {

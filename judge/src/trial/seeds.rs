@@ -1,0 +1,113 @@
+//! Random scenes by seed, by every formulation with its usual rule; what became of them, counted.
+
+use super::{Method, Verdict};
+use crate::{random, trial};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+/// The formulations.
+pub const METHODS: [Method; 6] = [
+    ["index-3", "trapezoidal"],
+    ["index-1", "trapezoidal"],
+    ["classical", "trapezoidal"],
+    ["state-space", "trapezoidal"],
+    ["recursive", "trapezoidal"],
+    ["multi-index", "trapezoidal"],
+];
+
+/// What became of scenes.
+#[derive(Debug, Default)]
+pub struct Tally {
+    /// Scenes.
+    pub scenes: usize,
+    /// Scenes that the judge does not run.
+    pub unjudged: usize,
+    /// Runs that differ or panic.
+    pub differences: usize,
+    /// Runs of each formulation by verdict.
+    pub verdicts: BTreeMap<(String, String), usize>,
+    /// Scenes that have each kind of joint, of effect, and so on.
+    pub kinds: BTreeMap<String, usize>,
+}
+
+impl Tally {
+    /// Tries a scene in every formulation, or in one; says what does not agree.
+    pub fn add(&mut self, seed: u64, only: Option<&str>) -> String {
+        let mut out = String::new();
+        let drawn = random::scene(seed);
+        self.scenes += 1;
+        for kind in random::kinds(&drawn.text) {
+            *self.kinds.entry(kind).or_default() += 1;
+        }
+        let judged = match trial::judge(&drawn.text, drawn.step, drawn.steps) {
+            Ok(judged) => judged,
+            Err(why) => {
+                self.unjudged += 1;
+                let _ = writeln!(out, "{seed:5} {why}");
+                return out;
+            }
+        };
+        let scene = match trial::document(&drawn.text) {
+            Ok(scene) => scene,
+            Err(why) => {
+                self.unjudged += 1;
+                let _ = writeln!(out, "{seed:5} unread: {why}");
+                return out;
+            }
+        };
+        for method in METHODS {
+            if only.is_some_and(|o| o != method[0]) {
+                continue;
+            }
+            let verdict = trial::trial(&judged, &scene, method, drawn.step, drawn.steps);
+            let key = match &verdict {
+                Verdict::Agrees => "agrees".to_owned(),
+                Verdict::Differs { channel, off, allowed, size, start } => {
+                    self.differences += 1;
+                    let _ = writeln!(
+                        out,
+                        "{seed:5} {:12} DIFFERS  {} {channel}: off {off:.2e}, allowed {allowed:.2e}, size {size:.2e}; least pivot {:.1e}",
+                        method[0],
+                        if *start { "at the start" } else { "" },
+                        judged.least_pivot
+                    );
+                    if *start { "differs (start)" } else { "differs (run)" }.to_owned()
+                }
+                Verdict::Stops { code, time, message } => {
+                    let place = if *time > 0.0 { "run" } else { "start" };
+                    let _ = writeln!(
+                        out,
+                        "{seed:5} {:12} stops    {code} at {time:.3e} s of {:.3e}: {message}; least pivot {:.1e}",
+                        method[0],
+                        f64::from(drawn.steps) * drawn.step,
+                        judged.least_pivot
+                    );
+                    format!("{code} ({place})")
+                }
+                Verdict::Panics => {
+                    let _ = writeln!(out, "{seed:5} {:12} PANICS", method[0]);
+                    self.differences += 1;
+                    "panics".to_owned()
+                }
+            };
+            *self.verdicts.entry((method[0].to_owned(), key)).or_default() += 1;
+        }
+        out
+    }
+
+    /// The counts as a text.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut out = String::new();
+        let _ = writeln!(out, "\n{} scenes, {} without a judgement", self.scenes, self.unjudged);
+        for ((method, verdict), n) in &self.verdicts {
+            let _ = writeln!(out, "{method:12} {verdict:28} {n}");
+        }
+        for (kind, n) in &self.kinds {
+            #[allow(clippy::cast_precision_loss, reason = "a share to show")]
+            let share = 100.0 * *n as f64 / self.scenes as f64;
+            let _ = writeln!(out, "{kind:28} in {share:.1} % of the scenes");
+        }
+        out
+    }
+}
