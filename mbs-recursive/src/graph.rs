@@ -75,7 +75,7 @@ pub(crate) fn span<T: Real>(
         growth.grow(&mut is_used);
         // What is left starts from a free root.
         let Some((root, joint)) = roots.next(scene, &growth.depth, node) else { break };
-        let is_reversed = joint.is_some_and(|j| scene.joints[j].bodies[1] == BodyRef::Ground);
+        let is_reversed = joint.is_some_and(|j| node(scene.joints[j].bodies[1]) == ground);
         growth.branches.push(Branch { cluster: root, parent: None, joint, is_reversed });
         growth.depth[root] = 1;
         growth.reach(root);

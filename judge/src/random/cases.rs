@@ -1,4 +1,4 @@
-//! Every kind of joint x both orders of its bodies x ground or a moving first body x every effect that can act on it x plane and space;
+//! Every kind of joint x both orders of its bodies x the ground, a body welded to it or a moving one as its first body x every effect that can act on it x plane and space;
 //! likewise guides. All coordinates are given at the start, in numbers by chance.
 
 use super::GRAVITY;
@@ -18,8 +18,8 @@ pub struct Case {
     pub text: String,
 }
 
-/// Ten steps of 2 ms, which resolve all of them [s].
-const DURATION: f64 = 0.02;
+/// Ten steps of half a millisecond, which resolve all of them [s].
+const DURATION: f64 = 5e-3;
 
 /// What acts beside the effects: nothing, and three laws of guides.
 const OTHERS: [&str; 4] = ["nothing", "sine", "ramp", "table"];
@@ -37,7 +37,8 @@ pub fn cases() -> Vec<Case> {
             if hinged && (planar || kind != Kind::Distance) {
                 continue;
             }
-            for (reversed, moving) in [(false, false), (false, true), (true, false), (true, true)] {
+            let places = Place::ALL.map(|place| [false, true].map(|reversed| (reversed, place)));
+            for (reversed, place) in places.into_iter().flatten() {
                 for what in KINDS.into_iter().chain(OTHERS) {
                     seed += 1;
                     let name = format!(
@@ -45,9 +46,9 @@ pub fn cases() -> Vec<Case> {
                         if planar { "plane:" } else { "space:" },
                         if hinged { "hinged " } else { "" },
                         if reversed { "named in reverse" } else { "in order" },
-                        if moving { "on a moving body" } else { "on the ground" },
+                        place.name(),
                     );
-                    if let Some(text) = case(seed, planar, (kind, hinged), (reversed, moving), what)
+                    if let Some(text) = case(seed, planar, (kind, hinged), (reversed, place), what)
                     {
                         list.push(Case { name, text });
                     }
@@ -58,11 +59,40 @@ pub fn cases() -> Vec<Case> {
     list
 }
 
+/// What the first body of a joint is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Place {
+    Ground,
+    Welded,
+    Moving,
+}
+
+impl Place {
+    const ALL: [Self; 3] = [Self::Ground, Self::Welded, Self::Moving];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Ground => "on the ground",
+            Self::Welded => "on a body welded to the ground",
+            Self::Moving => "on a moving body",
+        }
+    }
+
+    /// The joint that it hangs on itself.
+    fn carried_by(self, planar: bool) -> Option<Kind> {
+        match self {
+            Self::Ground => None,
+            Self::Welded => Some(Kind::Weld),
+            Self::Moving => Some(if planar { Kind::Revolute } else { Kind::Universal }),
+        }
+    }
+}
+
 fn case(
     seed: u64,
     planar: bool,
     (kind, hinged): (Kind, bool),
-    (reversed, moving): (bool, bool),
+    (reversed, place): (bool, Place),
     what: &str,
 ) -> Option<String> {
     let mut dice = Dice::new(seed);
@@ -77,10 +107,10 @@ fn case(
         gravity,
         ..Draft::default()
     };
-    if moving {
-        draft.hang(&mut dice, None, if planar { Kind::Revolute } else { Kind::Universal }, false);
+    if let Some(kind) = place.carried_by(planar) {
+        draft.hang(&mut dice, None, kind, false);
     }
-    let parent = moving.then_some(0);
+    let parent = (place != Place::Ground).then_some(0);
     draft.hang(&mut dice, parent, kind, false);
     let (body, joint) = (draft.bodies.len() - 1, draft.links.len() - 1);
     let link = &mut draft.links[joint];

@@ -19,10 +19,12 @@ const SMALLEST: f64 = 1e-2;
 /// Tolerance of the judge's steps.
 const TOLERANCE: f64 = 1e-11;
 
+/// A run that stops is tried by steps over this.
+const QUARTER: u32 = 4;
 /// Short steps are the given ones over this.
-const SHORT: u32 = 8;
-/// What is off goes to this share at least by short steps, where it is the rule's: an eighth, by order 1.
-const GONE: f64 = 0.25;
+const SHORT: u32 = 16;
+/// What is off goes to this share at least by short steps, where it is the rule's: a sixteenth, by order 1; a quarter after a stop.
+const GONE: f64 = 0.4;
 
 /// Its steps are steered by the energy.
 const MULTI: &str = "multi-index";
@@ -175,8 +177,8 @@ pub fn rows(
     Ok(rows)
 }
 
-/// Holds a method against the judge. What is off is looked at once more with short steps: the error of a rule across a kink of a law, which
-/// two steps may hide, goes with the step; what is wrong stays.
+/// Holds a method against the judge. A run that stops on its way is tried by quarter steps. What is off is looked at once more with short
+/// steps: the error of a rule across a kink of a law, which two steps may hide, goes with the step; what is wrong stays.
 #[must_use]
 pub fn trial(
     judged: &Judged,
@@ -185,9 +187,13 @@ pub fn trial(
     step: f64,
     steps: u32,
 ) -> Verdict {
-    let first = by_two(judged, scene, method, (step, steps), 1);
+    let by = |share| by_two(judged, scene, method, (step, steps), share);
+    let first = match by(1) {
+        Verdict::Stops { code, .. } if code != "refused" => by(QUARTER),
+        verdict => verdict,
+    };
     let Verdict::Differs { start: false, off, size, .. } = first else { return first };
-    match by_two(judged, scene, method, (step, steps), SHORT) {
+    match by(SHORT) {
         Verdict::Differs { start: false, off: then, size: of, .. }
             if then * size < GONE * off * of =>
         {

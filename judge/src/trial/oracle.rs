@@ -6,7 +6,7 @@ use mbs::core::scene::Scene;
 use std::collections::BTreeMap;
 
 /// A step that resolves all cases [s].
-pub const STEP: f64 = 2e-3;
+pub const STEP: f64 = 5e-4;
 /// Steps of a case.
 pub const STEPS: u32 = 10;
 

@@ -26,6 +26,8 @@ pub struct Tally {
     pub differences: usize,
     /// Runs of each formulation by verdict.
     pub verdicts: BTreeMap<(String, String), usize>,
+    /// Seeds that stop, by formulation and code.
+    pub refused: BTreeMap<(String, String), Vec<u64>>,
     /// Scenes that have each kind of joint, of effect, and so on.
     pub kinds: BTreeMap<String, usize>,
 }
@@ -74,6 +76,8 @@ impl Tally {
                     if *start { "differs (start)" } else { "differs (run)" }.to_owned()
                 }
                 Verdict::Stops { code, time, message } => {
+                    let of = (method[0].to_owned(), code.clone());
+                    self.refused.entry(of).or_default().push(seed);
                     let place = if *time > 0.0 { "run" } else { "start" };
                     let _ = writeln!(
                         out,

@@ -2,6 +2,7 @@
 
 mod closed;
 mod rules;
+mod trial;
 
 use judge::{Mechanism, State};
 

@@ -184,7 +184,7 @@ impl<T: Real> Tire<T> {
             stretch: T::ONE,
             row: [normal, Vector::zeros()],
         };
-        if !(self.leans && foot.distance > T::ZERO) {
+        if !self.leans {
             return upright;
         }
         let lean = axis.dot(&normal);

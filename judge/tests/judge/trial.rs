@@ -1,0 +1,55 @@
+//! The crates before the judge: what is enumerated, and the first hundred of the random scenes.
+
+use judge::random;
+use judge::trial::{oracle, seeds};
+use std::collections::BTreeMap;
+
+/// The only reason to leave a combination out: it is refused as a setting, whatever the scene.
+const NO_SUCH_RULE: &str = "formulation .. has no ..";
+
+#[test]
+fn every_joint_with_every_effect_moves_as_the_judge_says_in_every_formulation() {
+    let mut tally = oracle::Tally::default();
+    let cases = random::cases();
+    for case in &cases {
+        oracle::case(case, &mut tally);
+    }
+    let left_out: usize = tally.left_out.values().sum();
+    println!("{} cases, {} combinations agree, {left_out} are left out", cases.len(), tally.agree);
+    assert!(tally.wrong.is_empty(), "{}", tally.wrong.join("\n"));
+    assert_eq!(tally.left_out.keys().collect::<Vec<_>>(), [NO_SUCH_RULE]);
+    // Half of all pairs of a formulation and an integrator exist.
+    assert!(tally.agree >= left_out);
+}
+
+/// Refusals among the first hundred seeds: formulation, code, seeds.
+const REFUSED: &[(&str, &str, &[u64])] = &[];
+
+#[test]
+fn the_first_hundred_random_scenes_move_as_the_judge_says_or_are_refused_as_listed() {
+    let mut tally = seeds::Tally::default();
+    let said: String = (1..=100).map(|seed| tally.add(seed, None)).collect();
+    println!("{said}{}", tally.text());
+    assert_eq!((tally.differences, tally.unjudged), (0, 0));
+    let mut refused: BTreeMap<(&str, &str), Vec<u64>> = BTreeMap::new();
+    for ((formulation, code), seeds) in &tally.refused {
+        refused.insert((formulation, code), seeds.clone());
+    }
+    let listed = REFUSED.iter().map(|(f, code, seeds)| ((*f, *code), seeds.to_vec()));
+    assert_eq!(refused, listed.collect());
+}
+
+#[test]
+fn every_kind_is_in_a_twentieth_of_the_random_scenes_at_least() {
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    for seed in 1..=1000 {
+        for kind in random::kinds(&random::scene(seed).text) {
+            *counts.entry(kind).or_default() += 1;
+        }
+    }
+    println!("{counts:?}");
+    let rare: Vec<_> = counts.iter().filter(|(_, n)| **n < 50).collect();
+    assert!(rare.is_empty(), "{rare:?}");
+    // Eight kinds of joints and ... of effects, with plane and space, loops, guides, starts.
+    assert!(counts.len() >= 30, "{}", counts.len());
+}
