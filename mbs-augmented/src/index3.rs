@@ -183,7 +183,8 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         let is_measured = options.compensated && iterations > 1 && !is_small;
         let moved = is_measured.then(|| norm_inf(model.team(), &w.dq[..w.f.len()]));
         let measures = (scale, options.tolerance);
-        let yardstick = Yardstick::of_coordinates(iterations, measures, length, moved);
+        let sizes = (length, || norm_inf(model.team(), &w.q));
+        let yardstick = Yardstick::of_coordinates(iterations, measures, sizes, moved);
         let stop = stopping(iterations, correction, pace.last(), &yardstick);
         let stop = stop.or(pace.is_enough(correction).then_some(Stop::Converged));
         if let Some(stop) = stop {

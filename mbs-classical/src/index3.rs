@@ -117,7 +117,8 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         }
         let moved = options.compensated.then(|| norm_inf(model.team(), &w.dq));
         let measures = (scale, options.tolerance);
-        let yardstick = Yardstick::of_coordinates(iterations, measures, length, moved);
+        let sizes = (length, || norm_inf(model.team(), &w.q));
+        let yardstick = Yardstick::of_coordinates(iterations, measures, sizes, moved);
         if let Some(stop) = stopping(iterations, correction, last, &yardstick) {
             return Ok((iterations, correction, stop));
         }

@@ -17,19 +17,25 @@ pub struct Yardstick<T> {
 impl<T: Real> Yardstick<T> {
     /// For corrections of the coordinates themselves at iteration `iterations`, in a scene of the given `length` [m].
     ///
-    /// Rounding is that of the increment `moved` [m] where increments are carried, else of the coordinates. At rest nothing moves
-    /// but the rounding of forces in balance: what no longer shrinks below the last digit of the coordinates, of which directions are of
-    /// order one, is that; and what is below the last digit of a pair of numbers is nothing.
+    /// Rounding is that of the increment `moved` [m] where increments are carried, else of the coordinates. At rest, and in a uniform
+    /// motion, nothing moves but the rounding of forces in balance and of guided places: what no longer shrinks among the last digits of
+    /// the coordinates, of which directions are of order one and the `farthest` is asked for late, is that; and what is below the last
+    /// digit of a pair of numbers is nothing.
     pub fn of_coordinates(
         iterations: u32,
         (scale, tolerance): (T, T),
-        length: T,
+        (length, farthest): (T, impl FnOnce() -> T),
         moved: Option<T>,
     ) -> Self {
         let rounding = moved.unwrap_or(length) * T::EPSILON * T::from_f64(64.0);
-        let digit = if iterations > 5 { length.max(T::ONE) * T::EPSILON } else { T::ZERO };
+        // One such number enters a row by a few products.
+        let digits = if iterations > 5 {
+            length.max(T::ONE).max(farthest()) * T::EPSILON * T::from_f64(4.0)
+        } else {
+            T::ZERO
+        };
         let nothing = length * T::EPSILON * T::EPSILON;
-        Self { scale, goal: (scale * tolerance).max(nothing), noise: rounding.max(digit) }
+        Self { scale, goal: (scale * tolerance).max(nothing), noise: rounding.max(digits) }
     }
 }
 
