@@ -130,6 +130,18 @@ impl<T: Real> BodyLaw<T> {
         }
     }
 
+    /// The slope of an action by the iterate `before`; the first one of a step has no rate.
+    #[inline]
+    pub fn look_back(&self, action: usize, measure: &mut Measure<T>, before: &Measure<T>) {
+        match self {
+            #[cfg(feature = "tire")]
+            Self::Tire(_) if before.rate != T::ZERO => {
+                super::tire::look_back(action, measure, before);
+            }
+            _ => {}
+        }
+    }
+
     /// Stored energy of an action [J].
     pub fn energy(&self, action: usize, measure: &Measure<T>) -> T {
         match self {

@@ -105,6 +105,16 @@ const ROLLING: usize = 1;
 const SIDE: usize = 2;
 const ALIGNING: usize = 3;
 
+/// What slides has at least the slope of the secant where an iteration went across rest: by the tangents alone, which fall to nothing where
+/// the slide is fast, it would go to and fro.
+#[inline]
+pub(super) fn look_back<T: Real>(action: usize, measure: &mut Measure<T>, before: &Measure<T>) {
+    if (action == ROLLING || action == SIDE) && measure.rate * before.rate < T::ZERO {
+        let secant = (measure.tension - before.tension) / (measure.rate - before.rate);
+        measure.damping = measure.damping.max(secant);
+    }
+}
+
 impl<T: Real> Tire<T> {
     /// Radial force; rolling resistance; side force and aligning torque.
     pub fn n_actions(&self) -> usize {

@@ -64,10 +64,11 @@ impl<T: Real> BodyElement<T> {
         self.law.evaluate(&motion, supplies, &mut actions[..n]);
         let width = rows.len() / n.max(1);
         let measures = &mut measures[self.measures.range()];
-        for ((row, action), measure) in
-            rows.chunks_exact_mut(width.max(1)).zip(&actions).zip(measures)
+        for (k, ((row, action), measure)) in
+            rows.chunks_exact_mut(width.max(1)).zip(&actions).zip(measures).enumerate()
         {
-            *measure = action.measure;
+            let before = core::mem::replace(measure, action.measure);
+            self.law.look_back(k, measure, &before);
             add_gradient::<T, D>(row, point, &lowered(&Vector::from(action.force)));
             let moment = Vector::<T, 3>::from(action.moment);
             if turns {
