@@ -168,8 +168,9 @@ fn arm(seed: u32) -> Scene<f64> {
     read(&out, "arm")
 }
 
-/// Formulations in natural coordinates.
-const NATURAL: [&str; 5] = ["index-3", "index-1", "multi-index", "classical", "state-space"];
+/// All formulations.
+const FORMULATIONS: [&str; 6] =
+    ["index-3", "index-1", "multi-index", "classical", "state-space", "recursive"];
 /// Ten times what the trapezoidal rule errs by in directions that turn at 8.4 rad/s, (w h)²/12 at 1 ms, relative.
 const AT_A_MILLISECOND: f64 = 6e-5;
 
@@ -182,7 +183,7 @@ fn last(outcome: &Outcome, name: &str) -> Vec<f64> {
 #[test]
 fn a_torque_acts_on_the_angle_of_a_planar_free_joint() {
     let scene = field("17-torque-on-planar-free-joint");
-    for formulation in NATURAL {
+    for formulation in FORMULATIONS {
         let (_, outcome) = run(&scene, &by(formulation, "trapezoidal", None));
         let rates = last(&outcome, "j_rate");
         let rate = rates.last().copied().unwrap_or_default();
@@ -193,7 +194,7 @@ fn a_torque_acts_on_the_angle_of_a_planar_free_joint() {
 #[test]
 fn a_torque_acts_on_the_angle_of_a_cylindrical_joint_whose_bodies_stand_in_reverse() {
     let scene = field("17-torque-on-reversed-cylindrical");
-    for formulation in NATURAL {
+    for formulation in FORMULATIONS {
         let (_, outcome) = run(&scene, &by(formulation, "trapezoidal", None));
         for (rate, right) in last(&outcome, "j_rate").iter().zip([1.661_124_909, 5.317_300_217]) {
             assert!(
