@@ -1,6 +1,7 @@
 //! The judge judged: closed forms, conserved quantities, order, differences, invariance.
 
 mod closed;
+mod controller;
 mod rules;
 mod trial;
 

@@ -53,3 +53,23 @@ fn every_kind_is_in_a_twentieth_of_the_random_scenes_at_least() {
     // Eight kinds of joints and ... of effects, with plane and space, loops, guides, starts.
     assert!(counts.len() >= 30, "{}", counts.len());
 }
+
+#[test]
+fn nothing_but_what_runs_the_crates_names_them() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut folders = vec![folder];
+    let mut seen = 0;
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).expect("a folder").flatten() {
+            let path = entry.path();
+            if path.is_dir() && path.file_name().is_some_and(|name| name != "trial") {
+                folders.push(path);
+            } else if path.is_file() {
+                let text = std::fs::read_to_string(&path).expect("a source");
+                assert!(!text.contains("mbs::") && !text.contains("use mbs"), "{}", path.display());
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 20);
+}

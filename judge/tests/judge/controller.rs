@@ -1,0 +1,51 @@
+//! The same enumeration on the solver of fixed capacity, which controllers run: the bits of the recursion that the judge is held against.
+
+use judge::random;
+use judge::trial::{document, oracle};
+use mbs::core::scene::{Dimension, Scene};
+use mbs_nostd::export::Gathered;
+use mbs_nostd::{Bounds, Checked, Solver, Unwatched};
+use mbs_recursive::space::Space;
+use mbs_recursive::{Options, Planar, Spatial, TreeError, TreeModel, Workspace, bounded_step};
+
+/// Room for two bodies: links, coordinates, freedoms, rows, blocks, gains, guides, courses.
+type Room<S> = Solver<f64, S, 12, 16, 12, 8, 64, 256, 2, 8>;
+/// Ten steps of a controller and of the recursion; false where the scene has no tree.
+fn is_followed<S: Space<f64>, const D: usize>(scene: &Scene<f64>, name: &str) -> bool {
+    let tree: TreeModel<f64, S> = match TreeModel::new(scene) {
+        Ok(tree) => tree,
+        Err(TreeError::EffectCut { .. }) => return false,
+        Err(error) => panic!("{name}: {error}"),
+    };
+    let (natural, begin) = mbs_testkit::start::<D>(scene);
+    let start = tree.start(scene, &natural, &begin).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let gathered = Gathered::new(&tree, &start, &[]);
+    let model = Checked::new(&gathered.model()).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let mut solver = Room::new(&model).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let (options, bounds) = (Options::default(), Bounds::default());
+    let (mut state, mut workspace) = (start.clone(), Workspace::new(&tree));
+    for _ in 0..oracle::STEPS {
+        bounded_step(&tree, (oracle::STEP, &options, bounds), &mut state, &mut workspace)
+            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        solver.step(&model, oracle::STEP, &mut Unwatched).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(solver.coordinates(), &state.z[..], "{name}");
+        assert_eq!(solver.velocities(), &state.v[..], "{name}");
+        assert_eq!(solver.accelerations(), &state.a[..], "{name}");
+    }
+    true
+}
+
+#[test]
+fn a_controller_moves_every_joint_with_every_effect_as_the_recursion_does() {
+    let (mut followed, mut without) = (0, 0);
+    for case in random::cases() {
+        let scene = document(&case.text).unwrap_or_else(|e| panic!("{}: {e}", case.name));
+        let is_followed = match scene.dimension {
+            Dimension::Planar => is_followed::<Planar, 2>(&scene, &case.name),
+            Dimension::Spatial => is_followed::<Spatial, 3>(&scene, &case.name),
+        };
+        *(if is_followed { &mut followed } else { &mut without }) += 1;
+    }
+    println!("{followed} cases on the controller's solver, {without} without a tree");
+    assert!(followed > 1000 && without == 0, "{followed}, {without}");
+}
