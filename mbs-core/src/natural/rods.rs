@@ -71,7 +71,8 @@ impl<T: Real> Rods<T> {
     }
 
     fn ask_joints(&mut self, scene: &Scene<T>) {
-        for joint in &scene.joints {
+        // a free joint has no row
+        for joint in scene.joints.iter().filter(|joint| joint.kind != JointKind::Free) {
             for (side, body) in joint.bodies.into_iter().enumerate() {
                 let is_ball = joint.kind == JointKind::Spherical
                     || (joint.kind == JointKind::Distance
