@@ -72,12 +72,34 @@ impl Mechanism {
             }
         }
         let mut state = trial.state;
+        state.turns = self.given_turns();
+        self.count_turns(&mut state);
         let places = self.places(&state);
         let held = self.held_rates(&state, &places);
         if self.project_velocities(&mut state, &held) > 1e-8 {
             return Err(NoStart::Rates);
         }
         Ok(state)
+    }
+
+    /// What turns of joints are counted from: what is held or guided, else zero.
+    fn given_turns(&self) -> Vec<[f64; 3]> {
+        let mut turns = vec![[0.0; 3]; self.scene.joints.len()];
+        let mut give = |joint: usize, value: &[f64]| {
+            let turning = self.scene.joints[joint].turning(self.scene.planar);
+            for (to, &i) in turns[joint].iter_mut().zip(turning) {
+                *to = value.get(i).copied().unwrap_or(0.0);
+            }
+        };
+        for guide in &self.scene.guides {
+            give(guide.joint, &[guide.law.at(0.0)[0]]);
+        }
+        for initial in &self.scene.initials {
+            if let Initial::Joint { joint, value: Some(value), .. } = initial {
+                give(*joint, value);
+            }
+        }
+        turns
     }
 
     fn largest_value(&self) -> f64 {
