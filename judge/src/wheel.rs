@@ -49,9 +49,9 @@ pub(crate) fn load(now: &Now<'_>, tire: &Tire, loads: &mut Loads) {
     let axis = tire.axis.map(|a| now.places.direction(body, a));
     let sine = axis.map_or(0.0, |a| dot(a, n));
     let cosine = (1.0 - sine * sine).max(0.0).sqrt();
-    // beyond 84 degrees the camber is held, and below the road it does not count: then it does not change either
-    let counts = d > 0.0 && cosine > LEAST_COSINE;
-    let held = if d > 0.0 { cosine.max(LEAST_COSINE) } else { 1.0 };
+    // beyond 84 degrees the camber is held: then it does not change either
+    let counts = cosine > LEAST_COSINE;
+    let held = cosine.max(LEAST_COSINE);
     // the normal turns with the way of the centre: dn/ds = -κ t, by the foot's own way over 1 - κ d
     let curvature = bend / (1.0 + slope * slope).powf(1.5);
     let turning = -curvature / (1.0 - curvature * d);
