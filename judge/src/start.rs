@@ -46,6 +46,16 @@ struct Trial {
     multipliers: Vec<f64>,
 }
 
+/// A step of Newton's method.
+struct Correction {
+    /// Changes of bodies.
+    moves: Vec<[f64; 6]>,
+    /// The new multipliers.
+    multipliers: Vec<f64>,
+    /// A direction of negative curvature.
+    falls: Option<Vec<[f64; 6]>>,
+}
+
 impl Mechanism {
     /// The state at t = 0.
     ///
@@ -184,7 +194,8 @@ impl Mechanism {
             let places = self.places(&trial.state);
             let rows = self.start_rows(&trial.state, &places, share);
             trial.multipliers.resize(rows.len(), 0.0);
-            let (mut moves, multipliers, falls) = self.correction(&trial, &rows, share);
+            let Correction { mut moves, multipliers, falls } =
+                self.correction(&trial, &rows, share);
             let size_of = |moves: &[[f64; 6]]| {
                 let all = moves.iter().flat_map(|m| m.iter().enumerate());
                 all.fold(0.0_f64, |a, (i, x)| a.max(x.abs() / if i < 3 { length } else { 1.0 }))
@@ -216,13 +227,8 @@ impl Mechanism {
         None
     }
 
-    /// A step of Newton's method: changes of bodies, the new multipliers, and a direction of negative curvature if there is one.
-    fn correction(
-        &self,
-        trial: &Trial,
-        rows: &[Row],
-        share: f64,
-    ) -> (Vec<[f64; 6]>, Vec<f64>, Option<Vec<[f64; 6]>>) {
+    /// A step of Newton's method.
+    fn correction(&self, trial: &Trial, rows: &[Row], share: f64) -> Correction {
         let mut matrix = self.second(trial, rows, share);
         let curvature = self.curvature(&matrix, rows).filter(|c| c.least < -FLAT);
         if let Some(curvature) = &curvature {
@@ -239,7 +245,7 @@ impl Mechanism {
             .collect();
         let (moves, multipliers, _) = self.solve(&saddle, &loads, &zero);
         let falls = curvature.map(|curvature| self.of_bodies(&curvature.along));
-        (moves, multipliers, falls)
+        Correction { moves, multipliers, falls }
     }
 
     /// Second derivatives of the change, less what the multipliers take, by differences, as scaled.
