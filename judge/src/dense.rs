@@ -32,6 +32,11 @@ impl Square {
         &mut self.entries[i * self.n + j]
     }
 
+    /// Entry (i, j) to read.
+    pub(crate) fn get(&self, i: usize, j: usize) -> f64 {
+        self.entries[i * self.n + j]
+    }
+
     /// Factors the matrix: each pivot is the largest entry that is left.
     pub(crate) fn factor(mut self) -> Factors {
         let n = self.n;

@@ -138,7 +138,7 @@ impl Joint {
         let [a, d] = self.axes;
         let plane_turn = || {
             let angle = places.angle(self.bodies[1]) - places.angle(self.bodies[0]);
-            places.about(self.bodies, EZ, None).with_value(angle)
+            places.about(self.bodies, EZ, None).with_value(nearest(angle, near[0]))
         };
         match self.kind {
             Kind::Weld | Kind::Distance => Vec::new(),
@@ -166,12 +166,13 @@ impl Joint {
     /// Which of the coordinates are turns, in the order of `near`.
     pub(crate) fn turning(&self, planar: bool) -> &'static [usize] {
         match self.kind {
-            Kind::Revolute if !planar => &[0],
+            Kind::Revolute => &[0],
+            Kind::Free if planar => &[2],
             Kind::Cylindrical => &[1],
             Kind::Universal => &[0, 1],
             Kind::Planar => &[2],
             Kind::Spherical => &[0, 1, 2],
-            Kind::Free if !planar => &[3, 4, 5],
+            Kind::Free => &[3, 4, 5],
             _ => &[],
         }
     }

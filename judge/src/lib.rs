@@ -6,6 +6,7 @@
 //! mass-weighted change. It is made to be right and plain, not fast. `trial` alone knows the crates: it runs what is judged.
 
 mod advance;
+mod curvature;
 mod curves;
 mod dense;
 mod joints;

@@ -153,7 +153,7 @@ impl Mechanism {
         product(&product(turn, &self.scene.bodies[b].inertia), &transpose(turn))
     }
 
-    fn dense_row(&self, row: &Row) -> Vec<(usize, f64)> {
+    pub(crate) fn dense_row(&self, row: &Row) -> Vec<(usize, f64)> {
         let mut entries = Vec::with_capacity(12);
         for (body, part) in &row.parts {
             let Some(b) = body else { continue };
@@ -222,12 +222,16 @@ impl Mechanism {
         let scaled = rows.iter().zip(&saddle.row_scales).map(|(x, s)| x * s);
         b[saddle.n..].iter_mut().zip(scaled).for_each(|(b, x)| *b = x);
         let (x, unmet) = saddle.factors.solve(&b);
-        let of_body =
-            |of: &[Option<usize>; 6]| of.map(|c| c.map_or(0.0, |c| x[c] * self.scales[c]));
-        let changes = self.columns.iter().map(of_body).collect();
         let multipliers =
             x[saddle.n..].iter().zip(&saddle.row_scales).map(|(x, s)| x * s).collect();
-        (changes, multipliers, unmet)
+        (self.of_bodies(&x), multipliers, unmet)
+    }
+
+    /// Changes of bodies from scaled ones.
+    pub(crate) fn of_bodies(&self, x: &[f64]) -> Vec<[f64; 6]> {
+        let of_body =
+            |of: &[Option<usize>; 6]| of.map(|c| c.map_or(0.0, |c| x[c] * self.scales[c]));
+        self.columns.iter().map(of_body).collect()
     }
 
     /// Accelerations, reactions, energies and power of a state.

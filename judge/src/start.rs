@@ -5,7 +5,8 @@
 //! ```
 //!
 //! Newton's method on the conditions of the least change, with second derivatives by differences; held values grow from zero in stages,
-//! and each stage measures from the reference configuration.
+//! and each stage measures from the reference configuration. Where the curvature along what is free is negative it is made positive, so
+//! that no step climbs, and no saddle is taken for the least change.
 
 use crate::dense::Square;
 use crate::motion::{Mechanism, State};
@@ -21,6 +22,12 @@ const STAGE: f64 = 0.15;
 /// Share of a stage below which it is given up.
 const LEAST_STAGE: f64 = 1e-3;
 const MOST_ITERATIONS: usize = 40;
+/// Curvature that is added at least where the least one is negative.
+const CURVED: f64 = 0.1;
+/// How far a saddle is left in the direction of its fall, in radians or lengths.
+const ASIDE: f64 = 0.03;
+/// Curvature below which nothing is known of a sign.
+const FLAT: f64 = 1e-6;
 /// Differences for second derivatives, in radians or lengths.
 const DIFFERENCE: f64 = 1e-5;
 
@@ -37,6 +44,16 @@ pub enum NoStart {
 struct Trial {
     state: State,
     multipliers: Vec<f64>,
+}
+
+/// A step of Newton's method.
+struct Correction {
+    /// Changes of bodies.
+    moves: Vec<[f64; 6]>,
+    /// The new multipliers.
+    multipliers: Vec<f64>,
+    /// A direction of negative curvature.
+    falls: Option<Vec<[f64; 6]>>,
 }
 
 impl Mechanism {
@@ -65,12 +82,34 @@ impl Mechanism {
             }
         }
         let mut state = trial.state;
+        state.turns = self.given_turns();
+        self.count_turns(&mut state);
         let places = self.places(&state);
         let held = self.held_rates(&state, &places);
         if self.project_velocities(&mut state, &held) > 1e-8 {
             return Err(NoStart::Rates);
         }
         Ok(state)
+    }
+
+    /// What turns of joints are counted from: what is held or guided, else zero.
+    fn given_turns(&self) -> Vec<[f64; 3]> {
+        let mut turns = vec![[0.0; 3]; self.scene.joints.len()];
+        let mut give = |joint: usize, value: &[f64]| {
+            let turning = self.scene.joints[joint].turning(self.scene.planar);
+            for (to, &i) in turns[joint].iter_mut().zip(turning) {
+                *to = value.get(i).copied().unwrap_or(0.0);
+            }
+        };
+        for guide in &self.scene.guides {
+            give(guide.joint, &[guide.law.at(0.0)[0]]);
+        }
+        for initial in &self.scene.initials {
+            if let Initial::Joint { joint, value: Some(value), .. } = initial {
+                give(*joint, value);
+            }
+        }
+        turns
     }
 
     fn largest_value(&self) -> f64 {
@@ -155,13 +194,20 @@ impl Mechanism {
             let places = self.places(&trial.state);
             let rows = self.start_rows(&trial.state, &places, share);
             trial.multipliers.resize(rows.len(), 0.0);
-            let (moves, multipliers) = self.correction(&trial, &rows, share);
-            let size = moves
-                .iter()
-                .flat_map(|m| m.iter().enumerate())
-                .fold(0.0_f64, |a, (i, x)| a.max(x.abs() / if i < 3 { length } else { 1.0 }));
+            let Correction { mut moves, multipliers, falls } =
+                self.correction(&trial, &rows, share);
+            let size_of = |moves: &[[f64; 6]]| {
+                let all = moves.iter().flat_map(|m| m.iter().enumerate());
+                all.fold(0.0_f64, |a, (i, x)| a.max(x.abs() / if i < 3 { length } else { 1.0 }))
+            };
+            let mut size = size_of(&moves);
             if !size.is_finite() {
                 return None;
+            }
+            if let Some(aside) = falls.filter(|_| size < 1e-6) {
+                let part = ASIDE / size_of(&aside);
+                moves = aside.iter().map(|m| m.map(|x| part * x)).collect();
+                size = ASIDE;
             }
             let damp = (0.3 / size).min(1.0);
             for (frame, m) in trial.state.frames.iter_mut().zip(&moves) {
@@ -181,8 +227,29 @@ impl Mechanism {
         None
     }
 
-    /// A step of Newton's method: changes of bodies and the new multipliers.
-    fn correction(&self, trial: &Trial, rows: &[Row], share: f64) -> (Vec<[f64; 6]>, Vec<f64>) {
+    /// A step of Newton's method.
+    fn correction(&self, trial: &Trial, rows: &[Row], share: f64) -> Correction {
+        let mut matrix = self.second(trial, rows, share);
+        let curvature = self.curvature(&matrix, rows).filter(|c| c.least < -FLAT);
+        if let Some(curvature) = &curvature {
+            for i in 0..self.n_velocities() {
+                *matrix.at(i, i) += CURVED - 2.0 * curvature.least;
+            }
+        }
+        let saddle = self.factor_with(matrix, rows);
+        let zero: Vec<f64> = rows.iter().map(|r| -r.value).collect();
+        let loads: Vec<[f64; 6]> = self
+            .balance(&trial.state, rows, &vec![0.0; rows.len()])
+            .iter()
+            .map(|g| g.map(|x| -x))
+            .collect();
+        let (moves, multipliers, _) = self.solve(&saddle, &loads, &zero);
+        let falls = curvature.map(|curvature| self.of_bodies(&curvature.along));
+        Correction { moves, multipliers, falls }
+    }
+
+    /// Second derivatives of the change, less what the multipliers take, by differences, as scaled.
+    fn second(&self, trial: &Trial, rows: &[Row], share: f64) -> Square {
         let n = self.n_velocities();
         let mut matrix = Square::zero(n + rows.len());
         let length = self.length();
@@ -208,16 +275,7 @@ impl Mechanism {
                 }
             }
         }
-        let mut zero = vec![0.0; rows.len()];
-        let saddle = self.factor_with(matrix, rows);
-        zero.iter_mut().zip(rows).for_each(|(x, r)| *x = -r.value);
-        let loads: Vec<[f64; 6]> = self
-            .balance(&trial.state, rows, &vec![0.0; rows.len()])
-            .iter()
-            .map(|g| g.map(|x| -x))
-            .collect();
-        let (moves, multipliers, _) = self.solve(&saddle, &loads, &zero);
-        (moves, multipliers)
+        matrix
     }
 
     /// Rows of held rates.

@@ -9,6 +9,9 @@ use crate::vector::{Vector, add, cross, dot, scale, sub, unit};
 /// Speed below which slip is regularised [m/s].
 const STANDING: f64 = 0.1;
 
+/// Cosine of the camber that counts at least.
+const LEAST_COSINE: f64 = 0.1;
+
 /// The point of a road nearest to a place: its x.
 fn foot(features: &[Feature], x: f64, y: f64) -> f64 {
     let mut at = x;
@@ -45,7 +48,10 @@ pub(crate) fn load(now: &Now<'_>, tire: &Tire, loads: &mut Loads) {
     velocity[0] += now.scene.road_speed;
     let axis = tire.axis.map(|a| now.places.direction(body, a));
     let sine = axis.map_or(0.0, |a| dot(a, n));
-    let cosine = (1.0 - sine * sine).max(0.01).sqrt();
+    let cosine = (1.0 - sine * sine).max(0.0).sqrt();
+    // beyond 84 degrees the camber is held: then it does not change either
+    let counts = cosine > LEAST_COSINE;
+    let held = cosine.max(LEAST_COSINE);
     // the normal turns with the way of the centre: dn/ds = -κ t, by the foot's own way over 1 - κ d
     let curvature = bend / (1.0 + slope * slope).powf(1.5);
     let turning = -curvature / (1.0 - curvature * d);
@@ -54,20 +60,21 @@ pub(crate) fn load(now: &Now<'_>, tire: &Tire, loads: &mut Loads) {
     let axis_rate = axis.map_or([0.0; 3], |a| cross(w, a));
     let sine_rate = dot(axis_rate, n) + axis.map_or(0.0, |a| dot(a, n_rate));
     let d_rate = dot(n, velocity);
-    let depth = radius - d / cosine;
-    let depth_rate = -d_rate / cosine - d * sine * sine_rate / (cosine * cosine * cosine);
-    let radial = crate::laws::contact(k, c, depth, depth_rate);
+    let depth = radius - d / held;
+    let leaning = if counts { d * sine / held.powi(3) } else { 0.0 };
+    let radial = crate::laws::contact(k, c, depth, -d_rate / held - leaning * sine_rate);
     if radial <= 0.0 {
         return;
     }
-    let size = radial / cosine;
+    let size = radial / held;
     // from the centre to the contact point
-    let lowest = axis.map_or(scale(-1.0, n), |a| scale(-1.0 / cosine, sub(n, scale(sine, a))));
-    let arm = add(seat.arm, scale(d / cosine, lowest));
-    loads.wrench(body, scale(size, n), cross(arm, scale(size, n)));
+    let down = axis.map_or(scale(-1.0, n), |a| unit(sub(scale(sine, a), n)));
+    let arm = add(seat.arm, scale(d / held, down));
+    let hub = if counts { arm } else { seat.arm };
+    loads.wrench(body, scale(size, n), cross(hub, scale(size, n)));
     // what turns the normal as the centre moves
     let along = axis.map_or(0.0, |a| dot(a, t));
-    let bent = radial * d * sine * along * turning / (cosine * cosine * cosine);
+    let bent = radial * leaning * along * turning;
     loads.wrench(body, scale(bent, t), cross(seat.arm, scale(bent, t)));
     let Some(axis) = axis else { return };
     // forward: along the wheel's plane and the road

@@ -7,12 +7,14 @@
 //! 2. revolute joints with an effect about their axis, since it acts along a coordinate;
 //! 3. joints of bodies without mass, so that these end no branch where that can be avoided;
 //! 4. joints with few freedoms, so that few equations are left where the others are cut;
-//! 5. joints near the ground; joints named first.
+//! 5. balls off the line of a thin rod, about which it has inertia in every direction;
+//! 6. joints near the ground; joints named first.
 //!
 //! What the ground does not reach starts from a root of its own, which is free: a body with a free joint to the ground, or
 //! the heaviest one. `distance` joints are always cut, free joints between moving bodies constrain nothing.
 
 use crate::error::TreeError;
+use crate::told;
 use alloc::collections::BinaryHeap;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -52,8 +54,8 @@ struct Edge {
     rank: Rank,
 }
 
-/// The first four points of the order.
-type Rank = (bool, bool, bool, usize);
+/// The first five points of the order.
+type Rank = (bool, bool, bool, usize, bool);
 
 /// Finds the spanning tree.
 ///
@@ -139,11 +141,17 @@ fn edges<T: Real>(
         let is_massive = ends
             .iter()
             .all(|&c| clusters.clusters.get(c).is_none_or(|cluster| cluster.mass > T::ZERO));
+        let is_on_line = joint.kind == JointKind::Spherical
+            && (0..2).any(|i| {
+                let rod = clusters.clusters.get(ends[i]).and_then(|cluster| cluster.rod);
+                rod.is_some_and(|rod| told::is_on_line(&rod, joint.points[i]))
+            });
         let rank = (
             !demands.is_guided[j],
             demands.effect[j].is_none(),
             is_massive,
             joint.kind.n_coordinates(scene.dimension),
+            is_on_line,
         );
         edges.push(Edge { joint: j, ends, rank });
     }

@@ -26,13 +26,11 @@ impl Told {
             for (i, &body) in joint.bodies.iter().enumerate() {
                 let Some(c) = clusters.of(body) else { continue };
                 let cluster = &clusters.clusters[c];
-                let (Some([from, to]), BodyRef::Body(b)) = (cluster.rod, body) else { continue };
-                let along = to - from;
-                let off = T::EPSILON.sqrt() * along.dot(&along);
-                let p = Vector::from(joint.points[i]);
+                let (Some(rod), BodyRef::Body(b)) = (cluster.rod, body) else { continue };
                 is_idle[c] &= b != cluster.bodies[0]
+                    || joint.kind == JointKind::Free
                     || (matches!(joint.kind, JointKind::Spherical | JointKind::Distance)
-                        && norm(&cross(&(p - from), &along)) <= off
+                        && is_on_line(&rod, joint.points[i])
                         && !(i == 0
                             && joint.kind == JointKind::Distance
                             && joint.axes[0].is_some()));
@@ -40,4 +38,11 @@ impl Told {
         }
         Self { guide, is_idle }
     }
+}
+
+/// Does a point lie on the line of a rod?
+pub(crate) fn is_on_line<T: Real>([from, to]: &[Vector<T, 3>; 2], point: [T; 3]) -> bool {
+    let along = to - from;
+    let off = T::EPSILON.sqrt() * along.dot(&along);
+    norm(&cross(&(Vector::from(point) - from), &along)) <= off
 }

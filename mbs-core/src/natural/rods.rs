@@ -71,7 +71,8 @@ impl<T: Real> Rods<T> {
     }
 
     fn ask_joints(&mut self, scene: &Scene<T>) {
-        for joint in &scene.joints {
+        // a free joint has no row
+        for joint in scene.joints.iter().filter(|joint| joint.kind != JointKind::Free) {
             for (side, body) in joint.bodies.into_iter().enumerate() {
                 let is_ball = joint.kind == JointKind::Spherical
                     || (joint.kind == JointKind::Distance
@@ -88,12 +89,10 @@ impl<T: Real> Rods<T> {
     fn ask_initials(&mut self, scene: &Scene<T>) {
         for initial in &scene.initials {
             match &initial.target {
-                InitialTarget::Body { body, velocity, angular_velocity } => {
-                    let me = BodyRef::Body(*body);
-                    if angular_velocity.is_some() {
-                        self.rotation(me);
-                    } else if let Some((at, _)) = velocity {
-                        self.point(me, at);
+                InitialTarget::Body { body, velocity, .. } => {
+                    // an angular velocity says how the line swings
+                    if let Some((at, _)) = velocity {
+                        self.point(BodyRef::Body(*body), at);
                     }
                 }
                 InitialTarget::Joint { joint, .. } => {

@@ -54,11 +54,12 @@ pub fn accelerations<T: Real, M: Model<T>>(
             rates[k] += terms.phi_bias[k];
             lambda[k] += penalty[k] * rates[k];
         }
-        let correction = norm_inf(&f);
-        let slower = |share: f64| last.is_some_and(|last| correction > last * T::from_f64(share));
+        // What is left, not the correction: the second one takes back what the first one sagged.
+        let left = norm_inf(&rates);
+        let slower = |share: f64| last.is_some_and(|last| !(left < last * T::from_f64(share)));
         let (is_slow, stalls) = (slower(0.5), slower(0.9));
-        last = Some(correction);
-        let is_met = norm_inf(&rates) <= limit(model, terms, &s.a);
+        last = Some(left);
+        let is_met = left <= limit(model, terms, &s.a);
         if is_slow && raises > 0 && !is_met {
             alpha *= T::from_f64(RAISE);
             penalty.iter_mut().for_each(|p| *p *= T::from_f64(RAISE));

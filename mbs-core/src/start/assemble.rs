@@ -58,6 +58,7 @@ pub fn assemble<T: Real, const D: usize, S: SpdSolver<T>>(
     let start_solver = make_start(&problem);
     let mut assembly = Assembly::new(problem, start_solver);
     let (residual_before, stages) = assembly.positions(scene, &mut state)?;
+    assembly.count_turns(scene, &mut state);
     let position = assembly.largest_position();
     assembly.velocities(&mut state)?;
     let velocity = norm_inf(&assembly.rows);

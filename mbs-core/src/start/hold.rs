@@ -3,7 +3,7 @@
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, lowered, raised, rotation, unit};
 use crate::natural::{Affine, NaturalModel, joint_axes, unwrap};
-use crate::scene::{BodyRef, Dimension, InitialTarget, Joint, JointKind, Scene};
+use crate::scene::{BodyRef, Dimension, Inertia, InitialTarget, Joint, JointKind, Scene};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
@@ -18,6 +18,8 @@ enum Kind<T: Real, const D: usize> {
     Orientation { first: Box<[Affine<T, D>; 3]>, second: Affine<T, D>, vector: [T; 3], i: usize },
     /// A velocity component of a point.
     PointRate { x: Affine<T, D>, axis: usize },
+    /// A component of x' = w x x of a rod's line, which has no turn about itself.
+    Swing { x: Affine<T, D>, w: [T; 3], axis: usize },
     /// A component of the second body's angular velocity less the first's.
     Spin {
         first: Option<Box<[Affine<T, D>; 3]>>,
@@ -69,7 +71,16 @@ impl<T: Real, const D: usize> Hold<T, D> {
                             push(Kind::PointRate { x: model.point(me, *at), axis }, v[axis]);
                         }
                     }
-                    if let Some(w) = angular_velocity {
+                    if let (Some(w), Inertia::Rod { from, to }) =
+                        (angular_velocity, scene.bodies[*body].inertia)
+                        && D == 3
+                        && !model.has_full_rotation(me)
+                    {
+                        let x = model.point(me, to).minus(&model.point(me, from));
+                        for axis in 0..D {
+                            push(Kind::Swing { x: x.clone(), w: *w, axis }, T::ZERO);
+                        }
+                    } else if let Some(w) = angular_velocity {
                         for (kind, rate) in spins(model, BodyRef::Ground, me, *w) {
                             push(kind, rate);
                         }
@@ -78,6 +89,13 @@ impl<T: Real, const D: usize> Hold<T, D> {
             }
         }
         holds
+    }
+
+    /// Sets the rate that a rod's line is to have where it is.
+    pub(super) fn place_rate(&mut self, q: &[T]) {
+        if let Kind::Swing { x, w, axis } = &self.kind {
+            self.rate = Some(cross(&Vector::from(*w), &raised(&x.value(q)))[*axis]);
+        }
     }
 
     /// The held value [rad or m]; of a rotation its angle.
@@ -128,7 +146,7 @@ impl<T: Real, const D: usize> Hold<T, D> {
                 second.add_gradient(&a, gradient);
                 a.dot(&b)
             }
-            Kind::PointRate { x, axis } => {
+            Kind::PointRate { x, axis } | Kind::Swing { x, axis, .. } => {
                 x.add_gradient(&lowered(&unit(*axis)), gradient);
                 T::ZERO
             }
@@ -164,7 +182,7 @@ impl<T: Real, const D: usize> Hold<T, D> {
                     add(direction, second, s * r[(l, *i)]);
                 }
             }
-            Kind::PointRate { .. } | Kind::Spin { .. } => {}
+            Kind::PointRate { .. } | Kind::Swing { .. } | Kind::Spin { .. } => {}
         }
     }
 
@@ -178,7 +196,7 @@ impl<T: Real, const D: usize> Hold<T, D> {
             Kind::Orientation { first, second, .. } => {
                 first.iter().chain(core::iter::once(second)).for_each(&mut visit);
             }
-            Kind::PointRate { x, .. } => visit(x),
+            Kind::PointRate { x, .. } | Kind::Swing { x, .. } => visit(x),
             Kind::Spin { first, second, .. } => {
                 first.iter().chain(second).flat_map(|f| f.iter()).for_each(&mut visit);
             }

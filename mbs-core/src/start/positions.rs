@@ -13,8 +13,10 @@ use super::hold::Hold;
 use super::place::Placement;
 use super::problem::Level;
 use crate::Real;
+use crate::actions::{Action, Actions};
 use crate::blocks::{Cliques, SpdSolver};
 use crate::model::{Model, Owner, State};
+use crate::outputs::start_values;
 use crate::scene::Scene;
 use alloc::vec::Vec;
 
@@ -92,6 +94,23 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
             (s.q, s.memory) = (q, memory);
         }
         is_met
+    }
+
+    /// Angles of effects are counted as those of outputs are: from what is held, else within half a turn of the reference.
+    pub(super) fn count_turns(&mut self, scene: &Scene<T>, s: &mut State<T>) {
+        let model = self.problem.model;
+        let starts = start_values(scene);
+        // A scene that has a model has actions.
+        let actions = Actions::new(scene).map(|actions| actions.list).unwrap_or_default();
+        for (effect, action) in actions {
+            let Action::Angle { joint, .. } = action else { continue };
+            // A joint with effects about its axis has one angle, its last coordinate.
+            let start = starts.get(joint).and_then(|values| values.last());
+            if let (Some(place), Some(&start)) = (model.memory_of_effect(effect), start) {
+                s.memory[place] = start;
+            }
+        }
+        self.remember(s);
     }
 
     /// Angles are those nearest to the last stage's.

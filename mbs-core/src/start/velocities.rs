@@ -12,6 +12,7 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
     pub(super) fn velocities(&mut self, s: &mut State<T>) -> Result<(), AssemblyError> {
         let n = self.problem.n_unknowns();
         self.problem.model.evaluate_phi_t(&s.q, &mut self.problem.terms);
+        self.problem.holds.iter_mut().for_each(|hold| hold.place_rate(&s.q));
         self.problem.lower_penalties();
         self.sigma.fill(T::ZERO);
         self.change.fill(T::ZERO);

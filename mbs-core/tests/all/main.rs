@@ -14,3 +14,4 @@ mod motion;
 mod outputs;
 mod reactions;
 mod start;
+mod undetermined;
