@@ -79,9 +79,14 @@ pub struct Judged {
     pub channels: Vec<(usize, bool)>,
     /// The smallest pivot along the motion.
     pub least_pivot: f64,
+    /// Do rows of joints depend on each other, so that reactions are not unique?
+    pub is_redundant: bool,
 }
 
 /// Runs the judge.
+///
+/// # Errors
+/// Why it does not run, in words.
 pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
     let mechanism = Mechanism::new(crate::read(text).map_err(|e| e.0)?);
     let mut state = mechanism.start().map_err(|e| format!("judge: {e:?}"))?;
@@ -116,10 +121,14 @@ pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
         least_pivot = least_pivot.min(mechanism.evaluate(&state).least_pivot);
         rows.push(show(&state).concat());
     }
-    Ok(Judged { mechanism, rows, time: 20.0 * step, channels, least_pivot })
+    let is_redundant = begun.unique.contains(&false);
+    Ok(Judged { mechanism, rows, time: 20.0 * step, channels, least_pivot, is_redundant })
 }
 
 /// A scene as the crates read it.
+///
+/// # Errors
+/// Its refusal.
 pub fn document(text: &str) -> Result<Scene<f64>, String> {
     let document = Document::parse(text, "drawn.toml").map_err(|e| e.render())?;
     document.scene().map_err(|e| e.render())

@@ -22,8 +22,9 @@ fn every_joint_with_every_effect_moves_as_the_judge_says_in_every_formulation() 
     assert!(tally.agree >= left_out);
 }
 
-/// Refusals among the first hundred seeds: formulation, code, seeds.
-const REFUSED: &[(&str, &str, &[u64])] = &[];
+/// Refusals among the first hundred seeds: formulation, code, seeds. The loop of seed 99 comes near a position where it locks, and the
+/// steps of `state-space` pass over it.
+const REFUSED: &[(&str, &str, &[u64])] = &[("state-space", "rank-lost", &[99])];
 
 #[test]
 fn the_first_hundred_random_scenes_move_as_the_judge_says_or_are_refused_as_listed() {
