@@ -179,6 +179,17 @@ pub fn stopped_at(error: &RunError) -> String {
     format!("at t = {} s{whose}", readable(error.time))
 }
 
+/// A note where fewer threads are used than were asked for.
+#[must_use]
+pub fn few_threads(asked: usize, used: usize) -> Option<String> {
+    let are = if used == 1 { "thread is used" } else { "threads are used" };
+    (used < asked).then(|| {
+        format!(
+            "{used} {are}, not {asked}: the work of this scene has no use for more on this machine"
+        )
+    })
+}
+
 /// What is unusual about a scene, said once.
 pub(crate) fn notes<T: Real>(
     scene: &Scene<T>,

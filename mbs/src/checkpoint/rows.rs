@@ -1,10 +1,10 @@
 //! The rows of a run in its files, as it goes.
 
-use super::keeping::write_whole;
+use crate::folder::write_whole;
 use crate::recorder::Recorder;
 use mbs_core::real::DoubleDouble;
 use mbs_scene::{Channel, ControlSummary, CsvWriter, append_steps, write_steps};
-use std::fs::OpenOptions;
+use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -30,6 +30,9 @@ impl Rows {
     pub(super) fn write(&mut self, out: &Path, recorder: &Recorder) -> io::Result<()> {
         let is_anew = self.thinning != recorder.thinning();
         let from = if is_anew { 0 } else { self.n };
+        if is_anew {
+            fs::create_dir_all(out)?;
+        }
         for (file, text) in FILES.iter().zip(texts(recorder, from)?) {
             let path = out.join(file);
             if is_anew {

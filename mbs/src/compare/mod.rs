@@ -19,7 +19,8 @@ mod store;
 mod table;
 mod truth;
 
-pub use crate::journal::JournalError;
+pub use crate::interrupt::Interrupt;
+use crate::journal::JournalError;
 pub use store::Earlier;
 pub use table::TableError;
 
@@ -62,6 +63,8 @@ pub struct Request {
     pub maps: bool,
     /// Is the choice by measurement to be made at each error, and held against all methods?
     pub choices: bool,
+    /// What ends the comparison from outside.
+    pub interrupt: Interrupt,
 }
 
 impl Default for Request {
@@ -78,6 +81,7 @@ impl Default for Request {
             budget: 200.0,
             maps: true,
             choices: false,
+            interrupt: Interrupt::default(),
         }
     }
 }
@@ -171,11 +175,13 @@ pub fn compare(
 ) -> Result<Comparison, CompareError> {
     check(request)?;
     let precisions = request.needed_precisions(table.is_some());
-    let scenes = Scenes::new(document, &precisions).map_err(CompareError::Read)?;
+    let mut scenes = Scenes::new(document, &precisions).map_err(CompareError::Read)?;
+    scenes.interrupt = request.interrupt.clone();
     let options = format!("{request:?}");
     let head = Head::new(KIND, &[document.text(), &options, table.map_or("", |(_, text)| text)]);
     let store = Store::open(out, &head, earlier).map_err(CompareError::Journal)?;
     let mut store = store.ok_or(CompareError::Unfinished)?;
+    store.interrupt = request.interrupt.clone();
     let study = Study::new(&scenes, request);
     watch.plan(&study.plan(store.resumed));
     watch.doing(0.0, "reference");

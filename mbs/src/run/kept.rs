@@ -56,8 +56,18 @@ where
     /// Writes rows and a checkpoint where they are due after step `k`; says whether it took time.
     pub(super) fn keep(&mut self, k: u64) -> bool {
         self.done = k;
+        let is_due = self.kept.as_ref().is_some_and(|kept| kept.keeping.is_due(self.reached));
+        self.write(is_due)
+    }
+
+    /// Writes rows and a checkpoint, whether they are due or not.
+    pub(super) fn keep_now(&mut self) {
+        self.write(true);
+    }
+
+    /// Writes what waits, and a checkpoint where one is due.
+    fn write(&mut self, is_due: bool) -> bool {
         let Some(kept) = self.kept.take() else { return false };
-        let is_due = kept.keeping.is_due(self.reached);
         let is_busy = is_due || kept.keeping.is_waiting(&self.recorder);
         if is_busy {
             let since = self.clock.get();
