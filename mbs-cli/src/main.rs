@@ -80,6 +80,7 @@ pub(crate) const REFUSED: u8 = 1;
 pub(crate) const STOPPED: u8 = 2;
 
 fn main() -> ExitCode {
+    signals::outlive_limits();
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => {

@@ -125,7 +125,8 @@ fn not_run(error: &SweepError, out: &Path) -> Refusal {
 /// JSON or text; the exit status says whether all members were completed.
 fn tell(report: &Report, out: &Path, arguments: &Arguments) -> ExitCode {
     let text = if arguments.json { json(report, arguments) } else { text(report, out) };
-    let asked = arguments.threads.map_or(0, NonZeroUsize::get).min(report.members - report.resumed);
+    let is_run = report.resumed < report.members;
+    let asked = arguments.threads.filter(|_| is_run).map_or(0, NonZeroUsize::get);
     if let Some(note) = words::few_threads(asked, report.threads) {
         warn(&format!("note: {note}"));
     }

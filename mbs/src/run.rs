@@ -172,6 +172,7 @@ where
         };
         let recorder = Recorder::new(channels, n_rows, simulation.invariant().initial(), keep);
         let figure = Figure::new(scene, simulation.model(), settings.duration);
+        let threads = simulation.threads();
         Ok(Self {
             scene,
             settings,
@@ -188,7 +189,7 @@ where
             alarm: Alarm::new(settings.energy_alarm),
             frictions: Frictions::new(scene, settings),
             done: 0,
-            clock: Clock::new(),
+            clock: Clock::new(threads),
             kept: None,
             realtime: None,
             level: None,

@@ -183,11 +183,8 @@ pub fn stopped_at(error: &RunError) -> String {
 #[must_use]
 pub fn few_threads(asked: usize, used: usize) -> Option<String> {
     let are = if used == 1 { "thread is used" } else { "threads are used" };
-    (used < asked).then(|| {
-        format!(
-            "{used} {are}, not {asked}: the work of this scene has no use for more on this machine"
-        )
-    })
+    (used < asked)
+        .then(|| format!("{used} {are}, not {asked}: more have no work here, or no processor"))
 }
 
 /// What is unusual about a scene, said once.

@@ -84,7 +84,8 @@ impl Keeping {
         let mut done = self.rows.write(&self.out.join(PART), recorder);
         if let Some((t, bytes)) = checkpoint {
             let bytes = bytes.map_err(|error| io::Error::other(error.to_string()));
-            done = done.and(bytes.and_then(|bytes| write_whole(&self.path(), &bytes)));
+            let write = |bytes: Vec<u8>| write_whole(&self.out, FILE, &bytes).map_err(|e| e.error);
+            done = done.and(bytes.and_then(write));
             self.next = ((t / self.every + EARLY).floor() + 1.0 - EARLY) * self.every;
         }
         self.failure = done.err();

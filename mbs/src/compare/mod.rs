@@ -19,17 +19,18 @@ mod store;
 mod table;
 mod truth;
 
-pub use crate::interrupt::Interrupt;
-use crate::journal::JournalError;
+pub use crate::journal::JournalError;
 pub use store::Earlier;
 pub use table::TableError;
 
 use crate::choice::{Formulation, Precision};
+use crate::interrupt::Interrupt;
 use crate::journal::{Head, Kind, hash};
 use crate::precision::{PrecisionError, not_built_hint};
 use core::fmt::{self, Display, Formatter};
 use ladder::Instants;
 use mbs_core::cluster::scene_length;
+use mbs_core::scene::Scene;
 use mbs_scene::compare::{Cell, Comparison, ConvergenceMap};
 use mbs_scene::{Channel, Document};
 use method::Method;
@@ -143,6 +144,9 @@ const KIND: Kind = Kind {
     hashes: &["the scene", "an option", "the reference table"],
 };
 
+/// Step where the scene has none [s].
+const DEFAULT_STEP: f64 = 1e-3;
+
 /// What a comparison is made of.
 struct Study<'a> {
     scenes: &'a Scenes,
@@ -209,6 +213,17 @@ pub fn compare(
     Ok(comparison)
 }
 
+/// Reads the text of a reference table for a scene, at the instants of a comparison as usual.
+///
+/// # Errors
+/// [`TableError`] where it cannot be used.
+pub fn check_table(scene: &Scene<f64>, text: &str) -> Result<(), TableError> {
+    let of_scene = scene.solver.step.unwrap_or(DEFAULT_STEP).min(scene.duration);
+    let steps = ladder::steps(&[], of_scene, scene.duration);
+    let instants = Instants::new(scene.duration, &steps);
+    table::read(text, &Channel::of_scene(scene), &instants).map(drop)
+}
+
 fn check(request: &Request) -> Result<(), CompareError> {
     let single = [request.time_limit, request.budget, request.duration.unwrap_or(1.0)];
     let lists = [
@@ -227,7 +242,6 @@ fn check(request: &Request) -> Result<(), CompareError> {
 
 impl<'a> Study<'a> {
     fn new(scenes: &'a Scenes, request: &'a Request) -> Self {
-        const DEFAULT_STEP: f64 = 1e-3;
         let scene = &scenes.double;
         let duration = request.duration.unwrap_or(scene.duration);
         let of_scene = scene.solver.step.unwrap_or(DEFAULT_STEP).min(duration);

@@ -153,18 +153,22 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     renamed
 }
 
-/// Replaces a file of a locked directory by another that is whole: after a kill or a crash it has the old bytes or the new ones.
-pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(".part");
-    let beside = PathBuf::from(beside);
-    let done = written(&beside, |sink| sink.write_all(bytes)).map_err(|error| error.error);
-    if let Err(error) = done.and_then(|_| fs::rename(&beside, path)) {
+/// Replaces a file of a directory that one process writes by another that is whole: after a kill or a crash it has the old bytes or the new
+/// ones. Until then they are in [`PART`].
+pub(crate) fn write_whole(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), WriteError> {
+    let (part, path) = (folder.join(PART), folder.join(name));
+    let beside = part.join(name);
+    // where it cannot be made nothing can be written in it
+    let _ = fs::create_dir_all(&part);
+    let done = written(&beside, |sink| sink.write_all(bytes)).and_then(|_| {
+        let error = |error| WriteError { path, bytes: 0, error };
+        fs::rename(&beside, folder.join(name)).map_err(error)
+    });
+    if done.is_err() {
         let _ = fs::remove_file(&beside);
-        return Err(error);
     }
-    path.parent().into_iter().for_each(sync);
-    Ok(())
+    sync(folder);
+    done
 }
 
 /// Writes and syncs a file; its size and checksum.

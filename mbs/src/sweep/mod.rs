@@ -15,7 +15,7 @@ pub use member::Row;
 pub use table::{Columns, Failures};
 
 use crate::choice::Precision;
-use crate::folder::{WriteError, write_file};
+use crate::folder::{PART, WriteError, write_whole};
 use crate::journal::{Head, Journal, Kind};
 use crate::settings::{Overrides, Settings, SettingsError};
 use core::fmt::{self, Display, Formatter};
@@ -270,7 +270,7 @@ impl Study {
         let put = |name: &str, bytes: std::io::Result<Vec<u8>>| {
             let path = out.join(name);
             let failed = |error| WriteError { path: path.clone(), bytes: 0, error };
-            let done = bytes.map_err(failed).and_then(|bytes| write_file(&path, &bytes));
+            let done = bytes.map_err(failed).and_then(|bytes| write_whole(out, name, &bytes));
             done.map(|()| path.clone()).map_err(SweepError::Write)
         };
         let mut csv = Vec::new();
@@ -283,6 +283,7 @@ impl Study {
             let written = parquet::write(&mut table, &self.columns, rows);
             tables.push(put("table.parquet", written.map(|()| table))?);
         }
+        let _ = std::fs::remove_dir(out.join(PART));
         Ok(tables)
     }
 }
