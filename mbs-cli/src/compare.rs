@@ -191,7 +191,7 @@ fn run(arguments: &Arguments) -> Result<(Comparison, Option<(Folder, String)>), 
     let place = (arguments.out.as_deref(), arguments.earlier());
     let comparison = compare(&document, &request, table, place, &mut bar);
     bar.bar.finish_and_clear();
-    let mut comparison = comparison.map_err(|error| refusal(&error))?;
+    let mut comparison = comparison.map_err(|error| refusal(&error, folder.is_some()))?;
     let written = folder.map(|folder| (folder, id(&[document.text(), &arguments.command()])));
     let origin = &mut comparison.provenance;
     origin.command = arguments.command();
@@ -202,11 +202,21 @@ fn run(arguments: &Arguments) -> Result<(Comparison, Option<(Folder, String)>), 
     Ok((comparison, written))
 }
 
-fn refusal(error: &CompareError) -> Refusal {
+/// A refusal, or what is left of a comparison that was interrupted: with a directory, a journal.
+fn refusal(error: &CompareError, has_journal: bool) -> Refusal {
     let hint = error.hint();
     match error {
         CompareError::Read(read) => Refusal::scene(read),
-        CompareError::Journal(JournalError::Interrupted) => Refusal::interrupted(error, &hint),
+        CompareError::Journal(JournalError::Interrupted) => {
+            let hint = match has_journal {
+                true => "the runs that were finished are kept: go on with --resume",
+                false => "with --out DIR finished runs are kept, and --resume goes on from them",
+            };
+            Refusal::interrupted(error, hint)
+        }
+        CompareError::Journal(JournalError::Io(_)) => {
+            Refusal::new("out-unwritable", error, hint).stopped()
+        }
         CompareError::Journal(_) => Refusal::new("journal-refused", error, hint),
         CompareError::Unfinished => Refusal::new("run-unfinished", error, hint),
         CompareError::Table(_) => Refusal::new("table-refused", error, hint),

@@ -4,7 +4,6 @@ use crate::files;
 use crate::refusal::Refusal;
 use clap::Args;
 use mbs::export::{ExportError, export, ladder};
-use mbs::folder::write_file;
 use mbs::{Overrides, Precision, Settings};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -59,7 +58,7 @@ fn written(arguments: &Arguments) -> Result<(), Refusal> {
         [(&arguments.rust, exported.rust.as_bytes()), (&arguments.binary, &exported.bytes)]
     {
         if let Some(path) = path {
-            write_file(path, bytes).map_err(|error| Refusal::unwritable(&error))?;
+            files::write(path, bytes, Some(&arguments.scene))?;
         }
     }
     Ok(())

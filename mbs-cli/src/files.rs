@@ -3,7 +3,7 @@
 use crate::refusal::Refusal;
 use crate::say::warn;
 use mbs::core::scene::{Entry, Scene};
-use mbs::folder::{Folder, WriteError, id};
+use mbs::folder::{Folder, WriteError, id, write_file};
 use mbs::scene_file::{Choice, Document, Provenance, readable};
 use mbs::{Overrides, Settings, SettingsError};
 use std::fs::File;
@@ -11,8 +11,10 @@ use std::io::{self, Read};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Bytes of a file that is read at most, unless larger ones are asked for: a tree of numbers takes fifty times the bytes of its text.
+/// Bytes of a file that is read at most, unless larger ones are asked for, and values of a tree: each takes 150 bytes, however short its
+/// text is.
 const MOST_BYTES: u64 = 64 << 20;
+const MOST_VALUES: usize = 8_000_000;
 /// Whether files of any size are read, as the command line says once.
 static IS_BIG: AtomicBool = AtomicBool::new(false);
 
@@ -66,20 +68,28 @@ pub(crate) fn folder(out: &Path, files: &[&str]) -> Result<Folder, Refusal> {
 
 /// Reads a file of a kind that is called `what`; else the refusal.
 pub(crate) fn document(path: &Path, what: &str) -> Result<Document, Refusal> {
-    let document = Document::from_bytes(&read(path, what)?, &path.display().to_string());
+    let bytes = read(path, what)?;
+    // no value stands without one of these
+    let values = bytes.iter().filter(|byte| matches!(byte, b',' | b'=')).count();
+    if values > MOST_VALUES && !IS_BIG.load(Ordering::Relaxed) {
+        return Err(too_large(
+            path,
+            &format!("has more than {} million values", MOST_VALUES / 1_000_000),
+        ));
+    }
+    let document = Document::from_bytes(&bytes, &path.display().to_string());
     document.map_err(|error| Refusal::read("scene-refused", &error))
 }
 
 /// The bytes of a file of a kind that is called `what`; else the refusal.
 pub(crate) fn read(path: &Path, what: &str) -> Result<Vec<u8>, Refusal> {
     let bytes = bytes(path).map_err(|error| unreadable(path, what, &error))?;
-    bytes.ok_or_else(|| {
-        Refusal::new(
-            "too-large",
-            format!("`{}` is larger than {} MiB", path.display(), MOST_BYTES >> 20),
-            "write --big to read it nevertheless: it may take fifty times its size in memory",
-        )
-    })
+    bytes.ok_or_else(|| too_large(path, &format!("is larger than {} MiB", MOST_BYTES >> 20)))
+}
+
+fn too_large(path: &Path, why: &str) -> Refusal {
+    let hint = "write --big to read it nevertheless: it may take eighty times its size in memory";
+    Refusal::new("too-large", format!("`{}` {why}", path.display()), hint)
 }
 
 /// The bytes of a file; nothing where it is too large.
@@ -97,6 +107,16 @@ fn bytes(path: &Path) -> io::Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();
     file.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
     Ok((bytes.len() as u64 <= MOST_BYTES).then_some(bytes))
+}
+
+/// Writes a file that is named alone, unless it is the one that was read; else the refusal.
+pub(crate) fn write(path: &Path, bytes: &[u8], input: Option<&Path>) -> Result<(), Refusal> {
+    let place = |path: &Path| path.canonicalize().ok();
+    if input.is_some_and(|input| place(input).is_some() && place(input) == place(path)) {
+        let message = format!("`{}` is the scene that is read", path.display());
+        return Err(Refusal::new("out-unwritable", message, "give another file"));
+    }
+    write_file(path, bytes).map_err(|error| Refusal::unwritable(&error))
 }
 
 /// A refusal of settings, with its place when the scene asks for them.

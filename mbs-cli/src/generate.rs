@@ -4,7 +4,6 @@ use crate::refusal::Refusal;
 use crate::say::{out, warn};
 use crate::{STOPPED, files};
 use clap::{Args, ValueEnum};
-use mbs::folder::write_file;
 use mbs::scene_file::{Document, Family, GenerateError, generate};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -67,9 +66,9 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
             }
         };
     };
-    match write_file(file, text.as_bytes()) {
+    match files::write(file, text.as_bytes(), arguments.of.as_deref()) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(error) => Refusal::unwritable(&error).tell(),
+        Err(refusal) => refusal.tell(),
     }
 }
 

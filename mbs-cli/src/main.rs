@@ -32,7 +32,7 @@ use std::process::ExitCode;
 struct Cli {
     #[command(subcommand)]
     command: Command,
-    /// Read files of more than 64 MiB: they may take fifty times their size in memory.
+    /// Read files of more than 64 MiB or 8 million values: they may take eighty times their size in memory.
     #[arg(long, global = true)]
     big: bool,
 }

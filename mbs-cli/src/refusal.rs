@@ -19,7 +19,7 @@ pub(crate) struct Refusal {
     message: String,
     hint: String,
     /// File and place in it.
-    place: Option<(String, Place)>,
+    place: Option<Box<(String, Place)>>,
 }
 
 impl Refusal {
@@ -30,7 +30,7 @@ impl Refusal {
 
     /// At a place in a file.
     pub(crate) fn at(self, file: &str, place: Place) -> Self {
-        Self { place: Some((file.to_owned(), place)), ..self }
+        Self { place: Some(Box::new((file.to_owned(), place))), ..self }
     }
 
     /// Of a file's text.
@@ -76,7 +76,7 @@ impl Refusal {
 
     /// Of results that were computed and could not be written.
     pub(crate) fn lost(error: &WriteError) -> Self {
-        Self { status: STOPPED, ..Self::unwritable(error) }
+        Self::unwritable(error).stopped()
     }
 
     /// Of a file that could not be written.
@@ -86,9 +86,14 @@ impl Refusal {
         Self::new("out-unwritable", error, hint)
     }
 
+    /// Of what had begun: its status is that of a run that stopped.
+    pub(crate) fn stopped(self) -> Self {
+        Self { status: STOPPED, ..self }
+    }
+
     /// Of what was interrupted, and what there is of it.
     pub(crate) fn interrupted(message: impl Display, hint: &str) -> Self {
-        Self { status: STOPPED, ..Self::new(INTERRUPTED, message, hint) }
+        Self::new(INTERRUPTED, message, hint).stopped()
     }
 
     /// Says it on standard error, and with `--json` as an object on standard output.
@@ -101,7 +106,7 @@ impl Refusal {
     pub(crate) fn warn(&self) {
         let Self { message, hint, .. } = self;
         warn(&match &self.place {
-            Some((file, place)) => place.render(file, message, hint),
+            Some(at) => at.1.render(&at.0, message, hint),
             None if hint.is_empty() => format!("error: {message}"),
             None => format!("error: {message}\nhint: {hint}"),
         });
@@ -113,7 +118,7 @@ impl Refusal {
         if !wants_json() {
             return status;
         }
-        let place = self.place.as_ref();
+        let place = self.place.as_deref();
         let object = json!({ "error": {
             "code": self.code,
             "message": self.message,

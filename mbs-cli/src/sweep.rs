@@ -130,7 +130,10 @@ fn tell(report: &Report, out: &Path, arguments: &Arguments) -> ExitCode {
     if let Some(note) = words::few_threads(asked, report.threads) {
         warn(&format!("note: {note}"));
     }
-    let is_whole = report.failures.is_empty();
+    if let Some(error) = &report.lost {
+        Refusal::lost(error).warn();
+    }
+    let is_whole = report.failures.is_empty() && report.lost.is_none();
     say(&text, if is_whole { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
 }
 
@@ -176,7 +179,10 @@ fn text(report: &Report, out: &Path) -> String {
     }
     let names: Vec<_> =
         report.tables.iter().filter_map(|path| path.file_name()?.to_str()).collect();
-    text + &format!("wrote {} to {}\n", names.join(" and "), out.display())
+    if !names.is_empty() {
+        text += &format!("wrote {} to {}\n", names.join(" and "), out.display());
+    }
+    text
 }
 
 /// A progress bar on a terminal, nothing elsewhere.

@@ -237,8 +237,7 @@ impl Settings {
         let limits =
             overrides.energy_tolerance.or(solver.energy_tolerance.map(|l| l.map(T::to_f64)));
         let limits = limits.unwrap_or([EnergyRule::default().upper, EnergyRule::default().lower]);
-        let duration = overrides.duration.unwrap_or(scene.duration.to_f64());
-        let duration = positive("duration", duration)?;
+        let duration = positive("duration", overrides.duration.unwrap_or(scene.duration.to_f64()))?;
         let shorter = step.min(step_max);
         if duration / shorter > MOST_STEPS {
             return Err(SettingsError::TooManySteps { step: shorter, duration });

@@ -78,6 +78,8 @@ impl Store {
 mod tests {
     use super::*;
     use crate::journal::Kind;
+    use core::sync::atomic::{AtomicBool, Ordering};
+    use std::sync::Arc;
 
     const KIND: Kind =
         Kind { file: "x.journal", title: "x", of: ["an x", "another x"], hashes: &["the text"] };
@@ -99,6 +101,17 @@ mod tests {
         for (x, y) in numbers.iter().zip(value.as_array().unwrap()) {
             assert_eq!(x.to_bits(), y.as_f64().unwrap().to_bits());
         }
+        // what is cut short is no result
+        let flag = Arc::new(AtomicBool::new(false));
+        store.interrupt = Interrupt::new(flag.clone());
+        let cut = store.get("run 2", || {
+            flag.store(true, Ordering::Relaxed);
+            0.into()
+        });
+        assert!(matches!(cut, Err(JournalError::Interrupted)));
+        drop(store);
+        store = open(Earlier::Resume).unwrap();
+        assert_eq!(store.resumed, 1);
         drop(store);
         let other = Head::new(KIND, &["b"]);
         let refused = Store::open(Some(&out), &other, Earlier::Resume).unwrap_err();

@@ -40,7 +40,8 @@ impl Folder {
     pub fn begin(&self, id: &str) -> Result<Part<'_>, WriteError> {
         let path = self.path.join(PART);
         clear(&path);
-        match fs::create_dir(&path) {
+        // somebody may have removed all of it meanwhile
+        match fs::create_dir_all(&path) {
             Ok(()) => {
                 let (id, names, sums) = (id.to_owned(), Vec::new(), Default::default());
                 Ok(Part { folder: self, id, names, sums })

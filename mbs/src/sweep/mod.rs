@@ -94,6 +94,8 @@ pub struct Report {
     pub cpu_seconds: f64,
     /// The tables written.
     pub tables: Vec<PathBuf>,
+    /// Why a table could not be written; the journal has all members.
+    pub lost: Option<WriteError>,
 }
 
 /// Called as members finish; does nothing by default.
@@ -185,7 +187,7 @@ impl Study {
     /// next result is looked at: killing the process loses the members under way.
     ///
     /// # Errors
-    /// No threads; a journal of another scene, sweep or version, or in use; a directory that cannot be written.
+    /// No threads; a journal of another scene, sweep or version, or in use; a directory that cannot be written; an interruption.
     pub fn run(
         &self,
         out: &Path,
@@ -242,7 +244,10 @@ impl Study {
         if rows.len() < self.n_members() && self.overrides.interrupt.is_set() {
             return Err(SweepError::Interrupted([rows.len(), self.n_members()]));
         }
-        let tables = self.write(out, &rows)?;
+        let (tables, lost) = match self.write(out, &rows) {
+            Ok(tables) => (tables, None),
+            Err(error) => (Vec::new(), Some(error)),
+        };
         Ok(Report {
             members: rows.len(),
             completed: rows.len() - failed,
@@ -252,6 +257,7 @@ impl Study {
             wall_seconds: clock.elapsed().as_secs_f64(),
             cpu_seconds,
             tables,
+            lost,
         })
     }
 
@@ -266,12 +272,12 @@ impl Study {
         &self,
         out: &Path,
         rows: &BTreeMap<usize, Vec<String>>,
-    ) -> Result<Vec<PathBuf>, SweepError> {
+    ) -> Result<Vec<PathBuf>, WriteError> {
         let put = |name: &str, bytes: std::io::Result<Vec<u8>>| {
             let path = out.join(name);
             let failed = |error| WriteError { path: path.clone(), bytes: 0, error };
             let done = bytes.map_err(failed).and_then(|bytes| write_whole(out, name, &bytes));
-            done.map(|()| path.clone()).map_err(SweepError::Write)
+            done.map(|()| path.clone())
         };
         let mut csv = Vec::new();
         let written = self.columns.write_csv(&mut csv, rows.values());

@@ -118,3 +118,21 @@ fn threads_beyond_use_give_the_bits_of_one() {
     assert!(one == many && !plain.contains("note:"));
     assert!(noted.contains("note: 1 thread is used, not 1000"), "{noted}");
 }
+
+#[test]
+fn a_sweep_on_a_full_disk_says_what_it_knows() {
+    let place = Place::new("swept");
+    let values = (1..=40).map(|k| format!("{k}.0")).collect::<Vec<_>>().join(", ");
+    place.put("s.toml", format!("[[vary]]\npath = 'body.bar.mass'\nvalues = [{values}]\n"));
+    let line = "sweep p.toml s.toml --duration 0.01 --out out --json";
+    assert_eq!(ended(&mut place.mbs(line)).status.code(), Some(0));
+    let (table, journal) = (place.read("out/table.csv"), place.read("out/sweep.journal"));
+    // the journal is there, the table has no room
+    let mut shell = Command::new("bash");
+    shell.args(["-c", &format!("ulimit -f 1; exec $M {line}")]).current_dir(&place.0);
+    let said = ended(shell.env("M", env!("CARGO_BIN_EXE_mbs")));
+    assert_eq!(said.status.code(), Some(2), "{}", text(&said.stderr));
+    assert!(text(&said.stderr).contains("table.csv"), "{}", text(&said.stderr));
+    assert_eq!(json(&said)["completed"], 40);
+    assert!(place.read("out/table.csv") == table && place.read("out/sweep.journal") == journal);
+}

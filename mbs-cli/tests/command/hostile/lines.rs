@@ -31,6 +31,7 @@ const PATHS: &[Line] = &[
     ("$M run /dev/zero --json", 1, "larger than 64 MiB"),
     ("$M run big.toml --json", 1, "write --big"),
     ("$M run big.toml --big", 1, "not TOML"),
+    ("$M run values.toml --json", 1, "more than 8 million values"),
     ("$M sweep dir.toml s.toml", 1, "that is a directory"),
     ("$M sweep p.toml dir.toml --json", 1, "that is a directory"),
     ("$M sweep p.toml /dev/zero", 1, "larger than 64 MiB"),
@@ -65,6 +66,7 @@ const PLACES: &[Line] = &[
     ("$M generate chain --count 2 -o dir.toml", 1, "is a directory"),
     ("$M generate chain --count 2 -o file/deep", 1, "not a directory"),
     ("$M generate chain --count 2 -o /dev/full", 1, "no space left"),
+    ("$M export p.toml --rust dir.toml/../p.toml", 1, "the scene that is read"),
     ("$M export p.toml --rust dir.toml", 1, "is a directory"),
     ("$M export p.toml --binary /dev/full", 1, "no space left"),
     ("$M generate chain --count 2 -o /dev/stdout | grep -q body", 0, ""),
@@ -194,6 +196,7 @@ fn hostile(name: &str) -> Place {
     // without bytes on the disk
     let big = std::fs::File::create(place.0.join("big.toml")).expect("it is ours");
     big.set_len(65 << 20).expect("a file of any size");
+    place.put("values.toml", format!("x = [{}]\n", "1,".repeat(8_000_001)));
     for (name, to) in [("dangling.toml", "nowhere"), ("loop.toml", "loop.toml")] {
         std::os::unix::fs::symlink(to, place.0.join(name)).expect("a link");
     }
@@ -227,6 +230,7 @@ fn all(name: &str, lines: &[Line]) {
         }
         assert!(super::results(&place.0.join("old")) == old, "{line}: it has lost what was there");
         assert_eq!(place.read("file"), b"mine", "{line}");
+        assert_eq!(place.read("p.toml"), super::SCENE.as_bytes(), "{line}");
     }
     assert_eq!(place.names("old"), ["run.csv", "run.html", "run.json", "steps.csv"]);
 }

@@ -107,3 +107,27 @@ fn a_sweep_that_is_interrupted_keeps_the_members_that_are_finished() {
     let report = json(&again);
     assert_eq!((&report["completed"], &report["resumed"]), (&400.into(), &kept.into()));
 }
+
+#[test]
+fn a_comparison_that_is_interrupted_keeps_the_runs_that_are_finished() {
+    let place = Place::new("compared");
+    let made = ended(&mut place.run("--duration 10 --out ref"));
+    assert_eq!(made.status.code(), Some(0), "{}", text(&made.stderr));
+    // the last of its steps takes longer than anybody waits
+    let line = "compare p.toml --reference ref/run.csv --duration 10 --formulation index-3 --precision f64 \
+                --steps 1e-2,1e-3,1e-8 --tolerances 1e-4 --time-limit 1e6 --no-maps --out out --json";
+    let mut command = place.mbs(line);
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+    let child = child.expect("the command is built");
+    let journal =
+        || std::fs::read_to_string(place.0.join("out/compare.journal")).unwrap_or_default();
+    wait_for("runs", || journal().lines().count() > 2);
+    signal("-TERM", &child);
+    let said = output(child, "a comparison");
+    assert_eq!(said.status.code(), Some(2), "{}", text(&said.stderr));
+    let error = &json(&said)["error"];
+    assert_eq!(error["code"], "interrupted");
+    assert!(error["hint"].as_str().is_some_and(|hint| hint.contains("--resume")), "{error}");
+    assert!(!journal().contains("interrupted"), "what was cut short is no result");
+    assert_eq!(place.names("out"), ["compare.journal"]);
+}
