@@ -84,7 +84,7 @@ pub(crate) fn modes(arguments: &Modes) -> ExitCode {
             "--near seeks an equilibrium, and --at initial needs none",
             "leave one of them out",
         )
-        .tell();
+        .report();
     }
     let analysed = |scene: &Scene<f64>| mbs::Modes::new(scene, place, search);
     let told = |scene: &Scene<f64>| analysed(scene).map(|m| (m.to_json(), spectrum(&m)));
@@ -103,7 +103,7 @@ fn command(
     });
     let ((document, scene), folder) = match begun {
         Ok(begun) => begun,
-        Err(refusal) => return refusal.tell(),
+        Err(refusal) => return refusal.report(),
     };
     let result = analyse(&scene);
     let (object, text) = match &result {

@@ -173,7 +173,7 @@ fn named<U: Copy>(
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match run(arguments) {
         Ok((comparison, written)) => tell(&comparison, written, arguments),
-        Err(refusal) => refusal.tell(),
+        Err(refusal) => refusal.report(),
     }
 }
 
@@ -251,11 +251,10 @@ fn tell(
     let mut runs = comparison.methods.iter().flat_map(|method| &method.runs);
     let is_any = runs.any(|run| run.status == Status::Completed);
     let mut status = if is_any { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) };
-    let (mut object, mut wrote) = (comparison.to_json(), String::new());
+    let (object, mut wrote) = (comparison.to_json(), String::new());
     if let Some((folder, id)) = &written {
         match write_files((comparison, &object), folder, id) {
-            Ok(whole) => {
-                object = whole;
+            Ok(_) => {
                 let out = folder.path().display();
                 wrote = format!("\nwrote compare.csv, compare.json and compare.html to {out}\n");
             }

@@ -53,7 +53,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let place = (arguments.out.as_deref(), &["doctor.json", "doctor.html"][..]);
     let begun = match files::begin(&arguments.scene, &overrides, place) {
         Ok(begun) => begun,
-        Err(refusal) => return refusal.tell(),
+        Err(refusal) => return refusal.report(),
     };
     let mut effort = Effort::default();
     if arguments.still {
@@ -61,7 +61,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     }
     let checkup = examine(&begun.scene, &begun.settings, &effort);
     if overrides.interrupt.is_set() {
-        return Refusal::interrupted("interrupted by a signal", "start it again").tell();
+        return Refusal::interrupted("interrupted by a signal", "start it again").report();
     }
     tell(&begun, &checkup, arguments)
 }

@@ -50,7 +50,7 @@ pub(crate) struct Arguments {
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match explain(arguments) {
         Ok((begun, explanation)) => tell(&begun, &explanation, arguments),
-        Err(refusal) => refusal.tell(),
+        Err(refusal) => refusal.report(),
     }
 }
 

@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match written(arguments) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(refusal) => refusal.tell(),
+        Err(refusal) => refusal.report(),
     }
 }
 

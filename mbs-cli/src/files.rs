@@ -58,7 +58,7 @@ pub(crate) fn folder(out: &Path, files: &[&str]) -> Result<Folder, Refusal> {
     let folder = Folder::open(out, files).map_err(|error| Refusal::folder(out, &error))?;
     if let Some([file, object]) = folder.mixed() {
         warn(&format!(
-            "warning: `{file}` in `{}` is not of the results that `{object}` tells of: it was changed, or a process was killed between two \
+            "warning: `{file}` in `{}` does not belong to the results of `{object}`: it was changed, or a process was killed between two \
              files",
             out.display()
         ));

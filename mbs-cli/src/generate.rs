@@ -55,7 +55,7 @@ const SPACING: f64 = 8.0;
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let text = match text(arguments) {
         Ok(text) => text,
-        Err(refusal) => return refusal.tell(),
+        Err(refusal) => return refusal.report(),
     };
     let Some(file) = &arguments.output else {
         return match out(&text) {
@@ -68,7 +68,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     };
     match files::write(file, text.as_bytes(), arguments.of.as_deref()) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(refusal) => refusal.tell(),
+        Err(refusal) => refusal.report(),
     }
 }
 

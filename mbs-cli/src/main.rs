@@ -96,7 +96,7 @@ fn main() -> ExitCode {
                 return unbuilt(precision);
             }
         }
-        Err([message, hint]) => return Refusal::new("settings-refused", message, hint).tell(),
+        Err([message, hint]) => return Refusal::new("settings-refused", message, hint).report(),
     }
     match cli.command {
         Command::Run(arguments) => run::main(&arguments),
@@ -166,7 +166,7 @@ fn hint(error: &clap::Error) -> Option<String> {
 /// Says which precision this build lacks, to whom does not build it himself.
 pub(crate) fn unbuilt(precision: Precision) -> ExitCode {
     if std::env::var_os(BUILDER).is_none() {
-        Refusal::scene(&PrecisionError::NotBuilt(precision)).tell();
+        Refusal::scene(&PrecisionError::NotBuilt(precision)).report();
     }
     ExitCode::from(UNBUILT)
 }

@@ -97,7 +97,7 @@ impl Refusal {
     }
 
     /// Says it on standard error, and with `--json` as an object on standard output.
-    pub(crate) fn tell(&self) -> ExitCode {
+    pub(crate) fn report(&self) -> ExitCode {
         self.warn();
         self.object()
     }

@@ -165,7 +165,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let mut clock = Processor::new(arguments.threads.unwrap_or(1));
     match begin(arguments) {
         Ok(begun) => go(arguments, begun, &mut clock),
-        Err(Stop::Refused(refusal)) => refusal.tell(),
+        Err(Stop::Refused(refusal)) => refusal.report(),
         Err(Stop::Unbuilt(precision)) => unbuilt(precision),
     }
 }
@@ -243,7 +243,7 @@ pub(crate) fn unplanned(error: &PlanError) -> Refusal {
 fn go(arguments: &Arguments, mut run: Run, clock: &mut dyn Clock) -> ExitCode {
     match outcome(arguments, &mut run, clock) {
         Ok((outcome, settings)) => report(&outcome, arguments, (&run, &settings)),
-        Err(refusal) => refusal.tell(),
+        Err(refusal) => refusal.report(),
     }
 }
 

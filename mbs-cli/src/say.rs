@@ -34,7 +34,7 @@ pub(crate) fn out(text: &str) -> Result<(), String> {
     }
 }
 
-/// Writes to standard error; where that is closed or full there is nobody left to tell.
+/// Writes to standard error; where that is closed or full there is no reader left.
 pub(crate) fn warn(text: &str) {
     let _ = writeln!(std::io::stderr(), "{}", text.trim_end());
 }

@@ -79,7 +79,7 @@ impl Arguments {
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match run(arguments) {
         Ok((report, out)) => tell(&report, &out, arguments),
-        Err(refusal) => refusal.tell(),
+        Err(refusal) => refusal.report(),
     }
 }
 

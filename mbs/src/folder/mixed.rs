@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// JSON objects that tell of other files, and their pages.
+/// JSON objects that list other files, and their pages.
 const OBJECTS: [[&str; 2]; 4] = [
     ["run.json", "run.html"],
     ["compare.json", "compare.html"],
@@ -14,7 +14,7 @@ const OBJECTS: [[&str; 2]; 4] = [
     ["doctor.json", "doctor.html"],
 ];
 
-/// A file that is not of the results its JSON object tells of, and the object.
+/// A file that does not belong to the results of its JSON object, and the object.
 pub(super) fn find(folder: &Path) -> Option<[String; 2]> {
     OBJECTS.into_iter().find_map(|[object, page]| {
         let value = read(&folder.join(object))?;
@@ -30,7 +30,7 @@ pub(super) fn find(folder: &Path) -> Option<[String; 2]> {
     })
 }
 
-/// The tables that a JSON object tells of.
+/// The tables that a JSON object lists.
 pub(super) fn listed(object: &Path) -> Vec<String> {
     let files = read(object).and_then(|value| value.get("files")?.as_object().cloned());
     // a name with a place in it is none of ours
@@ -52,9 +52,9 @@ fn other_table(
     checksums: &Map<String, Value>,
 ) -> Option<String> {
     files.iter().find_map(|(name, bytes)| {
-        let told = checksums.get(name).and_then(Value::as_str)?;
+        let listed = checksums.get(name).and_then(Value::as_str)?;
         let is_same = sum(&folder.join(name))
-            .is_some_and(|(n, sum)| bytes.as_u64() == Some(n) && format!("{sum:016x}") == told);
+            .is_some_and(|(n, sum)| bytes.as_u64() == Some(n) && format!("{sum:016x}") == listed);
         (!is_same).then(|| name.clone())
     })
 }

@@ -82,8 +82,8 @@ impl Folder {
         &self.path
     }
 
-    /// The first file in it that is not of the results that its JSON object tells of, with the name of that object: they were changed, or
-    /// a process was killed between two renames.
+    /// The first file in it that does not belong to the results of its JSON object, with the name of that object: it was changed, or a
+    /// process was killed between two renames.
     #[must_use]
     pub fn mixed(&self) -> Option<[String; 2]> {
         mixed::find(&self.path)

@@ -1,4 +1,4 @@
-//! Directories of results: of one process at a time, old until the new are whole, and told where they are mixed.
+//! Directories of results: of one process at a time, old until the new are whole, and a warning where they are mixed.
 
 use super::{Place, ended, output, results, wait_for};
 use crate::{json, text};
@@ -71,7 +71,7 @@ fn a_full_disk_keeps_the_results_before_and_the_summary() {
 }
 
 #[test]
-fn results_of_two_runs_are_told_when_they_are_met() {
+fn results_of_two_runs_are_reported_when_they_are_met() {
     let place = Place::new("mixed");
     assert_eq!(ended(&mut place.run("--out out")).status.code(), Some(0));
     assert_eq!(ended(&mut place.run("--step 1e-4 --out other")).status.code(), Some(0));
