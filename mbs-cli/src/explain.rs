@@ -70,12 +70,14 @@ fn explain(arguments: &Arguments) -> Result<(files::Begun, Explanation), Refusal
     let goal = Goal { error: arguments.error, deadline: arguments.deadline };
     let chosen = (&overrides, settings.clone());
     let plan = plan((document, scene), chosen, goal, &mut Processor::new(settings.threads));
-    let measured = plan.as_ref().ok().and_then(|plan| plan.first().choice.clone());
+    let is_interrupted = || match overrides.interrupt.is_set() {
+        true => Err(Refusal::interrupted("interrupted by a signal", "start it again")),
+        false => Ok(()),
+    };
+    is_interrupted()?;
+    let measured = plan.map_err(|error| unplanned(&error))?.first().choice.clone();
     let explained = explain_document((document, scene), settings, &Effort::default());
-    if overrides.interrupt.is_set() {
-        return Err(Refusal::interrupted("interrupted by a signal", "start it again"));
-    }
-    plan.map_err(|error| unplanned(&error))?;
+    is_interrupted()?;
     let explained = explained.map_err(|error| Refusal::scene(&error))?;
     let mut explanation =
         explained.ok_or_else(|| Refusal::new("settings-refused", NO_PAIRS[0], NO_PAIRS[1]))?;
