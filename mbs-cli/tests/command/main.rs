@@ -13,7 +13,7 @@ mod doctor;
 mod double_double;
 mod explain;
 mod generate;
-#[cfg(unix)]
+#[cfg(target_os = "linux")]
 mod hostile;
 #[cfg(not(any(feature = "f32", feature = "dd")))]
 mod lean;
