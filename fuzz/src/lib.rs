@@ -2,13 +2,18 @@
 
 mod mechanism;
 mod mutate;
+mod table;
 mod torn;
 mod trial;
 
 pub use mechanism::mechanism;
 pub use mutate::mutated;
+pub use table::tables;
 pub use torn::torn;
+
 pub use trial::{Verdict, trial};
+
+use torn::damage;
 
 use mbs::scene_file::Dice;
 

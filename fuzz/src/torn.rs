@@ -1,4 +1,4 @@
-//! A checkpoint with bytes changed, cut off or added: it is refused, or what goes on from it runs or stops with a reason.
+//! A checkpoint with bytes changed, cut off or added, and by turns with a checksum that holds: it is refused, or what goes on from it runs or stops with a reason.
 
 use crate::Dice;
 use mbs::core::scene::{Dimension, Scene};
@@ -47,6 +47,9 @@ where
     let mut bytes = Vec::new();
     simulation.save((scene, settings), &mut bytes).map_err(|e| format!("cannot be kept: {e}"))?;
     damage(&mut bytes, dice);
+    if dice.below(2) == 0 {
+        seal(&mut bytes);
+    }
     if let Err(error) = simulation.restore((scene, settings), &bytes[..]) {
         let is_told = !error.to_string().is_empty() && !error.hint().is_empty();
         return if is_told { Ok(Some(false)) } else { Err("a refusal without words".to_owned()) };
@@ -61,8 +64,18 @@ where
     is_finite.then_some(Some(true)).ok_or_else(|| "a state that is not finite".to_owned())
 }
 
+/// Puts length and checksum of a checkpoint right, so that what comes after them is read: lengths of lists among it.
+fn seal(bytes: &mut [u8]) {
+    const HEAD: usize = 28;
+    let Some((head, rest)) = bytes.split_at_mut_checked(HEAD) else { return };
+    let step = |sum: u64, byte: &u8| (sum ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+    let sum = rest.iter().fold(0xcbf2_9ce4_8422_2325, step);
+    head[12..20].copy_from_slice(&(rest.len() as u64).to_le_bytes());
+    head[20..].copy_from_slice(&sum.to_le_bytes());
+}
+
 /// Some bytes changed, the end cut off, something added, or nothing.
-fn damage(bytes: &mut Vec<u8>, dice: &mut Dice) {
+pub(crate) fn damage(bytes: &mut Vec<u8>, dice: &mut Dice) {
     match dice.below(4) {
         0 => bytes.truncate(dice.below(bytes.len())),
         1 => bytes.extend((0..=dice.below(20)).map(|k| u8::try_from(k).unwrap_or(0))),

@@ -1,6 +1,6 @@
 //! A text through everything that a user's text goes through: reading, building, a few steps in every formulation and precision.
 
-use crate::{Dice, torn};
+use crate::{Dice, tables, torn};
 use mbs::core::scene::Scene;
 use mbs::scene_file::Document;
 use mbs::{Overrides, Settings};
@@ -83,8 +83,11 @@ pub fn trial(text: &[u8], turn: usize) -> Verdict {
             }
         }
     }
-    // and what is kept of its state, damaged
+    // and what is read beside it, and what is kept of its state, damaged
     let mut dice = Dice::new(turn as u64);
+    if let Err(why) = tables(&document, &scene, &mut dice) {
+        return Verdict::Wrong(why);
+    }
     let formulation = TRIED[turn % ALWAYS][0];
     match torn(&scene, formulation, &mut dice) {
         Ok(_) => Verdict::Ran { completed, stopped },

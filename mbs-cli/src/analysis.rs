@@ -1,17 +1,19 @@
 //! `mbs equilibrium SCENE` and `mbs modes SCENE`.
 
-use crate::files::{prepare, scene as load, unwritable};
+use crate::STOPPED;
+use crate::files::{folder, scene as load};
+use crate::refusal::Refusal;
 use crate::run::stopped;
+use crate::say::{say, warn};
 use crate::table::{counted, fixed};
-use crate::{STOPPED, refuse};
 use clap::{Args, ValueEnum};
 use mbs::core::scene::Scene;
+use mbs::folder::{Folder, WriteError, id};
 use mbs::scene_file::{Channel, Document};
 use mbs::{LeftOut, Names, Place, Search, Still, StopError, words};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// What both commands know.
@@ -77,9 +79,12 @@ pub(crate) fn modes(arguments: &Modes) -> ExitCode {
     };
     let search = arguments.common.search();
     if place == Place::Initial && search == Search::Near {
-        return refuse(
-            "--near seeks an equilibrium, and --at initial needs none: leave one of them out",
-        );
+        return Refusal::new(
+            "settings-refused",
+            "--near seeks an equilibrium, and --at initial needs none",
+            "leave one of them out",
+        )
+        .report();
     }
     let analysed = |scene: &Scene<f64>| mbs::Modes::new(scene, place, search);
     let told = |scene: &Scene<f64>| analysed(scene).map(|m| (m.to_json(), spectrum(&m)));
@@ -92,39 +97,44 @@ fn command(
     file: &str,
     analyse: impl Fn(&Scene<f64>) -> Result<(Value, String), StopError>,
 ) -> ExitCode {
-    let (document, scene) = match load(&common.scene) {
-        Ok(both) => both,
-        Err(message) => return refuse(&message),
+    let begun = load(&common.scene).and_then(|both| {
+        let folder = common.out.as_ref().map(|out| folder(out, &[file])).transpose()?;
+        Ok((both, folder))
+    });
+    let ((document, scene), folder) = match begun {
+        Ok(begun) => begun,
+        Err(refusal) => return refusal.report(),
     };
-    if let Some(out) = &common.out
-        && let Err(error) = prepare(out, file)
-    {
-        return refuse(&unwritable(out, &error));
-    }
     let result = analyse(&scene);
     let (object, text) = match &result {
         Ok((object, text)) => (object.clone(), text.clone()),
         Err(error) => (failure(&scene, error), String::new()),
     };
-    if let Some(out) = &common.out
-        && let Err(error) = write(out, file, &object)
-    {
-        return refuse(&unwritable(out, &error));
+    let mut object = object.to_string();
+    let mut status = if result.is_ok() { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) };
+    if let Some(folder) = &folder {
+        match write(folder, (file, &object), &document) {
+            Ok(whole) => object = whole,
+            Err(error) => {
+                Refusal::lost(&error).warn();
+                status = ExitCode::from(STOPPED);
+            }
+        }
     }
-    let text = if common.json { object.to_string() } else { text };
-    // A reader that has gone away is no error of the analysis.
-    if !text.is_empty() {
-        let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
+    let status = say(if common.json { &object } else { &text }, status);
+    if let Some(error) = result.err().filter(|_| !common.json) {
+        warn(&located(&scene, &error, &document));
     }
-    let Err(error) = result else { return ExitCode::SUCCESS };
-    if !common.json {
-        eprint!("{}", located(&scene, &error, &document));
-    }
-    ExitCode::from(STOPPED)
+    status
 }
 
-fn write(out: &Path, file: &str, object: &Value) -> std::io::Result<()> {
-    std::fs::write(out.join(file), format!("{object}\n"))
+/// Replaces the file; gives the object as it is there.
+fn write(
+    folder: &Folder,
+    (file, object): (&str, &str),
+    document: &Document,
+) -> Result<String, WriteError> {
+    folder.begin(&id(&[document.text(), file]))?.finish(file, object)
 }
 
 /// The JSON object of an analysis that could not be made.

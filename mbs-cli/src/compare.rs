@@ -1,13 +1,15 @@
 //! `mbs compare SCENE`.
 
 use crate::bar::{bar, ticks};
-use crate::{STOPPED, files, refuse};
+use crate::refusal::Refusal;
+use crate::say::{say, warn};
+use crate::{STOPPED, files, signals};
 use clap::Args;
 use indicatif::ProgressBar;
-use mbs::compare::{CompareError, Earlier, Request, Watch, compare};
+use mbs::compare::{CompareError, Earlier, JournalError, Request, Watch, compare};
+use mbs::folder::{Folder, WriteError, id};
 use mbs::scene_file::compare::{Comparison, Status, comparison_page, write_comparison};
 use mbs::{FORMULATIONS, Formulation, PRECISIONS, Precision};
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -69,7 +71,7 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    fn request(&self) -> Result<Request, String> {
+    fn request(&self) -> Result<Request, Refusal> {
         let plain = Request::default();
         // `auto` stands before the formulations
         let formulation =
@@ -80,13 +82,14 @@ impl Arguments {
             precisions: self.precision.iter().map(precision).collect::<Result<_, _>>()?,
             steps: self.steps.clone(),
             tolerances: self.tolerances.clone(),
-            errors: if self.error.is_empty() { plain.errors } else { self.error.clone() },
+            errors: if self.error.is_empty() { plain.errors.clone() } else { self.error.clone() },
             duration: self.duration,
             repeats: self.repeats,
             time_limit: self.time_limit,
             budget: self.budget,
             maps: !self.no_maps,
             choices: self.choice,
+            ..plain
         })
     }
 
@@ -97,7 +100,7 @@ impl Arguments {
     }
 
     /// The reference table: the one given, or the one beside the scene; its name and text.
-    fn table(&self) -> Result<Option<(String, String)>, String> {
+    fn table(&self) -> Result<Option<(String, String)>, Refusal> {
         let name = self.scene.with_extension("csv");
         let folder = self.scene.parent().unwrap_or(Path::new("")).join("references");
         let beside = folder.join(name.file_name().unwrap_or_default());
@@ -106,9 +109,9 @@ impl Arguments {
             None if beside.is_file() => beside,
             None => return Ok(None),
         };
-        let text = std::fs::read_to_string(&path);
-        let text = text.map_err(|error| {
-            format!("error: cannot read `{}`: {error}\nhint: give a CSV file", path.display())
+        let text = String::from_utf8(files::read(&path, "CSV file")?).map_err(|_| {
+            let message = format!("cannot read `{}`: it is not UTF-8 text", path.display());
+            Refusal::new("file-unreadable", message, "give a CSV file")
         })?;
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         Ok(Some((name, text)))
@@ -158,45 +161,68 @@ fn named<U: Copy>(
     name: &str,
     names: &[&'static str],
     values: &[U],
-) -> Result<U, String> {
+) -> Result<U, Refusal> {
     let place = names.iter().position(|n| *n == name);
     place.and_then(|i| values.get(i).copied()).ok_or_else(|| {
         let hint = mbs::scene_file::suggestion(name, names, "built are");
-        format!("error: unknown {key} `{name}`\nhint: {hint}")
+        Refusal::new("settings-refused", format!("unknown {key} `{name}`"), hint)
     })
 }
 
 /// Runs the command.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match run(arguments) {
-        Ok(comparison) => tell(&comparison, arguments),
-        Err(refusal) => refuse(&refusal),
+        Ok((comparison, written)) => tell(&comparison, written, arguments),
+        Err(refusal) => refusal.report(),
     }
 }
 
-fn run(arguments: &Arguments) -> Result<Comparison, String> {
-    let request = arguments.request()?;
+/// Files of a comparison.
+const FILES: [&str; 4] = ["compare.csv", "compare.json", "compare.html", "compare.journal"];
+
+/// The comparison, and where its results go, with their id.
+fn run(arguments: &Arguments) -> Result<(Comparison, Option<(Folder, String)>), Refusal> {
+    let request = Request { interrupt: signals::heeded(), ..arguments.request()? };
     let document = files::document(&arguments.scene, "scene file")?;
     let table = arguments.table()?;
-    if let Some(out) = &arguments.out {
-        files::prepare(out, "compare.csv").map_err(|error| files::unwritable(out, &error))?;
-    }
+    let folder = arguments.out.as_ref().map(|out| files::folder(out, &FILES)).transpose()?;
     let mut bar = Bar::new(arguments.json);
     let table = table.as_ref().map(|(name, text)| (name.as_str(), text.as_str()));
     let place = (arguments.out.as_deref(), arguments.earlier());
     let comparison = compare(&document, &request, table, place, &mut bar);
     bar.bar.finish_and_clear();
-    let mut comparison = comparison.map_err(|error| match &error {
-        CompareError::Read(read) => read.render(),
-        other => format!("error: {other}\nhint: {}", other.hint()),
-    })?;
+    let mut comparison = comparison.map_err(|error| refusal(&error, folder.is_some()))?;
+    let written = folder.map(|folder| (folder, id(&[document.text(), &arguments.command()])));
     let origin = &mut comparison.provenance;
     origin.command = arguments.command();
     origin.version = format!("mbs {}", env!("CARGO_PKG_VERSION"));
     origin.commit = commit();
     origin.build = build();
     origin.cpu = files::processor();
-    Ok(comparison)
+    Ok((comparison, written))
+}
+
+/// A refusal, or what is left of a comparison that was interrupted: with a directory, a journal.
+fn refusal(error: &CompareError, has_journal: bool) -> Refusal {
+    let hint = error.hint();
+    match error {
+        CompareError::Read(read) => Refusal::scene(read),
+        CompareError::Journal(JournalError::Interrupted) => {
+            let hint = match has_journal {
+                true => "the runs that were finished are kept: go on with --resume",
+                false => "with --out DIR finished runs are kept, and --resume goes on from them",
+            };
+            Refusal::interrupted(error, hint)
+        }
+        CompareError::Journal(JournalError::Io(_)) => {
+            Refusal::new("out-unwritable", error, hint).stopped()
+        }
+        CompareError::Journal(_) => Refusal::new("journal-refused", error, hint),
+        CompareError::Unfinished => Refusal::new("run-unfinished", error, hint),
+        CompareError::Table(_) => Refusal::new("table-refused", error, hint),
+        CompareError::NoReference(_) => Refusal::new("no-reference", error, hint),
+        _ => Refusal::new("settings-refused", error, hint),
+    }
 }
 
 /// The commit, as the one who builds or who starts the command tells it.
@@ -217,28 +243,40 @@ fn build() -> String {
 }
 
 /// Files, then JSON or tables. Runs that fail are results; the exit status is that of a run that stopped if no run was completed.
-fn tell(comparison: &Comparison, arguments: &Arguments) -> ExitCode {
-    if let Some(out) = &arguments.out
-        && let Err(error) = write_files(comparison, out)
-    {
-        return refuse(&files::unwritable(out, &error));
-    }
-    let mut text = if arguments.json { comparison.to_json() } else { comparison.report().text() };
-    if let (Some(out), false) = (&arguments.out, arguments.json) {
-        text +=
-            &format!("\nwrote compare.csv, compare.json and compare.html to {}\n", out.display());
-    }
-    // A reader that has gone away is no error of the command.
-    let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
+fn tell(
+    comparison: &Comparison,
+    written: Option<(Folder, String)>,
+    arguments: &Arguments,
+) -> ExitCode {
     let mut runs = comparison.methods.iter().flat_map(|method| &method.runs);
     let is_any = runs.any(|run| run.status == Status::Completed);
-    if is_any { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) }
+    let mut status = if is_any { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) };
+    let (object, mut wrote) = (comparison.to_json(), String::new());
+    if let Some((folder, id)) = &written {
+        match write_files((comparison, &object), folder, id) {
+            Ok(_) => {
+                let out = folder.path().display();
+                wrote = format!("\nwrote compare.csv, compare.json and compare.html to {out}\n");
+            }
+            Err(error) => {
+                Refusal::lost(&error).warn();
+                status = ExitCode::from(STOPPED);
+            }
+        }
+    }
+    let text = if arguments.json { object } else { comparison.report().text() + &wrote };
+    say(&text, status)
 }
 
-fn write_files(comparison: &Comparison, out: &Path) -> std::io::Result<()> {
-    write_comparison(std::fs::File::create(out.join("compare.csv"))?, comparison)?;
-    std::fs::write(out.join("compare.json"), comparison.to_json() + "\n")?;
-    std::fs::write(out.join("compare.html"), comparison_page(comparison))
+fn write_files(
+    (comparison, object): (&Comparison, &str),
+    folder: &Folder,
+    id: &str,
+) -> Result<String, WriteError> {
+    let mut part = folder.begin(id)?;
+    part.table("compare.csv", |sink| write_comparison(sink, comparison))?;
+    part.page("compare.html", &comparison_page(comparison))?;
+    part.finish("compare.json", object)
 }
 
 /// A progress bar on a terminal; elsewhere the plan only, and with JSON nothing.
@@ -259,7 +297,7 @@ impl Bar {
 impl Watch for Bar {
     fn plan(&mut self, text: &str) {
         if !self.is_quiet {
-            self.bar.suspend(|| eprintln!("{text}"));
+            self.bar.suspend(|| warn(text));
         }
     }
 

@@ -1,13 +1,13 @@
 //! `mbs doctor SCENE`.
 
-use crate::{STOPPED, files, refuse};
+use crate::refusal::Refusal;
+use crate::say::say;
+use crate::{STOPPED, files, signals};
 use clap::Args;
-use mbs::core::scene::{Entry, Scene};
+use mbs::core::scene::Entry;
 use mbs::doctor::{Checkup, Effort, Severity, examine, report, to_json};
-use mbs::scene_file::{Document, Report};
-use mbs::{Overrides, Precision, Settings};
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use mbs::{Overrides, Precision};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 const STATUS: &str = "\
@@ -30,10 +30,10 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
     /// Step of that run [s]; else 0.001.
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
     /// Duration of that run [s].
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<f64>,
     /// Look at the start only: no run.
     #[arg(long)]
@@ -47,28 +47,28 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         step: arguments.step,
         duration: arguments.duration,
         precision: Some(Precision::F64.name().to_owned()),
+        interrupt: signals::heeded(),
         ..Overrides::default()
     };
-    let place = (arguments.out.as_deref(), "doctor.json");
-    let (document, scene, settings) = match files::begin(&arguments.scene, &overrides, place) {
+    let place = (arguments.out.as_deref(), &["doctor.json", "doctor.html"][..]);
+    let begun = match files::begin(&arguments.scene, &overrides, place) {
         Ok(begun) => begun,
-        Err(message) => return refuse(&message),
+        Err(refusal) => return refusal.report(),
     };
     let mut effort = Effort::default();
     if arguments.still {
         effort.positions = 0;
     }
-    let checkup = examine(&scene, &settings, &effort);
-    tell((&scene, &document), &checkup, arguments, &settings)
+    let checkup = examine(&begun.scene, &begun.settings, &effort);
+    if overrides.interrupt.is_set() {
+        return Refusal::interrupted("interrupted by a signal", "start it again").report();
+    }
+    tell(&begun, &checkup, arguments)
 }
 
 /// Files, then JSON or text; the exit status says whether there is a fault.
-fn tell(
-    (scene, document): (&Scene<f64>, &Document),
-    checkup: &Checkup,
-    arguments: &Arguments,
-    settings: &Settings,
-) -> ExitCode {
+fn tell(begun: &files::Begun, checkup: &Checkup, arguments: &Arguments) -> ExitCode {
+    let files::Begun { document, scene, settings, folder } = begun;
     let options = [
         ("formulation", arguments.formulation.clone()),
         ("step", arguments.step.map(|x| x.to_string())),
@@ -78,26 +78,25 @@ fn tell(
     let provenance = files::provenance((command, &arguments.scene), &options, settings);
     let line = |entry: Entry, key: &str| Some(document.place(entry, key).line);
     let (page, mut text) = report(scene, checkup, &line, provenance);
-    let object = to_json(checkup, &line).to_string();
-    if let Some(out) = &arguments.out
-        && let Err(error) = write_files(&object, &page, out)
-    {
-        return refuse(&files::unwritable(out, &error));
-    }
-    if arguments.json {
-        text = object;
-    } else if let Some(out) = &arguments.out {
-        text.push_str(&format!("\nwrote doctor.json and doctor.html to {}\n", out.display()));
-    }
-    // A reader that has gone away is no error of the command.
-    let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
-    match checkup.worst() {
+    let mut object = to_json(checkup, &line).to_string();
+    let mut status = match checkup.worst() {
         Some(Severity::Fault) => ExitCode::from(STOPPED),
         _ => ExitCode::SUCCESS,
+    };
+    if let Some(folder) = folder {
+        let (id, page) = (files::results_id(document, settings), page.page());
+        let (json, page) = (("doctor.json", &*object), ("doctor.html", &*page));
+        match files::object_and_page(folder, &id, json, page) {
+            Ok(whole) => {
+                object = whole;
+                let out = folder.path().display();
+                text.push_str(&format!("\nwrote doctor.json and doctor.html to {out}\n"));
+            }
+            Err(error) => {
+                Refusal::lost(&error).warn();
+                status = ExitCode::from(STOPPED);
+            }
+        }
     }
-}
-
-fn write_files(object: &str, page: &Report, out: &Path) -> std::io::Result<()> {
-    std::fs::write(out.join("doctor.json"), format!("{object}\n"))?;
-    std::fs::write(out.join("doctor.html"), page.page())
+    say(if arguments.json { &object } else { &text }, status)
 }

@@ -1,13 +1,15 @@
 //! `mbs explain SCENE`.
 
-use crate::{STOPPED, files, refuse};
+use crate::refusal::Refusal;
+use crate::run::unplanned;
+use crate::say::{say, warn};
+use crate::{NO_PAIRS, STOPPED, files, signals};
 use clap::Args;
 use mbs::auto::{Goal, Processor, plan, time};
 use mbs::explain::{Effort, explain_document, report};
-use mbs::scene_file::{Explanation, Report};
-use mbs::{Overrides, Settings, words};
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use mbs::scene_file::Explanation;
+use mbs::{Overrides, words};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Arguments of `mbs explain`.
@@ -19,16 +21,16 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
     /// Step [s]; else 0.001.
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
     /// Duration [s].
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<f64>,
     /// Wanted error, as in `mbs run`: runs the pilot of the choice and tells what each candidate would cost.
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
     error: Option<f64>,
     /// Deadline, as in `mbs run`.
-    #[arg(long, value_name = "S", value_parser = time, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = time, allow_hyphen_values = true)]
     deadline: Option<f64>,
     /// Directory for explain.json and explain.html; made if missing.
     #[arg(long, value_name = "DIR")]
@@ -46,40 +48,47 @@ pub(crate) struct Arguments {
 
 /// Runs the command.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    match explain(arguments) {
+        Ok((begun, explanation)) => tell(&begun, &explanation, arguments),
+        Err(refusal) => refusal.report(),
+    }
+}
+
+fn explain(arguments: &Arguments) -> Result<(files::Begun, Explanation), Refusal> {
     let overrides = Overrides {
         formulation: arguments.formulation.clone(),
         integrator: arguments.integrator.clone(),
         precision: arguments.precision.clone(),
         step: arguments.step,
         duration: arguments.duration,
+        interrupt: signals::heeded(),
         ..Overrides::default()
     };
-    let place = (arguments.out.as_deref(), "explain.json");
-    let (document, scene, settings) = match files::begin(&arguments.scene, &overrides, place) {
-        Ok(begun) => begun,
-        Err(message) => return refuse(&message),
-    };
+    let place = (arguments.out.as_deref(), &["explain.json", "explain.html"][..]);
+    let begun = files::begin(&arguments.scene, &overrides, place)?;
+    let files::Begun { document, scene, settings, .. } = &begun;
     let goal = Goal { error: arguments.error, deadline: arguments.deadline };
     let chosen = (&overrides, settings.clone());
-    let plan = plan((&document, &scene), chosen, goal, &mut Processor::new(settings.threads));
-    let measured = match plan {
-        Ok(plan) => plan.first().choice.clone(),
-        Err(error) => return refuse(&error.render()),
+    let plan = plan((document, scene), chosen, goal, &mut Processor::new(settings.threads));
+    let is_interrupted = || match overrides.interrupt.is_set() {
+        true => Err(Refusal::interrupted("interrupted by a signal", "start it again")),
+        false => Ok(()),
     };
-    let explained = explain_document((&document, &scene), &settings, &Effort::default());
-    let mut explanation = match explained {
-        Ok(Some(explanation)) => explanation,
-        Ok(None) => return refuse(crate::NO_PAIRS),
-        Err(error) => return refuse(&error.render()),
-    };
+    is_interrupted()?;
+    let measured = plan.map_err(|error| unplanned(&error))?.first().choice.clone();
+    let explained = explain_document((document, scene), settings, &Effort::default());
+    is_interrupted()?;
+    let explained = explained.map_err(|error| Refusal::scene(&error))?;
+    let mut explanation =
+        explained.ok_or_else(|| Refusal::new("settings-refused", NO_PAIRS[0], NO_PAIRS[1]))?;
     if let Some(choice) = measured {
         explanation.choice = Some(*choice);
     }
-    tell(&explanation, arguments, &settings)
+    Ok((begun, explanation))
 }
 
 /// Files, then JSON or tables; the exit status says whether the run with all effects was completed.
-fn tell(explanation: &Explanation, arguments: &Arguments, settings: &Settings) -> ExitCode {
+fn tell(begun: &files::Begun, explanation: &Explanation, arguments: &Arguments) -> ExitCode {
     let options = [
         ("formulation", arguments.formulation.clone()),
         ("step", arguments.step.map(|x| x.to_string())),
@@ -89,29 +98,33 @@ fn tell(explanation: &Explanation, arguments: &Arguments, settings: &Settings) -
         ("error", arguments.error.map(|x| x.to_string())),
         ("deadline", arguments.deadline.map(|x| x.to_string())),
     ];
-    let provenance = files::provenance(("explain", &arguments.scene), &options, settings);
+    let provenance = files::provenance(("explain", &arguments.scene), &options, &begun.settings);
     let report = report(explanation, provenance);
-    if let Some(out) = &arguments.out
-        && let Err(error) = write_files(explanation, &report, out)
-    {
-        return refuse(&files::unwritable(out, &error));
+    let error = explanation.error.as_ref();
+    let mut status = if error.is_some() { ExitCode::from(STOPPED) } else { ExitCode::SUCCESS };
+    let (mut object, mut wrote) = (explanation.to_json(), String::new());
+    if let Some(folder) = &begun.folder {
+        let id = files::results_id(&begun.document, &begun.settings);
+        let page = report.page();
+        let (json, page) = (("explain.json", &*object), ("explain.html", &*page));
+        match files::object_and_page(folder, &id, json, page) {
+            Ok(whole) => {
+                object = whole;
+                let out = folder.path().display();
+                wrote = format!("\nwrote explain.json and explain.html to {out}\n");
+            }
+            Err(error) => {
+                Refusal::lost(&error).warn();
+                status = ExitCode::from(STOPPED);
+            }
+        }
     }
-    let mut text = if arguments.json { explanation.to_json() } else { report.text() };
-    if let (Some(out), false) = (&arguments.out, arguments.json) {
-        text.push_str(&format!("\nwrote explain.json and explain.html to {}\n", out.display()));
-    }
-    // A reader that has gone away is no error of the command.
-    let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
-    let Some(error) = &explanation.error else { return ExitCode::SUCCESS };
-    if !arguments.json {
+    let text = if arguments.json { object } else { report.text() + &wrote };
+    let status = say(&text, status);
+    if let Some(error) = error.filter(|_| !arguments.json) {
         let place = words::stopped_at(error);
         let scene = arguments.scene.display();
-        eprintln!("{scene}: stopped {place}: {}\nhint: {}", error.message, error.hint);
+        warn(&format!("{scene}: stopped {place}: {}\nhint: {}", error.message, error.hint));
     }
-    ExitCode::from(STOPPED)
-}
-
-fn write_files(explanation: &Explanation, report: &Report, out: &Path) -> std::io::Result<()> {
-    std::fs::write(out.join("explain.json"), explanation.to_json() + "\n")?;
-    std::fs::write(out.join("explain.html"), report.page())
+    status
 }

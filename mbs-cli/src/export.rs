@@ -1,6 +1,7 @@
 //! `mbs export SCENE`.
 
-use crate::{files, refuse};
+use crate::files;
+use crate::refusal::Refusal;
 use clap::Args;
 use mbs::export::{ExportError, export, ladder};
 use mbs::{Overrides, Precision, Settings};
@@ -30,11 +31,11 @@ pub(crate) struct Arguments {
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match written(arguments) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(message) => refuse(&message),
+        Err(refusal) => refusal.report(),
     }
 }
 
-fn written(arguments: &Arguments) -> Result<(), String> {
+fn written(arguments: &Arguments) -> Result<(), Refusal> {
     let (document, scene) = files::scene(&arguments.scene)?;
     let overrides = Overrides {
         formulation: Some("recursive".to_owned()),
@@ -47,9 +48,8 @@ fn written(arguments: &Arguments) -> Result<(), String> {
     let rungs = match &arguments.ladder {
         None => Vec::new(),
         Some(path) => {
-            let text = std::fs::read_to_string(path);
-            let text = text.map_err(|error| format!("error: {}: {error}", path.display()))?;
-            ladder(&text, &scene).map_err(|error| refusal(&error))?
+            let bytes = files::read(path, "JSON of `mbs explain`")?;
+            ladder(&String::from_utf8_lossy(&bytes), &scene).map_err(|error| refusal(&error))?
         }
     };
     let form = (&rungs[..], settings.precision == Precision::F32);
@@ -58,13 +58,13 @@ fn written(arguments: &Arguments) -> Result<(), String> {
         [(&arguments.rust, exported.rust.as_bytes()), (&arguments.binary, &exported.bytes)]
     {
         if let Some(path) = path {
-            std::fs::write(path, bytes).map_err(|error| files::unwritable_file(path, &error))?;
+            files::write(path, bytes, Some(&arguments.scene))?;
         }
     }
     Ok(())
 }
 
-fn refusal(error: &ExportError) -> String {
+fn refusal(error: &ExportError) -> Refusal {
     let hint = match error {
         ExportError::Stop(_) => {
             "`mbs run SCENE --formulation recursive` says more: controllers step in relative coordinates"
@@ -72,5 +72,5 @@ fn refusal(error: &ExportError) -> String {
         ExportError::Effect => "leave laws of one's own out: a table cannot hold a function",
         ExportError::Ladder(_) => "make the price list from this scene: `mbs explain SCENE --json`",
     };
-    format!("error: {error}\nhint: {hint}")
+    Refusal::new("export-refused", error, hint)
 }

@@ -1,54 +1,152 @@
 //! Scene files in, result files out, and what to say when that fails.
 
+use crate::refusal::Refusal;
+use crate::say::warn;
 use mbs::core::scene::{Entry, Scene};
+use mbs::folder::{Folder, WriteError, id, write_file};
 use mbs::scene_file::{Choice, Document, Provenance, readable};
 use mbs::{Overrides, Settings, SettingsError};
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Bytes of a file that is read at most, unless larger ones are asked for, and values of a tree: each takes 150 bytes, however short its
+/// text is.
+const MOST_BYTES: u64 = 64 << 20;
+const MOST_VALUES: usize = 8_000_000;
+/// Whether files of any size are read, as the command line says once.
+static IS_BIG: AtomicBool = AtomicBool::new(false);
+
+/// From here on files of any size are read.
+pub(crate) fn read_big() {
+    IS_BIG.store(true, Ordering::Relaxed);
+}
+
+/// What a command that runs a scene begins with.
+pub(crate) struct Begun {
+    pub(crate) document: Document,
+    pub(crate) scene: Scene<f64>,
+    pub(crate) settings: Settings,
+    /// Where the results go.
+    pub(crate) folder: Option<Folder>,
+}
 
 /// Reads a scene file and its scene; else the refusal.
-pub(crate) fn scene(path: &Path) -> Result<(Document, Scene<f64>), String> {
+pub(crate) fn scene(path: &Path) -> Result<(Document, Scene<f64>), Refusal> {
     let document = document(path, "scene file")?;
-    let scene = document.scene::<f64>().map_err(|error| error.render())?;
+    let scene = document.scene::<f64>();
+    let scene = scene.map_err(|error| Refusal::read("scene-refused", &error))?;
     Ok((document, scene))
 }
 
-/// What a command that runs a scene begins with: reads it, settles how it is run, and tries the place of its results, since what
-/// cannot be written should not be computed; else the refusal.
+/// Reads a scene, settles how it is run, and takes the place of its results, since what cannot be written should not be computed; else the
+/// refusal.
 pub(crate) fn begin(
     path: &Path,
     overrides: &Overrides,
-    (out, first): (Option<&Path>, &str),
-) -> Result<(Document, Scene<f64>, Settings), String> {
+    (out, files): (Option<&Path>, &[&str]),
+) -> Result<Begun, Refusal> {
     let (document, scene) = scene(path)?;
     let settings = Settings::new(&scene, overrides).map_err(|e| refusal(&e, &document))?;
-    if let Some(out) = out {
-        prepare(out, first).map_err(|error| unwritable(out, &error))?;
+    let folder = out.map(|out| folder(out, files)).transpose()?;
+    Ok(Begun { document, scene, settings, folder })
+}
+
+/// Takes a directory for results in these files; else the refusal.
+pub(crate) fn folder(out: &Path, files: &[&str]) -> Result<Folder, Refusal> {
+    let folder = Folder::open(out, files).map_err(|error| Refusal::folder(out, &error))?;
+    if let Some([file, object]) = folder.mixed() {
+        warn(&format!(
+            "warning: `{file}` in `{}` does not belong to the results of `{object}`: it was changed, or a process was killed between two \
+             files",
+            out.display()
+        ));
     }
-    Ok((document, scene, settings))
+    Ok(folder)
 }
 
 /// Reads a file of a kind that is called `what`; else the refusal.
-pub(crate) fn document(path: &Path, what: &str) -> Result<Document, String> {
-    let bytes = std::fs::read(path).map_err(|error| unreadable(path, what, &error))?;
+pub(crate) fn document(path: &Path, what: &str) -> Result<Document, Refusal> {
+    let bytes = read(path, what)?;
+    // no value stands without one of these
+    let values = bytes.iter().filter(|byte| matches!(byte, b',' | b'=')).count();
+    if values > MOST_VALUES && !IS_BIG.load(Ordering::Relaxed) {
+        return Err(too_large(
+            path,
+            &format!("has more than {} million values", MOST_VALUES / 1_000_000),
+        ));
+    }
     let document = Document::from_bytes(&bytes, &path.display().to_string());
-    document.map_err(|error| error.render())
+    document.map_err(|error| Refusal::read("scene-refused", &error))
+}
+
+/// The bytes of a file of a kind that is called `what`; else the refusal.
+pub(crate) fn read(path: &Path, what: &str) -> Result<Vec<u8>, Refusal> {
+    let bytes = bytes(path).map_err(|error| unreadable(path, what, &error))?;
+    bytes.ok_or_else(|| too_large(path, &format!("is larger than {} MiB", MOST_BYTES >> 20)))
+}
+
+fn too_large(path: &Path, why: &str) -> Refusal {
+    let hint = "write --big to read it nevertheless: it may take eighty times its size in memory";
+    Refusal::new("too-large", format!("`{}` {why}", path.display()), hint)
+}
+
+/// The bytes of a file; nothing where it is too large.
+fn bytes(path: &Path) -> io::Result<Option<Vec<u8>>> {
+    let file = File::open(path)?;
+    if IS_BIG.load(Ordering::Relaxed) {
+        let mut bytes = Vec::new();
+        let mut file = file;
+        return file.read_to_end(&mut bytes).map(|_| Some(bytes));
+    }
+    if file.metadata()?.len() > MOST_BYTES {
+        return Ok(None);
+    }
+    // a device has no size and may have no end
+    let mut bytes = Vec::new();
+    file.take(MOST_BYTES + 1).read_to_end(&mut bytes)?;
+    Ok((bytes.len() as u64 <= MOST_BYTES).then_some(bytes))
+}
+
+/// Writes a file that is named alone, unless it is the one that was read; else the refusal.
+pub(crate) fn write(path: &Path, bytes: &[u8], input: Option<&Path>) -> Result<(), Refusal> {
+    let place = |path: &Path| path.canonicalize().ok();
+    if input.is_some_and(|input| place(input).is_some() && place(input) == place(path)) {
+        let message = format!("`{}` is the scene that is read", path.display());
+        return Err(Refusal::new("out-unwritable", message, "give another file"));
+    }
+    write_file(path, bytes).map_err(|error| Refusal::unwritable(&error))
 }
 
 /// A refusal of settings, with its place when the scene asks for them.
-pub(crate) fn refusal(error: &SettingsError, document: &Document) -> String {
+pub(crate) fn refusal(error: &SettingsError, document: &Document) -> Refusal {
+    let refusal = Refusal::settings(error);
     match error {
         SettingsError::NotBuilt { key, from_scene: true, .. } => {
-            let place = document.place(Entry::Solver, key);
-            place.render(document.file(), &error.to_string(), &error.hint())
+            refusal.at(document.file(), document.place(Entry::Solver, key))
         }
-        _ => format!("error: {error}\nhint: {}", error.hint()),
+        _ => refusal,
     }
 }
 
-/// Makes the directory and tries to write a file of it.
-pub(crate) fn prepare(out: &Path, file: &str) -> std::io::Result<()> {
-    std::fs::create_dir_all(out)?;
-    std::fs::File::create(out.join(file)).map(drop)
+/// The id of results of a scene that was run with these settings.
+pub(crate) fn results_id(document: &Document, settings: &Settings) -> String {
+    // what a pilot measured differs from time to time, and threads change no bit
+    let same = Settings { choice: None, threads: 1, ..settings.clone() };
+    id(&[document.text(), &format!("{same:?}")])
+}
+
+/// Replaces an object and its page.
+pub(crate) fn object_and_page(
+    folder: &Folder,
+    id: &str,
+    (name, object): (&str, &str),
+    (page_name, page): (&str, &str),
+) -> Result<String, WriteError> {
+    let mut part = folder.begin(id)?;
+    part.page(page_name, page)?;
+    part.finish(name, object)
 }
 
 /// How a result was made: the command with the options that were given.
@@ -81,44 +179,34 @@ pub(crate) fn processor() -> String {
     line.and_then(|l| l.split_once(':')).map(|(_, name)| name.trim().to_owned()).unwrap_or_default()
 }
 
-/// The message for a file that cannot be read.
-fn unreadable(path: &Path, what: &str, error: &std::io::Error) -> String {
+/// The refusal of a file that cannot be read.
+fn unreadable(path: &Path, what: &str, error: &io::Error) -> Refusal {
     let with_ending = path.with_extension("toml");
     let hint = if path.is_dir() {
         format!("that is a directory; give a {what} in it")
+    } else if path.exists() {
+        format!("give a {what} that this user may read")
     } else if with_ending.is_file() {
         format!("did you mean `{}`?", with_ending.display())
     } else {
         format!("give the path of a {what}; it ends with .toml")
     };
-    format!("error: cannot read `{}`: {}\nhint: {hint}", path.display(), plain(error))
+    let message = format!("cannot read `{}`: {}", path.display(), plain(error));
+    Refusal::new("file-unreadable", message, hint)
 }
 
 /// The evidence of a choice, as an object and as a table.
-pub(crate) fn write_choice(out: &Path, choice: &Choice) -> std::io::Result<()> {
+pub(crate) fn write_choice(
+    part: &mut mbs::folder::Part<'_>,
+    choice: &Choice,
+) -> Result<(), WriteError> {
     let text = serde_json::to_string_pretty(choice).unwrap_or_default();
-    std::fs::write(out.join("choice.json"), text + "\n")?;
-    mbs::scene_file::write_choice(std::fs::File::create(out.join("choice.csv"))?, choice)
-}
-
-/// The message for a directory that cannot be written.
-pub(crate) fn unwritable(out: &Path, error: &std::io::Error) -> String {
-    let (out, error) = (out.display(), plain(error));
-    format!(
-        "error: cannot write to `{out}`: {error}\nhint: give a directory that can be made or written with --out"
-    )
-}
-
-/// The message for a file that cannot be written.
-pub(crate) fn unwritable_file(file: &Path, error: &std::io::Error) -> String {
-    let (file, error) = (file.display(), plain(error));
-    format!(
-        "error: cannot write to `{file}`: {error}\nhint: give a file in a directory that is there"
-    )
+    part.table("choice.json", |sink| writeln!(sink, "{text}"))?;
+    part.table("choice.csv", |sink| mbs::scene_file::write_choice(sink, choice))
 }
 
 /// The system's words without the number of the error.
-fn plain(error: &std::io::Error) -> String {
+pub(crate) fn plain(error: &io::Error) -> String {
     let text = error.to_string();
     text.split(" (os error").next().unwrap_or_default().to_lowercase()
 }

@@ -1,9 +1,10 @@
 //! `mbs generate FAMILY`.
 
-use crate::{files, refuse};
+use crate::refusal::Refusal;
+use crate::say::{out, warn};
+use crate::{STOPPED, files};
 use clap::{Args, ValueEnum};
 use mbs::scene_file::{Document, Family, GenerateError, generate};
-use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -25,7 +26,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "SCENE")]
     of: Option<PathBuf>,
     /// Distance from one vehicle of a convoy to the next [m]; else 8.
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", allow_hyphen_values = true)]
     spacing: Option<f64>,
     /// File to write; else standard output.
     #[arg(short, long, value_name = "FILE")]
@@ -54,25 +55,28 @@ const SPACING: f64 = 8.0;
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let text = match text(arguments) {
         Ok(text) => text,
-        Err(message) => return refuse(&message),
+        Err(refusal) => return refusal.report(),
     };
-    match &arguments.output {
-        // A reader that has gone away is no error.
-        None => drop(std::io::stdout().write_all(text.as_bytes())),
-        Some(file) => {
-            if let Err(error) = std::fs::write(file, text) {
-                return refuse(&files::unwritable_file(file, &error));
+    let Some(file) = &arguments.output else {
+        return match out(&text) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(why) => {
+                warn(&why);
+                ExitCode::from(STOPPED)
             }
-        }
+        };
+    };
+    match files::write(file, text.as_bytes(), arguments.of.as_deref()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(refusal) => refusal.report(),
     }
-    ExitCode::SUCCESS
 }
 
 /// The scene, or the refusal.
-fn text(arguments: &Arguments) -> Result<String, String> {
+fn text(arguments: &Arguments) -> Result<String, Refusal> {
     let command = arguments.command();
     let make = |family: Family<'_>| generate(&family, &command).map_err(|error| refusal(&error));
-    let missing = |what: &str, hint: &str| Err(format!("error: {what}\nhint: {hint}"));
+    let missing = |what: &str, hint: &str| Err(Refusal::new("generate-refused", what, hint));
     if let Some(option) = arguments.stranger() {
         let family = arguments.word();
         return missing(&format!("{option} says nothing of a {family}"), "leave it out");
@@ -136,6 +140,6 @@ impl Arguments {
     }
 }
 
-fn refusal(error: &GenerateError) -> String {
-    format!("error: {error}\nhint: {}", error.hint())
+fn refusal(error: &GenerateError) -> Refusal {
+    Refusal::new("generate-refused", error, error.hint())
 }

@@ -1,6 +1,7 @@
 //! How `mbs run` keeps a run, and goes on with one.
 
-use crate::files;
+use crate::refusal::Refusal;
+use crate::say::warn;
 use clap::Args;
 use mbs::{CHECKPOINT, Checkpoint, CheckpointError, Keeping, Overrides, Settings, words};
 use std::io::ErrorKind;
@@ -16,7 +17,7 @@ pub(crate) struct Arguments {
         value_name = "SECONDS",
         requires = "out",
         conflicts_with = "realtime",
-        allow_negative_numbers = true
+        allow_hyphen_values = true
     )]
     checkpoint: Option<f64>,
     /// Go on from DIR/checkpoint.mbs, or from FILE, with the settings of its run; the results are those of a run in one go, to the
@@ -28,61 +29,73 @@ pub(crate) struct Arguments {
     restart: bool,
 }
 
-/// A file that is not there yet: where it can be made a checkpoint can.
-const TRIAL: &str = "checkpoint.mbs.part";
-
 /// What a run goes on from, and how it is kept.
 #[derive(Debug, Default)]
 pub(crate) struct Kept {
     pub(crate) from: Option<Checkpoint>,
     pub(crate) keeping: Option<Keeping>,
-    out: Option<PathBuf>,
+    /// Where the checkpoint of the directory is.
+    checkpoint: Option<PathBuf>,
 }
 
 impl Arguments {
-    /// Finds out, and reads the checkpoint; else the refusal.
-    pub(crate) fn begin(&self, out: Option<&Path>) -> Result<Kept, String> {
+    /// Reads the checkpoint to go on from, where there is one; else the refusal.
+    pub(crate) fn begin(&self, out: Option<&Path>) -> Result<Kept, Refusal> {
         if let Some(every) = self.checkpoint
             && !(every > 0.0 && every.is_finite())
         {
-            return Err(format!(
-                "error: the time between checkpoints must be positive and finite, but is {every}\nhint: give simulated seconds, such as --checkpoint 1"
+            return Err(Refusal::new(
+                "settings-refused",
+                format!("the time between checkpoints must be positive and finite, but is {every}"),
+                "give simulated seconds, such as --checkpoint 1",
             ));
         }
-        let path = match (&self.resume, out) {
-            (None, _) => return self.anew(out),
-            (Some(Some(file)), _) => file.clone(),
-            (Some(None), Some(out)) => out.join(CHECKPOINT),
-            (Some(None), None) => {
-                return Err("error: there is no directory to go on in\nhint: give --out DIR, or --resume=FILE".to_owned());
-            }
+        let checkpoint = out.map(|out| out.join(CHECKPOINT));
+        let Some(path) = self.resumed(out)? else {
+            return Ok(Kept { checkpoint, ..Kept::default() });
         };
-        if let Some(out) = out.filter(|out| is_another(&out.join(CHECKPOINT), &path)) {
-            return Err(unfinished(out, "give another directory with --out, or remove the file"));
-        }
         let from = Checkpoint::open(&path).map_err(|error| refusal(&path, &error))?;
-        let stored = if from.every() > 0.0 { from.every() } else { f64::INFINITY };
-        let keeping = out.map(|out| keeping(out, self.checkpoint.unwrap_or(stored))).transpose()?;
-        Ok(Kept { from: Some(from), keeping, out: out.map(Path::to_owned) })
+        Ok(Kept { from: Some(from), keeping: None, checkpoint })
     }
 
-    /// A run from its start.
-    fn anew(&self, out: Option<&Path>) -> Result<Kept, String> {
-        let Some(out) = out else { return Ok(Kept::default()) };
-        if out.join(CHECKPOINT).exists() && !self.restart {
-            return Err(unfinished(out, "go on with --resume, or begin anew with --restart"));
+    /// The file to go on from.
+    fn resumed(&self, out: Option<&Path>) -> Result<Option<PathBuf>, Refusal> {
+        match (&self.resume, out) {
+            (None, _) => Ok(None),
+            (Some(Some(file)), _) => Ok(Some(file.clone())),
+            (Some(None), Some(out)) => Ok(Some(out.join(CHECKPOINT))),
+            (Some(None), None) => Err(Refusal::new(
+                "checkpoint-refused",
+                "there is no directory to go on in",
+                "give --out DIR, or --resume=FILE",
+            )),
         }
-        let keeping = self.checkpoint.map(|every| keeping(out, every)).transpose()?;
-        Ok(Kept { from: None, keeping, out: Some(out.to_owned()) })
     }
-}
 
-/// Keeps a run in a directory; else the refusal.
-fn keeping(out: &Path, every: f64) -> Result<Keeping, String> {
-    Keeping::new(out, every).map_err(|error| match error {
-        CheckpointError::Io(error) => files::unwritable(out, &error),
-        error => said(&error),
-    })
+    /// Keeps the run in its directory, which nobody else writes, unless an earlier start left something there; else the refusal.
+    pub(crate) fn keep(&self, out: Option<&Path>, kept: &mut Kept) -> Result<(), Refusal> {
+        let Some(out) = out else { return Ok(()) };
+        let there = out.join(CHECKPOINT);
+        match self.resumed(Some(out))? {
+            None if there.exists() && !self.restart => {
+                return Err(unfinished(out, "go on with --resume, or begin anew with --restart"));
+            }
+            Some(file) if is_another(&there, &file) => {
+                return Err(unfinished(
+                    out,
+                    "give another directory with --out, or remove the file",
+                ));
+            }
+            _ => {}
+        }
+        let stored =
+            |from: &Checkpoint| if from.every() > 0.0 { from.every() } else { f64::INFINITY };
+        if let Some(every) = self.checkpoint.or(kept.from.as_ref().map(stored)) {
+            let keeping = Keeping::new(out, every);
+            kept.keeping = Some(keeping.map_err(|error| Refusal::checkpoint(&error))?);
+        }
+        Ok(())
+    }
 }
 
 /// Is there a file, and not under the other name?
@@ -91,67 +104,56 @@ fn is_another(file: &Path, other: &Path) -> bool {
 }
 
 /// The refusal of a directory where a run has not ended.
-fn unfinished(out: &Path, hint: &str) -> String {
+fn unfinished(out: &Path, hint: &str) -> Refusal {
     let at = Checkpoint::open(&out.join(CHECKPOINT));
     let at = at.map(|c| format!(", at t = {} s", words::time(c.time()))).unwrap_or_default();
-    let out = out.display();
-    format!("error: `{out}` has the checkpoint of a run that has not ended{at}\nhint: {hint}")
+    let message = format!("`{}` has the checkpoint of a run that has not ended{at}", out.display());
+    Refusal::new("run-unfinished", message, hint)
 }
 
 impl Kept {
     /// What is given, and the settings of the checkpoint where nothing is; else the refusal.
-    pub(crate) fn overrides(&self, given: Overrides) -> Result<Overrides, String> {
+    pub(crate) fn overrides(&self, given: Overrides) -> Result<Overrides, Refusal> {
         let Some(from) = &self.from else { return Ok(given) };
-        from.overrides(&given).map_err(|error| said(&error))
+        from.overrides(&given).map_err(|error| Refusal::checkpoint(&error))
     }
 
     /// The settings, where they are those of the checkpoint; else the refusal.
-    pub(crate) fn settle(&self, settings: Settings) -> Result<Settings, String> {
+    pub(crate) fn settle(&self, settings: Settings) -> Result<Settings, Refusal> {
         let Some(from) = &self.from else { return Ok(settings) };
-        from.settle(settings).map_err(|error| said(&error))
+        from.settle(settings).map_err(|error| Refusal::checkpoint(&error))
     }
 
-    /// The file to try the place of the results by: one that nothing is lost with.
-    pub(crate) fn trial(&self) -> &'static str {
-        if self.keeping.is_some() { TRIAL } else { "run.csv" }
-    }
-
-    /// Nothing stands in the way: what an earlier start has left goes, and what the trial has.
-    pub(crate) fn clear(&self) {
-        if let (Some(_), Some(out)) = (&self.keeping, &self.out) {
-            let _ = std::fs::remove_file(out.join(TRIAL));
+    /// The run has ended and its results are written: there is nothing to go on with, unless it was interrupted. Tells what could not be
+    /// written on the way.
+    pub(crate) fn end(&self, is_interrupted: bool) {
+        if let Some(keeping) = &self.keeping
+            && let Some(error) = keeping.failure()
+        {
+            let (path, error) = (keeping.path(), crate::files::plain(error));
+            warn(&format!(
+                "warning: the last checkpoint could not be written: cannot write to `{}`: {error}",
+                path.display()
+            ));
         }
-        if let (None, Some(out)) = (&self.from, &self.out) {
+        if is_interrupted && self.keeping.is_some() {
+            return;
+        }
+        if let Some(checkpoint) = &self.checkpoint {
             // What is not there need not go.
-            let _ = std::fs::remove_file(out.join(CHECKPOINT));
+            let _ = std::fs::remove_file(checkpoint);
         }
-    }
-
-    /// The run has ended and its results are written: there is nothing to go on with. Tells what could not be written on the way.
-    pub(crate) fn end(&self) {
-        let Some(keeping) = &self.keeping else { return };
-        if let Some(error) = keeping.failure() {
-            let path = keeping.path();
-            eprintln!(
-                "warning: the last checkpoint could not be written: {}",
-                files::unwritable_file(&path, error)
-            );
-        }
-        let _ = std::fs::remove_file(keeping.path());
     }
 }
 
-/// A refusal of a checkpoint.
-pub(crate) fn said(error: &CheckpointError) -> String {
-    format!("error: {error}\nhint: {}", error.hint())
-}
-
-fn refusal(path: &Path, error: &CheckpointError) -> String {
+fn refusal(path: &Path, error: &CheckpointError) -> Refusal {
     let path = path.display();
     match error {
-        CheckpointError::Io(error) if error.kind() == ErrorKind::NotFound => format!(
-            "error: there is no checkpoint `{path}`\nhint: a run has one if it is begun with --checkpoint SECONDS, and until it has ended"
+        CheckpointError::Io(error) if error.kind() == ErrorKind::NotFound => Refusal::new(
+            "checkpoint-refused",
+            format!("there is no checkpoint `{path}`"),
+            "a run has one if it is begun with --checkpoint SECONDS, and until it has ended",
         ),
-        error => format!("error: `{path}`: {error}\nhint: {}", error.hint()),
+        error => Refusal::new("checkpoint-refused", format!("`{path}`: {error}"), error.hint()),
     }
 }

@@ -1,5 +1,7 @@
 //! The `mbs` command: arguments, refusals, and the commands. Exit status: 0 done, 1 refused (scene or usage), 2 the run could not
-//! go on, 3 the build lacks the precision. What is computed is computed by the library: nothing here is compiled for a scalar or a dimension.
+//! go on or its results not be written, 3 the build lacks the precision. What is computed is computed by the library: nothing here is compiled for a scalar or a dimension.
+
+#![deny(clippy::print_stderr, reason = "it panics where standard error is full")]
 
 mod analysis;
 mod bar;
@@ -11,13 +13,17 @@ mod files;
 mod generate;
 mod keep;
 mod realtime;
+mod refusal;
 mod run;
+mod say;
+mod signals;
 mod sweep;
 mod table;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Parser, Subcommand};
 use mbs::{Precision, PrecisionError};
+use refusal::{Refusal, usage};
 use std::process::ExitCode;
 
 /// Dynamics of multibody systems: a scene file in; motion, energies and plots out.
@@ -26,6 +32,9 @@ use std::process::ExitCode;
 struct Cli {
     #[command(subcommand)]
     command: Command,
+    /// Read files of more than 64 MiB or 8 million values: they may take eighty times their size in memory.
+    #[arg(long, global = true)]
+    big: bool,
 }
 
 const ABOUT: &str =
@@ -58,7 +67,7 @@ enum Command {
 }
 
 /// Commands other than `run` and `compare` compute in numbers of the hardware.
-const NO_PAIRS: &str = "error: precision `dd` is for `mbs run`\nhint: leave --precision out";
+const NO_PAIRS: [&str; 2] = ["precision `dd` is for `mbs run`", "leave --precision out"];
 
 /// Set by a caller that builds what is missing: then a precision that this build lacks is no message, only an exit status.
 const BUILDER: &str = "MBS_BUILDER";
@@ -71,24 +80,23 @@ pub(crate) const REFUSED: u8 = 1;
 pub(crate) const STOPPED: u8 = 2;
 
 fn main() -> ExitCode {
+    signals::outlive_limits();
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => {
-            // Help and version are no refusals; a closed pipe is none of our business.
-            let _ = error.print();
-            if let Some(hint) = hint(&error) {
-                eprintln!("\nhint: {hint}");
-            }
-            return ExitCode::from(if error.use_stderr() { REFUSED } else { 0 });
+            return unparsed(&error);
         }
     };
+    if cli.big {
+        files::read_big();
+    }
     match cli.command.precisions() {
         Ok(needed) => {
             if let Some(precision) = needed.into_iter().find(|p| !p.is_built()) {
                 return unbuilt(precision);
             }
         }
-        Err(message) => return refuse(message),
+        Err([message, hint]) => return Refusal::new("settings-refused", message, hint).report(),
     }
     match cli.command {
         Command::Run(arguments) => run::main(&arguments),
@@ -106,7 +114,7 @@ fn main() -> ExitCode {
 impl Command {
     /// Precisions that it will need, as far as the arguments say; none where it will be refused for its names or its scene. Or the refusal
     /// of one that it never has.
-    fn precisions(&self) -> Result<Vec<Precision>, &'static str> {
+    fn precisions(&self) -> Result<Vec<Precision>, [&'static str; 2]> {
         let (name, scene) = match self {
             Self::Run(arguments) => (&arguments.precision, &arguments.scene),
             Self::Explain(arguments) => (&arguments.precision, &arguments.scene),
@@ -129,6 +137,23 @@ fn named(name: &Option<String>) -> Option<Precision> {
     Precision::ALL.into_iter().find(|p| Some(p.name()) == name.as_deref())
 }
 
+/// Help and version, which are no refusals, or what is wrong with the arguments.
+fn unparsed(error: &clap::Error) -> ExitCode {
+    let text = error.render();
+    if !error.use_stderr() {
+        return say::say(&text.to_string(), ExitCode::SUCCESS);
+    }
+    // with colours on a terminal; where it is closed there is nobody to tell
+    let _ = error.print();
+    let hint = hint(error).unwrap_or_default();
+    if !hint.is_empty() {
+        say::warn(&format!("\nhint: {hint}"));
+    }
+    let text = text.to_string();
+    let message: Vec<_> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
+    usage(message.join(" ").trim_start_matches("error: "), &hint)
+}
+
 /// What to say about a command that is none.
 fn hint(error: &clap::Error) -> Option<String> {
     let word = match (error.kind(), error.get(ContextKind::InvalidSubcommand)) {
@@ -141,13 +166,7 @@ fn hint(error: &clap::Error) -> Option<String> {
 /// Says which precision this build lacks, to whom does not build it himself.
 pub(crate) fn unbuilt(precision: Precision) -> ExitCode {
     if std::env::var_os(BUILDER).is_none() {
-        eprintln!("{}", PrecisionError::NotBuilt(precision).render());
+        Refusal::scene(&PrecisionError::NotBuilt(precision)).report();
     }
     ExitCode::from(UNBUILT)
-}
-
-/// Writes a refusal to standard error.
-pub(crate) fn refuse(message: &str) -> ExitCode {
-    eprintln!("{}", message.trim_end());
-    ExitCode::from(REFUSED)
 }

@@ -1,13 +1,14 @@
 //! `mbs run SCENE --realtime`.
 
+use crate::refusal::Refusal;
 use clap::Args;
 use mbs::core::scene::Scene;
+use mbs::folder::{Part, WriteError};
 use mbs::realtime::{
     Degrade, OVERRUNS, Overrun, Pacing, PacingError, Quiet, SystemClock, run_document,
 };
 use mbs::scene_file::{Document, RunSummary, write_overruns};
 use mbs::{Outcome, Settings};
-use std::path::Path;
 
 /// Options of a paced run.
 #[derive(Debug, Args)]
@@ -16,7 +17,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     pub(crate) realtime: bool,
     /// With --realtime: time between two boundaries [s]; else the step. It is cut into equal steps that are not longer than the step.
-    #[arg(long, value_name = "P", allow_negative_numbers = true, requires = "realtime")]
+    #[arg(long, value_name = "P", allow_hyphen_values = true, requires = "realtime")]
     period: Option<f64>,
     /// With --realtime, of a late period: finish (the next begins at once, the delay is caught up), hold (its outputs wait for the
     /// next boundary, the delay stays), degrade (finish, and go on with less); else finish.
@@ -30,21 +31,21 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", requires = "overrun")]
     quiet: Option<u32>,
     /// With --realtime: waits awake for so long before each period, asleep before that [s]; else 1e-4.
-    #[arg(long, value_name = "S", allow_negative_numbers = true, requires = "realtime")]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, requires = "realtime")]
     awake: Option<f64>,
 }
 
 impl Arguments {
     /// What is asked for; nothing where the run is not paced; else the refusal.
-    pub(crate) fn pacing(&self) -> Result<Option<Pacing>, String> {
+    pub(crate) fn pacing(&self) -> Result<Option<Pacing>, Refusal> {
         let other = Pacing::default();
         let is_laddered = self.degrade.is_some() || self.quiet.is_some();
         if is_laddered && self.overrun != Some(Overrun::Degrade) {
-            return Err(
-                "error: --degrade and --quiet are for --overrun degrade\nhint: leave them out, or \
-                        write --overrun degrade"
-                    .to_owned(),
-            );
+            return Err(Refusal::new(
+                "pacing-refused",
+                "--degrade and --quiet are for --overrun degrade",
+                "leave them out, or write --overrun degrade",
+            ));
         }
         Ok(self.realtime.then(|| Pacing {
             period: self.period,
@@ -77,18 +78,21 @@ fn policy(text: &str) -> Result<Overrun, String> {
     found.ok_or_else(|| "write finish, hold or degrade".to_owned())
 }
 
-/// Runs at the pace of the system's clock.
+/// Runs at the pace of the system's clock; else the refusal.
 pub(crate) fn run(
     scene: (&Document, &Scene<f64>),
     settings: &Settings,
     pacing: &Pacing,
-) -> Result<Outcome, PacingError> {
-    run_document(scene, settings, pacing, &mut SystemClock::new())
+) -> Result<Outcome, Refusal> {
+    let run = run_document(scene, settings, pacing, &mut SystemClock::new());
+    run.map_err(|error| match &error {
+        PacingError::Read(error) => Refusal::scene(error),
+        error => Refusal::new("pacing-refused", error, error.hint()),
+    })
 }
 
 /// Writes realtime.csv of a paced run.
-pub(crate) fn write(out: &Path, summary: &RunSummary) -> std::io::Result<()> {
+pub(crate) fn write(part: &mut Part<'_>, summary: &RunSummary) -> Result<(), WriteError> {
     let Some(realtime) = &summary.realtime else { return Ok(()) };
-    let file = std::fs::File::create(out.join("realtime.csv"))?;
-    write_overruns(std::io::BufWriter::new(file), realtime)
+    part.table("realtime.csv", |sink| write_overruns(sink, realtime))
 }

@@ -1,17 +1,21 @@
 //! `mbs run SCENE`.
 
 use crate::bar::{bar, ticks};
-use crate::{STOPPED, files, keep, named, realtime, refuse, table, unbuilt};
+use crate::files::Begun;
+use crate::refusal::Refusal;
+use crate::say::{say, warn};
+use crate::{STOPPED, files, keep, named, realtime, signals, table, unbuilt};
 use clap::Args;
 use indicatif::ProgressBar;
-use mbs::auto::{Clock, Goal, Plan, Processor, plan, run_plan, time};
-use mbs::core::scene::Scene;
+use mbs::auto::{Clock, Goal, Plan, PlanError, Processor, plan, run_plan, time};
 use mbs::estimate::estimate;
+use mbs::folder::{Folder, WriteError};
 use mbs::realtime::Pacing;
 use mbs::scene_file::{Document, Provenance, RunError, readable};
-use mbs::{Outcome, Overrides, Precision, Settings, run_document_kept, words};
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use mbs::{
+    CHECKPOINT, Outcome, Overrides, Precision, Settings, StopError, run_document_kept, words,
+};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Options that go with one method alone: a run that may fall back on another has none of them.
@@ -26,10 +30,10 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
     /// Step [s], the first where lengths are controlled; else 0.001.
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
     /// Largest step of a controlled length [s]; else the step.
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step_max: Option<f64>,
     /// What chooses the length of the steps: fixed, energy (changes of the energy invariant; as publication 2 prints it: energy-printed), error (an estimate of the local
     /// error), both; left out: what tolerances are given for, energy in multi-index, else fixed.
@@ -37,27 +41,27 @@ pub(crate) struct Arguments {
     step_control: Option<String>,
     /// A step that changes the invariant by more than U of the energy that moves is repeated shorter; the change is kept between
     /// L and U as far as the largest step allows; else 1e-5,1e-7.
-    #[arg(long, value_name = "U,L", value_parser = two_numbers, allow_negative_numbers = true)]
+    #[arg(long, value_name = "U,L", value_parser = two_numbers, allow_hyphen_values = true)]
     energy_tolerance: Option<[f64; 2]>,
     /// Error of a step by its estimate, in lengths of the scene; else 1e-6.
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
     error_tolerance: Option<f64>,
     /// on, off: steps of a controlled length end where contact is made or broken and at kinks of the road; else on.
     #[arg(long, value_name = "WORD", value_parser = switch, action = clap::ArgAction::Set)]
     events: Option<bool>,
     /// The run stops when the invariant is off by more than this share of the energy turned over; else 0.1.
-    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
     energy_alarm: Option<f64>,
     /// Duration [s].
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<f64>,
     /// Fixed penalty alpha: N/m in index-3 and in multi-index' long steps, kg in index-1 (left out: in proportion to the mass); in classical a regularisation
     /// of 1/alpha, in recursive the report's closing forces (left out: neither).
-    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    #[arg(long, value_name = "A", allow_hyphen_values = true)]
     penalty: Option<f64>,
     /// Corrections of an iteration are small below this share of what accelerations move in a step, else 1e-10; with rk54, rk853, gbs and radau5 the
     /// error of a step, else 1e-8, with gbs 2e-10.
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
     tolerance: Option<f64>,
     /// Threads that share the work of a step in index-3, index-1, multi-index and classical; worth it above some hundred bodies.
     /// The results are the same to the last bit.
@@ -79,11 +83,11 @@ pub(crate) struct Arguments {
     integrator: Option<String>,
     /// Wanted error: the largest of the outputs over the run, each beside its own range, as in `mbs compare`. A short pilot measures which
     /// formulation, integrator and step reach it in the least time, and says why; --formulation and --integrator narrow the choice.
-    #[arg(long, value_name = "E", allow_negative_numbers = true, conflicts_with_all = NOT_CHOSEN)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true, conflicts_with_all = NOT_CHOSEN)]
     error: Option<f64>,
     /// Deadline [s, or 1ms, 500us]: the run is made in frames of this length, each computed within the same time even where its steps
     /// are slowest, as accurately as that allows (with --error: as cheaply as the error allows).
-    #[arg(long, value_name = "S", value_parser = time, allow_negative_numbers = true, conflicts_with_all = NOT_CHOSEN)]
+    #[arg(long, value_name = "S", value_parser = time, allow_hyphen_values = true, conflicts_with_all = NOT_CHOSEN)]
     deadline: Option<f64>,
     /// Leaves out the estimate of the outputs' errors, which takes up to 30 % of the run's time.
     #[arg(long)]
@@ -109,6 +113,7 @@ impl Arguments {
             penalty: self.penalty,
             tolerance: self.tolerance,
             threads: self.threads,
+            ..Overrides::default()
         }
     }
 
@@ -160,82 +165,107 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let mut clock = Processor::new(arguments.threads.unwrap_or(1));
     match begin(arguments) {
         Ok(begun) => go(arguments, begun, &mut clock),
-        Err(Refusal::Message(message)) => refuse(&message),
-        Err(Refusal::Unbuilt(precision)) => unbuilt(precision),
+        Err(Stop::Refused(refusal)) => refusal.report(),
+        Err(Stop::Unbuilt(precision)) => unbuilt(precision),
     }
 }
 
 /// Why a run does not begin.
-enum Refusal {
-    Message(String),
+enum Stop {
+    Refused(Box<Refusal>),
     /// What it would go on from has a precision that this build lacks.
     Unbuilt(Precision),
 }
 
-impl From<String> for Refusal {
-    fn from(message: String) -> Self {
-        Self::Message(message)
+impl From<Refusal> for Stop {
+    fn from(refusal: Refusal) -> Self {
+        Self::Refused(Box::new(refusal))
     }
 }
 
 /// A run that may begin.
-struct Begun {
-    document: Document,
-    scene: Scene<f64>,
+struct Run {
+    begun: Begun,
     plan: Plan,
     overrides: Overrides,
     pacing: Option<Pacing>,
     kept: keep::Kept,
 }
 
+/// Files of a run.
+const FILES: [&str; 8] = [
+    "run.csv",
+    "steps.csv",
+    "run.json",
+    "run.html",
+    "realtime.csv",
+    "choice.json",
+    "choice.csv",
+    CHECKPOINT,
+];
+
 /// Reads what is run, and what it goes on from, and chooses where something is wanted; else the refusal.
-fn begin(arguments: &Arguments) -> Result<Begun, Refusal> {
+fn begin(arguments: &Arguments) -> Result<Run, Stop> {
     let out = arguments.out.as_deref();
     let pacing = arguments.realtime.pacing()?;
-    let kept = arguments.keep.begin(out)?;
-    let overrides = kept.overrides(arguments.overrides())?;
+    let mut kept = arguments.keep.begin(out)?;
+    let mut overrides = kept.overrides(arguments.overrides())?;
+    overrides.interrupt = signals::heeded();
     // Of a scene that is not there that is said.
     if let Some(missing) = named(&overrides.precision).filter(|p| !p.is_built())
         && arguments.scene.is_file()
     {
-        return Err(Refusal::Unbuilt(missing));
+        return Err(Stop::Unbuilt(missing));
     }
-    let begun = files::begin(&arguments.scene, &overrides, (out, kept.trial()))?;
-    let (document, scene, settings) = begun;
-    let settings = kept.settle(settings)?;
-    let clock = &mut Processor::new(settings.threads);
-    let chosen = (&overrides, settings);
-    let plan = plan((&document, &scene), chosen, arguments.goal(), clock);
-    let plan = plan.map_err(|error| error.render())?;
-    kept.clear();
-    Ok(Begun { document, scene, plan, overrides, pacing, kept })
+    let mut begun = files::begin(&arguments.scene, &overrides, (out, &FILES))?;
+    begun.settings = kept.settle(begun.settings)?;
+    arguments.keep.keep(out, &mut kept)?;
+    let clock = &mut Processor::new(begun.settings.threads);
+    let chosen = (&overrides, begun.settings.clone());
+    let plan = plan((&begun.document, &begun.scene), chosen, arguments.goal(), clock);
+    if arguments.goal().is_some() && overrides.interrupt.is_set() {
+        let hint = "the choice was not made, and nothing was run; start it again";
+        return Err(Refusal::interrupted("interrupted by a signal", hint).into());
+    }
+    let plan = plan.map_err(|error| unplanned(&error))?;
+    Ok(Run { begun, plan, overrides, pacing, kept })
 }
 
-fn go(arguments: &Arguments, mut begun: Begun, clock: &mut dyn Clock) -> ExitCode {
-    match run(arguments, &mut begun, clock) {
-        Ok((outcome, settings)) => report(&outcome, arguments, (&begun, &settings)),
-        Err(message) => refuse(&message),
+/// The refusal of a goal.
+pub(crate) fn unplanned(error: &PlanError) -> Refusal {
+    match error {
+        PlanError::Goal(error) => Refusal::new("goal-refused", error, error.hint()),
+        PlanError::Read(error) => Refusal::scene(error),
+        other => Refusal::new("goal-refused", other.render(), ""),
+    }
+}
+
+fn go(arguments: &Arguments, mut run: Run, clock: &mut dyn Clock) -> ExitCode {
+    match outcome(arguments, &mut run, clock) {
+        Ok((outcome, settings)) => report(&outcome, arguments, (&run, &settings)),
+        Err(refusal) => refusal.report(),
     }
 }
 
 /// Runs it, at the pace of a clock or as fast as it can, and tells with what settings; else the refusal.
-fn run(
+fn outcome(
     arguments: &Arguments,
-    begun: &mut Begun,
+    run: &mut Run,
     clock: &mut dyn Clock,
-) -> Result<(Outcome, Settings), String> {
-    let Begun { document, scene, plan, pacing, kept, .. } = begun;
+) -> Result<(Outcome, Settings), Refusal> {
+    let Run { begun, plan, pacing, kept, .. } = run;
+    let (document, scene) = (&begun.document, &begun.scene);
     let settings = plan.first();
     if let Some(pacing) = pacing {
         let run = realtime::run((document, scene), settings, pacing);
-        return run.map(|outcome| (outcome, settings.clone())).map_err(|error| error.render());
+        return run.map(|outcome| (outcome, settings.clone()));
     }
     let mut bar = Bar::new(settings.duration, arguments.json);
     let mut reached = |t| bar.reached(t);
     if settings.choice.is_some() {
         let run = run_plan((document, scene), plan, &mut reached);
         bar.bar.finish_and_clear();
-        return run.map_err(|error| error.render());
+        return run.map_err(|error| Refusal::scene(&error));
     }
     let parts = (kept.from.as_ref(), kept.keeping.as_mut());
     let outcome = run_document_kept((document, scene), settings, &mut reached, parts);
@@ -249,40 +279,48 @@ fn run(
             }
             Ok((outcome, settings.clone()))
         }
-        Ok(Err(error)) => Err(keep::said(&error)),
-        Err(error) => Err(error.render()),
+        Ok(Err(error)) => Err(Refusal::checkpoint(&error)),
+        Err(error) => Err(Refusal::scene(&error)),
     }
 }
 
-/// Files, then JSON or table; the exit status says whether the run was completed.
+/// Files, then JSON or table; the exit status says whether the run was completed, and whether its results are where they should be.
 fn report(
     outcome: &Outcome,
     arguments: &Arguments,
-    (begun, settings): (&Begun, &Settings),
+    (run, settings): (&Run, &Settings),
 ) -> ExitCode {
-    if let Some(out) = &arguments.out {
-        let provenance = arguments.provenance(&begun.overrides, settings);
-        if let Err(error) = write_files(outcome, out, provenance) {
-            return refuse(&files::unwritable(out, &error));
+    let error = outcome.error.as_ref();
+    let mut status = if error.is_some() { ExitCode::from(STOPPED) } else { ExitCode::SUCCESS };
+    let mut object = outcome.summary.to_json();
+    let mut written = None;
+    if let Some(folder) = &run.begun.folder {
+        if outcome.summary.steps == 0 && folder.path().join("run.json").exists() {
+            let out = folder.path().display();
+            warn(&format!("note: no step was made: the results that are in `{out}` stay there"));
+        } else {
+            let provenance = arguments.provenance(&run.overrides, settings);
+            let id = files::results_id(&run.begun.document, settings);
+            match write_files(outcome, folder, (provenance, &id)) {
+                Ok(whole) => {
+                    (object, written) = (whole, Some(folder.path()));
+                    run.kept.end(matches!(error, Some(StopError::Interrupted)));
+                }
+                Err(error) => {
+                    Refusal::lost(&error).warn();
+                    status = ExitCode::from(STOPPED);
+                }
+            }
         }
-        begun.kept.end();
     }
-    let text = if arguments.json {
-        outcome.summary.to_json()
-    } else {
-        table::text(outcome, arguments.out.as_deref())
-    };
-    // A reader that has gone away is no error of the run.
-    if !text.is_empty() {
-        let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
-    }
-    let Some(error) = &outcome.error else { return ExitCode::SUCCESS };
-    if !arguments.json {
+    let text = if arguments.json { object } else { table::text(outcome, written) };
+    let status = say(&text, status);
+    if let Some(error) = error.filter(|_| !arguments.json) {
         let report = outcome.summary.error.as_ref();
-        let text = report.map(|report| stopped("stopped", report, error, &begun.document));
-        eprint!("{}", text.unwrap_or_default());
+        let text = report.map(|report| stopped("stopped", report, error, &run.begun.document));
+        warn(&text.unwrap_or_default());
     }
-    ExitCode::from(STOPPED)
+    status
 }
 
 /// The error of a run that stopped, with the place in the scene that it is about.
@@ -303,16 +341,22 @@ pub(crate) fn stopped(
     place.render(document.file(), &message, &report.hint)
 }
 
-fn write_files(outcome: &Outcome, out: &Path, provenance: Provenance) -> std::io::Result<()> {
-    outcome.write_csv(std::io::BufWriter::new(std::fs::File::create(out.join("run.csv"))?))?;
-    outcome.write_steps(std::io::BufWriter::new(std::fs::File::create(out.join("steps.csv"))?))?;
-    realtime::write(out, &outcome.summary)?;
+/// Replaces the files of the directory; gives the JSON object as it is there.
+fn write_files(
+    outcome: &Outcome,
+    folder: &Folder,
+    (provenance, id): (Provenance, &str),
+) -> Result<String, WriteError> {
+    let mut part = folder.begin(id)?;
+    part.table("run.csv", |sink| outcome.write_csv(sink))?;
+    part.table("steps.csv", |sink| outcome.write_steps(sink))?;
+    realtime::write(&mut part, &outcome.summary)?;
     let chosen = outcome.summary.chosen.as_ref();
     if let Some(choice) = chosen.and_then(|chosen| chosen.evidence.as_ref()) {
-        files::write_choice(out, choice)?;
+        files::write_choice(&mut part, choice)?;
     }
-    std::fs::write(out.join("run.json"), outcome.summary.to_json() + "\n")?;
-    std::fs::write(out.join("run.html"), outcome.page(provenance))
+    part.page("run.html", &outcome.page(provenance))?;
+    part.finish("run.json", &outcome.summary.to_json())
 }
 
 /// A progress bar on a terminal, nothing elsewhere.

@@ -1,14 +1,15 @@
 //! `mbs sweep SCENE SWEEP`.
 
 use crate::bar::bar;
-use crate::{STOPPED, files, refuse, table};
+use crate::refusal::Refusal;
+use crate::say::{say, warn};
+use crate::{STOPPED, files, signals, table};
 use clap::Args;
 use indicatif::ProgressBar;
 use mbs::scene_file::Document;
 use mbs::sweep::{Report, Study, StudyError, SweepError, Watch};
 use mbs::{Overrides, words};
 use serde_json::json;
-use std::io::Write as _;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -43,13 +44,13 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "P")]
     pub(crate) precision: Option<String>,
     /// Step [s].
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
     /// Error of a step by its estimate, in lengths of the scene.
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
     error_tolerance: Option<f64>,
     /// Duration [s].
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<f64>,
 }
 
@@ -62,6 +63,7 @@ impl Arguments {
             step: self.step,
             error_tolerance: self.error_tolerance,
             duration: self.duration,
+            interrupt: signals::heeded(),
             ..Overrides::default()
         }
     }
@@ -77,46 +79,62 @@ impl Arguments {
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match run(arguments) {
         Ok((report, out)) => tell(&report, &out, arguments),
-        Err(refusal) => refuse(&refusal),
+        Err(refusal) => refusal.report(),
     }
 }
 
-fn run(arguments: &Arguments) -> Result<(Report, PathBuf), String> {
+fn run(arguments: &Arguments) -> Result<(Report, PathBuf), Refusal> {
     let (document, _) = files::scene(&arguments.scene)?;
     let sweep = files::document(&arguments.sweep, "sweep file")?;
     let overrides = arguments.overrides();
     let study = Study::new(document.clone(), &sweep, &overrides);
     let study = study.map_err(|error| refused(&error, &document))?;
     let out = arguments.out();
+    let files = ["table.csv", "table.parquet", "sweep.journal"];
+    let _folder = files::folder(&out, &files)?;
     let mut bar = Bar::new(study.n_members(), arguments.json);
     let report = study.run(&out, arguments.threads, arguments.restart, &mut bar);
     bar.0.finish_and_clear();
     Ok((report.map_err(|error| not_run(&error, &out))?, out))
 }
 
-fn refused(error: &StudyError, scene: &Document) -> String {
+fn refused(error: &StudyError, scene: &Document) -> Refusal {
     match error {
-        StudyError::Read(error) => error.render(),
+        StudyError::Read(error) => Refusal::read("sweep-refused", error),
         StudyError::Settings(error) => files::refusal(error, scene),
-        other => format!("error: {other}\nhint: leave the option out, or do not vary the number"),
+        other => {
+            Refusal::new("sweep-refused", other, "leave the option out, or do not vary the number")
+        }
     }
 }
 
-fn not_run(error: &SweepError, out: &Path) -> String {
+fn not_run(error: &SweepError, out: &Path) -> Refusal {
     let place = out.display();
     match error {
-        SweepError::Write(error) => files::unwritable(out, error),
-        SweepError::Journal(error) => format!("error: `{place}`: {error}\nhint: {}", error.hint()),
-        other => format!("error: {other}"),
+        SweepError::Write(error) => Refusal::lost(error),
+        SweepError::Interrupted(_) => {
+            Refusal::interrupted(error, "the same command goes on with the others")
+        }
+        SweepError::Journal(error) => {
+            Refusal::new("journal-refused", format!("`{place}`: {error}"), error.hint())
+        }
+        other => Refusal::new("settings-refused", other, "write a smaller number"),
     }
 }
 
 /// JSON or text; the exit status says whether all members were completed.
 fn tell(report: &Report, out: &Path, arguments: &Arguments) -> ExitCode {
     let text = if arguments.json { json(report, arguments) } else { text(report, out) };
-    // A reader that has gone away is no error of the sweep.
-    let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
-    if report.failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) }
+    let is_run = report.resumed < report.members;
+    let asked = arguments.threads.filter(|_| is_run).map_or(0, NonZeroUsize::get);
+    if let Some(note) = words::few_threads(asked, report.threads) {
+        warn(&format!("note: {note}"));
+    }
+    if let Some(error) = &report.lost {
+        Refusal::lost(error).warn();
+    }
+    let is_whole = report.failures.is_empty() && report.lost.is_none();
+    say(&text, if is_whole { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) })
 }
 
 fn json(report: &Report, arguments: &Arguments) -> String {
@@ -161,7 +179,10 @@ fn text(report: &Report, out: &Path) -> String {
     }
     let names: Vec<_> =
         report.tables.iter().filter_map(|path| path.file_name()?.to_str()).collect();
-    text + &format!("wrote {} to {}\n", names.join(" and "), out.display())
+    if !names.is_empty() {
+        text += &format!("wrote {} to {}\n", names.join(" and "), out.display());
+    }
+    text
 }
 
 /// A progress bar on a terminal, nothing elsewhere.

@@ -104,6 +104,11 @@ impl<T: Real, W: Team> Indefinite<T, W> {
         self.layout.plan.counters
     }
 
+    /// Subtrees that may be worked on at the same time: more threads than that find nothing to do. `≥ 1` where there are unknowns.
+    pub fn n_branches(&self) -> usize {
+        self.layout.plan.tasks.n_leaves()
+    }
+
     /// What became of the plan in the last factorisation.
     pub fn delays(&self) -> Delays {
         self.delays

@@ -80,6 +80,11 @@ impl<T: Real, W: Team> Multifrontal<T, W> {
         self.plan.counters
     }
 
+    /// Subtrees that may be worked on at the same time: more threads than that find nothing to do. `≥ 1` where there are unknowns.
+    pub fn n_branches(&self) -> usize {
+        self.plan.tasks.n_leaves()
+    }
+
     /// Both sweeps on a vector in the storage of the tasks, of which `x` is the right-hand side.
     fn sweep(&self, x: &[T], storage: &mut [T]) {
         let fronts = Factor { plan: &self.plan, fronts: &self.fronts, taken: &self.taken };

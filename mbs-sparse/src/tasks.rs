@@ -75,6 +75,11 @@ impl<T: Send> Owned for Storage<'_, T> {
 }
 
 impl Tasks {
+    /// Tasks with none below them: as many may be worked on at the same time.
+    pub(crate) fn n_leaves(&self) -> usize {
+        (0..self.list.len()).filter(|&task| self.below(task).is_empty()).count()
+    }
+
     /// The tasks below `task`.
     pub(crate) fn below(&self, task: usize) -> &[u32] {
         self.children.get(task)

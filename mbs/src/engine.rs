@@ -10,8 +10,9 @@ use mbs_core::model::{Model, Owner, State, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Scene;
 use mbs_core::step::{StepError, StepReport};
+use mbs_core::team::Team;
 use mbs_core::{Cliques, Real};
-use mbs_parallel::Threads;
+use mbs_parallel::{Threads, most_threads};
 use mbs_sparse::{Indefinite, Multifrontal};
 use mbs_statespace as statespace;
 
@@ -97,15 +98,17 @@ where
                     Formulation::Index3 => Index::Three(three),
                     _ => Index::Both(IndexChange::new(one, three)),
                 };
-                let team = team(settings)?;
+                let team = team(settings, solver.n_branches())?;
                 let solver = solver.with_team(team.clone());
                 let workspace = Box::new(mbs_augmented::Workspace::new(model, solver));
                 Ok(Self::Augmented { index, workspace, team })
             }
             Formulation::Classical => {
                 let options = classical_options(settings);
-                let (team, saddle) = (team(settings)?, classical::Saddle::new(model));
-                let solver = Indefinite::on(team.clone(), &saddle, mbs_sparse::Options::default());
+                let saddle = classical::Saddle::new(model);
+                let solver = Indefinite::analyse(&saddle, mbs_sparse::Options::default());
+                let team = team(settings, solver.n_branches())?;
+                let solver = solver.with_team(team.clone());
                 let workspace = Box::new(classical::Workspace::new(model, solver));
                 Ok(Self::Classical { options, workspace, team })
             }
@@ -298,6 +301,14 @@ where
         }
     }
 
+    /// Threads that share the work of a step, this one among them.
+    pub(crate) fn threads(&self) -> usize {
+        match self {
+            Self::Augmented { team, .. } | Self::Classical { team, .. } => team.size(),
+            Self::StateSpace { .. } | Self::Recursive(_) => 1,
+        }
+    }
+
     /// What an unknown of the formulation belongs to.
     pub(crate) fn owner_of_unknown(&self, model: &NaturalModel<T, D>, u: usize) -> Owner {
         match self {
@@ -319,9 +330,9 @@ where
     }
 }
 
-/// The threads that are asked for.
-fn team(settings: &Settings) -> Result<Threads, StopError> {
-    let n = settings.threads;
+/// The threads that are asked for, as far as they find work: a step has so many branches, and threads wait awake for their turn.
+fn team(settings: &Settings, branches: usize) -> Result<Threads, StopError> {
+    let n = settings.threads.min(most_threads()).min(branches.max(1));
     Threads::new(n).map_err(|_| StopError::NoThreads(n))
 }
 

@@ -44,6 +44,8 @@ pub enum JournalError {
     NotAJournal([&'static str; 2]),
     /// Another process is writing it; of what it is.
     Busy(&'static str),
+    /// What it is of was interrupted: it has what was finished before.
+    Interrupted,
     /// It cannot be read or written.
     Io(io::Error),
 }
@@ -151,6 +153,9 @@ impl JournalError {
             Self::Other(_) => "give another directory with --out, or begin anew with --restart",
             Self::NotAJournal(_) => "give another directory with --out, or remove the file",
             Self::Busy(_) => "wait for it, or give another directory with --out",
+            Self::Interrupted => {
+                "start it again to go on: what is finished is kept in the directory"
+            }
             Self::Io(_) => "give a directory that can be made or written with --out",
         }
     }
@@ -166,6 +171,7 @@ impl Display for JournalError {
                 write!(f, "`{file}` in the directory is not the journal of {of}")
             }
             Self::Busy(of) => write!(f, "another process is running {of} in the directory"),
+            Self::Interrupted => write!(f, "interrupted by a signal"),
             Self::Io(error) => write!(f, "the journal cannot be used: {error}"),
         }
     }

@@ -129,9 +129,16 @@ impl PrecisionError {
     pub fn render(&self) -> String {
         match self {
             Self::Read(error) => error.render(),
-            Self::NotBuilt(precision) => {
-                format!("error: {self}\nhint: {}", not_built_hint(*precision))
-            }
+            Self::NotBuilt(_) => format!("error: {self}\nhint: {}", self.hint()),
+        }
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match self {
+            Self::Read(error) => error.hint(),
+            Self::NotBuilt(precision) => not_built_hint(*precision),
         }
     }
 }

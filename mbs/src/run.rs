@@ -19,7 +19,7 @@ use crate::settings::{Lengths, Settings};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
-use crate::words::{limit_name, notes, stop_text, summary_rows};
+use crate::words::{few_threads, limit_name, notes, stop_text, summary_rows};
 use core::time::Duration;
 use kept::{Clock, Kept};
 use mbs_core::Real;
@@ -172,6 +172,7 @@ where
         };
         let recorder = Recorder::new(channels, n_rows, simulation.invariant().initial(), keep);
         let figure = Figure::new(scene, simulation.model(), settings.duration);
+        let threads = simulation.threads();
         Ok(Self {
             scene,
             settings,
@@ -188,7 +189,7 @@ where
             alarm: Alarm::new(settings.energy_alarm),
             frictions: Frictions::new(scene, settings),
             done: 0,
-            clock: Clock::new(),
+            clock: Clock::new(threads),
             kept: None,
             realtime: None,
             level: None,
@@ -262,6 +263,7 @@ where
             if !is_last && self.keep(k) {
                 clock = Instant::now();
             }
+            self.heed(is_last)?;
         }
         Ok(())
     }
@@ -288,8 +290,18 @@ where
             if !is_last && self.keep(k) {
                 clock = Instant::now();
             }
+            self.heed(is_last)?;
         }
         Ok(())
+    }
+
+    /// Ends the run between two steps where it is asked to.
+    fn heed(&mut self, is_last: bool) -> Result<(), StopError> {
+        if is_last || !self.settings.interrupt.is_set() {
+            return Ok(());
+        }
+        self.keep_now();
+        self.stop(StopError::Interrupted)
     }
 
     /// One step of at most `rest` [s], with its counts; the time at its end is known where steps are fixed. Says
@@ -415,6 +427,9 @@ where
             ..plain_summary(self.scene, settings)
         };
         let steps = self.recorder.step_series(0, control);
+        let change = self.simulation.start.change.to_f64();
+        let mut notes = notes(self.scene, settings, &summary, change);
+        notes.extend(few_threads(settings.threads, self.simulation.threads()));
         let record = RunRecord {
             scene: self.scene.name.clone(),
             channels: self.recorder.series(),
@@ -424,7 +439,7 @@ where
             iterations: Some(self.recorder.iterations()),
             steps: self.simulation.is_controlled().then(|| steps.clone()),
             summary: summary_rows(&summary),
-            notes: notes(self.scene, settings, &summary, self.simulation.start.change.to_f64()),
+            notes,
             error: summary.error.as_ref().map(stop_text),
             choice: settings.choice.as_ref().map(|choice| choice.table()).unwrap_or_default(),
             ..RunRecord::default()

@@ -5,6 +5,7 @@ use crate::choice::{
     StepRule,
 };
 use crate::digits::is_finer;
+use crate::interrupt::Interrupt;
 use crate::precision::{PrecisionError, not_built_hint};
 use mbs_core::Real;
 use mbs_core::control::EnergyRule;
@@ -53,6 +54,8 @@ pub struct Overrides {
     pub tolerance: Option<f64>,
     /// Threads.
     pub threads: Option<usize>,
+    /// What ends the run from outside.
+    pub interrupt: Interrupt,
 }
 
 /// Everything decided.
@@ -90,6 +93,8 @@ pub struct Settings {
     pub threads: usize,
     /// What a pilot measured, where one chose.
     pub choice: Option<Box<Choice>>,
+    /// What ends the run from outside.
+    pub interrupt: Interrupt,
 }
 
 /// The lengths of time of a run in its own precision [s].
@@ -232,8 +237,7 @@ impl Settings {
         let limits =
             overrides.energy_tolerance.or(solver.energy_tolerance.map(|l| l.map(T::to_f64)));
         let limits = limits.unwrap_or([EnergyRule::default().upper, EnergyRule::default().lower]);
-        let duration = overrides.duration.unwrap_or(scene.duration.to_f64());
-        let duration = positive("duration", duration)?;
+        let duration = positive("duration", overrides.duration.unwrap_or(scene.duration.to_f64()))?;
         let shorter = step.min(step_max);
         if duration / shorter > MOST_STEPS {
             return Err(SettingsError::TooManySteps { step: shorter, duration });
@@ -267,6 +271,7 @@ impl Settings {
             tolerance: checked("tolerance", overrides.tolerance.or(of_scene(solver.tolerance)))?,
             threads,
             choice: None,
+            interrupt: overrides.interrupt.clone(),
         })
     }
 

@@ -258,6 +258,11 @@ where
         self.sizes
     }
 
+    /// Threads that share the work of a step.
+    pub(crate) fn threads(&self) -> usize {
+        self.engine.threads()
+    }
+
     /// A failed step with the joint or body it is about.
     pub fn explain(&self, error: StepError) -> StopError {
         let unknown = |u| self.engine.owner_of_unknown(&self.model, u);

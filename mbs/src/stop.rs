@@ -18,6 +18,9 @@ use mbs_linear::{EquilibriumError, LinearError};
 use mbs_recursive::TreeError;
 use mbs_scene::RunError;
 
+/// The code of what was interrupted.
+pub const INTERRUPTED: &str = "interrupted";
+
 /// Why a run stopped early.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -40,6 +43,8 @@ pub enum StopError {
     Eigenvalues,
     /// The operating system did not give that many threads.
     NoThreads(usize),
+    /// The run was asked to end, and has ended after a step.
+    Interrupted,
     /// An output whose value is not finite.
     Output {
         /// Its number in the scene.
@@ -138,9 +143,11 @@ impl StopError {
             Self::Output { output } => return Some(Entry::Output(*output)),
             Self::AlmostDependent(tilt) => Owner::Joint(tilt.joints[0]),
             Self::Friction { effect, .. } => Owner::Effect(*effect),
-            Self::Reaction(_) | Self::Linear(_) | Self::Eigenvalues | Self::NoThreads(_) => {
-                return None;
-            }
+            Self::Reaction(_)
+            | Self::Linear(_)
+            | Self::Eigenvalues
+            | Self::NoThreads(_)
+            | Self::Interrupted => return None,
         };
         Some(match owner {
             Owner::Body(b) => Entry::Body(b),
@@ -180,6 +187,7 @@ impl StopError {
             Self::Linear(_) => "no-linearisation",
             Self::Eigenvalues => "no-eigenvalues",
             Self::NoThreads(_) => "no-threads",
+            Self::Interrupted => INTERRUPTED,
         }
     }
 
@@ -237,6 +245,9 @@ impl StopError {
             }
             Self::Linear(_) | Self::Eigenvalues => "check the data of the effects",
             Self::NoThreads(_) => "ask for fewer threads",
+            Self::Interrupted => {
+                "what was computed is kept; a run that is begun with --checkpoint SECONDS goes on with --resume"
+            }
             Self::Output { .. } => {
                 "measure a point nearer to the body, try a smaller step, or leave the output out"
             }
@@ -276,6 +287,7 @@ impl StopError {
             | Self::Output { .. }
             | Self::Linear(_)
             | Self::Eigenvalues
+            | Self::Interrupted
             | Self::NoThreads(_) => None,
         };
         let (joint, body) = owner.map_or((None, None), |o| names.of(o));
@@ -322,6 +334,7 @@ impl core::fmt::Display for StopError {
             Self::Linear(error) => write_linear(error, f),
             Self::Eigenvalues => write!(f, "the iteration for the eigenvalues did not converge"),
             Self::NoThreads(n) => write!(f, "the system gives no {n} threads"),
+            Self::Interrupted => write!(f, "interrupted by a signal"),
             Self::Output { .. } => {
                 write!(f, "an output is not finite: it is larger than numbers can be")
             }

@@ -179,6 +179,14 @@ pub fn stopped_at(error: &RunError) -> String {
     format!("at t = {} s{whose}", readable(error.time))
 }
 
+/// A note where fewer threads are used than were asked for.
+#[must_use]
+pub fn few_threads(asked: usize, used: usize) -> Option<String> {
+    let are = if used == 1 { "thread is used" } else { "threads are used" };
+    (used < asked)
+        .then(|| format!("{used} {are}, not {asked}: more have no work here, or no processor"))
+}
+
 /// What is unusual about a scene, said once.
 pub(crate) fn notes<T: Real>(
     scene: &Scene<T>,

@@ -10,6 +10,8 @@ use std::time::{Duration, Instant, SystemTime};
 
 /// A text that takes longer hangs.
 const LIMIT: Duration = Duration::from_secs(60);
+/// And one that takes more memory is mended: what is read is smaller by far [KiB].
+const MEMORY: u64 = 1 << 20;
 /// How often it is looked at.
 const PAUSE: Duration = Duration::from_millis(100);
 /// How long the check of the repository takes at most [s], where its seeds begin, and how many there are: the same on every machine that
@@ -45,7 +47,7 @@ fn run(seconds: u64, seed: u64, count: u64) -> Result<String, String> {
     let folder = process::target_dir().join("fuzz");
     fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let current = folder.join("current.toml");
-    let mut command = Command::new(program);
+    let mut command = limited(&program, MEMORY);
     command.args([seconds.to_string(), seed.to_string(), count.to_string()]);
     command.args([process::root().join("scenes"), process::root().join("fuzz").join("corpus")]);
     command.arg(&current).stdin(Stdio::null()).stdout(Stdio::piped());
@@ -62,6 +64,16 @@ fn run(seconds: u64, seed: u64, count: u64) -> Result<String, String> {
         "a text {what}. It is kept in {}: mend it, then move it to fuzz/corpus, where it stays tried",
         kept.display()
     ))
+}
+
+/// A program that gets so much memory [KiB] and no more, where there is a shell that can say so.
+fn limited(program: &Path, memory: u64) -> Command {
+    if !cfg!(target_os = "linux") {
+        return Command::new(program);
+    }
+    let mut command = Command::new("sh");
+    command.args(["-c", &format!("ulimit -v {memory}; exec \"$0\" \"$@\"")]).arg(program);
+    command
 }
 
 /// Waits for the program; kills it, and says so, where it is about one text for too long.
@@ -116,5 +128,17 @@ mod tests {
         );
         assert_eq!(keep(&current, &folder).unwrap(), folder.join("kept-1.toml"));
         fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_program_that_takes_too_much_memory_ends() {
+        // a word of 64 MiB, which is doubled
+        let script = "x=$(head -c 67108864 /dev/zero | tr '\\0' x); y=$x$x; echo ${#y}";
+        let takes = |memory: u64| {
+            let mut command = limited(Path::new("bash"), memory);
+            command.args(["-c", script]).output().unwrap().status.success()
+        };
+        assert!(takes(4 << 20) && !takes(1 << 16));
     }
 }

@@ -195,9 +195,11 @@ fn scenes_that_cannot_be_meant_are_refused_with_place_and_hint() {
         let (output, file) = run_text(name, &scene, &["--json"]);
         let errors = text(&output.stderr);
         assert_eq!(status(&output), 1, "{name}: {errors}");
-        assert!(output.stdout.is_empty(), "{name}");
+        let error = &json(&output)["error"];
         let line = scene.lines().position(|l| l.contains(offending)).unwrap() + 1;
         assert!(errors.contains(&format!("{file}:{line}:")), "{name}: line {line}: {errors}");
+        assert_eq!((&error["code"], &error["line"]), (&"scene-refused".into(), &line.into()));
+        assert_eq!(error["file"], *file);
         let column = errors.split(&format!("{file}:{line}:")).nth(1).unwrap();
         assert!(column.starts_with(|c: char| c.is_ascii_digit()), "{name}: {errors}");
         assert!(errors.contains("hint") || errors.contains("help"), "{name}: {errors}");
@@ -255,7 +257,7 @@ fn what_is_not_built_is_refused_with_the_list_of_what_is() {
         let output = run(&[&[file.as_str(), "--json"], &arguments[..]].concat());
         let errors = text(&output.stderr);
         assert_eq!(status(&output), 1, "{arguments:?}");
-        assert!(output.stdout.is_empty());
+        assert_eq!(json(&output)["error"]["code"], "settings-refused");
         assert!(errors.contains(built), "{arguments:?}: {errors}");
     }
     let asks =

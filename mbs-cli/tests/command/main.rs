@@ -13,6 +13,8 @@ mod doctor;
 mod double_double;
 mod explain;
 mod generate;
+#[cfg(target_os = "linux")]
+mod hostile;
 #[cfg(not(any(feature = "f32", feature = "dd")))]
 mod lean;
 mod realtime;

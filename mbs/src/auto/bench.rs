@@ -131,7 +131,7 @@ where
             is_late: false,
         };
         let course = Course { instants: self.instants, between };
-        let end = drive(&mut simulation, &course, &mut recorder);
+        let end = drive(&mut simulation, (&course, &self.base.interrupt), &mut recorder);
         let Recorder { rows, steps, reached, slowest, is_late, span, .. } = recorder;
         let seconds = self.clock.seconds() - begun;
         let end = match end {
@@ -231,6 +231,7 @@ pub(crate) fn settings<T: Real>(
         energy_alarm: base.energy_alarm,
         duration: base.duration,
         penalty: base.penalty.filter(|_| method.formulation.is_augmented()),
+        interrupt: base.interrupt.clone(),
         threads: base.threads.filter(|_| method.formulation.takes_threads()),
         ..method.overrides(setting, step, instants.interval)
     };

@@ -5,6 +5,7 @@ use crate::compare::method::Method;
 use crate::precision::{PrecisionError, ReadScene};
 use crate::run::Outcome;
 use crate::settings::{Overrides, Settings};
+use crate::stop::StopError;
 use crate::{Names, run_document};
 use cpu_time::ThreadTime;
 use mbs_core::scene::Scene;
@@ -175,6 +176,9 @@ pub(super) fn run_ranked(
         }
         let outcome = run(&settings)?;
         let Some(error) = &outcome.error else { return Ok((outcome, settings)) };
+        if *error == StopError::Interrupted {
+            return Ok((outcome, settings));
+        }
         let report = error.report(outcome.summary.end_time, &names);
         lost.push(Fallback {
             method: method_name(&settings),

@@ -111,6 +111,7 @@ impl Identity {
             penalty: number(given.penalty, penalty)?,
             tolerance: number(given.tolerance, tolerance)?,
             threads: given.threads,
+            interrupt: given.interrupt.clone(),
         })
     }
 
@@ -189,6 +190,7 @@ fn values(settings: &Settings) -> [String; KEYS.len()] {
         // The bits are the same for any number of them, and however the rest was chosen.
         threads: _,
         choice: _,
+        interrupt: _,
     } = settings;
     let optional = |x: &Option<f64>| x.map_or_else(String::new, |x| format!("{x:?}"));
     [

@@ -2,9 +2,10 @@
 
 use super::CheckpointError;
 use super::rows::Rows;
+use crate::folder::{PART, write_whole};
 use crate::recorder::Recorder;
 use std::fs::{self, File, TryLockError};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// The file of a run's checkpoint in its directory.
@@ -21,8 +22,8 @@ type Bytes = Result<Vec<u8>, CheckpointError>;
 /// Where and how often a run is kept.
 ///
 /// At its start, and at the first step that ends at or after each multiple of a simulated time, the checkpoint in the directory is
-/// replaced by a new one: written beside it, synced, renamed. No step is made shorter for it. The rows of `run.csv` and
-/// `steps.csv` are written as the run goes. What cannot be written is tried again the next time, and told in the end.
+/// replaced by a new one: written beside it, synced, renamed. No step is made shorter for it. The rows are written as the run goes,
+/// to `run.csv` and `steps.csv` in [`PART`], so that the results of an earlier run stay until there are new ones. What cannot be written is tried again the next time, and told in the end.
 #[derive(Debug)]
 pub struct Keeping {
     out: PathBuf,
@@ -80,29 +81,13 @@ impl Keeping {
 
     /// Writes the rows so far, and the bytes of a checkpoint at time `t` [s] where there is one.
     pub(crate) fn write(&mut self, recorder: &Recorder, checkpoint: Option<(f64, Bytes)>) {
-        let mut done = self.rows.write(&self.out, recorder);
+        let mut done = self.rows.write(&self.out.join(PART), recorder);
         if let Some((t, bytes)) = checkpoint {
             let bytes = bytes.map_err(|error| io::Error::other(error.to_string()));
-            done = done.and(bytes.and_then(|bytes| write_whole(&self.path(), &bytes)));
+            let write = |bytes: Vec<u8>| write_whole(&self.out, FILE, &bytes).map_err(|e| e.error);
+            done = done.and(bytes.and_then(write));
             self.next = ((t / self.every + EARLY).floor() + 1.0 - EARLY) * self.every;
         }
         self.failure = done.err();
     }
-}
-
-/// Replaces a file by another that is whole: after a kill or a crash it has the old bytes or the new ones.
-pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(".part");
-    let beside = PathBuf::from(beside);
-    let mut file = File::create(&beside)?;
-    file.write_all(bytes)?;
-    file.sync_all()?;
-    drop(file);
-    fs::rename(&beside, path)?;
-    // The name is in the directory; where directories cannot be synced there is nothing more to do.
-    if let Some(Ok(folder)) = path.parent().map(File::open) {
-        let _ = folder.sync_all();
-    }
-    Ok(())
 }

@@ -1,10 +1,9 @@
 //! The rows of a run in its files, as it goes.
 
-use super::keeping::write_whole;
 use crate::recorder::Recorder;
 use mbs_core::real::DoubleDouble;
 use mbs_scene::{Channel, ControlSummary, CsvWriter, append_steps, write_steps};
-use std::fs::OpenOptions;
+use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -16,29 +15,39 @@ const FILES: [&str; 2] = ["run.csv", "steps.csv"];
 pub(super) struct Rows {
     /// Rows in them.
     n: usize,
-    /// The thinning that they have; where it has changed since, they are written anew.
+    /// The thinning that they have; where it has changed since, and where they could not be written, they are written anew.
     thinning: u64,
+    /// Rows that there were when they were written last, or could not be.
+    tried: usize,
 }
 
 impl Rows {
-    /// Rows that are not in the files yet.
+    /// Rows since the files were written last, or could not be.
     pub(super) fn waiting(&self, recorder: &Recorder) -> usize {
-        recorder.n_rows().saturating_sub(self.n)
+        recorder.n_rows().saturating_sub(self.tried)
     }
 
     /// Brings the files of a directory up to date, by whole lines. The first time, and where rows were thinned, they are replaced.
     pub(super) fn write(&mut self, out: &Path, recorder: &Recorder) -> io::Result<()> {
         let is_anew = self.thinning != recorder.thinning();
         let from = if is_anew { 0 } else { self.n };
+        let (n, tried) = (recorder.n_rows(), recorder.n_rows());
+        // until all is written, nothing is
+        *self = Self { n: 0, thinning: 0, tried };
+        if is_anew {
+            fs::create_dir_all(out)?;
+        }
         for (file, text) in FILES.iter().zip(texts(recorder, from)?) {
             let path = out.join(file);
-            if is_anew {
-                write_whole(&path, &text)?;
+            let mut options = OpenOptions::new();
+            let options = if is_anew {
+                options.create(true).write(true).truncate(true)
             } else {
-                OpenOptions::new().append(true).open(path)?.write_all(&text)?;
-            }
+                options.append(true)
+            };
+            options.open(path)?.write_all(&text)?;
         }
-        (self.n, self.thinning) = (recorder.n_rows(), recorder.thinning());
+        *self = Self { n, thinning: recorder.thinning(), tried };
         Ok(())
     }
 }

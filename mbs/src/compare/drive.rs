@@ -1,6 +1,7 @@
 //! Steps from instant to instant, and who watches them.
 
 use super::ladder::Instants;
+use crate::interrupt::Interrupt;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
@@ -46,13 +47,38 @@ where
 
 impl<T: Real, const D: usize> Watcher<T, D> for () where Plane<D>: InSpace<T> {}
 
-/// Steps a simulation from its start over all instants.
+/// A watcher of a run that is asked to end between two steps.
+struct Interruptible<'a, W> {
+    watcher: &'a mut W,
+    interrupt: &'a Interrupt,
+}
+
+impl<T: Real, const D: usize, W: Watcher<T, D>> Watcher<T, D> for Interruptible<'_, W>
+where
+    Plane<D>: InSpace<T>,
+{
+    fn step(
+        &mut self,
+        simulation: &Simulation<T, D>,
+        accepted: &Accepted<T>,
+        is_last: bool,
+    ) -> Result<bool, StopError> {
+        let goes_on = self.watcher.step(simulation, accepted, is_last)?;
+        if self.interrupt.is_set() { Err(StopError::Interrupted) } else { Ok(goes_on) }
+    }
+
+    fn instant(&mut self, simulation: &Simulation<T, D>) -> Result<bool, StopError> {
+        self.watcher.instant(simulation)
+    }
+}
+
+/// Steps a simulation from its start over all instants, or until it is interrupted.
 ///
 /// # Errors
 /// Why it stopped.
 pub(crate) fn drive<T: Real, const D: usize>(
     simulation: &mut Simulation<T, D>,
-    course: &Course,
+    (course, interrupt): (&Course, &Interrupt),
     watcher: &mut impl Watcher<T, D>,
 ) -> Result<(), StopError>
 where
@@ -60,6 +86,7 @@ where
 {
     for k in 0..course.instants.count {
         let is_last = k + 1 == course.instants.count;
+        let watcher = &mut Interruptible { watcher, interrupt };
         let goes_on = match course.between {
             Some(n) => fixed(simulation, (course.instants, n), k, watcher)?,
             None => {

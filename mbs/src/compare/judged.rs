@@ -45,7 +45,12 @@ impl Study<'_> {
         let scene = &self.scenes.double;
         let instants = super::Instants { count: known.rows.len(), ..self.instants };
         let duration = Some(instants.time(instants.count));
-        let base = Overrides { formulation: Some("auto".into()), duration, ..Overrides::default() };
+        let base = Overrides {
+            formulation: Some("auto".into()),
+            duration,
+            interrupt: self.request.interrupt.clone(),
+            ..Overrides::default()
+        };
         let Ok(settings) = Settings::new(scene, &base) else { return judged };
         let goal = Goal { error: Some(error), deadline: None };
         let Ok(mut methods) = methods(scene, &base, &settings, &goal) else { return judged };

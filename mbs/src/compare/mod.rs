@@ -24,11 +24,13 @@ pub use store::Earlier;
 pub use table::TableError;
 
 use crate::choice::{Formulation, Precision};
+use crate::interrupt::Interrupt;
 use crate::journal::{Head, Kind, hash};
 use crate::precision::{PrecisionError, not_built_hint};
 use core::fmt::{self, Display, Formatter};
 use ladder::Instants;
 use mbs_core::cluster::scene_length;
+use mbs_core::scene::Scene;
 use mbs_scene::compare::{Cell, Comparison, ConvergenceMap};
 use mbs_scene::{Channel, Document};
 use method::Method;
@@ -62,6 +64,8 @@ pub struct Request {
     pub maps: bool,
     /// Is the choice by measurement to be made at each error, and held against all methods?
     pub choices: bool,
+    /// What ends the comparison from outside.
+    pub interrupt: Interrupt,
 }
 
 impl Default for Request {
@@ -78,6 +82,7 @@ impl Default for Request {
             budget: 200.0,
             maps: true,
             choices: false,
+            interrupt: Interrupt::default(),
         }
     }
 }
@@ -139,6 +144,9 @@ const KIND: Kind = Kind {
     hashes: &["the scene", "an option", "the reference table"],
 };
 
+/// Step where the scene has none [s].
+const DEFAULT_STEP: f64 = 1e-3;
+
 /// What a comparison is made of.
 struct Study<'a> {
     scenes: &'a Scenes,
@@ -171,11 +179,13 @@ pub fn compare(
 ) -> Result<Comparison, CompareError> {
     check(request)?;
     let precisions = request.needed_precisions(table.is_some());
-    let scenes = Scenes::new(document, &precisions).map_err(CompareError::Read)?;
+    let mut scenes = Scenes::new(document, &precisions).map_err(CompareError::Read)?;
+    scenes.interrupt = request.interrupt.clone();
     let options = format!("{request:?}");
     let head = Head::new(KIND, &[document.text(), &options, table.map_or("", |(_, text)| text)]);
     let store = Store::open(out, &head, earlier).map_err(CompareError::Journal)?;
     let mut store = store.ok_or(CompareError::Unfinished)?;
+    store.interrupt = request.interrupt.clone();
     let study = Study::new(&scenes, request);
     watch.plan(&study.plan(store.resumed));
     watch.doing(0.0, "reference");
@@ -203,6 +213,17 @@ pub fn compare(
     Ok(comparison)
 }
 
+/// Reads the text of a reference table for a scene, at the instants of a comparison as usual.
+///
+/// # Errors
+/// [`TableError`] where it cannot be used.
+pub fn check_table(scene: &Scene<f64>, text: &str) -> Result<(), TableError> {
+    let of_scene = scene.solver.step.unwrap_or(DEFAULT_STEP).min(scene.duration);
+    let steps = ladder::steps(&[], of_scene, scene.duration);
+    let instants = Instants::new(scene.duration, &steps);
+    table::read(text, &Channel::of_scene(scene), &instants).map(drop)
+}
+
 fn check(request: &Request) -> Result<(), CompareError> {
     let single = [request.time_limit, request.budget, request.duration.unwrap_or(1.0)];
     let lists = [
@@ -221,7 +242,6 @@ fn check(request: &Request) -> Result<(), CompareError> {
 
 impl<'a> Study<'a> {
     fn new(scenes: &'a Scenes, request: &'a Request) -> Self {
-        const DEFAULT_STEP: f64 = 1e-3;
         let scene = &scenes.double;
         let duration = request.duration.unwrap_or(scene.duration);
         let of_scene = scene.solver.step.unwrap_or(DEFAULT_STEP).min(duration);

@@ -8,6 +8,7 @@ use crate::alarm::Alarm;
 use crate::channels::Channels;
 use crate::choice::Precision;
 use crate::engine::Engine;
+use crate::interrupt::Interrupt;
 use crate::names::Names;
 use crate::precision::{PrecisionError, ReadScene, Work};
 use crate::settings::Settings;
@@ -36,6 +37,8 @@ pub(super) struct Scenes {
     pub(super) double: Scene<f64>,
     read: Vec<(Precision, ReadScene<'static>)>,
     n_columns: usize,
+    /// What ends all runs from outside.
+    pub(super) interrupt: Interrupt,
 }
 
 /// What a recorded run leaves behind.
@@ -68,11 +71,16 @@ impl Scenes {
         let precisions = [Precision::F64].into_iter().chain(others);
         let read = precisions.map(read).collect::<Result<_, PrecisionError>>()?;
         let n_columns = Channel::of_scene(&double).iter().map(|c| c.components.len()).sum();
-        Ok(Self { double, read, n_columns })
+        Ok(Self { double, read, n_columns, interrupt: Interrupt::default() })
     }
 
     fn of(&self, precision: Precision) -> Option<&ReadScene<'static>> {
         self.read.iter().find(|(of, _)| *of == precision).map(|(_, scene)| scene)
+    }
+
+    /// Settings of a run that ends with all the others.
+    fn interruptible(&self, settings: &Settings) -> Settings {
+        Settings { interrupt: self.interrupt.clone(), ..settings.clone() }
     }
 
     /// Runs and records, for at most so many seconds of CPU time.
@@ -80,12 +88,14 @@ impl Scenes {
         let Some(scene) = self.of(settings.precision) else {
             return Recorded { is_not_started: true, ..Recorded::default() };
         };
+        let settings = &self.interruptible(settings);
         scene.work(ToRecord { settings, course, n_columns: self.n_columns, most })
     }
 
     /// CPU time of the steps from a fresh start [s]; the least of several where they take little. Each turn finds other places in
     /// memory.
     pub(super) fn timed(&self, settings: &Settings, course: &Course, turn: u32) -> Option<f64> {
+        let settings = &self.interruptible(settings);
         self.of(settings.precision)?.work(ToTime { settings, course, turn })
     }
 }
@@ -141,7 +151,7 @@ where
         let seconds = moved(turn * MOST_FRESH + k, || {
             let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
             let clock = ThreadTime::now();
-            drive(&mut simulation, course, &mut ()).ok()?;
+            drive(&mut simulation, (course, &settings.interrupt), &mut ()).ok()?;
             Some(clock.elapsed().as_secs_f64())
         })?;
         least = Some(least.map_or(seconds, |least| least.min(seconds)));
@@ -192,7 +202,7 @@ where
         last: Duration::ZERO,
         start: ThreadTime::now(),
     };
-    let end = drive(&mut simulation, course, &mut recorder);
+    let end = drive(&mut simulation, (course, &settings.interrupt), &mut recorder);
     recorder.finish(&simulation, end.err(), &Names::new(scene))
 }
 

@@ -1,5 +1,6 @@
 //! Results that outlive a kill: each is in the journal before the next is begun.
 
+use crate::interrupt::Interrupt;
 use crate::journal::{Head, Journal, JournalError};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -24,6 +25,8 @@ pub(super) struct Store {
     done: BTreeMap<String, Value>,
     /// Results of an earlier start.
     pub(super) resumed: usize,
+    /// What ends the comparison from outside.
+    pub(super) interrupt: Interrupt,
 }
 
 impl Store {
@@ -46,7 +49,7 @@ impl Store {
             return Ok(None);
         }
         let resumed = done.len();
-        Ok(Some(Self { journal: Some(journal), done, resumed }))
+        Ok(Some(Self { journal: Some(journal), done, resumed, interrupt: Interrupt::default() }))
     }
 
     /// The result of an earlier start, or that of `job`, kept.
@@ -59,6 +62,10 @@ impl Store {
             return Ok(value.clone());
         }
         let value = job();
+        // what was cut short is no result
+        if self.interrupt.is_set() {
+            return Err(JournalError::Interrupted);
+        }
         if let Some(journal) = &mut self.journal {
             journal.append(&[key, &value.to_string()])?;
         }
@@ -71,6 +78,8 @@ impl Store {
 mod tests {
     use super::*;
     use crate::journal::Kind;
+    use core::sync::atomic::{AtomicBool, Ordering};
+    use std::sync::Arc;
 
     const KIND: Kind =
         Kind { file: "x.journal", title: "x", of: ["an x", "another x"], hashes: &["the text"] };
@@ -92,6 +101,17 @@ mod tests {
         for (x, y) in numbers.iter().zip(value.as_array().unwrap()) {
             assert_eq!(x.to_bits(), y.as_f64().unwrap().to_bits());
         }
+        // what is cut short is no result
+        let flag = Arc::new(AtomicBool::new(false));
+        store.interrupt = Interrupt::new(flag.clone());
+        let cut = store.get("run 2", || {
+            flag.store(true, Ordering::Relaxed);
+            0.into()
+        });
+        assert!(matches!(cut, Err(JournalError::Interrupted)));
+        drop(store);
+        store = open(Earlier::Resume).unwrap();
+        assert_eq!(store.resumed, 1);
         drop(store);
         let other = Head::new(KIND, &["b"]);
         let refused = Store::open(Some(&out), &other, Earlier::Resume).unwrap_err();

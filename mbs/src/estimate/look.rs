@@ -105,6 +105,9 @@ where
         let end = match self.start(settings) {
             Ok((simulation, channels)) => {
                 let mut time = |share: f64| {
+                    if settings.interrupt.is_set() {
+                        return true;
+                    }
                     let spent = clock.seconds() - begun;
                     let taken = spent / most;
                     let behind = BEHIND + (1.0 - BEHIND) * taken;

@@ -126,6 +126,9 @@ impl Judge<'_> {
         let mut most = Pace::default();
         match self.looks(&look, &mut most, clock, begun) {
             Ok(found) => self.fill(&mut estimate, found),
+            Err(_) if self.settings.interrupt.is_set() => {
+                estimate.missing = Some("interrupted by a signal".to_owned());
+            }
             Err(missing) => estimate.missing = Some(missing),
         }
         self.warn(&mut estimate, &most);

@@ -5,7 +5,7 @@ use crate::checkpoint::tape::{Tape, Told, holds};
 use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Keeping, Kind, whole};
 use crate::tree::{InSpace, Plane};
 use core::time::Duration;
-use cpu_time::ProcessTime;
+use cpu_time::{ProcessTime, ThreadTime};
 use mbs_core::Real;
 use mbs_core::outputs::{Instant, MOST_INSTANTS};
 use mbs_scene::ControlSummary;
@@ -20,22 +20,44 @@ pub(super) struct Kept<'a> {
 /// CPU time of the steps, over all starts of a run.
 #[derive(Debug)]
 pub(super) struct Clock {
-    begun: ProcessTime,
+    begun: Begun,
     /// Of earlier starts.
     before: Duration,
     /// Of writing.
     apart: Duration,
 }
 
+/// When it was begun, by a clock that runs for those who share the steps and for nobody else: runs side by side in a process count each
+/// time once.
+#[derive(Debug, Clone, Copy)]
+enum Begun {
+    Thread(ThreadTime),
+    Process(ProcessTime),
+}
+
+impl Begun {
+    fn now(is_alone: bool) -> Self {
+        if is_alone { Self::Thread(ThreadTime::now()) } else { Self::Process(ProcessTime::now()) }
+    }
+
+    fn elapsed(&self) -> Duration {
+        match self {
+            Self::Thread(begun) => begun.elapsed(),
+            Self::Process(begun) => begun.elapsed(),
+        }
+    }
+}
+
 impl Clock {
-    /// Begins now, after nothing.
-    pub(super) fn new() -> Self {
-        Self { begun: ProcessTime::now(), before: Duration::ZERO, apart: Duration::ZERO }
+    /// Begins now, after nothing; so many threads share the steps.
+    pub(super) fn new(threads: usize) -> Self {
+        Self { begun: Begun::now(threads == 1), before: Duration::ZERO, apart: Duration::ZERO }
     }
 
     /// Begins now, after what was before.
     pub(super) fn begin(&mut self) {
-        (self.begun, self.apart) = (ProcessTime::now(), Duration::ZERO);
+        let is_alone = matches!(self.begun, Begun::Thread(_));
+        (self.begun, self.apart) = (Begun::now(is_alone), Duration::ZERO);
     }
 
     /// The time so far.
@@ -56,8 +78,18 @@ where
     /// Writes rows and a checkpoint where they are due after step `k`; says whether it took time.
     pub(super) fn keep(&mut self, k: u64) -> bool {
         self.done = k;
+        let is_due = self.kept.as_ref().is_some_and(|kept| kept.keeping.is_due(self.reached));
+        self.write(is_due)
+    }
+
+    /// Writes rows and a checkpoint, whether they are due or not.
+    pub(super) fn keep_now(&mut self) {
+        self.write(true);
+    }
+
+    /// Writes what waits, and a checkpoint where one is due.
+    fn write(&mut self, is_due: bool) -> bool {
         let Some(kept) = self.kept.take() else { return false };
-        let is_due = kept.keeping.is_due(self.reached);
         let is_busy = is_due || kept.keeping.is_waiting(&self.recorder);
         if is_busy {
             let since = self.clock.get();

@@ -182,7 +182,9 @@ where
         self.run.level = self.run.level.map(|lowest| lowest.max(level));
         let k = task.index + 1;
         self.period(k)?;
-        self.run.finish_step((k, k == self.track.periods), &mut ())?;
+        let is_last = k == self.track.periods;
+        self.run.finish_step((k, is_last), &mut ())?;
+        self.run.heed(is_last)?;
         Ok(ControlFlow::Continue(()))
     }
 }

@@ -15,12 +15,14 @@ pub use member::Row;
 pub use table::{Columns, Failures};
 
 use crate::choice::Precision;
+use crate::folder::{PART, WriteError, write_whole};
 use crate::journal::{Head, Journal, Kind};
 use crate::settings::{Overrides, Settings, SettingsError};
 use core::fmt::{self, Display, Formatter};
 use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use mbs_parallel::ensemble::{Ensemble, EnsembleError, Panicked, available};
+use mbs_parallel::most_threads;
 use mbs_scene::{Channel, Document, ReadError, Sweep};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -67,8 +69,10 @@ pub enum SweepError {
     Threads(EnsembleError),
     /// The journal cannot be used.
     Journal(JournalError),
-    /// The directory cannot be written.
-    Write(std::io::Error),
+    /// A file cannot be written.
+    Write(WriteError),
+    /// It was interrupted after so many of its members; these are in the journal.
+    Interrupted([usize; 2]),
 }
 
 /// How a sweep went.
@@ -90,6 +94,8 @@ pub struct Report {
     pub cpu_seconds: f64,
     /// The tables written.
     pub tables: Vec<PathBuf>,
+    /// Why a table could not be written; the journal has all members.
+    pub lost: Option<WriteError>,
 }
 
 /// Called as members finish; does nothing by default.
@@ -181,7 +187,7 @@ impl Study {
     /// next result is looked at: killing the process loses the members under way.
     ///
     /// # Errors
-    /// No threads; a journal of another scene, sweep or version, or in use; a directory that cannot be written.
+    /// No threads; a journal of another scene, sweep or version, or in use; a directory that cannot be written; an interruption.
     pub fn run(
         &self,
         out: &Path,
@@ -202,12 +208,15 @@ impl Study {
         job: impl Fn(usize) -> Row + Sync,
     ) -> Result<Report, SweepError> {
         let clock = Instant::now();
-        std::fs::create_dir_all(out).map_err(SweepError::Write)?;
+        let lost = |error, name: &str| {
+            SweepError::Write(WriteError { path: out.join(name), bytes: 0, error })
+        };
+        std::fs::create_dir_all(out).map_err(|error| lost(error, ""))?;
         let (mut journal, lines) = Journal::open(out, &self.head, anew)?;
         let mut rows = whole_rows(lines, self.columns.len(), self.n_members());
         let resumed = rows.len();
         let todo: Vec<usize> = (0..self.n_members()).filter(|i| !rows.contains_key(i)).collect();
-        let most = NonZeroUsize::new(todo.len()).unwrap_or(NonZeroUsize::MIN);
+        let most = NonZeroUsize::new(todo.len().min(most_threads())).unwrap_or(NonZeroUsize::MIN);
         let threads = threads.unwrap_or_else(available).min(most);
         let ensemble = Ensemble::new(Some(threads)).map_err(SweepError::Threads)?;
         let mut failed = rows.values().filter(|row| !self.columns.is_completed(row)).count();
@@ -215,6 +224,10 @@ impl Study {
         let mut written = Ok(());
         watch.finished(rows.len(), failed, self.n_members());
         ensemble.run(&todo, job, |i, row: Result<Row, Panicked>| {
+            // what was cut short is no result
+            if self.overrides.interrupt.is_set() {
+                return ControlFlow::Break(());
+            }
             let row = row.unwrap_or_else(|panic| self.panicked(i, &panic));
             cpu_seconds += row.cpu_seconds;
             let cells = self.columns.cells(&row);
@@ -227,8 +240,14 @@ impl Study {
             watch.finished(rows.len(), failed, self.n_members());
             ControlFlow::Continue(())
         });
-        written.map_err(SweepError::Write)?;
-        let tables = self.write(out, &rows).map_err(SweepError::Write)?;
+        written.map_err(|error| lost(error, KIND.file))?;
+        if rows.len() < self.n_members() && self.overrides.interrupt.is_set() {
+            return Err(SweepError::Interrupted([rows.len(), self.n_members()]));
+        }
+        let (tables, lost) = match self.write(out, &rows) {
+            Ok(tables) => (tables, None),
+            Err(error) => (Vec::new(), Some(error)),
+        };
         Ok(Report {
             members: rows.len(),
             completed: rows.len() - failed,
@@ -238,6 +257,7 @@ impl Study {
             wall_seconds: clock.elapsed().as_secs_f64(),
             cpu_seconds,
             tables,
+            lost,
         })
     }
 
@@ -247,25 +267,29 @@ impl Study {
         Row::failed(index, values, "panicked", &panic.to_string())
     }
 
-    /// Writes the tables: beside their place first, so that what stands there is always whole.
+    /// Writes the tables: what stands in their place is always whole.
     fn write(
         &self,
         out: &Path,
         rows: &BTreeMap<usize, Vec<String>>,
-    ) -> std::io::Result<Vec<PathBuf>> {
-        let csv = out.join("table.csv");
-        let unfinished = out.join("table.csv.part");
-        self.columns.write_csv(std::fs::File::create(&unfinished)?, rows.values())?;
-        std::fs::rename(&unfinished, &csv)?;
+    ) -> Result<Vec<PathBuf>, WriteError> {
+        let put = |name: &str, bytes: std::io::Result<Vec<u8>>| {
+            let path = out.join(name);
+            let failed = |error| WriteError { path: path.clone(), bytes: 0, error };
+            let done = bytes.map_err(failed).and_then(|bytes| write_whole(out, name, &bytes));
+            done.map(|()| path.clone())
+        };
+        let mut csv = Vec::new();
+        let written = self.columns.write_csv(&mut csv, rows.values());
         #[allow(unused_mut, reason = "with the feature `parquet` there are two")]
-        let mut tables = vec![csv];
+        let mut tables = vec![put("table.csv", written.map(|()| csv))?];
         #[cfg(feature = "parquet")]
         {
-            let unfinished = out.join("table.parquet.part");
-            parquet::write(std::fs::File::create(&unfinished)?, &self.columns, rows)?;
-            tables.push(out.join("table.parquet"));
-            std::fs::rename(&unfinished, &tables[1])?;
+            let mut table = Vec::new();
+            let written = parquet::write(&mut table, &self.columns, rows);
+            tables.push(put("table.parquet", written.map(|()| table))?);
         }
+        let _ = std::fs::remove_dir(out.join(PART));
         Ok(tables)
     }
 }
@@ -286,7 +310,9 @@ fn whole_rows(
 impl From<JournalError> for SweepError {
     fn from(error: JournalError) -> Self {
         match error {
-            JournalError::Io(error) => Self::Write(error),
+            JournalError::Io(error) => {
+                Self::Write(WriteError { path: PathBuf::from(KIND.file), bytes: 0, error })
+            }
             other => Self::Journal(other),
         }
     }
@@ -308,7 +334,11 @@ impl Display for SweepError {
         match self {
             Self::Threads(error) => write!(f, "{error}"),
             Self::Journal(error) => write!(f, "{error}"),
-            Self::Write(error) => write!(f, "the results cannot be written: {error}"),
+            Self::Write(error) => write!(f, "{error}"),
+            Self::Interrupted([done, members]) => write!(
+                f,
+                "interrupted by a signal: {done} of {members} members are finished and kept"
+            ),
         }
     }
 }

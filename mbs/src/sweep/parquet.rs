@@ -9,22 +9,25 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
 use std::collections::BTreeMap;
-use std::fs::File;
-use std::io;
+use std::io::{self, Write};
 use std::sync::Arc;
 
 /// Writes rows of texts in the types of their columns.
 pub(super) fn write(
-    file: File,
+    sink: impl Write + Send,
     columns: &Columns,
     rows: &BTreeMap<usize, Vec<String>>,
 ) -> io::Result<()> {
-    write_rows(file, columns, rows).map_err(io::Error::other)
+    write_rows(sink, columns, rows).map_err(io::Error::other)
 }
 
-fn write_rows(file: File, columns: &Columns, rows: &BTreeMap<usize, Vec<String>>) -> Result<()> {
+fn write_rows(
+    sink: impl Write + Send,
+    columns: &Columns,
+    rows: &BTreeMap<usize, Vec<String>>,
+) -> Result<()> {
     let properties = Arc::new(WriterProperties::builder().build());
-    let mut writer = SerializedFileWriter::new(file, schema(columns)?, properties)?;
+    let mut writer = SerializedFileWriter::new(sink, schema(columns)?, properties)?;
     let mut group = writer.next_row_group()?;
     let mut index = 0;
     while let Some(mut column) = group.next_column()? {

@@ -48,7 +48,7 @@ fn survives(name: &str, scene: &str, options: &[&str], [first, second]: [f64; 2]
     let begin = [options, &["--checkpoint", "0.05"]].concat();
     let at = kill_at(first, &parts, mbs(scene, &parts, &begin));
     for (file, whole) in [("run.csv", &rows), ("steps.csv", &steps)] {
-        let part = read(&parts, file);
+        let part = read(&parts.join(mbs::folder::PART), file);
         let last = part.lines().last().and_then(|line| line.split(',').next()).expect("rows");
         let last: f64 = last.parse().expect("a time");
         assert!(last > 0.5 * at && part.len() < whole.len(), "{file}: {last} s");

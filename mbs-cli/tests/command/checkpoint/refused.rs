@@ -68,7 +68,8 @@ fn the_command_says_what_is_wrong_and_what_to_do() {
     refused(&[file, "--out", dir, "--resume"], &["written by mbs with format 3"]);
 
     std::fs::write(&checkpoint, &bytes).expect("written");
-    let rows = std::fs::read(out.join("run.csv")).expect("rows were written");
+    let rows =
+        std::fs::read(out.join(mbs::folder::PART).join("run.csv")).expect("rows were written");
     assert!(!rows.is_empty(), "no refusal has emptied the rows");
     let output = run("run", &[file, "--out", dir, "--resume", "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", crate::text(&output.stderr));

@@ -1,0 +1,148 @@
+//! What a command says where it does nothing: text for people, and with `--json` an object for programs.
+
+use crate::say::{say, warn};
+use crate::{REFUSED, STOPPED};
+use core::fmt::Display;
+use mbs::folder::{FolderError, WriteError};
+use mbs::scene_file::{Place, ReadError};
+use mbs::{CheckpointError, INTERRUPTED, PrecisionError, SettingsError};
+use serde_json::json;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Why a command does nothing, or gives no result. Codes are fixed words, listed in docs/CONTRACT.md.
+#[derive(Debug)]
+pub(crate) struct Refusal {
+    code: &'static str,
+    /// Exit status.
+    status: u8,
+    message: String,
+    hint: String,
+    /// File and place in it.
+    place: Option<Box<(String, Place)>>,
+}
+
+impl Refusal {
+    pub(crate) fn new(code: &'static str, message: impl Display, hint: impl Display) -> Self {
+        let (message, hint) = (message.to_string(), hint.to_string());
+        Self { code, status: REFUSED, message, hint, place: None }
+    }
+
+    /// At a place in a file.
+    pub(crate) fn at(self, file: &str, place: Place) -> Self {
+        Self { place: Some(Box::new((file.to_owned(), place))), ..self }
+    }
+
+    /// Of a file's text.
+    pub(crate) fn read(code: &'static str, error: &ReadError) -> Self {
+        Self::new(code, error.fault(), error.hint()).at(error.file(), error.place().clone())
+    }
+
+    /// Of a scene's text in the precision of a run.
+    pub(crate) fn scene(error: &PrecisionError) -> Self {
+        match error {
+            PrecisionError::Read(error) => Self::read("scene-refused", error),
+            other => Self::new("precision-not-built", other, other.hint()),
+        }
+    }
+
+    /// Of settings that no place in the scene asks for.
+    pub(crate) fn settings(error: &SettingsError) -> Self {
+        Self::new("settings-refused", error, error.hint())
+    }
+
+    /// Of a directory for results.
+    pub(crate) fn folder(out: &Path, error: &FolderError) -> Self {
+        let out = out.display();
+        match error {
+            FolderError::Busy(_) => {
+                Self::new("out-busy", format!("`{out}`: {error}"), error.hint())
+            }
+            FolderError::Io(io) => {
+                let message = format!("cannot write to `{out}`: {}", crate::files::plain(io));
+                Self::new("out-unwritable", message, error.hint())
+            }
+            other => {
+                let message = format!("cannot write to `{out}`: {other}");
+                Self::new("out-unwritable", message, error.hint())
+            }
+        }
+    }
+
+    /// Of a checkpoint.
+    pub(crate) fn checkpoint(error: &CheckpointError) -> Self {
+        Self::new("checkpoint-refused", error, error.hint())
+    }
+
+    /// Of results that were computed and could not be written.
+    pub(crate) fn lost(error: &WriteError) -> Self {
+        Self::unwritable(error).stopped()
+    }
+
+    /// Of a file that could not be written.
+    pub(crate) fn unwritable(error: &WriteError) -> Self {
+        let hint =
+            "make room, or give a place that can be written; what was there before is as it was";
+        Self::new("out-unwritable", error, hint)
+    }
+
+    /// Of what had begun: its status is that of a run that stopped.
+    pub(crate) fn stopped(self) -> Self {
+        Self { status: STOPPED, ..self }
+    }
+
+    /// Of what was interrupted, and what there is of it.
+    pub(crate) fn interrupted(message: impl Display, hint: &str) -> Self {
+        Self::new(INTERRUPTED, message, hint).stopped()
+    }
+
+    /// Says it on standard error, and with `--json` as an object on standard output.
+    pub(crate) fn report(&self) -> ExitCode {
+        self.warn();
+        self.object()
+    }
+
+    /// Says it on standard error.
+    pub(crate) fn warn(&self) {
+        let Self { message, hint, .. } = self;
+        warn(&match &self.place {
+            Some(at) => at.1.render(&at.0, message, hint),
+            None if hint.is_empty() => format!("error: {message}"),
+            None => format!("error: {message}\nhint: {hint}"),
+        });
+    }
+
+    /// Where JSON is asked for, the object; gives the exit status.
+    fn object(&self) -> ExitCode {
+        let status = ExitCode::from(self.status);
+        if !wants_json() {
+            return status;
+        }
+        let place = self.place.as_deref();
+        let object = json!({ "error": {
+            "code": self.code,
+            "message": self.message,
+            "file": place.map(|(file, _)| file),
+            "line": place.map(|(_, place)| place.line),
+            "column": place.map(|(_, place)| place.column),
+            "hint": self.hint,
+        }});
+        say(&object.to_string(), status)
+    }
+}
+
+/// Is one JSON object asked for? Where arguments are refused they are known as words alone.
+fn wants_json() -> bool {
+    std::env::args_os().skip(1).take_while(|word| word != "--").any(|word| word == "--json")
+}
+
+impl From<&PrecisionError> for Refusal {
+    fn from(error: &PrecisionError) -> Self {
+        Self::scene(error)
+    }
+}
+
+/// Says a refusal of the arguments: its text is on standard error.
+pub(crate) fn usage(message: &str, hint: &str) -> ExitCode {
+    Refusal::new("usage", message, hint).object()
+}
