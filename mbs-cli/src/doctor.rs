@@ -30,10 +30,10 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
     /// Step of that run [s]; else 0.001.
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
     /// Duration of that run [s].
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<f64>,
     /// Look at the start only: no run.
     #[arg(long)]

@@ -19,16 +19,16 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
     /// Step [s]; else 0.001.
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
     /// Duration [s].
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<f64>,
     /// Wanted error, as in `mbs run`: runs the pilot of the choice and tells what each candidate would cost.
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
     error: Option<f64>,
     /// Deadline, as in `mbs run`.
-    #[arg(long, value_name = "S", value_parser = time, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", value_parser = time, allow_hyphen_values = true)]
     deadline: Option<f64>,
     /// Directory for explain.json and explain.html; made if missing.
     #[arg(long, value_name = "DIR")]

@@ -20,7 +20,9 @@ pub(crate) fn begin(
     (out, first): (Option<&Path>, &str),
 ) -> Result<(Document, Scene<f64>, Settings), String> {
     let (document, scene) = scene(path)?;
-    let settings = Settings::new(&scene, overrides).map_err(|e| refusal(&e, &document))?;
+    let settings = Settings::new(&scene, overrides)
+        .and_then(|settings| settings.check_step(&scene, overrides).map(|()| settings));
+    let settings = settings.map_err(|e| refusal(&e, &document))?;
     if let Some(out) = out {
         prepare(out, first).map_err(|error| unwritable(out, &error))?;
     }
@@ -41,6 +43,7 @@ pub(crate) fn refusal(error: &SettingsError, document: &Document) -> String {
             let place = document.place(Entry::Solver, key);
             place.render(document.file(), &error.to_string(), &error.hint())
         }
+        SettingsError::Scene(error) => document.meaning(*error).render(),
         _ => format!("error: {error}\nhint: {}", error.hint()),
     }
 }

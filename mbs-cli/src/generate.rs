@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "SCENE")]
     of: Option<PathBuf>,
     /// Distance from one vehicle of a convoy to the next [m]; else 8.
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", allow_hyphen_values = true)]
     spacing: Option<f64>,
     /// File to write; else standard output.
     #[arg(short, long, value_name = "FILE")]

@@ -16,7 +16,7 @@ pub(crate) struct Arguments {
         value_name = "SECONDS",
         requires = "out",
         conflicts_with = "realtime",
-        allow_negative_numbers = true
+        allow_hyphen_values = true
     )]
     checkpoint: Option<f64>,
     /// Go on from DIR/checkpoint.mbs, or from FILE, with the settings of its run; the results are those of a run in one go, to the

@@ -16,7 +16,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     pub(crate) realtime: bool,
     /// With --realtime: time between two boundaries [s]; else the step. It is cut into equal steps that are not longer than the step.
-    #[arg(long, value_name = "P", allow_negative_numbers = true, requires = "realtime")]
+    #[arg(long, value_name = "P", allow_hyphen_values = true, requires = "realtime")]
     period: Option<f64>,
     /// With --realtime, of a late period: finish (the next begins at once, the delay is caught up), hold (its outputs wait for the
     /// next boundary, the delay stays), degrade (finish, and go on with less); else finish.
@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", requires = "overrun")]
     quiet: Option<u32>,
     /// With --realtime: waits awake for so long before each period, asleep before that [s]; else 1e-4.
-    #[arg(long, value_name = "S", allow_negative_numbers = true, requires = "realtime")]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, requires = "realtime")]
     awake: Option<f64>,
 }
 

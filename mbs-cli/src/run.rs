@@ -25,11 +25,12 @@ pub(crate) struct Arguments {
     /// auto, index-1, index-3, multi-index, classical, state-space, recursive; like the options below: left out, the scene's, else auto.
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
-    /// Step [s], the first where lengths are controlled; else 0.001.
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    /// Step [s]; the first one where lengths are controlled, and with rk54, rk853, gbs and radau5. Default: 0.001.
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
-    /// Largest step of a controlled length [s]; else the step.
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    /// Longest step where lengths are controlled, and with rk54, rk853, gbs and radau5 [s]; also the distance of recorded rows. Default: the
+    /// step.
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step_max: Option<f64>,
     /// What chooses the length of the steps: fixed, energy (changes of the energy invariant; as publication 2 prints it: energy-printed), error (an estimate of the local
     /// error), both; left out: what tolerances are given for, energy in multi-index, else fixed.
@@ -37,27 +38,27 @@ pub(crate) struct Arguments {
     step_control: Option<String>,
     /// A step that changes the invariant by more than U of the energy that moves is repeated shorter; the change is kept between
     /// L and U as far as the largest step allows; else 1e-5,1e-7.
-    #[arg(long, value_name = "U,L", value_parser = two_numbers, allow_negative_numbers = true)]
+    #[arg(long, value_name = "U,L", value_parser = two_numbers, allow_hyphen_values = true)]
     energy_tolerance: Option<[f64; 2]>,
     /// Error of a step by its estimate, in lengths of the scene; else 1e-6.
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
     error_tolerance: Option<f64>,
     /// on, off: steps of a controlled length end where contact is made or broken and at kinks of the road; else on.
     #[arg(long, value_name = "WORD", value_parser = switch, action = clap::ArgAction::Set)]
     events: Option<bool>,
     /// The run stops when the invariant is off by more than this share of the energy turned over; else 0.1.
-    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
     energy_alarm: Option<f64>,
     /// Duration [s].
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<f64>,
     /// Fixed penalty alpha: N/m in index-3 and in multi-index' long steps, kg in index-1 (left out: in proportion to the mass); in classical a regularisation
     /// of 1/alpha, in recursive the report's closing forces (left out: neither).
-    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    #[arg(long, value_name = "A", allow_hyphen_values = true)]
     penalty: Option<f64>,
-    /// Corrections of an iteration are small below this share of what accelerations move in a step, else 1e-10; with rk54, rk853, gbs and radau5 the
-    /// error of a step, else 1e-8, with gbs 2e-10.
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    /// Corrections of an iteration are small below this share of what accelerations move in a step. Default: 1e-10. With rk54, rk853, gbs and
+    /// radau5 the error of each step, relative to the size of each coordinate; the errors of the steps add up. Default: 1e-8, with gbs 2e-10.
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
     tolerance: Option<f64>,
     /// Threads that share the work of a step in index-3, index-1, multi-index and classical; worth it above some hundred bodies.
     /// The results are the same to the last bit.
@@ -74,16 +75,17 @@ pub(crate) struct Arguments {
     /// f32, f64, dd (pairs of doubles: 32 digits, for reference runs); left out: f64.
     #[arg(long, value_name = "P")]
     pub(crate) precision: Option<String>,
-    /// trapezoidal, newmark, generalised-alpha, hht; in recursive also rk4, rk54, rk853 (order 8), gbs (extrapolation, for reference runs), radau5 (implicit, for stiff effects); else trapezoidal.
+    /// trapezoidal, newmark, generalised-alpha, hht; in recursive also rk4, rk54, rk853 (order 8), gbs (extrapolation, for reference runs), radau5 (implicit, of order 5, for stiff effects; give it a
+    /// longer --step-max). Default: trapezoidal.
     #[arg(long, value_name = "I")]
     integrator: Option<String>,
     /// Wanted error: the largest of the outputs over the run, each beside its own range, as in `mbs compare`. A short pilot measures which
     /// formulation, integrator and step reach it in the least time, and says why; --formulation and --integrator narrow the choice.
-    #[arg(long, value_name = "E", allow_negative_numbers = true, conflicts_with_all = NOT_CHOSEN)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true, conflicts_with_all = NOT_CHOSEN)]
     error: Option<f64>,
     /// Deadline [s, or 1ms, 500us]: the run is made in frames of this length, each computed within the same time even where its steps
     /// are slowest, as accurately as that allows (with --error: as cheaply as the error allows).
-    #[arg(long, value_name = "S", value_parser = time, allow_negative_numbers = true, conflicts_with_all = NOT_CHOSEN)]
+    #[arg(long, value_name = "S", value_parser = time, allow_hyphen_values = true, conflicts_with_all = NOT_CHOSEN)]
     deadline: Option<f64>,
     /// Leaves out the estimate of the outputs' errors, which takes up to 30 % of the run's time.
     #[arg(long)]

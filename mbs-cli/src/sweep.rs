@@ -43,13 +43,13 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "P")]
     pub(crate) precision: Option<String>,
     /// Step [s].
-    #[arg(long, value_name = "H", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
     /// Error of a step by its estimate, in lengths of the scene.
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true)]
     error_tolerance: Option<f64>,
     /// Duration [s].
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<f64>,
 }
 
