@@ -16,6 +16,7 @@ mod generate;
 #[cfg(not(any(feature = "f32", feature = "dd")))]
 mod lean;
 mod realtime;
+mod refusals;
 mod sweep;
 
 use serde_json::Value;
