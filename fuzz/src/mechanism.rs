@@ -155,7 +155,16 @@ fn effect(
 fn guide(text: &mut String, joint: usize, size: f64, dice: &mut Dice) {
     let law = match dice.below(3) {
         0 => format!("ramp = {{ rate = {:?} }}", dice.between(-5.0, 5.0)),
-        1 => format!("table = [[0.0, 0.0], [0.5, {:?}], [1.0, 0.0]]", dice.between(-1.0, 1.0)),
+        1 => {
+            // a natural one that ends within the run is refused
+            let middle = dice.between(-1.0, 1.0);
+            let (last, ends) = match middle {
+                x if x < -0.5 => (0.75, "level"),
+                x if x < -0.4 => (0.75, "natural"),
+                _ => (1.0, "natural"),
+            };
+            format!("table = [[0.0, 0.0], [0.5, {middle:?}], [{last:?}, 0.0]]\nends = \"{ends}\"")
+        }
         _ => format!(
             "sine = {{ amplitude = {:?}, frequency = {:?}, phase = {:?} }}",
             size * dice.between(0.0, 1.0),

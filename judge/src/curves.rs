@@ -25,6 +25,51 @@ impl Spline {
         Self { knots: points.iter().zip(second).map(|(p, s)| [p[0], p[1], s]).collect() }
     }
 
+    /// The cubic spline through points of increasing abscissae that is level at both ends: the natural one of the points, and two with
+    /// values zero and a curvature of one at an end, weighed so that both end slopes vanish.
+    #[must_use]
+    pub fn level(points: &[[f64; 2]]) -> Self {
+        let n = points.len();
+        if n < 2 {
+            return Self::natural(points);
+        }
+        let natural = Self::natural(points);
+        let bent = [0, n - 1].map(|end| Self::bent(points, end));
+        let ends = |s: &Self| [0, n - 1].map(|k| s.slope_at(k));
+        let ([a, c], [b, d], right) = (ends(&bent[0]), ends(&bent[1]), ends(&natural));
+        let det = a * d - b * c;
+        let weights = [(b * right[1] - d * right[0]) / det, (c * right[0] - a * right[1]) / det];
+        let mut knots = natural.knots;
+        for (k, knot) in knots.iter_mut().enumerate() {
+            knot[2] += weights[0] * bent[0].knots[k][2] + weights[1] * bent[1].knots[k][2];
+        }
+        Self { knots }
+    }
+
+    /// Values zero, a second derivative of one at one end, and none at the other.
+    fn bent(points: &[[f64; 2]], end: usize) -> Self {
+        let n = points.len();
+        let mut second = vec![0.0; n];
+        second[end] = 1.0;
+        // Gauss-Seidel: the rows are dominated by their diagonals, so that each sweep leaves half of the error at most
+        for _ in 0..200 {
+            for i in 1..n.saturating_sub(1) {
+                let [h0, h1] = [points[i][0] - points[i - 1][0], points[i + 1][0] - points[i][0]];
+                second[i] = -(h0 * second[i - 1] + h1 * second[i + 1]) / (2.0 * (h0 + h1));
+            }
+        }
+        Self { knots: points.iter().zip(second).map(|(p, s)| [p[0], 0.0, s]).collect() }
+    }
+
+    /// Slope at a knot, from the side that lies within.
+    fn slope_at(&self, k: usize) -> f64 {
+        let i = k.max(1);
+        let ([t0, x0, s0], [t1, x1, s1]) = (self.knots[i - 1], self.knots[i]);
+        let h = t1 - t0;
+        let rise = (x1 - x0) / h;
+        if k == 0 { rise - h * (2.0 * s0 + s1) / 6.0 } else { rise + h * (s0 + 2.0 * s1) / 6.0 }
+    }
+
     /// Value and two derivatives; level outside.
     #[must_use]
     pub fn at(&self, t: f64) -> [f64; 3] {

@@ -184,16 +184,14 @@ fn initial(mut table: Table, names: &Names) -> Read<Initial> {
     Ok(initial)
 }
 
-fn rows(node: &Node) -> Read<Spline> {
-    let points: Vec<[f64; 2]> = node
-        .list()?
+fn rows(node: &Node) -> Read<Vec<[f64; 2]>> {
+    node.list()?
         .iter()
         .map(|row| match row.numbers()?.as_slice() {
             &[t, x] => Ok([t, x]),
             other => fault(format!("not a row: {other:?}")),
         })
-        .collect::<Read<_>>()?;
-    Ok(Spline::natural(&points))
+        .collect()
 }
 
 fn guide(mut table: Table, names: &Names) -> Read<Guide> {
@@ -207,7 +205,13 @@ fn guide(mut table: Table, names: &Names) -> Read<Guide> {
     } else if let Some(mut ramp) = table.table("ramp")? {
         Law::Ramp(ramp.number("rate")?)
     } else {
-        Law::Spline(rows(&table.need("table")?)?)
+        let points = rows(&table.need("table")?)?;
+        let ends = if table.has("ends") { table.text("ends")? } else { "natural".to_owned() };
+        Law::Spline(match ends.as_str() {
+            "natural" => Spline::natural(&points),
+            "level" => Spline::level(&points),
+            other => return fault(format!("no ends: {other}")),
+        })
     };
     table.done("guide")?;
     Ok(Guide { joint, law })
@@ -264,7 +268,7 @@ fn feature(kind: &str, mut table: Table) -> Read<Vec<Feature>> {
             };
             vec![Feature::Bump([start, length, amplitude])]
         }
-        "table" => vec![Feature::Table(rows(&table.need("points")?)?)],
+        "table" => vec![Feature::Table(Spline::natural(&rows(&table.need("points")?)?))],
         other => return fault(format!("no feature `{other}`")),
     };
     table.done("feature")?;

@@ -107,7 +107,7 @@ impl Joint {
 /// A value over time.
 #[derive(Debug, Clone)]
 pub enum Law {
-    /// Natural cubic spline through (time, value), the ends held.
+    /// Cubic spline through (time, value), natural or level, the ends held.
     Spline(Spline),
     /// amplitude sin(2π f t + phase).
     Sine([f64; 3]),
@@ -115,7 +115,7 @@ pub enum Law {
     Ramp(f64),
 }
 
-/// A natural cubic spline: abscissae, values and second derivatives.
+/// A cubic spline: abscissae, values and second derivatives.
 #[derive(Debug, Clone, Default)]
 pub struct Spline {
     /// Abscissae, values, second derivatives.

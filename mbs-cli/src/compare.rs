@@ -25,25 +25,25 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "P,..", value_delimiter = ',')]
     precision: Vec<String>,
     /// Steps [s]; left out: from 10 times that of the scene to 1/32 of it, as far as the budget goes.
-    #[arg(long, value_name = "H,..", value_delimiter = ',', allow_negative_numbers = true)]
+    #[arg(long, value_name = "H,..", value_delimiter = ',', allow_hyphen_values = true)]
     steps: Vec<f64>,
     /// Tolerances of controlled steps; left out: from 1e-3 to 1e-10, as far as the budget goes.
-    #[arg(long, value_name = "E,..", value_delimiter = ',', allow_negative_numbers = true)]
+    #[arg(long, value_name = "E,..", value_delimiter = ',', allow_hyphen_values = true)]
     tolerances: Vec<f64>,
     /// Errors at which methods are ranked; left out: 1e-2,1e-4,1e-6.
-    #[arg(long, value_name = "E,..", value_delimiter = ',', allow_negative_numbers = true)]
+    #[arg(long, value_name = "E,..", value_delimiter = ',', allow_hyphen_values = true)]
     error: Vec<f64>,
     /// Duration [s]; left out: the scene's.
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<f64>,
     /// Times that each run is timed at least; more where they differ.
     #[arg(long, value_name = "N", default_value_t = Request::default().repeats)]
     repeats: u32,
     /// CPU time of a run at most [s].
-    #[arg(long, value_name = "S", default_value_t = Request::default().time_limit, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", default_value_t = Request::default().time_limit, allow_hyphen_values = true)]
     time_limit: f64,
     /// Work of all runs together [s], roughly: it decides how far steps are refined where none are given.
-    #[arg(long, value_name = "S", default_value_t = Request::default().budget, allow_negative_numbers = true)]
+    #[arg(long, value_name = "S", default_value_t = Request::default().budget, allow_hyphen_values = true)]
     budget: f64,
     /// Table that errors are taken against, with the columns of run.csv; left out: references/NAME.csv beside the scene
     /// NAME.toml if it is there, else runs that are not under test.

@@ -48,7 +48,9 @@ pub(crate) fn begin(
     (out, files): (Option<&Path>, &[&str]),
 ) -> Result<Begun, Refusal> {
     let (document, scene) = scene(path)?;
-    let settings = Settings::new(&scene, overrides).map_err(|e| refusal(&e, &document))?;
+    let settings = Settings::new(&scene, overrides)
+        .and_then(|settings| settings.check_step(&scene, overrides).map(|()| settings))
+        .map_err(|e| refusal(&e, &document))?;
     let folder = out.map(|out| folder(out, files)).transpose()?;
     Ok(Begun { document, scene, settings, folder })
 }
@@ -126,6 +128,7 @@ pub(crate) fn refusal(error: &SettingsError, document: &Document) -> Refusal {
         SettingsError::NotBuilt { key, from_scene: true, .. } => {
             refusal.at(document.file(), document.place(Entry::Solver, key))
         }
+        SettingsError::Scene(error) => Refusal::read("scene-refused", &document.meaning(*error)),
         _ => refusal,
     }
 }

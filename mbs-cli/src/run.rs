@@ -29,10 +29,11 @@ pub(crate) struct Arguments {
     /// auto, index-1, index-3, multi-index, classical, state-space, recursive; like the options below: left out, the scene's, else auto.
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
-    /// Step [s], the first where lengths are controlled; else 0.001.
+    /// Step [s]; the first one where lengths are controlled, and with rk54, rk853, gbs and radau5. Default: 0.001.
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
-    /// Largest step of a controlled length [s]; else the step.
+    /// Longest step where lengths are controlled, and with rk54, rk853, gbs and radau5 [s]; also the distance of recorded rows. Default: the
+    /// step.
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step_max: Option<f64>,
     /// What chooses the length of the steps: fixed, energy (changes of the energy invariant; as publication 2 prints it: energy-printed), error (an estimate of the local
@@ -59,8 +60,8 @@ pub(crate) struct Arguments {
     /// of 1/alpha, in recursive the report's closing forces (left out: neither).
     #[arg(long, value_name = "A", allow_hyphen_values = true)]
     penalty: Option<f64>,
-    /// Corrections of an iteration are small below this share of what accelerations move in a step, else 1e-10; with rk54, rk853, gbs and radau5 the
-    /// error of a step, else 1e-8, with gbs 2e-10.
+    /// Corrections of an iteration are small below this share of what accelerations move in a step. Default: 1e-10. With rk54, rk853, gbs and
+    /// radau5 the error of each step, relative to the size of each coordinate; the errors of the steps add up. Default: 1e-8, with gbs 2e-10.
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     tolerance: Option<f64>,
     /// Threads that share the work of a step in index-3, index-1, multi-index and classical; worth it above some hundred bodies.
@@ -78,7 +79,8 @@ pub(crate) struct Arguments {
     /// f32, f64, dd (pairs of doubles: 32 digits, for reference runs); left out: f64.
     #[arg(long, value_name = "P")]
     pub(crate) precision: Option<String>,
-    /// trapezoidal, newmark, generalised-alpha, hht; in recursive also rk4, rk54, rk853 (order 8), gbs (extrapolation, for reference runs), radau5 (implicit, for stiff effects); else trapezoidal.
+    /// trapezoidal, newmark, generalised-alpha, hht; in recursive also rk4, rk54, rk853 (order 8), gbs (extrapolation, for reference runs), radau5 (implicit, of order 5, for stiff effects; give it a
+    /// longer --step-max). Default: trapezoidal.
     #[arg(long, value_name = "I")]
     integrator: Option<String>,
     /// Wanted error: the largest of the outputs over the run, each beside its own range, as in `mbs compare`. A short pilot measures which

@@ -37,12 +37,20 @@ pub(crate) fn text(outcome: &Outcome, out: Option<&Path>) -> String {
 
 fn headline(s: &RunSummary) -> String {
     let formulation = s.chosen.as_ref().map_or(s.formulation.as_str(), |c| c.formulation.as_str());
-    let lengths = s.control.as_ref().map_or_else(
-        || readable(s.step),
-        |c| format!("{} to {}", words::few(c.smallest_step), words::few(c.largest_step)),
-    );
+    let is_of_its_own = matches!(s.integrator.as_str(), "rk54" | "rk853" | "gbs" | "radau5");
+    #[allow(clippy::cast_precision_loss, reason = "for three digits")]
+    let mean = s.end_time / s.steps.max(1) as f64;
+    let lengths = match &s.control {
+        Some(c) => format!("{} to {} s", words::few(c.smallest_step), words::few(c.largest_step)),
+        None if is_of_its_own => format!("{} s on average", words::few(mean)),
+        None => format!("{} s", readable(s.step)),
+    };
+    let integrator = match s.integrator.as_str() {
+        "" | "trapezoidal" => String::new(),
+        other => format!(" {other}"),
+    };
     format!(
-        "{}: {formulation}, {}, {} of {lengths} s to t = {} s{}",
+        "{}: {formulation}{integrator}, {}, {} of {lengths} to t = {} s{}",
         s.scene,
         s.precision,
         counted(s.steps, "step"),

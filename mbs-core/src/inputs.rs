@@ -2,7 +2,7 @@
 
 use crate::Real;
 use crate::laws::guide;
-use crate::scene::{Course, GuideLaw, Scene};
+use crate::scene::{Course, GuideLaw, Scene, TableEnds};
 use crate::step::InputError;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -168,9 +168,13 @@ impl<T: Real> GuideInput<T> {
     #[must_use]
     pub fn new(law: &GuideLaw<T>) -> Self {
         let mut curvature = Vec::new();
-        if let GuideLaw::Table(table) = law {
-            curvature.resize(table.len(), T::ZERO);
-            guide::spline_curvatures(table, &mut curvature, &mut vec![T::ZERO; table.len()]);
+        if let GuideLaw::Table { rows, ends } = law {
+            curvature.resize(rows.len(), T::ZERO);
+            let mut scratch = vec![T::ZERO; rows.len()];
+            match ends {
+                TableEnds::Natural => guide::spline_curvatures(rows, &mut curvature, &mut scratch),
+                TableEnds::Level => guide::level_curvatures(rows, &mut curvature, &mut scratch),
+            }
         }
         Self { law: law.clone(), curvature }
     }
@@ -190,7 +194,7 @@ impl<T: Real> GuideInput<T> {
     /// Value, rate, acceleration at time `t`. Cost: one law; no allocation.
     pub fn at(&self, t: T) -> [T; 3] {
         let m = match &self.law {
-            GuideLaw::Table(table) => guide::spline(table, &self.curvature, t),
+            GuideLaw::Table { rows, .. } => guide::spline(rows, &self.curvature, t),
             GuideLaw::Sine { amplitude, frequency, phase } => {
                 guide::sine(*amplitude, *frequency, *phase, t)
             }

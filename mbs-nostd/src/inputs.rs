@@ -24,7 +24,7 @@ pub enum GuideLaw<T> {
         /// [rad/s or m/s].
         rate: T,
     },
-    /// Natural cubic spline through a part of the knots.
+    /// Cubic spline through a part of the knots, with the curvatures of its ends.
     Table(Part),
 }
 

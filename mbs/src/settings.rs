@@ -1,5 +1,7 @@
 //! What is asked of a run: the scene's `[solver]` table, overridden by the command line, checked against what is built.
 
+mod way;
+
 use crate::choice::{
     FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
     StepRule,
@@ -9,13 +11,16 @@ use crate::interrupt::Interrupt;
 use crate::precision::{PrecisionError, not_built_hint};
 use mbs_core::Real;
 use mbs_core::control::EnergyRule;
-use mbs_core::scene::{Scene, SolverChoice};
-use mbs_scene::{Choice, Chosen, readable};
+use mbs_core::scene::{Scene, SceneError, SolverChoice};
+use mbs_scene::{Choice, readable};
 
 /// Steps of a run at most: at a microsecond each they take eleven days.
 const MOST_STEPS: f64 = 1e12;
 /// Step when neither scene nor command line gives one [s].
 const DEFAULT_STEP: f64 = 1e-3;
+
+/// A step that is longer than the run by less than this share is that of the run, written in fewer digits.
+const SAME_LENGTH: f64 = 1e-9;
 
 /// Error of a step by its estimate when neither gives one, relative to the scene's length.
 const DEFAULT_ERROR: f64 = 1e-6;
@@ -141,6 +146,15 @@ pub enum SettingsError {
         /// The option that it does not know.
         option: String,
     },
+    /// The scene cannot be meant in a run of this length.
+    Scene(SceneError),
+    /// A step of fixed length that is longer than the run.
+    StepTooLong {
+        /// Step [s].
+        step: f64,
+        /// Duration [s].
+        duration: f64,
+    },
     /// The step is so short that the run would not end.
     TooManySteps {
         /// Step [s].
@@ -173,6 +187,10 @@ impl SettingsError {
                 "rk4, rk54, rk853, gbs and radau5 need formulation `recursive`".to_owned()
             }
             Self::TooManySteps { .. } => "write a longer step, or a shorter duration".to_owned(),
+            Self::Scene(error) => error.fault.advice().to_owned(),
+            Self::StepTooLong { duration, .. } => {
+                format!("write a step of {} s at most, or a longer duration", readable(*duration))
+            }
         }
     }
 }
@@ -194,6 +212,15 @@ impl core::fmt::Display for SettingsError {
             Self::NotTogether { formulation, option } => {
                 write!(f, "formulation `{}` has no `{option}`", formulation.name())
             }
+            Self::Scene(SceneError { entry, field, fault }) => {
+                write!(f, "`{field}` of {entry} {fault:#}")
+            }
+            Self::StepTooLong { step, duration } => write!(
+                f,
+                "the step of {} s is longer than the run of {} s",
+                readable(*step),
+                readable(*duration)
+            ),
             Self::TooManySteps { step, duration } => write!(
                 f,
                 "a step of {} s is too short for a run of {} s: more than {MOST_STEPS:e} steps",
@@ -234,10 +261,10 @@ impl Settings {
         let step_max = positive("step_max", step_max)?;
         let rule = step_rule(solver, overrides, (formulation, integrator))?;
         let is_controlled = integrator.controls_its_step() || rule != StepRule::Fixed;
-        let limits =
-            overrides.energy_tolerance.or(solver.energy_tolerance.map(|l| l.map(T::to_f64)));
-        let limits = limits.unwrap_or([EnergyRule::default().upper, EnergyRule::default().lower]);
-        let duration = positive("duration", overrides.duration.unwrap_or(scene.duration.to_f64()))?;
+        let limits = energy_limits(solver, overrides);
+        let duration = overrides.duration.unwrap_or(scene.duration.to_f64());
+        let duration = positive("duration", duration)?;
+        scene.check_run(T::from_f64(duration)).map_err(SettingsError::Scene)?;
         let shorter = step.min(step_max);
         if duration / shorter > MOST_STEPS {
             return Err(SettingsError::TooManySteps { step: shorter, duration });
@@ -290,27 +317,6 @@ impl Settings {
         };
         let [step, step_max, duration] = [self.step, self.step_max, self.duration].map(exact);
         Lengths { step, step_max, duration }
-    }
-
-    /// What `auto` chose and why; nothing where a formulation was asked for.
-    #[must_use]
-    pub fn chosen(&self) -> Option<Chosen> {
-        let formulation = self.formulation.name().to_owned();
-        if let Some(choice) = &self.choice {
-            let (reasons, evidence) = (crate::auto::reasons(choice), Some((**choice).clone()));
-            return Some(Chosen { formulation, reasons, evidence });
-        }
-        (self.asked == "auto").then(|| Chosen {
-            formulation,
-            reasons: vec![if self.integrator.is_of_first_order() {
-                format!("integrator {} runs in relative coordinates", self.integrator.name())
-            } else {
-                "without a wanted error or a deadline auto means index-3: nothing is measured, and a scene gives the same numbers \
-                 every time"
-                    .to_owned()
-            }],
-            evidence: None,
-        })
     }
 
     /// Number of recorded intervals, each of one step or of as many as the control of the step size takes. A duration within
@@ -394,6 +400,13 @@ fn step_rule<T>(
     }
     let option = format!("step control {} beside integrator {}", rule.name(), integrator.name());
     Err(SettingsError::NotTogether { formulation, option })
+}
+
+/// U and L of the energy rule: the caller's, the scene's, or the usual ones.
+fn energy_limits<T: Real>(solver: &SolverChoice<T>, overrides: &Overrides) -> [f64; 2] {
+    let of_scene = solver.energy_tolerance.map(|limits| limits.map(T::to_f64));
+    let usual = EnergyRule::default();
+    overrides.energy_tolerance.or(of_scene).unwrap_or([usual.upper, usual.lower])
 }
 
 /// The value that belongs to the first name given: override, scene, default.

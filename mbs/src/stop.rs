@@ -21,6 +21,10 @@ use mbs_scene::RunError;
 /// The code of what was interrupted.
 pub const INTERRUPTED: &str = "interrupted";
 
+/// What to do about a body whose motion no inertia resists.
+const NO_INERTIA: &str = "give the body mass and inertia; weld a point mass to what carries it, or give it any small inertia; or remove the freedom \
+                          that nothing determines";
+
 /// Why a run stopped early.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -210,9 +214,7 @@ impl StopError {
             Self::Start(AssemblyError::Velocity { .. }) => {
                 "hold fewer velocities: what is not written follows from the joints"
             }
-            Self::Start(AssemblyError::NoInertia { .. }) => {
-                "give the body mass and inertia, or remove the freedom nothing determines"
-            }
+            Self::Start(AssemblyError::NoInertia { .. }) => NO_INERTIA,
             Self::Start(_) => {
                 "start a little away from this position, or check that guides and joints fit together"
             }
@@ -230,9 +232,7 @@ impl StopError {
                 "hold the mechanism by a joint or a spring; check the direction of gravity"
             }
             Self::Equilibrium(EquilibriumError::Undetermined { .. }, _)
-            | Self::Linear(LinearError::NoInertia { .. }) => {
-                "give the body mass and inertia, or remove the freedom nothing determines"
-            }
+            | Self::Linear(LinearError::NoInertia { .. }) => NO_INERTIA,
             Self::Equilibrium(EquilibriumError::NotNear, _) => {
                 "start nearer to it with [[initial]] values, or leave --near out: the search then goes down to a stable one"
             }
@@ -255,7 +255,8 @@ impl StopError {
                 "use the trapezoidal rule, radau5 or rk54; or give the friction a larger regularisation, or the run smaller steps"
             }
             Self::Energy { .. } => {
-                "try a smaller step; if it always stops here, the mechanism locks, or cannot follow its guides"
+                "try a smaller step, and where stiff springs or dampers act `--formulation recursive --integrator radau5`; if it always \
+                 stops here, the mechanism locks, or cannot follow its guides: end the run or the guide before"
             }
         }
     }

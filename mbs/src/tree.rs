@@ -17,7 +17,7 @@ use mbs_recursive::{
 };
 
 /// Error of a step by extrapolation where none is given: 2e-10 in double precision, 5e-26 in pairs.
-const ROUNDINGS: f64 = 1e6;
+pub(crate) const ROUNDINGS: f64 = 1e6;
 
 /// D dimensions as a type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

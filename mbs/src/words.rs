@@ -1,6 +1,8 @@
 //! What is said about a run: rows of a summary, notes, and when and why it stopped.
 
+use crate::choice::IntegratorKind;
 use crate::settings::Settings;
+use crate::tree::ROUNDINGS;
 use mbs_core::Real;
 use mbs_core::control::Limit;
 use mbs_core::scene::{Body, BodyRef, Inertia, Scene};
@@ -205,7 +207,9 @@ pub(crate) fn notes<T: Real>(
     if scene.bodies.is_empty() {
         notes.push("the scene has no body: nothing moves".to_owned());
     } else if s.dof == 0 && scene.guides.is_empty() {
-        notes.push("no degree of freedom is left and nothing is guided: nothing moves".to_owned());
+        let note = "no degree of freedom is left and nothing is guided: nothing moves; if it is to move, leave a joint out, or take a kind \
+                    that allows more";
+        notes.push(note.to_owned());
     }
     if settings.step > settings.duration && s.control.is_none() {
         notes.push(format!(
@@ -232,11 +236,29 @@ pub(crate) fn notes<T: Real>(
             few(ratio)
         )
     }));
+    notes.extend(summed::<T>(settings, s));
     notes.extend(s.realtime.as_ref().and_then(crate::realtime::note));
     for joint in &s.not_unique {
         notes.push(not_unique(joint));
     }
     notes
+}
+
+/// Says of extrapolation, whose steps are long and err by nearly what they may, what they err by together.
+fn summed<T: Real>(settings: &Settings, s: &RunSummary) -> Option<String> {
+    if settings.integrator != IntegratorKind::Extrapolation || s.steps < 2 {
+        return None;
+    }
+    let each = settings.tolerance.unwrap_or(ROUNDINGS * T::EPSILON.to_f64());
+    #[allow(clippy::cast_precision_loss, reason = "for three digits")]
+    let all = each * s.steps as f64;
+    Some(format!(
+        "the tolerance of {} holds for each of the {} steps, relative to the size of each coordinate: together they may err by {}, and more \
+         where the motion amplifies errors",
+        few(each),
+        s.steps,
+        few(all)
+    ))
 }
 
 /// Rounding of places that is reported, relative to the size of a body: a tenth of the 1e-4 that single precision promises.

@@ -22,7 +22,7 @@ pub struct Case {
 const DURATION: f64 = 5e-3;
 
 /// What acts beside the effects: nothing, and three laws of guides.
-const OTHERS: [&str; 4] = ["nothing", "sine", "ramp", "table"];
+const OTHERS: [&str; 5] = ["nothing", "sine", "ramp", "table", "level-table"];
 
 /// All cases.
 #[must_use]
@@ -136,7 +136,7 @@ fn case(
     }
     match what {
         "nothing" => {}
-        "sine" | "ramp" | "table" => guide(&mut draft, joint, what)?,
+        "sine" | "ramp" | "table" | "level-table" => guide(&mut draft, joint, what)?,
         _ => {
             let mut effects =
                 Effects { dice: &mut dice, draft: &mut draft, focus: Some((body, joint)) };
@@ -160,6 +160,9 @@ fn guide(draft: &mut Draft, joint: usize, what: &str) -> Option<()> {
         match what {
             "sine" => "sine = { amplitude = 0.4, frequency = 0.3, phase = 0.7 }",
             "ramp" => "ramp = { rate = -0.6 }",
+            "level-table" => {
+                "table = [[-1.0, 0.2], [0.5, -0.3], [1.0, 0.1], [4.0, 0.5]]\nends = \"level\""
+            }
             _ => "table = [[-1.0, 0.2], [0.5, -0.3], [1.0, 0.1], [4.0, 0.5]]",
         }
         .to_owned(),

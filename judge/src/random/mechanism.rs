@@ -267,7 +267,8 @@ impl Draft {
                         format!("[{t:?}, {:?}]", size * dice.between(-0.3, 0.3))
                     };
                     let rows: Vec<String> = (-1..6).map(|k| row(k, dice)).collect();
-                    format!("table = [{}]", rows.join(", "))
+                    let ends = if i % 2 == 0 { "\nends = \"level\"" } else { "" };
+                    format!("table = [{}]{ends}", rows.join(", "))
                 }
             };
             self.links[i].guide = Some(law);

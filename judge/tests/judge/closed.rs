@@ -193,3 +193,21 @@ fn a_guided_crank_slider_follows_its_crank() {
     let place = angle.cos() + (9.0 - angle.sin() * angle.sin()).sqrt();
     near(channel(&m, &end, "d")[0], place - 4.0, CLOSE);
 }
+
+#[test]
+fn a_level_table_goes_from_rest_to_rest() {
+    // two rows: 3 s² − 2 s³ of the way; four rows: through each of them, with the end rates zero
+    let two = judge::scene::Spline::level(&[[1.0, 0.0], [3.0, 0.6]]);
+    for i in 0..10 {
+        let s = 0.1 * f64::from(i);
+        near(two.at(1.0 + 2.0 * s)[0], 0.6 * s * s * (3.0 - 2.0 * s), CLOSE);
+    }
+    let points = [[-1.0, 0.2], [0.5, -0.3], [1.0, 0.1], [4.0, 0.5]];
+    let four = judge::scene::Spline::level(&points);
+    for [t, x] in points {
+        near(four.at(t - 1e-12)[0], x, CLOSE);
+    }
+    near(four.at(-1.0)[1], 0.0, CLOSE);
+    near(four.at(4.0 - 1e-12)[1], 0.0, CLOSE);
+    near(four.at(0.5 - 1e-9)[2], four.at(0.5 + 1e-9)[2], 1e-6);
+}

@@ -16,9 +16,10 @@ fn run(arguments: &[&str]) -> Output {
 }
 
 /// The keys of the contract.
-const KEYS: [&str; 22] = [
+const KEYS: [&str; 23] = [
     "scene",
     "formulation",
+    "integrator",
     "precision",
     "dimension",
     "coordinates",
@@ -113,7 +114,7 @@ fn durations_end_exactly_whether_or_not_the_step_divides_them() {
     for (duration, step, steps) in [
         ("0.1", "0.01", 10),
         ("1", "0.03", 34),
-        ("0.005", "0.01", 1),
+        ("0.005", "0.005", 1),
         ("0.07", "0.01", 7),
         ("10", "1e-3", 10_000),
     ] {

@@ -18,6 +18,7 @@ mod hostile;
 #[cfg(not(any(feature = "f32", feature = "dd")))]
 mod lean;
 mod realtime;
+mod refusals;
 mod sweep;
 
 use serde_json::Value;

@@ -3,10 +3,10 @@
 //! ```text
 //! sine    g(t) = A sin(2π f t + φ)
 //! ramp    g(t) = r t
-//! spline  natural cubic through (tᵢ, gᵢ); the end values are held outside
+//! spline  cubic through (tᵢ, gᵢ), natural or level at both ends; the end values are held outside
 //! ```
 //!
-//! A spline is prepared once by [`spline_curvatures`]; the curvatures live in a slice of the caller.
+//! A spline is prepared once by [`spline_curvatures`] or [`level_curvatures`]; the curvatures live in a slice of the caller.
 
 use crate::Real;
 
@@ -48,24 +48,79 @@ pub fn ramp<T: Real>(rate: T, t: T) -> Motion<T> {
 /// # Panics
 /// If `curvature` or `scratch` is not as long as `table`.
 pub fn spline_curvatures<T: Real>(table: &[[T; 2]], curvature: &mut [T], scratch: &mut [T]) {
+    begin(table, curvature, scratch);
+    eliminate(table, curvature, scratch);
+    for i in (1..table.len().saturating_sub(1)).rev() {
+        let next = curvature[i + 1];
+        curvature[i] -= scratch[i] * next;
+    }
+}
+
+/// Writes the second derivatives of the cubic spline through the rows (time, value) that is at rest at both ends.
+///
+/// As [`spline_curvatures`] within, and at the ends, where the rate is zero:
+///
+/// ```text
+/// 2 h₀ c₀ + h₀ c₁ = 6 (g₁ − g₀)/h₀,   hₙ₋₁ cₙ₋₁ + 2 hₙ₋₁ cₙ = −6 (gₙ − gₙ₋₁)/hₙ₋₁
+/// ```
+///
+/// # Panics
+/// As [`spline_curvatures`].
+pub fn level_curvatures<T: Real>(table: &[[T; 2]], curvature: &mut [T], scratch: &mut [T]) {
+    begin(table, curvature, scratch);
     let n = table.len();
-    assert_eq!(curvature.len(), n, "one curvature per row");
-    assert_eq!(scratch.len(), n, "one scratch number per row");
+    if n < 2 {
+        return;
+    }
+    let three = T::from_f64(3.0);
+    let slope = |i: usize| {
+        let [[t0, g0], [t1, g1]] = [table[i - 1], table[i]];
+        ((g1 - g0) / (t1 - t0), t1 - t0)
+    };
+    let (first, h) = slope(1);
+    scratch[0] = T::HALF;
+    curvature[0] = three * first / h;
+    eliminate(table, curvature, scratch);
+    let (last, h) = slope(n - 1);
+    let pivot = T::TWO - scratch[n - 2];
+    curvature[n - 1] = -(T::TWO * three * last / h + curvature[n - 2]) / pivot;
+    for i in (0..n - 1).rev() {
+        let next = curvature[i + 1];
+        curvature[i] -= scratch[i] * next;
+    }
+}
+
+fn begin<T: Real>(table: &[[T; 2]], curvature: &mut [T], scratch: &mut [T]) {
+    assert_eq!(curvature.len(), table.len(), "one curvature per row");
+    assert_eq!(scratch.len(), table.len(), "one scratch number per row");
     curvature.fill(T::ZERO);
     scratch.fill(T::ZERO);
+}
+
+/// The rows between the ends: afterwards `scratch` has the upper coefficients, `curvature` the right sides.
+fn eliminate<T: Real>(table: &[[T; 2]], curvature: &mut [T], scratch: &mut [T]) {
     let six = T::from_f64(6.0);
-    // elimination: scratch keeps the upper coefficient, curvature the right side; both zero at the ends
-    for i in 1..n.saturating_sub(1) {
+    for i in 1..table.len().saturating_sub(1) {
         let [[t0, g0], [t1, g1], [t2, g2]] = [table[i - 1], table[i], table[i + 1]];
         let (h0, h1) = (t1 - t0, t2 - t1);
         let pivot = T::TWO * (h0 + h1) - h0 * scratch[i - 1];
         scratch[i] = h1 / pivot;
         curvature[i] = (six * ((g2 - g1) / h1 - (g1 - g0) / h0) - h0 * curvature[i - 1]) / pivot;
     }
-    for i in (1..n.saturating_sub(1)).rev() {
-        let next = curvature[i + 1];
-        curvature[i] -= scratch[i] * next;
-    }
+}
+
+/// The largest rate of a spline, either way: at a row, or where its curvature vanishes between two.
+#[must_use]
+pub fn largest_rate<T: Real>(table: &[[T; 2]], curvature: &[T]) -> T {
+    let rate = |t| spline(table, curvature, t).rate.abs();
+    let rows = table.iter().fold(T::ZERO, |most, row| most.max(rate(row[0])));
+    table.windows(2).zip(curvature.windows(2)).fold(rows, |most, (rows, bend)| {
+        let [c0, c1] = [bend[0], bend[1]];
+        if c0 * c1 < T::ZERO {
+            return most.max(rate(rows[0][0] + (rows[1][0] - rows[0][0]) * c0 / (c0 - c1)));
+        }
+        most
+    })
 }
 
 /// The vector of a table, linear between its rows; `row` tells time and vector of one. Before the first and after the last row the
@@ -86,7 +141,7 @@ pub fn linear<T: Real, R>(rows: &[R], row: impl Fn(&R) -> (T, [T; 3]), t: T) -> 
     }
 }
 
-/// Evaluates the natural cubic spline at `t`; before the first and after the last row the end value is held
+/// Evaluates the cubic spline of some curvatures at `t`; before the first and after the last row the end value is held
 /// at rest. An empty table is zero; a curvature that is not there is zero too.
 ///
 /// Cost: one binary search; no allocation.
@@ -160,6 +215,45 @@ mod tests {
         let before = spline(&TABLE, &curvature, -3.0);
         assert_eq!(before, Motion { value: 0.3, rate: 0.0, acceleration: 0.0 });
         assert_eq!(spline(&TABLE, &curvature, 9.0).value.to_bits(), 1.0_f64.to_bits());
+    }
+
+    #[test]
+    fn a_level_spline_is_at_rest_at_its_ends_and_smooth_within() {
+        let (mut curvature, mut scratch) = ([0.0; 5], [0.0; 5]);
+        level_curvatures(&TABLE, &mut curvature, &mut scratch);
+        for [t, g] in TABLE {
+            assert!((spline(&TABLE, &curvature, t).value - g).abs() < 1.0e-14);
+        }
+        for t in [-1.0, 2.0] {
+            assert!(spline(&TABLE, &curvature, t).rate.abs() < 1.0e-14, "at {t}");
+        }
+        for i in 1..4 {
+            let (t, h) = (TABLE[i][0], 1.0e-9);
+            let [before, after] = [t - h, t + h].map(|t| spline(&TABLE, &curvature, t));
+            assert!((before.rate - after.rate).abs() < 1.0e-7, "row {i}");
+            assert!((before.acceleration - after.acceleration).abs() < 1.0e-6, "row {i}");
+        }
+        for i in 0..50 {
+            derivatives_match(|t| spline(&TABLE, &curvature, t), -0.99 + 0.0597 * f64::from(i));
+        }
+    }
+
+    #[test]
+    fn two_level_rows_are_the_cubic_from_rest_to_rest() {
+        // g = 3 s² − 2 s³ over 2 s to 0.6: fastest in the middle, at 1.5 of the mean rate
+        let table = [[1.0, 0.0], [3.0, 0.6]];
+        let (mut curvature, mut scratch) = ([0.0; 2], [0.0; 2]);
+        level_curvatures(&table, &mut curvature, &mut scratch);
+        for i in 0..=10 {
+            let s = 0.1 * f64::from(i);
+            let found = spline(&table, &curvature, 1.0 + 2.0 * s);
+            assert!((found.value - 0.6 * s * s * (3.0 - 2.0 * s)).abs() < 1.0e-15, "{s}");
+        }
+        assert!((largest_rate(&table, &curvature) - 0.45).abs() < 1.0e-15);
+        let mut one = [1.0_f64];
+        level_curvatures(&[[0.0, 2.0]], &mut one, &mut [0.0]);
+        let rate: f64 = spline(&[[0.0, 2.0]], &one, 0.0).rate;
+        assert_eq!(rate.to_bits(), 0);
     }
 
     #[test]

@@ -20,6 +20,7 @@ mod vector;
 
 use crate::Real;
 use crate::scene::{BodyRef, Dimension, Entry, Scene, SceneError, SceneFault};
+use alloc::vec::Vec;
 use vector::Place;
 
 impl<T: Real> Scene<T> {
@@ -68,6 +69,7 @@ impl<T: Real> Scene<T> {
         for (i, joint) in self.joints.iter().enumerate() {
             joint::check(self, joint, self.place(Entry::Joint(i)))?;
         }
+        body::check_lumps(self)?;
         motion::check_guides(self)?;
         motion::check_initials(self)?;
         for (i, effect) in self.effects.iter().enumerate() {
@@ -78,6 +80,23 @@ impl<T: Real> Scene<T> {
             output::check(self, &output.quantity, self.place(Entry::Output(i)))?;
         }
         Ok(())
+    }
+
+    /// Refuses what only the length of a run shows: the table of a guide that begins or ends within it on a slope.
+    ///
+    /// A table that is in motion at t = 0, or when the run ends, has no such jump.
+    ///
+    /// # Errors
+    /// [`SceneFault::TableSlope`] with the guide and the row.
+    pub fn check_run(&self, duration: T) -> Result<(), SceneError> {
+        motion::check_ends(self, duration)
+    }
+
+    /// Bodies with an inertia that none can have, or with inertia and no mass: [`Self::check`] takes them where the sum of what is
+    /// welded together is one that a body can have, and where it is welded to the ground.
+    #[must_use]
+    pub fn odd_parts(&self) -> Vec<(usize, SceneFault)> {
+        body::odd_parts(self)
     }
 
     fn place(&self, entry: Entry) -> Place {

@@ -237,11 +237,26 @@ pub struct Guide<T> {
     pub law: GuideLaw<T>,
 }
 
+/// How the spline of a table begins and ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum TableEnds {
+    /// Without curvature: the natural spline, which ends on a slope.
+    #[default]
+    Natural,
+    /// At rest: the clamped spline, with no rate at both ends.
+    Level,
+}
+
 /// A twice differentiable function of time.
 #[derive(Debug, Clone, PartialEq)]
 pub enum GuideLaw<T> {
-    /// Natural cubic spline through (time, value); the end values are held outside.
-    Table(Vec<[T; 2]>),
+    /// Cubic spline through (time, value); the end values are held outside.
+    Table {
+        /// The rows [s, rad or m].
+        rows: Vec<[T; 2]>,
+        /// How it begins and ends.
+        ends: TableEnds,
+    },
     /// amplitude * sin(2 pi frequency t + phase)   [rad or m, Hz, rad].
     Sine {
         /// Amplitude [rad or m].

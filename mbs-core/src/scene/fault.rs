@@ -31,7 +31,7 @@ pub enum SceneFault {
     UnknownReference,
     /// Both bodies are the same.
     SameBody,
-    /// A principal moment of inertia is larger than the sum of the other two; the two sides [kg m^2].
+    /// A principal moment of inertia is larger than the sum of the other two; the two sides [kg m^2]. Of welded bodies together.
     TriangleInequality([f64; 2]),
     /// The inertia has a negative principal moment [kg m^2].
     NegativeInertia(f64),
@@ -64,6 +64,17 @@ pub enum SceneFault {
         given: f64,
         /// What the guide says at t = 0.
         guide: f64,
+    },
+    /// The table of a guide begins or ends on a slope within the run: an impact.
+    TableSlope {
+        /// The row (from 0).
+        row: usize,
+        /// The last one, not the first.
+        is_end: bool,
+        /// Its time [s].
+        time: f64,
+        /// The rate there [rad/s or m/s].
+        rate: f64,
     },
     /// Times in a table do not increase; the row (from 0) that is not later than the one before.
     TableOrder(usize),
@@ -130,7 +141,9 @@ impl SceneFault {
                 "check the moments and products; flat bodies need all the digits they are given in"
             }
             Self::NegativeInertia(_) => "check the signs and the size of the products",
-            Self::InertiaWithoutMass => "give the body mass, or set its inertia to zero",
+            Self::InertiaWithoutMass => {
+                "give the body mass, set its inertia to zero, or weld it to a body with mass"
+            }
             Self::NeedsSpatial => "set `dimension = 3` in [scene], or keep to what is planar",
             Self::OutOfPlane(_) => "keep planar scenes in the x-y plane",
             Self::WrongDimension => "planar bodies have one number, spatial bodies six",
@@ -141,6 +154,9 @@ impl SceneFault {
             Self::GivenTwice(_) => "remove one of the two",
             Self::Contradiction { .. } => {
                 "remove the initial entry: the guide gives the initial value and rate"
+            }
+            Self::TableSlope { .. } => {
+                "add `ends = \"level\"` beside `table`: it then begins and ends at rest"
             }
             Self::TableOrder(_) => "sort the rows by time and keep one row per time",
             Self::LimitOrder(_) => "write the upper limit first: [U, L] with U > L",
@@ -176,10 +192,10 @@ impl SceneFault {
             Self::SameBody => write!(f, "has the same body twice"),
             Self::TriangleInequality([largest, sum]) => write!(
                 f,
-                "breaks the triangle inequality: the largest principal moment {largest} is more \
-                 than the sum {sum} of the other two"
+                "breaks the triangle inequality: the largest principal moment {largest:.3e} is more \
+                 than the sum {sum:.3e} of the other two"
             ),
-            Self::NegativeInertia(x) => write!(f, "has the negative principal moment {x}"),
+            Self::NegativeInertia(x) => write!(f, "has the negative principal moment {x:.3e}"),
             Self::InertiaWithoutMass => write!(f, "is not zero, but the body has no mass"),
             Self::NeedsSpatial => write!(f, "needs a spatial scene"),
             Self::OutOfPlane(x) => write!(f, "leaves the plane of a planar scene by {x}"),
@@ -198,6 +214,14 @@ impl SceneFault {
             Self::GivenTwice(i) => write!(f, "is already prescribed by number {}", i + 1),
             Self::Contradiction { given, guide } => {
                 write!(f, "is {given}, but the guide of the joint starts with {guide}")
+            }
+            Self::TableSlope { is_end, time, rate, .. } => {
+                let [verb, held] = if *is_end { ["ends", "after"] } else { ["begins", "before"] };
+                write!(
+                    f,
+                    "{verb} at {time} s, within the run, with a rate of {rate:.3} rad/s (or m/s): \
+                     its value is held {held} that, and the jump is an impact"
+                )
             }
             Self::TableOrder(row) => {
                 write!(f, "has times that do not increase at row {}", row + 1)

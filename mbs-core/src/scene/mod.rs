@@ -13,7 +13,7 @@ mod output;
 
 pub use data::{
     Body, BodyRef, Dimension, Guide, GuideLaw, Inertia, Initial, InitialTarget, Joint, JointKind,
-    Scene, Start,
+    Scene, Start, TableEnds,
 };
 pub use effect::{
     AxisFrame, CalspanCoefficients, Course, Effect, EffectKind, OwnLaw, PolynomialPiece, Road,

@@ -3,7 +3,9 @@
 use crate::small::{GROUND, add_body, add_joint, add_rod, hold, output, scene, start};
 use mbs_core::algebra::{Matrix, Vector, rotation, rotation_vector};
 use mbs_core::outputs::Measures;
-use mbs_core::scene::{BodyRef, Dimension, Inertia, JointKind, Quantity, Scene};
+use mbs_core::scene::{
+    BodyRef, Dimension, GuideLaw, Inertia, JointKind, Quantity, Scene, TableEnds,
+};
 
 /// Assembly closes to rounding of a few products of numbers of order one.
 const CLOSED: f64 = 1e-11;
@@ -164,7 +166,8 @@ fn counting_starts_from_the_initial_value_or_the_guide() {
         let rod = add_rod(&mut s, 1.0, [0.0; 3], [1.0, 0.0, 0.0]);
         let pivot = add_joint(&mut s, JointKind::Revolute, [GROUND, rod], [0.0; 3], [None; 2]);
         if is_guided {
-            let law = mbs_core::scene::GuideLaw::Table(vec![[0.0, 7.5], [1.0, 8.0]]);
+            let law =
+                GuideLaw::Table { rows: vec![[0.0, 7.5], [1.0, 8.0]], ends: TableEnds::Natural };
             crate::small::guide(&mut s, pivot, law);
         } else {
             hold(&mut s, pivot, &[7.5], &[]);

@@ -77,7 +77,7 @@ impl<'a, T: Real, S: Space<T>> Gathered<'a, T, S> {
                     GuideLaw::Sine { amplitude: *amplitude, frequency: *frequency, phase: *phase }
                 }
                 SceneLaw::Ramp { rate } => GuideLaw::Ramp { rate: *rate },
-                SceneLaw::Table(table) => {
+                SceneLaw::Table { rows: table, .. } => {
                     let first = index(self.knots.len());
                     self.knots.extend_from_slice(table);
                     self.curvatures.extend_from_slice(guide.curvature());

@@ -1,7 +1,7 @@
 //! What is written between steps: in the step of fixed capacity, and in the bound of its work.
 
 use crate::support::start;
-use mbs_core::scene::{Course, Effect, EffectKind, GuideLaw, Scene};
+use mbs_core::scene::{Course, Effect, EffectKind, GuideLaw, Scene, TableEnds};
 use mbs_nostd::export::{Gathered, bytes};
 use mbs_nostd::{Bounds, Checked, InputError, Options, Planar, Solver, Tables, Unwatched};
 use mbs_recursive::{Workspace, bounded_step};
@@ -84,6 +84,32 @@ fn a_solver_of_fixed_capacity_takes_inputs_as_the_recursion_does() {
             assert!((x - y).abs() < 1e-9 * (1.0 + y.abs()), "step {k}: {x} {y}");
         }
     }
+}
+
+#[test]
+fn a_table_with_level_ends_steps_from_bytes_as_it_does_on_the_host() {
+    let mut scene = file("guided-four-bar");
+    let rows = vec![[0.0, 0.0], [0.05, 0.2], [0.1, 0.3]];
+    scene.guides[0].law = GuideLaw::Table { rows, ends: TableEnds::Level };
+    scene.initials.clear();
+    let (mut host, mut state) = start::<Planar, 2>(&scene);
+    let gathered = Gathered::new(&host, &state, &[]);
+    let text = bytes(&gathered.model(), false).expect("a scene without own laws");
+    let tables = RoomTables::read(&text).expect("a model");
+    let model = tables.model();
+    let mut solver = Room::new(&model).expect("room");
+    let mut workspace = Workspace::new(&host);
+    for k in 1..=150 {
+        let work = (1e-3, &Options::default(), Bounds::default());
+        bounded_step(&host, work, &mut state, &mut workspace).expect("a regular step");
+        solver.step(&model, 1e-3, &mut Unwatched).expect("a regular step");
+        for (x, y) in solver.velocities().iter().zip(&state.v) {
+            assert!((x - y).abs() < 1e-9 * (1.0 + y.abs()), "step {k}: {x} {y}");
+        }
+    }
+    // beyond the table the crank rests, and the linkage with it
+    assert!(state.v.iter().all(|v| v.abs() < 1e-9), "{:?}", state.v);
+    host.set_guide(0, [0.0; 3]).expect_err("a table is no input");
 }
 
 #[test]

@@ -30,7 +30,8 @@ impl Document {
             Ok(root) => Ok(Self { file: file.to_owned(), text: text.to_owned(), root }),
             Err((message, span)) => {
                 let place = Place::of(text, &span);
-                Err(ReadError::new(file, place, ReadFault::Syntax(message)))
+                let fault = ReadFault::Syntax { message, line: place.text.clone() };
+                Err(ReadError::new(file, place, fault))
             }
         }
     }
@@ -264,6 +265,7 @@ fn read_start(header: &Fields<'_>) -> Read<Start> {
 fn row(fault: SceneFault) -> Option<usize> {
     match fault {
         SceneFault::TableOrder(row)
+        | SceneFault::TableSlope { row, .. }
         | SceneFault::PointOrder(row)
         | SceneFault::PieceRange(row)
         | SceneFault::PieceGap(row)

@@ -1,7 +1,7 @@
 //! What can be wrong with a scene file.
 
 use crate::read::nearest::nearest;
-use crate::read::{Place, SweepFault};
+use crate::read::{Place, SweepFault, hints, units};
 use core::fmt::{self, Display, Formatter, Write};
 use mbs_core::scene::{Entry, SceneError, SceneFault};
 
@@ -22,8 +22,13 @@ struct Parts {
 pub enum ReadFault {
     /// The file is not UTF-8 text.
     NotUtf8,
-    /// The file is not TOML; the parser's message.
-    Syntax(String),
+    /// The file is not TOML.
+    Syntax {
+        /// The parser's message.
+        message: String,
+        /// The line it speaks about.
+        line: String,
+    },
     /// A key or table that nobody knows.
     UnknownKey {
         /// The key as written.
@@ -69,6 +74,11 @@ pub enum ReadFault {
         expected: &'static str,
         /// What is there.
         found: &'static str,
+    },
+    /// A text where a number is needed.
+    NumberInText {
+        /// The text as written.
+        text: String,
     },
     /// The count of numbers or entries in a list is wrong.
     WrongCount {
@@ -154,7 +164,7 @@ impl Display for ReadFault {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotUtf8 => write!(f, "the file is not UTF-8 text"),
-            Self::Syntax(message) => write!(f, "not TOML: {message}"),
+            Self::Syntax { message, .. } => write!(f, "not TOML: {message}"),
             Self::UnknownKey { key, .. } => write!(f, "unknown key `{key}`"),
             Self::UnusedKey { key, .. } => write!(f, "`{key}` has no meaning here"),
             Self::UnknownWord { key, found, .. } => write!(f, "unknown {key} `{found}`"),
@@ -162,6 +172,12 @@ impl Display for ReadFault {
             Self::UnknownJoint { name, .. } => write!(f, "unknown joint `{name}`"),
             Self::GroundDoesNotMove => write!(f, "the ground does not move"),
             Self::WrongType { expected, found } => write!(f, "expected {expected}, found {found}"),
+            Self::NumberInText { text } => match units::quantity(text) {
+                Some((_, unit)) if !unit.is_empty() => {
+                    write!(f, "expected a number, found `{text}`: units are not written")
+                }
+                _ => write!(f, "expected a number, found the text `{text}`"),
+            },
             Self::WrongCount { needed, found } => {
                 write!(f, "expected {needed} entries, found {found}")
             }
@@ -181,11 +197,21 @@ impl Display for ReadFault {
     }
 }
 
+/// What an output without an owner lacks.
+pub(crate) const OWNER: &str = "joint or body";
+const OF_WHOM: &str = "add `joint = \"...\"` for its value, rate or reaction, or `body = \"...\"` with `at = [...]` for the position, velocity or \
+                       acceleration of a point";
+const INERTIA: &str = "add `inertia`, about the centre of mass [kg m^2]: one number in the plane, six in space; a point mass that is welded \
+                       to a body has zeros; a slender rod has \
+                       `rod = { from = [...], to = [...] }` instead of `center` and `inertia`";
+
 impl ReadFault {
     fn hint(&self) -> String {
         match self {
             Self::NotUtf8 => "save the file as UTF-8".to_owned(),
-            Self::Syntax(_) => "see https://toml.io for the syntax of the file".to_owned(),
+            Self::Syntax { line, .. } => units::of_line(line)
+                .unwrap_or_else(|| "see https://toml.io for the syntax of the file".to_owned()),
+            Self::NumberInText { text } => units::hint(text),
             Self::UnknownKey { key, known } => suggestion(key, known, "keys"),
             Self::UnusedKey { known, .. } => format!("remove it; {}", listing(known, "keys")),
             Self::UnknownWord { found, known, .. } => suggestion(found, known, "choices"),
@@ -198,6 +224,8 @@ impl ReadFault {
             }
             Self::NotFinite { .. } => "write a finite decimal number".to_owned(),
             Self::NotACount { most, .. } => format!("write a whole number from 1 to {most}"),
+            Self::Missing { key: "inertia" } => INERTIA.to_owned(),
+            Self::Missing { key: OWNER } => OF_WHOM.to_owned(),
             Self::Missing { key: "[scene]" } => {
                 "add a table [scene] with `dimension` and `duration`".to_owned()
             }
@@ -208,6 +236,7 @@ impl ReadFault {
             Self::Missing { key: key @ ("left" | "right") } => {
                 format!("add `{key}`; `{key} = []` is level ground")
             }
+            Self::Missing { key } if key.contains(" or ") => format!("add one of them: {key}"),
             Self::Missing { key } => format!("add `{key}`"),
             Self::Both { .. } => "keep one of the two".to_owned(),
             Self::Scene(error) => error.fault.advice().to_owned(),
@@ -234,6 +263,9 @@ fn numbered(entry: Entry, index: usize) -> Entry {
 /// What to say about a word that is not in a list: the nearest, or all.
 #[must_use]
 pub fn suggestion<S: AsRef<str>>(found: &str, known: &[S], what: &str) -> String {
+    if let Some(hint) = hints::of_word(found, known) {
+        return hint;
+    }
     match nearest(found, known) {
         Some(name) => format!("did you mean `{name}`?"),
         None => listing(known, what),

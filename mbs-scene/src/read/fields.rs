@@ -77,7 +77,13 @@ impl<'a> Context<'a> {
 
     /// The nearest number to the decimal text; finite.
     pub(crate) fn number<T: Real>(&self, item: &Item) -> Read<T> {
-        let Node::Number(text) = &item.node else { return self.wrong_type(item, "a number") };
+        let text = match &item.node {
+            Node::Number(text) => text,
+            Node::Text(text) => {
+                return self.fault(&item.span, ReadFault::NumberInText { text: text.clone() });
+            }
+            _ => return self.wrong_type(item, "a number"),
+        };
         match T::from_decimal(text) {
             Some(number) if number.is_finite() => Ok(number),
             _ => self.fault(&item.span, ReadFault::NotFinite { text: text.clone() }),
@@ -87,7 +93,7 @@ impl<'a> Context<'a> {
     /// One number or a list of numbers.
     pub(crate) fn numbers<T: Real>(&self, item: &'a Item) -> Read<Vec<T>> {
         match &item.node {
-            Node::Number(_) => Ok(vec![self.number(item)?]),
+            Node::Number(_) | Node::Text(_) => Ok(vec![self.number(item)?]),
             Node::List(items) => items.iter().map(|entry| self.number(entry)).collect(),
             _ => self.wrong_type(item, "a number or a list of numbers"),
         }

@@ -5,6 +5,7 @@ mod document;
 mod effect;
 mod error;
 mod fields;
+mod hints;
 mod joint;
 mod motion;
 mod names;
@@ -16,6 +17,7 @@ mod sweep;
 #[cfg(test)]
 mod tests;
 pub(crate) mod tree;
+mod units;
 
 pub use document::Document;
 pub use error::{ReadError, ReadFault, suggestion};

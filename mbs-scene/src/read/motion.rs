@@ -3,7 +3,7 @@
 use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
 use mbs_core::Real;
-use mbs_core::scene::{Guide, GuideLaw, Initial, InitialTarget};
+use mbs_core::scene::{Guide, GuideLaw, Initial, InitialTarget, TableEnds};
 
 const INITIAL_KEYS: [&str; 7] =
     ["joint", "value", "rate", "body", "at", "velocity", "angular_velocity"];
@@ -48,7 +48,11 @@ fn angular_velocity<T: Real>(fields: &Fields<'_>) -> Read<Option<[T; 3]>> {
 }
 
 pub(crate) fn read_guide<T: Real>(fields: &Fields<'_>) -> Read<Guide<T>> {
-    fields.allow(&["joint", "table", "sine", "ramp"], &[])?;
+    let known: &[_] = match fields.get("table") {
+        Some(_) => &["joint", "table", "ends", "sine", "ramp"],
+        None => &["joint", "table", "sine", "ramp"],
+    };
+    fields.allow(known, &["ends"])?;
     for (one, other) in [("table", "sine"), ("table", "ramp"), ("sine", "ramp")] {
         fields.exclusive(one, other)?;
     }
@@ -68,11 +72,22 @@ pub(crate) fn read_guide<T: Real>(fields: &Fields<'_>) -> Read<Guide<T>> {
         ramp.allow(&["rate"], &[])?;
         GuideLaw::Ramp { rate: ramp.number("rate")? }
     } else if fields.get("table").is_some() {
-        GuideLaw::Table(read_table(fields)?)
+        GuideLaw::Table { rows: read_table(fields)?, ends: read_ends(fields)? }
     } else {
         return context.fault(fields.header, ReadFault::Missing { key: "table, sine or ramp" });
     };
     Ok(Guide { joint, law })
+}
+
+fn read_ends(fields: &Fields<'_>) -> Read<TableEnds> {
+    if fields.get("ends").is_none() {
+        return Ok(TableEnds::default());
+    }
+    match fields.word("ends")? {
+        ("natural", _) => Ok(TableEnds::Natural),
+        ("level", _) => Ok(TableEnds::Level),
+        word => fields.unknown_word("ends", word, &["natural", "level"]),
+    }
 }
 
 fn read_table<T: Real>(fields: &Fields<'_>) -> Read<Vec<[T; 2]>> {

@@ -1,6 +1,7 @@
 //! `[[output]]` and `[solver]`.
 
 use crate::read::ReadFault;
+use crate::read::error::OWNER;
 use crate::read::fields::{Fields, Read};
 use mbs_core::Real;
 use mbs_core::scene::{Output, Quantity, SolverChoice};
@@ -32,7 +33,7 @@ pub(crate) fn read<T: Real>(fields: &Fields<'_>) -> Read<Output<T>> {
         }
     } else {
         fields.allow(&KEYS, &[])?;
-        return fields.context.fault(fields.header, ReadFault::Missing { key: "body or joint" });
+        return fields.context.fault(fields.header, ReadFault::Missing { key: OWNER });
     };
     Ok(Output { name: fields.name()?, quantity })
 }

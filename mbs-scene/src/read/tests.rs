@@ -204,7 +204,9 @@ fn unknown_words_are_refused_with_the_nearest_name() {
     let e = spoiled("joint = \"elbow\"", "joint = \"ellbow\"");
     refused(&e, "41:9", "unknown joint `ellbow`", "did you mean `elbow`?");
     let e = spoiled("name = \"pivot\"\nkind = \"revolute\"", "name = \"pivot\"\nkind = \"hinge\"");
-    refused(&e, "20:8", "unknown kind `hinge`", "choices: revolute, spherical");
+    refused(&e, "20:8", "unknown kind `hinge`", "did you mean `revolute`?");
+    let e = spoiled("name = \"pivot\"\nkind = \"revolute\"", "name = \"pivot\"\nkind = \"cone\"");
+    refused(&e, "20:8", "unknown kind `cone`", "choices: revolute, spherical");
     let e = spoiled("quantity = \"position\"", "quantity = \"positon\"");
     refused(&e, "69:12", "unknown quantity `positon`", "did you mean `position`?");
     let e = spoiled("dimension = 2", "dimension = 4");
@@ -214,11 +216,47 @@ fn unknown_words_are_refused_with_the_nearest_name() {
 }
 
 #[test]
+fn tables_of_guides_end_as_is_written_beside_them() {
+    let guide = |more: &str| {
+        let text =
+            PLANAR.replace("sine = { amplitude = 0.05, frequency = 0.5, phase = 0.0 }", more);
+        assert_ne!(text, PLANAR);
+        read(&text)
+    };
+    let table = "table = [[0.0, 0.0], [1.0, 0.1]]";
+    for (ends, expected) in [
+        ("", TableEnds::Natural),
+        ("ends = \"natural\"", TableEnds::Natural),
+        ("ends = \"level\"", TableEnds::Level),
+    ] {
+        let scene = guide(&format!("{table}\n{ends}")).expect("both words are known");
+        let rows = vec![[0.0, 0.0], [1.0, 0.1]];
+        assert_eq!(scene.guides[0].law, GuideLaw::Table { rows, ends: expected });
+    }
+    let e = guide(&format!("{table}\nends = \"levl\"")).unwrap_err();
+    refused(&e, "43:8", "unknown ends `levl`", "did you mean `level`?");
+    let e = guide("ramp = { rate = 1.0 }\nends = \"level\"").unwrap_err();
+    refused(&e, "43:1", "`ends` has no meaning here", "remove it");
+}
+
+#[test]
 fn types_counts_and_missing_keys_have_places() {
     let e = spoiled("duration = 10.0\n", "");
     refused(&e, "1:1", "`duration` is missing", "add `duration`");
     let e = spoiled("duration = 10.0", "duration = \"10\"");
-    refused(&e, "5:12", "expected a number, found a text", "write a number");
+    refused(&e, "5:12", "expected a number, found the text `10`", "write 10, without quotes");
+    let e = spoiled("duration = 10.0", "duration = \"10 s\"");
+    let message = "expected a number, found `10 s`: units are not written";
+    refused(&e, "5:12", message, "write 10: all numbers are in SI units, here in s");
+    let e = spoiled("duration = 10.0", "duration = 10.0 s");
+    assert!(e.hint().starts_with("write 10.0:"), "{e} {}", e.hint());
+    let e = spoiled("center = [1.5, 0.0]", "center = [\"1500mm\", 0.0]");
+    refused(
+        &e,
+        "15:11",
+        "expected a number, found `1500mm`: units are not written",
+        "write 1.5: all numbers",
+    );
     let e = spoiled("-9.81]", "-9.81, 0.0, 0.0]");
     refused(&e, "4:11", "expected 2 entries, found 4", "write 2");
     let e = spoiled("-9.81]", "-9.81, 0.5]");
@@ -240,7 +278,7 @@ fn types_counts_and_missing_keys_have_places() {
     refused(&e, "36:8", "the ground does not move", "name a body");
     let e = spoiled("duration = 10.0", "duration = = 10.0");
     assert_eq!((e.place().line, e.place().column), (5, 12), "{e}");
-    assert!(matches!(e.fault(), ReadFault::Syntax(_)));
+    assert!(matches!(e.fault(), ReadFault::Syntax { .. }));
     refused(&read("").unwrap_err(), "1:1", "`[scene]` is missing", "add");
 }
 
@@ -261,8 +299,8 @@ fn scenes_that_cannot_be_meant_are_refused_at_the_value() {
     let e = spoiled("value = 0.1", "value = [0.1, 0.2]");
     refused(&e, "32:9", "`value` needs 1 number, but has 2", "as many");
     let e = spoil(SPATIAL, "[0.1, 0.1, 0.1, 0.0, 0.0, 0.0]", "[0.1, 0.1, 0.3, 0.0, 0.0, 0.0]");
-    let message = "`inertia` breaks the triangle inequality: the largest principal moment 0.3 is more \
-                   than the sum 0.2 of the other two";
+    let message = "`inertia` breaks the triangle inequality: the largest principal moment 3.000e-1 is \
+                   more than the sum 2.000e-1 of the other two";
     refused(&e, "8:11", message, "digits");
     let e = spoil(SPATIAL, "axis = [0, 1, 0]", "axis = [0, 0.0, 0]");
     refused(&e, "34:8", "`axis` has no direction: all components are zero", "not zero");

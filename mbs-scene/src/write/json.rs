@@ -13,6 +13,9 @@ pub struct RunSummary {
     pub scene: String,
     /// Formulation as asked, `auto` included.
     pub formulation: String,
+    /// Integrator that ran.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub integrator: String,
     /// `f32`, `f64`, `dd`.
     pub precision: String,
     /// 2 or 3.
@@ -183,6 +186,9 @@ pub struct ViolationSummary {
 pub struct Chosen {
     /// Formulation that ran.
     pub formulation: String,
+    /// Formulation, integrator, and step or tolerance that ran.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub ran: String,
     /// Why, one sentence each.
     pub reasons: Vec<String>,
     /// What was measured; absent where nothing was.

@@ -220,7 +220,8 @@ pub(crate) fn settings<T: Real>(
     method: &Method,
     (setting, instants): (f64, Instants),
 ) -> Result<Settings, SettingsError> {
-    let of_scene = scene.solver.step.map_or(DEFAULT_STEP, Real::to_f64);
+    let duration = base.duration.unwrap_or(scene.duration.to_f64());
+    let of_scene = scene.solver.step.map_or(DEFAULT_STEP, Real::to_f64).min(duration);
     let step = if method.is_fixed() {
         instants.interval / count(instants.steps_between(setting) as usize)
     } else {

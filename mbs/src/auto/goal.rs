@@ -1,5 +1,6 @@
 //! What is wanted of a run: an error, a deadline, or both; and why that may be refused.
 
+use crate::choice::Precision;
 use crate::settings::Overrides;
 use core::fmt::{self, Display, Formatter};
 
@@ -18,6 +19,8 @@ pub struct Goal {
 pub enum GoalError {
     /// An error that is not between 0 and 1.
     Error(f64),
+    /// An error that numbers of the run cannot tell: the error, and their precision.
+    TooFine(f64, Precision),
     /// A deadline that is not a positive time.
     Deadline(f64),
     /// A deadline longer than the run: deadline and duration [s].
@@ -50,13 +53,20 @@ impl Goal {
         self.error.is_some() || self.deadline.is_some()
     }
 
-    /// Refuses what cannot be meant, beside other options and a run of `duration` [s].
+    /// Refuses what cannot be meant, beside other options and a run of `duration` [s] in some precision.
     ///
     /// # Errors
     /// [`GoalError`].
-    pub fn check(&self, overrides: &Overrides, duration: f64) -> Result<(), GoalError> {
+    pub fn check(
+        &self,
+        overrides: &Overrides,
+        (duration, precision): (f64, Precision),
+    ) -> Result<(), GoalError> {
         if let Some(error) = self.error.filter(|e| !(*e > 0.0 && *e < 1.0)) {
             return Err(GoalError::Error(error));
+        }
+        if let Some(error) = self.error.filter(|e| *e < finest(precision)) {
+            return Err(GoalError::TooFine(error, precision));
         }
         if let Some(deadline) = self.deadline {
             if !(deadline > 0.0 && deadline.is_finite()) {
@@ -87,11 +97,24 @@ pub fn time(text: &str) -> Result<f64, String> {
     })
 }
 
+/// The distance of neighbouring numbers: errors below it are not told, whatever the method.
+fn finest(precision: Precision) -> f64 {
+    match precision {
+        Precision::F32 => f64::from(f32::EPSILON),
+        Precision::F64 => f64::EPSILON,
+        Precision::DoubleDouble => f64::EPSILON * f64::EPSILON,
+    }
+}
+
 impl GoalError {
     /// What to do about it.
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self {
+            Self::TooFine(_, Precision::F32) => "write 1e-6 or more, or leave --precision out",
+            Self::TooFine(..) => {
+                "write 1e-13 or more; runs with more digits are those of --precision dd, with --integrator gbs and a --tolerance"
+            }
             Self::Error(_) => {
                 "write a share of the outputs' ranges, more than 0 and less than 1, such as 1e-4"
             }
@@ -120,6 +143,12 @@ impl Display for GoalError {
                     few(*x)
                 )
             }
+            Self::TooFine(x, precision) => write!(
+                f,
+                "the wanted error of {x:e} is finer than numbers of {} are: neighbours of them differ by {:.1e}",
+                precision.name(),
+                finest(*precision)
+            ),
             Self::Deadline(x) => {
                 write!(f, "the deadline must be a time longer than zero, but is {} s", few(*x))
             }
@@ -170,16 +199,18 @@ mod tests {
     #[test]
     fn what_cannot_be_meant_is_refused() {
         let none = Overrides::default();
-        let error = |e: f64| Goal { error: Some(e), deadline: None }.check(&none, 10.0);
+        let error =
+            |e: f64| Goal { error: Some(e), deadline: None }.check(&none, (10.0, Precision::F64));
         for e in [0.0, -1e-3, 1.0, 20.0, f64::NAN, f64::INFINITY] {
             assert!(matches!(error(e), Err(GoalError::Error(_))), "{e}");
         }
         assert_eq!(error(1e-4), Ok(()));
-        let deadline = |d: f64| Goal { error: None, deadline: Some(d) }.check(&none, 10.0);
+        let deadline =
+            |d: f64| Goal { error: None, deadline: Some(d) }.check(&none, (10.0, Precision::F64));
         assert!(matches!(deadline(-1.0), Err(GoalError::Deadline(_))));
         assert!(matches!(deadline(20.0), Err(GoalError::TooLong(..))));
         let given = Overrides { step: Some(1e-3), ..Overrides::default() };
         let both = Goal { error: Some(1e-3), deadline: Some(1e-3) };
-        assert_eq!(both.check(&given, 10.0), Err(GoalError::Chosen("--step")));
+        assert_eq!(both.check(&given, (10.0, Precision::F64)), Err(GoalError::Chosen("--step")));
     }
 }

@@ -90,7 +90,7 @@ pub fn plan(
     if !goal.is_some() {
         return Ok(Plan { ranked: vec![settings] });
     }
-    goal.check(base, settings.duration).map_err(PlanError::Goal)?;
+    goal.check(base, (settings.duration, settings.precision)).map_err(PlanError::Goal)?;
     let methods = methods(scene, base, &settings, &goal).map_err(PlanError::Goal)?;
     let instants = instants(settings.duration, &goal);
     let task = Task { base, settings: &settings, goal, instants };

@@ -6,7 +6,7 @@ use super::race::{BUDGET, Race};
 use super::structure::Structure;
 use super::trial::End;
 use crate::words::{duration, few};
-use mbs_scene::{Candidate, Choice, Fallback, PilotReference, TrialEntry};
+use mbs_scene::{Candidate, Choice, Fallback, PilotReference, SecondLook, TrialEntry};
 
 /// Candidates that are told beside the chosen one.
 const TOLD: usize = 3;
@@ -158,16 +158,20 @@ pub(crate) fn reasons(choice: &Choice) -> Vec<String> {
         choice.instants,
         duration(choice.pilot_seconds)
     ));
-    if let Some(look) = &choice.second_look {
-        reasons.push(format!(
-            "index-3, which shares no model with it, differs by {} and errs by {} itself",
-            number(look.distance),
-            number(look.own_error)
-        ));
-    }
+    reasons.extend(choice.second_look.as_ref().map(second_look));
     reasons.extend(choice.notes.iter().cloned());
     reasons.extend(choice.fallbacks.iter().map(fallback));
     reasons
+}
+
+/// How far another model is from the chosen one.
+fn second_look(look: &SecondLook) -> String {
+    let distance = look.distance.map_or_else(|| "?".to_owned(), few);
+    let own = look.own_error.map_or_else(
+        || "but nothing is known of its own error".to_owned(),
+        |error| format!("and errs by {} itself", few(error)),
+    );
+    format!("index-3, which shares no model with it, differs by {distance}, {own}")
 }
 
 /// A candidate that stopped in the run.

@@ -32,7 +32,7 @@ use ladder::Instants;
 use mbs_core::cluster::scene_length;
 use mbs_core::scene::Scene;
 use mbs_scene::compare::{Cell, Comparison, ConvergenceMap};
-use mbs_scene::{Channel, Document};
+use mbs_scene::{Channel, Document, readable};
 use method::Method;
 use pass::Scenes;
 use reference::Known;
@@ -94,7 +94,7 @@ impl Request {
         let mut needed: Vec<_> = Method::all(&self.formulations, &self.precisions)
             .iter()
             .map(|method| method.precision)
-            .chain((!has_table).then_some(Precision::DoubleDouble))
+            .chain([if has_table { Precision::F64 } else { Precision::DoubleDouble }])
             .collect();
         needed.sort_unstable();
         needed.dedup();
@@ -118,6 +118,8 @@ pub enum CompareError {
     NoReference(String),
     /// A number that must be positive and finite.
     NotPositive(&'static str),
+    /// A step that is longer than the run: both [s].
+    StepTooLong(f64, f64),
     /// Runs are to be timed so often, which tells nothing of how far times differ.
     Repeats(u32),
 }
@@ -136,6 +138,9 @@ pub trait Watch {
 }
 
 impl Watch for () {}
+
+/// A step that is longer than the run by less than this share is that of the run, written in fewer digits.
+const SAME_LENGTH: f64 = 1e-9;
 
 const KIND: Kind = Kind {
     file: "compare.journal",
@@ -187,6 +192,10 @@ pub fn compare(
     let mut store = store.ok_or(CompareError::Unfinished)?;
     store.interrupt = request.interrupt.clone();
     let study = Study::new(&scenes, request);
+    let longest = request.steps.iter().copied().fold(0.0, f64::max);
+    if longest > study.duration * (1.0 + SAME_LENGTH) {
+        return Err(CompareError::StepTooLong(longest, study.duration));
+    }
     watch.plan(&study.plan(store.resumed));
     watch.doing(0.0, "reference");
     let known = study.known(table, &mut store)?;
@@ -204,6 +213,11 @@ pub fn compare(
         ..Comparison::default()
     };
     comparison.provenance.scene_hash = hash(document.text());
+    if known.is_refuted {
+        // nothing is ranked by a table that no method comes near
+        comparison.digest(&[]);
+        return Ok(comparison);
+    }
     let plan = study.map_plan(&known);
     comparison.methods = study.runs(&known, &mut store, watch)?;
     study.time(&mut comparison, &known, &mut store, watch)?;
@@ -221,7 +235,7 @@ pub fn check_table(scene: &Scene<f64>, text: &str) -> Result<(), TableError> {
     let of_scene = scene.solver.step.unwrap_or(DEFAULT_STEP).min(scene.duration);
     let steps = ladder::steps(&[], of_scene, scene.duration);
     let instants = Instants::new(scene.duration, &steps);
-    table::read(text, &Channel::of_scene(scene), &instants).map(drop)
+    table::read(text, &Channel::of_scene(scene), (&instants, scene.duration)).map(drop)
 }
 
 fn check(request: &Request) -> Result<(), CompareError> {
@@ -356,7 +370,10 @@ impl CompareError {
                 "go on from them with --resume, throw them away with --restart, or give another directory with --out"
                     .to_owned()
             }
-            Self::Table(error) => error.hint().to_owned(),
+            Self::Table(error) => error.hint(),
+            Self::StepTooLong(_, duration) => {
+                format!("write steps of {} s at most, or a longer duration", readable(*duration))
+            }
             Self::NoReference(_) => {
                 "give a table with --reference, a shorter --duration, or a longer --time-limit".to_owned()
             }
@@ -378,6 +395,12 @@ impl Display for CompareError {
                 "no method that is accurate enough for a reference runs the scene to its end; the last one: {why}"
             ),
             Self::NotPositive(name) => write!(f, "{name} must be positive and finite"),
+            Self::StepTooLong(step, duration) => write!(
+                f,
+                "the step of {} s is longer than the run of {} s",
+                readable(*step),
+                readable(*duration)
+            ),
             Self::Repeats(n) => {
                 write!(f, "each run must be timed twice at least, but repeats are {n}")
             }

@@ -11,6 +11,8 @@ const KNOWN: f64 = 3.0;
 const LEAST_SHARE: f64 = 0.1;
 /// Another formulation agrees if it is no further away than so many times what both can tell.
 const AGREES: f64 = 3.0;
+/// A table is refuted by formulations that are further from it than so many times what both can tell.
+const FAR: f64 = 10.0;
 /// A check that tells no more than this checks nothing.
 const TELLS: f64 = 1e-2;
 
@@ -50,6 +52,8 @@ pub(super) struct Known {
     pub(super) scales: Vec<OutputScale>,
     pub(super) report: Reference,
     pub(super) notes: Vec<String>,
+    /// A table that formulations which agree are far from.
+    pub(super) is_refuted: bool,
 }
 
 impl Known {
@@ -81,10 +85,77 @@ impl Known {
             kind: "table".to_owned(),
             method: format!("table {name}, {} rows", given.len()),
             uncertainty,
-            is_verified: true,
             ..Reference::default()
         };
-        Self { rows: table.rows, scales, report, notes }
+        Self { rows: table.rows, scales, report, notes, is_refuted: false }
+    }
+
+    /// Holds a table against two solutions by different formulations. It is verified where both agree with it, within what they and
+    /// its digits tell; it is refuted where they agree with each other and miss it by far.
+    pub(super) fn verify(&mut self, name: &str, pairs: &[Pair], instants: &Instants) {
+        let [a, b, ..] = pairs else {
+            let note = "the reference is NOT verified: it is taken as given, since no two formulations run the scene to the end";
+            self.notes.push(note.to_owned());
+            return;
+        };
+        let distance = |x: &[f64], y: &[f64]| row_distance(&self.scales, x, y)[0];
+        let (mut apart, mut largest, mut is_near) = (0.0_f64, 0.0_f64, true);
+        let mut seen = 0;
+        let mut miss: Option<(usize, f64)> = None;
+        for (k, row) in self.rows.iter().enumerate() {
+            let of = |rows: &Rows| rows.get(k).cloned();
+            let all = (of(&a.rows), of(&a.coarse), of(&b.rows), of(&b.coarse));
+            let (Some(best), Some(coarse), Some(other), Some(rough)) = all else { break };
+            for (x, y) in [(&best, &coarse), (&other, &rough), (&best, &other)] {
+                apart = apart.max(distance(x, y));
+            }
+            // beyond that the motion is not known, chaotic ones for instance
+            if !(apart <= TELLS) {
+                break;
+            }
+            let Some(row) = row else { continue };
+            let d = distance(row, &best);
+            let told = self.report.uncertainty + apart;
+            (seen, largest) = (seen + 1, largest.max(d));
+            is_near &= d <= AGREES * told;
+            if d > FAR * told && miss.is_none_or(|(_, most)| d > most) {
+                miss = Some((k, d));
+            }
+        }
+        self.report.cross_check = Some(CrossCheck {
+            method: a.method.clone(),
+            difference: largest,
+            own_uncertainty: apart,
+        });
+        self.report.is_verified = seen > 0 && is_near;
+        self.is_refuted = miss.is_some();
+        if let Some((k, _)) = miss {
+            let note = format!(
+                "the reference is NOT verified: {} and {} agree to {apart:.1e}, and differ from {name} by {} at {} s; no method is \
+                 held against it",
+                a.method,
+                b.method,
+                self.largest_miss(k, &a.rows[k]),
+                readable(instants.time(k + 1))
+            );
+            self.notes.push(note);
+        } else if !self.report.is_verified {
+            self.notes.push(doubt(self.report.cross_check.as_ref()));
+        }
+    }
+
+    /// The largest distance of a row from what the table says, as a number with its unit and output.
+    fn largest_miss(&self, k: usize, row: &[f64]) -> String {
+        let Some(known) = &self.rows[k] else { return String::new() };
+        let each = self.scales.iter().flat_map(|scale| {
+            let size = scale.scale.unwrap_or(f64::INFINITY);
+            scale.columns.iter().map(move |&c| (scale, c, size))
+        });
+        let share = |c: usize, size: f64| (known[c] - row[c]).abs() / size;
+        let worst = each.max_by(|a, b| share(a.1, a.2).total_cmp(&share(b.1, b.2)));
+        let Some((scale, c, _)) = worst else { return String::new() };
+        let far = crate::words::few((known[c] - row[c]).abs());
+        format!("{far} {} of `{}`", scale.unit, scale.output)
     }
 
     /// From runs; `check` is the other formulation. `least` is the least error that is to be ranked.
@@ -143,7 +214,8 @@ impl Known {
             known_until,
             is_verified,
         };
-        Self { rows: rows.iter().cloned().map(Some).collect(), scales, report, notes }
+        let rows = rows.iter().cloned().map(Some).collect();
+        Self { rows, scales, report, notes, is_refuted: false }
     }
 
     /// Largest error, and root of the mean square, of rows at the same instants; nothing where they are not all there or not
@@ -259,6 +331,32 @@ mod tests {
         assert_eq!(known.notes.len(), 1);
         assert_eq!(known.errors(&rows(100, |_| 0.0)).unwrap()[0].to_bits(), 0.0_f64.to_bits());
         assert_eq!(known.errors(&rows(10, |_| 0.0)), None);
+    }
+
+    #[test]
+    fn a_table_is_verified_or_refuted_by_formulations_that_agree() {
+        let table = |error: f64| {
+            let rows = rows(100, |_| error).into_iter().map(Some).collect();
+            let table = Table { rows, digits: vec![5e-7], has: vec![true] };
+            Known::of_table(table, "ref.csv", (&channels(), 1.0))
+        };
+        let pairs = [pair(|_| 0.0, |_| 1e-9), pair(|_| 1e-9, |_| 2e-9)];
+        let held = |error: f64, pairs: &[Pair]| {
+            let mut known = table(error);
+            known.verify("ref.csv", pairs, &INSTANTS);
+            known
+        };
+        let good = held(4e-7, &pairs);
+        assert!(good.report.is_verified && !good.is_refuted && good.notes.is_empty());
+        let invented = held(0.3, &pairs);
+        assert!(!invented.report.is_verified && invented.is_refuted);
+        let note = &invented.notes[0];
+        assert!(note.contains("NOT verified: x and x agree to 5.0e-10"), "{note}");
+        assert!(note.contains("differ from ref.csv by 0.3 rad of `a` at"), "{note}");
+        // formulations that do not agree refute nothing, and verify nothing
+        let apart = held(0.3, &[pair(|_| 0.0, |_| 1e-9), pair(|_| 0.1, |_| 0.1)]);
+        assert!(!apart.report.is_verified && !apart.is_refuted && apart.notes.len() == 1);
+        assert!(!held(0.0, &pairs[..1]).report.is_verified, "one alone verifies nothing");
     }
 
     #[test]

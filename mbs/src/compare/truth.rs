@@ -23,6 +23,10 @@ const STEPS: [f64; 4] = [0.125, 0.25, 0.5, 1.0];
 const CHECKS: [Formulation; 4] =
     [Formulation::Index3, Formulation::StateSpace, Formulation::Classical, Formulation::Index1];
 
+/// An integrator that controls its error, in a precision; the tolerances of its two runs, and how long they may take.
+type Way<'a> = ((IntegratorKind, Precision), (&'a [[f64; 2]], f64));
+const ORDINARY: (IntegratorKind, Precision) = (IntegratorKind::Rk54, Precision::F64);
+
 impl Study<'_> {
     /// The reference: a table where one is given; else runs.
     pub(super) fn known(
@@ -32,18 +36,36 @@ impl Study<'_> {
     ) -> Result<Known, CompareError> {
         let of = (&self.channels[..], self.length());
         if let Some((name, text)) = table {
-            let table = table::read(text, &self.channels, &self.instants);
-            return Ok(Known::of_table(table.map_err(CompareError::Table)?, name, of));
+            let duration = self.scenes.double.duration;
+            let table = table::read(text, &self.channels, (&self.instants, duration));
+            let mut known = Known::of_table(table.map_err(CompareError::Table)?, name, of);
+            // a table is held against runs before runs are held against it
+            let (pairs, _) =
+                self.pairs(&[(ORDINARY, (&TOLERANCES[1..], SHORT_PATIENCE))], store)?;
+            known.verify(name, &pairs, &self.instants);
+            return Ok(known);
         }
         let least = self.request.errors.iter().copied().fold(1e-2, f64::min);
+        let dear = (IntegratorKind::Extrapolation, Precision::DoubleDouble);
+        let kinds: [Way<'_>; 2] = [
+            (dear, (&PAIR_TOLERANCES[..], SHORT_PATIENCE)),
+            (ORDINARY, (&TOLERANCES[..], PATIENCE)),
+        ];
+        let (pairs, why) = self.pairs(&kinds, store)?;
+        let Some(best) = pairs.first() else { return Err(CompareError::NoReference(why)) };
+        Ok(Known::of_runs(best, pairs.get(1), of, (&self.instants, least)))
+    }
+
+    /// Two solutions by different formulations, as far as there are: relative coordinates by the first of some ways that goes to the
+    /// end, then natural ones; and why the last one that failed did.
+    fn pairs(
+        &self,
+        kinds: &[Way<'_>],
+        store: &mut Store,
+    ) -> Result<(Vec<Pair>, String), CompareError> {
         let mut why = String::from("none was tried");
         let mut pairs = Vec::new();
-        use {IntegratorKind as I, Precision as P};
-        let kinds = [
-            ((I::Extrapolation, P::DoubleDouble), (&PAIR_TOLERANCES[..], SHORT_PATIENCE)),
-            ((I::Rk54, P::F64), (&TOLERANCES[..], PATIENCE)),
-        ];
-        for (kind, how) in kinds {
+        for &(kind, how) in kinds {
             if pairs.is_empty()
                 && let Some(pair) = self.own_control(kind, how, store, &mut why)?
             {
@@ -57,8 +79,7 @@ impl Study<'_> {
                 pairs.push(pair);
             }
         }
-        let Some(best) = pairs.first() else { return Err(CompareError::NoReference(why)) };
-        Ok(Known::of_runs(best, pairs.get(1), of, (&self.instants, least)))
+        Ok((pairs, why))
     }
 
     /// Relative coordinates with an explicit integrator that controls its error, at two tight tolerances.

@@ -38,6 +38,8 @@ pub enum Topic {
     Masses,
     /// Units.
     Units,
+    /// Places.
+    Places,
     /// The start.
     Start,
 }
@@ -52,6 +54,7 @@ impl Topic {
             Self::Motion => "motion",
             Self::Masses => "masses",
             Self::Units => "units",
+            Self::Places => "places",
             Self::Start => "start",
         }
     }

@@ -2,8 +2,8 @@
 
 use super::finding::{Finding, Severity, Topic, body_names};
 use crate::words::few;
-use mbs_core::cluster::mass_properties;
-use mbs_core::scene::{Dimension, Inertia, Scene};
+use mbs_core::cluster::{Cluster, Clusters};
+use mbs_core::scene::{Dimension, Entry, Scene, SceneFault};
 use mbs_doctor::{Massless, Matrix, singular_values};
 
 /// Share of the largest principal moment by which the others exceed it, below which a body is a plate.
@@ -24,24 +24,28 @@ pub(super) fn findings(
             findings.push(Finding::new(Severity::Note, told, message, ""));
         }
     }
-    let of = |b: usize| mass_properties(scene, b);
-    let all = || 0..scene.bodies.len();
-    let empty: Vec<usize> = all().filter(|&b| !(of(b).0 > 0.0)).collect();
+    odd_parts(scene, findings);
+    // what is welded together is one body, and what is welded to the ground is none
+    let lumps = Clusters::new(scene).clusters;
+    let without = lumps.iter().filter(|lump| !(lump.mass > 0.0));
+    let empty: Vec<usize> = without.flat_map(|lump| lump.bodies.iter().copied()).collect();
     if !empty.is_empty() {
         let names = body_names(scene, &empty);
         let message = format!("without mass: {names}; the other bodies determine how they move");
         let told = (Topic::Masses, "no-mass");
         findings.push(Finding::new(Severity::Note, told, message, "").bodies(empty));
     }
-    let heavy = all().max_by(|&a, &b| of(a).0.total_cmp(&of(b).0));
-    let light = all().filter(|&b| of(b).0 > 0.0).min_by(|&a, &b| of(a).0.total_cmp(&of(b).0));
+    let with = || lumps.iter().filter(|lump| lump.mass > 0.0);
+    let heavy = with().max_by(|a, b| a.mass.total_cmp(&b.mass));
+    let light = with().min_by(|a, b| a.mass.total_cmp(&b.mass));
     if let (Some(heavy), Some(light)) = (heavy, light)
-        && of(heavy).0 > RATIO * of(light).0
+        && heavy.mass > RATIO * light.mass
     {
+        let ratio = few(heavy.mass / light.mass);
+        let [heavy, light] = [heavy, light].map(|lump| lump.bodies[0]);
         let message = format!(
-            "{} is {} times as heavy as {}: roundings of the one are forces on the other",
+            "{} is {ratio} times as heavy as {}: roundings of the one are forces on the other",
             body_names(scene, &[heavy]),
-            few(of(heavy).0 / of(light).0),
             body_names(scene, &[light])
         );
         let remedy = "check the units of both; a body that light may be left out, or given no mass";
@@ -49,7 +53,8 @@ pub(super) fn findings(
         let finding = Finding::new(Severity::Doubt, told, message, remedy);
         findings.push(finding.bodies(vec![heavy, light]));
     }
-    let flat: Vec<usize> = all().filter(|&b| is_flat(scene, b)).collect();
+    let flat: Vec<usize> =
+        lumps.iter().filter(|lump| is_flat(scene, lump)).map(|lump| lump.bodies[0]).collect();
     if !flat.is_empty() {
         let message = format!(
             "the inertia of {} is that of a thin plate: at the limit of the triangle inequality",
@@ -57,6 +62,24 @@ pub(super) fn findings(
         );
         let told = (Topic::Masses, "flat-body");
         findings.push(Finding::new(Severity::Note, told, message, "").bodies(flat));
+    }
+}
+
+/// Bodies with an inertia that counts only in the sum of what they are welded to.
+fn odd_parts(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
+    for (body, fault) in scene.odd_parts() {
+        let what = if fault == SceneFault::InertiaWithoutMass {
+            "has inertia and no mass"
+        } else {
+            "has an inertia that no body can have"
+        };
+        let message = format!(
+            "{} {what}: it counts in the sum of what it is welded to, which is checked instead",
+            body_names(scene, &[body])
+        );
+        let told = (Topic::Masses, "part-inertia");
+        let finding = Finding::new(Severity::Note, told, message, "").bodies(vec![body]);
+        findings.push(finding.at(Entry::Body(body), "inertia"));
     }
 }
 
@@ -76,14 +99,11 @@ fn direction(scene: &Scene<f64>, motion: &Massless) -> Finding {
 }
 
 /// Is the largest principal moment nearly the sum of the others?
-fn is_flat(scene: &Scene<f64>, body: usize) -> bool {
-    if scene.dimension == Dimension::Planar
-        || matches!(scene.bodies[body].inertia, Inertia::Rod { .. })
-    {
+fn is_flat(scene: &Scene<f64>, lump: &Cluster<f64>) -> bool {
+    if scene.dimension == Dimension::Planar || lump.rod.is_some() {
         return false;
     }
-    let inertia = mass_properties(scene, body).2;
-    let matrix = Matrix::from_fn(3, 3, |i, j| inertia[(i, j)]);
+    let matrix = Matrix::from_fn(3, 3, |i, j| lump.inertia[(i, j)]);
     let Some(moments) = singular_values(&matrix) else { return false };
     moments[0] > 0.0 && moments[1] + moments[2] - moments[0] < FLAT * moments[0]
 }

@@ -8,6 +8,7 @@ mod json;
 mod masses;
 mod methods;
 mod motion;
+mod places;
 mod report;
 mod sets;
 mod sound;
@@ -24,7 +25,7 @@ pub use start::Moved;
 use crate::names::Names;
 use crate::ready::Ready;
 use crate::settings::Settings;
-use crate::simulation::rank;
+use crate::simulation::{Simulation, rank};
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Cliques;
@@ -142,6 +143,7 @@ where
     sound::findings(scene, (&joint_level, natural), massless.as_deref(), &mut findings);
     masses::findings(scene, massless.as_deref(), &mut findings);
     units::findings(scene, &mut findings);
+    places::findings(scene, &mut findings);
     start::tilts(scene, &mut findings);
     let is_dependent = joint_level.sets.iter().any(|set| set.is_exact)
         || natural.is_some_and(|[_, constraints, rank]| rank < constraints);
@@ -158,6 +160,9 @@ where
                 let seen = motion::watch::<D>(scene, settings, (&linkage, effort));
                 motion::findings((scene, &linkage), &seen, &mut findings);
                 motion = Some(seen);
+            } else if let Err(error) = Simulation::<f64, D>::new(scene, settings) {
+                // the formulation may refuse what natural coordinates start
+                start::no_start(scene, &error, &mut findings);
             }
         }
     }

@@ -31,10 +31,14 @@ pub(super) fn findings(
     if let Some([coordinates, _, rank]) = natural {
         differs(diagnosis, coordinates - rank, massless, findings);
         if coordinates == rank && scene.guides.is_empty() && !scene.bodies.is_empty() {
-            let message =
-                "no degree of freedom is left and nothing is guided: nothing moves".to_owned();
+            let [_, velocities, held] = diagnosis.sizes;
+            let message = format!(
+                "no degree of freedom is left and nothing is guided: nothing moves ({} of the bodies, of which the joints hold {held})",
+                counted(velocities, "velocity")
+            );
+            let remedy = "if it is to move, leave a joint out, or take a kind that allows more";
             let told = (Topic::Rank, "no-freedom");
-            findings.push(Finding::new(Severity::Note, told, message, ""));
+            findings.push(Finding::new(Severity::Note, told, message, remedy));
         }
     }
     let is_held = |b: &usize| scene.joints.iter().any(|j| j.bodies.contains(&BodyRef::Body(*b)));

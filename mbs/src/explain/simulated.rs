@@ -82,7 +82,7 @@ fn guides<T>(scene: &Scene<T>) -> Vec<GuideEntry> {
     let entry = |guide: &mbs_core::scene::Guide<T>| GuideEntry {
         joint: scene.joints[guide.joint].name.clone(),
         law: match guide.law {
-            GuideLaw::Table(_) => "table",
+            GuideLaw::Table { .. } => "table",
             GuideLaw::Sine { .. } => "sine",
             GuideLaw::Input(_) => "input",
             GuideLaw::Ramp { .. } => "ramp",

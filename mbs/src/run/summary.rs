@@ -39,6 +39,7 @@ pub(super) fn plain_summary<T: Real>(scene: &Scene<T>, settings: &Settings) -> R
     RunSummary {
         scene: scene.name.clone(),
         formulation: settings.asked.clone(),
+        integrator: settings.integrator.name().to_owned(),
         precision: settings.precision.name().to_owned(),
         dimension: scene.dimension.count(),
         step: settings.step,

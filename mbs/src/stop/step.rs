@@ -55,8 +55,8 @@ pub(super) fn step_hint(error: &StepError) -> &'static str {
         StepError::Singular(_) => {
             "try a smaller step; give every body that can move mass and inertia"
         }
-        StepError::Violated { .. } => {
-            "try a smaller step or another formulation; if it always stops here, the mechanism locks or cannot follow its guides"
+        StepError::Violated { .. } | StepError::NotConverged { .. } => {
+            "try a smaller step or another formulation; if it always stops here, the mechanism locks or cannot follow its guides: end the run or the guide before"
         }
         StepError::RankLost { .. } => {
             "joints repeat each other, or the mechanism stands in a singular position: index-3 and index-1 pass both"

@@ -17,6 +17,7 @@ mod energy;
 mod explain;
 mod field;
 mod generate;
+mod hints;
 mod inputs;
 mod invariants;
 mod modes;

@@ -1,50 +1,77 @@
-//! Mass properties: what a rigid body can have.
+//! Mass properties: what a rigid body can have. What is welded together is one body.
 
 use super::is_planar;
 use super::vector::Place;
 use crate::Real;
-use crate::scene::{Body, Inertia, SceneError, SceneFault};
+use crate::algebra::Matrix;
+use crate::cluster::{Clusters, mass_properties};
+use crate::scene::{Body, Entry, Inertia, Scene, SceneError, SceneFault};
+use alloc::vec::Vec;
+use core::mem::discriminant;
 
+/// Numbers of one body, whatever is welded to it.
 pub(super) fn check<T: Real>(body: &Body<T>, place: Place) -> Result<(), SceneError> {
     place.not_negative("mass", body.mass)?;
     place.vector("center", body.center)?;
-    match body.inertia {
-        Inertia::Rod { from, to } => place.apart("rod", [from, to]),
-        Inertia::Planar(moment) => {
-            if !is_planar(place.dimension) {
-                return place.fault("inertia", SceneFault::WrongDimension);
-            }
-            place.finite("inertia", moment)?;
-            if moment < T::ZERO {
-                return place.fault("inertia", SceneFault::NegativeInertia(moment.to_f64()));
-            }
-            with_mass(body.mass, moment, place)
-        }
-        Inertia::Spatial(six) => {
-            if is_planar(place.dimension) {
-                return place.fault("inertia", SceneFault::WrongDimension);
-            }
-            for x in six {
-                place.finite("inertia", x)?;
-            }
-            check_tensor(six, place)?;
-            with_mass(body.mass, six.into_iter().fold(T::ZERO, |sum, x| sum + x.abs()), place)
-        }
+    let (is_fitting, numbers) = match &body.inertia {
+        Inertia::Rod { from, to } => return place.apart("rod", [*from, *to]),
+        Inertia::Planar(moment) => (is_planar(place.dimension), core::slice::from_ref(moment)),
+        Inertia::Spatial(six) => (!is_planar(place.dimension), &six[..]),
+    };
+    if !is_fitting {
+        return place.fault("inertia", SceneFault::WrongDimension);
     }
+    numbers.iter().try_for_each(|x| place.finite("inertia", *x))
 }
 
-fn with_mass<T: Real>(mass: T, inertia: T, place: Place) -> Result<(), SceneError> {
-    if mass.is_zero() && !inertia.is_zero() {
-        return place.fault("inertia", SceneFault::InertiaWithoutMass);
+/// Inertias of what is welded together, summed: a part that no body can have is refused where the sum is one that no body can have.
+/// What is welded to the ground does not move.
+pub(super) fn check_lumps<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
+    for cluster in Clusters::new(scene).clusters {
+        let Err(fault) = properties(scene, cluster.mass, &cluster.inertia) else { continue };
+        let is_same =
+            |b: &usize| part(scene, *b).is_err_and(|f| discriminant(&f) == discriminant(&fault));
+        let body = cluster.bodies.iter().copied().find(is_same).unwrap_or(cluster.bodies[0]);
+        return scene.place(Entry::Body(body)).fault("inertia", fault);
     }
     Ok(())
+}
+
+/// Bodies with an inertia that none can have, or with inertia and no mass.
+pub(super) fn odd_parts<T: Real>(scene: &Scene<T>) -> Vec<(usize, SceneFault)> {
+    (0..scene.bodies.len()).filter_map(|b| part(scene, b).err().map(|fault| (b, fault))).collect()
+}
+
+/// The inertia of one body alone.
+fn part<T: Real>(scene: &Scene<T>, body: usize) -> Result<(), SceneFault> {
+    let (mass, _, inertia) = mass_properties(scene, body);
+    properties(scene, mass, &inertia)
+}
+
+fn properties<T: Real>(
+    scene: &Scene<T>,
+    mass: T,
+    inertia: &Matrix<T, 3>,
+) -> Result<(), SceneFault> {
+    let about_z = inertia[(2, 2)];
+    let is_zero = if is_planar(scene.dimension) {
+        if about_z < T::ZERO {
+            return Err(SceneFault::NegativeInertia(about_z.to_f64()));
+        }
+        about_z.is_zero()
+    } else {
+        let entries = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
+        check_tensor(entries.map(|entry| inertia[entry]))?;
+        inertia.iter().all(|x| x.is_zero())
+    };
+    if mass.is_zero() && !is_zero { Err(SceneFault::InertiaWithoutMass) } else { Ok(()) }
 }
 
 /// Principal moments: none negative, the largest at most the sum of the others.
 ///
 /// Both to half the digits of `T`, relative to the largest entry: files carry tensors of turned rods and
 /// plates rounded to eight or ten digits, and those are meant.
-fn check_tensor<T: Real>(six: [T; 6], place: Place) -> Result<(), SceneError> {
+fn check_tensor<T: Real>(six: [T; 6]) -> Result<(), SceneFault> {
     let size = six.into_iter().fold(T::ZERO, |size, x| size.max(x.abs()));
     if size.is_zero() {
         return Ok(());
@@ -52,12 +79,12 @@ fn check_tensor<T: Real>(six: [T; 6], place: Place) -> Result<(), SceneError> {
     let [least, middle, largest] = principal_moments(six.map(|x| x / size));
     let slack = T::EPSILON.sqrt();
     if least < -slack {
-        return place.fault("inertia", SceneFault::NegativeInertia((least * size).to_f64()));
+        return Err(SceneFault::NegativeInertia((least * size).to_f64()));
     }
     let sum = least + middle;
     if largest > sum + slack {
         let sides = [(largest * size).to_f64(), (sum * size).to_f64()];
-        return place.fault("inertia", SceneFault::TriangleInequality(sides));
+        return Err(SceneFault::TriangleInequality(sides));
     }
     Ok(())
 }

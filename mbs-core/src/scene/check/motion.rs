@@ -3,8 +3,11 @@
 use super::is_planar;
 use super::vector::Place;
 use crate::Real;
-use crate::laws::guide::{Motion, ramp, sine, spline, spline_curvatures};
-use crate::scene::{Entry, Guide, GuideLaw, Initial, InitialTarget, Scene, SceneError, SceneFault};
+use crate::inputs::GuideInput;
+use crate::laws::guide::{largest_rate, spline};
+use crate::scene::{
+    Entry, Guide, GuideLaw, Initial, InitialTarget, Scene, SceneError, SceneFault, TableEnds,
+};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -29,7 +32,7 @@ pub(super) fn check_guides<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> 
 
 fn check_law<T: Real>(law: &GuideLaw<T>, place: Place) -> Result<(), SceneError> {
     match law {
-        GuideLaw::Table(rows) => {
+        GuideLaw::Table { rows, .. } => {
             for row in rows {
                 place.finite("table", row[0])?;
                 place.finite("table", row[1])?;
@@ -65,23 +68,31 @@ pub(super) fn check_times<T: Real>(
     }
 }
 
-/// The law at t = 0.
-fn start<T: Real>(law: &GuideLaw<T>) -> Motion<T> {
-    match law {
-        GuideLaw::Table(rows) => {
-            let (mut curvature, mut scratch) =
-                (vec![T::ZERO; rows.len()], vec![T::ZERO; rows.len()]);
-            spline_curvatures(rows, &mut curvature, &mut scratch);
-            spline(rows, &curvature, T::ZERO)
-        }
-        GuideLaw::Sine { amplitude, frequency, phase } => {
-            sine(*amplitude, *frequency, *phase, T::ZERO)
-        }
-        GuideLaw::Ramp { rate } => ramp(*rate, T::ZERO),
-        GuideLaw::Input([value, rate, acceleration]) => {
-            Motion { value: *value, rate: *rate, acceleration: *acceleration }
+/// Rate at the end of a table, beside its largest, that is a slope [-]: a rounded table has less.
+const SLOPE: f64 = 1e-6;
+
+/// Tables that begin or end on a slope within a run of a duration: the rate jumps there, which is an impact.
+pub(super) fn check_ends<T: Real>(scene: &Scene<T>, duration: T) -> Result<(), SceneError> {
+    for (i, guide) in scene.guides.iter().enumerate() {
+        let GuideLaw::Table { rows, ends: TableEnds::Natural } = &guide.law else { continue };
+        let [Some(first), Some(last)] = [rows.first(), rows.last()] else { continue };
+        let input = GuideInput::new(&guide.law);
+        let rate = |t| spline(rows, input.curvature(), t).rate;
+        let least = T::from_f64(SLOPE) * largest_rate(rows, input.curvature());
+        // a run that ends with its table ends in motion, to the rounding of its own last time
+        let is_within = |t: T| t < duration * (T::ONE - T::EPSILON.sqrt());
+        let is_begun = first[0] > T::ZERO && first[0] <= duration;
+        let is_ended = last[0] >= T::ZERO && is_within(last[0]);
+        for (is_inside, is_end, row) in [(is_begun, false, 0), (is_ended, true, rows.len() - 1)] {
+            let (time, rate) = (rows[row][0], rate(rows[row][0]));
+            if is_inside && rate.abs() > least {
+                let [time, rate] = [time, rate].map(T::to_f64);
+                let fault = SceneFault::TableSlope { row, is_end, time, rate };
+                return scene.place(Entry::Guide(i)).fault("table", fault);
+            }
         }
     }
+    Ok(())
 }
 
 pub(super) fn check_initials<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> {
@@ -130,12 +141,12 @@ fn check_initial<T: Real>(
             if let Some(numbers) = value {
                 once(&mut seen.value[*joint], i, "value", place)?;
                 check_numbers(scene, *joint, ("value", numbers), place)?;
-                agrees(guide, |motion| motion.value, ("value", numbers), place)?;
+                agrees(guide, 0, ("value", numbers), place)?;
             }
             if let Some(numbers) = rate {
                 once(&mut seen.rate[*joint], i, "rate", place)?;
                 check_numbers(scene, *joint, ("rate", numbers), place)?;
-                agrees(guide, |motion| motion.rate, ("rate", numbers), place)?;
+                agrees(guide, 1, ("rate", numbers), place)?;
             }
             Ok(())
         }
@@ -190,12 +201,12 @@ fn check_numbers<T: Real>(
 /// A guided joint starts as its guide does, within 1e-9 (or rounding, where that is coarser).
 fn agrees<T: Real>(
     guide: Option<&Guide<T>>,
-    part: impl Fn(Motion<T>) -> T,
+    derivative: usize,
     (field, numbers): (&'static str, &[T]),
     place: Place,
 ) -> Result<(), SceneError> {
     let (Some(guide), Some(given)) = (guide, numbers.first()) else { return Ok(()) };
-    let expected = part(start(&guide.law));
+    let expected = GuideInput::new(&guide.law).at(T::ZERO)[derivative];
     let tolerance = T::from_f64(1.0e-9).max(T::from_f64(8.0) * T::EPSILON);
     if (*given - expected).abs() <= tolerance * expected.abs().max(T::ONE) {
         return Ok(());

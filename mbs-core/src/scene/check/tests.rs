@@ -55,6 +55,10 @@ fn spring(points: [[f64; 3]; 2], bodies: [BodyRef; 2]) -> Effect<f64> {
     Effect { name: "strut".into(), enabled: true, kind }
 }
 
+fn natural(rows: Vec<[f64; 2]>) -> GuideLaw<f64> {
+    GuideLaw::Table { rows, ends: TableEnds::Natural }
+}
+
 fn value(joint: usize, value: Option<Vec<f64>>, rate: Option<Vec<f64>>) -> Initial<f64> {
     Initial { target: InitialTarget::Joint { joint, value, rate } }
 }
@@ -119,6 +123,76 @@ fn inertia_obeys_the_triangle_inequality_in_principal_moments() {
     assert!(matches!(fault, SceneFault::NegativeInertia(x) if (x + 1.0).abs() < 1e-14), "{fault}");
     let (.., fault) = refused(planar(), |s| s.bodies[1].inertia = Inertia::Planar(-0.1));
     assert_eq!(fault, SceneFault::NegativeInertia(-0.1));
+}
+
+/// A frame with an inertia that no body has, welded to `upper` or to the ground.
+fn with_frame(mass: f64, six: [f64; 6], to: BodyRef) -> Scene<f64> {
+    let mut scene = spatial();
+    scene.bodies.push(body("frame", mass, Inertia::Spatial(six)));
+    scene.joints.push(joint("fixed", JointKind::Weld, [to, BodyRef::Body(2)]));
+    scene
+}
+
+#[test]
+fn inertias_are_those_of_what_is_welded_together() {
+    let (dummy, upper) = ([1e-6; 6], BodyRef::Body(1));
+    let mut scene = with_frame(0.001, dummy, upper);
+    assert_eq!(scene.check(), Ok(()));
+    let odd = scene.odd_parts();
+    assert!(matches!(odd[..], [(2, SceneFault::TriangleInequality(_))]), "{odd:?}");
+    // without mass it counts in the sum too
+    scene.bodies[2].mass = 0.0;
+    scene.bodies[2].inertia = Inertia::Spatial([1e-6, 1e-6, 1e-6, 0.0, 0.0, 0.0]);
+    assert_eq!(scene.check(), Ok(()));
+    assert_eq!(scene.odd_parts(), [(2, SceneFault::InertiaWithoutMass)]);
+    // the ground does not move, whatever is welded to it
+    assert_eq!(with_frame(0.0, [-1.0, 0.0, 0.0, 2.0, 0.0, 0.0], BodyRef::Ground).check(), Ok(()));
+    // a part that spoils the sum is refused, at its place; not the heavy one
+    let (entry, spoilt) = (Entry::Body(2), [0.1, 0.1, 2.0, 0.0, 0.0, 0.0]);
+    let found = with_frame(0.001, spoilt, upper).check().unwrap_err();
+    assert!(matches!(found.fault, SceneFault::TriangleInequality(_)), "{found}");
+    assert_eq!((found.entry, found.field), (entry, "inertia"));
+    // beside a joint that moves it is a body of its own
+    let mut scene = with_frame(0.001, dummy, upper);
+    scene.joints[2].kind = JointKind::Spherical;
+    assert_eq!(scene.check().map_err(|e| e.entry), Err(entry));
+    let mut scene = planar();
+    scene.bodies.push(body("disc", 0.0, Inertia::Planar(-0.05)));
+    scene.joints.push(joint("fixed", JointKind::Weld, [upper, BodyRef::Body(2)]));
+    assert_eq!(scene.check(), Ok(()), "0.1 - 0.05 about z");
+}
+
+#[test]
+fn tables_of_guides_that_jump_within_the_run_are_refused() {
+    let rows = [[0.0, 0.0], [0.25, 0.1], [0.5, 0.3]];
+    let at = |shift: f64, ends| {
+        let mut scene = planar();
+        let rows = rows.map(|[t, x]| [t + shift, x]).to_vec();
+        scene.guides = vec![Guide { joint: 0, law: GuideLaw::Table { rows, ends } }];
+        scene.check().expect("nothing is wrong with it until the duration is known");
+        move |duration| scene.check_run(duration)
+    };
+    let natural = at(0.0, TableEnds::Natural);
+    let error = natural(1.0).unwrap_err();
+    let SceneFault::TableSlope { row: 2, is_end: true, time, rate } = error.fault else {
+        panic!("{error}")
+    };
+    // natural: c₁ = 6 (0.8 − 0.4)/(4 · 0.25); at the end 0.8 + c₁ 0.25/6 = 0.9
+    assert_eq!((error.entry, error.field, time), (Entry::Guide(0), "table", 0.5));
+    assert!((rate - 0.9).abs() < 1e-14, "{rate}");
+    assert_eq!(natural(0.5), Ok(()), "a run may end in motion");
+    assert_eq!(natural(0.5 + 1e-12), Ok(()), "and rounding of its end is none of a table's");
+    assert_eq!(natural(0.4), Ok(()));
+    let later = at(0.1, TableEnds::Natural);
+    let error = later(0.5).unwrap_err();
+    assert!(matches!(error.fault, SceneFault::TableSlope { row: 0, is_end: false, .. }), "{error}");
+    assert_eq!(later(0.05), Ok(()), "it never begins");
+    assert_eq!(at(-0.2, TableEnds::Natural)(0.3), Ok(()), "in motion at both ends of the run");
+    assert!(at(-0.5, TableEnds::Natural)(0.3).is_err(), "it stops at t = 0");
+    assert_eq!(at(-0.6, TableEnds::Natural)(0.3), Ok(()), "it has ended before");
+    for shift in [0.0, 0.1, -0.2, -0.5] {
+        assert_eq!(at(shift, TableEnds::Level)(1.0), Ok(()));
+    }
 }
 
 #[test]
@@ -189,7 +263,7 @@ fn guides_have_one_coordinate_once_and_ordered_rows() {
     assert_eq!(found, (Entry::Guide(0), "joint", SceneFault::NoSingleCoordinate(0)));
     let found = refused(planar(), |s| s.guides = vec![guide(0, ramp()), guide(0, ramp())]);
     assert_eq!(found, (Entry::Guide(1), "joint", SceneFault::GivenTwice(0)));
-    let rows = GuideLaw::Table(vec![[0.0, 0.0], [1.0, 1.0], [1.0, 2.0]]);
+    let rows = natural(vec![[0.0, 0.0], [1.0, 1.0], [1.0, 2.0]]);
     let found = refused(planar(), |s| s.guides = vec![guide(0, rows)]);
     assert_eq!(found, (Entry::Guide(0), "table", SceneFault::TableOrder(2)));
 }
@@ -286,7 +360,7 @@ proptest! {
         let six = core::array::from_fn(|i| numbers[i]);
         scene.bodies[0].inertia = Inertia::Spatial(six);
         let rows = (0..4).map(|i| [numbers[2 * i], numbers[2 * i + 1]]).collect();
-        scene.guides = vec![Guide { joint: references[0], law: GuideLaw::Table(rows) }];
+        scene.guides = vec![Guide { joint: references[0], law: natural(rows) }];
         scene.initials = vec![value(references[1], Some(numbers[..references[2]].to_vec()), None)];
         scene.effects = vec![spring([vector(3), vector(6)], [BodyRef::Body(references[3]), BodyRef::Ground])];
         let rows = (0..4).map(|i| [numbers[2 * i], numbers[2 * i + 1]]).collect();

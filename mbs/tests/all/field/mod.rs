@@ -2,6 +2,7 @@
 //! programs. Each stands for a kind: the tests beside it are others of the kind.
 
 mod analyses;
+mod doubtful;
 mod estimate;
 mod formulations;
 mod laws;

@@ -1,0 +1,222 @@
+//! Words of other programs and textbooks, and what stands for them in a scene file.
+//!
+//! A hint is given where the word that it speaks of may stand: `among` is one of the words or keys that are known there.
+
+/// Words that are not known, and what is said instead of the nearest name.
+struct Hint {
+    /// A word that is known where the hint holds.
+    among: &'static str,
+    /// The words, in small letters and with hyphens.
+    words: &'static [&'static str],
+    /// What to do; empty: write `among` instead.
+    hint: &'static str,
+}
+
+const fn means(among: &'static str, words: &'static [&'static str]) -> Hint {
+    Hint { among, words, hint: "" }
+}
+
+const fn says(among: &'static str, words: &'static [&'static str], hint: &'static str) -> Hint {
+    Hint { among, words, hint }
+}
+
+const DRIVES: &[&str] = &["motor", "drive", "servo", "engine", "rotary-motor", "linear-motor"];
+const RATIOS: &[&str] = &[
+    "gear",
+    "gears",
+    "gear-pair",
+    "belt",
+    "chain-drive",
+    "pulley",
+    "rack",
+    "rack-and-pinion",
+    "screw",
+];
+
+const HINTS: &[Hint] = &[
+    // kinds of joints
+    says(
+        "revolute",
+        DRIVES,
+        "a motor acts on a joint: add `[[guide]]` with its `joint` for a given motion, or `[[effect]]` with `kind = \"torque\"` and the \
+         `joint` for a given moment",
+    ),
+    says(
+        "revolute",
+        RATIOS,
+        "there are no gears, belts and screws yet; where one of the two motions is given, add a `[[guide]]` to each of the two joints, with \
+         its own rate",
+    ),
+    says(
+        "revolute",
+        &["spring", "damper", "spring-damper", "bushing", "bumper", "contact"],
+        "that is an effect: `[[effect]]` with `kind = \"spring-damper\"`, \"bushing\" or \"bumper\"",
+    ),
+    means("revolute", &["hinge", "pin", "pivot", "rotary", "rotation", "rotational", "bearing"]),
+    means("spherical", &["ball", "ball-joint", "ball-and-socket", "socket", "sphere"]),
+    means(
+        "prismatic",
+        &["slider", "sliding", "slide", "translational", "translation", "linear", "rail"],
+    ),
+    means("weld", &["fixed", "rigid", "fix", "clamp", "lock", "glue"]),
+    means("universal", &["cardan", "hooke", "hookes-joint", "u-joint"]),
+    means("distance", &["rod", "link", "massless-link", "string"]),
+    means("free", &["floating", "six-dof", "6dof", "none"]),
+    // kinds of effects
+    says(
+        "torque",
+        DRIVES,
+        "a given moment is `kind = \"torque\"` with `joint` or `body`; a given motion is a `[[guide]]` with the `joint`",
+    ),
+    says(
+        "torque",
+        RATIOS,
+        "there are no gears, belts and screws yet; where one of the two motions is given, add a `[[guide]]` to each of the two joints, with \
+         its own rate",
+    ),
+    says(
+        "torque",
+        &["gravity", "weight"],
+        "gravity is a key of [scene]: `gravity = [0.0, -9.81]`, with three numbers in space",
+    ),
+    says(
+        "torque",
+        &["contact", "collision"],
+        "two points that meet are `kind = \"bumper\"`, the end of a joint's way is `kind = \"limit\"`; bodies have no surfaces yet",
+    ),
+    means("torque", &["moment", "couple"]),
+    means(
+        "spring-damper",
+        &["spring", "damper", "shock", "shock-absorber", "strut", "linear-spring", "dashpot"],
+    ),
+    means(
+        "torsion-spring",
+        &[
+            "torsional-spring",
+            "rotational-spring",
+            "spiral-spring",
+            "rotary-spring",
+            "torsion-damper",
+            "rotational-damper",
+        ],
+    ),
+    means("limit", &["stop", "end-stop", "endstop", "joint-limit"]),
+    means("aero-drag", &["drag", "air", "wind", "air-resistance"]),
+    means("tire", &["tyre", "wheel"]),
+    means("force", &["load", "point-force", "thrust"]),
+    means("actuator", &["cylinder", "hydraulic-cylinder", "ram"]),
+    // bodies
+    means(
+        "ground",
+        &[
+            "world",
+            "base",
+            "earth",
+            "frame",
+            "fixed",
+            "fixed-frame",
+            "wall",
+            "origin",
+            "environment",
+        ],
+    ),
+    // quantities
+    means("reaction", &["force", "torque", "moment", "load", "reactions", "forces"]),
+    means("value", &["angle", "position", "displacement", "coordinate", "travel"]),
+    means("rate", &["speed", "velocity", "angular-velocity", "omega"]),
+    means("position", &["place", "displacement", "value", "coordinates"]),
+    means("velocity", &["speed", "rate"]),
+    // tables
+    says(
+        "effect",
+        &["motor", "drive", "servo", "engine", "motors"],
+        "a motor is a `[[guide]]` with its `joint` for a given motion, or an `[[effect]]` with `kind = \"torque\"` and the `joint` for a \
+         given moment",
+    ),
+    says(
+        "effect",
+        &[
+            "spring", "damper", "force", "torque", "actuator", "friction", "tire", "bushing",
+            "springs", "forces",
+        ],
+        "add `[[effect]]` with a `kind`, such as \"spring-damper\", \"force\", \"torque\" or \"friction\"",
+    ),
+    says(
+        "joint",
+        &["gear", "gears", "belt", "coupling", "screw"],
+        "there are no gears, belts and screws yet; where one of the two motions is given, add a `[[guide]]` to each of the two joints, with \
+         its own rate",
+    ),
+    means("joint", &["hinge", "constraint", "constraints", "connection", "weld", "revolute"]),
+    means("body", &["link", "part", "rod", "mass", "rigid-body"]),
+    means("output", &["sensor", "measure", "measurement", "probe", "result", "results", "channel"]),
+    means("solver", &["simulation", "settings", "options", "integrator"]),
+    means("initial", &["start", "state", "initial-condition", "initial-conditions"]),
+    // keys
+    means("stiffness", &["k", "spring-constant", "spring-rate", "rate"]),
+    means("damping", &["c", "d", "damping-coefficient", "damper"]),
+    means("free_length", &["l0", "length", "rest-length", "natural-length", "unstretched-length"]),
+    means("at", &["pos", "position", "point", "place", "location", "origin", "anchor"]),
+    means("center", &["com", "cog", "cg", "center-of-mass", "centre-of-mass"]),
+    means("inertia", &["moment-of-inertia", "i", "izz", "inertia-tensor"]),
+    says(
+        "bodies",
+        &[
+            "body1", "body2", "body-1", "body-2", "parent", "child", "from", "to", "body-a",
+            "body-b",
+        ],
+        "write both in one list: `bodies = [\"ground\", \"...\"]`; the second moves against the first",
+    ),
+    means("duration", &["time", "t-end", "tend", "end-time", "stop-time", "simulation-time"]),
+    // integrators and formulations
+    means("rk54", &["rk45", "dopri5", "dopri", "ode45"]),
+    means("rk853", &["rk8", "dop853", "dopri8"]),
+    means("radau5", &["radau", "radau-iia", "bdf", "ode15s"]),
+    means("gbs", &["bulirsch-stoer", "odex", "extrapolation"]),
+    means("trapezoidal", &["trapezoid", "implicit", "crank-nicolson"]),
+    means("hht", &["hht-alpha"]),
+    means("recursive", &["relative", "articulated", "featherstone", "joint-coordinates"]),
+    means("index-3", &["index3", "augmented", "natural"]),
+];
+
+/// The hint for a word that is not among the known ones, where there is one.
+pub(crate) fn of_word<S: AsRef<str>>(found: &str, known: &[S]) -> Option<String> {
+    let word = found.trim().to_lowercase().replace(['_', ' '], "-");
+    let is_known = |among: &str| known.iter().any(|name| name.as_ref() == among);
+    let hint =
+        HINTS.iter().find(|hint| hint.words.contains(&word.as_str()) && is_known(hint.among))?;
+    if hint.hint.is_empty() {
+        return Some(format!("did you mean `{}`?", hint.among));
+    }
+    Some(hint.hint.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hint_is_given_only_where_its_word_may_stand() {
+        assert_eq!(
+            of_word("Hinge", &["revolute", "weld"]).as_deref(),
+            Some("did you mean `revolute`?")
+        );
+        assert_eq!(of_word("hinge", &["index-1"]), None);
+        assert_eq!(
+            of_word("center_of_mass", &["name", "center"]).as_deref(),
+            Some("did you mean `center`?")
+        );
+        assert!(of_word("motor", &["revolute"]).is_some_and(|hint| hint.contains("[[guide]]")));
+        assert!(
+            of_word("belt", &["spring-damper", "torque"])
+                .is_some_and(|hint| hint.contains("not") || hint.contains("no gears"))
+        );
+    }
+
+    #[test]
+    fn no_word_is_known_where_it_is_said_to_be_unknown() {
+        for hint in HINTS {
+            assert!(!hint.words.contains(&hint.among), "{}", hint.among);
+        }
+    }
+}

@@ -1,0 +1,72 @@
+//! Settings as what runs: a step that goes with the run, and the way in words.
+
+use super::{SAME_LENGTH, Settings, SettingsError};
+use crate::choice::{IntegratorKind, StepRule};
+use crate::settings::Overrides;
+use mbs_core::scene::Scene;
+use mbs_scene::{Chosen, readable};
+
+impl Settings {
+    /// Refuses a step of fixed length that scene or caller ask for and that is longer than the run, which takes one step of its own length
+    /// instead: who writes it means something else.
+    ///
+    /// # Errors
+    /// [`SettingsError::StepTooLong`].
+    pub fn check_step<T>(
+        &self,
+        scene: &Scene<T>,
+        overrides: &Overrides,
+    ) -> Result<(), SettingsError> {
+        let is_controlled = self.integrator.controls_its_step() || self.rule != StepRule::Fixed;
+        let is_asked = overrides.step.is_some() || scene.solver.step.is_some();
+        if is_asked && !is_controlled && self.step > self.duration * (1.0 + SAME_LENGTH) {
+            let (step, duration) = (self.step, self.duration);
+            return Err(SettingsError::StepTooLong { step, duration });
+        }
+        Ok(())
+    }
+
+    /// Formulation and integrator, with the step or the tolerance.
+    #[must_use]
+    pub fn way(&self) -> String {
+        let mut way = self.formulation.name().to_owned();
+        if self.integrator != IntegratorKind::Trapezoidal {
+            way = format!("{way} {}", self.integrator.name());
+        }
+        match (self.integrator.controls_its_step(), self.tolerance) {
+            (true, Some(tolerance)) => {
+                format!("{way} with a tolerance of {}", crate::words::few(tolerance))
+            }
+            (true, None) => format!("{way} with steps of its own"),
+            _ if self.rule != StepRule::Fixed => format!("{way} with steps of controlled length"),
+            _ => format!("{way} with steps of {} s", readable(self.step)),
+        }
+    }
+
+    /// What `auto` chose and why; nothing where a formulation was asked for.
+    #[must_use]
+    pub fn chosen(&self) -> Option<Chosen> {
+        let (formulation, ran) = (self.formulation.name().to_owned(), self.way());
+        if let Some(choice) = &self.choice {
+            let mut reasons = crate::auto::reasons(choice);
+            let is_first =
+                choice.fallbacks.is_empty() && choice.candidates.iter().any(|c| c.rank.is_some());
+            if !is_first {
+                reasons.insert(0, format!("what ran: {ran}"));
+            }
+            return Some(Chosen { formulation, ran, reasons, evidence: Some((**choice).clone()) });
+        }
+        (self.asked == "auto").then(|| Chosen {
+            formulation,
+            ran,
+            reasons: vec![if self.integrator.is_of_first_order() {
+                format!("integrator {} runs in relative coordinates", self.integrator.name())
+            } else {
+                "without a wanted error or a deadline auto means index-3: nothing is measured, and a scene gives the same numbers \
+                 every time"
+                    .to_owned()
+            }],
+            evidence: None,
+        })
+    }
+}

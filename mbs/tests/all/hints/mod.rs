@@ -1,0 +1,157 @@
+//! No hint leads nowhere: a scene that provokes it, and the same scene changed as the hint says, which then runs.
+
+mod mechanisms;
+mod scenes;
+mod values;
+mod words;
+
+use mbs::core::scene::{Dimension, Scene};
+use mbs::scene_file::Document;
+use mbs::{Overrides, Settings};
+
+/// What a row changes: passages of its scene, each of which stands once in it.
+type Change = &'static [(&'static str, &'static str)];
+
+/// One hint.
+struct Row {
+    /// The scene that is spoiled.
+    base: &'static str,
+    /// What provokes the hint.
+    spoil: Change,
+    /// A part of the message.
+    message: &'static str,
+    /// A part of the hint.
+    hint: &'static str,
+    /// The spoiled scene is changed so: as the hint says.
+    mend: Change,
+}
+
+const fn row(
+    base: &'static str,
+    spoil: Change,
+    [message, hint]: [&'static str; 2],
+    mend: Change,
+) -> Row {
+    Row { base, spoil, message, hint, mend }
+}
+
+/// The text with passages replaced.
+fn changed(text: &str, change: Change) -> String {
+    change.iter().fold(text.to_owned(), |text, (from, to)| {
+        assert_eq!(text.matches(from).count(), 1, "`{from}` stands once in\n{text}");
+        text.replacen(from, to, 1)
+    })
+}
+
+/// Reads and runs a text as `mbs run` does; else what is said: the message and the hint.
+fn run(text: &str) -> Result<(), [String; 2]> {
+    run_with(text, &Overrides::default())
+}
+
+fn run_with(text: &str, overrides: &Overrides) -> Result<(), [String; 2]> {
+    let document = Document::parse(text, "scene.toml").map_err(|e| [e.to_string(), e.hint()])?;
+    let scene: Scene<f64> = document.scene().map_err(|e| [e.to_string(), e.hint()])?;
+    let settings = Settings::new(&scene, overrides)
+        .and_then(|settings| settings.check_step(&scene, overrides).map(|()| settings));
+    let settings = settings.map_err(|e| [e.to_string(), e.hint()])?;
+    let outcome = match scene.dimension {
+        Dimension::Planar => mbs::run::<f64, 2>(&scene, &settings, &mut ()),
+        Dimension::Spatial => mbs::run::<f64, 3>(&scene, &settings, &mut ()),
+    };
+    match &outcome.error {
+        None => Ok(()),
+        Some(error) => Err([error.to_string(), error.hint().to_owned()]),
+    }
+}
+
+#[test]
+fn every_hint_leads_to_a_scene_that_runs() {
+    let mut lost = Vec::new();
+    let rows = [words::rows(), values::rows(), mechanisms::rows()];
+    for (i, row) in rows.into_iter().flatten().enumerate() {
+        assert_eq!(run(row.base), Ok(()), "the scene that row {i} spoils");
+        let spoiled = changed(row.base, row.spoil);
+        match run(&spoiled) {
+            Ok(()) => lost.push(format!("row {i}: {:?} is not refused", row.spoil)),
+            Err([message, hint]) => {
+                if !(message.contains(row.message) && hint.contains(row.hint)) {
+                    lost.push(format!("row {i}: {message} / {hint}"));
+                }
+                // what is told is written for people: no empty hints
+                if hint.is_empty() {
+                    lost.push(format!("row {i}: {message} has no hint"));
+                }
+            }
+        }
+        if let Err([message, hint]) = run(&changed(&spoiled, row.mend)) {
+            lost.push(format!("row {i}: {:?} leads to {message} / {hint}", row.mend));
+        }
+    }
+    assert!(lost.is_empty(), "{}", lost.join("\n"));
+}
+
+/// Options that are refused, a part of the hint, and what it says to write.
+type Refused = (fn(&mut Overrides), &'static str, fn(&mut Overrides));
+
+const OPTIONS: [Refused; 9] = [
+    (|o| o.step = Some(-1e-3), "larger than zero", |o| o.step = Some(1e-3)),
+    (|o| o.step = Some(1.0), "a step of 0.02 s at most", |o| o.step = Some(0.02)),
+    (|o| o.step = Some(1e-300), "a longer step", |o| o.step = Some(1e-3)),
+    (
+        |o| o.formulation = Some("index3".into()),
+        "did you mean `index-3`?",
+        |o| o.formulation = Some("index-3".into()),
+    ),
+    (
+        |o| {
+            o.formulation = Some("index-3".into());
+            o.integrator = Some("radau5".into());
+        },
+        "need formulation `recursive`",
+        |o| o.formulation = Some("recursive".into()),
+    ),
+    (
+        |o| {
+            o.formulation = Some("state-space".into());
+            o.penalty = Some(1e6);
+        },
+        "leave the penalty out",
+        |o| o.penalty = None,
+    ),
+    (
+        |o| {
+            o.integrator = Some("rk853".into());
+            o.step_control = Some("error".into());
+        },
+        "control their own step by --tolerance",
+        |o| {
+            o.step_control = None;
+            o.tolerance = Some(1e-6);
+        },
+    ),
+    (
+        |o| {
+            o.formulation = Some("recursive".into());
+            o.threads = Some(2);
+        },
+        "threads share the steps of index-3",
+        |o| o.formulation = Some("index-3".into()),
+    ),
+    (
+        |o| o.energy_tolerance = Some([1e-7, 1e-5]),
+        "the larger one first",
+        |o| o.energy_tolerance = Some([1e-5, 1e-7]),
+    ),
+];
+
+#[test]
+fn every_hint_of_an_option_leads_to_settings_that_run() {
+    for (i, (spoil, hint, mend)) in OPTIONS.into_iter().enumerate() {
+        let mut overrides = Overrides::default();
+        spoil(&mut overrides);
+        let [message, told] = run_with(scenes::PLANAR, &overrides).expect_err("it is refused");
+        assert!(told.contains(hint), "{i}: {message} / {told}");
+        mend(&mut overrides);
+        assert_eq!(run_with(scenes::PLANAR, &overrides), Ok(()), "{i}: {hint}");
+    }
+}
