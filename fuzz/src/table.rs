@@ -18,7 +18,7 @@ const ROWS: usize = 12;
 /// What must not be: a refusal without words, or without its place.
 pub fn tables(document: &Document, scene: &Scene<f64>, dice: &mut Dice) -> Result<(), String> {
     if let Err(error) = check_table(scene, &damaged(&reference(scene), dice)) {
-        words("a table of references", &error.to_string(), error.hint())?;
+        words("a table of references", &error.to_string(), &error.hint())?;
     }
     let sweep = damaged(&sweep(scene), dice);
     let sweep = match Document::parse(&sweep, "fuzzed-sweep.toml") {

@@ -39,27 +39,7 @@ fn main() -> ExitCode {
     // a panic of a run is a verdict
     std::panic::set_hook(Box::new(|_| {}));
     if arguments.iter().any(|a| a == "--cases") {
-        let mut tally = trial::oracle::Tally::default();
-        let stride: usize = value("--cases").and_then(|s| s.parse().ok()).unwrap_or(1);
-        let cases: Vec<_> = random::cases().into_iter().step_by(stride).collect();
-        for case in &cases {
-            trial::oracle::case(case, &mut tally);
-        }
-        for line in &tally.wrong {
-            let _ = writeln!(out, "{line}");
-        }
-        let n = tally.agree + tally.wrong.len() + tally.left_out.values().sum::<usize>();
-        let _ = writeln!(
-            out,
-            "{} cases, {n} combinations: {} agree, {} are wrong",
-            cases.len(),
-            tally.agree,
-            tally.wrong.len()
-        );
-        for (reason, n) in &tally.left_out {
-            let _ = writeln!(out, "{n} left out: {reason}");
-        }
-        return ExitCode::from(u8::from(!tally.wrong.is_empty()));
+        return cases(value("--cases").and_then(|s| s.parse().ok()).unwrap_or(1));
     }
     let seeds = value("--seeds").unwrap_or_else(|| "1..100".to_owned());
     let Some((first, last)) =
@@ -77,6 +57,27 @@ fn main() -> ExitCode {
     }
     let _ = write!(out, "{}", tally.text());
     ExitCode::from(u8::from(tally.differences > 0))
+}
+
+/// Every so many of the cases, in every method.
+fn cases(stride: usize) -> ExitCode {
+    let mut tally = trial::oracle::Tally::default();
+    let cases: Vec<_> = random::cases().into_iter().step_by(stride.max(1)).collect();
+    for case in &cases {
+        trial::oracle::case(case, &mut tally);
+    }
+    let out = &mut std::io::stdout();
+    for line in &tally.wrong {
+        let _ = writeln!(out, "{line}");
+    }
+    let n = tally.agree + tally.wrong.len() + tally.left_out.values().sum::<usize>();
+    let (agree, wrong) = (tally.agree, tally.wrong.len());
+    let _ =
+        writeln!(out, "{} cases, {n} combinations: {agree} agree, {wrong} are wrong", cases.len());
+    for (reason, n) in &tally.left_out {
+        let _ = writeln!(out, "{n} left out: {reason}");
+    }
+    ExitCode::from(u8::from(!tally.wrong.is_empty()))
 }
 
 /// The scene of a seed or of a case.
