@@ -85,8 +85,8 @@ fn drawn(name: &str) -> Option<random::Drawn> {
     if let Ok(seed) = name.parse() {
         return Some(random::scene(seed));
     }
-    let text = random::cases().into_iter().find(|case| case.name == name)?.text;
-    Some(random::Drawn { text, step: trial::oracle::STEP, steps: trial::oracle::STEPS })
+    let case = random::cases().into_iter().find(|case| case.name == name)?;
+    Some(random::Drawn { text: case.text, step: case.step, steps: random::STEPS })
 }
 
 /// Channels of a scene that are off by more than `1e-7` of their size, by steps over `share`: as the crates and the judge have them.

@@ -5,7 +5,7 @@ use super::GRAVITY;
 use super::dice::Dice;
 use super::effects::{Effects, KINDS};
 use super::mechanism::{Draft, PLANE, SPACE};
-use super::mechanism_of;
+use super::{mechanism_of, time_scale};
 use crate::scene::{Effect, Kind, Quantity};
 use crate::vector::{cross, dot, norm, scale, sub, unit};
 
@@ -16,10 +16,15 @@ pub struct Case {
     pub name: String,
     /// The scene file.
     pub text: String,
+    /// A step that resolves it [s].
+    pub step: f64,
 }
 
-/// Ten steps of half a millisecond, which resolve all of them [s].
-const DURATION: f64 = 5e-3;
+/// Steps of a case.
+pub const STEPS: u32 = 10;
+/// The longest of them [s]; shorter is this share of the time in which a body turns a radian, or its motion changes by the mechanism's size.
+const LONGEST: f64 = 5e-4;
+const SHARE: f64 = 0.01;
 
 /// What acts beside the effects: nothing, and three laws of guides.
 const OTHERS: [&str; 5] = ["nothing", "sine", "ramp", "table", "level-table"];
@@ -28,7 +33,6 @@ const OTHERS: [&str; 5] = ["nothing", "sine", "ramp", "table", "level-table"];
 #[must_use]
 pub fn cases() -> Vec<Case> {
     let mut list = Vec::new();
-    let mut seed = 0;
     for planar in [true, false] {
         let kinds: Vec<Kind> =
             if planar { PLANE.map(|k| k.0).to_vec() } else { SPACE.map(|k| k.0).to_vec() };
@@ -40,7 +44,6 @@ pub fn cases() -> Vec<Case> {
             let places = Place::ALL.map(|place| [false, true].map(|reversed| (reversed, place)));
             for (reversed, place) in places.into_iter().flatten() {
                 for what in KINDS.into_iter().chain(OTHERS) {
-                    seed += 1;
                     let name = format!(
                         "{} {}{kind:?}, {}, {}, {what}",
                         if planar { "plane:" } else { "space:" },
@@ -48,9 +51,10 @@ pub fn cases() -> Vec<Case> {
                         if reversed { "named in reverse" } else { "in order" },
                         place.name(),
                     );
-                    if let Some(text) = case(seed, planar, (kind, hinged), (reversed, place), what)
+                    if let Some((text, step)) =
+                        case(seed(&name), planar, (kind, hinged), (reversed, place), what)
                     {
-                        list.push(Case { name, text });
+                        list.push(Case { name, text, step });
                     }
                 }
             }
@@ -94,7 +98,7 @@ fn case(
     (kind, hinged): (Kind, bool),
     (reversed, place): (bool, Place),
     what: &str,
-) -> Option<String> {
+) -> Option<(String, f64)> {
     let mut dice = Dice::new(seed);
     let time = (1.0 / GRAVITY).sqrt();
     let gravity = Some(scale(GRAVITY, dice.direction(planar)));
@@ -103,7 +107,7 @@ fn case(
         length: 1.0,
         time,
         mass: 10.0,
-        duration: DURATION,
+        duration: LONGEST * f64::from(STEPS),
         gravity,
         ..Draft::default()
     };
@@ -148,7 +152,15 @@ fn case(
     if contacts.contains(&what) {
         touch(&mut draft);
     }
-    Some(draft.text())
+    let step = LONGEST.min(SHARE * time_scale(&draft));
+    draft.duration = step * f64::from(STEPS);
+    Some((draft.text(), step))
+}
+
+/// Of a name, so that more cases change none (FNV-1a).
+fn seed(name: &str) -> u64 {
+    let step = |sum: u64, byte| (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    name.bytes().fold(0xcbf2_9ce4_8422_2325, step)
 }
 
 fn guide(draft: &mut Draft, joint: usize, what: &str) -> Option<()> {

@@ -14,7 +14,7 @@ use crate::{Mechanism, read};
 use dice::Dice;
 use mechanism::Draft;
 
-pub use cases::{Case, cases};
+pub use cases::{Case, STEPS, cases};
 
 /// Standard gravity, which makes times of lengths [m/s²].
 pub(crate) const GRAVITY: f64 = 9.81;

@@ -1,14 +1,9 @@
 //! The enumerated oracle: every case of joints and effects, by every formulation with every integrator.
 
 use super::{Judged, Method, Verdict, compare, document, judge, rows, trial};
-use crate::random::Case;
+use crate::random::{Case, STEPS};
 use mbs::core::scene::Scene;
 use std::collections::BTreeMap;
-
-/// A step that resolves all cases [s].
-pub const STEP: f64 = 5e-4;
-/// Steps of a case.
-pub const STEPS: u32 = 10;
 
 /// What came of the enumeration.
 #[derive(Debug, Default)]
@@ -29,7 +24,7 @@ pub fn methods() -> Vec<[&'static str; 2]> {
 
 /// Tries one case in every method.
 pub fn case(case: &Case, tally: &mut Tally) {
-    let judged = match judge(&case.text, STEP, STEPS) {
+    let judged = match judge(&case.text, case.step, STEPS) {
         Ok(judged) => judged,
         Err(why) => return tally.wrong.push(format!("{}: {why}", case.name)),
     };
@@ -38,7 +33,7 @@ pub fn case(case: &Case, tally: &mut Tally) {
         Err(why) => return tally.wrong.push(format!("{}: {why}", case.name)),
     };
     for method in methods() {
-        match briefly(&judged, &scene, method, STEP, STEPS) {
+        match briefly(&judged, &scene, method, case.step, STEPS) {
             Verdict::Agrees => tally.agree += 1,
             Verdict::Stops { code, message, .. } if code == "refused" => {
                 *tally.left_out.entry(reason(&message)).or_default() += 1;

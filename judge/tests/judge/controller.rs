@@ -1,7 +1,7 @@
 //! The same enumeration on the solver of fixed capacity, which controllers run: the bits of the recursion that the judge is held against.
 
 use judge::random;
-use judge::trial::{document, oracle};
+use judge::trial::document;
 use mbs::core::scene::{Dimension, Scene};
 use mbs_nostd::export::Gathered;
 use mbs_nostd::{Bounds, Checked, Solver, Unwatched};
@@ -11,7 +11,7 @@ use mbs_recursive::{Options, Planar, Spatial, TreeError, TreeModel, Workspace, b
 /// Room for two bodies: links, coordinates, freedoms, rows, blocks, gains, guides, courses.
 type Room<S> = Solver<f64, S, 12, 16, 12, 8, 64, 256, 2, 8>;
 /// Ten steps of a controller and of the recursion; false where the scene has no tree.
-fn is_followed<S: Space<f64>, const D: usize>(scene: &Scene<f64>, name: &str) -> bool {
+fn is_followed<S: Space<f64>, const D: usize>(scene: &Scene<f64>, name: &str, step: f64) -> bool {
     let tree: TreeModel<f64, S> = match TreeModel::new(scene) {
         Ok(tree) => tree,
         Err(TreeError::EffectCut { .. }) => return false,
@@ -24,10 +24,10 @@ fn is_followed<S: Space<f64>, const D: usize>(scene: &Scene<f64>, name: &str) ->
     let mut solver = Room::new(&model).unwrap_or_else(|e| panic!("{name}: {e}"));
     let (options, bounds) = (Options::default(), Bounds::default());
     let (mut state, mut workspace) = (start.clone(), Workspace::new(&tree));
-    for _ in 0..oracle::STEPS {
-        bounded_step(&tree, (oracle::STEP, &options, bounds), &mut state, &mut workspace)
+    for _ in 0..random::STEPS {
+        bounded_step(&tree, (step, &options, bounds), &mut state, &mut workspace)
             .unwrap_or_else(|e| panic!("{name}: {e}"));
-        solver.step(&model, oracle::STEP, &mut Unwatched).unwrap_or_else(|e| panic!("{name}: {e}"));
+        solver.step(&model, step, &mut Unwatched).unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_eq!(solver.coordinates(), &state.z[..], "{name}");
         assert_eq!(solver.velocities(), &state.v[..], "{name}");
         assert_eq!(solver.accelerations(), &state.a[..], "{name}");
@@ -41,8 +41,8 @@ fn a_controller_moves_every_joint_with_every_effect_as_the_recursion_does() {
     for case in random::cases() {
         let scene = document(&case.text).unwrap_or_else(|e| panic!("{}: {e}", case.name));
         let is_followed = match scene.dimension {
-            Dimension::Planar => is_followed::<Planar, 2>(&scene, &case.name),
-            Dimension::Spatial => is_followed::<Spatial, 3>(&scene, &case.name),
+            Dimension::Planar => is_followed::<Planar, 2>(&scene, &case.name, case.step),
+            Dimension::Spatial => is_followed::<Spatial, 3>(&scene, &case.name, case.step),
         };
         *(if is_followed { &mut followed } else { &mut without }) += 1;
     }
