@@ -1,6 +1,6 @@
 //! What is asked of a run: the scene's `[solver]` table, overridden by the command line, checked against what is built.
 
-mod way;
+pub(crate) mod way;
 
 use crate::choice::{
     FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
@@ -17,10 +17,7 @@ use mbs_scene::{Choice, readable};
 /// Steps of a run at most: at a microsecond each they take eleven days.
 const MOST_STEPS: f64 = 1e12;
 /// Step when neither scene nor command line gives one [s].
-const DEFAULT_STEP: f64 = 1e-3;
-
-/// A step that is longer than the run by less than this share is that of the run, written in fewer digits.
-const SAME_LENGTH: f64 = 1e-9;
+pub(crate) const DEFAULT_STEP: f64 = 1e-3;
 
 /// Error of a step by its estimate when neither gives one, relative to the scene's length.
 const DEFAULT_ERROR: f64 = 1e-6;
@@ -215,12 +212,7 @@ impl core::fmt::Display for SettingsError {
             Self::Scene(SceneError { entry, field, fault }) => {
                 write!(f, "`{field}` of {entry} {fault:#}")
             }
-            Self::StepTooLong { step, duration } => write!(
-                f,
-                "the step of {} s is longer than the run of {} s",
-                readable(*step),
-                readable(*duration)
-            ),
+            Self::StepTooLong { step, duration } => f.write_str(&way::too_long(*step, *duration)),
             Self::TooManySteps { step, duration } => write!(
                 f,
                 "a step of {} s is too short for a run of {} s: more than {MOST_STEPS:e} steps",
@@ -260,7 +252,7 @@ impl Settings {
         let step_max = overrides.step_max.or(of_scene(solver.step_max)).unwrap_or(step);
         let step_max = positive("step_max", step_max)?;
         let rule = step_rule(solver, overrides, (formulation, integrator))?;
-        let is_controlled = integrator.controls_its_step() || rule != StepRule::Fixed;
+        let is_controlled = way::is_controlled(integrator, rule);
         let limits = energy_limits(solver, overrides);
         let duration = overrides.duration.unwrap_or(scene.duration.to_f64());
         let duration = positive("duration", duration)?;

@@ -33,6 +33,9 @@ const RATIOS: &[&str] = &[
     "screw",
 ];
 
+const NOT_YET: &str = "there are no gears, belts and screws yet; where one of the two motions is given, add a `[[guide]]` to each of the two joints, with \
+                       its own rate";
+
 const HINTS: &[Hint] = &[
     // kinds of joints
     says(
@@ -41,12 +44,7 @@ const HINTS: &[Hint] = &[
         "a motor acts on a joint: add `[[guide]]` with its `joint` for a given motion, or `[[effect]]` with `kind = \"torque\"` and the \
          `joint` for a given moment",
     ),
-    says(
-        "revolute",
-        RATIOS,
-        "there are no gears, belts and screws yet; where one of the two motions is given, add a `[[guide]]` to each of the two joints, with \
-         its own rate",
-    ),
+    says("revolute", RATIOS, NOT_YET),
     says(
         "revolute",
         &["spring", "damper", "spring-damper", "bushing", "bumper", "contact"],
@@ -68,12 +66,7 @@ const HINTS: &[Hint] = &[
         DRIVES,
         "a given moment is `kind = \"torque\"` with `joint` or `body`; a given motion is a `[[guide]]` with the `joint`",
     ),
-    says(
-        "torque",
-        RATIOS,
-        "there are no gears, belts and screws yet; where one of the two motions is given, add a `[[guide]]` to each of the two joints, with \
-         its own rate",
-    ),
+    says("torque", RATIOS, NOT_YET),
     says(
         "torque",
         &["gravity", "weight"],
@@ -141,12 +134,7 @@ const HINTS: &[Hint] = &[
         ],
         "add `[[effect]]` with a `kind`, such as \"spring-damper\", \"force\", \"torque\" or \"friction\"",
     ),
-    says(
-        "joint",
-        &["gear", "gears", "belt", "coupling", "screw"],
-        "there are no gears, belts and screws yet; where one of the two motions is given, add a `[[guide]]` to each of the two joints, with \
-         its own rate",
-    ),
+    says("joint", &["gear", "gears", "belt", "coupling", "screw"], NOT_YET),
     means("joint", &["hinge", "constraint", "constraints", "connection", "weld", "revolute"]),
     means("body", &["link", "part", "rod", "mass", "rigid-body"]),
     means("output", &["sensor", "measure", "measurement", "probe", "result", "results", "channel"]),

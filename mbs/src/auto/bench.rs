@@ -9,7 +9,7 @@ use crate::compare::method::{Control, Method};
 use crate::engine::Engine;
 use crate::names::Names;
 use crate::ready::Ready;
-use crate::settings::{Overrides, Settings, SettingsError};
+use crate::settings::{DEFAULT_STEP, Overrides, Settings, SettingsError};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
@@ -30,8 +30,6 @@ const CAUTIOUS: u64 = 4;
 const DOUBT: f64 = 10.0;
 /// Steps that it may try in a piece of that.
 const FEW: u32 = 300;
-/// First step where the scene has none [s].
-const DEFAULT_STEP: f64 = 1e-3;
 
 /// What a pilot measures time by: a processor's clock, or one that counts work.
 pub trait Clock {

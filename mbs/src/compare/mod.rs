@@ -27,6 +27,8 @@ use crate::choice::{Formulation, Precision};
 use crate::interrupt::Interrupt;
 use crate::journal::{Head, Kind, hash};
 use crate::precision::{PrecisionError, not_built_hint};
+use crate::settings::DEFAULT_STEP;
+use crate::settings::way::{is_too_long, too_long};
 use core::fmt::{self, Display, Formatter};
 use ladder::Instants;
 use mbs_core::cluster::scene_length;
@@ -139,18 +141,12 @@ pub trait Watch {
 
 impl Watch for () {}
 
-/// A step that is longer than the run by less than this share is that of the run, written in fewer digits.
-const SAME_LENGTH: f64 = 1e-9;
-
 const KIND: Kind = Kind {
     file: "compare.journal",
     title: "mbs compare journal",
     of: ["a comparison", "another comparison"],
     hashes: &["the scene", "an option", "the reference table"],
 };
-
-/// Step where the scene has none [s].
-const DEFAULT_STEP: f64 = 1e-3;
 
 /// What a comparison is made of.
 struct Study<'a> {
@@ -193,7 +189,7 @@ pub fn compare(
     store.interrupt = request.interrupt.clone();
     let study = Study::new(&scenes, request);
     let longest = request.steps.iter().copied().fold(0.0, f64::max);
-    if longest > study.duration * (1.0 + SAME_LENGTH) {
+    if is_too_long(longest, study.duration) {
         return Err(CompareError::StepTooLong(longest, study.duration));
     }
     watch.plan(&study.plan(store.resumed));
@@ -395,12 +391,7 @@ impl Display for CompareError {
                 "no method that is accurate enough for a reference runs the scene to its end; the last one: {why}"
             ),
             Self::NotPositive(name) => write!(f, "{name} must be positive and finite"),
-            Self::StepTooLong(step, duration) => write!(
-                f,
-                "the step of {} s is longer than the run of {} s",
-                readable(*step),
-                readable(*duration)
-            ),
+            Self::StepTooLong(step, duration) => f.write_str(&too_long(*step, *duration)),
             Self::Repeats(n) => {
                 write!(f, "each run must be timed twice at least, but repeats are {n}")
             }

@@ -1,10 +1,28 @@
 //! Settings as what runs: a step that goes with the run, and the way in words.
 
-use super::{SAME_LENGTH, Settings, SettingsError};
+use super::{Settings, SettingsError};
 use crate::choice::{IntegratorKind, StepRule};
 use crate::settings::Overrides;
 use mbs_core::scene::Scene;
 use mbs_scene::{Chosen, readable};
+
+/// A step that is longer than the run by less than this share is that of the run, written in fewer digits.
+const SAME_LENGTH: f64 = 1e-9;
+
+/// Is the length of the steps controlled, by the integrator or by a rule?
+pub(super) fn is_controlled(integrator: IntegratorKind, rule: StepRule) -> bool {
+    integrator.controls_its_step() || rule != StepRule::Fixed
+}
+
+/// Is a step [s] longer than the run?
+pub(crate) fn is_too_long(step: f64, duration: f64) -> bool {
+    step > duration * (1.0 + SAME_LENGTH)
+}
+
+/// Says so.
+pub(crate) fn too_long(step: f64, duration: f64) -> String {
+    format!("the step of {} s is longer than the run of {} s", readable(step), readable(duration))
+}
 
 impl Settings {
     /// Refuses a step of fixed length that scene or caller ask for and that is longer than the run, which takes one step of its own length
@@ -17,10 +35,9 @@ impl Settings {
         scene: &Scene<T>,
         overrides: &Overrides,
     ) -> Result<(), SettingsError> {
-        let is_controlled = self.integrator.controls_its_step() || self.rule != StepRule::Fixed;
         let is_asked = overrides.step.is_some() || scene.solver.step.is_some();
-        if is_asked && !is_controlled && self.step > self.duration * (1.0 + SAME_LENGTH) {
-            let (step, duration) = (self.step, self.duration);
+        let (step, duration) = (self.step, self.duration);
+        if is_asked && !is_controlled(self.integrator, self.rule) && is_too_long(step, duration) {
             return Err(SettingsError::StepTooLong { step, duration });
         }
         Ok(())
