@@ -113,13 +113,8 @@ fn command(
     let mut object = object.to_string();
     let mut status = if result.is_ok() { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) };
     if let Some(folder) = &folder {
-        match write(folder, (file, &object), &document) {
-            Ok(whole) => object = whole,
-            Err(error) => {
-                Refusal::lost(&error).warn();
-                status = ExitCode::from(STOPPED);
-            }
-        }
+        let written = write(folder, (file, &object), &document);
+        object = Refusal::unless_lost(written, &mut status).unwrap_or(object);
     }
     let status = say(if common.json { &object } else { &text }, status);
     if let Some(error) = result.err().filter(|_| !common.json) {

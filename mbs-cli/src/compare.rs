@@ -253,15 +253,10 @@ fn tell(
     let mut status = if is_any { ExitCode::SUCCESS } else { ExitCode::from(STOPPED) };
     let (object, mut wrote) = (comparison.to_json(), String::new());
     if let Some((folder, id)) = &written {
-        match write_files((comparison, &object), folder, id) {
-            Ok(_) => {
-                let out = folder.path().display();
-                wrote = format!("\nwrote compare.csv, compare.json and compare.html to {out}\n");
-            }
-            Err(error) => {
-                Refusal::lost(&error).warn();
-                status = ExitCode::from(STOPPED);
-            }
+        let written = write_files((comparison, &object), folder, id);
+        if Refusal::unless_lost(written, &mut status).is_some() {
+            let out = folder.path().display();
+            wrote = format!("\nwrote compare.csv, compare.json and compare.html to {out}\n");
         }
     }
     let text = if arguments.json { object } else { comparison.report().text() + &wrote };

@@ -86,16 +86,11 @@ fn tell(begun: &files::Begun, checkup: &Checkup, arguments: &Arguments) -> ExitC
     if let Some(folder) = folder {
         let (id, page) = (files::results_id(document, settings), page.page());
         let (json, page) = (("doctor.json", &*object), ("doctor.html", &*page));
-        match files::object_and_page(folder, &id, json, page) {
-            Ok(whole) => {
-                object = whole;
-                let out = folder.path().display();
-                text.push_str(&format!("\nwrote doctor.json and doctor.html to {out}\n"));
-            }
-            Err(error) => {
-                Refusal::lost(&error).warn();
-                status = ExitCode::from(STOPPED);
-            }
+        let written = files::object_and_page(folder, &id, json, page);
+        if let Some(whole) = Refusal::unless_lost(written, &mut status) {
+            object = whole;
+            let out = folder.path().display();
+            text.push_str(&format!("\nwrote doctor.json and doctor.html to {out}\n"));
         }
     }
     say(if arguments.json { &object } else { &text }, status)

@@ -107,16 +107,11 @@ fn tell(begun: &files::Begun, explanation: &Explanation, arguments: &Arguments) 
         let id = files::results_id(&begun.document, &begun.settings);
         let page = report.page();
         let (json, page) = (("explain.json", &*object), ("explain.html", &*page));
-        match files::object_and_page(folder, &id, json, page) {
-            Ok(whole) => {
-                object = whole;
-                let out = folder.path().display();
-                wrote = format!("\nwrote explain.json and explain.html to {out}\n");
-            }
-            Err(error) => {
-                Refusal::lost(&error).warn();
-                status = ExitCode::from(STOPPED);
-            }
+        let written = files::object_and_page(folder, &id, json, page);
+        if let Some(whole) = Refusal::unless_lost(written, &mut status) {
+            object = whole;
+            let out = folder.path().display();
+            wrote = format!("\nwrote explain.json and explain.html to {out}\n");
         }
     }
     let text = if arguments.json { object } else { report.text() + &wrote };

@@ -79,6 +79,18 @@ impl Refusal {
         Self::unwritable(error).stopped()
     }
 
+    /// What was written; where it could not be, that is said, and the status becomes that of a run that stopped.
+    pub(crate) fn unless_lost<W>(
+        written: Result<W, WriteError>,
+        status: &mut ExitCode,
+    ) -> Option<W> {
+        let lost = |error: &WriteError| {
+            Self::lost(error).warn();
+            *status = ExitCode::from(STOPPED);
+        };
+        written.inspect_err(lost).ok()
+    }
+
     /// Of a file that could not be written.
     pub(crate) fn unwritable(error: &WriteError) -> Self {
         let hint =

@@ -303,15 +303,10 @@ fn report(
         } else {
             let provenance = arguments.provenance(&run.overrides, settings);
             let id = files::results_id(&run.begun.document, settings);
-            match write_files(outcome, folder, (provenance, &id)) {
-                Ok(whole) => {
-                    (object, written) = (whole, Some(folder.path()));
-                    run.kept.end(matches!(error, Some(StopError::Interrupted)));
-                }
-                Err(error) => {
-                    Refusal::lost(&error).warn();
-                    status = ExitCode::from(STOPPED);
-                }
+            let whole = write_files(outcome, folder, (provenance, &id));
+            if let Some(whole) = Refusal::unless_lost(whole, &mut status) {
+                (object, written) = (whole, Some(folder.path()));
+                run.kept.end(matches!(error, Some(StopError::Interrupted)));
             }
         }
     }
