@@ -1,6 +1,7 @@
 //! The choice by measurement on real scenes. What is timed is not asserted: whatever is chosen must keep what was wanted.
 
-use mbs::auto::{Clock, Goal, Plan, Processor, plan, run_plan};
+use super::common::CountedClock;
+use mbs::auto::{Goal, Plan, plan, run_plan};
 use mbs::scene_file::Document;
 use mbs::{Overrides, Settings};
 use mbs_core::scene::Scene;
@@ -16,24 +17,10 @@ fn read(name: &str) -> (Document, Scene<f64>) {
     (document, scene)
 }
 
-/// A clock that counts work: the same every time.
-#[derive(Default)]
-struct Counted(f64);
-
-impl Clock for Counted {
-    fn seconds(&mut self) -> f64 {
-        self.0
-    }
-
-    fn worked(&mut self, nominal: f64) {
-        self.0 += nominal;
-    }
-}
-
 fn planned(name: &str, base: &Overrides, goal: Goal) -> Plan {
     let (document, scene) = read(name);
     let settings = Settings::new(&scene, base).expect("the settings go together");
-    plan((&document, &scene), (base, settings), goal, &mut Counted::default())
+    plan((&document, &scene), (base, settings), goal, &mut CountedClock::default())
         .expect("the goal can be meant")
 }
 
@@ -62,7 +49,7 @@ fn the_wanted_error_is_kept_on_the_pendulum_against_its_closed_form() {
         let (document, scene) = read("simple-pendulum");
         let base = Overrides::default();
         let settings = Settings::new(&scene, &base).unwrap();
-        let clock = &mut Processor::new(1);
+        let clock = &mut CountedClock::default();
         let plan = plan((&document, &scene), (&base, settings), error(wanted), clock).unwrap();
         let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
         let (t, row) = outcome.rows().last().unwrap();
@@ -110,8 +97,12 @@ fn where_the_first_stops_the_next_runs_and_the_choice_says_so() {
     let of = |formulation: &str| {
         let overrides =
             Overrides { formulation: Some(formulation.into()), step: Some(1e-3), ..base.clone() };
-        let choice =
-            plan((&document, &scene), (&base, settings.clone()), error(1e-2), &mut Counted(0.0));
+        let choice = plan(
+            (&document, &scene),
+            (&base, settings.clone()),
+            error(1e-2),
+            &mut CountedClock::default(),
+        );
         let choice = choice.unwrap().first().choice.clone();
         Settings { choice, ..Settings::new(&scene, &overrides).unwrap() }
     };

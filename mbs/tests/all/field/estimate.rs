@@ -1,7 +1,8 @@
 //! What a run says of its own accuracy.
 
+use super::super::common::CountedClock;
 use super::{field, read, text};
-use mbs::auto::{Clock, Goal, Processor, plan, run_plan};
+use mbs::auto::{Goal, plan, run_plan};
 use mbs::core::scene::{Dimension, Scene};
 use mbs::estimate::estimate;
 use mbs::scene_file::{Document, ErrorEstimate};
@@ -29,14 +30,14 @@ fn by(formulation: &str, integrator: &str, tolerance: Option<f64>) -> Overrides 
     Overrides { formulation, integrator, tolerance, ..Overrides::default() }
 }
 
-/// A default run with its estimate, for which it has the time of a command that also reads the scene and writes the results: twice
-/// that of the steps.
+/// Nominal seconds that an estimate may take: more than it needs.
+const ENOUGH: f64 = 10.0;
+
+/// A default run with its estimate.
 fn estimated(scene: &Scene<f64>) -> (Outcome, ErrorEstimate) {
-    let mut clock = Processor::new(1);
     let (settings, mut outcome) = run(scene, &Overrides::default());
-    let seconds = 2.0 * clock.seconds();
     let before = outcome.rows().to_vec();
-    estimate(scene, &settings, &mut outcome, (&mut clock, seconds));
+    estimate(scene, &settings, &mut outcome, (&mut CountedClock::default(), ENOUGH));
     assert_eq!(before, outcome.rows(), "an estimate changes no result");
     let estimate = outcome.summary.estimate.clone().expect("an estimate, or why there is none");
     (outcome, estimate)
@@ -127,7 +128,7 @@ fn a_run_that_stops_has_no_estimate_and_says_why() {
     let overrides = Overrides { energy_alarm: Some(1e-9), ..Overrides::default() };
     let settings = Settings::new(&scene, &overrides).unwrap();
     let mut outcome = mbs::run::<f64, 3>(&scene, &settings, &mut ());
-    estimate(&scene, &settings, &mut outcome, (&mut Processor::new(1), 1.0));
+    estimate(&scene, &settings, &mut outcome, (&mut CountedClock::default(), ENOUGH));
     let estimate = outcome.summary.estimate.unwrap();
     assert_eq!(estimate.missing.as_deref(), Some("the run stopped before its end"));
 }
@@ -217,7 +218,7 @@ fn a_choice_by_measurement_is_right_or_refused_where_coordinates_disagree() {
         let base = Overrides::default();
         let settings = Settings::new(&scene, &base).expect("the settings go together");
         let goal = Goal { error: Some(1e-4), deadline: None };
-        let clock = &mut Processor::new(1);
+        let clock = &mut CountedClock::default();
         let Ok(plan) = plan((&document, &scene), (&base, settings), goal, clock) else { continue };
         let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
         let rate = last(&outcome, "j_rate")[component];
@@ -234,7 +235,8 @@ fn a_choice_for_a_vehicle_that_jumps_sees_its_landing_and_keeps_its_error() {
     let base = Overrides { formulation: Some("auto".to_owned()), ..Overrides::default() };
     let settings = Settings::new(&scene, &base).expect("the settings go together");
     let goal = Goal { error: Some(1e-2), deadline: None };
-    let plan = plan((&document, &scene), (&base, settings), goal, &mut Processor::new(1)).unwrap();
+    let plan =
+        plan((&document, &scene), (&base, settings), goal, &mut CountedClock::default()).unwrap();
     let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
     let exact = Overrides { step: Some(0.05), ..by("recursive", "rk853", Some(1e-10)) };
     let (_, reference) = run(&scene, &exact);
