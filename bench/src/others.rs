@@ -5,7 +5,7 @@ use crate::lane::Sums;
 use crate::race::{Runner, Timing, race, timed};
 use crate::scenes::steps;
 use crate::{Request, say};
-use mbs::{Formulation, InSpace, Overrides, Plane, Settings, Simulation};
+use mbs::{FormulationKind, InSpace, Overrides, Plane, Settings, Simulation};
 use mbs_core::scene::Scene;
 use serde_json::{Value, json};
 
@@ -106,7 +106,7 @@ where
     if pilot > LONGEST {
         return Err(format!("one step takes {pilot:.1} s: not measured further"));
     }
-    if Formulation::ALL.iter().any(|f| f.name() == formulation && f.takes_threads()) {
+    if FormulationKind::ALL.iter().any(|f| f.name() == formulation && f.takes_threads()) {
         for &threads in request.threads.iter().filter(|&&n| n > 1) {
             lanes.push(simulated(threads)?);
         }

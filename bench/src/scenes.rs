@@ -6,7 +6,7 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Scene, Start};
 use mbs_core::start::assemble;
 use mbs_core::{Cliques, Real};
-use mbs_scene::{Document, Family, generate};
+use mbs_scene::{Family, SceneFile, generate};
 use mbs_sparse::{Multifrontal, Options};
 use serde_json::{Value, json};
 use std::time::Instant;
@@ -24,7 +24,7 @@ pub(crate) fn read<T: Real>(name: &str) -> Result<Scene<T>, String> {
         Ok(document) => document,
         Err(missing) => {
             let Some((family, n)) = family(name) else { return Err(missing) };
-            Document::parse(&made(family, n)?, name).map_err(|e| e.render())?
+            SceneFile::parse(&made(family, n)?, name).map_err(|e| e.render())?
         }
     };
     document.scene().map_err(|e| e.render())
@@ -51,10 +51,10 @@ fn made(family: &str, n: usize) -> Result<String, String> {
 }
 
 /// A file in `scenes/`.
-fn file(name: &str) -> Result<Document, String> {
+fn file(name: &str) -> Result<SceneFile, String> {
     let path = format!("scenes/{name}.toml");
     let bytes = std::fs::read(&path).map_err(|e| format!("no scene `{name}`: {path}: {e}"))?;
-    Document::from_bytes(&bytes, &path).map_err(|e| e.render())
+    SceneFile::from_bytes(&bytes, &path).map_err(|e| e.render())
 }
 
 /// A scene's model at its assembled start.
@@ -123,7 +123,7 @@ pub(crate) mod tests {
     /// A chain of so many links.
     pub(crate) fn chain(n: usize) -> Scene<f64> {
         let text = made("chain", n).unwrap();
-        Document::parse(&text, "chain").unwrap().scene().unwrap()
+        SceneFile::parse(&text, "chain").unwrap().scene().unwrap()
     }
 
     #[test]

@@ -1,16 +1,16 @@
 //! One effect of each kind.
 
 use mbs_core::laws::body::{Action, BodyMotion};
-use mbs_core::laws::own::{OwnScalar, OwnWrench, ScalarLaw, WrenchLaw};
+use mbs_core::laws::own::{ScalarLaw, UserBodyLaw, UserScalarLaw, WrenchLaw};
 use mbs_core::laws::scalar::Measure;
 use mbs_core::scene::{
-    AxisFrame, BodyRef, CalspanCoefficients, Course, Dimension, EffectKind, OwnLaw, PolynomialPiece,
+    AxisFrame, BodyId, CalspanCoefficients, Dimension, EffectKind, PolynomialPiece, Signal, UserLaw,
 };
 
 /// The coupler, its centre, and a pair of points on the ground and on the rocker.
 const COUPLER: usize = 1;
 const CENTER: [f64; 3] = [1.0, 1.5, 0.25];
-const BODIES: [BodyRef; 2] = [BodyRef::Ground, BodyRef::Body(2)];
+const BODIES: [BodyId; 2] = [BodyId::Ground, BodyId::Body(2)];
 const POINTS: [[f64; 3]; 2] = [[0.5, 0.0, 0.0], [2.0, 1.0, 0.5]];
 
 /// Name and data of one effect of each kind.
@@ -27,7 +27,7 @@ pub(crate) fn all(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> 
 /// What every build has.
 fn springs_and_forces(points: [[f64; 3]; 2], at: [f64; 3]) -> Vec<(&'static str, EffectKind<f64>)> {
     let (bodies, body) = (BODIES, COUPLER);
-    let course = Course::Input([3.0, 0.0, 0.0]);
+    let course = Signal::Input([3.0, 0.0, 0.0]);
     let (stiffness, damping) = (100.0, 1.0);
     vec![
         (
@@ -81,8 +81,8 @@ fn between(points: [[f64; 3]; 2], six: [f64; 6]) -> Vec<(&'static str, EffectKin
         (
             "own-length",
             EffectKind::Own {
-                law: OwnLaw::Length { bodies, points, law: OwnScalar::of::<Steady>() },
-                course: Course::Constant([1.0; 3]),
+                law: UserLaw::Length { bodies, points, law: UserScalarLaw::of::<Steady>() },
+                course: Signal::Constant([1.0; 3]),
             },
         ),
     ]
@@ -120,13 +120,13 @@ fn on_a_body(at: [f64; 3], dimension: Dimension) -> Vec<(&'static str, EffectKin
         (
             "own-body",
             EffectKind::Own {
-                law: OwnLaw::Body {
+                law: UserLaw::Body {
                     body,
                     at,
                     axis: [1.0, 0.0, 0.0],
-                    law: OwnWrench::of::<Steady>(),
+                    law: UserBodyLaw::of::<Steady>(),
                 },
-                course: Course::Constant([1.0; 3]),
+                course: Signal::Constant([1.0; 3]),
             },
         ),
     ]

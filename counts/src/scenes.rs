@@ -2,8 +2,8 @@
 
 use crate::effects;
 use mbs_core::scene::{
-    Body, BodyRef, Dimension, Effect, Guide, GuideLaw, Inertia, Initial, InitialTarget, Joint,
-    JointKind, Scene,
+    Body, BodyId, Dimension, Effect, Guide, Inertia, InitialCondition, InitialTarget, Joint,
+    JointKind, Motion, Scene,
 };
 
 /// The four-bar with an effect of that name, `out`, `off` or `on`; or with a guide of its crank.
@@ -14,7 +14,7 @@ pub(crate) fn with(dimension: Dimension, effect: &str, switch: &str) -> Scene<f6
     let effects = effects.filter(|(name, _)| *name == effect && switch != "out");
     scene.effects.extend(effects.map(|(name, kind)| Effect { name: name.into(), enabled, kind }));
     if effect == "guide" {
-        let law = GuideLaw::Sine { amplitude: 0.5, frequency: 1.0, phase: 0.0 };
+        let law = Motion::Sine { amplitude: 0.5, frequency: 1.0, phase: 0.0 };
         scene.initials.clear();
         scene.guides.push(Guide { joint: 0, law });
     }
@@ -36,20 +36,20 @@ fn four_bar(dimension: Dimension) -> Scene<f64> {
             Inertia::Spatial([0.4, 0.3, 0.5, 0.0, 0.0, 0.0])
         },
     };
-    let joint = |name: &str, kind: JointKind, bodies: [BodyRef; 2], at: [f64; 3], axes| Joint {
+    let joint = |name: &str, kind: JointKind, bodies: [BodyId; 2], at: [f64; 3], axes| Joint {
         name: name.into(),
         kind: if is_planar { JointKind::Revolute } else { kind },
         bodies,
         points: [at; 2],
         axes: if is_planar { [None; 2] } else { axes },
     };
-    let [crank, coupler, rocker] = [0, 1, 2].map(BodyRef::Body);
+    let [crank, coupler, rocker] = [0, 1, 2].map(BodyId::Body);
     let (x, y, z) = (Some([1.0, 0.0, 0.0]), Some([0.0, 1.0, 0.0]), Some([0.0, 0.0, 1.0]));
     let joints = vec![
-        joint("a", JointKind::Revolute, [BodyRef::Ground, crank], a, [z, None]),
+        joint("a", JointKind::Revolute, [BodyId::Ground, crank], a, [z, None]),
         joint("b", JointKind::Spherical, [crank, coupler], b, [None; 2]),
         joint("c", JointKind::Universal, [coupler, rocker], c, [x, y]),
-        joint("d", JointKind::Revolute, [BodyRef::Ground, rocker], d, [z, None]),
+        joint("d", JointKind::Revolute, [BodyId::Ground, rocker], d, [z, None]),
     ];
     Scene {
         name: "four-bar".into(),
@@ -58,7 +58,7 @@ fn four_bar(dimension: Dimension) -> Scene<f64> {
         duration: 1.0,
         bodies: vec![body("crank", [a, b]), body("coupler", [b, c]), body("rocker", [c, d])],
         joints,
-        initials: vec![Initial {
+        initials: vec![InitialCondition {
             target: InitialTarget::Joint { joint: 0, value: None, rate: Some(vec![2.0]) },
         }],
         guides: vec![],

@@ -1,6 +1,6 @@
 //! The scene of these examples: two uniform rods of 1 m and 1 kg, let go from the horizontal.
 
-use mbs_core::scene::{Body, BodyRef, Dimension, Inertia, Joint, JointKind, Scene, SolverChoice};
+use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, Scene, SolverTable};
 
 /// Where the tip is in the reference configuration [m].
 pub const TIP: [f64; 3] = [2.0, 0.0, 0.0];
@@ -29,7 +29,7 @@ pub fn double_pendulum() -> Scene<f64> {
         center: [(from[0] + to[0]) / 2.0, 0.0, 0.0],
         inertia: Inertia::Rod { from, to },
     };
-    let revolute = |name: &str, bodies: [BodyRef; 2], at: [f64; 3]| Joint {
+    let revolute = |name: &str, bodies: [BodyId; 2], at: [f64; 3]| Joint {
         name: name.into(),
         kind: JointKind::Revolute,
         bodies,
@@ -37,7 +37,7 @@ pub fn double_pendulum() -> Scene<f64> {
         axes: [None; 2],
     };
     let (pivot, elbow) = ([0.0; 3], [1.0, 0.0, 0.0]);
-    let (upper, lower) = (BodyRef::Body(0), BodyRef::Body(1));
+    let (upper, lower) = (BodyId::Body(0), BodyId::Body(1));
     Scene {
         name: "double pendulum".into(),
         dimension: Dimension::Planar,
@@ -45,7 +45,7 @@ pub fn double_pendulum() -> Scene<f64> {
         duration: 1.0,
         bodies: vec![rod("upper", pivot, elbow), rod("lower", elbow, TIP)],
         joints: vec![
-            revolute("pivot", [BodyRef::Ground, upper], pivot),
+            revolute("pivot", [BodyId::Ground, upper], pivot),
             revolute("elbow", [upper, lower], elbow),
         ],
         initials: vec![],
@@ -54,6 +54,6 @@ pub fn double_pendulum() -> Scene<f64> {
         road: Default::default(),
         start: Default::default(),
         outputs: vec![],
-        solver: SolverChoice::default(),
+        solver: SolverTable::default(),
     }
 }

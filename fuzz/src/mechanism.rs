@@ -178,13 +178,13 @@ fn guide(text: &mut String, joint: usize, size: f64, dice: &mut Dice) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mbs::scene_file::Document;
+    use mbs::scene_file::SceneFile;
 
     #[test]
     fn many_random_mechanisms_are_scenes() {
         let is_scene = |seed: u64| {
             let text = mechanism(&mut Dice::new(seed));
-            Document::from_bytes(text.as_bytes(), "x").is_ok_and(|d| d.scene::<f64>().is_ok())
+            SceneFile::from_bytes(text.as_bytes(), "x").is_ok_and(|d| d.scene::<f64>().is_ok())
         };
         let scenes = (0..500).filter(|&seed| is_scene(seed)).count();
         assert!(scenes > 100, "{scenes} of 500 are scenes");

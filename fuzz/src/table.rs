@@ -6,7 +6,7 @@ use mbs::Overrides;
 use mbs::compare::check_table;
 use mbs::core::scene::Scene;
 use mbs::export::ladder;
-use mbs::scene_file::{Channel, Document};
+use mbs::scene_file::{Channel, SceneFile};
 use mbs::sweep::{Study, StudyError};
 
 /// Rows of a table of references.
@@ -16,12 +16,12 @@ const ROWS: usize = 12;
 ///
 /// # Errors
 /// What must not be: a refusal without words, or without its place.
-pub fn tables(document: &Document, scene: &Scene<f64>, dice: &mut Dice) -> Result<(), String> {
+pub fn tables(document: &SceneFile, scene: &Scene<f64>, dice: &mut Dice) -> Result<(), String> {
     if let Err(error) = check_table(scene, &damaged(&reference(scene), dice)) {
         words("a table of references", &error.to_string(), &error.hint())?;
     }
     let sweep = damaged(&sweep(scene), dice);
-    let sweep = match Document::parse(&sweep, "fuzzed-sweep.toml") {
+    let sweep = match SceneFile::parse(&sweep, "fuzzed-sweep.toml") {
         Ok(sweep) => Study::new(document.clone(), &sweep, &Overrides::default()).map(drop),
         Err(error) => Err(StudyError::Read(error)),
     };

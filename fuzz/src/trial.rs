@@ -2,7 +2,7 @@
 
 use crate::{Dice, tables, torn};
 use mbs::core::scene::Scene;
-use mbs::scene_file::Document;
+use mbs::scene_file::SceneFile;
 use mbs::{Overrides, Settings};
 
 /// Steps of a run.
@@ -53,7 +53,7 @@ pub enum Verdict {
 /// Puts a text to the trial; a panic is the caller's to see. `turn` chooses the precision.
 #[must_use]
 pub fn trial(text: &[u8], turn: usize) -> Verdict {
-    let document = match Document::from_bytes(text, "fuzzed.toml") {
+    let document = match SceneFile::from_bytes(text, "fuzzed.toml") {
         Ok(document) => document,
         Err(error) => return refusal(&error.render()),
     };
@@ -105,7 +105,7 @@ fn refusal(words: &str) -> Verdict {
 
 /// Runs a scene for some steps, of a share of its own step: was it completed? Nothing where it is refused.
 fn run(
-    (document, scene): (&Document, &Scene<f64>),
+    (document, scene): (&SceneFile, &Scene<f64>),
     [formulation, integrator, control]: [&str; 3],
     (precision, share): (&str, f64),
 ) -> Result<Option<bool>, String> {

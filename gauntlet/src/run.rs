@@ -1,8 +1,8 @@
 //! One run of a case's scene: to its end, to its typed error, or to what must not be.
 
 use crate::case::Options;
-use mbs::scene_file::Document;
-use mbs::{Formulation, Overrides, Settings};
+use mbs::scene_file::SceneFile;
+use mbs::{FormulationKind, Overrides, Settings};
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -65,7 +65,8 @@ pub fn run(scene: &str, method: &str, step: f64, options: Options) -> Ran {
     let integrator = if method == EXTRAPOLATED { "gbs" } else { "trapezoidal" };
     let is_extrapolated = method == EXTRAPOLATED;
     let formulation = if is_extrapolated { "recursive" } else { method };
-    let is_augmented = Formulation::ALL.iter().any(|f| f.name() == formulation && f.is_augmented());
+    let is_augmented =
+        FormulationKind::ALL.iter().any(|f| f.name() == formulation && f.is_augmented());
     let overrides = Overrides {
         formulation: Some(formulation.to_owned()),
         integrator: Some(integrator.to_owned()),
@@ -87,7 +88,7 @@ pub fn run(scene: &str, method: &str, step: f64, options: Options) -> Ran {
 pub const EXTRAPOLATED: &str = "extrapolated";
 
 fn go(scene: &str, overrides: &Overrides) -> Ran {
-    let document = match Document::from_bytes(scene.as_bytes(), "case.toml") {
+    let document = match SceneFile::from_bytes(scene.as_bytes(), "case.toml") {
         Ok(document) => document,
         Err(error) => return Ran::Broken(format!("refused: {}", error.render())),
     };

@@ -9,7 +9,7 @@ use crate::table::{counted, fixed};
 use clap::{Args, ValueEnum};
 use mbs::core::scene::Scene;
 use mbs::folder::{Folder, WriteError, id};
-use mbs::scene_file::{Channel, Document};
+use mbs::scene_file::{Channel, SceneFile};
 use mbs::{LeftOut, Names, Place, Search, Still, StopError, words};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -127,7 +127,7 @@ fn command(
 fn write(
     folder: &Folder,
     (file, object): (&str, &str),
-    document: &Document,
+    document: &SceneFile,
 ) -> Result<String, WriteError> {
     folder.begin(&id(&[document.text(), file]))?.finish(file, object)
 }
@@ -138,7 +138,7 @@ fn failure(scene: &Scene<f64>, error: &StopError) -> Value {
     json!({ "scene": scene.name, "completed": false, "error": report })
 }
 
-fn located(scene: &Scene<f64>, error: &StopError, document: &Document) -> String {
+fn located(scene: &Scene<f64>, error: &StopError, document: &SceneFile) -> String {
     let report = error.report(0.0, &Names::new(scene));
     stopped("no result", &report, error, document)
 }

@@ -9,7 +9,7 @@ use indicatif::ProgressBar;
 use mbs::compare::{CompareError, Earlier, JournalError, Request, Watch, compare};
 use mbs::folder::{Folder, WriteError, id};
 use mbs::scene_file::compare::{Comparison, Status, comparison_page, write_comparison};
-use mbs::{FORMULATIONS, Formulation, PRECISIONS, Precision};
+use mbs::{FORMULATIONS, FormulationKind, PRECISIONS, Precision};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -75,7 +75,7 @@ impl Arguments {
         let plain = Request::default();
         // `auto` stands before the formulations
         let formulation =
-            |name: &String| named("formulation", name, &FORMULATIONS[1..], &Formulation::ALL);
+            |name: &String| named("formulation", name, &FORMULATIONS[1..], &FormulationKind::ALL);
         let precision = |name: &String| named("precision", name, &PRECISIONS, &Precision::ALL);
         Ok(Request {
             formulations: self.formulation.iter().map(formulation).collect::<Result<_, _>>()?,

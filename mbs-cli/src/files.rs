@@ -4,7 +4,7 @@ use crate::refusal::Refusal;
 use crate::say::warn;
 use mbs::core::scene::{Entry, Scene};
 use mbs::folder::{Folder, WriteError, id, write_file};
-use mbs::scene_file::{Choice, Document, Provenance, readable};
+use mbs::scene_file::{Choice, Provenance, SceneFile, readable};
 use mbs::{Overrides, Settings, SettingsError};
 use std::fs::File;
 use std::io::{self, Read};
@@ -25,7 +25,7 @@ pub(crate) fn read_big() {
 
 /// What a command that runs a scene begins with.
 pub(crate) struct Begun {
-    pub(crate) document: Document,
+    pub(crate) document: SceneFile,
     pub(crate) scene: Scene<f64>,
     pub(crate) settings: Settings,
     /// Where the results go.
@@ -33,7 +33,7 @@ pub(crate) struct Begun {
 }
 
 /// Reads a scene file and its scene; else the refusal.
-pub(crate) fn scene(path: &Path) -> Result<(Document, Scene<f64>), Refusal> {
+pub(crate) fn scene(path: &Path) -> Result<(SceneFile, Scene<f64>), Refusal> {
     let document = document(path, "scene file")?;
     let scene = document.scene::<f64>();
     let scene = scene.map_err(|error| Refusal::read("scene-refused", &error))?;
@@ -69,7 +69,7 @@ pub(crate) fn folder(out: &Path, files: &[&str]) -> Result<Folder, Refusal> {
 }
 
 /// Reads a file of a kind that is called `what`; else the refusal.
-pub(crate) fn document(path: &Path, what: &str) -> Result<Document, Refusal> {
+pub(crate) fn document(path: &Path, what: &str) -> Result<SceneFile, Refusal> {
     let bytes = read(path, what)?;
     // no value stands without one of these
     let values = bytes.iter().filter(|byte| matches!(byte, b',' | b'=')).count();
@@ -79,7 +79,7 @@ pub(crate) fn document(path: &Path, what: &str) -> Result<Document, Refusal> {
             &format!("has more than {} million values", MOST_VALUES / 1_000_000),
         ));
     }
-    let document = Document::from_bytes(&bytes, &path.display().to_string());
+    let document = SceneFile::from_bytes(&bytes, &path.display().to_string());
     document.map_err(|error| Refusal::read("scene-refused", &error))
 }
 
@@ -122,7 +122,7 @@ pub(crate) fn write(path: &Path, bytes: &[u8], input: Option<&Path>) -> Result<(
 }
 
 /// A refusal of settings, with its place when the scene asks for them.
-pub(crate) fn refusal(error: &SettingsError, document: &Document) -> Refusal {
+pub(crate) fn refusal(error: &SettingsError, document: &SceneFile) -> Refusal {
     let refusal = Refusal::settings(error);
     match error {
         SettingsError::NotBuilt { key, from_scene: true, .. } => {
@@ -134,7 +134,7 @@ pub(crate) fn refusal(error: &SettingsError, document: &Document) -> Refusal {
 }
 
 /// The id of results of a scene that was run with these settings.
-pub(crate) fn results_id(document: &Document, settings: &Settings) -> String {
+pub(crate) fn results_id(document: &SceneFile, settings: &Settings) -> String {
     // what a pilot measured differs from time to time, and threads change no bit
     let same = Settings { choice: None, threads: 1, ..settings.clone() };
     id(&[document.text(), &format!("{same:?}")])

@@ -4,7 +4,7 @@ use crate::refusal::Refusal;
 use crate::say::{out, warn};
 use crate::{STOPPED, files};
 use clap::{Args, ValueEnum};
-use mbs::scene_file::{Document, Family, GenerateError, generate};
+use mbs::scene_file::{Family, GenerateError, SceneFile, generate};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -98,7 +98,7 @@ fn text(arguments: &Arguments) -> Result<String, Refusal> {
                 let hint = "give the scene of one vehicle, such as --of scenes/iltis-stairs.toml";
                 return missing("a convoy needs --of", hint);
             };
-            let (vehicle, _): (Document, _) = files::scene(of)?;
+            let (vehicle, _): (SceneFile, _) = files::scene(of)?;
             let spacing = arguments.spacing.unwrap_or(SPACING);
             make(Family::Convoy { vehicle: &vehicle, count, spacing })
         }

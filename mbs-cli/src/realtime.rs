@@ -7,7 +7,7 @@ use mbs::folder::{Part, WriteError};
 use mbs::realtime::{
     Degrade, OVERRUNS, Overrun, Pacing, PacingError, Quiet, SystemClock, run_document,
 };
-use mbs::scene_file::{Document, RunSummary, write_overruns};
+use mbs::scene_file::{RunSummary, SceneFile, write_overruns};
 use mbs::{Outcome, Settings};
 
 /// Options of a paced run.
@@ -80,7 +80,7 @@ fn policy(text: &str) -> Result<Overrun, String> {
 
 /// Runs at the pace of the system's clock; else the refusal.
 pub(crate) fn run(
-    scene: (&Document, &Scene<f64>),
+    scene: (&SceneFile, &Scene<f64>),
     settings: &Settings,
     pacing: &Pacing,
 ) -> Result<Outcome, Refusal> {

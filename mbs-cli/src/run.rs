@@ -11,7 +11,7 @@ use mbs::auto::{Clock, Goal, Plan, PlanError, Processor, plan, run_plan, time};
 use mbs::estimate::estimate;
 use mbs::folder::{Folder, WriteError};
 use mbs::realtime::Pacing;
-use mbs::scene_file::{Document, Provenance, RunError, readable};
+use mbs::scene_file::{Provenance, RunError, SceneFile, readable};
 use mbs::{
     CHECKPOINT, Outcome, Overrides, Precision, Settings, StopError, run_document_kept, words,
 };
@@ -325,7 +325,7 @@ pub(crate) fn stopped(
     what: &str,
     report: &RunError,
     error: &mbs::StopError,
-    document: &Document,
+    document: &SceneFile,
 ) -> String {
     let message = format!("{what} {}: {}", words::stopped_at(report), report.message);
     let Some(entry) = error.entry() else {

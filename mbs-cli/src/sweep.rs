@@ -6,7 +6,7 @@ use crate::say::{say, warn};
 use crate::{STOPPED, files, signals, table};
 use clap::Args;
 use indicatif::ProgressBar;
-use mbs::scene_file::Document;
+use mbs::scene_file::SceneFile;
 use mbs::sweep::{Report, Study, StudyError, SweepError, Watch};
 use mbs::{Overrides, words};
 use serde_json::json;
@@ -98,7 +98,7 @@ fn run(arguments: &Arguments) -> Result<(Report, PathBuf), Refusal> {
     Ok((report.map_err(|error| not_run(&error, &out))?, out))
 }
 
-fn refused(error: &StudyError, scene: &Document) -> Refusal {
+fn refused(error: &StudyError, scene: &SceneFile) -> Refusal {
     match error {
         StudyError::Read(error) => Refusal::read("sweep-refused", error),
         StudyError::Settings(error) => files::refusal(error, scene),

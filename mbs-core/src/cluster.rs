@@ -2,7 +2,7 @@
 
 use crate::Real;
 use crate::algebra::{Matrix, Vector, norm};
-use crate::scene::{BodyRef, Inertia, JointKind, Scene};
+use crate::scene::{BodyId, Inertia, JointKind, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -36,9 +36,9 @@ impl<T: Real> Clusters<T> {
         let n = scene.bodies.len();
         // Union-find with the ground as number n; a root is the smallest body, the ground wins.
         let mut parent: Vec<usize> = (0..=n).collect();
-        let node = |body: BodyRef| match body {
-            BodyRef::Ground => n,
-            BodyRef::Body(i) => i,
+        let node = |body: BodyId| match body {
+            BodyId::Ground => n,
+            BodyId::Body(i) => i,
         };
         for joint in scene.joints.iter().filter(|j| j.kind == JointKind::Weld) {
             let (a, b) = (
@@ -66,10 +66,10 @@ impl<T: Real> Clusters<T> {
     }
 
     /// The cluster of a body reference; `None`: the ground.
-    pub fn of(&self, body: BodyRef) -> Option<usize> {
+    pub fn of(&self, body: BodyId) -> Option<usize> {
         match body {
-            BodyRef::Ground => None,
-            BodyRef::Body(i) => self.of_body[i],
+            BodyId::Ground => None,
+            BodyId::Body(i) => self.of_body[i],
         }
     }
 }

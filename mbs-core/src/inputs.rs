@@ -2,7 +2,7 @@
 
 use crate::Real;
 use crate::laws::guide;
-use crate::scene::{Course, GuideLaw, Scene, TableEnds};
+use crate::scene::{Motion, Scene, Signal, TableEnds};
 use crate::step::InputError;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 pub struct Prescribed<T> {
     guides: Vec<GuideInput<T>>,
     /// The effect that asked for each course, and the course.
-    courses: Vec<(usize, CourseInput<T>)>,
+    courses: Vec<(usize, SignalInput<T>)>,
 }
 
 impl<T: Real> Prescribed<T> {
@@ -23,7 +23,7 @@ impl<T: Real> Prescribed<T> {
     }
 
     /// Adds a course for `scene.effects[effect]` and returns its number.
-    pub(crate) fn add(&mut self, effect: usize, course: CourseInput<T>) -> usize {
+    pub(crate) fn add(&mut self, effect: usize, course: SignalInput<T>) -> usize {
         self.courses.push((effect, course));
         self.courses.len() - 1
     }
@@ -36,7 +36,7 @@ impl<T: Real> Prescribed<T> {
 
     /// The courses by number, each with the effect that asked for it.
     #[must_use]
-    pub fn courses(&self) -> &[(usize, CourseInput<T>)] {
+    pub fn courses(&self) -> &[(usize, SignalInput<T>)] {
         &self.courses
     }
 
@@ -88,14 +88,14 @@ impl<T: Real> Prescribed<T> {
     /// The guides and courses that are set between steps, by number: what a state keeps of them, guides first.
     fn guide_inputs(&self) -> impl Iterator<Item = (usize, [T; 3])> + '_ {
         self.guides.iter().enumerate().filter_map(|(i, guide)| match guide.law {
-            GuideLaw::Input(motion) => Some((i, motion)),
+            Motion::Input(motion) => Some((i, motion)),
             _ => None,
         })
     }
 
     fn course_inputs(&self) -> impl Iterator<Item = (usize, [T; 3])> + '_ {
         self.courses.iter().enumerate().filter_map(|(i, (_, course))| match course.course {
-            Course::Input(value) => Some((i, value)),
+            Signal::Input(value) => Some((i, value)),
             _ => None,
         })
     }
@@ -159,16 +159,16 @@ impl<T: Real> Prescribed<T> {
 /// A guide law with its spline prepared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GuideInput<T> {
-    law: GuideLaw<T>,
+    law: Motion<T>,
     curvature: Vec<T>,
 }
 
 impl<T: Real> GuideInput<T> {
     /// Prepares a law.
     #[must_use]
-    pub fn new(law: &GuideLaw<T>) -> Self {
+    pub fn new(law: &Motion<T>) -> Self {
         let mut curvature = Vec::new();
-        if let GuideLaw::Table { rows, ends } = law {
+        if let Motion::Table { rows, ends } = law {
             curvature.resize(rows.len(), T::ZERO);
             let mut scratch = vec![T::ZERO; rows.len()];
             match ends {
@@ -181,7 +181,7 @@ impl<T: Real> GuideInput<T> {
 
     /// The law.
     #[must_use]
-    pub fn law(&self) -> &GuideLaw<T> {
+    pub fn law(&self) -> &Motion<T> {
         &self.law
     }
 
@@ -194,21 +194,21 @@ impl<T: Real> GuideInput<T> {
     /// Value, rate, acceleration at time `t`. Cost: one law; no allocation.
     pub fn at(&self, t: T) -> [T; 3] {
         let m = match &self.law {
-            GuideLaw::Table { rows, .. } => guide::spline(rows, &self.curvature, t),
-            GuideLaw::Sine { amplitude, frequency, phase } => {
+            Motion::Table { rows, .. } => guide::spline(rows, &self.curvature, t),
+            Motion::Sine { amplitude, frequency, phase } => {
                 guide::sine(*amplitude, *frequency, *phase, t)
             }
-            GuideLaw::Ramp { rate } => guide::ramp(*rate, t),
-            GuideLaw::Input(motion) => return *motion,
+            Motion::Ramp { rate } => guide::ramp(*rate, t),
+            Motion::Input(motion) => return *motion,
         };
         [m.value, m.rate, m.acceleration]
     }
 
     /// Sets value, rate and acceleration at the end of the next step; says whether the guide is an input.
     pub fn set(&mut self, motion: [T; 3]) -> bool {
-        let is_input = matches!(self.law, GuideLaw::Input(_));
+        let is_input = matches!(self.law, Motion::Input(_));
         if is_input {
-            self.law = GuideLaw::Input(motion);
+            self.law = Motion::Input(motion);
         }
         is_input
     }
@@ -216,28 +216,28 @@ impl<T: Real> GuideInput<T> {
 
 /// A constant or a table, linear between its rows; or the way and speed of a road that moves.
 #[derive(Debug, Clone, PartialEq)]
-pub struct CourseInput<T> {
-    course: Course<T>,
+pub struct SignalInput<T> {
+    course: Signal<T>,
     /// Speed of (speed t, speed, 0).
     travel: Option<T>,
 }
 
-impl<T: Real> CourseInput<T> {
+impl<T: Real> SignalInput<T> {
     /// Prepares a course.
     #[must_use]
-    pub fn new(course: &Course<T>) -> Self {
+    pub fn new(course: &Signal<T>) -> Self {
         Self { course: course.clone(), travel: None }
     }
 
     /// The course (speed t, speed, 0) of a road.
     #[must_use]
     pub fn travel(speed: T) -> Self {
-        Self { course: Course::Constant([T::ZERO; 3]), travel: Some(speed) }
+        Self { course: Signal::Constant([T::ZERO; 3]), travel: Some(speed) }
     }
 
     /// The course; of a road that moves a constant that is not read.
     #[must_use]
-    pub fn course(&self) -> &Course<T> {
+    pub fn course(&self) -> &Signal<T> {
         &self.course
     }
 
@@ -249,9 +249,9 @@ impl<T: Real> CourseInput<T> {
 
     /// Sets the value from now on; says whether the course is an input.
     pub fn set(&mut self, value: [T; 3]) -> bool {
-        let is_input = matches!(self.course, Course::Input(_));
+        let is_input = matches!(self.course, Signal::Input(_));
         if is_input {
-            self.course = Course::Input(value);
+            self.course = Signal::Input(value);
         }
         is_input
     }
@@ -262,8 +262,8 @@ impl<T: Real> CourseInput<T> {
             return [speed * t, speed, T::ZERO];
         }
         let rows = match &self.course {
-            Course::Constant(value) | Course::Input(value) => return *value,
-            Course::Table(rows) => rows,
+            Signal::Constant(value) | Signal::Input(value) => return *value,
+            Signal::Table(rows) => rows,
         };
         guide::linear(rows, |row| *row, t)
     }

@@ -18,7 +18,7 @@ use crate::parts::Part;
 use crate::rank::Rank;
 use crate::sets::dimension;
 use mbs_core::outputs::Wrench;
-use mbs_core::scene::{BodyRef, Dimension, Joint, JointKind};
+use mbs_core::scene::{BodyId, Dimension, Joint, JointKind};
 
 /// One joint with another kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,7 +94,7 @@ fn without_a_body(linkage: &Linkage, (part, at): (&Part, &Poses), group: &Group)
     let all: Vec<&Link> = links.iter().map(|(_, l)| *l).collect();
     let [_, n, rank] = sizes(&all, &bodies)?;
     for &body in bodies.iter().rev() {
-        let touches = |link: &Link| link.joint.bodies.contains(&BodyRef::Body(body));
+        let touches = |link: &Link| link.joint.bodies.contains(&BodyId::Body(body));
         let is_inside = (0..linkage.links.len())
             .filter(|&j| touches(&linkage.links[j]))
             .all(|j| links.iter().any(|(joint, _)| *joint == j));
@@ -121,8 +121,8 @@ fn without_a_body(linkage: &Linkage, (part, at): (&Part, &Poses), group: &Group)
     None
 }
 
-fn index(body: BodyRef) -> Option<usize> {
-    if let BodyRef::Body(b) = body { Some(b) } else { None }
+fn index(body: BodyId) -> Option<usize> {
+    if let BodyId::Body(b) = body { Some(b) } else { None }
 }
 
 /// The gentler kinds that a joint may be replaced by.

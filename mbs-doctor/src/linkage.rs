@@ -16,7 +16,7 @@ use mbs_core::cluster::mass_properties;
 use mbs_core::outputs::{Transmission, Wrench};
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::align::aligned;
-use mbs_core::scene::{BodyRef, Dimension, Joint, JointKind, Scene};
+use mbs_core::scene::{BodyId, Dimension, Joint, JointKind, Scene};
 use std::ops::Range;
 
 /// Where the bodies of a scene are.
@@ -66,10 +66,10 @@ impl Link {
 }
 
 /// The pose of a body; the ground stays.
-pub(crate) fn pose(at: &Poses, body: BodyRef) -> RigidMotion<f64> {
+pub(crate) fn pose(at: &Poses, body: BodyId) -> RigidMotion<f64> {
     match body {
-        BodyRef::Ground => RigidMotion::at_rest(Vector::zeros()),
-        BodyRef::Body(b) => at[b],
+        BodyId::Ground => RigidMotion::at_rest(Vector::zeros()),
+        BodyId::Body(b) => at[b],
     }
 }
 
@@ -165,7 +165,7 @@ impl Linkage {
         for (link, range) in links.iter().zip(&rows) {
             let place = link.place(at, 1);
             for (body, sign) in link.joint.bodies.into_iter().zip([-1.0, 1.0]) {
-                let BodyRef::Body(b) = body else { continue };
+                let BodyId::Body(b) = body else { continue };
                 let Ok(column) = part.bodies.binary_search(&b) else { continue };
                 for row in range.clone() {
                     let w = &wrenches[row];

@@ -15,7 +15,7 @@ use crate::parts::Part;
 use crate::rank::Rank;
 use mbs_core::algebra::cross;
 use mbs_core::natural::joint_axes;
-use mbs_core::scene::{BodyRef, Dimension, JointKind};
+use mbs_core::scene::{BodyId, Dimension, JointKind};
 use std::collections::VecDeque;
 
 /// A corner of a loop.
@@ -57,9 +57,9 @@ pub fn loops(linkage: &Linkage, at: &Poses) -> Vec<Loop> {
 
 /// The loops of a part as joints in order.
 fn cycles(linkage: &Linkage, part: &Part) -> Vec<Vec<usize>> {
-    let node = |body: BodyRef| match body {
-        BodyRef::Ground => part.bodies.len(),
-        BodyRef::Body(b) => part.bodies.binary_search(&b).unwrap_or(part.bodies.len()),
+    let node = |body: BodyId| match body {
+        BodyId::Ground => part.bodies.len(),
+        BodyId::Body(b) => part.bodies.binary_search(&b).unwrap_or(part.bodies.len()),
     };
     let ends = |j: usize| linkage.links[j].joint.bodies.map(node);
     let n = part.bodies.len() + 1;
@@ -176,8 +176,8 @@ pub fn drives(linkage: &Linkage, part: &Part, at: &Poses, rank: &Rank) -> Vec<Dr
         return Vec::new();
     }
     let f = linkage.freedoms();
-    let twist = |body: BodyRef| {
-        let i = if let BodyRef::Body(b) = body { part.bodies.binary_search(&b).ok() } else { None };
+    let twist = |body: BodyId| {
+        let i = if let BodyId::Body(b) = body { part.bodies.binary_search(&b).ok() } else { None };
         let x: Vec<f64> =
             i.map_or(vec![0.0; f], |i| (0..f).map(|k| rank.free[(i * f + k, 0)]).collect());
         match linkage.dimension {

@@ -6,7 +6,7 @@
 
 use crate::linkage::{Linkage, Poses, pose};
 use mbs_core::algebra::norm;
-use mbs_core::scene::BodyRef;
+use mbs_core::scene::BodyId;
 
 /// Joints that may depend on each other, with the bodies between them.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,9 +30,9 @@ impl Part {
 /// Cost: in proportion to bodies and joints.
 pub(crate) fn parts(linkage: &Linkage, at: &Poses) -> Vec<Part> {
     let n = linkage.n_bodies;
-    let node = |body: BodyRef| match body {
-        BodyRef::Ground => n,
-        BodyRef::Body(b) => b,
+    let node = |body: BodyId| match body {
+        BodyId::Ground => n,
+        BodyId::Body(b) => b,
     };
     let mut edges = vec![Vec::new(); n + 1];
     let links = linkage.links.iter().enumerate().filter(|(_, link)| link.n_rows() > 0);
@@ -61,14 +61,14 @@ fn part(linkage: &Linkage, joints: Vec<usize>, at: &Poses) -> Part {
     let links = || joints.iter().map(|&j| &linkage.links[j]);
     let mut bodies: Vec<usize> = links()
         .flat_map(|link| link.joint.bodies)
-        .filter_map(|body| if let BodyRef::Body(b) = body { Some(b) } else { None })
+        .filter_map(|body| if let BodyId::Body(b) = body { Some(b) } else { None })
         .collect();
     bodies.sort_unstable();
     bodies.dedup();
     let mut length = 0.0_f64;
     for link in links() {
         for (i, body) in link.joint.bodies.into_iter().enumerate() {
-            if body != BodyRef::Ground {
+            if body != BodyId::Ground {
                 length = length.max(norm(&(link.place(at, i) - pose(at, body).position)));
             }
         }

@@ -1,6 +1,6 @@
 //! Models are checked once, when they are loaded: afterwards every number in their tables points into them.
 
-use crate::inputs::{CourseLaw, GuideLaw};
+use crate::inputs::{Motion, SignalLaw};
 use crate::model::Model;
 use mbs_core::Real;
 use mbs_core::laws::Part;
@@ -370,13 +370,13 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
     fn prescriptions(&self, model: &Model<'_, T, S>) -> Result<(), LoadError> {
         let laws = &model.prescriptions;
         for (i, law) in laws.guides.iter().enumerate() {
-            let GuideLaw::Table(part) = law else { continue };
+            let Motion::Table(part) = law else { continue };
             let (knots, curvatures) = laws.knots;
             let holds = is_part(*part, knots.len()) && is_part(*part, curvatures.len());
             ensure(holds, "guides", i)?;
         }
         for (i, law) in laws.courses.iter().enumerate() {
-            let CourseLaw::Table(part) = law else { continue };
+            let SignalLaw::Table(part) = law else { continue };
             ensure(is_part(*part, laws.rows.len()), "courses", i)?;
         }
         Ok(())

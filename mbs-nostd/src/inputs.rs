@@ -7,7 +7,7 @@ use mbs_recursive::mechanism::Inputs;
 
 /// A guide as a function of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum GuideLaw<T> {
+pub enum Motion<T> {
     /// Value, rate and acceleration written between steps; these at the start.
     Input([T; 3]),
     /// amplitude sin(2 pi frequency t + phase).
@@ -30,7 +30,7 @@ pub enum GuideLaw<T> {
 
 /// The vector of an effect as a function of time.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum CourseLaw<T> {
+pub enum SignalLaw<T> {
     /// Written between steps; this at the start.
     Input([T; 3]),
     /// Always the same.
@@ -45,9 +45,9 @@ pub enum CourseLaw<T> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prescriptions<'a, T> {
     /// The guides.
-    pub guides: &'a [GuideLaw<T>],
+    pub guides: &'a [Motion<T>],
     /// The courses.
-    pub courses: &'a [CourseLaw<T>],
+    pub courses: &'a [SignalLaw<T>],
     /// Knots (time, value) of the guides, and the second derivatives there.
     pub knots: (&'a [[T; 2]], &'a [T]),
     /// Rows (time, vector) of the courses.
@@ -82,14 +82,14 @@ impl<T: Real, const G: usize, const C: usize> Values<G, C, T> {
         for ((to, is_input), law) in
             values.guides.iter_mut().zip(&mut values.is_guide).zip(from.guides)
         {
-            if let GuideLaw::Input(first) = law {
+            if let Motion::Input(first) = law {
                 (*to, *is_input) = (*first, true);
             }
         }
         for ((to, is_input), law) in
             values.courses.iter_mut().zip(&mut values.is_course).zip(from.courses)
         {
-            if let CourseLaw::Input(first) = law {
+            if let SignalLaw::Input(first) = law {
                 (*to, *is_input) = (*first, true);
             }
         }
@@ -147,33 +147,33 @@ impl<T: Real> Inputs<T> for Written<'_, T> {
 }
 
 fn guide_at<T: Real>(
-    law: &GuideLaw<T>,
+    law: &Motion<T>,
     laws: &Prescriptions<'_, T>,
     written: [T; 3],
     t: T,
 ) -> [T; 3] {
     let motion = match law {
-        GuideLaw::Input(_) => return written,
-        GuideLaw::Sine { amplitude, frequency, phase } => {
+        Motion::Input(_) => return written,
+        Motion::Sine { amplitude, frequency, phase } => {
             guide::sine(*amplitude, *frequency, *phase, t)
         }
-        GuideLaw::Ramp { rate } => guide::ramp(*rate, t),
-        GuideLaw::Table(part) => guide::spline(part.of(laws.knots.0), part.of(laws.knots.1), t),
+        Motion::Ramp { rate } => guide::ramp(*rate, t),
+        Motion::Table(part) => guide::spline(part.of(laws.knots.0), part.of(laws.knots.1), t),
     };
     [motion.value, motion.rate, motion.acceleration]
 }
 
 fn course_at<T: Real>(
-    law: &CourseLaw<T>,
+    law: &SignalLaw<T>,
     laws: &Prescriptions<'_, T>,
     written: [T; 3],
     t: T,
 ) -> [T; 3] {
     let rows = match law {
-        CourseLaw::Input(_) => return written,
-        CourseLaw::Constant(value) => return *value,
-        CourseLaw::Travel(speed) => return [*speed * t, *speed, T::ZERO],
-        CourseLaw::Table(part) => part.of(laws.rows),
+        SignalLaw::Input(_) => return written,
+        SignalLaw::Constant(value) => return *value,
+        SignalLaw::Travel(speed) => return [*speed * t, *speed, T::ZERO],
+        SignalLaw::Table(part) => part.of(laws.rows),
     };
     guide::linear(rows, |&[t, x, y, z]| (t, [x, y, z]), t)
 }

@@ -17,7 +17,7 @@ pub mod table;
 mod tables;
 
 pub use check::{Checked, LoadError, Sizes};
-pub use inputs::{CourseLaw, GuideLaw, Prescriptions, Values};
+pub use inputs::{Motion, Prescriptions, SignalLaw, Values};
 pub use ladder::Ladder;
 pub use mbs_core::Real;
 pub use mbs_core::step::{InputError, StepError};

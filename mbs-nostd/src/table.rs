@@ -1,7 +1,7 @@
 //! What a model that `mbs export --rust` wrote is made of.
 
 pub use crate::{
-    Beginning, CourseLaw, GuideLaw, LoadError, Model, Planar, Prescriptions, Solver, Spatial,
+    Beginning, LoadError, Model, Motion, Planar, Prescriptions, SignalLaw, Solver, Spatial,
 };
 pub use mbs_core::algebra::vector;
 pub use mbs_core::laws::body::BodyLaw;

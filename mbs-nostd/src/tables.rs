@@ -1,7 +1,7 @@
 //! [`Tables`]: a model read from bytes into memory of fixed capacity.
 
 use crate::check::{Checked, LoadError, Sizes};
-use crate::inputs::{CourseLaw, GuideLaw, Prescriptions};
+use crate::inputs::{Motion, Prescriptions, SignalLaw};
 use crate::model::{Beginning, Model};
 use crate::record::{Axes, Reader, Record};
 use heapless::Vec;
@@ -56,8 +56,8 @@ pub struct Tables<
     features: Vec<Feature<T>, X>,
     #[cfg(feature = "tire")]
     road: (Vec<[T; 2], X>, Vec<T, X>),
-    guides: Vec<GuideLaw<T>, I>,
-    courses: Vec<CourseLaw<T>, I>,
+    guides: Vec<Motion<T>, I>,
+    courses: Vec<SignalLaw<T>, I>,
     knots: (Vec<[T; 2], X>, Vec<T, X>),
     course_rows: Vec<[T; 4], X>,
     rungs: Vec<u32, E>,

@@ -5,7 +5,7 @@
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use mbs_core::Real;
 use mbs_core::real::Lanes;
-use mbs_core::scene::{Body, BodyRef, Dimension, Inertia, Joint, JointKind, Scene, SolverChoice};
+use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, Scene, SolverTable};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Options, Planar, Spatial, TreeModel, TreeState, Workspace};
 
@@ -23,11 +23,11 @@ fn scene<T: Real>(dimension: Dimension) -> Scene<T> {
         road: Default::default(),
         start: Default::default(),
         outputs: Vec::new(),
-        solver: SolverChoice::default(),
+        solver: SolverTable::default(),
     }
 }
 
-fn revolute<T: Real>(bodies: [BodyRef; 2], at: [f64; 3], axis: Option<[f64; 3]>) -> Joint<T> {
+fn revolute<T: Real>(bodies: [BodyId; 2], at: [f64; 3], axis: Option<[f64; 3]>) -> Joint<T> {
     let (at, axis) = (at.map(T::from_f64), axis.map(|axis| axis.map(T::from_f64)));
     Joint {
         name: String::new(),
@@ -41,7 +41,7 @@ fn revolute<T: Real>(bodies: [BodyRef; 2], at: [f64; 3], axis: Option<[f64; 3]>)
 /// `n` bodies one behind the other, axes turning from joint to joint.
 fn chain<T: Real>(n: usize, dimension: Dimension) -> Scene<T> {
     let mut scene = scene(dimension);
-    let mut last = BodyRef::Ground;
+    let mut last = BodyId::Ground;
     for i in 0..n {
         let x = 0.1 * i as f64;
         let inertia = match dimension {
@@ -53,7 +53,7 @@ fn chain<T: Real>(n: usize, dimension: Dimension) -> Scene<T> {
         };
         let center = [x + 0.05, 0.01, 0.0].map(T::from_f64);
         scene.bodies.push(Body { name: String::new(), mass: T::ONE, center, inertia });
-        let body = BodyRef::Body(i);
+        let body = BodyId::Body(i);
         let axis = [[0.0, 0.0, 1.0], [0.0, 0.6, 0.8], [0.1, 0.9, -0.2]][i % 3];
         let axis = (dimension == Dimension::Spatial).then_some(axis);
         scene.joints.push(revolute([last, body], [x, 0.0, 0.0], axis));
@@ -75,15 +75,15 @@ fn four_bars(n: usize) -> Scene<f64> {
         let x = i as f64;
         let crank = scene.bodies.len();
         scene.bodies.push(rod([x, 0.0, 0.0], [x, 1.0, 0.0]));
-        scene.joints.push(revolute([BodyRef::Ground, BodyRef::Body(crank)], [x, 0.0, 0.0], None));
+        scene.joints.push(revolute([BodyId::Ground, BodyId::Body(crank)], [x, 0.0, 0.0], None));
         if i > 0 {
             let joint =
-                revolute([BodyRef::Body(crank - 1), BodyRef::Body(crank)], [x, 1.0, 0.0], None);
+                revolute([BodyId::Body(crank - 1), BodyId::Body(crank)], [x, 1.0, 0.0], None);
             scene.joints.push(joint);
         }
         if i < n {
             scene.bodies.push(rod([x, 1.0, 0.0], [x + 1.0, 1.0, 0.0]));
-            let bodies = [BodyRef::Body(crank), BodyRef::Body(crank + 1)];
+            let bodies = [BodyId::Body(crank), BodyId::Body(crank + 1)];
             scene.joints.push(revolute(bodies, [x, 1.0, 0.0], None));
         }
     }

@@ -7,7 +7,7 @@ use crate::tree::{TreeModel, parts};
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
-use mbs_core::scene::{BodyRef, Scene};
+use mbs_core::scene::{BodyId, Scene};
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// The links that have the coordinates of each joint, by joint and number; none for those of cut joints and of rotations in space.
@@ -60,7 +60,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// # Panics
     /// If there is no such body.
     #[must_use]
-    pub fn turn_between(&self, state: &TreeState<T>, bodies: [BodyRef; 2]) -> T {
+    pub fn turn_between(&self, state: &TreeState<T>, bodies: [BodyId; 2]) -> T {
         self.turn_of(state, bodies.map(|body| self.link(body)))
     }
 }

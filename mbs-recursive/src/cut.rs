@@ -23,7 +23,7 @@ use mbs_core::actions::{self, Action};
 use mbs_core::algebra::{Vector, norm};
 use mbs_core::laws::scalar::Law;
 use mbs_core::natural::{joint_axes, transverse};
-use mbs_core::scene::{BodyRef, Joint, JointKind, Scene};
+use mbs_core::scene::{BodyId, Joint, JointKind, Scene};
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Adds a cut joint's rows.
@@ -185,18 +185,18 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 Load::Between { links, gauge: Gauge::Rotation { number: *number }, law: *law }
             }
             Action::Constant { at, force } => {
-                let (link, point) = self.seat_point(BodyRef::Body(at.0), at.1);
+                let (link, point) = self.seat_point(BodyId::Body(at.0), at.1);
                 Load::Constant { link, point, force: S::point_from(&Vector::from(*force)) }
             }
             Action::Force { at, course, turns } => {
-                let (link, point) = self.seat_point(BodyRef::Body(at.0), at.1);
+                let (link, point) = self.seat_point(BodyId::Body(at.0), at.1);
                 Load::Force { link, point, course: *course, turns: *turns }
             }
             Action::Torque { body, course } => {
                 Load::Torque { link: self.link_of_body[*body], course: *course }
             }
             Action::OnBody { at, axis, law } => {
-                let (link, point) = self.seat_point(BodyRef::Body(at.0), at.1);
+                let (link, point) = self.seat_point(BodyId::Body(at.0), at.1);
                 Load::OnBody(OnBody { link, point, axis: *axis, law: *law })
             }
         }))

@@ -22,7 +22,7 @@ use core::cmp::{Ordering, Reverse};
 use mbs_core::Real;
 use mbs_core::actions::{Action, Actions};
 use mbs_core::cluster::Clusters;
-use mbs_core::scene::{BodyRef, JointKind, Scene};
+use mbs_core::scene::{BodyId, JointKind, Scene};
 
 /// A step of the tree: a cluster and the joint it hangs by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,7 +66,7 @@ pub(crate) fn span<T: Real>(
     clusters: &Clusters<T>,
 ) -> Result<Graph, TreeError> {
     let ground = clusters.clusters.len();
-    let node = |body: BodyRef| clusters.of(body).unwrap_or(ground);
+    let node = |body: BodyId| clusters.of(body).unwrap_or(ground);
     let demands = Demands::new(scene, actions);
     let mut growth = Growth::new(edges((scene, &demands), clusters, node), ground);
     let mut roots = Roots::new(scene, clusters);
@@ -128,7 +128,7 @@ impl Demands {
 fn edges<T: Real>(
     (scene, demands): (&Scene<T>, &Demands),
     clusters: &Clusters<T>,
-    node: impl Fn(BodyRef) -> usize,
+    node: impl Fn(BodyId) -> usize,
 ) -> Vec<Edge> {
     let mut edges = Vec::new();
     for (j, joint) in scene.joints.iter().enumerate() {
@@ -235,7 +235,7 @@ impl Roots {
         &mut self,
         scene: &Scene<T>,
         depth: &[usize],
-        node: impl Fn(BodyRef) -> usize,
+        node: impl Fn(BodyId) -> usize,
     ) -> Option<(usize, Option<usize>)> {
         let ground = depth.len() - 1;
         // What is reached stays reached: no candidate is looked at twice.

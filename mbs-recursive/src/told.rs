@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross, norm};
 use mbs_core::cluster::Clusters;
-use mbs_core::scene::{BodyRef, JointKind, Scene};
+use mbs_core::scene::{BodyId, JointKind, Scene};
 
 /// Guides by joint, and thin rods without spin by cluster.
 pub(crate) struct Told {
@@ -26,7 +26,7 @@ impl Told {
             for (i, &body) in joint.bodies.iter().enumerate() {
                 let Some(c) = clusters.of(body) else { continue };
                 let cluster = &clusters.clusters[c];
-                let (Some(rod), BodyRef::Body(b)) = (cluster.rod, body) else { continue };
+                let (Some(rod), BodyId::Body(b)) = (cluster.rod, body) else { continue };
                 is_idle[c] &= b != cluster.bodies[0]
                     || joint.kind == JointKind::Free
                     || (matches!(joint.kind, JointKind::Spherical | JointKind::Distance)

@@ -23,7 +23,7 @@ use mbs_core::inputs::Prescribed;
 use mbs_core::model::Owner;
 use mbs_core::natural::joint_axes;
 use mbs_core::scene::align::aligned;
-use mbs_core::scene::{BodyRef, Joint, JointKind, Scene};
+use mbs_core::scene::{BodyId, Joint, JointKind, Scene};
 use mbs_core::step::InputError;
 
 /// A part of a joint: one link of the recursion.
@@ -290,15 +290,15 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 
     /// The link that carries a body.
-    pub(crate) fn link(&self, body: BodyRef) -> u32 {
+    pub(crate) fn link(&self, body: BodyId) -> u32 {
         match body {
-            BodyRef::Ground => 0,
-            BodyRef::Body(i) => self.link_of_body[i],
+            BodyId::Ground => 0,
+            BodyId::Body(i) => self.link_of_body[i],
         }
     }
 
     /// A point of a body: its link, and the place from the link's origin.
-    pub(crate) fn seat_point(&self, body: BodyRef, at: [T; 3]) -> (u32, S::Point) {
+    pub(crate) fn seat_point(&self, body: BodyId, at: [T; 3]) -> (u32, S::Point) {
         let link = self.link(body);
         (link, S::point_from(&(Vector::from(at) - self.origins[link as usize])))
     }
@@ -352,7 +352,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     ///
     /// # Errors
     /// [`InputError`] where the effect has none (it has one where it is enabled and its course is
-    /// [`Course::Input`](mbs_core::scene::Course::Input)), or where a component is not finite.
+    /// [`Signal::Input`](mbs_core::scene::Signal::Input)), or where a component is not finite.
     pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
         self.prescribed.set_course(effect, value)
     }
@@ -360,7 +360,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step.
     ///
     /// # Errors
-    /// [`InputError`] where the guide is no input ([`GuideLaw::Input`](mbs_core::scene::GuideLaw::Input)), or where a component is
+    /// [`InputError`] where the guide is no input ([`Motion::Input`](mbs_core::scene::Motion::Input)), or where a component is
     /// not finite.
     pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
         self.prescribed.set_guide(guide, motion)

@@ -12,7 +12,7 @@ mod write;
 pub use dice::Dice;
 pub use generate::{Family, GenerateError, MOST_BODIES, generate};
 pub use page::page;
-pub use read::{Document, Place, ReadError, ReadFault, Sweep, SweepFault, suggestion};
+pub use read::{Place, ReadError, ReadFault, SceneFile, Sweep, SweepFault, suggestion};
 pub use record::{
     Animation, Channel, ChannelSeries, Component, EnergySeries, IterationSeries, Polyline,
     Provenance, RunRecord, StepRow, StepSeries, Trace, ViolationSeries,

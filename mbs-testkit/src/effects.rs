@@ -2,8 +2,8 @@
 
 use crate::scene;
 use mbs_core::scene::{
-    BodyRef, CalspanCoefficients, Course, Dimension, Effect, EffectKind, PolynomialPiece,
-    RoadFeature, Scene,
+    BodyId, CalspanCoefficients, Dimension, Effect, EffectKind, PolynomialPiece, RoadFeature,
+    Scene, Signal,
 };
 
 const SPATIAL: &str = r#"
@@ -85,7 +85,7 @@ at = [0.7, 0.9]
 axis = [1.0, 0.2]
 "#;
 
-const BODIES: [BodyRef; 2] = [BodyRef::Body(2), BodyRef::Body(3)];
+const BODIES: [BodyId; 2] = [BodyId::Body(2), BodyId::Body(3)];
 
 /// The mechanism without effects, over a rising road that comes towards it.
 fn bare(dimension: Dimension) -> Scene<f64> {
@@ -190,7 +190,7 @@ pub fn tire(dimension: Dimension, rolls: bool) -> EffectKind<f64> {
 /// Every kind of effect, with what it is.
 #[must_use]
 pub fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
-    let course = Course::Table(vec![(0.0, [3.0, 0.0, 0.0]), (1.0, [-8.0, 0.0, 0.0])]);
+    let course = Signal::Table(vec![(0.0, [3.0, 0.0, 0.0]), (1.0, [-8.0, 0.0, 0.0])]);
     let (bodies, ends) = (BODIES, points(dimension));
     let direction = Some([0.8, 0.3, 0.4]);
     let drag = EffectKind::AeroDrag { body: 3, at: ends[1], area_coefficient: 2.0, density: 1.2 };

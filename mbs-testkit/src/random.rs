@@ -2,8 +2,8 @@
 
 use crate::scenes::empty;
 use mbs_core::scene::{
-    Body, BodyRef, Dimension, Effect, EffectKind, Guide, GuideLaw, Inertia, Initial, InitialTarget,
-    Joint, JointKind, Scene,
+    Body, BodyId, Dimension, Effect, EffectKind, Guide, Inertia, InitialCondition, InitialTarget,
+    Joint, JointKind, Motion, Scene,
 };
 
 /// A small generator of the same numbers on every machine (xorshift64*), by its state, which is not zero.
@@ -87,11 +87,11 @@ pub fn tree(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
     let (mut bodies, mut joints, mut initials) = (Vec::<Body<f64>>::new(), Vec::new(), Vec::new());
     for i in 0..n {
         let (parent, place) = if i == 0 || random.below(5) == 0 {
-            (BodyRef::Ground, random.point(dimension, 0.5))
+            (BodyId::Ground, random.point(dimension, 0.5))
         } else {
             let parent = random.below(i);
             let from = bodies[parent].center;
-            (BodyRef::Body(parent), plus(from, random.point(dimension, 0.4)))
+            (BodyId::Body(parent), plus(from, random.point(dimension, 0.4)))
         };
         let mass = 1.5 + random.next();
         let inertia = random.inertia(dimension, mass);
@@ -101,10 +101,12 @@ pub fn tree(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
             Dimension::Planar => PLANAR_KINDS[random.below(PLANAR_KINDS.len())],
             Dimension::Spatial => SPATIAL_KINDS[random.below(SPATIAL_KINDS.len())],
         };
-        joints.push(joint(&mut random, dimension, kind, [parent, BodyRef::Body(i)], place));
+        joints.push(joint(&mut random, dimension, kind, [parent, BodyId::Body(i)], place));
         let n_rates = kind.n_coordinates(dimension);
         let rate = Some((0..n_rates).map(|_| random.next()).collect());
-        initials.push(Initial { target: InitialTarget::Joint { joint: i, value: None, rate } });
+        initials.push(InitialCondition {
+            target: InitialTarget::Joint { joint: i, value: None, rate },
+        });
     }
     let scene = empty(&format!("random tree {seed}"), dimension, Some([0.0, -9.81, 0.0]));
     Scene { duration: 0.2, bodies, joints, initials, ..scene }
@@ -122,8 +124,8 @@ pub fn guided(mut scene: Scene<f64>, seed: u64, chances: usize) -> Scene<f64> {
         }
         let [amplitude, rate, phase] = [random.next(), random.next(), 3.0 * random.next()];
         let law = match random.below(3) {
-            0 => GuideLaw::Ramp { rate },
-            _ => GuideLaw::Sine { amplitude: 0.3 * amplitude, frequency: 1.5 + rate, phase },
+            0 => Motion::Ramp { rate },
+            _ => Motion::Sine { amplitude: 0.3 * amplitude, frequency: 1.5 + rate, phase },
         };
         scene.guides.push(Guide { joint, law });
     }
@@ -157,7 +159,7 @@ fn joint(
     random: &mut Random,
     dimension: Dimension,
     kind: JointKind,
-    bodies: [BodyRef; 2],
+    bodies: [BodyId; 2],
     place: [f64; 3],
 ) -> Joint<f64> {
     let first = random.axis(dimension);
@@ -196,13 +198,13 @@ pub fn loops(seed: u64, dimension: Dimension, n: usize, n_loops: usize) -> Scene
     while added < n_loops {
         let [a, b] = [random.below(n), random.below(n)];
         let are_neighbours = scene.joints.iter().any(|j| {
-            let pair = [BodyRef::Body(a), BodyRef::Body(b)];
+            let pair = [BodyId::Body(a), BodyId::Body(b)];
             j.bodies == pair || j.bodies == [pair[1], pair[0]]
         });
         if a == b || are_neighbours {
             continue;
         }
-        let bodies = [BodyRef::Body(a), BodyRef::Body(b)];
+        let bodies = [BodyId::Body(a), BodyId::Body(b)];
         let [p, q] = [a, b].map(|i| {
             let center = scene.bodies[i].center;
             plus(center, random.point(dimension, 0.2))
@@ -255,7 +257,7 @@ pub fn sound(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
         let fits = closures.iter().find(|(_, rows, least)| freedoms > *rows && turns >= *least);
         let Some(&(kind, ..)) = fits else { continue };
         let [p, q] = [a, b].map(|i| plus(scene.bodies[i].center, random.point(dimension, 0.3)));
-        let bodies = [BodyRef::Body(a), BodyRef::Body(b)];
+        let bodies = [BodyId::Body(a), BodyId::Body(b)];
         let mut closure = joint(&mut random, dimension, kind, bodies, p);
         if kind == JointKind::Distance {
             (closure.points, closure.axes) = ([p, q], [None; 2]);
@@ -271,7 +273,7 @@ pub fn sound(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
 fn between(scene: &Scene<f64>, a: usize, b: usize) -> Vec<usize> {
     let up = |mut body: usize| {
         let mut way = vec![body];
-        while let BodyRef::Body(parent) = scene.joints[body].bodies[0] {
+        while let BodyId::Body(parent) = scene.joints[body].bodies[0] {
             way.push(parent);
             body = parent;
         }
@@ -290,7 +292,7 @@ fn between(scene: &Scene<f64>, a: usize, b: usize) -> Vec<usize> {
 fn spring(random: &mut Random, scene: &Scene<f64>, dimension: Dimension) -> Effect<f64> {
     let last = scene.bodies.len() - 1;
     let at = plus(scene.bodies[last].center, random.point(dimension, 0.1));
-    let bodies = [BodyRef::Ground, BodyRef::Body(last)];
+    let bodies = [BodyId::Ground, BodyId::Body(last)];
     let anchor = plus(at, [0.3, 0.8, 0.0]);
     let kind = EffectKind::SpringDamper {
         bodies,

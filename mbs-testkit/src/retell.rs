@@ -1,7 +1,7 @@
 //! The same mechanism told in another way: turned as a whole, its bodies in another order.
 
 use mbs_core::scene::{
-    BodyRef, Dimension, EffectKind, Inertia, InitialTarget, Joint, JointKind, Scene,
+    BodyId, Dimension, EffectKind, Inertia, InitialTarget, Joint, JointKind, Scene,
 };
 
 type Vector = [f64; 3];
@@ -126,8 +126,8 @@ pub fn reorder(scene: &Scene<f64>) -> Scene<f64> {
     let n = scene.bodies.len();
     let mut s = scene.clone();
     s.bodies.reverse();
-    let renumber = |b: &mut BodyRef| {
-        if let BodyRef::Body(i) = b {
+    let renumber = |b: &mut BodyId| {
+        if let BodyId::Body(i) = b {
             *i = n - 1 - *i;
         }
     };

@@ -1,8 +1,8 @@
 //! Scenes: from text, from the repository, and empty ones to fill.
 
 use mbs_core::Real;
-use mbs_core::scene::{Dimension, Scene, SolverChoice};
-use mbs_scene::Document;
+use mbs_core::scene::{Dimension, Scene, SolverTable};
+use mbs_scene::SceneFile;
 use std::sync::LazyLock;
 
 /// Every planar joint kind, guide law and effect, a welded pair and bodies fixed to the ground.
@@ -48,7 +48,7 @@ pub fn scene(text: &str) -> Scene<f64> {
 /// With the fault of a text that is no scene.
 #[must_use]
 pub fn scene_in<T: Real>(text: &str) -> Scene<T> {
-    let document = Document::parse(text, "test.toml").unwrap_or_else(|e| panic!("{}", e.render()));
+    let document = SceneFile::parse(text, "test.toml").unwrap_or_else(|e| panic!("{}", e.render()));
     document.scene().unwrap_or_else(|e| panic!("{}", e.render()))
 }
 
@@ -94,6 +94,6 @@ pub fn empty(name: &str, dimension: Dimension, gravity: Option<[f64; 3]>) -> Sce
         road: Default::default(),
         start: Default::default(),
         outputs: Vec::new(),
-        solver: SolverChoice::default(),
+        solver: SolverTable::default(),
     }
 }

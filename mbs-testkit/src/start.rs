@@ -2,7 +2,7 @@
 
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{BodyRef, Scene};
+use mbs_core::scene::{BodyId, Scene};
 use mbs_core::start::assemble;
 use mbs_core::{Cliques, Real};
 use mbs_sparse::{Multifrontal, Options};
@@ -71,7 +71,7 @@ pub fn centres<T: Real, const D: usize>(
     state: &State<T>,
 ) -> Vec<[f64; 3]> {
     let place = |i: usize| {
-        let x = model.point(BodyRef::Body(i), scene.bodies[i].center).value(&state.q);
+        let x = model.point(BodyId::Body(i), scene.bodies[i].center).value(&state.q);
         std::array::from_fn(|k| if k < D { x[k].to_f64() } else { 0.0 })
     };
     (0..scene.bodies.len()).map(place).collect()

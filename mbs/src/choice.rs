@@ -16,7 +16,7 @@ pub const STEP_RULES: [&str; 5] = ["fixed", "energy", "energy-printed", "error",
 
 /// A formulation that can run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Formulation {
+pub enum FormulationKind {
     /// Index-3 augmented Lagrangian.
     Index3,
     /// Index-1 augmented Lagrangian.
@@ -31,7 +31,7 @@ pub enum Formulation {
     Recursive,
 }
 
-impl Formulation {
+impl FormulationKind {
     /// All of them, in the order of [`FORMULATIONS`] after `auto`.
     pub const ALL: [Self; 6] = [
         Self::Index1,
@@ -255,7 +255,7 @@ mod tests {
 
     #[test]
     fn every_name_that_is_offered_stands_for_something() {
-        assert_eq!(Formulation::ALL.map(Formulation::name), FORMULATIONS[1..]);
+        assert_eq!(FormulationKind::ALL.map(FormulationKind::name), FORMULATIONS[1..]);
         assert_eq!(StepRule::ALL.map(StepRule::name), STEP_RULES);
         assert_eq!(Precision::ALL.map(Precision::name), PRECISIONS);
         assert_eq!(IntegratorKind::ALL.map(IntegratorKind::name), INTEGRATORS);

@@ -1,7 +1,7 @@
 //! Steps of controlled length, whatever the formulation.
 
 use crate::checkpoint::ControlKept;
-use crate::choice::{Formulation, StepRule};
+use crate::choice::{FormulationKind, StepRule};
 use crate::engine::Engine;
 use crate::settings::Settings;
 use crate::tree::{InSpace, Plane};
@@ -58,7 +58,7 @@ where
         let driver = Driver::new(rules, lengths.step);
         let mut events = settings.events.then(|| Events::new(scene, model)).transpose()?;
         events.iter_mut().for_each(|events| events.start(state));
-        let is_tree = settings.formulation == Formulation::Recursive;
+        let is_tree = settings.formulation == FormulationKind::Recursive;
         let turns = (!is_tree).then(|| Turns::new(scene, model));
         Ok(Some(Self { driver, estimate, events, turns, saved: state.clone() }))
     }

@@ -7,7 +7,7 @@ use crate::settings::Settings;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
-use mbs_scene::Document;
+use mbs_scene::SceneFile;
 
 /// Who is told where a run is [s].
 struct Listener<'a>(&'a mut dyn FnMut(f64));
@@ -54,7 +54,7 @@ impl Work for InParts<'_> {
 /// # Errors
 /// [`PrecisionError`] where the text is no scene in that precision, though it is one in `f64`, or the build does not have it.
 pub fn run_document(
-    document: (&Document, &Scene<f64>),
+    document: (&SceneFile, &Scene<f64>),
     settings: &Settings,
     reached: &mut dyn FnMut(f64),
 ) -> Result<Outcome, PrecisionError> {
@@ -67,7 +67,7 @@ pub fn run_document(
 /// # Errors
 /// As [`run_document`]; the inner error for a checkpoint of something else.
 pub fn run_document_kept(
-    document: (&Document, &Scene<f64>),
+    document: (&SceneFile, &Scene<f64>),
     settings: &Settings,
     reached: &mut dyn FnMut(f64),
     (from, keeping): (Option<&Checkpoint>, Option<&mut Keeping>),

@@ -1,6 +1,6 @@
 //! The formulation of a run, with everything its steps need.
 
-use crate::choice::Formulation;
+use crate::choice::FormulationKind;
 use crate::settings::Settings;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane, Tree};
@@ -91,11 +91,11 @@ where
         state: &mut State<T>,
     ) -> Result<Self, StopError> {
         match settings.formulation {
-            Formulation::Index1 | Formulation::Index3 | Formulation::MultiIndex => {
+            FormulationKind::Index1 | FormulationKind::Index3 | FormulationKind::MultiIndex => {
                 let [one, three] = augmented_options(settings);
                 let index = match settings.formulation {
-                    Formulation::Index1 => Index::One(one),
-                    Formulation::Index3 => Index::Three(three),
+                    FormulationKind::Index1 => Index::One(one),
+                    FormulationKind::Index3 => Index::Three(three),
                     _ => Index::Both(IndexChange::new(one, three)),
                 };
                 let team = team(settings, solver.n_branches())?;
@@ -103,7 +103,7 @@ where
                 let workspace = Box::new(mbs_augmented::Workspace::new(model, solver));
                 Ok(Self::Augmented { index, workspace, team })
             }
-            Formulation::Classical => {
+            FormulationKind::Classical => {
                 let options = classical_options(settings);
                 let saddle = classical::Saddle::new(model);
                 let solver = Indefinite::analyse(&saddle, mbs_sparse::Options::default());
@@ -112,7 +112,7 @@ where
                 let workspace = Box::new(classical::Workspace::new(model, solver));
                 Ok(Self::Classical { options, workspace, team })
             }
-            Formulation::StateSpace => {
+            FormulationKind::StateSpace => {
                 let mut options = statespace::Options {
                     integrator: settings.integrator.coefficients(),
                     ..statespace::Options::default()
@@ -123,7 +123,7 @@ where
                 let workspace = Box::new(statespace::Workspace::new(model, state));
                 Ok(Self::StateSpace { options, workspace })
             }
-            Formulation::Recursive => {
+            FormulationKind::Recursive => {
                 let tree = Tree::new(scene, settings, model, state)?;
                 Ok(Self::Recursive(Box::new(tree)))
             }
@@ -340,7 +340,7 @@ fn team(settings: &Settings, branches: usize) -> Result<Threads, StopError> {
 fn augmented_options<T: Real>(settings: &Settings) -> [mbs_augmented::Options<T>; 2] {
     use mbs_augmented::Options;
     // One number cannot be kg and N/m: of both indices it is that of index-3.
-    let is_for = |is_index1: bool| !is_index1 || settings.formulation == Formulation::Index1;
+    let is_for = |is_index1: bool| !is_index1 || settings.formulation == FormulationKind::Index1;
     [(Options::index1(), true), (Options::index3(), false)].map(|(mut options, is_index1)| {
         options.integrator = settings.integrator.coefficients();
         if let Some(alpha) = settings.penalty.filter(|_| is_for(is_index1)) {

@@ -3,7 +3,7 @@
 use crate::checkpoint::tape::{Tape, Told, holds};
 use mbs_core::Real;
 use mbs_core::natural::{Affine, NaturalModel};
-use mbs_core::scene::{BodyRef, Dimension, Inertia, Joint, JointKind, Quantity, Scene};
+use mbs_core::scene::{BodyId, Dimension, Inertia, Joint, JointKind, Quantity, Scene};
 use mbs_scene::{Animation, Polyline, Trace};
 
 /// Pictures kept of a run at most.
@@ -32,7 +32,7 @@ impl<T: Real, const D: usize> Figure<T, D> {
         let up = scene.gravity.map_or([0.0; 3], |g| g.map(|x| -x.to_f64()));
         let ground = scene.joints.iter().flat_map(|j| {
             (0..2)
-                .filter(|&k| j.bodies[k] == BodyRef::Ground && !slides(j.kind))
+                .filter(|&k| j.bodies[k] == BodyId::Ground && !slides(j.kind))
                 .map(|k| j.points[k].map(Real::to_f64))
         });
         let animation = Animation {
@@ -100,7 +100,7 @@ fn slides(kind: JointKind) -> bool {
 /// Straight guides on the ground: place and direction.
 fn rails<T: Real>(scene: &Scene<T>) -> Vec<[[f64; 3]; 2]> {
     let joints =
-        scene.joints.iter().filter(|j| slides(j.kind) && j.bodies.contains(&BodyRef::Ground));
+        scene.joints.iter().filter(|j| slides(j.kind) && j.bodies.contains(&BodyId::Ground));
     let axis =
         |j: &Joint<T>| j.axes[0].map(|axis| [j.points[0], axis].map(|p| p.map(Real::to_f64)));
     joints.filter_map(axis).collect()
@@ -119,7 +119,7 @@ fn used<T: Real>(scene: &Scene<T>) -> Vec<Vec<[T; 3]>> {
     let mut used = vec![Vec::new(); scene.bodies.len()];
     for joint in &scene.joints {
         for (body, point) in joint.bodies.iter().zip(joint.points) {
-            if let BodyRef::Body(b) = *body {
+            if let BodyId::Body(b) = *body {
                 used[b].push(point);
             }
         }
@@ -134,7 +134,7 @@ fn used<T: Real>(scene: &Scene<T>) -> Vec<Vec<[T; 3]>> {
 
 impl<T: Real, const D: usize> Layout<'_, T, D> {
     fn add(&mut self, body: usize, at: [T; 3]) -> usize {
-        self.points.push(self.model.point(BodyRef::Body(body), at));
+        self.points.push(self.model.point(BodyId::Body(body), at));
         self.points.len() - 1
     }
 

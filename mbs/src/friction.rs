@@ -8,7 +8,7 @@
 //! its sign does so for a step or two; one that friction throws back does so step after step, and what holds by friction creeps at a
 //! rate that is none of the law's. Implicit methods, and those that control their error, follow the rise.
 
-use crate::choice::{Formulation, IntegratorKind};
+use crate::choice::{FormulationKind, IntegratorKind};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
@@ -17,7 +17,7 @@ use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross};
 use mbs_core::natural::joint_axes;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{BodyRef, Effect, EffectKind, JointKind, Scene};
+use mbs_core::scene::{BodyId, Effect, EffectKind, JointKind, Scene};
 
 /// Regularisations that a step may change the rate by: where friction holds, Runge and Kutta's method of order four is stable up to 2.8.
 const FAR: f64 = 3.0;
@@ -41,7 +41,7 @@ pub(crate) struct Frictions {
 impl Frictions {
     /// Those of a scene; none where the method of the settings follows them.
     pub(crate) fn new<T: Real>(scene: &Scene<T>, settings: &Settings) -> Self {
-        let is_explicit = settings.formulation == Formulation::Recursive
+        let is_explicit = settings.formulation == FormulationKind::Recursive
             && settings.integrator == IntegratorKind::Rk4;
         let friction = |(effect, e): (usize, &Effect<T>)| match &e.kind {
             EffectKind::Friction { joint, coulomb, r#static, regularisation, .. } if e.enabled => {
@@ -86,8 +86,8 @@ where
 {
     let joint = &scene.joints[joint];
     let [first, second] = joint.bodies.map(|body| match body {
-        BodyRef::Ground => RigidMotion::at_rest(Vector::zeros()),
-        BodyRef::Body(b) => simulation.model().motion(scene, b, simulation.state()),
+        BodyId::Ground => RigidMotion::at_rest(Vector::zeros()),
+        BodyId::Body(b) => simulation.model().motion(scene, b, simulation.state()),
     });
     let [axis, _] = joint_axes(joint, scene.dimension).map(Vector::from);
     let axis = first.rotation * axis;

@@ -50,7 +50,7 @@ pub use mbs_statespace as statespace;
 
 pub use checkpoint::{Checkpoint, CheckpointError, FILE as CHECKPOINT, Keeping};
 pub use choice::{
-    FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
+    FORMULATIONS, FormulationKind, INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
     StepRule,
 };
 pub use document::{run_document, run_document_kept};

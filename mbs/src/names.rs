@@ -1,7 +1,7 @@
 //! Names of what errors are about.
 
 use mbs_core::model::Owner;
-use mbs_core::scene::{BodyRef, Scene};
+use mbs_core::scene::{BodyId, Scene};
 
 /// Names of bodies and joints, and which joint holds which body: what errors need to speak.
 #[derive(Debug, Clone)]
@@ -20,7 +20,7 @@ impl Names {
         let mut joint_of_body = vec![None; scene.bodies.len()];
         for (j, joint) in scene.joints.iter().enumerate() {
             for body in joint.bodies {
-                if let BodyRef::Body(b) = body {
+                if let BodyId::Body(b) = body {
                     joint_of_body[b].get_or_insert(j);
                 }
             }

@@ -10,7 +10,7 @@ use mbs_core::Real;
 #[cfg(feature = "dd")]
 use mbs_core::real::DoubleDouble;
 use mbs_core::scene::{Dimension, Scene};
-use mbs_scene::{Document, ReadError};
+use mbs_scene::{ReadError, SceneFile};
 use std::borrow::Cow;
 
 /// What is done with a scene in the digits and the dimensions of its run.
@@ -40,7 +40,7 @@ pub(crate) enum ReadScene<'a> {
 impl<'a> ReadScene<'a> {
     /// The scene as it was read in `f64`, or read anew from its document in another precision.
     pub(crate) fn new(
-        (document, scene): (&Document, &'a Scene<f64>),
+        (document, scene): (&SceneFile, &'a Scene<f64>),
         precision: Precision,
     ) -> Result<Self, PrecisionError> {
         let _ = document;

@@ -2,7 +2,7 @@
 
 use mbs_core::Real;
 use mbs_core::inputs::GuideInput;
-use mbs_core::scene::{EffectKind, GuideLaw, InitialTarget, Scene};
+use mbs_core::scene::{EffectKind, InitialTarget, Motion, Scene};
 
 /// What an analysis at rest leaves out of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub(crate) fn at_rest<T: Real>(scene: &Scene<T>) -> Scene<T> {
     }
     for guide in &mut still.guides {
         let [value, ..] = GuideInput::new(&guide.law).at(T::ZERO);
-        guide.law = GuideLaw::Input([value, T::ZERO, T::ZERO]);
+        guide.law = Motion::Input([value, T::ZERO, T::ZERO]);
     }
     without_rates(still)
 }

@@ -3,7 +3,7 @@
 pub(crate) mod way;
 
 use crate::choice::{
-    FORMULATIONS, Formulation, INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
+    FORMULATIONS, FormulationKind, INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
     StepRule,
 };
 use crate::digits::is_finer;
@@ -11,7 +11,7 @@ use crate::interrupt::Interrupt;
 use crate::precision::{PrecisionError, not_built_hint};
 use mbs_core::Real;
 use mbs_core::control::EnergyRule;
-use mbs_core::scene::{Scene, SceneError, SolverChoice};
+use mbs_core::scene::{Scene, SceneError, SolverTable};
 use mbs_scene::{Choice, readable};
 
 /// Steps of a run at most: at a microsecond each they take eleven days.
@@ -66,7 +66,7 @@ pub struct Settings {
     /// As asked, `auto` included.
     pub asked: String,
     /// What runs.
-    pub formulation: Formulation,
+    pub formulation: FormulationKind,
     /// Integrator.
     pub integrator: IntegratorKind,
     /// Precision.
@@ -139,7 +139,7 @@ pub enum SettingsError {
     /// Names that do not go together.
     NotTogether {
         /// Formulation.
-        formulation: Formulation,
+        formulation: FormulationKind,
         /// The option that it does not know.
         option: String,
     },
@@ -332,15 +332,15 @@ impl Settings {
 
 /// The formulation as asked and as it runs, and the integrator.
 fn method<T>(
-    solver: &SolverChoice<T>,
+    solver: &SolverTable<T>,
     overrides: &Overrides,
-) -> Result<(String, Formulation, IntegratorKind), SettingsError> {
+) -> Result<(String, FormulationKind, IntegratorKind), SettingsError> {
     let (asked, formulation) = named(
         "formulation",
         (&overrides.formulation, &solver.formulation, "auto"),
         &FORMULATIONS,
         // `auto` stands before them.
-        core::array::from_fn(|i| i.checked_sub(1).map(|i| Formulation::ALL[i])),
+        core::array::from_fn(|i| i.checked_sub(1).map(|i| FormulationKind::ALL[i])),
     )?;
     let (_, integrator) = named(
         "integrator",
@@ -350,14 +350,14 @@ fn method<T>(
     )?;
     let formulation = match formulation {
         Some(formulation) => formulation,
-        None if integrator.is_of_first_order() => Formulation::Recursive,
-        None => Formulation::Index3,
+        None if integrator.is_of_first_order() => FormulationKind::Recursive,
+        None => FormulationKind::Index3,
     };
     if !formulation.runs_with(integrator) {
         let option = format!("integrator {}", integrator.name());
         return Err(SettingsError::NotTogether { formulation, option });
     }
-    if formulation == Formulation::StateSpace && overrides.penalty.is_some() {
+    if formulation == FormulationKind::StateSpace && overrides.penalty.is_some() {
         let option = "penalty".to_owned();
         return Err(SettingsError::NotTogether { formulation, option });
     }
@@ -367,11 +367,11 @@ fn method<T>(
 /// What chooses the length of the steps: what the command line names, what it gives tolerances for, what the scene names, what
 /// it gives the other tolerance for. The energy limits of a scene are meant for multi-index, which has the energy rule anyway.
 fn step_rule<T>(
-    solver: &SolverChoice<T>,
+    solver: &SolverTable<T>,
     overrides: &Overrides,
-    (formulation, integrator): (Formulation, IntegratorKind),
+    (formulation, integrator): (FormulationKind, IntegratorKind),
 ) -> Result<StepRule, SettingsError> {
-    let of_formulation = formulation == Formulation::MultiIndex;
+    let of_formulation = formulation == FormulationKind::MultiIndex;
     let given = [overrides.energy_tolerance.is_some(), overrides.error_tolerance.is_some()];
     let is_named = overrides.step_control.is_some() || solver.step_control.is_some();
     let (from_caller, default) = if overrides.step_control.is_none() && given != [false; 2] {
@@ -395,7 +395,7 @@ fn step_rule<T>(
 }
 
 /// U and L of the energy rule: the caller's, the scene's, or the usual ones.
-fn energy_limits<T: Real>(solver: &SolverChoice<T>, overrides: &Overrides) -> [f64; 2] {
+fn energy_limits<T: Real>(solver: &SolverTable<T>, overrides: &Overrides) -> [f64; 2] {
     let of_scene = solver.energy_tolerance.map(|limits| limits.map(T::to_f64));
     let usual = EnergyRule::default();
     overrides.energy_tolerance.or(of_scene).unwrap_or([usual.upper, usual.lower])

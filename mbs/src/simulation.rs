@@ -5,7 +5,7 @@ mod carry;
 pub use carry::Refusal;
 
 use crate::checkpoint::{Kept, inputs};
-use crate::choice::Formulation;
+use crate::choice::FormulationKind;
 use crate::control::Control;
 use crate::engine::Engine;
 use crate::explain::kinds::damps;
@@ -17,7 +17,7 @@ use mbs_core::Real;
 use mbs_core::control::{Accepted, Attempt, Invariant, Limit};
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{Course, EffectKind, Scene};
+use mbs_core::scene::{EffectKind, Scene, Signal};
 use mbs_core::start::Assembled;
 use mbs_core::step::{InputError, StepError, StepReport, largest};
 
@@ -58,7 +58,7 @@ where
         settings: &Settings,
         mut ready: Ready<T, D>,
     ) -> Result<Self, StopError> {
-        let natural = (settings.formulation != Formulation::Recursive).then(|| ready.sizes());
+        let natural = (settings.formulation != FormulationKind::Recursive).then(|| ready.sizes());
         let Ready { model, solver, start, .. } = ready;
         let mut state = start.state.clone();
         let engine = Engine::new(scene, settings, &model, solver, &mut state)?;
@@ -154,7 +154,7 @@ where
     /// the new input. What a law stores under another input is booked as work.
     ///
     /// # Errors
-    /// [`InputError`] where the effect has no input ([`Course::Input`](mbs_core::scene::Course::Input)), or where a component is not
+    /// [`InputError`] where the effect has no input ([`Signal::Input`](mbs_core::scene::Signal::Input)), or where a component is not
     /// finite. Nothing is set then.
     pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
         if let Engine::Recursive(tree) = &mut self.engine {
@@ -167,7 +167,7 @@ where
     /// first of the steps within the next [`step`](Self::step) takes it over.
     ///
     /// # Errors
-    /// [`InputError`] where the guide is no input ([`GuideLaw::Input`](mbs_core::scene::GuideLaw::Input)), or where a component is not
+    /// [`InputError`] where the guide is no input ([`Motion::Input`](mbs_core::scene::Motion::Input)), or where a component is not
     /// finite. Nothing is set then.
     pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
         if let Engine::Recursive(tree) = &mut self.engine {
@@ -310,8 +310,8 @@ fn given<T: Real>(kind: &EffectKind<T>, length: f64) -> f64 {
         _ => return 0.0,
     };
     let largest = match course {
-        Course::Constant(value) | Course::Input(value) => size(*value),
-        Course::Table(rows) => rows.iter().map(|(_, value)| size(*value)).fold(0.0, f64::max),
+        Signal::Constant(value) | Signal::Input(value) => size(*value),
+        Signal::Table(rows) => rows.iter().map(|(_, value)| size(*value)).fold(0.0, f64::max),
     };
     largest * arm
 }

@@ -9,7 +9,7 @@ use mbs_core::actions::{Action, Actions};
 use mbs_core::model::{Model, Owner, State, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{BodyRef, JointKind, Scene};
+use mbs_core::scene::{BodyId, JointKind, Scene};
 use mbs_core::step::{InputError, StepError, StepReport};
 use mbs_recursive::space::Space;
 use mbs_recursive::{
@@ -43,7 +43,7 @@ enum Angle {
     /// A link's coordinate.
     Of(u32),
     /// Of the second body against the first, in the plane.
-    Between([BodyRef; 2]),
+    Between([BodyId; 2]),
 }
 
 /// The angles that effects measure, by the place where the natural state remembers each: of a joint that is not cut, or in the plane.
@@ -64,7 +64,7 @@ fn angles<T: Real, const D: usize>(
             }
             Action::Turn { bodies, .. } => Angle::Between(*bodies),
             Action::Torque { body, .. } if D == 2 => {
-                Angle::Between([BodyRef::Ground, BodyRef::Body(*body)])
+                Angle::Between([BodyId::Ground, BodyId::Body(*body)])
             }
             _ => return None,
         };

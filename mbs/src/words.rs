@@ -5,7 +5,7 @@ use crate::settings::Settings;
 use crate::tree::ROUNDINGS;
 use mbs_core::Real;
 use mbs_core::control::Limit;
-use mbs_core::scene::{Body, BodyRef, Inertia, Scene};
+use mbs_core::scene::{Body, BodyId, Inertia, Scene};
 use mbs_scene::{Contact, ControlSummary, ErrorEstimate, RunError, RunSummary, readable};
 
 /// Three significant digits: the size is what matters.
@@ -276,7 +276,7 @@ fn spoilt<T: Real>(scene: &Scene<T>) -> Option<(&str, f64)> {
         .collect();
     for joint in &scene.joints {
         for (body, point) in joint.bodies.into_iter().zip(joint.points) {
-            if let BodyRef::Body(b) = body {
+            if let BodyId::Body(b) = body {
                 places[b].push(in_f64(point));
             }
         }
@@ -311,7 +311,7 @@ fn in_f64<T: Real>(x: [T; 3]) -> [f64; 3] {
 fn held<T>(scene: &Scene<T>) -> Vec<bool> {
     let mut held = vec![false; scene.bodies.len()];
     for body in scene.joints.iter().flat_map(|joint| joint.bodies) {
-        if let BodyRef::Body(b) = body {
+        if let BodyId::Body(b) = body {
             held[b] = true;
         }
     }

@@ -6,7 +6,7 @@ pub mod seeds;
 use crate::scene::Quantity;
 use crate::{Mechanism, State};
 use mbs::core::scene::Scene;
-use mbs::scene_file::Document;
+use mbs::scene_file::SceneFile;
 use mbs::{Overrides, Settings};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -130,7 +130,7 @@ pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
 /// # Errors
 /// Its refusal.
 pub fn document(text: &str) -> Result<Scene<f64>, String> {
-    let document = Document::parse(text, "drawn.toml").map_err(|e| e.render())?;
+    let document = SceneFile::parse(text, "drawn.toml").map_err(|e| e.render())?;
     document.scene().map_err(|e| e.render())
 }
 

@@ -23,7 +23,7 @@ use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Dimension;
 use mbs_core::start::assemble;
-use mbs_scene::Document;
+use mbs_scene::SceneFile;
 use mbs_sparse::Multifrontal;
 use std::hint::black_box;
 use std::time::Duration;
@@ -87,7 +87,7 @@ fn workspace<const D: usize>(model: &NaturalModel<f64, D>) -> Workspace<f64, Mul
 
 fn all(c: &mut Criterion) {
     for (name, text) in SCENES {
-        let document = Document::parse(text, name).expect("scene");
+        let document = SceneFile::parse(text, name).expect("scene");
         let dimension = document.scene::<f64>().expect("scene").dimension;
         match dimension {
             Dimension::Planar => scene::<2>(c, name, &document),
@@ -96,7 +96,7 @@ fn all(c: &mut Criterion) {
     }
 }
 
-fn scene<const D: usize>(c: &mut Criterion, name: &str, document: &Document) {
+fn scene<const D: usize>(c: &mut Criterion, name: &str, document: &SceneFile) {
     let scene = document.scene::<f64>().expect("scene");
     let model = NaturalModel::<f64, D>::new(&scene).expect("model");
     let mut solver = Multifrontal::analyse(&model, mbs_sparse::Options::default());

@@ -142,7 +142,7 @@ fn the_motion_does_not_feel_the_changes_of_index() {
         multi.step(model, (1.0 - state.t, length), state, work).expect("it steps");
     }
     assert!(multi.change.changes() > 2, "{} changes", multi.change.changes());
-    let at = bench.model.point(mbs_core::scene::BodyRef::Body(1), [2.0, 0.0, 0.0]);
+    let at = bench.model.point(mbs_core::scene::BodyId::Body(1), [2.0, 0.0, 0.0]);
     let tip = at.value(&bench.state.q);
     let error = (tip[0] + 1.662_115_135_816_127_6).hypot(tip[1] + 1.041_466_667_193_224_7);
     // Order two at 1e-4: fixed index-3 has 2e-7.

@@ -4,7 +4,7 @@ use crate::common::{Index, Run};
 use mbs_classical::{OptionError, Options, Stabilisation, StepError};
 use mbs_core::integrator::Integrator;
 use mbs_core::model::Owner;
-use mbs_core::scene::BodyRef;
+use mbs_core::scene::BodyId;
 use mbs_testkit::scene;
 use mbs_testkit::scenes::{DOUBLE, SIMPLE, TWO_FOUR_BARS};
 
@@ -125,7 +125,7 @@ fn the_reaction_of_a_pendulum_is_the_tension_of_its_bar() {
         let mut run = Run::<f64, 2>::new(&scene(&SIMPLE), index);
         for _ in 0..300 {
             run.step(2e-3).unwrap();
-            let bob = run.model.point(BodyRef::Body(0), run.scene.bodies[0].center);
+            let bob = run.model.point(BodyId::Body(0), run.scene.bodies[0].center);
             let (r, v) = (bob.value(&run.state.q), bob.value(&run.state.v));
             // m (v^2 - g . r) / L with m = 1 kg, L = 1 m
             let tension = v[0] * v[0] + v[1] * v[1] - 9.81 * r[1];

@@ -2,9 +2,9 @@
 
 use super::{Action, ActionError, Actions, Seat, Tables};
 use crate::Real;
-use crate::inputs::{CourseInput, Prescribed};
+use crate::inputs::{Prescribed, SignalInput};
 use crate::laws::scalar::Law;
-use crate::scene::{AxisFrame, BodyRef, Course, EffectKind, Scene};
+use crate::scene::{AxisFrame, BodyId, EffectKind, Scene, Signal};
 use alloc::vec::Vec;
 
 impl<T: Real> Actions<T> {
@@ -75,7 +75,7 @@ impl<T: Real> Compiler<'_, T> {
         self.actions.list.push((self.effect, action));
     }
 
-    pub(super) fn course(&mut self, course: CourseInput<T>) -> u32 {
+    pub(super) fn course(&mut self, course: SignalInput<T>) -> u32 {
         number(self.actions.prescribed.add(self.effect, course))
     }
 
@@ -87,7 +87,7 @@ impl<T: Real> Compiler<'_, T> {
                 self.push(Action::Length { ends: ends(bodies, points), law });
             }
             EffectKind::Actuator { bodies, points, course } => {
-                let law = Law::Torque { course: self.course(CourseInput::new(course)) };
+                let law = Law::Torque { course: self.course(SignalInput::new(course)) };
                 self.push(Action::Length { ends: ends(bodies, points), law });
             }
             EffectKind::TorsionSpring { joint, stiffness, damping, free_value } => {
@@ -96,24 +96,24 @@ impl<T: Real> Compiler<'_, T> {
                 self.push(Action::Angle { joint: *joint, law });
             }
             EffectKind::JointTorque { joint, course } => {
-                let law = Law::Torque { course: self.course(CourseInput::new(course)) };
+                let law = Law::Torque { course: self.course(SignalInput::new(course)) };
                 self.push(Action::Angle { joint: *joint, law });
             }
             EffectKind::Force { body, at, course, frame } => {
                 let at = (*body, *at);
                 let action = match (course, frame) {
-                    (Course::Constant(force), AxisFrame::Global) => {
+                    (Signal::Constant(force), AxisFrame::Global) => {
                         Action::Constant { at, force: *force }
                     }
                     _ => {
-                        let course = self.course(CourseInput::new(course));
+                        let course = self.course(SignalInput::new(course));
                         Action::Force { at, course, turns: *frame == AxisFrame::Body }
                     }
                 };
                 self.push(action);
             }
             EffectKind::BodyTorque { body, course } => {
-                let course = self.course(CourseInput::new(course));
+                let course = self.course(SignalInput::new(course));
                 self.push(Action::Torque { body: *body, course });
             }
             _ => {
@@ -125,7 +125,7 @@ impl<T: Real> Compiler<'_, T> {
 }
 
 /// The places of two points.
-pub(super) fn ends<T: Copy>(bodies: &[BodyRef; 2], points: &[[T; 3]; 2]) -> [Seat<T>; 2] {
+pub(super) fn ends<T: Copy>(bodies: &[BodyId; 2], points: &[[T; 3]; 2]) -> [Seat<T>; 2] {
     [(bodies[0], points[0]), (bodies[1], points[1])]
 }
 

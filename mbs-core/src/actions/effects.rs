@@ -10,12 +10,12 @@ use super::compile::{Compiler, ends};
 use crate::Real;
 use crate::algebra::{Vector, norm, unit};
 use crate::cluster::mass_properties;
-use crate::inputs::CourseInput;
+use crate::inputs::SignalInput;
 use crate::laws;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
 use crate::natural::joint_axes;
-use crate::scene::{BodyRef, Dimension, EffectKind, JointKind, OwnLaw, PolynomialPiece};
+use crate::scene::{BodyId, Dimension, EffectKind, JointKind, PolynomialPiece, UserLaw};
 
 impl<T: Real> Compiler<'_, T> {
     /// A law along a length or about an angle.
@@ -117,14 +117,14 @@ impl<T: Real> Compiler<'_, T> {
             }
             #[cfg(feature = "own-laws")]
             EffectKind::Own { law, course } => {
-                let course = self.course(CourseInput::new(course));
+                let course = self.course(SignalInput::new(course));
                 match *law {
-                    OwnLaw::Length { bodies, points, law } => {
+                    UserLaw::Length { bodies, points, law } => {
                         let law = Law::Own { law, course };
                         self.push(Action::Length { ends: ends(&bodies, &points), law });
                     }
-                    OwnLaw::Joint { joint, law } => self.on_joint(joint, Law::Own { law, course }),
-                    OwnLaw::Body { body, at, axis, law } => {
+                    UserLaw::Joint { joint, law } => self.on_joint(joint, Law::Own { law, course }),
+                    UserLaw::Body { body, at, axis, law } => {
                         let law = BodyLaw::Own { law, course };
                         self.push(Action::OnBody { at: (body, at), axis: direction_of(axis), law });
                     }
@@ -151,7 +151,7 @@ impl<T: Real> Compiler<'_, T> {
         });
     }
 
-    fn bushing(&mut self, bodies: [BodyRef; 2], at: [T; 3], (k, c): (&[T; 6], &[T; 6])) {
+    fn bushing(&mut self, bodies: [BodyId; 2], at: [T; 3], (k, c): (&[T; 6], &[T; 6])) {
         let acts = |i: usize| !(k[i].is_zero() && c[i].is_zero());
         let law = |i| Law::SpringDamper { stiffness: k[i], damping: c[i], free: T::ZERO };
         let ends = bodies.map(|body| (body, at));

@@ -16,11 +16,11 @@ pub use tables::Tables;
 use crate::inputs::Prescribed;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
-use crate::scene::BodyRef;
+use crate::scene::BodyId;
 use alloc::vec::Vec;
 
 /// A place on a body, reference configuration [m].
-pub type Seat<T> = (BodyRef, [T; 3]);
+pub type Seat<T> = (BodyId, [T; 3]);
 
 /// What one effect, or a part of one, does.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,7 +53,7 @@ pub enum Action<T> {
     /// A law of the angle of the second body against the first in the plane, over any number of turns.
     Turn {
         /// The bodies.
-        bodies: [BodyRef; 2],
+        bodies: [BodyId; 2],
         /// The law.
         law: Law<T>,
     },
@@ -61,7 +61,7 @@ pub enum Action<T> {
     /// the first; below a whole turn. An effect has three of them, one after the other, or none.
     Rotation {
         /// The bodies.
-        bodies: [BodyRef; 2],
+        bodies: [BodyId; 2],
         /// The component, from 0.
         number: u32,
         /// The law.

@@ -2,7 +2,7 @@
 
 use super::compile::{Compiler, part};
 use crate::Real;
-use crate::inputs::CourseInput;
+use crate::inputs::SignalInput;
 use crate::laws::road::Feature;
 use crate::laws::{Part, guide};
 use crate::scene::RoadFeature;
@@ -17,7 +17,7 @@ impl<T: Real> Compiler<'_, T> {
         let road = &self.scene.road;
         let left = self.features(&road.left);
         let right = if road.left == road.right { left } else { self.features(&road.right) };
-        let travel = (!road.speed.is_zero()).then(|| self.course(CourseInput::travel(road.speed)));
+        let travel = (!road.speed.is_zero()).then(|| self.course(SignalInput::travel(road.speed)));
         *self.roads.insert(([left, right], travel))
     }
 

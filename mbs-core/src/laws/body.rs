@@ -59,7 +59,7 @@ pub enum BodyLaw<T> {
     #[cfg(feature = "own-laws")]
     Own {
         /// The law.
-        law: super::own::OwnWrench<T>,
+        law: super::own::UserBodyLaw<T>,
         /// Number of the course that is its input.
         course: u32,
     },

@@ -12,7 +12,7 @@ use crate::Real;
 
 /// Value, rate and acceleration of a guided coordinate [rad or m, per s, per s^2].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion<T> {
+pub struct GuideMotion<T> {
     /// g(t).
     pub value: T,
     /// dg/dt.
@@ -22,10 +22,10 @@ pub struct Motion<T> {
 }
 
 /// Evaluates `amplitude * sin(2 pi frequency t + phase)` [rad or m, Hz, rad].
-pub fn sine<T: Real>(amplitude: T, frequency: T, phase: T, t: T) -> Motion<T> {
+pub fn sine<T: Real>(amplitude: T, frequency: T, phase: T, t: T) -> GuideMotion<T> {
     let omega = T::TWO * T::PI * frequency;
     let (sin, cos) = (omega * t + phase).sin_cos();
-    Motion {
+    GuideMotion {
         value: amplitude * sin,
         rate: amplitude * omega * cos,
         acceleration: -amplitude * omega * omega * sin,
@@ -33,8 +33,8 @@ pub fn sine<T: Real>(amplitude: T, frequency: T, phase: T, t: T) -> Motion<T> {
 }
 
 /// Evaluates `rate * t`.
-pub fn ramp<T: Real>(rate: T, t: T) -> Motion<T> {
-    Motion { value: rate * t, rate, acceleration: T::ZERO }
+pub fn ramp<T: Real>(rate: T, t: T) -> GuideMotion<T> {
+    GuideMotion { value: rate * t, rate, acceleration: T::ZERO }
 }
 
 /// Writes the second derivatives of the natural cubic spline through the rows (time, value).
@@ -145,8 +145,8 @@ pub fn linear<T: Real, R>(rows: &[R], row: impl Fn(&R) -> (T, [T; 3]), t: T) -> 
 /// at rest. An empty table is zero; a curvature that is not there is zero too.
 ///
 /// Cost: one binary search; no allocation.
-pub fn spline<T: Real>(table: &[[T; 2]], curvature: &[T], t: T) -> Motion<T> {
-    let held = |value| Motion { value, rate: T::ZERO, acceleration: T::ZERO };
+pub fn spline<T: Real>(table: &[[T; 2]], curvature: &[T], t: T) -> GuideMotion<T> {
+    let held = |value| GuideMotion { value, rate: T::ZERO, acceleration: T::ZERO };
     let (Some(first), Some(last)) = (table.first(), table.last()) else { return held(T::ZERO) };
     if t < first[0] || table.len() == 1 {
         return held(first[1]);
@@ -164,7 +164,7 @@ pub fn spline<T: Real>(table: &[[T; 2]], curvature: &[T], t: T) -> Motion<T> {
     let (a, b) = ((t1 - t) / h, (t - t0) / h);
     let sixth = T::ONE / T::from_f64(6.0);
     let three = T::from_f64(3.0);
-    Motion {
+    GuideMotion {
         value: a * g0 + b * g1 + ((a * a * a - a) * c0 + (b * b * b - b) * c1) * h * h * sixth,
         rate: (g1 - g0) / h
             + ((three * b * b - T::ONE) * c1 - (three * a * a - T::ONE) * c0) * h * sixth,
@@ -185,7 +185,7 @@ mod tests {
     }
 
     /// Central differences of step 1e-5: truncation 1e-10 times a third derivative of order 100.
-    fn derivatives_match(g: impl Fn(f64) -> Motion<f64>, t: f64) {
+    fn derivatives_match(g: impl Fn(f64) -> GuideMotion<f64>, t: f64) {
         let h = 1.0e-5;
         let (before, now, after) = (g(t - h), g(t), g(t + h));
         assert!(((after.value - before.value) / (2.0 * h) - now.rate).abs() < 1.0e-6, "t = {t}");
@@ -213,7 +213,7 @@ mod tests {
         assert_eq!(curvature[0].to_bits(), 0);
         assert_eq!(curvature[4].to_bits(), 0);
         let before = spline(&TABLE, &curvature, -3.0);
-        assert_eq!(before, Motion { value: 0.3, rate: 0.0, acceleration: 0.0 });
+        assert_eq!(before, GuideMotion { value: 0.3, rate: 0.0, acceleration: 0.0 });
         assert_eq!(spline(&TABLE, &curvature, 9.0).value.to_bits(), 1.0_f64.to_bits());
     }
 
@@ -264,6 +264,6 @@ mod tests {
         let middle = spline(&table, &curvature, 0.5);
         assert!((middle.value - 0.025).abs() < 1.0e-17 && (middle.rate - 0.05).abs() < 1.0e-17);
         let held = spline(&[[3.0, 2.0]], &[0.0], 0.0);
-        assert_eq!(held, Motion { value: 2.0, rate: 0.0, acceleration: 0.0 });
+        assert_eq!(held, GuideMotion { value: 2.0, rate: 0.0, acceleration: 0.0 });
     }
 }

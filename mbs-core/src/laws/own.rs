@@ -34,13 +34,13 @@ pub trait WrenchLaw<T> {
 
 /// A [`ScalarLaw`] as a value.
 #[derive(Clone, Copy)]
-pub struct OwnScalar<T> {
+pub struct UserScalarLaw<T> {
     pub(crate) evaluate: fn(T, T, [T; 3]) -> Measure<T>,
     pub(crate) energy: fn(T, [T; 3]) -> T,
     pub(crate) elastic: fn(T, [T; 3]) -> T,
 }
 
-impl<T> OwnScalar<T> {
+impl<T> UserScalarLaw<T> {
     /// The law `L`.
     #[must_use]
     pub fn of<L: ScalarLaw<T>>() -> Self {
@@ -48,7 +48,7 @@ impl<T> OwnScalar<T> {
     }
 }
 
-impl<T> PartialEq for OwnScalar<T> {
+impl<T> PartialEq for UserScalarLaw<T> {
     fn eq(&self, other: &Self) -> bool {
         core::ptr::fn_addr_eq(self.evaluate, other.evaluate)
             && core::ptr::fn_addr_eq(self.energy, other.energy)
@@ -56,19 +56,19 @@ impl<T> PartialEq for OwnScalar<T> {
     }
 }
 
-impl<T> core::fmt::Debug for OwnScalar<T> {
+impl<T> core::fmt::Debug for UserScalarLaw<T> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str("OwnScalar")
+        f.write_str("UserScalarLaw")
     }
 }
 
 /// A [`WrenchLaw`] as a value.
 #[derive(Clone, Copy)]
-pub struct OwnWrench<T> {
+pub struct UserBodyLaw<T> {
     pub(crate) evaluate: fn(&BodyMotion<T>, [T; 3]) -> Action<T>,
 }
 
-impl<T> OwnWrench<T> {
+impl<T> UserBodyLaw<T> {
     /// The law `L`.
     #[must_use]
     pub fn of<L: WrenchLaw<T>>() -> Self {
@@ -77,7 +77,7 @@ impl<T> OwnWrench<T> {
 }
 
 #[cfg(feature = "own-laws")]
-impl<T: crate::Real> OwnWrench<T> {
+impl<T: crate::Real> UserBodyLaw<T> {
     /// The law at a motion, with the rate of its wrench.
     pub(crate) fn action(&self, motion: &BodyMotion<T>, input: [T; 3]) -> Action<T> {
         let mut action = (self.evaluate)(motion, input);
@@ -88,14 +88,14 @@ impl<T: crate::Real> OwnWrench<T> {
     }
 }
 
-impl<T> PartialEq for OwnWrench<T> {
+impl<T> PartialEq for UserBodyLaw<T> {
     fn eq(&self, other: &Self) -> bool {
         core::ptr::fn_addr_eq(self.evaluate, other.evaluate)
     }
 }
 
-impl<T> core::fmt::Debug for OwnWrench<T> {
+impl<T> core::fmt::Debug for UserBodyLaw<T> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str("OwnWrench")
+        f.write_str("UserBodyLaw")
     }
 }

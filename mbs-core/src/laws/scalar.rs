@@ -75,7 +75,7 @@ pub enum Law<T> {
     #[cfg(feature = "own-laws")]
     Own {
         /// The law.
-        law: super::own::OwnScalar<T>,
+        law: super::own::UserScalarLaw<T>,
         /// Number of the course that is its input.
         course: u32,
     },

@@ -5,7 +5,7 @@ use super::group::add_curvature;
 use super::model::NaturalModel;
 use crate::Real;
 use crate::algebra::{Coef, Vector, add_to, load};
-use crate::scene::BodyRef;
+use crate::scene::BodyId;
 use alloc::vec::Vec;
 
 /// x(q) = sum_k A_k e_k + c: a body point or direction; on the ground only c is left.
@@ -71,7 +71,7 @@ impl<T: Real, const D: usize> Affine<T, D> {
 impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// Material point of a body, given in the reference configuration [m].
     #[must_use]
-    pub fn point(&self, body: BodyRef, at: [T; 3]) -> Affine<T, D> {
+    pub fn point(&self, body: BodyId, at: [T; 3]) -> Affine<T, D> {
         let at = Vector::from(at);
         match self.clusters.of(body) {
             Some(c) => self.affine(&self.bases[c].point(&at)),
@@ -81,7 +81,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
 
     /// Body-fixed direction of a body, given in the reference configuration.
     #[must_use]
-    pub fn direction(&self, body: BodyRef, d: [T; 3]) -> Affine<T, D> {
+    pub fn direction(&self, body: BodyId, d: [T; 3]) -> Affine<T, D> {
         let d = Vector::from(d);
         match self.clusters.of(body) {
             Some(c) => self.affine(&self.bases[c].direction(&d)),
@@ -91,13 +91,13 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
 
     /// Does the body carry all rotations? A spatial rod held by balls only has no rotation about itself.
     #[must_use]
-    pub fn has_full_rotation(&self, body: BodyRef) -> bool {
+    pub fn has_full_rotation(&self, body: BodyId) -> bool {
         self.clusters.of(body).is_none_or(|c| self.bases[c].is_full())
     }
 
     /// Is the body welded to the ground?
     #[must_use]
-    pub fn is_ground(&self, body: BodyRef) -> bool {
+    pub fn is_ground(&self, body: BodyId) -> bool {
         self.clusters.of(body).is_none()
     }
 

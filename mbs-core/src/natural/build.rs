@@ -14,7 +14,7 @@ use crate::algebra::Vector;
 use crate::cluster::{Clusters, scene_length};
 use crate::model::Owner;
 use crate::scene::align::aligned;
-use crate::scene::{BodyRef, Dimension, Scene};
+use crate::scene::{BodyId, Dimension, Scene};
 use alloc::vec::Vec;
 
 /// Dependent entities that share an element with their body; each further one is an element of its own.
@@ -86,7 +86,7 @@ impl<'a, T: Real> Builder<'a, T> {
     }
 
     /// The combination that is material point `at` of a body.
-    pub(super) fn point(&mut self, body: BodyRef, at: [T; 3]) -> Combination<T> {
+    pub(super) fn point(&mut self, body: BodyId, at: [T; 3]) -> Combination<T> {
         let at = Vector::from(at);
         match self.clusters.of(body) {
             Some(c) => self.bases[c].point(&at),
@@ -95,7 +95,7 @@ impl<'a, T: Real> Builder<'a, T> {
     }
 
     /// The combination that is body-fixed direction `d` of a body.
-    pub(super) fn direction(&mut self, body: BodyRef, d: Vector<T, 3>) -> Combination<T> {
+    pub(super) fn direction(&mut self, body: BodyId, d: Vector<T, 3>) -> Combination<T> {
         match self.clusters.of(body) {
             Some(c) => self.bases[c].direction(&d),
             None => self.constant(d, EntityKind::Direction),

@@ -10,7 +10,7 @@ use crate::actions::{Action, Seat};
 use crate::algebra::{Vector, unit};
 use crate::laws::scalar::Law;
 use crate::model::Owner;
-use crate::scene::{BodyRef, Dimension};
+use crate::scene::{BodyId, Dimension};
 use alloc::vec::Vec;
 
 impl<T: Real> Builder<'_, T> {
@@ -59,7 +59,7 @@ impl<T: Real> Builder<'_, T> {
                 // A constant force has a potential, -F.r: it joins gravity.
                 if self.clusters.of_body[*body].is_some() {
                     let f = Vector::<T, 3>::from(*force);
-                    let point = self.point(BodyRef::Body(*body), *at);
+                    let point = self.point(BodyId::Body(*body), *at);
                     group.forces.extend(point.into_iter().map(|(e, c)| (e, lifted(c, &f))));
                 }
                 return Ok(());
@@ -85,7 +85,7 @@ impl<T: Real> Builder<'_, T> {
         if self.clusters.of_body[*body].is_none() {
             return Ok(());
         }
-        let me = BodyRef::Body(*body);
+        let me = BodyId::Body(*body);
         let draft = match action {
             Action::Force { at: (_, at), course, turns } => EffectDraft::Force {
                 point: self.point(me, *at),
@@ -98,8 +98,8 @@ impl<T: Real> Builder<'_, T> {
                     Dimension::Planar => {
                         let [x, y] = [0, 1].map(unit);
                         EffectDraft::Angle {
-                            x1: self.direction(BodyRef::Ground, x),
-                            x2: self.direction(BodyRef::Ground, y),
+                            x1: self.direction(BodyId::Ground, x),
+                            x2: self.direction(BodyId::Ground, y),
                             y: self.direction(me, x),
                             law: Law::Torque { course: *course },
                         }
@@ -129,9 +129,9 @@ impl<T: Real> Builder<'_, T> {
     }
 
     /// A rod held by balls has no rotation about itself.
-    fn needs_rotation(&self, body: BodyRef) -> Result<(), ModelError> {
+    fn needs_rotation(&self, body: BodyId) -> Result<(), ModelError> {
         match (body, self.clusters.of(body)) {
-            (BodyRef::Body(body), Some(c)) if !self.bases[c].is_full() => {
+            (BodyId::Body(body), Some(c)) if !self.bases[c].is_full() => {
                 Err(ModelError::NoRotation { body })
             }
             _ => Ok(()),
@@ -139,7 +139,7 @@ impl<T: Real> Builder<'_, T> {
     }
 
     /// The body's directions that were x, y, z in the reference configuration; in the plane x and y.
-    fn frame(&mut self, body: BodyRef) -> Vec<Combination<T>> {
+    fn frame(&mut self, body: BodyId) -> Vec<Combination<T>> {
         let n = self.scene.dimension.count();
         (0..n).map(|i| self.direction(body, unit(i))).collect()
     }

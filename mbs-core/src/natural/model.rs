@@ -101,7 +101,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     ///
     /// # Errors
     /// [`InputError`] where the effect has none (it has one where it is enabled and its course is
-    /// [`Course::Input`](crate::scene::Course::Input)), or where a component is not finite.
+    /// [`Signal::Input`](crate::scene::Signal::Input)), or where a component is not finite.
     pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
         self.prescribed.set_course(effect, value)
     }
@@ -110,7 +110,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// accelerations jump with the square of the step: pass what a smooth reference gives.
     ///
     /// # Errors
-    /// [`InputError`] where the guide is no input ([`GuideLaw::Input`](crate::scene::GuideLaw::Input)), or where a component is not
+    /// [`InputError`] where the guide is no input ([`Motion::Input`](crate::scene::Motion::Input)), or where a component is not
     /// finite.
     pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
         self.prescribed.set_guide(guide, motion)

@@ -4,7 +4,7 @@ use crate::Real;
 use crate::actions::{Action, Actions};
 use crate::algebra::{Vector, norm};
 use crate::cluster::{Cluster, Clusters};
-use crate::scene::{BodyRef, InitialTarget, JointKind, Quantity, Scene};
+use crate::scene::{BodyId, InitialTarget, JointKind, Quantity, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -39,7 +39,7 @@ impl<T: Real> Rods<T> {
             | Quantity::Velocity { body, at }
             | Quantity::Acceleration { body, at } = &output.quantity
             {
-                rods.point(BodyRef::Body(*body), at);
+                rods.point(BodyId::Body(*body), at);
             }
         }
         rods
@@ -52,8 +52,8 @@ impl<T: Real> Rods<T> {
     }
 
     /// A point of a body is used: it must lie on the line.
-    fn point(&mut self, body: BodyRef, at: &[T; 3]) {
-        let BodyRef::Body(b) = body else { return };
+    fn point(&mut self, body: BodyId, at: &[T; 3]) {
+        let BodyId::Body(b) = body else { return };
         let Some(ends) = &self.ends[b] else { return };
         let along = ends[1] - ends[0];
         let r = Vector::<T, 3>::from(*at) - ends[0];
@@ -64,8 +64,8 @@ impl<T: Real> Rods<T> {
     }
 
     /// The whole rotation of a body is used.
-    fn rotation(&mut self, body: BodyRef) {
-        if let BodyRef::Body(b) = body {
+    fn rotation(&mut self, body: BodyId) {
+        if let BodyId::Body(b) = body {
             self.ends[b] = None;
         }
     }
@@ -92,7 +92,7 @@ impl<T: Real> Rods<T> {
                 InitialTarget::Body { body, velocity, .. } => {
                     // an angular velocity says how the line swings
                     if let Some((at, _)) = velocity {
-                        self.point(BodyRef::Body(*body), at);
+                        self.point(BodyId::Body(*body), at);
                     }
                 }
                 InitialTarget::Joint { joint, .. } => {
@@ -112,8 +112,8 @@ impl<T: Real> Rods<T> {
             Action::Turn { bodies, .. } | Action::Rotation { bodies, .. } => {
                 bodies.iter().for_each(|b| self.rotation(*b))
             }
-            Action::Constant { at: (body, at), .. } => self.point(BodyRef::Body(*body), at),
-            Action::Torque { body, .. } => self.rotation(BodyRef::Body(*body)),
+            Action::Constant { at: (body, at), .. } => self.point(BodyId::Body(*body), at),
+            Action::Torque { body, .. } => self.rotation(BodyId::Body(*body)),
             Action::Angle { joint, .. } => {
                 scene.joints[*joint].bodies.into_iter().for_each(|body| self.rotation(body));
             }
@@ -127,7 +127,7 @@ impl<T: Real> Rods<T> {
     }
 
     fn point_turning(&mut self, body: usize, at: &[T; 3], turns: bool) {
-        let me = BodyRef::Body(body);
+        let me = BodyId::Body(body);
         if turns {
             self.rotation(me);
         } else {

@@ -11,7 +11,7 @@ use crate::Real;
 use crate::algebra::{Vector, cross, rotation_vector, unit};
 use crate::model::State;
 use crate::natural::{Affine, NaturalModel, angle_directions, joint_axes, unwrap, unwrap_rotation};
-use crate::scene::{BodyRef, Joint, JointKind, Scene};
+use crate::scene::{BodyId, Joint, JointKind, Scene};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
@@ -85,7 +85,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
     }
 
     /// The angle of the second body against the first, in the plane.
-    pub(super) fn between(model: &NaturalModel<T, D>, [first, second]: [BodyRef; 2]) -> Self {
+    pub(super) fn between(model: &NaturalModel<T, D>, [first, second]: [BodyId; 2]) -> Self {
         let [x, y] = [0, 1].map(|i| unit::<T>(i).into());
         Self::Angle {
             x1: model.direction(first, x),

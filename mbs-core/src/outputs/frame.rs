@@ -9,7 +9,7 @@
 use crate::Real;
 use crate::algebra::{Matrix, Vector, across, cross, norm, raised, rotation, unit};
 use crate::natural::{Affine, NaturalModel};
-use crate::scene::{BodyRef, Inertia, Scene};
+use crate::scene::{BodyId, Inertia, Scene};
 use alloc::boxed::Box;
 
 /// The directions that carry a body's rotation.
@@ -25,12 +25,12 @@ pub(super) enum Frame<T: Real, const D: usize> {
 
 impl<T: Real, const D: usize> Frame<T, D> {
     /// The frame of a body, or of the ground.
-    pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, body: BodyRef) -> Self {
+    pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, body: BodyId) -> Self {
         if D == 2 {
             return Self::Planar(model.direction(body, unit(0).into()));
         }
         match body {
-            BodyRef::Body(i) if !model.has_full_rotation(body) => {
+            BodyId::Body(i) if !model.has_full_rotation(body) => {
                 let (from, to) = match scene.bodies[i].inertia {
                     Inertia::Rod { from, to } => (from, to),
                     // Only rods lack a rotation: unreachable, and harmless if it were not.

@@ -5,7 +5,7 @@ use crate::Real;
 use crate::inputs::GuideInput;
 use crate::model::State;
 use crate::natural::{Affine, ModelError, NaturalModel};
-use crate::scene::{BodyRef, InitialTarget, Joint, Quantity, Scene};
+use crate::scene::{BodyId, InitialTarget, Joint, Quantity, Scene};
 use crate::step::StepError;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -75,7 +75,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
         model: &NaturalModel<T, D>,
         quantity: &Quantity<T>,
     ) {
-        let point = |body, at| model.point(BodyRef::Body(body), at);
+        let point = |body, at| model.point(BodyId::Body(body), at);
         let coordinates = |joint: usize| Coordinate::of_joint(scene, model, &scene.joints[joint]);
         let channel = match *quantity {
             Quantity::Position { body, at } => Channel::Position(point(body, at)),

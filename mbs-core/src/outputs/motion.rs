@@ -6,7 +6,7 @@ use crate::algebra::{Vector, raised};
 use crate::model::State;
 use crate::natural::NaturalModel;
 use crate::rigid::RigidMotion;
-use crate::scene::{BodyRef, Scene};
+use crate::scene::{BodyId, Scene};
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
     /// The motion of `scene.bodies[body]` about its centre of mass at a state. A thin rod on balls has no spin about itself:
@@ -16,7 +16,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     #[must_use]
     pub fn motion(&self, scene: &Scene<T>, body: usize, state: &State<T>) -> RigidMotion<T> {
         let (_, center, _) = crate::cluster::mass_properties(scene, body);
-        let owner = BodyRef::Body(body);
+        let owner = BodyId::Body(body);
         if self.is_ground(owner) {
             return RigidMotion::at_rest(center);
         }

@@ -1,7 +1,7 @@
 //! The order in which joints are solved: a body held by one unsolved joint gives that joint's wrench; what cannot be
 //! peeled so is loops, solved group by group.
 
-use crate::scene::BodyRef;
+use crate::scene::BodyId;
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -15,7 +15,7 @@ pub(super) struct Block {
 /// Orders the joints (pairs of bodies; those that carry nothing are `None`) into blocks.
 ///
 /// Cost: proportional to bodies and joints.
-pub(super) fn peel(n_bodies: usize, joints: &[Option<[BodyRef; 2]>]) -> Vec<Block> {
+pub(super) fn peel(n_bodies: usize, joints: &[Option<[BodyId; 2]>]) -> Vec<Block> {
     let mut at_body = vec![Vec::new(); n_bodies];
     for (j, pair) in joints.iter().enumerate() {
         for body in ends(*pair) {
@@ -48,7 +48,7 @@ pub(super) fn peel(n_bodies: usize, joints: &[Option<[BodyRef; 2]>]) -> Vec<Bloc
 /// Everything unsolved that hangs together with one joint through moving bodies.
 fn loops(
     seed: usize,
-    joints: &[Option<[BodyRef; 2]>],
+    joints: &[Option<[BodyId; 2]>],
     at_body: &[Vec<usize>],
     is_solved: &mut [bool],
 ) -> Block {
@@ -74,17 +74,17 @@ fn loops(
 }
 
 /// The bodies of a pair that move.
-fn ends(pair: Option<[BodyRef; 2]>) -> impl Iterator<Item = usize> {
+fn ends(pair: Option<[BodyId; 2]>) -> impl Iterator<Item = usize> {
     pair.into_iter().flatten().filter_map(|body| match body {
-        BodyRef::Ground => None,
-        BodyRef::Body(i) => Some(i),
+        BodyId::Ground => None,
+        BodyId::Body(i) => Some(i),
     })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use BodyRef::{Body, Ground};
+    use BodyId::{Body, Ground};
 
     #[test]
     fn a_chain_is_peeled_from_its_end_and_a_loop_stays_together() {

@@ -19,7 +19,7 @@ use crate::algebra::{Matrix, Vector, cross, raised};
 use crate::cluster::mass_properties;
 use crate::model::State;
 use crate::natural::{Affine, ModelError, NaturalModel};
-use crate::scene::{BodyRef, Quantity, Scene};
+use crate::scene::{BodyId, Quantity, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -167,7 +167,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
                 given[free] = Some(applied);
             });
             for (body, at, wrench) in given.into_iter().flatten() {
-                if let BodyRef::Body(b) = body {
+                if let BodyId::Body(b) = body {
                     let body = &mut bodies[b];
                     let arm = at.map_or_else(Vector::zeros, |at| at - body.at);
                     body.missing.add(&wrench.shifted(&arm).scaled(-T::ONE));
@@ -198,7 +198,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
             let at = joints[j].place(&state.q);
             for direction in &directions[column..column + joints[j].n_directions()] {
                 for (body, sign) in joints[j].bodies.into_iter().zip([-T::ONE, T::ONE]) {
-                    let BodyRef::Body(b) = body else { continue };
+                    let BodyId::Body(b) = body else { continue };
                     // A leaf's other body is not in its block.
                     if block.bodies.binary_search(&b).is_err() {
                         continue;
@@ -228,7 +228,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
             column = columns.end;
             let at = self.joints[j].place(&state.q);
             for (body, sign) in self.joints[j].bodies.into_iter().zip([T::ONE, -T::ONE]) {
-                if let BodyRef::Body(b) = body {
+                if let BodyId::Body(b) = body {
                     let body = &mut self.bodies[b];
                     body.missing.add(&wrench.scaled(sign).shifted(&(at - body.at)));
                 }
@@ -240,7 +240,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
 impl<T: Real, const D: usize> Balance<T, D> {
     fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, body: usize) -> Self {
         let (mass, center, inertia) = mass_properties(scene, body);
-        let me = BodyRef::Body(body);
+        let me = BodyId::Body(body);
         Self {
             frame: Frame::new(scene, model, me),
             center: model.point(me, center.into()),
@@ -276,9 +276,9 @@ fn rows<T: Real, const D: usize>(wrench: &Wrench<T>, length: T) -> [T; 6] {
     }
 }
 
-fn rotation_of<T: Real, const D: usize>(bodies: &[Balance<T, D>], body: BodyRef) -> Matrix<T, 3> {
+fn rotation_of<T: Real, const D: usize>(bodies: &[Balance<T, D>], body: BodyId) -> Matrix<T, 3> {
     match body {
-        BodyRef::Ground => Matrix::<T, 3>::identity(),
-        BodyRef::Body(b) => bodies[b].turned,
+        BodyId::Ground => Matrix::<T, 3>::identity(),
+        BodyId::Body(b) => bodies[b].turned,
     }
 }

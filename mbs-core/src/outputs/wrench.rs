@@ -18,7 +18,7 @@ use super::frame::normalised;
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, raised, unit};
 use crate::natural::{Affine, NaturalModel, joint_axes, transverse};
-use crate::scene::{BodyRef, Dimension, Joint, JointKind, Scene};
+use crate::scene::{BodyId, Dimension, Joint, JointKind, Scene};
 
 /// A force and a moment about the joint's place [N, N m], or about a body's centre of mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -149,7 +149,7 @@ impl<T: Real> Transmission<T> {
 /// A joint as a carrier of wrenches, its places read off natural coordinates.
 #[derive(Debug, Clone)]
 pub(super) struct Carrier<T: Real, const D: usize> {
-    pub(super) bodies: [BodyRef; 2],
+    pub(super) bodies: [BodyId; 2],
     places: [Affine<T, D>; 2],
     transmission: Transmission<T>,
 }

@@ -3,7 +3,7 @@
 //! A loop that moves by parallel axes is held fast by a tilt of one of them, however small. Numbers of files have six digits or more:
 //! axes within [`MEANT`] of each other are meant to be parallel, and models are built with them so.
 
-use super::{BodyRef, Scene};
+use super::{BodyId, Scene};
 use crate::Real;
 use crate::algebra::{Vector, along, cross, norm};
 use alloc::borrow::Cow;
@@ -106,7 +106,7 @@ pub fn align<T: Real>(scene: &Scene<T>, tilts: &[Tilt<T>]) -> Scene<T> {
 /// The axes of joints in loops: of those that are left when ends are taken off as long as there are any.
 fn axes<T: Real>(scene: &Scene<T>) -> Vec<Axis<T>> {
     let ground = scene.bodies.len();
-    let node = |body: BodyRef| if let BodyRef::Body(b) = body { b } else { ground };
+    let node = |body: BodyId| if let BodyId::Body(b) = body { b } else { ground };
     let ends: Vec<[usize; 2]> = scene.joints.iter().map(|j| j.bodies.map(node)).collect();
     let mut at_node = vec![Vec::new(); ground + 1];
     for (j, &[a, b]) in ends.iter().enumerate() {

@@ -19,7 +19,7 @@ mod tire;
 mod vector;
 
 use crate::Real;
-use crate::scene::{BodyRef, Dimension, Entry, Scene, SceneError, SceneFault};
+use crate::scene::{BodyId, Dimension, Entry, Scene, SceneError, SceneFault};
 use alloc::vec::Vec;
 use vector::Place;
 
@@ -33,7 +33,7 @@ impl<T: Real> Scene<T> {
     ///
     /// # Examples
     /// ```
-    /// # use mbs_core::scene::{Dimension, Entry, Scene, SceneFault, SolverChoice};
+    /// # use mbs_core::scene::{Dimension, Entry, Scene, SceneFault, SolverTable};
     /// let mut scene = Scene::<f64> {
     ///     name: "empty".into(),
     ///     dimension: Dimension::Planar,
@@ -47,7 +47,7 @@ impl<T: Real> Scene<T> {
     ///     road: Default::default(),
     ///     start: Default::default(),
     ///     outputs: Vec::new(),
-    ///     solver: SolverChoice::default(),
+    ///     solver: SolverTable::default(),
     /// };
     /// assert!(scene.check().is_ok());
     /// scene.duration = -1.0;
@@ -137,10 +137,10 @@ impl<T: Real> Scene<T> {
     }
 
     /// The index is in range, or the reference is the ground.
-    fn knows(&self, body: BodyRef) -> bool {
+    fn knows(&self, body: BodyId) -> bool {
         match body {
-            BodyRef::Ground => true,
-            BodyRef::Body(i) => i < self.bodies.len(),
+            BodyId::Ground => true,
+            BodyId::Body(i) => i < self.bodies.len(),
         }
     }
 }
@@ -167,7 +167,7 @@ fn unique<'a>(
 /// The entry's two bodies exist and differ.
 fn check_pair<T: Real>(
     scene: &Scene<T>,
-    bodies: [BodyRef; 2],
+    bodies: [BodyId; 2],
     place: Place,
 ) -> Result<(), SceneError> {
     if !bodies.into_iter().all(|body| scene.knows(body)) {

@@ -1,6 +1,6 @@
 //! Bodies, joints, initial conditions and guides.
 
-use crate::scene::{Effect, Output, Road, SolverChoice};
+use crate::scene::{Effect, Output, Road, SolverTable};
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -40,7 +40,7 @@ pub struct Scene<T> {
     /// The joints.
     pub joints: Vec<Joint<T>>,
     /// What holds exactly at the start; the rest follows.
-    pub initials: Vec<Initial<T>>,
+    pub initials: Vec<InitialCondition<T>>,
     /// Kinematic guidance of joint coordinates.
     pub guides: Vec<Guide<T>>,
     /// The road of tires; empty: level ground at height zero.
@@ -52,7 +52,7 @@ pub struct Scene<T> {
     /// Channels; empty: every joint coordinate.
     pub outputs: Vec<Output<T>>,
     /// What the scene asks of the solver.
-    pub solver: SolverChoice<T>,
+    pub solver: SolverTable<T>,
 }
 
 /// What a run starts from.
@@ -67,7 +67,7 @@ pub enum Start {
 
 /// A body by its index, or the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum BodyRef {
+pub enum BodyId {
     /// The fixed frame.
     Ground,
     /// `scene.bodies[i]`.
@@ -134,7 +134,7 @@ pub struct Joint<T> {
     /// Kind.
     pub kind: JointKind,
     /// First and second body.
-    pub bodies: [BodyRef; 2],
+    pub bodies: [BodyId; 2],
     /// Place [m], one per body: equal for all kinds but `Distance`.
     pub points: [[T; 3]; 2],
     /// Axes, any length: `Revolute` (spatial), `Prismatic`, `Cylindrical`: `axes[0]`; `Universal`: first fixed in
@@ -200,7 +200,7 @@ impl JointKind {
 
 /// One `[[initial]]` entry: what is written holds exactly at the start.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Initial<T> {
+pub struct InitialCondition<T> {
     /// What it speaks about.
     pub target: InitialTarget<T>,
 }
@@ -234,7 +234,7 @@ pub struct Guide<T> {
     /// Index of the guided joint (one coordinate: revolute or prismatic).
     pub joint: usize,
     /// The law.
-    pub law: GuideLaw<T>,
+    pub law: Motion<T>,
 }
 
 /// How the spline of a table begins and ends.
@@ -249,7 +249,7 @@ pub enum TableEnds {
 
 /// A twice differentiable function of time.
 #[derive(Debug, Clone, PartialEq)]
-pub enum GuideLaw<T> {
+pub enum Motion<T> {
     /// Cubic spline through (time, value); the end values are held outside.
     Table {
         /// The rows [s, rad or m].

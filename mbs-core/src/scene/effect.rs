@@ -1,7 +1,7 @@
 //! Opt-in effects, as data.
 
-use crate::laws::own::{OwnScalar, OwnWrench};
-use crate::scene::BodyRef;
+use crate::laws::own::{UserBodyLaw, UserScalarLaw};
+use crate::scene::BodyId;
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -18,7 +18,7 @@ pub struct Effect<T> {
 
 /// A constant, or a table over time (linear between the points, the end values held outside).
 #[derive(Debug, Clone, PartialEq)]
-pub enum Course<T> {
+pub enum Signal<T> {
     /// The same at all times; planar torques and joint torques use the first component only.
     Constant([T; 3]),
     /// Rows of (time, value).
@@ -42,7 +42,7 @@ pub enum EffectKind<T> {
     /// tension = stiffness (length - free_length) + damping d(length)/dt between two body points.
     SpringDamper {
         /// First and second body.
-        bodies: [BodyRef; 2],
+        bodies: [BodyId; 2],
         /// One point per body, reference configuration [m].
         points: [[T; 3]; 2],
         /// Stiffness [N/m].
@@ -70,7 +70,7 @@ pub enum EffectKind<T> {
         /// Point of application, reference configuration [m].
         at: [T; 3],
         /// Force [N].
-        course: Course<T>,
+        course: Signal<T>,
         /// Axes of the force.
         frame: AxisFrame,
     },
@@ -79,28 +79,28 @@ pub enum EffectKind<T> {
         /// Index of the body.
         body: usize,
         /// Torque [N m].
-        course: Course<T>,
+        course: Signal<T>,
     },
     /// A torque of the first body on the second about the joint's axis (first component) [N m].
     JointTorque {
         /// Index of the joint.
         joint: usize,
         /// Torque [N m].
-        course: Course<T>,
+        course: Signal<T>,
     },
     /// A force along the line of two body points that follows a course, positive when it pushes them apart [N].
     Actuator {
         /// First and second body.
-        bodies: [BodyRef; 2],
+        bodies: [BodyId; 2],
         /// One point per body, reference configuration [m].
         points: [[T; 3]; 2],
         /// Force, first component [N].
-        course: Course<T>,
+        course: Signal<T>,
     },
     /// A piecewise polynomial between two body points: tension of the length (a spring) or of its rate (a damper).
     Polynomial {
         /// First and second body.
-        bodies: [BodyRef; 2],
+        bodies: [BodyId; 2],
         /// One point per body, reference configuration [m].
         points: [[T; 3]; 2],
         /// The length is measured along this direction, fixed in the first body, instead of between the points.
@@ -113,7 +113,7 @@ pub enum EffectKind<T> {
     /// Pushes two points apart once they have come closer than their reference distance less the clearance.
     Bumper {
         /// First and second body.
-        bodies: [BodyRef; 2],
+        bodies: [BodyId; 2],
         /// One point per body, reference configuration [m].
         points: [[T; 3]; 2],
         /// Stiffness [N/m].
@@ -126,7 +126,7 @@ pub enum EffectKind<T> {
     /// Six springs and dampers between two bodies at a place, in body axes of the first.
     Bushing {
         /// First and second body.
-        bodies: [BodyRef; 2],
+        bodies: [BodyId; 2],
         /// Place, reference configuration [m].
         at: [T; 3],
         /// Stiffness along x, y, z [N/m] and about x, y, z [N m/rad]; in the plane x, y and the third rotation.
@@ -208,30 +208,30 @@ pub enum EffectKind<T> {
     /// A law of a user's own, in code only.
     Own {
         /// The law and where it acts.
-        law: OwnLaw<T>,
+        law: UserLaw<T>,
         /// Its input.
-        course: Course<T>,
+        course: Signal<T>,
     },
 }
 
 /// Where a law of a user's own acts.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum OwnLaw<T> {
+pub enum UserLaw<T> {
     /// Along the line of two body points.
     Length {
         /// First and second body.
-        bodies: [BodyRef; 2],
+        bodies: [BodyId; 2],
         /// One point per body, reference configuration [m].
         points: [[T; 3]; 2],
         /// The law.
-        law: OwnScalar<T>,
+        law: UserScalarLaw<T>,
     },
     /// On the coordinate of a joint that has one.
     Joint {
         /// Index of the joint.
         joint: usize,
         /// The law.
-        law: OwnScalar<T>,
+        law: UserScalarLaw<T>,
     },
     /// On a body.
     Body {
@@ -242,7 +242,7 @@ pub enum OwnLaw<T> {
         /// Direction, fixed in the body.
         axis: [T; 3],
         /// The law.
-        law: OwnWrench<T>,
+        law: UserBodyLaw<T>,
     },
 }
 

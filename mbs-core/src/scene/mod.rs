@@ -12,13 +12,13 @@ mod fault;
 mod output;
 
 pub use data::{
-    Body, BodyRef, Dimension, Guide, GuideLaw, Inertia, Initial, InitialTarget, Joint, JointKind,
-    Scene, Start, TableEnds,
+    Body, BodyId, Dimension, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointKind,
+    Motion, Scene, Start, TableEnds,
 };
 pub use effect::{
-    AxisFrame, CalspanCoefficients, Course, Effect, EffectKind, OwnLaw, PolynomialPiece, Road,
-    RoadFeature,
+    AxisFrame, CalspanCoefficients, Effect, EffectKind, PolynomialPiece, Road, RoadFeature, Signal,
+    UserLaw,
 };
 pub use error::{Entry, SceneError};
 pub use fault::SceneFault;
-pub use output::{Output, Quantity, SolverChoice};
+pub use output::{Output, Quantity, SolverTable};

@@ -55,7 +55,7 @@ pub enum Quantity<T> {
 
 /// The `[solver]` table: all optional; the command line overrides.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct SolverChoice<T> {
+pub struct SolverTable<T> {
     /// Formulation as written, checked by the face of the workspace.
     pub formulation: Option<String>,
     /// Integrator as written, likewise.

@@ -3,7 +3,7 @@
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, lowered, raised, rotation, unit};
 use crate::natural::{Affine, NaturalModel, joint_axes, unwrap};
-use crate::scene::{BodyRef, Dimension, Inertia, InitialTarget, Joint, JointKind, Scene};
+use crate::scene::{BodyId, Dimension, Inertia, InitialTarget, Joint, JointKind, Scene};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
@@ -62,7 +62,7 @@ impl<T: Real, const D: usize> Hold<T, D> {
                 }
                 InitialTarget::Body { body, velocity, angular_velocity } => {
                     let owner = crate::model::Owner::Body(*body);
-                    let me = BodyRef::Body(*body);
+                    let me = BodyId::Body(*body);
                     let mut push = |kind, rate| {
                         holds.push(Self { kind, value: None, rate: Some(rate), initial, owner });
                     };
@@ -81,7 +81,7 @@ impl<T: Real, const D: usize> Hold<T, D> {
                             push(Kind::Swing { x: x.clone(), w: *w, axis }, T::ZERO);
                         }
                     } else if let Some(w) = angular_velocity {
-                        for (kind, rate) in spins(model, BodyRef::Ground, me, *w) {
+                        for (kind, rate) in spins(model, BodyId::Ground, me, *w) {
                             push(kind, rate);
                         }
                     }
@@ -215,8 +215,8 @@ fn spin_arm<T: Real, const D: usize>(u: &Vector<T, D>, axis: usize) -> Vector<T,
 /// Rows that hold an angular velocity: three in space, the angle's rate in the plane.
 fn spins<T: Real, const D: usize>(
     model: &NaturalModel<T, D>,
-    first: BodyRef,
-    second: BodyRef,
+    first: BodyId,
+    second: BodyId,
     w: [T; 3],
 ) -> Vec<(Kind<T, D>, T)> {
     let unit = |i: usize| core::array::from_fn(|k| if k == i { T::ONE } else { T::ZERO });
@@ -224,9 +224,9 @@ fn spins<T: Real, const D: usize>(
         let (x1, x2) = (model.direction(first, unit(0)), model.direction(first, unit(1)));
         return alloc::vec![(Kind::Angle { x1, x2, y: model.direction(second, unit(0)) }, w[2])];
     }
-    let frame = |body: BodyRef| match body {
-        BodyRef::Ground => None,
-        BodyRef::Body(_) => Some(Box::new([0, 1, 2].map(|i| model.direction(body, unit(i))))),
+    let frame = |body: BodyId| match body {
+        BodyId::Ground => None,
+        BodyId::Body(_) => Some(Box::new([0, 1, 2].map(|i| model.direction(body, unit(i))))),
     };
     (0..3)
         .map(|axis| (Kind::Spin { first: frame(first), second: frame(second), axis }, w[axis]))

@@ -5,7 +5,7 @@ use crate::algebra::{Matrix, Vector, cross, rotation};
 use crate::cluster::Clusters;
 use crate::natural::joint_axes;
 use crate::rigid::RigidMotion;
-use crate::scene::{BodyRef, Dimension, InitialTarget, Joint, JointKind, Scene};
+use crate::scene::{BodyId, Dimension, InitialTarget, Joint, JointKind, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -36,7 +36,7 @@ impl<'a, T: Real> Placement<'a, T> {
         guides: &[[T; 3]],
     ) -> Option<Self> {
         let ground = clusters.clusters.len();
-        let node = |body: BodyRef| clusters.of(body).unwrap_or(ground);
+        let node = |body: BodyId| clusters.of(body).unwrap_or(ground);
         let joints = || scene.joints.iter().enumerate().filter(|(_, j)| j.kind != JointKind::Weld);
         let mut touching = vec![Vec::new(); ground + 1];
         for (j, joint) in joints() {

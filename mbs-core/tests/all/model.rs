@@ -3,7 +3,7 @@
 use mbs_core::Cliques;
 use mbs_core::model::{Load, Model};
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{BodyRef, Course, EffectKind, Inertia, Scene};
+use mbs_core::scene::{BodyId, EffectKind, Inertia, Scene, Signal};
 use mbs_core::start::constraint_rank;
 use mbs_testkit::{
     PLANAR, Random, SPATIAL, close, dot, in_null_space, jacobian, model, plus, reference, residual,
@@ -31,18 +31,18 @@ struct Field<'a, const D: usize> {
 }
 
 impl<const D: usize> Field<'_, D> {
-    fn point(&self, body: BodyRef, at: V) -> V {
+    fn point(&self, body: BodyId, at: V) -> V {
         three::<D>(self.model.point(body, at).rate(self.v).as_slice())
     }
-    fn place(&self, body: BodyRef, at: V) -> V {
+    fn place(&self, body: BodyId, at: V) -> V {
         three::<D>(self.model.point(body, at).value(self.q).as_slice())
     }
-    fn direction(&self, body: BodyRef, d: V) -> (V, V) {
+    fn direction(&self, body: BodyId, d: V) -> (V, V) {
         let u = self.model.direction(body, d);
         (three::<D>(u.value(self.q).as_slice()), three::<D>(u.rate(self.v).as_slice()))
     }
     /// w = 1/2 sum u x u' over three orthonormal directions.
-    fn spin(&self, body: BodyRef) -> V {
+    fn spin(&self, body: BodyId) -> V {
         if D == 2 {
             let (u, w) = self.direction(body, [1.0, 0.0, 0.0]);
             return cross(u, w);
@@ -78,7 +78,7 @@ fn admissible<const D: usize>(
 fn kinetic_energy<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>) -> f64 {
     let mut energy = 0.0;
     for (i, body) in scene.bodies.iter().enumerate() {
-        let me = BodyRef::Body(i);
+        let me = BodyId::Body(i);
         let v = field.point(me, body.center);
         match body.inertia {
             Inertia::Rod { from, to } => {
@@ -145,7 +145,7 @@ fn check_points<const D: usize>(text: &str) {
     let v = vec![0.0; q.len()];
     let field = Field { model: &model, q: &q, v: &v };
     for (i, body) in scene.bodies.iter().enumerate() {
-        let me = BodyRef::Body(i);
+        let me = BodyId::Body(i);
         // A rod held by balls has points on its line only.
         let points = if model.has_full_rotation(me) {
             vec![body.center, std::array::from_fn(|k| if k < D { 0.7 + k as f64 } else { 0.0 })]
@@ -168,14 +168,14 @@ fn every_point_of_every_body_is_where_the_scene_says_in_the_reference_configurat
 
 /// The power of everything applied, from the laws as the scene format states them.
 fn power<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>) -> f64 {
-    let at_start = |course: &Course<f64>| match course {
-        Course::Constant(f) | Course::Input(f) => *f,
-        Course::Table(rows) => rows[0].1,
+    let at_start = |course: &Signal<f64>| match course {
+        Signal::Constant(f) | Signal::Input(f) => *f,
+        Signal::Table(rows) => rows[0].1,
     };
     let mut power = 0.0;
     for (i, body) in scene.bodies.iter().enumerate() {
         let g = scene.gravity.unwrap_or_default();
-        power += body.mass * dot(&g, &field.point(BodyRef::Body(i), body.center));
+        power += body.mass * dot(&g, &field.point(BodyId::Body(i), body.center));
     }
     for effect in &scene.effects {
         power += match &effect.kind {
@@ -202,10 +202,10 @@ fn power<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>) -> f64 {
                 at_start(course)[0] * joint_rate(scene, field, *joint)
             }
             EffectKind::Force { body, at, course, .. } => {
-                dot(&at_start(course), &field.point(BodyRef::Body(*body), *at))
+                dot(&at_start(course), &field.point(BodyId::Body(*body), *at))
             }
             EffectKind::BodyTorque { body, course } => {
-                let (tau, w) = (at_start(course), field.spin(BodyRef::Body(*body)));
+                let (tau, w) = (at_start(course), field.spin(BodyId::Body(*body)));
                 if D == 2 { tau[0] * w[2] } else { dot(&tau, &w) }
             }
             other => unreachable!("the scenes of these tests have no {other:?}"),
@@ -218,7 +218,7 @@ fn power<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>) -> f64 {
 fn joint_rate<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>, joint: usize) -> f64 {
     let joint = &scene.joints[joint];
     let axis = joint.axes[0].unwrap_or([0.0, 0.0, 1.0]);
-    let spin = |body| if body == BodyRef::Ground { [0.0; 3] } else { field.spin(body) };
+    let spin = |body| if body == BodyId::Ground { [0.0; 3] } else { field.spin(body) };
     let w = plus(&spin(joint.bodies[1]), -1.0, &spin(joint.bodies[0]));
     dot(&w, &axis) / dot(&axis, &axis).sqrt()
 }
@@ -304,8 +304,8 @@ fn copies(one: &Scene<f64>, n: usize) -> Scene<f64> {
     let mut many = one.clone();
     for k in 1..n {
         let shift = |body| match body {
-            BodyRef::Ground => BodyRef::Ground,
-            BodyRef::Body(b) => BodyRef::Body(b + k * one.bodies.len()),
+            BodyId::Ground => BodyId::Ground,
+            BodyId::Body(b) => BodyId::Body(b + k * one.bodies.len()),
         };
         many.bodies.extend(one.bodies.iter().cloned());
         many.joints.extend(one.joints.iter().cloned().map(|mut joint| {

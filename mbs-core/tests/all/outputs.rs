@@ -3,9 +3,7 @@
 use crate::small::{GROUND, add_body, add_joint, add_rod, hold, output, scene, start};
 use mbs_core::algebra::{Matrix, Vector, rotation, rotation_vector};
 use mbs_core::outputs::Measures;
-use mbs_core::scene::{
-    BodyRef, Dimension, GuideLaw, Inertia, JointKind, Quantity, Scene, TableEnds,
-};
+use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Motion, Quantity, Scene, TableEnds};
 
 /// Assembly closes to rounding of a few products of numbers of order one.
 const CLOSED: f64 = 1e-11;
@@ -103,7 +101,7 @@ fn held_values_and_rates_are_measured_as_they_were_held() {
 }
 
 /// The present directions of what were the global axes, from the positions of points.
-fn frame_of(s: &Scene<f64>, body: BodyRef) -> Matrix<f64, 3> {
+fn frame_of(s: &Scene<f64>, body: BodyId) -> Matrix<f64, 3> {
     let (model, state) = start::<3>(s);
     let unit = |i: usize| core::array::from_fn(|k| if k == i { 1.0 } else { 0.0 });
     Matrix::from_columns(&[0, 1, 2].map(|i| model.direction(body, unit(i)).value(&state.q)))
@@ -117,7 +115,7 @@ fn universal_angles_turn_the_body_first_about_its_first_axis_of_the_ground() {
     hold(&mut s, 0, &[first, second], &[]);
     let turned = rotation(&(Vector::<f64, 3>::from(a) * first))
         * rotation(&(Vector::<f64, 3>::from(b) * second));
-    let gap = frame_of(&s, BodyRef::Body(0)) - turned;
+    let gap = frame_of(&s, BodyId::Body(0)) - turned;
     assert!(gap.iter().all(|x| x.abs() < CLOSED), "{gap}");
     assert_near(&measured::<3>(&s), &[first, second]);
 }
@@ -127,7 +125,7 @@ fn a_spherical_joint_between_moving_bodies_measures_in_the_first_body() {
     let mut s = single(JointKind::Spherical, [None; 2]);
     let inertia = Inertia::Spatial([0.3, 0.4, 0.5, 0.0, 0.0, 0.0]);
     let second = add_body(&mut s, 1.0, [1.0, 0.0, 0.0], inertia);
-    add_joint(&mut s, JointKind::Spherical, [BodyRef::Body(0), second], [0.6, 0.3, 0.0], [None; 2]);
+    add_joint(&mut s, JointKind::Spherical, [BodyId::Body(0), second], [0.6, 0.3, 0.0], [None; 2]);
     let (w, u) = ([0.4, -0.3, 0.2], [-0.5, 0.6, 0.1]);
     hold(&mut s, 0, &w, &[0.1, 0.2, 0.3]);
     hold(&mut s, 1, &u, &[1.0, -1.0, 0.5]);
@@ -167,7 +165,7 @@ fn counting_starts_from_the_initial_value_or_the_guide() {
         let pivot = add_joint(&mut s, JointKind::Revolute, [GROUND, rod], [0.0; 3], [None; 2]);
         if is_guided {
             let law =
-                GuideLaw::Table { rows: vec![[0.0, 7.5], [1.0, 8.0]], ends: TableEnds::Natural };
+                Motion::Table { rows: vec![[0.0, 7.5], [1.0, 8.0]], ends: TableEnds::Natural };
             crate::small::guide(&mut s, pivot, law);
         } else {
             hold(&mut s, pivot, &[7.5], &[]);

@@ -4,8 +4,8 @@ use crate::small::{GROUND, add_body, add_joint, add_rod, guide, hold, scene, sta
 use mbs_core::algebra::{Vector, rotation};
 use mbs_core::outputs::{LARGEST_BLOCK, ReactionError, Reactions};
 use mbs_core::scene::{
-    AxisFrame, BodyRef, Course, Dimension, Effect, EffectKind, GuideLaw, Inertia, Joint, JointKind,
-    Scene,
+    AxisFrame, BodyId, Dimension, Effect, EffectKind, Inertia, Joint, JointKind, Motion, Scene,
+    Signal,
 };
 
 const G: f64 = 9.81;
@@ -99,7 +99,7 @@ fn reversing_the_bodies_of_a_joint_reverses_its_reaction() {
 fn a_guided_joint_carries_the_torque_of_inverse_dynamics() {
     let mut s = pendulum();
     let (amplitude, frequency, phase) = (0.6, 0.8, 0.4);
-    guide(&mut s, 0, GuideLaw::Sine { amplitude, frequency, phase });
+    guide(&mut s, 0, Motion::Sine { amplitude, frequency, phase });
     let omega = 2.0 * core::f64::consts::PI * frequency;
     let angle: f64 = amplitude * f64::sin(phase);
     let rate = amplitude * omega * f64::cos(phase);
@@ -147,7 +147,7 @@ fn a_beam_clamped_at_both_ends_is_marked_and_its_smallest_reactions_are_symmetri
     let mut s = beam(JointKind::Weld);
     s.bodies[1].mass = 2.0;
     let end = [2.0, 0.0, 0.0];
-    add_joint(&mut s, JointKind::Weld, [GROUND, BodyRef::Body(1)], end, [None; 2]);
+    add_joint(&mut s, JointKind::Weld, [GROUND, BodyId::Body(1)], end, [None; 2]);
     let r = reactions::<2>(&s);
     let (left, right) = (r.reaction(0), r.reaction(2));
     assert_near(left, planar(0.0, 2.0 * G, left[2]));
@@ -204,7 +204,7 @@ fn the_reactions_of_the_ground_give_the_mass_its_acceleration() {
     }
     let gravity = Vector::<f64, 3>::from(s.gravity.unwrap());
     for (b, body) in s.bodies.iter().enumerate() {
-        let center = model.point(BodyRef::Body(b), body.center);
+        let center = model.point(BodyId::Body(b), body.center);
         total -= (center.rate(&state.a) - gravity) * body.mass;
     }
     assert!(total.iter().all(|x| x.abs() < CLOSED), "{total}");
@@ -246,7 +246,7 @@ fn a_joint_named_twice_is_split_evenly_and_the_others_stay_unique() {
     let tip = [1.5, 0.0, 0.0];
     let second = add_rod(&mut s, 1.0, tip, [2.5, 0.0, 0.0]);
     for _ in 0..2 {
-        add_joint(&mut s, JointKind::Revolute, [BodyRef::Body(0), second], tip, [None; 2]);
+        add_joint(&mut s, JointKind::Revolute, [BodyId::Body(0), second], tip, [None; 2]);
     }
     let doubled = reactions::<2>(&s);
     s.joints.pop();
@@ -290,17 +290,17 @@ fn every_joint() -> Scene<f64> {
 
 /// One effect of each kind and variant.
 fn add_effects(s: &mut Scene<f64>) {
-    let rising = |end: [f64; 3]| Course::Table(vec![(-1.0, [1.0, 2.0, -1.0]), (1.0, end)]);
+    let rising = |end: [f64; 3]| Signal::Table(vec![(-1.0, [1.0, 2.0, -1.0]), (1.0, end)]);
     let kinds = [
         EffectKind::SpringDamper {
-            bodies: [BodyRef::Body(1), BodyRef::Body(6)],
+            bodies: [BodyId::Body(1), BodyId::Body(6)],
             points: [[0.5, 0.4, 0.3], [3.9, -0.5, 0.2]],
             stiffness: 120.0,
             damping: 15.0,
             free_length: 2.0,
         },
         EffectKind::TorsionSpring { joint: 2, stiffness: 40.0, damping: 3.0, free_value: 0.4 },
-        EffectKind::JointTorque { joint: 0, course: Course::Constant([7.0, 0.0, 0.0]) },
+        EffectKind::JointTorque { joint: 0, course: Signal::Constant([7.0, 0.0, 0.0]) },
         EffectKind::Force {
             body: 4,
             at: [2.5, 0.3, -0.2],
@@ -310,7 +310,7 @@ fn add_effects(s: &mut Scene<f64>) {
         EffectKind::Force {
             body: 5,
             at: [3.5, 0.3, 0.2],
-            course: Course::Constant([2.0, 5.0, -4.0]),
+            course: Signal::Constant([2.0, 5.0, -4.0]),
             frame: AxisFrame::Body,
         },
         EffectKind::BodyTorque { body: 3, course: rising([0.0, 4.0, -2.0]) },

@@ -3,7 +3,7 @@
 use mbs_core::Cliques;
 use mbs_core::model::{Load, Model, Owner};
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{BodyRef, Scene};
+use mbs_core::scene::{BodyId, Scene};
 use mbs_core::start::{Assembled, AssemblyError, assemble};
 use mbs_sparse::{Multifrontal, Options};
 use mbs_testkit::{
@@ -59,7 +59,7 @@ fn turned(w: V, x: V) -> V {
 }
 
 /// Components in the turned frame of a body, or global ones for the ground.
-struct Frame<'a>(&'a NaturalModel<f64, 3>, &'a [f64], BodyRef);
+struct Frame<'a>(&'a NaturalModel<f64, 3>, &'a [f64], BodyId);
 
 impl Frame<'_> {
     fn point(&self, p: V) -> V {
@@ -100,8 +100,8 @@ fn check_pose(first: &str, text: &str, rotation: impl Fn(V) -> V, shift: V) {
     let (model, assembled) = start::<3>(&scene).unwrap_or_else(|e| panic!("{e}\n{text}"));
     let q = &assembled.state.q;
     let (x, base) = (
-        BodyRef::Body(scene.bodies.len() - 1),
-        if first == "base" { BodyRef::Body(0) } else { BodyRef::Ground },
+        BodyId::Body(scene.bodies.len() - 1),
+        if first == "base" { BodyId::Body(0) } else { BodyId::Ground },
     );
     let (x, base) = (Frame(&model, q, x), Frame(&model, q, base));
     for i in 0..3 {
@@ -182,12 +182,9 @@ fn held_rates_are_met_for_every_joint() {
             let scene = scene(&one_joint(kind, axes, first, rate));
             let (model, assembled) = start::<3>(&scene).unwrap_or_else(|e| panic!("{kind}: {e}"));
             let s = &assembled.state;
-            let x = Frame(&model, &s.q, BodyRef::Body(scene.bodies.len() - 1));
-            let base = Frame(
-                &model,
-                &s.q,
-                if first == "base" { BodyRef::Body(0) } else { BodyRef::Ground },
-            );
+            let x = Frame(&model, &s.q, BodyId::Body(scene.bodies.len() - 1));
+            let base =
+                Frame(&model, &s.q, if first == "base" { BodyId::Body(0) } else { BodyId::Ground });
             let wb = if first == "base" { base.spin(&s.v) } else { none };
             close(kind, &plus(&x.spin(&s.v), -1.0, &wb), &spin, HELD);
             let gap = plus(&x.point_rate(&s.v, AT), -1.0, &base.point_rate(&s.v, AT));
@@ -201,7 +198,7 @@ fn universal_rates_hold_at_a_turned_configuration() {
     let axes = "axes = [[1.0, 0.3, 0.0], [0.1, 1.0, 0.5]]";
     let text = one_joint("universal", axes, "ground", "value = [1.1, 0.7]\nrate = [2.0, -3.0]");
     let (model, assembled) = start::<3>(&scene(&text)).unwrap_or_else(|e| panic!("{e}"));
-    let x = Frame(&model, &assembled.state.q, BodyRef::Body(0));
+    let x = Frame(&model, &assembled.state.q, BodyId::Body(0));
     let (a, b) = (unit([1.0, 0.3, 0.0]), unit([0.1, 1.0, 0.5]));
     let b = turned(a.map(|a| a * 1.1), b);
     let w: V = std::array::from_fn(|i| 2.0 * a[i] - 3.0 * b[i]);
@@ -212,7 +209,7 @@ fn universal_rates_hold_at_a_turned_configuration() {
 fn held_velocity_and_angular_velocity_of_a_body_are_met() {
     let text = "[scene]\nname = \"b\"\ndimension = 3\nduration = 1.0\n[[body]]\nname = \"x\"\nmass = 1.0\ncenter = [0.4, 0.3, 0.2]\ninertia = [0.1, 0.12, 0.11, 0.0, 0.01, 0.0]\n[[initial]]\nbody = \"x\"\nat = [1.0, 1.0, 0.0]\nvelocity = [1.0, -2.0, 0.5]\nangular_velocity = [3.0, 1.0, -2.0]\n";
     let (model, assembled) = start::<3>(&scene(text)).unwrap_or_else(|e| panic!("{e}"));
-    let (s, x) = (&assembled.state, Frame(&model, &assembled.state.q, BodyRef::Body(0)));
+    let (s, x) = (&assembled.state, Frame(&model, &assembled.state.q, BodyId::Body(0)));
     close("velocity", &x.point_rate(&s.v, [1.0, 1.0, 0.0]), &[1.0, -2.0, 0.5], HELD);
     close("spin", &x.spin(&s.v), &[3.0, 1.0, -2.0], HELD);
 }
@@ -237,7 +234,7 @@ fn a_consistent_state_is_left_untouched() {
 
 /// The angle of a planar direction.
 fn heading(model: &NaturalModel<f64, 2>, q: &[f64], body: usize) -> f64 {
-    let d = model.direction(BodyRef::Body(body), [1.0, 0.0, 0.0]).value(q);
+    let d = model.direction(BodyId::Body(body), [1.0, 0.0, 0.0]).value(q);
     d[1].atan2(d[0])
 }
 
@@ -256,7 +253,7 @@ fn a_four_bar_keeps_its_branch_through_a_turn_of_its_crank() {
         let q = &assembled.state.q;
         let turned = heading(&model, q, 0) - angle;
         assert!(turned.sin().abs() < HELD && turned.cos() > 0.0);
-        let at = |body, p| model.point(BodyRef::Body(body), p).value(q);
+        let at = |body, p| model.point(BodyId::Body(body), p).value(q);
         let (b, c, d) = (at(0, [0.18, 0.24, 0.0]), at(1, [0.868, 0.576, 0.0]), [0.7, 0.0]);
         // The coupler and rocker turn the same way round, as in the reference configuration.
         let area = (c[0] - b[0]) * (d[1] - b[1]) - (c[1] - b[1]) * (d[0] - b[0]);
@@ -275,7 +272,7 @@ fn contradicting_entries_are_named() {
             value: value.map(|x| vec![x]),
             rate: rate.map(|x| vec![x]),
         };
-        four_bar.initials.push(mbs_core::scene::Initial { target });
+        four_bar.initials.push(mbs_core::scene::InitialCondition { target });
     };
     add(0, Some(0.1), None);
     add(1, Some(0.9), None);
@@ -295,7 +292,7 @@ fn contradicting_entries_are_named() {
     let mut add = |joint: usize, rate: f64| {
         let target =
             mbs_core::scene::InitialTarget::Joint { joint, value: None, rate: Some(vec![rate]) };
-        four_bar.initials.push(mbs_core::scene::Initial { target });
+        four_bar.initials.push(mbs_core::scene::InitialCondition { target });
     };
     add(0, 1.0);
     add(3, 5.0);
@@ -316,7 +313,7 @@ fn a_gap_of_a_millionth_of_the_size_is_refused_and_one_of_rounding_is_not() {
         for (joint, &value) in values.iter().enumerate() {
             let value = Some(vec![value]);
             let target = mbs_core::scene::InitialTarget::Joint { joint, value, rate: None };
-            four_bar.initials.push(mbs_core::scene::Initial { target });
+            four_bar.initials.push(mbs_core::scene::InitialCondition { target });
         }
         start::<2>(&four_bar)
     };
@@ -389,8 +386,8 @@ fn what_is_not_held_changes_least() {
         // Gradient of the elbow's angle by differences of cos and sin: a direction of one body seen from the other.
         let n = model.n_unknowns();
         let angle = |q: &[f64]| {
-            let u = model.direction(BodyRef::Body(0), [1.0, 0.0, 0.0]).value(q);
-            let l = model.direction(BodyRef::Body(1), [1.0, 0.0, 0.0]).value(q);
+            let u = model.direction(BodyId::Body(0), [1.0, 0.0, 0.0]).value(q);
+            let l = model.direction(BodyId::Body(1), [1.0, 0.0, 0.0]).value(q);
             (u[0] * l[1] - u[1] * l[0]).atan2(u[0] * l[0] + u[1] * l[1])
         };
         let mut row = vec![0.0; n];

@@ -2,7 +2,7 @@
 
 use mbs_core::Cliques;
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{BodyRef, Scene};
+use mbs_core::scene::{BodyId, Scene};
 use mbs_core::start::{Assembled, AssemblyError, assemble};
 use mbs_sparse::{Multifrontal, Options};
 use mbs_testkit::{close, scene};
@@ -29,7 +29,7 @@ fn a_free_rod_stays_two_points_and_its_angular_velocity_swings_them() {
     assert_eq!(model.n_unknowns(), 6);
     // w x r about the centre, which the least velocities leave at rest; the turn about the line is no one's
     let rate =
-        |v: &[f64], x| -> [f64; 3] { model.point(BodyRef::Body(0), [x, 0.0, 0.0]).rate(v).into() };
+        |v: &[f64], x| -> [f64; 3] { model.point(BodyId::Body(0), [x, 0.0, 0.0]).rate(v).into() };
     close("one end", &rate(&s.v, 1.0), &[0.0, -0.15, -0.1], HELD);
     close("the other", &rate(&s.v, 0.0), &[0.0, 0.15, 0.1], HELD);
     close("the fall", &rate(&s.a, 0.5), &[0.0, 0.0, -9.81], HELD);

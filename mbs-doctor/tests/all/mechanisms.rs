@@ -220,11 +220,11 @@ fn a_bar_in_line_is_a_singular_position_of_a_structure() {
 
 #[test]
 fn guides_that_say_the_same_twice_are_in_the_set() {
-    use mbs_core::scene::{Guide, GuideLaw};
+    use mbs_core::scene::{Guide, Motion};
     let mut b = Build::planar();
     four_bar(&mut b, 0.0);
     for joint in [0, 3] {
-        b.0.guides.push(Guide { joint, law: GuideLaw::Ramp { rate: 1.0 } });
+        b.0.guides.push(Guide { joint, law: Motion::Ramp { rate: 1.0 } });
     }
     let d = told(&b.0);
     assert_eq!(

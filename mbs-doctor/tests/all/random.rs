@@ -67,7 +67,7 @@ fn a_doubled_coupler_names_its_four_pins_and_not_the_cranks() {
     four_bar(&mut b, 0.0);
     let [from, to] = [1, 2].map(|j| b.0.joints[j].points[0]);
     let twin = b.bar(from, to);
-    let [crank, rocker] = [0, 2].map(mbs_core::scene::BodyRef::Body);
+    let [crank, rocker] = [0, 2].map(mbs_core::scene::BodyId::Body);
     b.pin(crank, twin, from);
     b.pin(twin, rocker, to);
     b.pin(GROUND, twin, from);

@@ -152,7 +152,7 @@ fn a_tree_of_springs_settles_where_nothing_grows() {
 fn single_precision_balances_to_its_own_rounding() {
     use mbs_core::{dense::Dense, natural::NaturalModel, start::assemble};
     use mbs_linear::{Options, Saddle, Workspace, equilibrium};
-    let document = mbs_scene::Document::parse(&pendulum(2.0), "test.toml").expect("it is a scene");
+    let document = mbs_scene::SceneFile::parse(&pendulum(2.0), "test.toml").expect("it is a scene");
     let scene = document.scene::<f32>().expect("it is a scene");
     let model = NaturalModel::<f32, 2>::new(&scene).expect("it has a model");
     let start = assemble(&scene, &model, |p| Dense::new(p), &mut Dense::new(&model));
@@ -161,7 +161,7 @@ fn single_precision_balances_to_its_own_rounding() {
     let found = equilibrium(&model, &Options::default(), &mut state, &mut w);
     let found = found.unwrap_or_else(|e| panic!("{e}"));
     assert!(found.relative < 1e-6 && found.unstable == 0, "{found:?}");
-    let at = mbs_core::scene::BodyRef::Body(0);
+    let at = mbs_core::scene::BodyId::Body(0);
     let tip = model.point(at, [0.0, -1.0, 0.0]).value(&state.q);
     // A thousand roundings: the search ends where the force is rounding, and K is of order one.
     assert!(tip[0].abs() < 1e-4, "{tip:?}");

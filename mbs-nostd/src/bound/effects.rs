@@ -3,7 +3,7 @@
 use super::Operations;
 #[cfg(feature = "tire")]
 use super::count;
-use crate::inputs::{CourseLaw, GuideLaw, Prescriptions};
+use crate::inputs::{Motion, Prescriptions, SignalLaw};
 use mbs_core::Real;
 use mbs_core::laws::body::BodyLaw;
 #[cfg(feature = "tire")]
@@ -24,17 +24,17 @@ pub(super) fn inputs<T>(laws: &Prescriptions<'_, T>) -> Operations {
     let mut sum = Operations::NONE;
     for guide in laws.guides {
         sum += match guide {
-            GuideLaw::Input(_) => Operations::NONE,
-            GuideLaw::Sine { .. } => ops(9, 1).and(0, 0, 1),
-            GuideLaw::Ramp { .. } => ops(1, 0),
-            GuideLaw::Table(_) => ops(22, 14).and(4, 0, 0),
+            Motion::Input(_) => Operations::NONE,
+            Motion::Sine { .. } => ops(9, 1).and(0, 0, 1),
+            Motion::Ramp { .. } => ops(1, 0),
+            Motion::Table(_) => ops(22, 14).and(4, 0, 0),
         };
     }
     for course in laws.courses {
         sum += match course {
-            CourseLaw::Input(_) | CourseLaw::Constant(_) => Operations::NONE,
-            CourseLaw::Travel(_) => ops(1, 0),
-            CourseLaw::Table(_) => ops(3, 8).and(1, 0, 0),
+            SignalLaw::Input(_) | SignalLaw::Constant(_) => Operations::NONE,
+            SignalLaw::Travel(_) => ops(1, 0),
+            SignalLaw::Table(_) => ops(3, 8).and(1, 0, 0),
         };
     }
     sum

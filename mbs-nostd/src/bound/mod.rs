@@ -19,7 +19,7 @@ mod effects;
 mod joints;
 mod loops;
 
-use crate::inputs::CourseLaw;
+use crate::inputs::SignalLaw;
 use crate::model::Model;
 use core::ops::{Add, AddAssign, Mul};
 use mbs_core::Real;
@@ -164,7 +164,7 @@ pub fn step<T: Real, S: Space<T>>(model: &Model<'_, T, S>, bounds: Bounds) -> Op
         projection += Operations::new(0, freedoms);
         total += projection * u64::from(bounds.projections);
     }
-    let written = |course: &CourseLaw<T>| matches!(course, CourseLaw::Input(_));
+    let written = |course: &SignalLaw<T>| matches!(course, SignalLaw::Input(_));
     if model.prescriptions.courses.iter().any(written) {
         // A step after a course was written begins with an evaluation.
         total += evaluation + effects::inputs(&model.prescriptions);

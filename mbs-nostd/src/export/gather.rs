@@ -1,6 +1,6 @@
 //! A tree's tables in the order in which its effects may be dropped.
 
-use crate::inputs::{CourseLaw, GuideLaw, Prescriptions};
+use crate::inputs::{Motion, Prescriptions, SignalLaw};
 use crate::model::{Beginning, Model};
 use alloc::vec::Vec;
 use mbs_core::Real;
@@ -8,7 +8,7 @@ use mbs_core::inputs::Prescribed;
 use mbs_core::laws::Part;
 use mbs_core::laws::body::BodyLaw;
 use mbs_core::laws::scalar::Law;
-use mbs_core::scene::{Course, GuideLaw as SceneLaw};
+use mbs_core::scene::{Motion as SceneLaw, Signal};
 use mbs_recursive::loads::Load;
 use mbs_recursive::mechanism::Mechanism;
 use mbs_recursive::space::Space;
@@ -20,8 +20,8 @@ pub struct Gathered<'a, T: Real, S: Space<T>> {
     mechanism: Mechanism<'a, T, S>,
     loads: Vec<Load<T, S>>,
     state: &'a TreeState<T>,
-    guides: Vec<GuideLaw<T>>,
-    courses: Vec<CourseLaw<T>>,
+    guides: Vec<Motion<T>>,
+    courses: Vec<SignalLaw<T>>,
     knots: Vec<[T; 2]>,
     curvatures: Vec<T>,
     rows: Vec<[T; 4]>,
@@ -72,29 +72,29 @@ impl<'a, T: Real, S: Space<T>> Gathered<'a, T, S> {
     fn prescribe(&mut self, prescribed: &Prescribed<T>) {
         for guide in prescribed.guides() {
             let law = match guide.law() {
-                SceneLaw::Input(motion) => GuideLaw::Input(*motion),
+                SceneLaw::Input(motion) => Motion::Input(*motion),
                 SceneLaw::Sine { amplitude, frequency, phase } => {
-                    GuideLaw::Sine { amplitude: *amplitude, frequency: *frequency, phase: *phase }
+                    Motion::Sine { amplitude: *amplitude, frequency: *frequency, phase: *phase }
                 }
-                SceneLaw::Ramp { rate } => GuideLaw::Ramp { rate: *rate },
+                SceneLaw::Ramp { rate } => Motion::Ramp { rate: *rate },
                 SceneLaw::Table { rows: table, .. } => {
                     let first = index(self.knots.len());
                     self.knots.extend_from_slice(table);
                     self.curvatures.extend_from_slice(guide.curvature());
-                    GuideLaw::Table(Part { first, n: index(table.len()) })
+                    Motion::Table(Part { first, n: index(table.len()) })
                 }
             };
             self.guides.push(law);
         }
         for (_, course) in prescribed.courses() {
             let law = match (course.speed(), course.course()) {
-                (Some(speed), _) => CourseLaw::Travel(speed),
-                (None, Course::Constant(value)) => CourseLaw::Constant(*value),
-                (None, Course::Input(value)) => CourseLaw::Input(*value),
-                (None, Course::Table(table)) => {
+                (Some(speed), _) => SignalLaw::Travel(speed),
+                (None, Signal::Constant(value)) => SignalLaw::Constant(*value),
+                (None, Signal::Input(value)) => SignalLaw::Input(*value),
+                (None, Signal::Table(table)) => {
                     let first = index(self.rows.len());
                     self.rows.extend(table.iter().map(|&(t, [x, y, z])| [t, x, y, z]));
-                    CourseLaw::Table(Part { first, n: index(table.len()) })
+                    SignalLaw::Table(Part { first, n: index(table.len()) })
                 }
             };
             self.courses.push(law);

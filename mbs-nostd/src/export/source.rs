@@ -178,8 +178,8 @@ fn lists<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>, to: &mut String)
     table("COUPLINGS", "Coupling", plan.couplings, to);
     table("UPDATES", "Update", plan.updates, to);
     table("LOADS", "Load<Scalar, Axes>", m.loads, to);
-    table("GUIDES", "GuideLaw<Scalar>", laws.guides, to);
-    table("COURSES", "CourseLaw<Scalar>", laws.courses, to);
+    table("GUIDES", "Motion<Scalar>", laws.guides, to);
+    table("COURSES", "SignalLaw<Scalar>", laws.courses, to);
     table("KNOTS", "[Scalar; 2]", laws.knots.0, to);
     table("CURVATURES", "Scalar", laws.knots.1, to);
     table("COURSE_ROWS", "[Scalar; 4]", laws.rows, to);

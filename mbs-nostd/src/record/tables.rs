@@ -2,7 +2,7 @@
 
 use super::macros::{record_enum, record_struct};
 use super::{Axes, Record};
-use crate::inputs::{CourseLaw, GuideLaw};
+use crate::inputs::{Motion, SignalLaw};
 use mbs_core::Real;
 use mbs_core::laws::Part;
 use mbs_recursive::link::{Kind, Link};
@@ -56,14 +56,14 @@ record_enum!([T: Real + Record, S: Axes<T>] Gauge<T, S> = Gauge {
 
 record_struct!([T: Real + Record, S: Axes<T>] OnBody<T, S> = OnBody { link, point, axis, law });
 
-record_enum!([T: Real + Record] GuideLaw<T> = GuideLaw {
+record_enum!([T: Real + Record] Motion<T> = Motion {
     0 Input { 0 motion },
     1 Sine { amplitude amplitude, frequency frequency, phase phase },
     2 Ramp { rate rate },
     3 Table { 0 part },
 });
 
-record_enum!([T: Real + Record] CourseLaw<T> = CourseLaw {
+record_enum!([T: Real + Record] SignalLaw<T> = SignalLaw {
     0 Input { 0 value },
     1 Constant { 0 value },
     2 Travel { 0 speed },

@@ -1,7 +1,7 @@
 //! What is written between steps: in the step of fixed capacity, and in the bound of its work.
 
 use crate::support::start;
-use mbs_core::scene::{Course, Effect, EffectKind, GuideLaw, Scene, TableEnds};
+use mbs_core::scene::{Effect, EffectKind, Motion, Scene, Signal, TableEnds};
 use mbs_nostd::export::{Gathered, bytes};
 use mbs_nostd::{Bounds, Checked, InputError, Options, Planar, Solver, Tables, Unwatched};
 use mbs_recursive::{Workspace, bounded_step};
@@ -13,7 +13,7 @@ type RoomTables = Tables<f64, Planar, 8, 12, 16, 64, 24, 64, 8, 40>;
 fn with_torques(name: &str) -> Scene<f64> {
     let mut scene = file(name);
     for (name, course) in
-        [("set", Course::Input([0.0; 3])), ("constant", Course::Constant([0.1, 0.0, 0.0]))]
+        [("set", Signal::Input([0.0; 3])), ("constant", Signal::Constant([0.1, 0.0, 0.0]))]
     {
         let kind = EffectKind::JointTorque { joint: 0, course };
         scene.effects.push(Effect { name: name.into(), enabled: true, kind });
@@ -53,7 +53,7 @@ fn a_course_written_for_one_step_acts_in_that_whole_step() {
 #[test]
 fn a_solver_of_fixed_capacity_takes_inputs_as_the_recursion_does() {
     let mut scene = with_torques("guided-four-bar");
-    scene.guides[0].law = GuideLaw::Input([0.0, 0.0, 2.0]);
+    scene.guides[0].law = Motion::Input([0.0, 0.0, 2.0]);
     scene.initials.clear();
     let (tree, begin) = start::<Planar, 2>(&scene);
     let effect = scene.effects.len() - 2;
@@ -63,7 +63,7 @@ fn a_solver_of_fixed_capacity_takes_inputs_as_the_recursion_does() {
         .prescriptions
         .courses
         .iter()
-        .position(|c| matches!(c, mbs_nostd::CourseLaw::Input(_)))
+        .position(|c| matches!(c, mbs_nostd::SignalLaw::Input(_)))
         .expect("an input");
     let flash = Checked::new(&gathered.model()).expect("a model");
     let mut solver = Room::new(&flash).expect("room");
@@ -90,7 +90,7 @@ fn a_solver_of_fixed_capacity_takes_inputs_as_the_recursion_does() {
 fn a_table_with_level_ends_steps_from_bytes_as_it_does_on_the_host() {
     let mut scene = file("guided-four-bar");
     let rows = vec![[0.0, 0.0], [0.05, 0.2], [0.1, 0.3]];
-    scene.guides[0].law = GuideLaw::Table { rows, ends: TableEnds::Level };
+    scene.guides[0].law = Motion::Table { rows, ends: TableEnds::Level };
     scene.initials.clear();
     let (mut host, mut state) = start::<Planar, 2>(&scene);
     let gathered = Gathered::new(&host, &state, &[]);

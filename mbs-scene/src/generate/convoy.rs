@@ -2,7 +2,7 @@
 
 use super::GenerateError;
 use super::text::{Text, number, quoted};
-use crate::read::Document;
+use crate::read::SceneFile;
 use crate::read::tree::{Item, Member, Node};
 use mbs_core::scene::{EffectKind, Scene};
 
@@ -21,7 +21,7 @@ const NAMES: [&str; 4] = ["name", "body", "joint", "bodies"];
 const LISTS: [&str; 5] = ["body", "joint", "guide", "initial", "effect"];
 
 pub(super) fn text(
-    vehicle: &Document,
+    vehicle: &SceneFile,
     (count, spacing): (usize, f64),
     command: &str,
 ) -> Result<String, GenerateError> {
@@ -51,7 +51,7 @@ pub(super) fn text(
 }
 
 /// What the vehicles share: the scene's own keys, the road, the solver.
-fn header(text: &mut Text, vehicle: &Document, name: &str) {
+fn header(text: &mut Text, vehicle: &SceneFile, name: &str) {
     for table in ["scene", "road", "solver"] {
         let Some(Item { node: Node::Table(members), .. }) = vehicle.top(table) else { continue };
         text.table(&format!("[{table}]"));
@@ -75,7 +75,7 @@ impl Copy {
         Self { prefix: format!("v{}-", k + 1), shift: -spacing * k as f64 }
     }
 
-    fn entries(&self, text: &mut Text, vehicle: &Document, list: &str) {
+    fn entries(&self, text: &mut Text, vehicle: &SceneFile, list: &str) {
         let Some(Item { node: Node::List(entries), .. }) = vehicle.top(list) else { return };
         for entry in entries {
             let Node::Table(members) = &entry.node else { continue };

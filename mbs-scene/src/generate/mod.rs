@@ -13,7 +13,7 @@ mod tree;
 
 pub use error::GenerateError;
 
-use crate::read::Document;
+use crate::read::SceneFile;
 
 /// Bodies of a generated scene at most.
 pub const MOST_BODIES: usize = 10_000_000;
@@ -46,7 +46,7 @@ pub enum Family<'a> {
     /// Copies of a vehicle behind each other on one road, driving in x.
     Convoy {
         /// The scene of one vehicle; it must have a tire.
-        vehicle: &'a Document,
+        vehicle: &'a SceneFile,
         /// Vehicles; at least 1.
         count: usize,
         /// Distance from one to the next [m].
@@ -89,9 +89,9 @@ impl Family<'_> {
 ///
 /// # Examples
 /// ```
-/// use mbs_scene::{Document, Family, generate};
+/// use mbs_scene::{SceneFile, Family, generate};
 /// let text = generate(&Family::Chain { bodies: 100 }, "mbs generate chain --count 100")?;
-/// let scene = Document::parse(&text, "chain.toml")?.scene::<f64>()?;
+/// let scene = SceneFile::parse(&text, "chain.toml")?.scene::<f64>()?;
 /// assert_eq!((scene.bodies.len(), scene.joints.len()), (100, 100));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

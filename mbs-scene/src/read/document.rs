@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 /// A scene file: syntax tree, text and name. Numbers are still decimal text.
 #[derive(Debug, Clone)]
-pub struct Document {
+pub struct SceneFile {
     file: String,
     text: String,
     root: Vec<Member>,
@@ -20,7 +20,7 @@ const TABLES: [&str; 9] =
     ["scene", "body", "joint", "initial", "guide", "effect", "road", "solver", "output"];
 const SCENE_KEYS: [&str; 5] = ["name", "dimension", "gravity", "duration", "start"];
 
-impl Document {
+impl SceneFile {
     /// Reads the text of a scene file; `file` is the name that messages show.
     ///
     /// # Errors

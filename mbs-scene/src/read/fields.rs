@@ -2,14 +2,14 @@
 
 use crate::read::names::Names;
 use crate::read::tree::{Item, Member, Node, Span};
-use crate::read::{Document, ReadError, ReadFault};
+use crate::read::{ReadError, ReadFault, SceneFile};
 use mbs_core::Real;
-use mbs_core::scene::{BodyRef, Dimension};
+use mbs_core::scene::{BodyId, Dimension};
 
 /// What the readers of all entries share.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Context<'a> {
-    pub(crate) document: &'a Document,
+    pub(crate) document: &'a SceneFile,
     pub(crate) dimension: Dimension,
     pub(crate) bodies: &'a Names,
     pub(crate) joints: &'a Names,
@@ -131,13 +131,13 @@ impl<'a> Context<'a> {
         Ok(vector)
     }
 
-    pub(crate) fn body(&self, item: &'a Item) -> Read<BodyRef> {
+    pub(crate) fn body(&self, item: &'a Item) -> Read<BodyId> {
         let name = self.text(item)?;
         if name == "ground" {
-            return Ok(BodyRef::Ground);
+            return Ok(BodyId::Ground);
         }
         match self.bodies.place(name) {
-            Some(i) => Ok(BodyRef::Body(i)),
+            Some(i) => Ok(BodyId::Body(i)),
             None => {
                 let mut known = vec!["ground".to_owned()];
                 known.extend_from_slice(self.bodies.list());
@@ -148,8 +148,8 @@ impl<'a> Context<'a> {
 
     pub(crate) fn moving_body(&self, item: &'a Item) -> Read<usize> {
         match self.body(item)? {
-            BodyRef::Body(i) => Ok(i),
-            BodyRef::Ground => self.fault(&item.span, ReadFault::GroundDoesNotMove),
+            BodyId::Body(i) => Ok(i),
+            BodyId::Ground => self.fault(&item.span, ReadFault::GroundDoesNotMove),
         }
     }
 
@@ -255,7 +255,7 @@ impl<'a> Fields<'a> {
     }
 
     /// `bodies = ["first", "second"]`.
-    pub(crate) fn pair(&self) -> Read<[BodyRef; 2]> {
+    pub(crate) fn pair(&self) -> Read<[BodyId; 2]> {
         let [first, second] =
             self.context.exactly(self.need("bodies")?, "a list of two body names")?;
         Ok([self.context.body(first)?, self.context.body(second)?])

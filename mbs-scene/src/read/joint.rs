@@ -2,7 +2,7 @@
 
 use crate::read::fields::{Fields, Read};
 use mbs_core::Real;
-use mbs_core::scene::{BodyRef, Joint, JointKind};
+use mbs_core::scene::{BodyId, Joint, JointKind};
 
 const KEYS: [&str; 8] = ["name", "kind", "bodies", "at", "axis", "axes", "points", "direction"];
 
@@ -61,11 +61,11 @@ fn geometry_keys(kind: JointKind, is_planar: bool) -> &'static [&'static str] {
 /// A free joint speaks about the centre of mass of the second body, or of the first when that is the ground.
 fn default_place<T: Real>(
     kind: JointKind,
-    bodies: [BodyRef; 2],
+    bodies: [BodyId; 2],
     centers: &[[T; 3]],
 ) -> Option<[T; 3]> {
     match (kind, bodies) {
-        (JointKind::Free, [_, BodyRef::Body(i)] | [BodyRef::Body(i), BodyRef::Ground]) => {
+        (JointKind::Free, [_, BodyId::Body(i)] | [BodyId::Body(i), BodyId::Ground]) => {
             centers.get(i).copied()
         }
         _ => None,

@@ -19,7 +19,7 @@ mod tests;
 pub(crate) mod tree;
 mod units;
 
-pub use document::Document;
+pub use document::SceneFile;
 pub use error::{ReadError, ReadFault, suggestion};
 pub use place::Place;
 pub use sweep::{Sweep, SweepFault};

@@ -3,12 +3,12 @@
 use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
 use mbs_core::Real;
-use mbs_core::scene::{Guide, GuideLaw, Initial, InitialTarget, TableEnds};
+use mbs_core::scene::{Guide, InitialCondition, InitialTarget, Motion, TableEnds};
 
 const INITIAL_KEYS: [&str; 7] =
     ["joint", "value", "rate", "body", "at", "velocity", "angular_velocity"];
 
-pub(crate) fn read_initial<T: Real>(fields: &Fields<'_>) -> Read<Initial<T>> {
+pub(crate) fn read_initial<T: Real>(fields: &Fields<'_>) -> Read<InitialCondition<T>> {
     let context = fields.context;
     fields.exclusive("joint", "body")?;
     let target = match fields.get("body") {
@@ -27,7 +27,7 @@ pub(crate) fn read_initial<T: Real>(fields: &Fields<'_>) -> Read<Initial<T>> {
             InitialTarget::Joint { joint, value: numbers("value")?, rate: numbers("rate")? }
         }
     };
-    Ok(Initial { target })
+    Ok(InitialCondition { target })
 }
 
 /// `at` and `velocity` come together.
@@ -62,7 +62,7 @@ pub(crate) fn read_guide<T: Real>(fields: &Fields<'_>) -> Read<Guide<T>> {
         let sine =
             context.table(item, "a table: { amplitude = .., frequency = .., phase = .. }")?;
         sine.allow(&["amplitude", "frequency", "phase"], &[])?;
-        GuideLaw::Sine {
+        Motion::Sine {
             amplitude: sine.number("amplitude")?,
             frequency: sine.number("frequency")?,
             phase: sine.number_or_zero("phase")?,
@@ -70,9 +70,9 @@ pub(crate) fn read_guide<T: Real>(fields: &Fields<'_>) -> Read<Guide<T>> {
     } else if let Some(item) = fields.get("ramp") {
         let ramp = context.table(item, "a table: { rate = .. }")?;
         ramp.allow(&["rate"], &[])?;
-        GuideLaw::Ramp { rate: ramp.number("rate")? }
+        Motion::Ramp { rate: ramp.number("rate")? }
     } else if fields.get("table").is_some() {
-        GuideLaw::Table { rows: read_table(fields)?, ends: read_ends(fields)? }
+        Motion::Table { rows: read_table(fields)?, ends: read_ends(fields)? }
     } else {
         return context.fault(fields.header, ReadFault::Missing { key: "table, sine or ramp" });
     };

@@ -4,7 +4,7 @@ use crate::read::ReadFault;
 use crate::read::error::OWNER;
 use crate::read::fields::{Fields, Read};
 use mbs_core::Real;
-use mbs_core::scene::{Output, Quantity, SolverChoice};
+use mbs_core::scene::{Output, Quantity, SolverTable};
 
 const KEYS: [&str; 5] = ["name", "body", "at", "joint", "quantity"];
 const BODY_WORDS: [&str; 3] = ["position", "velocity", "acceleration"];
@@ -45,7 +45,7 @@ fn quantity_word<'a>(fields: &Fields<'a>, default: &'static str) -> Read<&'a str
     Ok(fields.word("quantity")?.0)
 }
 
-pub(crate) fn read_solver<T: Real>(fields: &Fields<'_>) -> Read<SolverChoice<T>> {
+pub(crate) fn read_solver<T: Real>(fields: &Fields<'_>) -> Read<SolverTable<T>> {
     fields.allow(
         &[
             "formulation",
@@ -76,7 +76,7 @@ pub(crate) fn read_solver<T: Real>(fields: &Fields<'_>) -> Read<SolverChoice<T>>
             Some([context.number(upper)?, context.number(lower)?])
         }
     };
-    Ok(SolverChoice {
+    Ok(SolverTable {
         formulation: word("formulation")?,
         integrator: word("integrator")?,
         step: fields.optional("step")?,

@@ -1,7 +1,7 @@
 //! Scenes of the format, each refusal with its exact place, and no panic on anything.
 #![allow(clippy::float_cmp, reason = "numbers are read exactly")]
 
-use crate::{Document, ReadError, ReadFault};
+use crate::{ReadError, ReadFault, SceneFile};
 use mbs_core::scene::*;
 
 mod effects;
@@ -122,7 +122,7 @@ frame = "body"
 "#;
 
 fn read(text: &str) -> Result<Scene<f64>, ReadError> {
-    Document::parse(text, "test.toml")?.scene()
+    SceneFile::parse(text, "test.toml")?.scene()
 }
 
 /// The planar scene with one passage replaced, which must be refused; `line:column: message`.
@@ -148,7 +148,7 @@ fn the_planar_scene_of_the_format_is_read() {
     assert_eq!(scene.name, "double pendulum");
     assert_eq!(scene.gravity, Some([0.0, -9.81, 0.0]));
     assert_eq!(scene.bodies[0].center, [0.5, 0.0, 0.0]);
-    assert_eq!(scene.joints[1].bodies, [BodyRef::Body(0), BodyRef::Body(1)]);
+    assert_eq!(scene.joints[1].bodies, [BodyId::Body(0), BodyId::Body(1)]);
     assert_eq!(scene.effects[1].name, "effect-2");
     assert!(!scene.effects[1].enabled);
     assert_eq!(scene.solver.formulation.as_deref(), Some("auto"));
@@ -169,12 +169,12 @@ fn the_spatial_kinds_are_read() {
     assert_eq!(scene.joints[3].points, [[0.0; 3], [1.0, 0.0, 0.0]]);
     let EffectKind::Force { course, frame, .. } = &scene.effects[0].kind else { panic!() };
     let rows = vec![(0.0, [1.0, 2.0, 3.0]), (1.0, [4.0, 5.0, 6.0])];
-    assert_eq!((course, *frame), (&Course::Table(rows), AxisFrame::Body));
+    assert_eq!((course, *frame), (&Signal::Table(rows), AxisFrame::Body));
 }
 
 #[test]
 fn numbers_keep_their_decimal_text_until_the_precision_is_known() {
-    let document = Document::parse(PLANAR, "x").unwrap();
+    let document = SceneFile::parse(PLANAR, "x").unwrap();
     assert_eq!(
         document.scene::<f32>().unwrap().gravity.unwrap()[1].to_bits(),
         (-9.81_f32).to_bits()
@@ -185,7 +185,7 @@ fn numbers_keep_their_decimal_text_until_the_precision_is_known() {
     );
     // halfway cases: through f64 this text would round to 1.0 in f32
     let text = PLANAR.replace("duration = 10.0", "duration = 1.00000005960464477540");
-    let document = Document::parse(&text, "x").unwrap();
+    let document = SceneFile::parse(&text, "x").unwrap();
     assert_eq!(document.scene::<f32>().unwrap().duration.to_bits(), 1.000_000_1_f32.to_bits());
     let text = PLANAR.replace("duration = 10.0", "duration = 1_0.2_5e+0_1");
     assert_eq!(read(&text).unwrap().duration.to_bits(), 102.5_f64.to_bits());
@@ -231,7 +231,7 @@ fn tables_of_guides_end_as_is_written_beside_them() {
     ] {
         let scene = guide(&format!("{table}\n{ends}")).expect("both words are known");
         let rows = vec![[0.0, 0.0], [1.0, 0.1]];
-        assert_eq!(scene.guides[0].law, GuideLaw::Table { rows, ends: expected });
+        assert_eq!(scene.guides[0].law, Motion::Table { rows, ends: expected });
     }
     let e = guide(&format!("{table}\nends = \"levl\"")).unwrap_err();
     refused(&e, "43:8", "unknown ends `levl`", "did you mean `level`?");
@@ -312,18 +312,18 @@ fn scenes_that_cannot_be_meant_are_refused_at_the_value() {
 #[test]
 fn rendering_shows_the_line_with_carets_under_the_text() {
     let text = "[scene]\n\tname = \"Zwölf\"; # ö\n";
-    let error = Document::parse(text, "a b.toml").unwrap_err();
+    let error = SceneFile::parse(text, "a b.toml").unwrap_err();
     assert_eq!(error.place().line, 2);
     let e = spoiled("[\"upper\", \"lower\"]", "[\"üpper\", \"löwer\"]");
     let expected = "test.toml:27:11: unknown body `üpper`\n\
                     27 | bodies = [\"üpper\", \"löwer\"]\n   |           ^^^^^^^\n\
                     hint: did you mean `upper`?\n";
     assert_eq!(e.render(), expected);
-    let document = Document::parse(PLANAR, "x").unwrap();
+    let document = SceneFile::parse(PLANAR, "x").unwrap();
     let place = document.place(Entry::Solver, "formulation");
     assert_eq!((place.line, place.column, place.width), (60, 15, 6));
     assert_eq!(document.place(Entry::Body(1), "rod").line, 12);
     assert_eq!(document.place(Entry::Body(9), "rod").line, 1);
-    let error = Document::from_bytes(b"[scene]\nname = \"\xff\"", "x").unwrap_err();
+    let error = SceneFile::from_bytes(b"[scene]\nname = \"\xff\"", "x").unwrap_err();
     assert_eq!((error.place().line, error.place().column), (2, 9));
 }

@@ -1,6 +1,6 @@
 //! Files read back as what was written.
 
-use crate::{Channel, Contact, CsvWriter, Document, Outputs, RunError, RunSummary};
+use crate::{Channel, Contact, CsvWriter, Outputs, RunError, RunSummary, SceneFile};
 use proptest::prelude::*;
 
 const SCENE: &str = r#"
@@ -10,7 +10,7 @@ joint = [{ name = "rail", kind = "cylindrical", bodies = ["ground", "b"], at = [
 "#;
 
 fn columns(extra: &str) -> Vec<String> {
-    let scene = Document::parse(&format!("{SCENE}{extra}"), "x").unwrap().scene::<f64>().unwrap();
+    let scene = SceneFile::parse(&format!("{SCENE}{extra}"), "x").unwrap().scene::<f64>().unwrap();
     Channel::of_scene(&scene).iter().flat_map(Channel::columns).collect()
 }
 
@@ -24,7 +24,7 @@ fn columns_are_named_as_the_format_says() {
 
 #[test]
 fn units_of_joint_coordinates_put_translations_first() {
-    let scene = Document::parse(SCENE, "x").unwrap().scene::<f64>().unwrap();
+    let scene = SceneFile::parse(SCENE, "x").unwrap().scene::<f64>().unwrap();
     let units: Vec<_> =
         Channel::of_scene(&scene)[0].components.iter().map(|c| c.unit.clone()).collect();
     assert_eq!(units, ["m", "rad"]);

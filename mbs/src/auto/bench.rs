@@ -3,7 +3,7 @@
 use super::trial::{Aim, Bench, End, Rows, Time, Trial};
 use crate::alarm::Alarm;
 use crate::channels::Channels;
-use crate::compare::drive::{Course, Watcher, drive};
+use crate::compare::drive::{Signal, Watcher, drive};
 use crate::compare::ladder::{Instants, count, work};
 use crate::compare::method::{Control, Method};
 use crate::engine::Engine;
@@ -128,7 +128,7 @@ where
             reached: 0.0,
             is_late: false,
         };
-        let course = Course { instants: self.instants, between };
+        let course = Signal { instants: self.instants, between };
         let end = drive(&mut simulation, (&course, &self.base.interrupt), &mut recorder);
         let Recorder { rows, steps, reached, slowest, is_late, span, .. } = recorder;
         let seconds = self.clock.seconds() - begun;

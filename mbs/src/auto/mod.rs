@@ -24,7 +24,7 @@ pub use goal::{Goal, GoalError, time};
 pub use plan::{Plan, PlanError, Processor, plan, run_plan};
 pub(crate) use report::reasons;
 
-use crate::choice::{Formulation, IntegratorKind, Precision};
+use crate::choice::{FormulationKind, IntegratorKind, Precision};
 use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, Method};
 use crate::names::Names;
@@ -190,8 +190,8 @@ fn few_methods(
 ) -> Vec<Method> {
     let is_free = task.settings.asked == "auto" && task.goal.deadline.is_none();
     let is_few = |m: &&Method| match m.formulation {
-        Formulation::Recursive => m.control != Control::Fixed || m.integrator.is_explicit(),
-        formulation => formulation == Formulation::Index3 && m.control == Control::Fixed,
+        FormulationKind::Recursive => m.control != Control::Fixed || m.integrator.is_explicit(),
+        formulation => formulation == FormulationKind::Index3 && m.control == Control::Fixed,
     };
     let few: Vec<Method> = methods.iter().filter(is_few).copied().collect();
     if !is_free || structure.loops.is_err() || few.is_empty() { methods.to_vec() } else { few }

@@ -9,7 +9,7 @@ use crate::stop::StopError;
 use crate::{Names, run_document};
 use cpu_time::ThreadTime;
 use mbs_core::scene::Scene;
-use mbs_scene::{Choice, Document, Fallback};
+use mbs_scene::{Choice, Fallback, SceneFile};
 use std::time::Instant;
 
 /// Settings to run with, in the order in which they are tried.
@@ -82,7 +82,7 @@ impl PlanError {
 /// # Errors
 /// A goal that cannot be meant beside these options; a scene that is none in the precision asked for.
 pub fn plan(
-    (document, scene): (&Document, &Scene<f64>),
+    (document, scene): (&SceneFile, &Scene<f64>),
     (base, settings): (&Overrides, Settings),
     goal: Goal,
     clock: &mut dyn Clock,
@@ -152,7 +152,7 @@ fn blind(task: &Task<'_>, choice: &Choice, methods: &[Method]) -> Vec<Pick> {
 /// # Errors
 /// As for [`run_document`].
 pub fn run_plan(
-    (document, scene): (&Document, &Scene<f64>),
+    (document, scene): (&SceneFile, &Scene<f64>),
     plan: &Plan,
     reached: &mut dyn FnMut(f64),
 ) -> Result<(Outcome, Settings), PrecisionError> {

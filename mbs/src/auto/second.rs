@@ -5,7 +5,7 @@ use super::entrant::LOST;
 use super::finish::Place;
 use super::race::{BUDGET, Race, SHARE};
 use super::trial::{Aim, End, Time, Trial};
-use crate::choice::{Formulation, IntegratorKind};
+use crate::choice::{FormulationKind, IntegratorKind};
 use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, Method};
 use mbs_scene::SecondLook;
@@ -25,13 +25,13 @@ pub(super) fn look(
 ) -> Option<SecondLook> {
     let chosen = &race.entrants[places.first()?.entrant];
     let precision = chosen.method.precision;
-    if chosen.method.formulation != Formulation::Recursive {
+    if chosen.method.formulation != FormulationKind::Recursive {
         return None;
     }
     let best = chosen.done().rfind(|t| t.error.is_some())?;
     let (rows, error) = (best.trial.rows.clone(), best.error.unwrap_or_default());
     let method = Method {
-        formulation: Formulation::Index3,
+        formulation: FormulationKind::Index3,
         integrator: IntegratorKind::Trapezoidal,
         control: Control::Fixed,
         precision,

@@ -1,13 +1,13 @@
 //! What a scene's structure says before anything is run: who cannot run it, and what makes it dear.
 
-use crate::choice::Formulation;
+use crate::choice::FormulationKind;
 use crate::compare::method::Method;
 use crate::names::Names;
 use crate::ready::Ready;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
-use mbs_core::scene::{BodyRef, Effect, EffectKind, Scene};
+use mbs_core::scene::{BodyId, Effect, EffectKind, Scene};
 use mbs_recursive::TreeModel;
 
 /// Steps of an explicit method in each period of the stiffest spring, roughly.
@@ -66,9 +66,9 @@ where
 
 /// omega = sqrt(k (1/m1 + 1/m2)) of a spring along a line [rad/s].
 fn frequency<T: Real>(scene: &Scene<T>, effect: &Effect<T>) -> f64 {
-    let of = |body: &BodyRef| match body {
-        BodyRef::Body(i) => scene.bodies.get(*i).map_or(0.0, |body| 1.0 / body.mass.to_f64()),
-        BodyRef::Ground => 0.0,
+    let of = |body: &BodyId| match body {
+        BodyId::Body(i) => scene.bodies.get(*i).map_or(0.0, |body| 1.0 / body.mass.to_f64()),
+        BodyId::Ground => 0.0,
     };
     let (bodies, stiffness) = match &effect.kind {
         EffectKind::SpringDamper { bodies, stiffness, .. }
@@ -86,8 +86,8 @@ impl Structure {
     /// Why a method cannot run the scene.
     pub(crate) fn refuses(&self, method: &Method) -> Option<String> {
         match (method.formulation, &self.loops, self.natural) {
-            (Formulation::Recursive, Err(why), _) => Some(why.clone()),
-            (Formulation::Classical, _, Some([_, rows, rank])) if rank < rows => Some(format!(
+            (FormulationKind::Recursive, Err(why), _) => Some(why.clone()),
+            (FormulationKind::Classical, _, Some([_, rows, rank])) if rank < rows => Some(format!(
                 "{} of {rows} constraints are redundant: their multipliers are not unique",
                 rows - rank
             )),
@@ -102,10 +102,10 @@ impl Structure {
         let is_stiff = steps > STIFF;
         let is_controlled = !method.is_fixed();
         match (method.formulation, method.integrator.is_explicit()) {
-            (Formulation::Recursive, true) if !is_stiff => usize::from(!is_controlled),
-            (Formulation::Recursive, true) => 6,
-            (Formulation::Recursive, false) => 3 - usize::from(is_controlled),
-            (Formulation::Index3, _) => 5 - usize::from(is_controlled),
+            (FormulationKind::Recursive, true) if !is_stiff => usize::from(!is_controlled),
+            (FormulationKind::Recursive, true) => 6,
+            (FormulationKind::Recursive, false) => 3 - usize::from(is_controlled),
+            (FormulationKind::Index3, _) => 5 - usize::from(is_controlled),
             _ => 7,
         }
     }

@@ -6,7 +6,7 @@ use super::law::Law;
 use super::race::{BUDGET, Race, Wanted};
 use super::second;
 use super::trial::{Aim, Bench, End, Rows, Time, Trial};
-use crate::choice::{Formulation, Precision};
+use crate::choice::{FormulationKind, Precision};
 use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, Method};
 use crate::settings::{Overrides, Settings};
@@ -108,7 +108,7 @@ fn extrapolation_is_a_candidate_where_it_is_asked_for_and_in_pairs() {
         env!("CARGO_MANIFEST_DIR"),
         "/../scenes/double-pendulum.toml"
     ));
-    let document = mbs_scene::Document::parse(&text.expect("a scene"), "scene").expect("TOML");
+    let document = mbs_scene::SceneFile::parse(&text.expect("a scene"), "scene").expect("TOML");
     let scene = document.scene::<f64>().expect("a scene");
     let has = |integrator: Option<&str>, precision: &str| {
         let base = Overrides {
@@ -164,7 +164,7 @@ fn chosen<F: Fn(&Method) -> Nature>(
 /// two and a half times the work of another at most: that is what the pilot relies on where it leaves such a candidate alone.
 fn spread(seed: usize) -> impl Fn(&Method) -> Nature {
     let kind = |m: &Method| {
-        (m.integrator, m.control, m.formulation == Formulation::Recursive, !m.is_fixed())
+        (m.integrator, m.control, m.formulation == FormulationKind::Recursive, !m.is_fixed())
     };
     move |m: &Method| {
         let first = |is: &dyn Fn(&Method) -> bool| all().iter().position(is).unwrap_or(0);
@@ -202,25 +202,28 @@ fn the_cheapest_is_found_within_a_fifth_where_all_keep_their_laws_and_twins_take
 #[test]
 fn what_stops_in_the_pilot_is_not_chosen() {
     let nature = |m: &Method| match m.formulation {
-        Formulation::Recursive => Nature { seconds: 1e-4, stops_below: 1.0, ..TAME },
-        Formulation::Index3 => Nature { seconds: 1e-3, error: 1e-4, ..TAME },
+        FormulationKind::Recursive => Nature { seconds: 1e-4, stops_below: 1.0, ..TAME },
+        FormulationKind::Index3 => Nature { seconds: 1e-3, error: 1e-4, ..TAME },
         _ => Nature { seconds: 4e-3, error: 1e-4, ..TAME },
     };
     let (first, _) = chosen(nature, 1e-4, None);
-    assert_eq!(first.unwrap().0.formulation, Formulation::Index3);
+    assert_eq!(first.unwrap().0.formulation, FormulationKind::Index3);
 }
 
 #[test]
 fn a_method_that_stops_with_coarse_settings_is_tried_with_finer_ones() {
     let nature = |m: &Method| match (m.formulation, m.is_fixed()) {
-        (Formulation::Index3, true) => {
+        (FormulationKind::Index3, true) => {
             Nature { seconds: 1e-4, error: 1e-5, stops_above: 0.02, ..TAME }
         }
         _ => Nature { seconds: 1e-2, error: 1e-5, ..TAME },
     };
     let (first, _) = chosen(nature, 1e-4, None);
     let (method, setting, reaches) = first.unwrap();
-    assert_eq!((method.formulation, method.is_fixed(), reaches), (Formulation::Index3, true, true));
+    assert_eq!(
+        (method.formulation, method.is_fixed(), reaches),
+        (FormulationKind::Index3, true, true)
+    );
     assert!(setting <= 0.02, "{setting}");
 }
 
@@ -288,12 +291,12 @@ fn the_pilot_keeps_to_its_budget() {
 #[test]
 fn times_that_are_the_same_go_by_the_order_of_the_list() {
     let nature = |m: &Method| match m.formulation {
-        Formulation::Recursive => Nature { seconds: 1.0, ..TAME },
+        FormulationKind::Recursive => Nature { seconds: 1.0, ..TAME },
         _ if m.is_fixed() => Nature { seconds: 1e-3, error: 1e-4, ..TAME },
         _ => Nature { seconds: 1.0, ..TAME },
     };
     let (first, _) = chosen(nature, 1e-3, None);
-    assert_eq!(first.unwrap().0.formulation, Formulation::Index3);
+    assert_eq!(first.unwrap().0.formulation, FormulationKind::Index3);
 }
 
 #[test]
@@ -336,7 +339,7 @@ struct Apart<F: Fn(&Method) -> Nature>(Fake<F>, f64);
 impl<F: Fn(&Method) -> Nature> Bench for Apart<F> {
     fn trial(&mut self, method: &Method, setting: f64, aim: Aim, time: Time) -> Trial {
         let mut trial = self.0.trial(method, setting, aim, time);
-        if method.formulation == Formulation::Index3 {
+        if method.formulation == FormulationKind::Index3 {
             trial.rows.iter_mut().for_each(|row| row[0] += self.1);
         }
         trial
@@ -354,7 +357,7 @@ impl<F: Fn(&Method) -> Nature> Bench for Apart<F> {
 #[test]
 fn a_look_from_the_other_coordinates_finds_two_models_that_differ() {
     let nature = |_: &Method| Nature { seconds: 1e-4, error: 1e-5, ..TAME };
-    let relative = |m: &Method| m.formulation == Formulation::Recursive;
+    let relative = |m: &Method| m.formulation == FormulationKind::Recursive;
     let methods: Vec<Method> = all().into_iter().filter(relative).collect();
     for (apart, differs) in [(0.0, false), (0.5, true)] {
         let mut bench = Apart(Fake::new(nature), apart);

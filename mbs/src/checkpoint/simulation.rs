@@ -11,7 +11,7 @@ use mbs_core::control::{DriverHistory, Invariant};
 use mbs_core::inputs::Prescribed;
 use mbs_core::model::State;
 use mbs_core::outputs::EventHistory;
-use mbs_core::scene::{Course, GuideLaw, Scene};
+use mbs_core::scene::{Motion, Scene, Signal};
 use std::io::{Read, Write};
 
 /// All of it, as plain data.
@@ -77,12 +77,12 @@ impl<T: Real> ControlKept<T> {
 /// The inputs as they are set: of effects, and of guides.
 pub(crate) fn inputs<T: Real>(prescribed: &Prescribed<T>) -> [Vec<(usize, [T; 3])>; 2] {
     let courses = prescribed.courses().iter().filter_map(|(effect, input)| match input.course() {
-        Course::Input(value) => Some((*effect, *value)),
+        Signal::Input(value) => Some((*effect, *value)),
         _ => None,
     });
     let guides = prescribed.guides().iter().enumerate();
     let guides = guides.filter_map(|(guide, input)| match input.law() {
-        GuideLaw::Input(motion) => Some((guide, *motion)),
+        Motion::Input(motion) => Some((guide, *motion)),
         _ => None,
     });
     [courses.collect(), guides.collect()]
@@ -102,7 +102,7 @@ where
     ///
     /// # Examples
     /// ```
-    /// use mbs::{Overrides, Settings, Simulation, scene_file::Document};
+    /// use mbs::{Overrides, Settings, Simulation, scene_file::SceneFile};
     /// # let text = r#"
     /// # [scene]
     /// # dimension = 2
@@ -119,7 +119,7 @@ where
     /// # bodies = ["ground", "bob"]
     /// # at = [0.0, 0.0]
     /// # "#;
-    /// let scene = Document::parse(text, "pendulum.toml")?.scene::<f64>()?;
+    /// let scene = SceneFile::parse(text, "pendulum.toml")?.scene::<f64>()?;
     /// let settings = Settings::new(&scene, &Overrides::default())?;
     /// let mut first = Simulation::<f64, 2>::new(&scene, &settings)?;
     /// first.step(1e-3)?;

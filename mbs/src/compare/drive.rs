@@ -10,7 +10,7 @@ use mbs_core::control::Accepted;
 
 /// What a run does.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Course {
+pub(crate) struct Signal {
     pub(crate) instants: Instants,
     /// Steps between two instants, where their length is fixed.
     pub(crate) between: Option<u64>,
@@ -78,7 +78,7 @@ where
 /// Why it stopped.
 pub(crate) fn drive<T: Real, const D: usize>(
     simulation: &mut Simulation<T, D>,
-    (course, interrupt): (&Course, &Interrupt),
+    (course, interrupt): (&Signal, &Interrupt),
     watcher: &mut impl Watcher<T, D>,
 ) -> Result<(), StopError>
 where

@@ -1,10 +1,10 @@
 //! Where index-3 and index-1 converge: short runs over step and fixed penalty.
 
-use super::drive::Course;
+use super::drive::Signal;
 use super::ladder::{Instants, count, work};
 use super::pass::Scenes;
 use super::reference::Known;
-use crate::choice::{Formulation, Precision};
+use crate::choice::{FormulationKind, Precision};
 use crate::settings::{Overrides, Settings};
 use mbs_scene::compare::{Cell, ConvergenceMap, Status};
 
@@ -24,7 +24,7 @@ pub(super) struct Plan {
     pub(super) instants: Instants,
     /// Steps between two instants, from the longest step.
     pub(super) between: Vec<u64>,
-    pub(super) formulations: Vec<Formulation>,
+    pub(super) formulations: Vec<FormulationKind>,
     pub(super) precisions: Vec<Precision>,
 }
 
@@ -33,7 +33,7 @@ impl Plan {
     /// nominal] with so many unknowns.
     pub(super) fn new(
         (instants, of_scene): (Instants, f64),
-        (formulations, precisions): (Vec<Formulation>, Vec<Precision>),
+        (formulations, precisions): (Vec<FormulationKind>, Vec<Precision>),
         (unknowns, most): (usize, f64),
     ) -> Self {
         let mut between: Vec<u64> =
@@ -63,7 +63,7 @@ impl Plan {
     }
 
     /// The formulations and precisions, each with a map.
-    pub(super) fn which(&self) -> impl Iterator<Item = (Formulation, Precision)> {
+    pub(super) fn which(&self) -> impl Iterator<Item = (FormulationKind, Precision)> {
         let precisions = &self.precisions;
         self.formulations.iter().flat_map(|&f| precisions.iter().map(move |&p| (f, p)))
     }
@@ -71,13 +71,13 @@ impl Plan {
     /// One map, from its cells by steps between two instants and penalty.
     pub(super) fn map<E>(
         &self,
-        (formulation, precision): (Formulation, Precision),
+        (formulation, precision): (FormulationKind, Precision),
         mut cell: impl FnMut(u64, f64) -> Result<Cell, E>,
     ) -> Result<ConvergenceMap, E> {
         let mut row = |penalty| -> Result<Vec<Cell>, E> {
             self.between.iter().map(|&between| cell(between, penalty)).collect()
         };
-        let is_index1 = formulation == Formulation::Index1;
+        let is_index1 = formulation == FormulationKind::Index1;
         Ok(ConvergenceMap {
             formulation: formulation.name().to_owned(),
             precision: precision.name().to_owned(),
@@ -94,7 +94,7 @@ impl Plan {
         &self,
         scenes: &Scenes,
         known: &Known,
-        (formulation, precision): (Formulation, Precision),
+        (formulation, precision): (FormulationKind, Precision),
         (between, penalty): (u64, f64),
         most: f64,
     ) -> Cell {
@@ -112,7 +112,7 @@ impl Plan {
         let Ok(settings) = Settings::new(&scenes.double, &overrides) else {
             return Cell { failure: "settings-refused".to_owned(), ..Cell::default() };
         };
-        let course = Course { instants: self.instants, between: Some(between) };
+        let course = Signal { instants: self.instants, between: Some(between) };
         let recorded = scenes.recorded(&settings, &course, most);
         let entry = recorded.entry;
         let failure = match entry.failure {
@@ -141,7 +141,8 @@ mod tests {
     #[test]
     fn a_map_is_made_smaller_where_it_would_take_long() {
         let instants = Instants { count: 200, interval: 0.05 };
-        let which = || (vec![Formulation::Index3, Formulation::Index1], vec![Precision::F64]);
+        let which =
+            || (vec![FormulationKind::Index3, FormulationKind::Index1], vec![Precision::F64]);
         let plan = Plan::new((instants, 1e-3), which(), (6, 60.0));
         assert_eq!((plan.instants.count, plan.between.len()), (4, 7));
         assert!((plan.steps()[0] - 1e-2).abs() < 1e-12);

@@ -1,6 +1,6 @@
 //! The methods that are compared: formulation, integrator, what chooses the steps, precision.
 
-use crate::choice::{Formulation, IntegratorKind, Precision};
+use crate::choice::{FormulationKind, IntegratorKind, Precision};
 use crate::settings::Overrides;
 
 /// What chooses the length of the steps.
@@ -19,20 +19,20 @@ pub(crate) enum Control {
 /// A method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Method {
-    pub(crate) formulation: Formulation,
+    pub(crate) formulation: FormulationKind,
     pub(crate) integrator: IntegratorKind,
     pub(crate) control: Control,
     pub(crate) precision: Precision,
 }
 
 /// Formulations in the order in which methods are listed.
-const FORMULATIONS: [Formulation; 6] = [
-    Formulation::Index3,
-    Formulation::Index1,
-    Formulation::MultiIndex,
-    Formulation::Classical,
-    Formulation::StateSpace,
-    Formulation::Recursive,
+const FORMULATIONS: [FormulationKind; 6] = [
+    FormulationKind::Index3,
+    FormulationKind::Index1,
+    FormulationKind::MultiIndex,
+    FormulationKind::Classical,
+    FormulationKind::StateSpace,
+    FormulationKind::Recursive,
 ];
 
 /// Precisions that are compared; the last one only where it is asked for.
@@ -40,13 +40,13 @@ pub(crate) const PRECISIONS: [Precision; 3] =
     [Precision::F64, Precision::F32, Precision::DoubleDouble];
 
 /// Ways to step a formulation.
-fn ways(formulation: Formulation) -> Vec<(IntegratorKind, Control)> {
+fn ways(formulation: FormulationKind) -> Vec<(IntegratorKind, Control)> {
     use Control::{Energy, Error, Fixed, Own};
     use IntegratorKind::{Extrapolation, Radau5, Rk4, Rk54, Rk853, Trapezoidal};
     match formulation {
         // its index changes with the step
-        Formulation::MultiIndex => vec![(Trapezoidal, Error), (Trapezoidal, Energy)],
-        Formulation::Recursive => {
+        FormulationKind::MultiIndex => vec![(Trapezoidal, Error), (Trapezoidal, Energy)],
+        FormulationKind::Recursive => {
             vec![
                 (Trapezoidal, Fixed),
                 (Trapezoidal, Error),
@@ -63,7 +63,7 @@ fn ways(formulation: Formulation) -> Vec<(IntegratorKind, Control)> {
 
 impl Method {
     /// All that are wanted, by precision; none given means all of that kind.
-    pub(crate) fn all(formulations: &[Formulation], precisions: &[Precision]) -> Vec<Self> {
+    pub(crate) fn all(formulations: &[FormulationKind], precisions: &[Precision]) -> Vec<Self> {
         let mut methods = Vec::new();
         for precision in PRECISIONS {
             let is_usual = precisions.is_empty() && precision != Precision::DoubleDouble;
@@ -165,13 +165,13 @@ mod tests {
     #[test]
     fn every_formulation_is_compared_and_names_are_unique() {
         let methods = Method::all(&[], &[]);
-        for formulation in Formulation::ALL {
+        for formulation in FormulationKind::ALL {
             assert!(methods.iter().any(|m| m.formulation == formulation), "{formulation:?}");
         }
         let mut names: Vec<String> = methods.iter().map(Method::name).collect();
         names.sort();
         names.dedup();
         assert_eq!(names.len(), methods.len());
-        assert_eq!(Method::all(&[Formulation::Classical], &[Precision::F64]).len(), 2);
+        assert_eq!(Method::all(&[FormulationKind::Classical], &[Precision::F64]).len(), 2);
     }
 }

@@ -23,7 +23,7 @@ pub use crate::journal::JournalError;
 pub use store::Earlier;
 pub use table::TableError;
 
-use crate::choice::{Formulation, Precision};
+use crate::choice::{FormulationKind, Precision};
 use crate::interrupt::Interrupt;
 use crate::journal::{Head, Kind, hash};
 use crate::precision::{PrecisionError, not_built_hint};
@@ -34,7 +34,7 @@ use ladder::Instants;
 use mbs_core::cluster::scene_length;
 use mbs_core::scene::Scene;
 use mbs_scene::compare::{Cell, Comparison, ConvergenceMap};
-use mbs_scene::{Channel, Document, readable};
+use mbs_scene::{Channel, SceneFile, readable};
 use method::Method;
 use pass::Scenes;
 use reference::Known;
@@ -45,7 +45,7 @@ use store::Store;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
     /// Formulations.
-    pub formulations: Vec<Formulation>,
+    pub formulations: Vec<FormulationKind>,
     /// Precisions.
     pub precisions: Vec<Precision>,
     /// Steps [s].
@@ -172,7 +172,7 @@ struct Study<'a> {
 /// # Errors
 /// A scene, table or journal that cannot be used; a scene without a reference. Runs that fail are results.
 pub fn compare(
-    document: &Document,
+    document: &SceneFile,
     request: &Request,
     table: Option<(&str, &str)>,
     (out, earlier): (Option<&Path>, Earlier),
@@ -310,7 +310,7 @@ impl<'a> Study<'a> {
     }
 
     fn map_plan(&self, known: &Known) -> Option<map::Plan> {
-        let augmented: Vec<Formulation> = [Formulation::Index3, Formulation::Index1]
+        let augmented: Vec<FormulationKind> = [FormulationKind::Index3, FormulationKind::Index1]
             .into_iter()
             .filter(|f| self.methods.iter().any(|m| m.formulation == *f))
             .collect();

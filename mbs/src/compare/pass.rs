@@ -1,7 +1,7 @@
 //! One run of a scene: recorded, with its steps timed one by one, or timed as a whole.
 
 use super::clocked::step_times;
-use super::drive::{Course, Watcher, drive};
+use super::drive::{Signal, Watcher, drive};
 use super::ladder::work;
 use super::layout::moved;
 use crate::alarm::Alarm;
@@ -21,7 +21,7 @@ use mbs_core::Real;
 use mbs_core::control::Accepted;
 use mbs_core::scene::Scene;
 use mbs_scene::compare::{Energy, RunEntry, Status};
-use mbs_scene::{Channel, Document};
+use mbs_scene::{Channel, SceneFile};
 
 /// Runs shorter than this are repeated within one timing, and the least of them is taken [s].
 const SHORT: f64 = 0.01;
@@ -59,7 +59,7 @@ pub(super) struct Recorded {
 impl Scenes {
     /// Reads the scene in `f64` and in each precision that is named; runs are of these.
     pub(super) fn new(
-        document: &Document,
+        document: &SceneFile,
         precisions: &[Precision],
     ) -> Result<Self, PrecisionError> {
         let double = document.scene::<f64>()?;
@@ -84,7 +84,7 @@ impl Scenes {
     }
 
     /// Runs and records, for at most so many seconds of CPU time.
-    pub(super) fn recorded(&self, settings: &Settings, course: &Course, most: f64) -> Recorded {
+    pub(super) fn recorded(&self, settings: &Settings, course: &Signal, most: f64) -> Recorded {
         let Some(scene) = self.of(settings.precision) else {
             return Recorded { is_not_started: true, ..Recorded::default() };
         };
@@ -94,7 +94,7 @@ impl Scenes {
 
     /// CPU time of the steps from a fresh start [s]; the least of several where they take little. Each turn finds other places in
     /// memory.
-    pub(super) fn timed(&self, settings: &Settings, course: &Course, turn: u32) -> Option<f64> {
+    pub(super) fn timed(&self, settings: &Settings, course: &Signal, turn: u32) -> Option<f64> {
         let settings = &self.interruptible(settings);
         self.of(settings.precision)?.work(ToTime { settings, course, turn })
     }
@@ -103,7 +103,7 @@ impl Scenes {
 /// A run that is timed.
 struct ToTime<'a> {
     settings: &'a Settings,
-    course: &'a Course,
+    course: &'a Signal,
     turn: u32,
 }
 
@@ -121,7 +121,7 @@ impl Work for ToTime<'_> {
 /// A run that is recorded.
 struct ToRecord<'a> {
     settings: &'a Settings,
-    course: &'a Course,
+    course: &'a Signal,
     n_columns: usize,
     most: f64,
 }
@@ -140,7 +140,7 @@ impl Work for ToRecord<'_> {
 fn timed<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
-    course: &Course,
+    course: &Signal,
     turn: u32,
 ) -> Option<f64>
 where
@@ -166,7 +166,7 @@ where
 fn recorded<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
-    course: &Course,
+    course: &Signal,
     (n_columns, most): (usize, f64),
 ) -> Recorded
 where

@@ -1,6 +1,6 @@
 //! The recorded runs of every method, from the coarsest setting on.
 
-use super::drive::Course;
+use super::drive::Signal;
 use super::ladder::Instants;
 use super::method::Method;
 use super::reference::Known;
@@ -141,13 +141,13 @@ impl Study<'_> {
         method: &Method,
         setting: f64,
         known: &Known,
-    ) -> Result<(crate::Settings, Course), String> {
+    ) -> Result<(crate::Settings, Signal), String> {
         let instants = Instants { count: known.rows.len(), ..self.instants };
         let between = method.is_fixed().then(|| instants.steps_between(setting));
         #[allow(clippy::cast_precision_loss, reason = "a count of steps")]
         let step = between.map_or(self.of_scene, |n| instants.interval / n as f64);
         let settings = self.settings(method, setting, step)?;
-        Ok((settings, Course { instants, between }))
+        Ok((settings, Signal { instants, between }))
     }
 }
 

@@ -4,8 +4,8 @@ use super::ladder::count;
 use super::method::{Control, Method};
 use super::reference::{Known, Pair, Rows};
 use super::store::Store;
-use super::{CompareError, Study, drive::Course, table};
-use crate::choice::{Formulation, IntegratorKind, Precision};
+use super::{CompareError, Study, drive::Signal, table};
+use crate::choice::{FormulationKind, IntegratorKind, Precision};
 use crate::settings::Settings;
 use mbs_scene::compare::Status;
 use serde_json::{Value, json};
@@ -20,8 +20,12 @@ const PAIR_TOLERANCES: [[f64; 2]; 1] = [[1e-20, 1e-18]];
 /// Steps of the check beside that of the scene; each is halved twice. A third of the work of all runs is not exceeded.
 const STEPS: [f64; 4] = [0.125, 0.25, 0.5, 1.0];
 /// Formulations that check, and that serve where there are no relative coordinates.
-const CHECKS: [Formulation; 4] =
-    [Formulation::Index3, Formulation::StateSpace, Formulation::Classical, Formulation::Index1];
+const CHECKS: [FormulationKind; 4] = [
+    FormulationKind::Index3,
+    FormulationKind::StateSpace,
+    FormulationKind::Classical,
+    FormulationKind::Index1,
+];
 
 /// An integrator that controls its error, in a precision; the tolerances of its two runs, and how long they may take.
 type Way<'a> = ((IntegratorKind, Precision), (&'a [[f64; 2]], f64));
@@ -91,7 +95,7 @@ impl Study<'_> {
         why: &mut String,
     ) -> Result<Option<Pair>, CompareError> {
         let method = Method {
-            formulation: Formulation::Recursive,
+            formulation: FormulationKind::Recursive,
             integrator,
             control: Control::Own,
             precision,
@@ -112,7 +116,7 @@ impl Study<'_> {
     /// A formulation with the trapezoidal rule at three steps, extrapolated.
     fn extrapolated(
         &self,
-        formulation: Formulation,
+        formulation: FormulationKind,
         store: &mut Store,
         why: &mut String,
     ) -> Result<Option<Pair>, CompareError> {
@@ -173,7 +177,7 @@ impl Study<'_> {
             Err(text) => return json!({ "stopped": text }),
         };
         let between = method.is_fixed().then(|| self.instants.steps_between(setting));
-        let course = Course { instants: self.instants, between };
+        let course = Signal { instants: self.instants, between };
         let recorded = self.scenes.recorded(&settings, &course, patience * self.request.time_limit);
         match (&recorded.entry.failure, recorded.entry.status) {
             (Some(error), _) => {

@@ -1,7 +1,7 @@
 //! Which formulations take a step of a scene with dependent equations: tried, not foretold.
 
 use super::finding::{Finding, Severity, Topic};
-use crate::choice::{Formulation, IntegratorKind, StepRule};
+use crate::choice::{FormulationKind, IntegratorKind, StepRule};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
@@ -27,7 +27,7 @@ where
     if scene.bodies.len() > LARGEST {
         return Vec::new();
     }
-    let attempt = |formulation: Formulation| {
+    let attempt = |formulation: FormulationKind| {
         let settings = Settings {
             formulation,
             integrator: IntegratorKind::Trapezoidal,
@@ -40,7 +40,7 @@ where
         let error = first_step::<D>(scene, &settings).err();
         Attempt { formulation: formulation.name(), error: error.map(|e| (e.code(), e.to_string())) }
     };
-    Formulation::ALL.map(attempt).to_vec()
+    FormulationKind::ALL.map(attempt).to_vec()
 }
 
 fn first_step<const D: usize>(scene: &Scene<f64>, settings: &Settings) -> Result<(), StopError>

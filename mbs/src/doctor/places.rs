@@ -4,7 +4,7 @@ use super::finding::{Finding, Severity, Topic};
 use crate::words::few;
 use mbs_core::algebra::Vector;
 use mbs_core::cluster::{mass_properties, scene_length};
-use mbs_core::scene::{BodyRef, Dimension, EffectKind, Entry, Inertia, JointKind, Scene};
+use mbs_core::scene::{BodyId, Dimension, EffectKind, Entry, Inertia, JointKind, Scene};
 
 /// Distance between an end of an effect and another place of its body that is told, beside the length of the scene.
 const NEAR: f64 = 0.02;
@@ -46,14 +46,14 @@ pub(super) fn findings(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
 fn places(scene: &Scene<f64>) -> Vec<Vec<Place>> {
     let mut places = vec![Vec::new(); scene.bodies.len()];
     let mut add = |owner, body, point: [f64; 3]| {
-        if let BodyRef::Body(body) = body {
+        if let BodyId::Body(body) = body {
             places[body].push(Place { owner, body, point: Vector::from(point) });
         }
     };
     for (b, body) in scene.bodies.iter().enumerate() {
         if let Inertia::Rod { from, to } = body.inertia {
-            add(Owner::Rod, BodyRef::Body(b), from);
-            add(Owner::Rod, BodyRef::Body(b), to);
+            add(Owner::Rod, BodyId::Body(b), from);
+            add(Owner::Rod, BodyId::Body(b), to);
         }
     }
     // welds and free joints hold at any place
@@ -74,10 +74,10 @@ fn places(scene: &Scene<f64>) -> Vec<Vec<Place>> {
                 bodies.into_iter().for_each(|b| add(Owner::Effect(e, "at"), b, at));
             }
             EffectKind::Force { body, at, .. } | EffectKind::AeroDrag { body, at, .. } => {
-                add(Owner::Effect(e, "at"), BodyRef::Body(body), at);
+                add(Owner::Effect(e, "at"), BodyId::Body(body), at);
             }
             EffectKind::Tire { body, center, .. } => {
-                add(Owner::Effect(e, "center"), BodyRef::Body(body), center);
+                add(Owner::Effect(e, "center"), BodyId::Body(body), center);
             }
             _ => {}
         }

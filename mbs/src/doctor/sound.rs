@@ -2,7 +2,7 @@
 
 use super::finding::{Finding, Severity, Topic, body_names, counted};
 use crate::words::few;
-use mbs_core::scene::{BodyRef, Scene};
+use mbs_core::scene::{BodyId, Scene};
 use mbs_doctor::{Diagnosis, Massless, UNCERTAIN};
 
 pub(super) fn findings(
@@ -41,7 +41,7 @@ pub(super) fn findings(
             findings.push(Finding::new(Severity::Note, told, message, remedy));
         }
     }
-    let is_held = |b: &usize| scene.joints.iter().any(|j| j.bodies.contains(&BodyRef::Body(*b)));
+    let is_held = |b: &usize| scene.joints.iter().any(|j| j.bodies.contains(&BodyId::Body(*b)));
     let free: Vec<usize> = (0..scene.bodies.len()).filter(|b| !is_held(b)).collect();
     if !free.is_empty() {
         let message =

@@ -7,7 +7,7 @@ use crate::stop::StopError;
 use crate::words::few;
 use mbs_core::Cliques;
 use mbs_core::algebra::rotation_vector;
-use mbs_core::scene::{BodyRef, Entry, GuideLaw, InitialTarget, Scene};
+use mbs_core::scene::{BodyId, Entry, InitialTarget, Motion, Scene};
 use mbs_doctor::reference;
 
 /// What assembly did.
@@ -95,8 +95,8 @@ pub(super) fn findings<const D: usize>(
 
 /// Does something ask for positions other than those of the reference configuration?
 fn asks(scene: &Scene<f64>) -> bool {
-    let holds = |i: &mbs_core::scene::Initial<f64>| matches!(&i.target, InitialTarget::Joint { value: Some(v), .. } if v.iter().any(|x| x.abs() > 0.0));
-    let drives = |guide: &mbs_core::scene::Guide<f64>| !matches!(guide.law, GuideLaw::Ramp { .. });
+    let holds = |i: &mbs_core::scene::InitialCondition<f64>| matches!(&i.target, InitialTarget::Joint { value: Some(v), .. } if v.iter().any(|x| x.abs() > 0.0));
+    let drives = |guide: &mbs_core::scene::Guide<f64>| !matches!(guide.law, Motion::Ramp { .. });
     scene.start == mbs_core::scene::Start::Equilibrium
         || scene.initials.iter().any(holds)
         || scene.guides.iter().any(drives)
@@ -115,7 +115,7 @@ fn follow<const D: usize>(
             InitialTarget::Joint { joint, rate: Some(rates), .. } => {
                 n += rates.len();
                 for body in scene.joints[*joint].bodies {
-                    if let BodyRef::Body(b) = body {
+                    if let BodyId::Body(b) = body {
                         is_written[b] = true;
                     }
                 }

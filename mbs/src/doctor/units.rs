@@ -3,7 +3,7 @@
 use super::finding::{Finding, Severity, Topic, body_names};
 use crate::words::few;
 use mbs_core::cluster::{mass_properties, scene_length};
-use mbs_core::scene::{BodyRef, EffectKind, Entry, GuideLaw, InitialTarget, JointKind, Scene};
+use mbs_core::scene::{BodyId, EffectKind, Entry, InitialTarget, JointKind, Motion, Scene};
 
 /// Mass over the cube of the size [kg/m^3]: a slender rod of a metre and a kilogram has 1, a block of steel 8000.
 const DENSITIES: [f64; 2] = [1e-6, 1e8];
@@ -44,7 +44,7 @@ fn gravity(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
 /// Largest distance of a joint's place or a rod's end from the centre.
 fn size(scene: &Scene<f64>, body: usize) -> f64 {
     let (_, center, _) = mass_properties(scene, body);
-    let me = BodyRef::Body(body);
+    let me = BodyId::Body(body);
     let mut size = 0.0_f64;
     for joint in &scene.joints {
         for (of, point) in joint.bodies.iter().zip(joint.points) {
@@ -122,7 +122,7 @@ fn angles(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
         }
     }
     for (i, guide) in scene.guides.iter().enumerate() {
-        if let GuideLaw::Sine { amplitude, .. } = guide.law
+        if let Motion::Sine { amplitude, .. } = guide.law
             && turns(guide.joint)
             && like_degrees(amplitude)
         {
@@ -165,8 +165,8 @@ fn spring(scene: &Scene<f64>, index: usize) -> Option<Finding> {
         return Some(finding.at(Entry::Effect(index), "free_length"));
     }
     let mass = bodies.iter().filter_map(|body| match body {
-        BodyRef::Body(b) => Some(mass_properties(scene, *b).0),
-        BodyRef::Ground => None,
+        BodyId::Body(b) => Some(mass_properties(scene, *b).0),
+        BodyId::Ground => None,
     });
     let lightest = mass.filter(|m| *m > 0.0).fold(f64::INFINITY, f64::min);
     let frequency = (stiffness / lightest).sqrt();

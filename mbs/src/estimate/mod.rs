@@ -17,7 +17,7 @@ mod look;
 mod stiffness;
 
 use crate::auto::Clock;
-use crate::choice::{Formulation, IntegratorKind, Precision, StepRule};
+use crate::choice::{FormulationKind, IntegratorKind, Precision, StepRule};
 use crate::compare::ladder::count;
 use crate::ready::Ready;
 use crate::run::Outcome;
@@ -204,7 +204,7 @@ impl Judge<'_> {
         let of_run = settings.tolerance.filter(|_| settings.integrator.controls_its_step());
         let finer = of_run.map_or(tolerance, |of_run| tolerance.min(FINER * of_run));
         Settings {
-            formulation: Formulation::Recursive,
+            formulation: FormulationKind::Recursive,
             integrator,
             precision: Precision::F64,
             step_max: settings.duration,

@@ -1,7 +1,7 @@
 //! The kinds of effect as scene files call them, and what they may do.
 
 use mbs_core::Real;
-use mbs_core::scene::{Course, EffectKind};
+use mbs_core::scene::{EffectKind, Signal};
 
 /// The name in scene files; `own` for a law in code.
 pub(crate) fn name<T>(kind: &EffectKind<T>) -> &'static str {
@@ -64,5 +64,5 @@ pub(super) fn follows_time<T>(kind: &EffectKind<T>) -> bool {
         | EffectKind::Own { course, .. } => course,
         _ => return false,
     };
-    !matches!(course, Course::Constant(_))
+    !matches!(course, Signal::Constant(_))
 }

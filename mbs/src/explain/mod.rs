@@ -25,7 +25,7 @@ use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
-use mbs_scene::{Document, EffectEntry, Explanation};
+use mbs_scene::{EffectEntry, Explanation, SceneFile};
 
 /// How much may be measured. A scene that asks for more is measured over a shorter part of its run.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +52,7 @@ impl Default for Effort {
 /// # Errors
 /// [`PrecisionError`] where the scene cannot be had in that precision.
 pub fn explain_document(
-    document: (&Document, &Scene<f64>),
+    document: (&SceneFile, &Scene<f64>),
     settings: &Settings,
     effort: &Effort,
 ) -> Result<Option<Explanation>, PrecisionError> {

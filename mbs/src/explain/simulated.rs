@@ -1,6 +1,6 @@
 //! What is simulated: bodies, joints, guides, and the sizes of the model in both kinds of coordinates.
 
-use crate::choice::{Formulation, IntegratorKind};
+use crate::choice::{FormulationKind, IntegratorKind};
 use crate::names::Names;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
@@ -8,7 +8,7 @@ use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{BodyRef, Dimension, GuideLaw, Inertia, JointKind, Scene};
+use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Motion, Scene};
 use mbs_nostd::export::Gathered;
 use mbs_nostd::{Bounds, bound};
 use mbs_recursive::{TreeModel, TreeState};
@@ -28,8 +28,9 @@ where
         };
         Simulation::<T, D>::new(scene, &settings).map(|simulation| Sizes::new(simulation.sizes()))
     };
-    let natural = sizes(Formulation::Index3).ok();
-    let relative = sizes(Formulation::Recursive).and_then(|sizes| relative::<T, D>(scene, sizes));
+    let natural = sizes(FormulationKind::Index3).ok();
+    let relative =
+        sizes(FormulationKind::Recursive).and_then(|sizes| relative::<T, D>(scene, sizes));
     let (relative, relative_error) = match relative {
         Ok(relative) => (Some(relative), None),
         Err(error) => (None, Some(error.report(0.0, &Names::new(scene)))),
@@ -82,10 +83,10 @@ fn guides<T>(scene: &Scene<T>) -> Vec<GuideEntry> {
     let entry = |guide: &mbs_core::scene::Guide<T>| GuideEntry {
         joint: scene.joints[guide.joint].name.clone(),
         law: match guide.law {
-            GuideLaw::Table { .. } => "table",
-            GuideLaw::Sine { .. } => "sine",
-            GuideLaw::Input(_) => "input",
-            GuideLaw::Ramp { .. } => "ramp",
+            Motion::Table { .. } => "table",
+            Motion::Sine { .. } => "sine",
+            Motion::Input(_) => "input",
+            Motion::Ramp { .. } => "ramp",
         }
         .to_owned(),
     };
@@ -103,7 +104,7 @@ fn rods<T: Real, const D: usize>(scene: &Scene<T>) -> Vec<Rod> {
     bodies
         .map(|(i, body)| Rod {
             body: body.name.clone(),
-            idle_spin_carried: model.has_full_rotation(BodyRef::Body(i)),
+            idle_spin_carried: model.has_full_rotation(BodyId::Body(i)),
         })
         .collect()
 }

@@ -14,7 +14,7 @@ use core::time::Duration;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_realtime::Clock;
-use mbs_scene::Document;
+use mbs_scene::SceneFile;
 
 /// Runs a scene at the pace of a clock, as [`crate::run_document`] runs one as fast as it goes.
 ///
@@ -27,7 +27,7 @@ use mbs_scene::Document;
 /// # Errors
 /// [`PacingError`] for what cannot be paced as it is asked for; a run that stops is an [`Outcome`] with its error.
 pub fn run_document(
-    (document, scene): (&Document, &Scene<f64>),
+    (document, scene): (&SceneFile, &Scene<f64>),
     settings: &Settings,
     pacing: &Pacing,
     clock: &mut dyn Clock,

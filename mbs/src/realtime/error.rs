@@ -60,7 +60,7 @@ impl PacingError {
                 "write a shorter --step, so that a period has more of them, or name effects"
                     .to_owned()
             }
-            Self::Fixed { why: Refusal::Formulation, .. } => {
+            Self::Fixed { why: Refusal::FormulationKind, .. } => {
                 "take --formulation index-3, index-1, multi-index or recursive, or --degrade steps"
                     .to_owned()
             }
@@ -97,7 +97,7 @@ impl core::fmt::Display for PacingError {
             Self::Steps { .. } => {
                 write!(f, "degrade: a period has not steps enough to make them longer")
             }
-            Self::Fixed { name, why: Refusal::Formulation } => {
+            Self::Fixed { name, why: Refusal::FormulationKind } => {
                 write!(f, "degrade: this formulation cannot leave `{name}` out while it runs")
             }
             Self::Fixed { name, .. } => write!(

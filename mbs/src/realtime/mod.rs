@@ -9,9 +9,9 @@
 //!
 //! ```
 //! use core::{cell::Cell, ops::ControlFlow, time::Duration};
-//! use mbs::core::scene::{BodyRef, Course, Effect, EffectKind};
+//! use mbs::core::scene::{BodyId, Signal, Effect, EffectKind};
 //! use mbs::realtime::{Clock, Overrun, Pace, Pacer, Task, Work};
-//! use mbs::{Overrides, Settings, Simulation, StopError, scene_file::Document};
+//! use mbs::{Overrides, Settings, Simulation, StopError, scene_file::SceneFile};
 //!
 //! struct Bench<'a> {
 //!     simulation: Simulation<f64, 2>,
@@ -31,7 +31,7 @@
 //!         Ok(ControlFlow::Continue(()))
 //!     }
 //!     fn publish(&mut self, _: Task) {
-//!         let tip = self.simulation.model().point(BodyRef::Body(0), [1.0, 0.0, 0.0]);
+//!         let tip = self.simulation.model().point(BodyId::Body(0), [1.0, 0.0, 0.0]);
 //!         self.tip.push(tip.value(&self.simulation.state().q).into());
 //!     }
 //! }
@@ -60,9 +60,9 @@
 //! bodies = ["ground", "arm"]
 //! at = [0.0, 0.0]
 //! "#;
-//! let mut scene = Document::parse(text, "arm.toml")?.scene::<f64>()?;
+//! let mut scene = SceneFile::parse(text, "arm.toml")?.scene::<f64>()?;
 //! // what the input is at the start, before the first `set_input`: 9.81 N m hold 1 kg at 1 m
-//! let kind = EffectKind::JointTorque { joint: 0, course: Course::Input([9.81, 0.0, 0.0]) };
+//! let kind = EffectKind::JointTorque { joint: 0, course: Signal::Input([9.81, 0.0, 0.0]) };
 //! scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
 //! let settings = Settings::new(&scene, &Overrides { step: Some(1e-3), ..Overrides::default() })?;
 //! let simulation = Simulation::new(&scene, &settings).expect("the scene starts");

@@ -20,7 +20,7 @@ use mbs_core::{Cliques, Real};
 #[non_exhaustive]
 pub enum Refusal {
     /// The formulation has no way to make accelerations consistent between two steps.
-    Formulation,
+    FormulationKind,
     /// The models have other coordinates, constraints, or measured angles whose turns are counted.
     Coordinates,
 }
@@ -43,7 +43,7 @@ where
                     return Err(Refusal::Coordinates);
                 }
             }
-            _ => return Err(Refusal::Formulation),
+            _ => return Err(Refusal::FormulationKind),
         }
         let is_same =
             self.model.has_same_coordinates(&other.model) && same_memory(&self.model, &other.model);

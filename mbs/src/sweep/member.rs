@@ -9,7 +9,7 @@ use core::time::Duration;
 use cpu_time::ThreadTime;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
-use mbs_scene::{Document, Sweep};
+use mbs_scene::{SceneFile, Sweep};
 
 /// What a member leaves behind.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,7 +50,7 @@ impl Row {
 }
 
 /// Runs a member.
-pub(super) fn run(scene: &Document, sweep: &Sweep, overrides: &Overrides, member: usize) -> Row {
+pub(super) fn run(scene: &SceneFile, sweep: &Sweep, overrides: &Overrides, member: usize) -> Row {
     let cpu = ThreadTime::try_now();
     let document = sweep.member(scene, member);
     let values = sweep.values(member).map(str::to_owned).collect();
@@ -59,7 +59,7 @@ pub(super) fn run(scene: &Document, sweep: &Sweep, overrides: &Overrides, member
     Row { cpu_seconds: cpu.as_secs_f64(), ..row }
 }
 
-fn run_in(document: &Document, overrides: &Overrides, member: usize, values: Vec<String>) -> Row {
+fn run_in(document: &SceneFile, overrides: &Overrides, member: usize, values: Vec<String>) -> Row {
     let refused = |values, code, error: &dyn core::fmt::Display| {
         Row::failed(member, values, code, &error.to_string())
     };

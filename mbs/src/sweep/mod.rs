@@ -23,7 +23,7 @@ use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use mbs_parallel::ensemble::{Ensemble, EnsembleError, Panicked, available};
 use mbs_parallel::most_threads;
-use mbs_scene::{Channel, Document, ReadError, Sweep};
+use mbs_scene::{Channel, ReadError, SceneFile, Sweep};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -39,7 +39,7 @@ const KIND: Kind = Kind {
 /// A scene with its sweep, checked and ready to run.
 #[derive(Debug)]
 pub struct Study {
-    scene: Document,
+    scene: SceneFile,
     sweep: Sweep,
     overrides: Overrides,
     settings: Settings,
@@ -128,8 +128,8 @@ impl Study {
     /// # Errors
     /// What the scene, the sweep or the settings refuse. What shows only when values meet is left to the members.
     pub fn new(
-        scene: Document,
-        sweep: &Document,
+        scene: SceneFile,
+        sweep: &SceneFile,
         overrides: &Overrides,
     ) -> Result<Self, StudyError> {
         let data = scene.scene::<f64>().map_err(StudyError::Read)?;

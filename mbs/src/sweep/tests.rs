@@ -25,8 +25,8 @@ step = 0.01
 const SWEEP: &str = "[[vary]]\npath = 'body.bob.mass'\nfrom = 1\nto = 6\ncount = 6\n";
 
 fn study() -> Study {
-    let scene = Document::parse(SCENE, "scene.toml").expect("TOML");
-    let sweep = Document::parse(SWEEP, "sweep.toml").expect("TOML");
+    let scene = SceneFile::parse(SCENE, "scene.toml").expect("TOML");
+    let sweep = SceneFile::parse(SWEEP, "sweep.toml").expect("TOML");
     Study::new(scene, &sweep, &Overrides::default()).expect("a good sweep")
 }
 

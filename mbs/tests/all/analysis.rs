@@ -39,7 +39,7 @@ fn rests<const D: usize>(scene: &mbs::core::scene::Scene<f64>) {
 #[test]
 fn a_start_from_equilibrium_takes_the_initial_velocities() {
     let mut scene = scene("simple-pendulum");
-    scene.initials = vec![mbs::core::scene::Initial {
+    scene.initials = vec![mbs::core::scene::InitialCondition {
         target: mbs::core::scene::InitialTarget::Joint {
             joint: 0,
             value: Some(vec![0.4]),
@@ -54,7 +54,7 @@ fn a_start_from_equilibrium_takes_the_initial_velocities() {
     mbs::equilibrium_start(&scene, &model, mbs::Search::Down, &mut solver, &mut start)
         .expect("it hangs");
     // Hanging straight down, turning at 2 rad/s: the centripetal acceleration is 4 m/s^2 for 1 m.
-    let tip = model.point(mbs::core::scene::BodyRef::Body(0), [-1.0, 0.0, 0.0]);
+    let tip = model.point(mbs::core::scene::BodyId::Body(0), [-1.0, 0.0, 0.0]);
     let (x, v, a) = (tip.value(&start.state.q), tip.rate(&start.state.v), tip.rate(&start.state.a));
     assert!(x[0].abs() < 1e-10 && (x[1] + 1.0).abs() < 1e-10, "{x:?}");
     assert!((v[0] - 2.0).abs() < 1e-10 && v[1].abs() < 1e-9, "{v:?}");

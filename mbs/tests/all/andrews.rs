@@ -6,7 +6,7 @@
 )]
 
 use crate::common::{FORMULATIONS, distance, scene, settings, worst};
-use mbs::Formulation;
+use mbs::FormulationKind;
 
 /// Names of the angles, as channels of the scene.
 const ANGLES: [&str; 7] = ["beta", "theta", "gamma", "phi", "delta", "omega", "epsilon"];
@@ -110,7 +110,7 @@ const BETA_AT_1E_6: f64 = 5e-6;
 fn every_formulation_ends_at_the_reference_and_loses_energy_with_order_2() {
     let scene = scene("andrews");
     for formulation in
-        Formulation::ALL.map(Formulation::name).into_iter().filter(|f| *f != "multi-index")
+        FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
     {
         let energy = [1e-4, 1e-5, 1e-6].map(|step| {
             let settings = settings(&scene, formulation, Some(step));

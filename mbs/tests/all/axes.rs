@@ -3,10 +3,10 @@
 
 use crate::common::oracle::{METHODS, Method, disagreement, everything, rows, tell};
 use mbs::core::scene::Scene;
-use mbs::scene_file::Document;
+use mbs::scene_file::SceneFile;
 
 fn read(text: &str) -> Scene<f64> {
-    let document = Document::parse(text, "axes.toml").unwrap_or_else(|e| panic!("{}", e.render()));
+    let document = SceneFile::parse(text, "axes.toml").unwrap_or_else(|e| panic!("{}", e.render()));
     document.scene().unwrap_or_else(|e| panic!("{}\n{text}", e.render()))
 }
 

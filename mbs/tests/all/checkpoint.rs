@@ -2,10 +2,10 @@
 
 use crate::common::files::{scratch, without_clocks};
 use crate::common::{path, scene};
-use mbs::core::scene::{Course, Dimension, Effect, EffectKind, GuideLaw, Scene};
-use mbs::scene_file::{Document, Provenance};
+use mbs::core::scene::{Dimension, Effect, EffectKind, Motion, Scene, Signal};
+use mbs::scene_file::{Provenance, SceneFile};
 use mbs::{
-    CHECKPOINT, Checkpoint, Formulation, InSpace, Keeping, Outcome, Overrides, Plane, Settings,
+    CHECKPOINT, Checkpoint, FormulationKind, InSpace, Keeping, Outcome, Overrides, Plane, Settings,
     Simulation, run_document, run_document_kept,
 };
 
@@ -40,7 +40,7 @@ fn same(a: &[String; 4], b: &[String; 4], what: &str) {
 /// Runs a scene in one go, kept, and from each of its checkpoints; gives the outcome of the first.
 fn split(name: &str, overrides: &Overrides, every: f64) -> Outcome {
     let document = std::fs::read(path(name)).expect("the scene is in the repository");
-    let document = Document::from_bytes(&document, name).expect("TOML");
+    let document = SceneFile::from_bytes(&document, name).expect("TOML");
     let scene = document.scene::<f64>().expect("a scene");
     let settings = Settings::new(&scene, overrides).expect("good settings");
     let both = (&document, &scene);
@@ -88,11 +88,12 @@ fn every_formulation_goes_on_to_the_same_bits() {
         ("iltis-suspension", 1e-3),
         ("quarter-car", 1e-3),
     ];
-    for formulation in Formulation::ALL {
+    for formulation in FormulationKind::ALL {
         for (name, step) in scenes {
             let overrides = with(formulation.name(), 0.9);
             // the classical Lagrangian takes redundant constraints only where it is regularised
-            let is_redundant = formulation == Formulation::Classical && name == "spatial-four-bar";
+            let is_redundant =
+                formulation == FormulationKind::Classical && name == "spatial-four-bar";
             let penalty = is_redundant.then_some(1e10);
             split(name, &Overrides { step: Some(step), penalty, ..overrides }, 0.21);
         }
@@ -116,7 +117,7 @@ fn every_integrator_goes_on_to_the_same_bits() {
 #[test]
 fn every_precision_goes_on_to_the_same_bits() {
     for precision in ["f32", "dd"] {
-        for formulation in Formulation::ALL {
+        for formulation in FormulationKind::ALL {
             let overrides = with(formulation.name(), 0.2);
             let precision = Some(precision.to_owned());
             split("double-pendulum", &Overrides { precision, ..overrides }, 0.05);
@@ -129,7 +130,7 @@ fn every_precision_goes_on_to_the_same_bits() {
 
 #[test]
 fn steps_of_controlled_length_go_on_to_the_same_bits() {
-    for formulation in Formulation::ALL {
+    for formulation in FormulationKind::ALL {
         for rule in ["energy", "energy-printed", "error", "both"] {
             let overrides = Overrides {
                 step_control: Some(rule.to_owned()),
@@ -201,8 +202,8 @@ fn a_run_that_stops_goes_on_to_the_same_stop() {
 /// The guided four-bar linkage with a torque and its guide that are set from outside.
 fn driven() -> Scene<f64> {
     let mut scene = scene("guided-four-bar");
-    scene.guides[0].law = GuideLaw::Input([0.0, 0.0, 0.0]);
-    let course = Course::Input([0.0; 3]);
+    scene.guides[0].law = Motion::Input([0.0, 0.0, 0.0]);
+    let course = Signal::Input([0.0; 3]);
     let kind = EffectKind::BodyTorque { body: 1, course };
     scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
     scene
@@ -232,7 +233,9 @@ fn a_simulation_that_is_restored_goes_on_with_inputs_as_they_are_set() {
     let scene = driven();
     assert_eq!(scene.dimension, Dimension::Planar);
     // multi-index steps are controlled: the first of those within a step takes a guide's motion over
-    for formulation in Formulation::ALL.into_iter().filter(|f| *f != Formulation::MultiIndex) {
+    for formulation in
+        FormulationKind::ALL.into_iter().filter(|f| *f != FormulationKind::MultiIndex)
+    {
         let settings = Settings::new(&scene, &with(formulation.name(), 1.0)).expect("settings");
         let new = || Simulation::<f64, 2>::new(&scene, &settings).expect("the scene starts");
         let (mut first, mut second) = (new(), new());

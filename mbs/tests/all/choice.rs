@@ -2,7 +2,7 @@
 
 use super::common::CountedClock;
 use mbs::auto::{Goal, Plan, plan, run_plan};
-use mbs::scene_file::Document;
+use mbs::scene_file::SceneFile;
 use mbs::{Overrides, Settings};
 use mbs_core::scene::Scene;
 
@@ -10,9 +10,9 @@ fn file(name: &str) -> String {
     format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
 }
 
-fn read(name: &str) -> (Document, Scene<f64>) {
+fn read(name: &str) -> (SceneFile, Scene<f64>) {
     let text = std::fs::read_to_string(file(name)).expect("the scene is there");
-    let document = Document::parse(&text, name).expect("it is a document");
+    let document = SceneFile::parse(&text, name).expect("it is a document");
     let scene = document.scene::<f64>().expect("it is a scene");
     (document, scene)
 }
@@ -81,7 +81,7 @@ fn structure_leaves_out_what_cannot_run_and_says_why() {
 fn a_formulation_that_is_asked_for_is_kept_and_the_rest_is_chosen() {
     let base = Overrides { formulation: Some("recursive".into()), ..Overrides::default() };
     let plan = planned("double-pendulum", &base, error(1e-3));
-    assert!(plan.ranked.iter().all(|s| s.formulation == mbs::Formulation::Recursive));
+    assert!(plan.ranked.iter().all(|s| s.formulation == mbs::FormulationKind::Recursive));
     assert_eq!(plan.first().asked, "recursive");
     let base = Overrides { integrator: Some("hht".into()), ..Overrides::default() };
     let plan = planned("quarter-car", &base, error(1e-2));
@@ -109,7 +109,7 @@ fn where_the_first_stops_the_next_runs_and_the_choice_says_so() {
     let plan = Plan { ranked: vec![of("recursive"), of("index-3")] };
     let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
     assert!(outcome.summary.completed);
-    assert_eq!(settings.formulation, mbs::Formulation::Index3);
+    assert_eq!(settings.formulation, mbs::FormulationKind::Index3);
     let lost = &outcome.summary.chosen.unwrap().evidence.unwrap().fallbacks;
     assert_eq!((lost.len(), lost[0].code.as_str()), (1, "violated"));
     // none gets to the end: the one that got furthest is told
@@ -133,7 +133,7 @@ fn with_a_deadline_a_frame_is_a_whole_number_of_steps() {
 #[test]
 fn without_a_goal_nothing_is_measured_and_auto_is_index_3() {
     let plan = planned("double-pendulum", &Overrides::default(), Goal::default());
-    assert_eq!((plan.ranked.len(), plan.first().formulation), (1, mbs::Formulation::Index3));
+    assert_eq!((plan.ranked.len(), plan.first().formulation), (1, mbs::FormulationKind::Index3));
     assert!(plan.first().choice.is_none());
     assert!(plan.first().chosen().unwrap().evidence.is_none());
 }

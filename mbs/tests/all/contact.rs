@@ -11,7 +11,7 @@ use crate::common::allocations;
 use crate::common::Bench;
 use mbs::core::outputs::Contacts;
 use mbs::core::scene::{Dimension, EffectKind, Scene};
-use mbs::scene_file::Document;
+use mbs::scene_file::SceneFile;
 use mbs::{Outcome, Overrides, Settings};
 
 /// Formulations whose rule is the trapezoidal one.
@@ -28,7 +28,7 @@ struct Bounce {
 }
 
 fn parsed(text: &str) -> Scene<f64> {
-    let document = Document::parse(text, "contact").unwrap_or_else(|e| panic!("{}", e.render()));
+    let document = SceneFile::parse(text, "contact").unwrap_or_else(|e| panic!("{}", e.render()));
     document.scene().unwrap_or_else(|e| panic!("{}", e.render()))
 }
 

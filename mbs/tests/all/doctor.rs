@@ -5,7 +5,7 @@ use crate::{common, retell};
 use mbs::core::outputs::Reactions;
 use mbs::core::scene::{Dimension, Scene};
 use mbs::doctor::{Checkup, Effort, Severity, examine};
-use mbs::scene_file::Document;
+use mbs::scene_file::SceneFile;
 use mbs::{Overrides, Settings, Simulation};
 
 /// Few positions along the motion.
@@ -27,7 +27,7 @@ fn finding<'a>(checkup: &'a Checkup, code: &str) -> &'a mbs::doctor::Finding {
 
 /// A scene in text.
 fn read(text: &str) -> Scene<f64> {
-    let document = Document::parse(text, "scene.toml").unwrap_or_else(|e| panic!("{e}"));
+    let document = SceneFile::parse(text, "scene.toml").unwrap_or_else(|e| panic!("{e}"));
     document.scene().unwrap_or_else(|e| panic!("{}", e.render()))
 }
 

@@ -2,7 +2,7 @@
 
 use crate::common::{self, path};
 use mbs::explain::{Effort, explain, report};
-use mbs::scene_file::{Document, Explanation, Price, Provenance, SearchEnd};
+use mbs::scene_file::{Explanation, Price, Provenance, SceneFile, SearchEnd};
 use mbs::{Overrides, Settings};
 use mbs_core::scene::Scene;
 
@@ -31,7 +31,7 @@ at = [0.0, 0.0]
 {effects}
 "#
     );
-    let document = Document::parse(&text, "pendulum.toml").unwrap_or_else(|e| panic!("{e}"));
+    let document = SceneFile::parse(&text, "pendulum.toml").unwrap_or_else(|e| panic!("{e}"));
     document.scene().unwrap_or_else(|e| panic!("{}", e.render()))
 }
 
@@ -91,7 +91,7 @@ bodies = ["ground", "on-hinge"]
 at = [0.0, 3.0, 0.0]
 axis = [0.0, 1.0, 0.0]
 "#;
-    let document = Document::parse(text, "rods.toml").expect("TOML");
+    let document = SceneFile::parse(text, "rods.toml").expect("TOML");
     let scene: Scene<f64> = document.scene().expect("a scene");
     let settings = Settings::new(&scene, &Overrides::default()).expect("the settings are built");
     let simulated = explain::<f64, 3>(&scene, &settings, &LITTLE).simulated;
@@ -148,7 +148,7 @@ fn what_is_rounding_beside_the_scene_is_no_change() {
     // The guided joint follows its guide whatever acts elsewhere.
     let text = std::fs::read_to_string(path("guided-four-bar")).expect("it is there");
     let effect = DAMPER.replace("pivot", "rocker-pivot");
-    let document = Document::parse(&format!("{text}\n{effect}"), "guided.toml").expect("TOML");
+    let document = SceneFile::parse(&format!("{text}\n{effect}"), "guided.toml").expect("TOML");
     let (explanation, _) = explained(&document.scene().expect("a scene"));
     let changes = &price(&explanation, "damper").changes;
     let of = |output: &str, unit: &str| {

@@ -1,6 +1,6 @@
 //! Generated scenes: as many bodies and joints as said, consistent at the start, and sound in motion.
 
-use mbs::scene_file::{Document, Family, GenerateError, generate};
+use mbs::scene_file::{Family, GenerateError, SceneFile, generate};
 use mbs::{Outcome, Overrides, Settings};
 use mbs_core::scene::{Dimension, Scene};
 
@@ -15,7 +15,7 @@ const DRIFT: f64 = 1e-3;
 fn scene(family: &Family<'_>) -> Scene<f64> {
     let text = generate(family, COMMAND).expect("a scene");
     assert!(text.starts_with("# ") && text.contains("# Made by `mbs generate`."));
-    Document::parse(&text, "generated.toml").and_then(|d| d.scene()).expect("can be read")
+    SceneFile::parse(&text, "generated.toml").and_then(|d| d.scene()).expect("can be read")
 }
 
 /// Bodies, joints, outputs.
@@ -23,10 +23,10 @@ fn counts(scene: &Scene<f64>) -> [usize; 3] {
     [scene.bodies.len(), scene.joints.len(), scene.outputs.len()]
 }
 
-fn vehicle(name: &str) -> Document {
+fn vehicle(name: &str) -> SceneFile {
     let file = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&file).expect("a scene of this repository");
-    Document::parse(&text, &file).expect("TOML")
+    SceneFile::parse(&text, &file).expect("TOML")
 }
 
 /// Runs the first tenth of a second in index-3 and asserts that nothing drifts.
@@ -148,6 +148,6 @@ fn what_cannot_be_made_is_refused_with_a_hint() {
     ] {
         assert!(matches!(generate(&family, COMMAND), Err(GenerateError::TooMany { .. })));
     }
-    let broken = Document::parse("[scene]\n", "broken.toml").expect("TOML");
+    let broken = SceneFile::parse("[scene]\n", "broken.toml").expect("TOML");
     assert_eq!(generate(&convoy(&broken, 2, 8.0), COMMAND), Err(GenerateError::NoScene));
 }

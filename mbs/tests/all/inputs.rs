@@ -3,12 +3,12 @@
 use crate::common;
 
 use mbs::core::laws::body::{Action, BodyMotion};
-use mbs::core::laws::own::{OwnScalar, OwnWrench, ScalarLaw, WrenchLaw};
+use mbs::core::laws::own::{ScalarLaw, UserBodyLaw, UserScalarLaw, WrenchLaw};
 use mbs::core::laws::scalar::Measure;
-use mbs::core::scene::{BodyRef, Course, Effect, EffectKind, GuideLaw, OwnLaw, Scene};
+use mbs::core::scene::{BodyId, Effect, EffectKind, Motion, Scene, Signal, UserLaw};
 use mbs::core::step::InputError;
-use mbs::scene_file::Document;
-use mbs::{Formulation, Overrides, Settings, Simulation};
+use mbs::scene_file::SceneFile;
+use mbs::{FormulationKind, Overrides, Settings, Simulation};
 
 fn simulation(scene: &Scene<f64>, formulation: &str) -> Simulation<f64, 2> {
     let formulation = Some(formulation.to_owned());
@@ -68,9 +68,9 @@ fn wheel() -> Scene<f64> {
         joint = "axle"
         quantity = "value"
     "#;
-    let document = Document::parse(TEXT, "wheel").unwrap_or_else(|e| panic!("{}", e.render()));
+    let document = SceneFile::parse(TEXT, "wheel").unwrap_or_else(|e| panic!("{}", e.render()));
     let mut scene = document.scene().unwrap_or_else(|e| panic!("{}", e.render()));
-    let kind = EffectKind::JointTorque { joint: 0, course: Course::Input([0.0; 3]) };
+    let kind = EffectKind::JointTorque { joint: 0, course: Signal::Input([0.0; 3]) };
     scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
     scene
 }
@@ -101,7 +101,7 @@ fn an_input_set_for_one_step_acts_in_that_whole_step_and_does_its_work_there() {
 #[test]
 fn steps_of_controlled_length_begin_with_the_input_that_is_set() {
     let (scene, h) = (wheel(), 1e-3);
-    for formulation in Formulation::ALL.map(Formulation::name) {
+    for formulation in FormulationKind::ALL.map(FormulationKind::name) {
         let overrides = Overrides {
             formulation: Some(formulation.into()),
             step: Some(h),
@@ -128,7 +128,7 @@ fn a_torque_that_is_set_every_ten_milliseconds_leaves_every_rule_its_order_in_a_
     let scene = {
         let mut scene = common::scene("four-bar");
         scene.outputs.clear();
-        let kind = EffectKind::JointTorque { joint: 0, course: Course::Input([0.0; 3]) };
+        let kind = EffectKind::JointTorque { joint: 0, course: Signal::Input([0.0; 3]) };
         scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
         scene
     };
@@ -174,7 +174,7 @@ fn a_torque_that_is_set_every_ten_milliseconds_leaves_every_rule_its_order_in_a_
 #[test]
 fn what_is_not_finite_is_refused_and_changes_nothing() {
     let scene = wheel();
-    for formulation in Formulation::ALL.map(Formulation::name) {
+    for formulation in FormulationKind::ALL.map(FormulationKind::name) {
         let mut simulation = simulation(&scene, formulation);
         simulation.set_input(0, [2.0, 0.0, 0.0]).expect("an input");
         for (component, wrong) in
@@ -192,10 +192,9 @@ fn what_is_not_finite_is_refused_and_changes_nothing() {
 
 #[test]
 fn what_a_spring_stores_when_its_input_is_set_is_booked_as_work() {
-    let (bodies, points) =
-        ([BodyRef::Ground, BodyRef::Body(1)], [[2.0, 1.0, 0.0], [2.0, 0.0, 0.0]]);
-    let law = OwnLaw::Length { bodies, points, law: OwnScalar::of::<Towards>() };
-    let scene = with(EffectKind::Own { law, course: Course::Input([0.7, 0.0, 0.0]) });
+    let (bodies, points) = ([BodyId::Ground, BodyId::Body(1)], [[2.0, 1.0, 0.0], [2.0, 0.0, 0.0]]);
+    let law = UserLaw::Length { bodies, points, law: UserScalarLaw::of::<Towards>() };
+    let scene = with(EffectKind::Own { law, course: Signal::Input([0.7, 0.0, 0.0]) });
     for method in methods() {
         let mut simulation = with_integrator(&scene, method, 1e-3);
         for k in 0..200_u32 {
@@ -221,7 +220,7 @@ fn with(effect: EffectKind<f64>) -> Scene<f64> {
 
 /// Where the second rod's far end is.
 fn tip(simulation: &Simulation<f64, 2>) -> [f64; 2] {
-    let point = simulation.model().point(BodyRef::Body(1), [2.0, 0.0, 0.0]);
+    let point = simulation.model().point(BodyId::Body(1), [2.0, 0.0, 0.0]);
     point.value(&simulation.state().q).into()
 }
 
@@ -233,11 +232,11 @@ fn close(a: [f64; 2], b: [f64; 2], allowed: f64, what: &str) {
 #[test]
 fn an_input_that_is_set_to_a_constant_is_that_constant() {
     for formulation in
-        Formulation::ALL.map(Formulation::name).into_iter().filter(|f| *f != "multi-index")
+        FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
     {
         let torque = |course| EffectKind::JointTorque { joint: 0, course };
-        let mut plain = simulation(&with(torque(Course::Constant([3.0, 0.0, 0.0]))), formulation);
-        let mut driven = simulation(&with(torque(Course::Input([3.0, 0.0, 0.0]))), formulation);
+        let mut plain = simulation(&with(torque(Signal::Constant([3.0, 0.0, 0.0]))), formulation);
+        let mut driven = simulation(&with(torque(Signal::Input([3.0, 0.0, 0.0]))), formulation);
         let effect = 0;
         let refused = plain.set_input(effect, [0.0; 3]);
         assert_eq!(
@@ -257,9 +256,9 @@ fn an_input_that_is_set_to_a_constant_is_that_constant() {
 #[test]
 fn an_input_changes_the_motion_from_the_next_step_on() {
     for formulation in
-        Formulation::ALL.map(Formulation::name).into_iter().filter(|f| *f != "multi-index")
+        FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
     {
-        let scene = with(EffectKind::JointTorque { joint: 0, course: Course::Input([0.0; 3]) });
+        let scene = with(EffectKind::JointTorque { joint: 0, course: Signal::Input([0.0; 3]) });
         let (mut still, mut driven) =
             (simulation(&scene, formulation), simulation(&scene, formulation));
         for k in 0..100 {
@@ -305,14 +304,13 @@ impl WrenchLaw<f64> for Honey {
 
 #[test]
 fn a_spring_of_one_s_own_is_the_spring_of_the_library() {
-    let (bodies, points) =
-        ([BodyRef::Ground, BodyRef::Body(1)], [[2.0, 1.0, 0.0], [2.0, 0.0, 0.0]]);
+    let (bodies, points) = ([BodyId::Ground, BodyId::Body(1)], [[2.0, 1.0, 0.0], [2.0, 0.0, 0.0]]);
     let (stiffness, damping, free_length) = (200.0, 3.0, 0.7);
     let kind = EffectKind::SpringDamper { bodies, points, stiffness, damping, free_length };
-    let law = OwnLaw::Length { bodies, points, law: OwnScalar::of::<Towards>() };
-    let own = EffectKind::Own { law, course: Course::Constant([0.7, 3.0, 0.0]) };
+    let law = UserLaw::Length { bodies, points, law: UserScalarLaw::of::<Towards>() };
+    let own = EffectKind::Own { law, course: Signal::Constant([0.7, 3.0, 0.0]) };
     for formulation in
-        Formulation::ALL.map(Formulation::name).into_iter().filter(|f| *f != "multi-index")
+        FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
     {
         let (mut a, mut b) = (
             simulation(&with(kind.clone()), formulation),
@@ -332,15 +330,15 @@ fn a_spring_of_one_s_own_is_the_spring_of_the_library() {
 
 #[test]
 fn a_wrench_of_one_s_own_takes_what_the_ledger_says() {
-    let law = OwnLaw::Body {
+    let law = UserLaw::Body {
         body: 1,
         at: [2.0, 0.0, 0.0],
         axis: [1.0, 0.0, 0.0],
-        law: OwnWrench::of::<Honey>(),
+        law: UserBodyLaw::of::<Honey>(),
     };
-    let scene = with(EffectKind::Own { law, course: Course::Input([0.5, 0.0, 0.0]) });
+    let scene = with(EffectKind::Own { law, course: Signal::Input([0.5, 0.0, 0.0]) });
     for formulation in
-        Formulation::ALL.map(Formulation::name).into_iter().filter(|f| *f != "multi-index")
+        FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
     {
         let mut simulation = simulation(&scene, formulation);
         for _ in 0..500 {
@@ -356,12 +354,12 @@ fn a_wrench_of_one_s_own_takes_what_the_ledger_says() {
 #[test]
 fn a_guide_that_is_set_follows_what_it_is_told() {
     for formulation in
-        Formulation::ALL.map(Formulation::name).into_iter().filter(|f| *f != "multi-index")
+        FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
     {
         let mut scene = common::scene("guided-four-bar");
         scene.outputs.clear();
         // At rest, then at 2 rad/s^2.
-        scene.guides[0].law = GuideLaw::Input([0.0, 0.0, 2.0]);
+        scene.guides[0].law = Motion::Input([0.0, 0.0, 2.0]);
         scene.initials.clear();
         let joint = scene.guides[0].joint;
         let mut simulation = simulation(&scene, formulation);
@@ -371,8 +369,8 @@ fn a_guide_that_is_set_follows_what_it_is_told() {
             simulation.step(1e-3).unwrap_or_else(|e| panic!("{formulation} at {t}: {e}"));
         }
         let joint = &scene.joints[joint];
-        let BodyRef::Body(body) = joint.bodies[1] else { panic!("the crank is the second body") };
-        let direction = simulation.model().direction(BodyRef::Body(body), [1.0, 0.0, 0.0]);
+        let BodyId::Body(body) = joint.bodies[1] else { panic!("the crank is the second body") };
+        let direction = simulation.model().direction(BodyId::Body(body), [1.0, 0.0, 0.0]);
         let x: [f64; 2] = direction.value(&simulation.state().q).into();
         assert!((x[1].atan2(x[0]) - 0.25).abs() < 1e-12, "{formulation}: {x:?}");
     }

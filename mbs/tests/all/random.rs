@@ -4,7 +4,7 @@ use crate::common::random;
 use crate::retell;
 
 use crate::common::oracle::{METHODS, differences, disagreement, everything, rows, tell};
-use mbs::core::scene::{Dimension, GuideLaw, Scene};
+use mbs::core::scene::{Dimension, Motion, Scene};
 use mbs::{Overrides, Settings, Simulation};
 
 /// Step and span [s]: at some metres and radians per second a step is a hundredth of what moves.
@@ -68,7 +68,7 @@ fn formulations_agree_on_random_loops_with_a_guided_joint() {
             // From the reference configuration: another value may be out of reach.
             scene.guides.truncate(1);
             for guide in &mut scene.guides {
-                guide.law = GuideLaw::Sine { amplitude: 0.2, frequency: 1.0, phase: 0.0 };
+                guide.law = Motion::Sine { amplitude: 0.2, frequency: 1.0, phase: 0.0 };
                 n_guided += 1;
             }
             agree(&scene);

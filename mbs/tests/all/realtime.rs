@@ -4,7 +4,7 @@
 use crate::common;
 use crate::common::allocations;
 use mbs::realtime::{Clock, Degrade, Overrun, Pacing, PacingError, Quiet, run_document};
-use mbs::scene_file::Document;
+use mbs::scene_file::SceneFile;
 use mbs::{Outcome, Overrides, Refusal, Settings, Simulation};
 use std::cell::Cell;
 use std::time::Duration;
@@ -40,14 +40,14 @@ impl Clock for Told {
     }
 }
 
-fn document(name: &str) -> Document {
+fn document(name: &str) -> SceneFile {
     let bytes = std::fs::read(common::path(name)).expect("the scene is in the repository");
-    Document::from_bytes(&bytes, name).expect("a document")
+    SceneFile::from_bytes(&bytes, name).expect("a document")
 }
 
 /// A run on a clock that is told.
 fn paced(
-    document: &Document,
+    document: &SceneFile,
     overrides: &Overrides,
     pacing: &Pacing,
     clock: &mut Told,
@@ -160,8 +160,8 @@ quantity = "reaction"
 joint = "rail"
 "#;
 
-fn slider() -> Document {
-    Document::parse(SLIDER, "slider.toml").unwrap_or_else(|e| panic!("{}", e.render()))
+fn slider() -> SceneFile {
+    SceneFile::parse(SLIDER, "slider.toml").unwrap_or_else(|e| panic!("{}", e.render()))
 }
 
 const FORMULATIONS: [&str; 4] = ["index-3", "index-1", "multi-index", "recursive"];
@@ -176,8 +176,8 @@ fn slide(formulation: &str, is_on: bool) -> Simulation<f64, 2> {
 
 /// Place, speed and acceleration along the rail.
 fn motion(simulation: &Simulation<f64, 2>) -> [f64; 3] {
-    use mbs::core::scene::BodyRef;
-    let point = simulation.model().point(BodyRef::Body(0), [0.0; 3]);
+    use mbs::core::scene::BodyId;
+    let point = simulation.model().point(BodyId::Body(0), [0.0; 3]);
     let state = simulation.state();
     [point.value(&state.q)[0], point.rate(&state.v)[0], point.rate(&state.a)[0]]
 }
@@ -243,7 +243,7 @@ fn a_state_taken_over_with_the_same_effects_goes_on_as_if_it_had_stayed() {
 }
 
 /// Degraded by a single sleep that is fifty periods too long: late in a row for longer than the patience.
-fn degraded(document: &Document, overrides: &Overrides, words: &[&str]) -> (Outcome, Told) {
+fn degraded(document: &SceneFile, overrides: &Overrides, words: &[&str]) -> (Outcome, Told) {
     let pacing = Pacing {
         overrun: Overrun::Degrade,
         degrade: Degrade::Listed(words.iter().map(|&word| word.to_owned()).collect()),
@@ -350,7 +350,7 @@ fn a_ladder_by_measurement_has_levels_that_were_measured() {
 
 #[test]
 fn what_cannot_be_left_out_while_a_scene_runs_is_refused() {
-    let refused = |document: &Document, formulation: &str, words: &[&str], period: f64| {
+    let refused = |document: &SceneFile, formulation: &str, words: &[&str], period: f64| {
         let pacing = Pacing {
             overrun: Overrun::Degrade,
             degrade: Degrade::Listed(words.iter().map(|&word| word.to_owned()).collect()),
@@ -363,7 +363,7 @@ fn what_cannot_be_left_out_while_a_scene_runs_is_refused() {
     let fixed = |why| Some(PacingError::Fixed { name: "spring".to_owned(), why });
     for formulation in ["classical", "state-space"] {
         let found = refused(&slider(), formulation, &["spring"], 4e-3);
-        assert_eq!(found, fixed(Refusal::Formulation), "{formulation}");
+        assert_eq!(found, fixed(Refusal::FormulationKind), "{formulation}");
         assert_eq!(refused(&slider(), formulation, &["steps"], 4e-3), None, "{formulation}");
     }
     // A torsion spring counts turns: while it was gone nobody would.
@@ -377,7 +377,7 @@ fn what_cannot_be_left_out_while_a_scene_runs_is_refused() {
         )
         .replace("free_length = 2.0", "free_value = 0.0");
     let turning =
-        Document::parse(&text, "turning.toml").unwrap_or_else(|e| panic!("{}", e.render()));
+        SceneFile::parse(&text, "turning.toml").unwrap_or_else(|e| panic!("{}", e.render()));
     assert_eq!(refused(&turning, "index-3", &["spring"], 4e-3), fixed(Refusal::Coordinates));
     let steps = |is_controlled| Some(PacingError::Steps { is_controlled });
     assert_eq!(refused(&slider(), "index-3", &["steps"], 1e-3), steps(false));

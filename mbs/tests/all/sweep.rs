@@ -2,12 +2,12 @@
 
 use crate::common::path;
 use mbs::Overrides;
-use mbs::scene_file::Document;
+use mbs::scene_file::SceneFile;
 use mbs::sweep::{Study, StudyError};
 
-fn read(name: &str) -> Document {
+fn read(name: &str) -> SceneFile {
     let text = std::fs::read_to_string(path(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
-    Document::parse(&text, name).expect("TOML")
+    SceneFile::parse(&text, name).expect("TOML")
 }
 
 #[test]

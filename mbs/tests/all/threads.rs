@@ -4,7 +4,7 @@ use crate::common;
 
 use crate::common::{SCENES, scene};
 use mbs::core::scene::{Dimension, Scene};
-use mbs::scene_file::{Document, Family, generate};
+use mbs::scene_file::{Family, SceneFile, generate};
 use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
 
 /// Scenes of the repository that are vehicles, and those with inputs of every kind.
@@ -77,7 +77,7 @@ fn scenes_of_the_repository_have_the_same_bits_for_1_2_3_and_8_threads() {
 fn large_scenes_that_are_cut_have_the_same_bits_for_1_2_3_and_8_threads() {
     let path = common::path("iltis-stairs");
     let vehicle =
-        Document::from_bytes(&std::fs::read(path).expect("a scene"), "iltis").expect("read");
+        SceneFile::from_bytes(&std::fs::read(path).expect("a scene"), "iltis").expect("read");
     for (family, formulation) in [
         (Family::Chain { bodies: 300 }, "index-3"),
         (Family::Tree { bodies: 511 }, "index-3"),
@@ -93,7 +93,7 @@ fn large_scenes_that_are_cut_have_the_same_bits_for_1_2_3_and_8_threads() {
     ] {
         let text = generate(&family, "test").expect("generated");
         let scene =
-            Document::parse(&text, "generated.toml").expect("parsed").scene().expect("sound");
+            SceneFile::parse(&text, "generated.toml").expect("parsed").scene().expect("sound");
         assert_same(
             &format!("{family:?}").chars().take(40).collect::<String>(),
             &scene,

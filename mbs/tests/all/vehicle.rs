@@ -7,7 +7,7 @@ use mbs::core::laws::body::{BodyLaw, BodyMotion};
 use mbs::core::laws::{foot::foot, road::height};
 use mbs::core::model::State;
 use mbs::core::natural::NaturalModel;
-use mbs::core::scene::{BodyRef, Output, Quantity, Scene};
+use mbs::core::scene::{BodyId, Output, Quantity, Scene};
 use mbs::{Overrides, Settings, Still};
 use std::collections::BTreeMap;
 
@@ -45,7 +45,7 @@ fn forces(
 ) -> BTreeMap<String, f64> {
     let Actions { list, tables, .. } = Actions::new(scene).expect("every law is built");
     let supplies = tables.supplies(&[]);
-    let place = |(body, at): (BodyRef, [f64; 3])| model.point(body, at).value(state);
+    let place = |(body, at): (BodyId, [f64; 3])| model.point(body, at).value(state);
     let force = |action: &Action<f64>| match action {
         Action::Length { ends: [first, second], law } => {
             law.evaluate((place(*second) - place(*first)).norm(), 0.0, &supplies).tension
@@ -57,8 +57,8 @@ fn forces(
         }
         Action::OnBody { at: (body, at), axis, law: BodyLaw::Tire(tire) } => {
             let motion = BodyMotion {
-                position: place((BodyRef::Body(*body), *at)).into(),
-                axis: model.direction(BodyRef::Body(*body), *axis).value(state).into(),
+                position: place((BodyId::Body(*body), *at)).into(),
+                axis: model.direction(BodyId::Body(*body), *axis).value(state).into(),
                 velocity: [0.0; 3],
                 spin: [0.0; 3],
             };

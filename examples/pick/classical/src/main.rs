@@ -7,7 +7,7 @@ use double_pendulum::{TIP, TRAPEZOIDAL, check, double_pendulum};
 use mbs_classical::{Options, Saddle, Workspace, index3};
 use mbs_core::dense::Dense;
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::BodyRef;
+use mbs_core::scene::BodyId;
 use mbs_core::start::assemble;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         index3::step(&model, step, &options, &mut state, &mut workspace)?;
     }
 
-    let tip = model.point(BodyRef::Body(1), TIP).value(&state.q);
+    let tip = model.point(BodyId::Body(1), TIP).value(&state.q);
     check("classical", tip.into(), TRAPEZOIDAL);
     Ok(())
 }

@@ -7,7 +7,7 @@ use double_pendulum::{TIP, TRAPEZOIDAL, check, double_pendulum};
 use mbs_augmented::{Options, Workspace, index3};
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{BodyRef, Scene};
+use mbs_core::scene::{BodyId, Scene};
 use mbs_core::start::assemble;
 use mbs_core::{Alone, Team};
 use mbs_parallel::{Crew, Multifrontal, SparseOptions};
@@ -27,7 +27,7 @@ fn many() -> Scene<f64> {
             let mut joint = joint.clone();
             joint.name = named(&joint.name);
             joint.bodies = joint.bodies.map(|body| match body {
-                BodyRef::Body(b) => BodyRef::Body(2 * k + b),
+                BodyId::Body(b) => BodyId::Body(2 * k + b),
                 ground => ground,
             });
             scene.joints.push(joint);
@@ -63,7 +63,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let shared = run(&model, &start, Crew::new(2)?)?;
 
     assert!(alone == shared, "threads change no bit");
-    let last = BodyRef::Body(2 * PENDULUMS - 1);
+    let last = BodyId::Body(2 * PENDULUMS - 1);
     let tip = model.point(last, TIP).value(&shared.q);
     check("parallel", tip.into(), TRAPEZOIDAL);
     Ok(())

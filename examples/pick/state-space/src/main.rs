@@ -6,7 +6,7 @@ mod double_pendulum;
 use double_pendulum::{TIP, TRAPEZOIDAL, check, double_pendulum};
 use mbs_core::dense::Dense;
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::BodyRef;
+use mbs_core::scene::BodyId;
 use mbs_core::start::assemble;
 use mbs_statespace::{Options, Workspace, step};
 
@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         step(&model, (1e-3, length), &options, &mut state, &mut workspace)?;
     }
 
-    let tip = model.point(BodyRef::Body(1), TIP).value(&state.q);
+    let tip = model.point(BodyId::Body(1), TIP).value(&state.q);
     check("state-space", tip.into(), TRAPEZOIDAL);
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use crate::files::{path, scratch};
 use crate::{json, run};
-use mbs::scene_file::Document;
+use mbs::scene_file::SceneFile;
 use mbs::{CHECKPOINT, Keeping, Overrides, Settings, run_document_kept};
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ fn left(name: &str) -> (PathBuf, PathBuf) {
     let file = out.join("scene.toml");
     std::fs::copy(path("double-pendulum"), &file).expect("a copy");
     let read = std::fs::read(&file).expect("it was copied");
-    let document = Document::from_bytes(&read, "scene.toml").expect("TOML");
+    let document = SceneFile::from_bytes(&read, "scene.toml").expect("TOML");
     let scene = document.scene::<f64>().expect("a scene");
     let overrides = Overrides { duration: Some(0.2), ..Overrides::default() };
     let settings = Settings::new(&scene, &overrides).expect("good settings");

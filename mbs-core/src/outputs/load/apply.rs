@@ -17,10 +17,10 @@ use crate::laws::body::{Action, BodyMotion, MOST};
 use crate::laws::scalar::Law;
 use crate::model::State;
 use crate::natural::{Affine, unwrap_rotation};
-use crate::scene::BodyRef;
+use crate::scene::BodyId;
 
 /// Where a wrench acts: a body and, for a force, a point.
-pub(in crate::outputs) type Applied<T> = (BodyRef, Option<Vector<T, 3>>, Wrench<T>);
+pub(in crate::outputs) type Applied<T> = (BodyId, Option<Vector<T, 3>>, Wrench<T>);
 
 /// Where a wrench acts on both bodies (`None`: a moment alone), and the wrench on the first.
 type Pull<T> = ([Option<Vector<T, 3>>; 2], Wrench<T>);
@@ -30,7 +30,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     pub(in crate::outputs) fn apply(
         &self,
         (state, supplies): (&State<T>, &Supplies<'_, T>),
-        turned: impl Fn(BodyRef) -> Matrix<T, 3>,
+        turned: impl Fn(BodyId) -> Matrix<T, 3>,
         mut take: impl FnMut(Applied<T>),
     ) {
         match self {
@@ -43,10 +43,10 @@ impl<T: Real, const D: usize> Load<T, D> {
             }
             Self::Constant { body, point, force } => {
                 let at = raised(&point.value(&state.q));
-                take((BodyRef::Body(*body), Some(at), push(*force)));
+                take((BodyId::Body(*body), Some(at), push(*force)));
             }
             Self::Force { body, point, course, turns } => {
-                let body = BodyRef::Body(*body);
+                let body = BodyId::Body(*body);
                 let given = Vector::<T, 3>::from(supplies.courses[*course]);
                 let force = if *turns { turned(body) * given } else { given };
                 take((body, Some(raised(&point.value(&state.q))), push(force)));
@@ -54,10 +54,10 @@ impl<T: Real, const D: usize> Load<T, D> {
             Self::Torque { body, course } => {
                 let given = supplies.courses[*course];
                 let moment = if D == 2 { unit(2) * given[0] } else { given.into() };
-                take((BodyRef::Body(*body), None, twist(moment)));
+                take((BodyId::Body(*body), None, twist(moment)));
             }
             Self::OnBody { body, point, frame, axis, law } => {
-                let body = BodyRef::Body(*body);
+                let body = BodyId::Body(*body);
                 let motion = motion((point, frame), &(turned(body) * axis), state);
                 let at = Vector::from(motion.position);
                 let mut actions = [Action::default(); MOST];

@@ -17,7 +17,7 @@ use crate::laws::Supplies;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
 use crate::natural::{Affine, NaturalModel, joint_axes};
-use crate::scene::{BodyRef, Scene};
+use crate::scene::{BodyId, Scene};
 use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -36,7 +36,7 @@ pub(super) struct Loads<T: Real, const D: usize> {
 #[derive(Debug, Clone)]
 pub(super) enum Load<T: Real, const D: usize> {
     /// A law of what is measured between two bodies.
-    Between { bodies: [BodyRef; 2], gauge: Gauge<T, D>, law: Law<T> },
+    Between { bodies: [BodyId; 2], gauge: Gauge<T, D>, law: Law<T> },
     /// A force in fixed directions.
     Constant { body: usize, point: Affine<T, D>, force: Vector<T, 3> },
     /// A force that follows a course.
@@ -139,7 +139,7 @@ impl<T: Real, const D: usize> Load<T, D> {
         action: &Action<T>,
     ) -> Self {
         let points = |ends: &[Seat<T>; 2]| [0, 1].map(|i| model.point(ends[i].0, ends[i].1));
-        let point = |at: &(usize, [T; 3])| model.point(BodyRef::Body(at.0), at.1);
+        let point = |at: &(usize, [T; 3])| model.point(BodyId::Body(at.0), at.1);
         let (bodies, gauge, law) = match action {
             Action::Length { ends, law } => {
                 (ends.map(|e| e.0), Gauge::Length { points: points(ends) }, law)
@@ -178,7 +178,7 @@ impl<T: Real, const D: usize> Load<T, D> {
                 return Self::Torque { body: *body, course: *course as usize };
             }
             Action::OnBody { at, axis, law } => {
-                let frame = Frame::new(scene, model, BodyRef::Body(at.0));
+                let frame = Frame::new(scene, model, BodyId::Body(at.0));
                 let (axis, law) = ((*axis).into(), *law);
                 return Self::OnBody { body: at.0, point: point(at), frame, axis, law };
             }

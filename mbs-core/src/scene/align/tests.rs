@@ -7,7 +7,7 @@ use alloc::string::String;
 /// Hinges of a closed row of bodies, ground, 0, 1, ..., ground, with these axes; one more hangs from the last body.
 fn ring(axes: &[[f64; 3]]) -> Scene<f64> {
     let n = axes.len();
-    let body = |i: usize| if i == 0 || i == n { BodyRef::Ground } else { BodyRef::Body(i - 1) };
+    let body = |i: usize| if i == 0 || i == n { BodyId::Ground } else { BodyId::Body(i - 1) };
     let hinge = |bodies, axis| Joint {
         name: String::new(),
         kind: JointKind::Revolute,
@@ -16,8 +16,8 @@ fn ring(axes: &[[f64; 3]]) -> Scene<f64> {
         axes: [Some(axis), None],
     };
     let mut joints: Vec<_> = (0..n).map(|i| hinge([body(i), body(i + 1)], axes[i])).collect();
-    let last = BodyRef::Body(n - 2);
-    joints.push(hinge([last, BodyRef::Body(n - 1)], [1e-8, 0.0, 1.0]));
+    let last = BodyId::Body(n - 2);
+    joints.push(hinge([last, BodyId::Body(n - 1)], [1e-8, 0.0, 1.0]));
     let bodies = (0..n).map(|_| crate::scene::Body {
         name: String::new(),
         mass: 1.0,

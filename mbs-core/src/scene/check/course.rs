@@ -4,11 +4,11 @@ use super::is_planar;
 use super::motion::check_times;
 use super::vector::Place;
 use crate::Real;
-use crate::scene::{Course, SceneError};
+use crate::scene::{SceneError, Signal};
 
 /// Finite numbers, in the plane where a vector is meant, and increasing times.
 pub(super) fn check<T: Real>(
-    course: &Course<T>,
+    course: &Signal<T>,
     is_vector: bool,
     place: Place,
 ) -> Result<(), SceneError> {
@@ -19,8 +19,8 @@ pub(super) fn check<T: Real>(
         value.into_iter().try_for_each(|x| place.finite(field, x))
     };
     match course {
-        Course::Constant(value) | Course::Input(value) => row("value", *value),
-        Course::Table(rows) => {
+        Signal::Constant(value) | Signal::Input(value) => row("value", *value),
+        Signal::Table(rows) => {
             for (time, value) in rows {
                 place.finite("table", *time)?;
                 row("table", *value)?;

@@ -6,7 +6,7 @@ use crate::Real;
 use crate::inputs::GuideInput;
 use crate::laws::guide::{largest_rate, spline};
 use crate::scene::{
-    Entry, Guide, GuideLaw, Initial, InitialTarget, Scene, SceneError, SceneFault, TableEnds,
+    Entry, Guide, InitialCondition, InitialTarget, Motion, Scene, SceneError, SceneFault, TableEnds,
 };
 use alloc::vec;
 use alloc::vec::Vec;
@@ -30,23 +30,23 @@ pub(super) fn check_guides<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> 
     Ok(())
 }
 
-fn check_law<T: Real>(law: &GuideLaw<T>, place: Place) -> Result<(), SceneError> {
+fn check_law<T: Real>(law: &Motion<T>, place: Place) -> Result<(), SceneError> {
     match law {
-        GuideLaw::Table { rows, .. } => {
+        Motion::Table { rows, .. } => {
             for row in rows {
                 place.finite("table", row[0])?;
                 place.finite("table", row[1])?;
             }
             check_times(rows.iter().map(|row| row[0]), place)
         }
-        GuideLaw::Sine { amplitude, frequency, phase } => {
+        Motion::Sine { amplitude, frequency, phase } => {
             for x in [*amplitude, *frequency, *phase] {
                 place.finite("sine", x)?;
             }
             Ok(())
         }
-        GuideLaw::Ramp { rate } => place.finite("ramp", *rate),
-        GuideLaw::Input(motion) => motion.iter().try_for_each(|x| place.finite("input", *x)),
+        Motion::Ramp { rate } => place.finite("ramp", *rate),
+        Motion::Input(motion) => motion.iter().try_for_each(|x| place.finite("input", *x)),
     }
 }
 
@@ -74,7 +74,7 @@ const SLOPE: f64 = 1e-6;
 /// Tables that begin or end on a slope within a run of a duration: the rate jumps there, which is an impact.
 pub(super) fn check_ends<T: Real>(scene: &Scene<T>, duration: T) -> Result<(), SceneError> {
     for (i, guide) in scene.guides.iter().enumerate() {
-        let GuideLaw::Table { rows, ends: TableEnds::Natural } = &guide.law else { continue };
+        let Motion::Table { rows, ends: TableEnds::Natural } = &guide.law else { continue };
         let [Some(first), Some(last)] = [rows.first(), rows.last()] else { continue };
         let input = GuideInput::new(&guide.law);
         let rate = |t| spline(rows, input.curvature(), t).rate;
@@ -125,7 +125,7 @@ struct Seen<'a, T> {
 fn check_initial<T: Real>(
     scene: &Scene<T>,
     i: usize,
-    initial: &Initial<T>,
+    initial: &InitialCondition<T>,
     seen: &mut Seen<'_, T>,
 ) -> Result<(), SceneError> {
     let place = scene.place(Entry::Initial(i));

@@ -4,21 +4,21 @@ use super::effect::{known_body, single_coordinate};
 use super::vector::Place;
 use super::{check_pair, course};
 use crate::Real;
-use crate::scene::{Course, OwnLaw, Scene, SceneError};
+use crate::scene::{Scene, SceneError, Signal, UserLaw};
 
 pub(super) fn check<T: Real>(
     scene: &Scene<T>,
-    (law, input): (&OwnLaw<T>, &Course<T>),
+    (law, input): (&UserLaw<T>, &Signal<T>),
     place: Place,
 ) -> Result<(), SceneError> {
     course::check(input, false, place)?;
     match law {
-        OwnLaw::Length { bodies, points, .. } => {
+        UserLaw::Length { bodies, points, .. } => {
             check_pair(scene, *bodies, place)?;
             place.apart("points", *points)
         }
-        OwnLaw::Joint { joint, .. } => single_coordinate(scene, *joint, place),
-        OwnLaw::Body { body, at, axis, .. } => {
+        UserLaw::Joint { joint, .. } => single_coordinate(scene, *joint, place),
+        UserLaw::Body { body, at, axis, .. } => {
             known_body(scene, *body, place)?;
             place.vector("at", *at)?;
             place.axis("axis", *axis)

@@ -12,13 +12,13 @@ fn body(name: &str, mass: f64, inertia: Inertia<f64>) -> Body<f64> {
     Body { name: name.into(), mass, center: [0.5, 0.0, 0.0], inertia }
 }
 
-fn joint(name: &str, kind: JointKind, bodies: [BodyRef; 2]) -> Joint<f64> {
+fn joint(name: &str, kind: JointKind, bodies: [BodyId; 2]) -> Joint<f64> {
     Joint { name: name.into(), kind, bodies, points: [[0.0; 3]; 2], axes: [None, None] }
 }
 
 fn planar() -> Scene<f64> {
     let rod = Inertia::Rod { from: [0.0; 3], to: [1.0, 0.0, 0.0] };
-    let ground = BodyRef::Ground;
+    let ground = BodyId::Ground;
     Scene {
         name: "pendulum".into(),
         dimension: Dimension::Planar,
@@ -26,8 +26,8 @@ fn planar() -> Scene<f64> {
         duration: 10.0,
         bodies: vec![body("upper", 1.0, rod), body("lower", 1.0, Inertia::Planar(0.1))],
         joints: vec![
-            joint("pivot", JointKind::Revolute, [ground, BodyRef::Body(0)]),
-            joint("elbow", JointKind::Revolute, [BodyRef::Body(0), BodyRef::Body(1)]),
+            joint("pivot", JointKind::Revolute, [ground, BodyId::Body(0)]),
+            joint("elbow", JointKind::Revolute, [BodyId::Body(0), BodyId::Body(1)]),
         ],
         initials: Vec::new(),
         guides: Vec::new(),
@@ -35,7 +35,7 @@ fn planar() -> Scene<f64> {
         road: Default::default(),
         start: Default::default(),
         outputs: Vec::new(),
-        solver: SolverChoice::default(),
+        solver: SolverTable::default(),
     }
 }
 
@@ -49,18 +49,18 @@ fn spatial() -> Scene<f64> {
     scene
 }
 
-fn spring(points: [[f64; 3]; 2], bodies: [BodyRef; 2]) -> Effect<f64> {
+fn spring(points: [[f64; 3]; 2], bodies: [BodyId; 2]) -> Effect<f64> {
     let kind =
         EffectKind::SpringDamper { bodies, points, stiffness: 1.0, damping: 0.0, free_length: 0.5 };
     Effect { name: "strut".into(), enabled: true, kind }
 }
 
-fn natural(rows: Vec<[f64; 2]>) -> GuideLaw<f64> {
-    GuideLaw::Table { rows, ends: TableEnds::Natural }
+fn natural(rows: Vec<[f64; 2]>) -> Motion<f64> {
+    Motion::Table { rows, ends: TableEnds::Natural }
 }
 
-fn value(joint: usize, value: Option<Vec<f64>>, rate: Option<Vec<f64>>) -> Initial<f64> {
-    Initial { target: InitialTarget::Joint { joint, value, rate } }
+fn value(joint: usize, value: Option<Vec<f64>>, rate: Option<Vec<f64>>) -> InitialCondition<f64> {
+    InitialCondition { target: InitialTarget::Joint { joint, value, rate } }
 }
 
 /// Applies `spoil` and returns where and what is refused.
@@ -126,16 +126,16 @@ fn inertia_obeys_the_triangle_inequality_in_principal_moments() {
 }
 
 /// A frame with an inertia that no body has, welded to `upper` or to the ground.
-fn with_frame(mass: f64, six: [f64; 6], to: BodyRef) -> Scene<f64> {
+fn with_frame(mass: f64, six: [f64; 6], to: BodyId) -> Scene<f64> {
     let mut scene = spatial();
     scene.bodies.push(body("frame", mass, Inertia::Spatial(six)));
-    scene.joints.push(joint("fixed", JointKind::Weld, [to, BodyRef::Body(2)]));
+    scene.joints.push(joint("fixed", JointKind::Weld, [to, BodyId::Body(2)]));
     scene
 }
 
 #[test]
 fn inertias_are_those_of_what_is_welded_together() {
-    let (dummy, upper) = ([1e-6; 6], BodyRef::Body(1));
+    let (dummy, upper) = ([1e-6; 6], BodyId::Body(1));
     let mut scene = with_frame(0.001, dummy, upper);
     assert_eq!(scene.check(), Ok(()));
     let odd = scene.odd_parts();
@@ -146,7 +146,7 @@ fn inertias_are_those_of_what_is_welded_together() {
     assert_eq!(scene.check(), Ok(()));
     assert_eq!(scene.odd_parts(), [(2, SceneFault::InertiaWithoutMass)]);
     // the ground does not move, whatever is welded to it
-    assert_eq!(with_frame(0.0, [-1.0, 0.0, 0.0, 2.0, 0.0, 0.0], BodyRef::Ground).check(), Ok(()));
+    assert_eq!(with_frame(0.0, [-1.0, 0.0, 0.0, 2.0, 0.0, 0.0], BodyId::Ground).check(), Ok(()));
     // a part that spoils the sum is refused, at its place; not the heavy one
     let (entry, spoilt) = (Entry::Body(2), [0.1, 0.1, 2.0, 0.0, 0.0, 0.0]);
     let found = with_frame(0.001, spoilt, upper).check().unwrap_err();
@@ -158,7 +158,7 @@ fn inertias_are_those_of_what_is_welded_together() {
     assert_eq!(scene.check().map_err(|e| e.entry), Err(entry));
     let mut scene = planar();
     scene.bodies.push(body("disc", 0.0, Inertia::Planar(-0.05)));
-    scene.joints.push(joint("fixed", JointKind::Weld, [upper, BodyRef::Body(2)]));
+    scene.joints.push(joint("fixed", JointKind::Weld, [upper, BodyId::Body(2)]));
     assert_eq!(scene.check(), Ok(()), "0.1 - 0.05 about z");
 }
 
@@ -168,7 +168,7 @@ fn tables_of_guides_that_jump_within_the_run_are_refused() {
     let at = |shift: f64, ends| {
         let mut scene = planar();
         let rows = rows.map(|[t, x]| [t + shift, x]).to_vec();
-        scene.guides = vec![Guide { joint: 0, law: GuideLaw::Table { rows, ends } }];
+        scene.guides = vec![Guide { joint: 0, law: Motion::Table { rows, ends } }];
         scene.check().expect("nothing is wrong with it until the duration is known");
         move |duration| scene.check_run(duration)
     };
@@ -226,9 +226,9 @@ fn mass_properties_fit_the_scene() {
 
 #[test]
 fn joints_have_two_bodies_and_the_axes_of_their_kind() {
-    let found = refused(planar(), |s| s.joints[1].bodies = [BodyRef::Body(1); 2]);
+    let found = refused(planar(), |s| s.joints[1].bodies = [BodyId::Body(1); 2]);
     assert_eq!(found, (Entry::Joint(1), "bodies", SceneFault::SameBody));
-    let found = refused(planar(), |s| s.joints[1].bodies[0] = BodyRef::Body(7));
+    let found = refused(planar(), |s| s.joints[1].bodies[0] = BodyId::Body(7));
     assert_eq!(found, (Entry::Joint(1), "bodies", SceneFault::UnknownReference));
     let found = refused(planar(), |s| s.joints[1].kind = JointKind::Spherical);
     assert_eq!(found, (Entry::Joint(1), "kind", SceneFault::NeedsSpatial));
@@ -255,7 +255,7 @@ fn joints_have_two_bodies_and_the_axes_of_their_kind() {
 #[test]
 fn guides_have_one_coordinate_once_and_ordered_rows() {
     let guide = |joint, law| Guide { joint, law };
-    let ramp = || GuideLaw::Ramp { rate: 1.0 };
+    let ramp = || Motion::Ramp { rate: 1.0 };
     let found = refused(planar(), |s| {
         s.joints[0].kind = JointKind::Weld;
         s.guides = vec![guide(0, ramp())];
@@ -270,7 +270,7 @@ fn guides_have_one_coordinate_once_and_ordered_rows() {
 
 #[test]
 fn initial_values_agree_with_guides_and_counts() {
-    let law = GuideLaw::Sine { amplitude: 2.0, frequency: 0.5, phase: 0.0 };
+    let law = Motion::Sine { amplitude: 2.0, frequency: 0.5, phase: 0.0 };
     let rate = 2.0 * core::f64::consts::PI;
     let mut guided = planar();
     guided.guides = vec![Guide { joint: 0, law }];
@@ -289,7 +289,7 @@ fn initial_values_agree_with_guides_and_counts() {
 
 #[test]
 fn effects_act_between_different_points_and_on_rotations() {
-    let (ground, upper) = (BodyRef::Ground, BodyRef::Body(0));
+    let (ground, upper) = (BodyId::Ground, BodyId::Body(0));
     let apart = [[0.0; 3], [1.0, 0.0, 0.0]];
     let found = refused(planar(), |s| s.effects = vec![spring([[1.0; 3]; 2], [ground, upper])]);
     assert_eq!(found, (Entry::Effect(0), "points", SceneFault::OutOfPlane(1.0)));
@@ -299,7 +299,7 @@ fn effects_act_between_different_points_and_on_rotations() {
     assert_eq!(found, (Entry::Effect(0), "bodies", SceneFault::SameBody));
     let found = refused(spatial(), |s| {
         s.joints[1].kind = JointKind::Prismatic;
-        let course = Course::Constant([1.0, 0.0, 0.0]);
+        let course = Signal::Constant([1.0, 0.0, 0.0]);
         let kind = EffectKind::JointTorque { joint: 1, course };
         s.effects = vec![Effect { name: "motor".into(), enabled: true, kind }];
     });
@@ -332,7 +332,7 @@ fn any_vector() -> impl Strategy<Value = [f64; 3]> {
 }
 
 fn any_joint() -> impl Strategy<Value = Joint<f64>> {
-    let reference = || prop_oneof![Just(BodyRef::Ground), (0..3_usize).prop_map(BodyRef::Body)];
+    let reference = || prop_oneof![Just(BodyId::Ground), (0..3_usize).prop_map(BodyId::Body)];
     let axis = || proptest::option::of(any_vector());
     let kind = (0..JointKind::ALL.len()).prop_map(|i| JointKind::ALL[i]);
     (kind, [reference(), reference()], [any_vector(), any_vector()], [axis(), axis()]).prop_map(
@@ -362,7 +362,7 @@ proptest! {
         let rows = (0..4).map(|i| [numbers[2 * i], numbers[2 * i + 1]]).collect();
         scene.guides = vec![Guide { joint: references[0], law: natural(rows) }];
         scene.initials = vec![value(references[1], Some(numbers[..references[2]].to_vec()), None)];
-        scene.effects = vec![spring([vector(3), vector(6)], [BodyRef::Body(references[3]), BodyRef::Ground])];
+        scene.effects = vec![spring([vector(3), vector(6)], [BodyId::Body(references[3]), BodyId::Ground])];
         let rows = (0..4).map(|i| [numbers[2 * i], numbers[2 * i + 1]]).collect();
         let (start, length, height) = (numbers[8], numbers[9], numbers[10]);
         let rounding = numbers[11];
@@ -378,7 +378,7 @@ proptest! {
             coefficients: numbers[..references[1] * 3].to_vec(),
         };
         let kind = EffectKind::Polynomial {
-            bodies: [BodyRef::Body(references[0]), BodyRef::Ground],
+            bodies: [BodyId::Body(references[0]), BodyId::Ground],
             points: [vector(3), vector(6)],
             direction: is_planar.then(|| vector(9)),
             of_rate: false,

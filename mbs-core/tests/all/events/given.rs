@@ -11,10 +11,10 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::outputs::Events;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::Scene;
-use mbs_scene::Document;
+use mbs_scene::SceneFile;
 
 /// Places and angles (x, up or y, about z or the wheel's axis) of the scene's bodies at a time, and their rates.
-pub(crate) type Course = dyn Fn(f64) -> Vec<[[f64; 3]; 2]>;
+pub(crate) type Signal = dyn Fn(f64) -> Vec<[[f64; 3]; 2]>;
 
 /// An event at which a step ended.
 #[derive(Debug, Clone, Copy)]
@@ -33,12 +33,13 @@ pub(crate) struct Given<'a, T: Real, const D: usize> {
     model: NaturalModel<T, D>,
     pub(crate) state: State<T>,
     pub(crate) events: Events<T, D>,
-    course: &'a Course,
+    course: &'a Signal,
 }
 
 impl<'a, T: Real, const D: usize> Given<'a, T, D> {
-    pub(crate) fn new(text: &str, course: &'a Course) -> Self {
-        let document = Document::parse(text, "events").unwrap_or_else(|e| panic!("{}", e.render()));
+    pub(crate) fn new(text: &str, course: &'a Signal) -> Self {
+        let document =
+            SceneFile::parse(text, "events").unwrap_or_else(|e| panic!("{}", e.render()));
         let scene: Scene<T> = document.scene().unwrap_or_else(|e| panic!("{}", e.render()));
         let model = NaturalModel::new(&scene).expect("a model");
         let events = Events::new(&scene, &model).expect("the effects are compiled");

@@ -5,7 +5,7 @@ mod judge;
 use judge::{Body, Joint, M, Mechanism, V, add, cross, times};
 use mbs_core::Real;
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::BodyRef;
+use mbs_core::scene::BodyId;
 use mbs_core::start::assemble;
 use mbs_sparse::{Multifrontal, Options};
 use mbs_testkit::{Random, scene_in};
@@ -168,7 +168,7 @@ fn found<T: Real, const D: usize>(m: &Mechanism, size: f64, mass: f64) -> Found 
         Err(_) => return Vec::new(),
     };
     let seen = |b: usize, (x, is_point): (V, bool)| {
-        let (body, to) = (BodyRef::Body(b), x.map(T::from_f64));
+        let (body, to) = (BodyId::Body(b), x.map(T::from_f64));
         let x = if is_point { model.point(body, to) } else { model.direction(body, to) };
         [x.value(&state.q), x.rate(&state.v)].map(|v| {
             std::array::from_fn(|i| {

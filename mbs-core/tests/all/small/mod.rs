@@ -3,13 +3,13 @@
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{
-    Body, BodyRef, Dimension, Guide, GuideLaw, Inertia, Initial, InitialTarget, Joint, JointKind,
-    Output, Quantity, Scene,
+    Body, BodyId, Dimension, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointKind,
+    Motion, Output, Quantity, Scene,
 };
 use mbs_testkit::scenes::empty;
 
 /// The fixed frame.
-pub(crate) const GROUND: BodyRef = BodyRef::Ground;
+pub(crate) const GROUND: BodyId = BodyId::Ground;
 
 /// A scene without bodies.
 pub(crate) fn scene(dimension: Dimension, gravity: [f64; 3]) -> Scene<f64> {
@@ -22,14 +22,14 @@ pub(crate) fn add_body(
     mass: f64,
     center: [f64; 3],
     inertia: Inertia<f64>,
-) -> BodyRef {
+) -> BodyId {
     let name = format!("body {}", scene.bodies.len());
     scene.bodies.push(Body { name, mass, center, inertia });
-    BodyRef::Body(scene.bodies.len() - 1)
+    BodyId::Body(scene.bodies.len() - 1)
 }
 
 /// Adds a uniform rod, returns its reference.
-pub(crate) fn add_rod(scene: &mut Scene<f64>, mass: f64, from: [f64; 3], to: [f64; 3]) -> BodyRef {
+pub(crate) fn add_rod(scene: &mut Scene<f64>, mass: f64, from: [f64; 3], to: [f64; 3]) -> BodyId {
     let center = core::array::from_fn(|i| 0.5 * (from[i] + to[i]));
     add_body(scene, mass, center, Inertia::Rod { from, to })
 }
@@ -38,7 +38,7 @@ pub(crate) fn add_rod(scene: &mut Scene<f64>, mass: f64, from: [f64; 3], to: [f6
 pub(crate) fn add_joint(
     scene: &mut Scene<f64>,
     kind: JointKind,
-    bodies: [BodyRef; 2],
+    bodies: [BodyId; 2],
     at: [f64; 3],
     axes: [Option<[f64; 3]>; 2],
 ) -> usize {
@@ -51,11 +51,11 @@ pub(crate) fn add_joint(
 pub(crate) fn hold(scene: &mut Scene<f64>, joint: usize, value: &[f64], rate: &[f64]) {
     let numbers = |x: &[f64]| (!x.is_empty()).then(|| x.to_vec());
     let (value, rate) = (numbers(value), numbers(rate));
-    scene.initials.push(Initial { target: InitialTarget::Joint { joint, value, rate } });
+    scene.initials.push(InitialCondition { target: InitialTarget::Joint { joint, value, rate } });
 }
 
 /// Guides a joint.
-pub(crate) fn guide(scene: &mut Scene<f64>, joint: usize, law: GuideLaw<f64>) {
+pub(crate) fn guide(scene: &mut Scene<f64>, joint: usize, law: Motion<f64>) {
     scene.guides.push(Guide { joint, law });
 }
 

@@ -1,11 +1,11 @@
 //! Mechanisms in code: bodies by name, joints between them, the same in plane and space.
 
-use mbs_core::scene::{Body, BodyRef, Dimension, Inertia, Joint, JointKind, Scene};
+use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, Scene};
 use mbs_doctor::{Diagnosis, Linkage, Nature, diagnose, reference};
 use mbs_testkit::scenes::empty;
 
 pub(crate) type Point = [f64; 3];
-pub(crate) const GROUND: BodyRef = BodyRef::Ground;
+pub(crate) const GROUND: BodyId = BodyId::Ground;
 
 /// A scene that grows.
 pub(crate) struct Build(pub(crate) Scene<f64>);
@@ -24,7 +24,7 @@ impl Build {
     }
 
     /// A body of 1 kg between two places.
-    pub(crate) fn bar(&mut self, from: Point, to: Point) -> BodyRef {
+    pub(crate) fn bar(&mut self, from: Point, to: Point) -> BodyId {
         let center = [0, 1, 2].map(|i| 0.5 * (from[i] + to[i]));
         let inertia = match self.0.dimension {
             Dimension::Planar => Inertia::Planar(0.01),
@@ -32,13 +32,13 @@ impl Build {
         };
         let name = format!("body-{}", self.0.bodies.len());
         self.0.bodies.push(Body { name, mass: 1.0, center, inertia });
-        BodyRef::Body(self.0.bodies.len() - 1)
+        BodyId::Body(self.0.bodies.len() - 1)
     }
 
     pub(crate) fn joint(
         &mut self,
         kind: JointKind,
-        bodies: [BodyRef; 2],
+        bodies: [BodyId; 2],
         at: Point,
         axis: Option<Point>,
     ) -> usize {
@@ -48,7 +48,7 @@ impl Build {
     pub(crate) fn link(
         &mut self,
         kind: JointKind,
-        bodies: [BodyRef; 2],
+        bodies: [BodyId; 2],
         points: [Point; 2],
         axes: [Option<Point>; 2],
     ) -> usize {
@@ -57,7 +57,7 @@ impl Build {
         self.0.joints.len() - 1
     }
 
-    pub(crate) fn pin(&mut self, a: BodyRef, b: BodyRef, at: Point) -> usize {
+    pub(crate) fn pin(&mut self, a: BodyId, b: BodyId, at: Point) -> usize {
         let axis = (self.0.dimension == Dimension::Spatial).then_some([0.0, 0.0, 1.0]);
         self.joint(JointKind::Revolute, [a, b], at, axis)
     }

@@ -3,7 +3,7 @@
 use faer::Mat;
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::BodyRef;
+use mbs_core::scene::BodyId;
 use mbs_linear::{
     Equilibrium, EquilibriumError, Instant, Linear, LinearError, LinearOptions, Options, Saddle,
     Workspace, equilibrium, equilibrium_near, linearise,
@@ -57,6 +57,6 @@ impl<const D: usize> Case<D> {
 
     /// A material point of a body.
     pub(crate) fn point(&self, body: usize, at: [f64; 3]) -> [f64; D] {
-        self.model.point(BodyRef::Body(body), at).value(&self.state.q).into()
+        self.model.point(BodyId::Body(body), at).value(&self.state.q).into()
     }
 }

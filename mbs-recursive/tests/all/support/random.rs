@@ -1,6 +1,6 @@
 //! Seeded random mechanisms with every kind of joint.
 
-use mbs_core::scene::{Body, BodyRef, Dimension, Inertia, Joint, JointKind, Scene};
+use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, Scene};
 use mbs_testkit::Random;
 use mbs_testkit::scenes::empty;
 
@@ -42,7 +42,7 @@ fn body(random: &mut Random, dimension: Dimension, center: [f64; 3]) -> Body<f64
 pub(crate) fn joint(
     random: &mut Random,
     dimension: Dimension,
-    (kind, bodies, at): (JointKind, [BodyRef; 2], [f64; 3]),
+    (kind, bodies, at): (JointKind, [BodyId; 2], [f64; 3]),
 ) -> Joint<f64> {
     let mut axis = || Some(vector(random, dimension));
     let axes = match (kind, dimension) {
@@ -64,14 +64,14 @@ pub(crate) fn tree(seed: u64, n: usize, dimension: Dimension) -> Scene<f64> {
         if i == n / 2 {
             continue;
         }
-        let parent = if i < 2 { BodyRef::Ground } else { BodyRef::Body(random.below(i)) };
+        let parent = if i < 2 { BodyId::Ground } else { BodyId::Body(random.below(i)) };
         let kinds: &[JointKind] = if dimension == Dimension::Planar { &PLANAR } else { &SPATIAL };
         let kind = kinds[random.below(kinds.len())];
         let at: [f64; 3] = {
             let off = vector(random, dimension);
             core::array::from_fn(|k| center[k] + off[k])
         };
-        let mut bodies = [parent, BodyRef::Body(i)];
+        let mut bodies = [parent, BodyId::Body(i)];
         if random.next() > 0.3 {
             bodies.reverse();
         }
@@ -107,8 +107,8 @@ pub(crate) fn closed(seed: u64, n: usize, loops: usize, dimension: Dimension) ->
     for i in 0..loops {
         let first = random.below(n);
         let second = (first + 1 + random.below(n - 1)) % n;
-        let (first, second) = (BodyRef::Body(first), BodyRef::Body(second));
-        let first = if i % 4 == 3 { BodyRef::Ground } else { first };
+        let (first, second) = (BodyId::Body(first), BodyId::Body(second));
+        let first = if i % 4 == 3 { BodyId::Ground } else { first };
         let at = vector(random, dimension).map(|x| 2.0 * x);
         let kind = match dimension {
             Dimension::Planar => [JointKind::Distance, JointKind::Revolute][i % 2],

@@ -4,10 +4,10 @@ use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
 use crate::read::tree::{Item, Node};
 use mbs_core::Real;
-use mbs_core::scene::Course;
+use mbs_core::scene::Signal;
 
 /// `value`, or `table` with rows `[time, value]`; a vector may also stand flat: `[time, x, y, z]`.
-pub(super) fn course<T: Real>(fields: &Fields<'_>, is_scalar: bool) -> Read<Course<T>> {
+pub(super) fn course<T: Real>(fields: &Fields<'_>, is_scalar: bool) -> Read<Signal<T>> {
     fields.exclusive("value", "table")?;
     let context = fields.context;
     let value = |item| {
@@ -20,7 +20,7 @@ pub(super) fn course<T: Real>(fields: &Fields<'_>, is_scalar: bool) -> Read<Cour
         let Some(item) = fields.get("value") else {
             return context.fault(fields.header, ReadFault::Missing { key: "value or table" });
         };
-        return Ok(Course::Constant(value(item)?));
+        return Ok(Signal::Constant(value(item)?));
     };
     let rows = context.list(table, "a list of rows [time, value]")?;
     let read_row = |row| match context.list(row, "a row [time, value]")? {
@@ -34,5 +34,5 @@ pub(super) fn course<T: Real>(fields: &Fields<'_>, is_scalar: bool) -> Read<Cour
             Ok((context.number(time)?, value(item)?))
         }
     };
-    rows.iter().map(read_row).collect::<Read<Vec<_>>>().map(Course::Table)
+    rows.iter().map(read_row).collect::<Read<Vec<_>>>().map(Signal::Table)
 }

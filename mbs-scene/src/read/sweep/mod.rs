@@ -11,7 +11,7 @@ pub use fault::SweepFault;
 
 use crate::read::fields::Read;
 use crate::read::tree::Span;
-use crate::read::{Document, ReadError, ReadFault};
+use crate::read::{ReadError, ReadFault, SceneFile};
 use crate::write::rounded;
 use fault::MOST_MEMBERS;
 use mbs_core::scene::{Scene, SceneFault};
@@ -21,7 +21,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A sweep: parameters with their values, and the members that these make. Numbers are decimal text, as in a scene.
 #[derive(Debug, Clone)]
 pub struct Sweep {
-    document: Document,
+    document: SceneFile,
     combine: Combine,
     parameters: Vec<Parameter>,
     places: Vec<PlaceOfScene>,
@@ -75,7 +75,11 @@ impl Sweep {
     ///
     /// # Errors
     /// What is unknown, missing, or cannot be meant in the sweep file, with its place there.
-    pub fn read(sweep: &Document, scene: &Document, columns: &[String]) -> Result<Self, ReadError> {
+    pub fn read(
+        sweep: &SceneFile,
+        scene: &SceneFile,
+        columns: &[String],
+    ) -> Result<Self, ReadError> {
         let (combine, parameters) = reader::read(sweep, scene)?;
         let mut sweep =
             Self { document: sweep.clone(), combine, parameters, places: Vec::new(), n_members: 0 };
@@ -106,7 +110,7 @@ impl Sweep {
     ///
     /// Cost: a copy of the document; nothing is read or parsed again.
     #[must_use]
-    pub fn member(&self, scene: &Document, member: usize) -> Document {
+    pub fn member(&self, scene: &SceneFile, member: usize) -> SceneFile {
         let values: Vec<&str> = self.values(member).collect();
         self.replaced(scene, |p| Some(values[p]))
     }
@@ -121,7 +125,7 @@ impl Sweep {
     /// [`SweepFault::Refused`] at the place of the value.
     pub fn check(
         &self,
-        scene: &Document,
+        scene: &SceneFile,
         also: impl Fn(&Scene<f64>) -> Result<(), (String, String)>,
     ) -> Result<(), ReadError> {
         for (p, parameter) in self.parameters.iter().enumerate() {
@@ -153,7 +157,7 @@ impl Sweep {
 
     /// Is a number of the scene varied, given the path that names it?
     #[must_use]
-    pub fn varies(&self, scene: &Document, path: &str) -> bool {
+    pub fn varies(&self, scene: &SceneFile, path: &str) -> bool {
         let address = path::address(scene.root(), path);
         address.is_ok_and(|address| self.places.iter().any(|place| place.address == address))
     }
@@ -176,7 +180,11 @@ impl Sweep {
     }
 
     /// The scene with some parameters at given values.
-    fn replaced<'a>(&self, scene: &Document, text: impl Fn(usize) -> Option<&'a str>) -> Document {
+    fn replaced<'a>(
+        &self,
+        scene: &SceneFile,
+        text: impl Fn(usize) -> Option<&'a str>,
+    ) -> SceneFile {
         let mut document = scene.clone();
         for place in &self.places {
             let set = place.set_by.and_then(&text);
@@ -207,7 +215,7 @@ impl Sweep {
     }
 
     /// The places of the scene, each with the parameters that change it.
-    fn lay_out(&self, scene: &Document) -> Read<Vec<PlaceOfScene>> {
+    fn lay_out(&self, scene: &SceneFile) -> Read<Vec<PlaceOfScene>> {
         let mut places: BTreeMap<&Address, PlaceOfScene> = BTreeMap::new();
         let base = |address: &Address| {
             let text = path::number(scene.root(), address).unwrap_or_default();

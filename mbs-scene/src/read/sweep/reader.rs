@@ -7,7 +7,7 @@ use super::{Combine, Parameter, SweepFault};
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::names::Names;
 use crate::read::tree::{Item, Node, Span};
-use crate::read::{Document, ReadFault};
+use crate::read::{ReadFault, SceneFile};
 use mbs_core::scene::Dimension;
 
 const TABLES: [&str; 2] = ["sweep", "vary"];
@@ -16,7 +16,7 @@ const COMBINE: [&str; 3] = ["grid", "zip", "latin-hypercube"];
 const SCALES: [&str; 2] = ["linear", "log"];
 
 /// How values are combined, and the parameters in the order of the file.
-pub(super) fn read(sweep: &Document, scene: &Document) -> Read<(Combine, Vec<Parameter>)> {
+pub(super) fn read(sweep: &SceneFile, scene: &SceneFile) -> Read<(Combine, Vec<Parameter>)> {
     let none = Names::default();
     let context =
         Context { document: sweep, dimension: Dimension::Planar, bodies: &none, joints: &none };
@@ -72,7 +72,7 @@ fn read_seed(header: &Fields<'_>) -> Read<u64> {
 
 fn read_parameter(
     fields: &Fields<'_>,
-    scene: &Document,
+    scene: &SceneFile,
     (combine, seed, index): (Combine, u64, usize),
 ) -> Read<Parameter> {
     let context = fields.context;
@@ -105,7 +105,7 @@ fn read_parameter(
 }
 
 /// The addresses that a list of paths (or one) names.
-fn addresses(fields: &Fields<'_>, key: &str, scene: &Document) -> Read<Vec<(Address, Span)>> {
+fn addresses(fields: &Fields<'_>, key: &str, scene: &SceneFile) -> Read<Vec<(Address, Span)>> {
     let context = fields.context;
     let place = |item: &Item| Ok((address(&context, item, scene)?, item.span.clone()));
     match fields.get(key) {
@@ -115,7 +115,7 @@ fn addresses(fields: &Fields<'_>, key: &str, scene: &Document) -> Read<Vec<(Addr
     }
 }
 
-fn address(context: &Context<'_>, item: &Item, scene: &Document) -> Read<Address> {
+fn address(context: &Context<'_>, item: &Item, scene: &SceneFile) -> Read<Address> {
     let Node::Text(path) = &item.node else {
         let found = item.node.description();
         let expected = "a path in quotes, such as \"body.crank.mass\"";

@@ -1,6 +1,6 @@
 //! Members of sweeps, and each refusal with its place.
 
-use crate::{Document, ReadError, ReadFault, Sweep, SweepFault};
+use crate::{ReadError, ReadFault, SceneFile, Sweep, SweepFault};
 
 const SCENE: &str = r#"[scene]
 name = "one"
@@ -52,12 +52,12 @@ height = 0.1
 count = 3
 "#;
 
-fn scene() -> Document {
-    Document::parse(SCENE, "scene.toml").expect("the scene is TOML")
+fn scene() -> SceneFile {
+    SceneFile::parse(SCENE, "scene.toml").expect("the scene is TOML")
 }
 
 fn read(text: &str) -> Result<Sweep, ReadError> {
-    let sweep = Document::parse(text, "sweep.toml").expect("the sweep is TOML");
+    let sweep = SceneFile::parse(text, "sweep.toml").expect("the sweep is TOML");
     let sweep = Sweep::read(&sweep, &scene(), &["member".to_owned()])?;
     sweep.check(&scene(), |_| Ok(()))?;
     Ok(sweep)
@@ -118,7 +118,7 @@ fn members_replace_the_numbers_of_the_scene_and_nothing_else() {
     expected.bodies[0].mass = 3.5;
     expected.bodies[1].mass = 3.5;
     let text = SCENE.replace("rate = 0.0", "rate = 0.25").replace("= 10.0", "= 77");
-    let other = Document::parse(&text, "scene.toml").unwrap().scene::<f64>().unwrap();
+    let other = SceneFile::parse(&text, "scene.toml").unwrap().scene::<f64>().unwrap();
     (expected.initials, expected.effects) = (other.initials, other.effects);
     assert_eq!(changed, expected);
 }
@@ -135,7 +135,7 @@ fn hard_points_shift_together_and_shifts_add() {
         .replace("at = [1.0, 0.0]", "at = [1.25, 0.0]")
         .replace("from = [1.0, 0.0]", "from = [1.25, 0.0]")
         .replace("to = [2.0, 0.0]", "to = [2.75, 0.0]");
-    let expected = Document::parse(&expected, "scene.toml").unwrap();
+    let expected = SceneFile::parse(&expected, "scene.toml").unwrap();
     assert_eq!(member.scene::<f64>().unwrap(), expected.scene::<f64>().unwrap());
 }
 
@@ -290,9 +290,9 @@ fn a_refusal_has_its_type() {
 
 #[test]
 fn what_the_settings_refuse_is_refused_too_and_varied_paths_are_known() {
-    let scene = Document::parse(&format!("{SCENE}[solver]\nstep = 1e-3\n"), "scene.toml").unwrap();
+    let scene = SceneFile::parse(&format!("{SCENE}[solver]\nstep = 1e-3\n"), "scene.toml").unwrap();
     let text = vary("solver.step", "values = [1e-3, 2.0]");
-    let document = Document::parse(&text, "sweep.toml").unwrap();
+    let document = SceneFile::parse(&text, "sweep.toml").unwrap();
     let sweep = Sweep::read(&document, &scene, &[]).expect("the path is there");
     let error = sweep.check(&scene, |scene| match scene.solver.step {
         Some(step) if step > 1.0 => Err(("not so".to_owned(), "shorter".to_owned())),

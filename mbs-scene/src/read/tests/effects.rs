@@ -158,9 +158,9 @@ fn effects_of_joints_have_their_defaults() {
 #[test]
 fn effects_in_the_plane_have_three_directions_and_no_axis() {
     let kinds = kinds(CART);
-    let bodies = [BodyRef::Ground, BodyRef::Body(0)];
+    let bodies = [BodyId::Ground, BodyId::Body(0)];
     let points = [[0.0; 3], [1.0, 0.0, 0.0]];
-    let course = Course::Table(vec![(0.0, [0.0; 3]), (1.0, [50.0, 0.0, 0.0])]);
+    let course = Signal::Table(vec![(0.0, [0.0; 3]), (1.0, [50.0, 0.0, 0.0])]);
     assert_eq!(kinds[3], EffectKind::Actuator { bodies, points, course });
     let bushing = EffectKind::Bushing {
         bodies,
@@ -185,7 +185,7 @@ fn effects_in_the_plane_have_three_directions_and_no_axis() {
 #[test]
 fn effects_along_a_line_read_points_and_pieces() {
     let kinds = kinds(CAR);
-    let bodies = [BodyRef::Ground, BodyRef::Body(0)];
+    let bodies = [BodyId::Ground, BodyId::Body(0)];
     let points = [[0.0; 3], [0.0, 0.0, 0.6]];
     let bumper =
         EffectKind::Bumper { bodies, points, stiffness: 1e7, damping: 0.0, clearance: 0.07 };

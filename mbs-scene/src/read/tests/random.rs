@@ -2,7 +2,7 @@
 
 use super::effects::{CAR, CART};
 use super::{PLANAR, SPATIAL, read};
-use crate::Document;
+use crate::SceneFile;
 use proptest::prelude::*;
 
 const SCENES: [&str; 4] = [PLANAR, SPATIAL, CART, CAR];
@@ -20,7 +20,7 @@ fn piece() -> impl Strategy<Value = String> {
 proptest! {
     #[test]
     fn arbitrary_bytes_never_panic(bytes in proptest::collection::vec(any::<u8>(), 0..200)) {
-        if let Ok(document) = Document::from_bytes(&bytes, "x") {
+        if let Ok(document) = SceneFile::from_bytes(&bytes, "x") {
             let _ = document.scene::<f32>().map_err(|error| error.render());
         }
     }

@@ -2,7 +2,7 @@
 
 use super::layout::Parts;
 use crate::common::scene;
-use mbs::core::scene::{Course, Effect, EffectKind, Scene};
+use mbs::core::scene::{Effect, EffectKind, Scene, Signal};
 use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
 
 /// How a simulation is made and stepped.
@@ -33,7 +33,7 @@ pub(super) const CASE: Case = Case {
 impl Case {
     pub(super) fn scene(&self) -> Scene<f64> {
         let mut scene = scene(self.scene);
-        let course = Course::Input([0.0; 3]);
+        let course = Signal::Input([0.0; 3]);
         let kind = EffectKind::BodyTorque { body: 0, course };
         let motor = Effect { name: "motor".into(), enabled: true, kind };
         if self.scene == "guided-four-bar" {

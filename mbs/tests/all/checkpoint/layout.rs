@@ -1,7 +1,7 @@
 //! Where the parts of a checkpoint are among its bytes: a second reader of the format, by docs/CHECKPOINT.md.
 
 use core::ops::Range;
-use mbs::{Formulation, Settings};
+use mbs::{FormulationKind, Settings};
 
 /// Bytes before those that are counted and summed.
 const N_HEAD: usize = 28;
@@ -205,27 +205,27 @@ impl<'a> Walk<'a> {
         self.named("inputs of the state", |walk| walk.list(Self::list_of_numbers))
     }
 
-    fn formulation(&mut self, formulation: Formulation) -> Option<()> {
+    fn formulation(&mut self, formulation: FormulationKind) -> Option<()> {
         let number = self.word()?;
         match formulation {
-            Formulation::Index1 | Formulation::Index3 | Formulation::MultiIndex => {
+            FormulationKind::Index1 | FormulationKind::Index3 | FormulationKind::MultiIndex => {
                 assert_eq!(number, 0);
                 self.named("penalty", |walk| walk.numbers(1))?;
                 self.named("what is left of the combination", |walk| walk.numbers(1))?;
                 self.named("combination of constraints", Self::list_of_numbers)?;
                 self.skip(8)?;
-                if formulation == Formulation::MultiIndex {
+                if formulation == FormulationKind::MultiIndex {
                     self.named("index", |walk| walk.skip(1))?;
                     self.named("changes", |walk| walk.skip(4))?;
                     self.numbers(2)?;
                 }
                 self.springs()
             }
-            Formulation::Classical => {
+            FormulationKind::Classical => {
                 assert_eq!(number, 1);
                 self.springs()
             }
-            Formulation::StateSpace => {
+            FormulationKind::StateSpace => {
                 assert_eq!(number, 2);
                 self.named("order", |walk| {
                     walk.list(|walk| walk.skip(8))?;
@@ -237,7 +237,7 @@ impl<'a> Walk<'a> {
                 self.named("choices", |walk| walk.skip(4))?;
                 self.springs()
             }
-            Formulation::Recursive => {
+            FormulationKind::Recursive => {
                 assert_eq!(number, 3);
                 self.tree()
             }

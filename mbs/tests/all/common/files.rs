@@ -1,7 +1,7 @@
 //! Files of the repository and of a run, for the tests of the library and of the command.
 
 use mbs::core::scene::Scene;
-use mbs::scene_file::Document;
+use mbs::scene_file::SceneFile;
 use std::path::{Path, PathBuf};
 
 /// Scenes of the repository, without those of vehicles.
@@ -31,7 +31,7 @@ pub(crate) fn path(name: &str) -> PathBuf {
 /// Reads a scene of the repository.
 pub(crate) fn scene(name: &str) -> Scene<f64> {
     let bytes = std::fs::read(path(name)).expect("the scene is in the repository");
-    let document = Document::from_bytes(&bytes, name).unwrap_or_else(|e| panic!("{}", e.render()));
+    let document = SceneFile::from_bytes(&bytes, name).unwrap_or_else(|e| panic!("{}", e.render()));
     document.scene().unwrap_or_else(|e| panic!("{}", e.render()))
 }
 

@@ -6,7 +6,7 @@ pub(crate) use files::{SCENES, path, scene};
 use mbs::augmented::{StepError, StepReport};
 use mbs::auto::Clock;
 use mbs::core::natural::Affine;
-use mbs::core::scene::{BodyRef, Scene};
+use mbs::core::scene::{BodyId, Scene};
 use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
 pub(crate) use mbs_testkit::{allocations, random};
 
@@ -85,7 +85,7 @@ where
 
     /// A material point of a body.
     pub(crate) fn point(&self, body: usize, at: [f64; 3]) -> Affine<f64, D> {
-        self.simulation.model().point(BodyRef::Body(body), at)
+        self.simulation.model().point(BodyId::Body(body), at)
     }
 
     pub(crate) fn position(&self, point: &Affine<f64, D>) -> [f64; D] {

@@ -3,7 +3,7 @@
 use super::{field, read, text};
 use mbs::core::scene::{Inertia, Scene};
 use mbs::doctor::{Checkup, Effort, Severity, examine};
-use mbs::scene_file::Document;
+use mbs::scene_file::SceneFile;
 use mbs::{Overrides, Settings, SettingsError};
 
 /// No run: what is asked is seen at the start.
@@ -124,7 +124,7 @@ fn a_part_that_no_body_can_have_is_a_note_where_what_it_is_welded_to_can() {
         mbs::run::<f64, 3>(&scene, &Settings::new(&scene, &Overrides::default()).unwrap(), &mut ());
     assert!(outcome.error.is_none());
     let alone = text("16-dummy-inertia-on-a-weld").replace("\"weld\"", "\"spherical\"");
-    let document = Document::parse(&alone, "alone").expect("a scene file");
+    let document = SceneFile::parse(&alone, "alone").expect("a scene file");
     assert!(document.scene::<f64>().is_err(), "as a body of its own it is refused");
     let mut massless = scene;
     massless.bodies[1].mass = 0.0;
@@ -137,7 +137,7 @@ fn a_part_that_no_body_can_have_is_a_note_where_what_it_is_welded_to_can() {
 #[test]
 fn a_table_that_ends_on_a_slope_within_the_run_is_refused_at_its_row_and_runs_with_level_ends() {
     let text = text("20-guide-table-ends-on-a-slope");
-    let document = Document::parse(&text, "table.toml").expect("a scene file");
+    let document = SceneFile::parse(&text, "table.toml").expect("a scene file");
     let scene: Scene<f64> = document.scene().expect("a scene");
     let error = Settings::new(&scene, &Overrides::default()).unwrap_err();
     let SettingsError::Scene(fault) = error else { panic!("{error}") };

@@ -5,7 +5,7 @@ use super::{field, read, text};
 use mbs::auto::{Goal, plan, run_plan};
 use mbs::core::scene::{Dimension, Scene};
 use mbs::estimate::estimate;
-use mbs::scene_file::{Document, ErrorEstimate};
+use mbs::scene_file::{ErrorEstimate, SceneFile};
 use mbs::{Outcome, Overrides, Settings};
 
 /// An error is stated if it is no more than so many times the estimate; estimates are of the size of the errors if the median of the
@@ -213,7 +213,7 @@ fn a_choice_by_measurement_is_right_or_refused_where_coordinates_disagree() {
         ("17-torque-on-reversed-cylindrical", 1, 5.317_300_217),
     ];
     for (name, component, right) in cases {
-        let document = Document::parse(&text(name), name).expect("it is a document");
+        let document = SceneFile::parse(&text(name), name).expect("it is a document");
         let scene = document.scene::<f64>().expect("it is a scene");
         let base = Overrides::default();
         let settings = Settings::new(&scene, &base).expect("the settings go together");
@@ -230,7 +230,7 @@ fn a_choice_by_measurement_is_right_or_refused_where_coordinates_disagree() {
 #[test]
 fn a_choice_for_a_vehicle_that_jumps_sees_its_landing_and_keeps_its_error() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/iltis-jump.toml");
-    let document = Document::parse(&std::fs::read_to_string(path).unwrap(), path).unwrap();
+    let document = SceneFile::parse(&std::fs::read_to_string(path).unwrap(), path).unwrap();
     let scene = document.scene::<f64>().expect("it is a scene");
     let base = Overrides { formulation: Some("auto".to_owned()), ..Overrides::default() };
     let settings = Settings::new(&scene, &base).expect("the settings go together");

@@ -3,7 +3,7 @@
 use super::{field, read, text};
 use crate::common::random::tree;
 use crate::common::{Bench, settings};
-use mbs::core::scene::{BodyRef, Dimension, Effect, EffectKind, Inertia, Scene};
+use mbs::core::scene::{BodyId, Dimension, Effect, EffectKind, Inertia, Scene};
 use mbs::core::step::StepError;
 use mbs::doctor::{Effort, Severity, examine};
 use mbs::{InSpace, Overrides, Plane, Settings, StopError};
@@ -32,7 +32,7 @@ where
     }
     let model = bench.simulation.model();
     let place = |b: usize| {
-        let point = model.point(BodyRef::Body(b), scene.bodies[b].center);
+        let point = model.point(BodyId::Body(b), scene.bodies[b].center);
         point.value(&bench.simulation.state().q).into()
     };
     Ok((0..scene.bodies.len()).map(place).collect())

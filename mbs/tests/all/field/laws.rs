@@ -3,7 +3,7 @@
 use super::{field, read, text};
 use crate::common::settings;
 use mbs::core::scene::Scene;
-use mbs::{Formulation, Names, Outcome, Overrides, Settings};
+use mbs::{FormulationKind, Names, Outcome, Overrides, Settings};
 
 /// The last value of the first output, or why the run stopped.
 fn last(outcome: &Outcome) -> Result<f64, &'static str> {
@@ -14,7 +14,7 @@ fn last(outcome: &Outcome) -> Result<f64, &'static str> {
 }
 
 fn formulations() -> impl Iterator<Item = &'static str> {
-    Formulation::ALL.into_iter().map(Formulation::name)
+    FormulationKind::ALL.into_iter().map(FormulationKind::name)
 }
 
 /// The wheel in rubber, let go at an angle.

@@ -9,7 +9,7 @@ mod laws;
 mod start;
 
 use mbs::core::scene::Scene;
-use mbs::scene_file::Document;
+use mbs::scene_file::SceneFile;
 
 /// A scene of `mbs/tests/field`.
 pub(crate) fn field(name: &str) -> Scene<f64> {
@@ -24,6 +24,6 @@ pub(crate) fn text(name: &str) -> String {
 
 /// A scene from its text.
 pub(crate) fn read(text: &str, name: &str) -> Scene<f64> {
-    let document = Document::parse(text, name).unwrap_or_else(|e| panic!("{}", e.render()));
+    let document = SceneFile::parse(text, name).unwrap_or_else(|e| panic!("{}", e.render()));
     document.scene().unwrap_or_else(|e| panic!("{}\n{text}", e.render()))
 }

@@ -4,9 +4,9 @@ use super::{field, read, text};
 use mbs::core::Real;
 use mbs::core::model::State;
 use mbs::core::natural::NaturalModel;
-use mbs::core::scene::{Initial, InitialTarget, Scene};
+use mbs::core::scene::{InitialCondition, InitialTarget, Scene};
 use mbs::core::start::AssemblyError;
-use mbs::scene_file::Document;
+use mbs::scene_file::SceneFile;
 use mbs::{Overrides, Settings};
 use mbs_testkit::{invariant, start, start_in};
 
@@ -49,7 +49,7 @@ fn sized(scene: &Scene<f64>, size: f64) -> Scene<f64> {
 fn hold(scene: &mut Scene<f64>, joint: &str, value: f64) {
     let joint = scene.joints.iter().position(|j| j.name == joint).expect("a joint of the scene");
     let target = InitialTarget::Joint { joint, value: Some(vec![value]), rate: None };
-    scene.initials.push(Initial { target });
+    scene.initials.push(InitialCondition { target });
 }
 
 #[test]
@@ -81,7 +81,7 @@ fn positions_that_are_not_held_change_least_from_the_reference() {
 
 #[test]
 fn single_precision_starts_where_double_does() {
-    let document = Document::parse(&text("18-start-in-f32"), "start").expect("a scene file");
+    let document = SceneFile::parse(&text("18-start-in-f32"), "start").expect("a scene file");
     let scene = document.scene::<f32>().expect("a scene");
     let (model, state) = start_in::<f32, 2>(&scene);
     let found = turns(&scene, &model, &state);

@@ -6,7 +6,7 @@ mod values;
 mod words;
 
 use mbs::core::scene::{Dimension, Scene};
-use mbs::scene_file::Document;
+use mbs::scene_file::SceneFile;
 use mbs::{Overrides, Settings};
 
 /// What a row changes: passages of its scene, each of which stands once in it.
@@ -49,7 +49,7 @@ fn run(text: &str) -> Result<(), [String; 2]> {
 }
 
 fn run_with(text: &str, overrides: &Overrides) -> Result<(), [String; 2]> {
-    let document = Document::parse(text, "scene.toml").map_err(|e| [e.to_string(), e.hint()])?;
+    let document = SceneFile::parse(text, "scene.toml").map_err(|e| [e.to_string(), e.hint()])?;
     let scene: Scene<f64> = document.scene().map_err(|e| [e.to_string(), e.hint()])?;
     let settings = Settings::new(&scene, overrides)
         .and_then(|settings| settings.check_step(&scene, overrides).map(|()| settings));

@@ -5,7 +5,7 @@ use crate::scene::*;
 use alloc::vec;
 use alloc::vec::Vec;
 
-const PAIR: [BodyRef; 2] = [BodyRef::Ground, BodyRef::Body(0)];
+const PAIR: [BodyId; 2] = [BodyId::Ground, BodyId::Body(0)];
 const APART: [[f64; 3]; 2] = [[0.0; 3], [1.0, 0.0, 0.0]];
 
 pub(super) fn effect(kind: EffectKind<f64>) -> Vec<Effect<f64>> {
