@@ -14,7 +14,7 @@ use crate::settings::Settings;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
-use mbs_core::control::{Accepted, Attempt, Invariant, Limit};
+use mbs_core::control::{Accepted, Invariant, Limit, TrialStep};
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{EffectKind, Scene, Signal};
@@ -117,7 +117,7 @@ where
         let change = invariant.change(energies);
         invariant.mark(state.t.to_f64(), energies);
         let t = state.t;
-        let attempt = Attempt { report, t, energies, error: 0.0, acceleration_energy: [0.0; 2] };
+        let attempt = TrialStep { report, t, energies, error: 0.0, acceleration_energy: [0.0; 2] };
         Ok(Accepted {
             attempt,
             step: rest,

@@ -4,7 +4,7 @@ use crate::common;
 
 use mbs::core::actions::{Action, Actions};
 use mbs::core::laws::body::{BodyLaw, BodyMotion};
-use mbs::core::laws::{foot::foot, road::height};
+use mbs::core::laws::{road::height, road_contact::road_contact};
 use mbs::core::model::State;
 use mbs::core::natural::NaturalModel;
 use mbs::core::scene::{BodyId, Output, Quantity, Scene};
@@ -321,7 +321,7 @@ fn wheels_stand_on_the_nearest_point_of_every_stair() {
             let steep = h.slope.hypot(1.0);
             for distance in [0.30, 0.36, 0.45] {
                 let center = [x - distance * h.slope / steep, h.value + distance / steep];
-                let found = foot(road, &supplies, center).distance;
+                let found = road_contact(road, &supplies, center).distance;
                 assert!((found - distance).abs() < 1e-12, "{name}, {x}: {found}, not {distance}");
                 let near = (-5000..=5000).step_by(if i % 20 == 0 { 1 } else { 5000 }).map(|k| {
                     let u = x + SEARCHED * f64::from(k);
