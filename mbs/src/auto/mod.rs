@@ -37,7 +37,7 @@ use entrant::Entrant;
 use finish::Place;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
-use mbs_scene::{Candidate, Choice};
+use mbs_scene::{Candidate, PilotReport};
 use race::{Race, Wanted};
 
 /// Instants at which errors are taken, where the caller has none.
@@ -124,7 +124,7 @@ pub(crate) struct Pilot<'a> {
 }
 
 impl Work for Pilot<'_> {
-    type Done = (Vec<Pick>, Choice);
+    type Done = (Vec<Pick>, PilotReport);
 
     fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done
     where
@@ -139,7 +139,7 @@ fn chosen<T: Real, const D: usize>(
     task: &Task<'_>,
     methods: &[Method],
     clock: &mut dyn Clock,
-) -> (Vec<Pick>, Choice)
+) -> (Vec<Pick>, PilotReport)
 where
     Plane<D>: InSpace<T>,
 {
@@ -178,7 +178,7 @@ where
         extend(&mut choice, scaled(task.instants, instants));
         return (picks, choice);
     }
-    (Vec::new(), Choice::default())
+    (Vec::new(), PilotReport::default())
 }
 
 /// Of all methods those that were the cheapest on some scene, for some error, where a tree and the caller leave them: explicit and
@@ -203,7 +203,7 @@ fn scaled(whole: Instants, span: Instants) -> f64 {
 }
 
 /// CPU times of the whole run from those of the pilot's span, and a word about it.
-fn extend(choice: &mut Choice, times: f64) {
+fn extend(choice: &mut PilotReport, times: f64) {
     if times <= 1.0 + 1e-9 {
         return;
     }
@@ -254,7 +254,7 @@ fn picks(race: &Race<'_>, places: &[Place], times: f64) -> Vec<Pick> {
 pub(crate) fn candidates<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
-) -> Option<Choice>
+) -> Option<PilotReport>
 where
     Plane<D>: InSpace<T>,
 {
@@ -266,9 +266,9 @@ where
         basis: "the pilot decides".to_owned(),
         ..report::candidate(&Entrant::new(*method, 1.0, 1.0))
     };
-    Some(Choice {
+    Some(PilotReport {
         structure: structure.words(),
         candidates: methods.iter().map(candidate).collect(),
-        ..Choice::default()
+        ..PilotReport::default()
     })
 }

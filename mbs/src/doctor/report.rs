@@ -6,7 +6,7 @@ use crate::words::{few, size};
 use core::fmt::Write;
 use mbs_core::scene::{Entry, Scene};
 use mbs_doctor::UNCERTAIN;
-use mbs_scene::{Provenance, Report, Section, readable};
+use mbs_scene::{Provenance, Report, Section, format::significant};
 
 /// Ways and turns below this are rounding [m or rad].
 const ROUNDING: f64 = 1e-12;
@@ -244,7 +244,7 @@ fn motion(c: &Checkup) -> Option<Section> {
         format!(
             "{} up to t = {} s, run by {}",
             counted(usize::try_from(m.positions).unwrap_or(usize::MAX), "position"),
-            readable(m.reached),
+            significant(m.reached),
             m.formulation
         ),
     )];

@@ -2,7 +2,7 @@
 
 use crate::precision::PrecisionError;
 use crate::simulation::Refusal;
-use mbs_scene::{readable, suggestion};
+use mbs_scene::{format::significant, nearest_name};
 
 /// A pacing that is refused.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +52,7 @@ impl PacingError {
             }
             Self::Time { .. } => "write a number of seconds from 0 to 1".to_owned(),
             Self::Quiet => "write at least one period".to_owned(),
-            Self::NoEffect { name, known } => suggestion(name, known, "effects that are on"),
+            Self::NoEffect { name, known } => nearest_name(name, known, "effects that are on"),
             Self::Steps { is_controlled: true } => {
                 "name effects, or leave --degrade out".to_owned()
             }
@@ -86,7 +86,7 @@ impl PacingError {
 impl core::fmt::Display for PacingError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::Time { key, value } => write!(f, "{key} cannot be {} s", readable(*value)),
+            Self::Time { key, value } => write!(f, "{key} cannot be {} s", significant(*value)),
             Self::Quiet => write!(f, "quiet time cannot be no period"),
             Self::NoEffect { name, .. } => {
                 write!(f, "degrade: the scene has no effect `{name}` that is on")
