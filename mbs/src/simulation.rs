@@ -2,14 +2,14 @@
 
 mod carry;
 
-pub use carry::Refusal;
+pub use carry::SwitchError;
 
 use crate::checkpoint::{Kept, inputs};
 use crate::choice::FormulationKind;
 use crate::control::Control;
 use crate::engine::Engine;
 use crate::explain::kinds::damps;
-use crate::ready::Ready;
+use crate::ready::AssembledScene;
 use crate::settings::Settings;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
@@ -49,17 +49,17 @@ where
     /// # Errors
     /// [`StopError`] when there is no model, no consistent start, or the formulation cannot run the scene.
     pub fn new(scene: &Scene<T>, settings: &Settings) -> Result<Self, StopError> {
-        Self::of(scene, settings, Ready::new(scene)?)
+        Self::of(scene, settings, AssembledScene::new(scene)?)
     }
 
     /// The same of a scene that is ready.
     pub(crate) fn of(
         scene: &Scene<T>,
         settings: &Settings,
-        mut ready: Ready<T, D>,
+        mut ready: AssembledScene<T, D>,
     ) -> Result<Self, StopError> {
         let natural = (settings.formulation != FormulationKind::Recursive).then(|| ready.sizes());
-        let Ready { model, solver, start, .. } = ready;
+        let AssembledScene { model, solver, start, .. } = ready;
         let mut state = start.state.clone();
         let engine = Engine::new(scene, settings, &model, solver, &mut state)?;
         let sizes = engine.sizes().or(natural).unwrap_or_default();

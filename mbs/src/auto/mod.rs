@@ -29,7 +29,7 @@ use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, Method};
 use crate::names::Names;
 use crate::precision::Work;
-use crate::ready::Ready;
+use crate::ready::AssembledScene;
 use crate::settings::{Overrides, Settings};
 use crate::tree::{InSpace, Plane};
 use bench::SceneBench;
@@ -144,7 +144,7 @@ where
     Plane<D>: InSpace<T>,
 {
     let begun = clock.seconds();
-    let ready = Ready::<T, D>::new(scene);
+    let ready = AssembledScene::<T, D>::new(scene);
     let mut ready = ready.map_err(|e| Box::new(e.report(0.0, &Names::new(scene))));
     let structure = structure::structure(scene, task.settings.duration, ready.as_mut().ok());
     let methods = &few_methods(task, methods, &structure)[..];
@@ -259,7 +259,7 @@ where
     Plane<D>: InSpace<T>,
 {
     let methods = methods(scene, &Overrides::default(), settings, &Goal::default()).ok()?;
-    let mut ready = Ready::<T, D>::new(scene).ok();
+    let mut ready = AssembledScene::<T, D>::new(scene).ok();
     let structure = structure::structure(scene, settings.duration, ready.as_mut());
     let candidate = |method: &Method| Candidate {
         out: structure.refuses(method),

@@ -276,7 +276,7 @@ fn motion(c: &Checkup) -> Option<Section> {
 }
 
 /// Corners that changed their side, those at the same time together.
-fn changes(c: &Checkup, corners: &[super::Straight]) -> Vec<Vec<String>> {
+fn changes(c: &Checkup, corners: &[super::LinearMotion]) -> Vec<Vec<String>> {
     let mut changed: Vec<(f64, usize)> =
         corners.iter().filter_map(|s| Some((s.changed?, s.joint))).collect();
     changed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));

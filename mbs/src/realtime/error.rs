@@ -1,7 +1,7 @@
 //! Why a run cannot be paced as it is asked for.
 
 use crate::precision::PrecisionError;
-use crate::simulation::Refusal;
+use crate::simulation::SwitchError;
 use mbs_scene::{format::significant, nearest_name};
 
 /// A pacing that is refused.
@@ -34,7 +34,7 @@ pub enum PacingError {
         /// Its name.
         name: String,
         /// Why.
-        why: Refusal,
+        why: SwitchError,
     },
     /// Nothing that may be left out saves time.
     NoLadder,
@@ -60,7 +60,7 @@ impl PacingError {
                 "write a shorter --step, so that a period has more of them, or name effects"
                     .to_owned()
             }
-            Self::Fixed { why: Refusal::FormulationKind, .. } => {
+            Self::Fixed { why: SwitchError::Formulation, .. } => {
                 "take --formulation index-3, index-1, multi-index or recursive, or --degrade steps"
                     .to_owned()
             }
@@ -97,7 +97,7 @@ impl core::fmt::Display for PacingError {
             Self::Steps { .. } => {
                 write!(f, "degrade: a period has not steps enough to make them longer")
             }
-            Self::Fixed { name, why: Refusal::FormulationKind } => {
+            Self::Fixed { name, why: SwitchError::Formulation } => {
                 write!(f, "degrade: this formulation cannot leave `{name}` out while it runs")
             }
             Self::Fixed { name, .. } => write!(
