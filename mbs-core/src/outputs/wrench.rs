@@ -157,7 +157,7 @@ pub(super) struct WrenchBasis<T: Real, const D: usize> {
 impl<T: Real, const D: usize> WrenchBasis<T, D> {
     pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, index: usize) -> Self {
         let joint = &scene.joints[index];
-        let is_guided = scene.guides.iter().any(|guide| guide.joint == index);
+        let is_guided = scene.guides.iter().any(|guide| guide.joint.index() == index);
         Self {
             bodies: joint.bodies,
             places: [0, 1].map(|i| model.point(joint.bodies[i], joint.points[i])),

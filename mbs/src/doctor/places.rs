@@ -74,10 +74,10 @@ fn places(scene: &Scene<f64>) -> Vec<Vec<Place>> {
                 bodies.into_iter().for_each(|b| add(Owner::Effect(e, "at"), b, at));
             }
             EffectKind::Force { body, at, .. } | EffectKind::AeroDrag { body, at, .. } => {
-                add(Owner::Effect(e, "at"), BodyId::Body(body), at);
+                add(Owner::Effect(e, "at"), body, at);
             }
             EffectKind::Tire { body, center, .. } => {
-                add(Owner::Effect(e, "center"), BodyId::Body(body), center);
+                add(Owner::Effect(e, "center"), body, center);
             }
             _ => {}
         }
