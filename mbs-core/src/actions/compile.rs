@@ -93,11 +93,11 @@ impl<T: Real> Compiler<'_, T> {
             EffectKind::TorsionSpring { joint, stiffness, damping, free_value } => {
                 let (stiffness, damping, free) = (*stiffness, *damping, *free_value);
                 let law = Law::SpringDamper { stiffness, damping, free };
-                self.push(Action::Angle { joint: *joint, law });
+                self.about_axis(*joint, law);
             }
             EffectKind::JointTorque { joint, course } => {
                 let law = Law::Torque { course: self.course(SignalInput::new(course)) };
-                self.push(Action::Angle { joint: *joint, law });
+                self.about_axis(*joint, law);
             }
             EffectKind::Force { body, at, course, frame } => {
                 let at = (*body, *at);
@@ -120,6 +120,13 @@ impl<T: Real> Compiler<'_, T> {
                 self.add_law(kind);
                 self.add_law_on_body(kind);
             }
+        }
+    }
+
+    /// A law about the one axis that a joint turns about: the scene's check refuses others.
+    fn about_axis(&mut self, index: usize, law: Law<T>) {
+        if let Some((_, axis)) = self.scene.joints[index].kind.turn(self.scene.dimension) {
+            self.push(Action::Angle { joint: index, axis, law });
         }
     }
 }
