@@ -74,6 +74,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let motions: Vec<_> =
             (0..scene.bodies.len()).map(|body| natural.motion(scene, body, state)).collect();
         let mut start = self.read(scene, state.t, &motions);
+        start.inputs.copy_from_slice(&state.inputs);
         self.take_turns(natural, state, &mut start);
         self.settle(&mut start, &mut Workspace::new(self))?;
         Ok(start)
@@ -122,7 +123,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let mut s = workspace.store();
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
-        self.evaluate(state.t, s.guides, s.courses);
+        self.inputs(state).evaluate(state.t, s.guides, s.courses);
         let fault = |fault| failure(&m, fault);
         if !self.rows.is_empty() {
             accelerations(&m, &options, Level::Once, &mut s).map_err(fault)?;
@@ -130,7 +131,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         accelerations(&m, &options, Level::Fine, &mut s).map_err(fault)?;
         state.power = own(crate::ledger::power(&m, &mut s));
-        self.prescribed.keep(&mut state.inputs);
+        state.applied.copy_from_slice(&state.inputs);
         state.z.copy_from_slice(s.z);
         state.v.copy_from_slice(s.v);
         state.a.copy_from_slice(s.zdd);
@@ -265,7 +266,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         motions: &mut [RigidMotion<T>],
     ) {
         let s = workspace.store();
-        self.evaluate(state.t, s.guides, s.courses);
+        self.prescribed.write(state.t, &state.applied, s.guides, s.courses);
         own(kinematics(&self.links, (&state.z, &state.v, s.guides), s.placed));
         s.a[0] = S::Motion::zero();
         own(inverse::spread(&self.links, s.placed, &state.a, s.a));
@@ -302,7 +303,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let mut s = workspace.store();
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
-        self.evaluate(state.t, s.guides, s.courses);
+        self.prescribed.write(state.t, &state.applied, s.guides, s.courses);
         if accelerations(&m, &sharp, Level::Once, &mut s).is_err() {
             accelerations(&m, &options, Level::Once, &mut s).map_err(|fault| failure(&m, fault))?;
         }

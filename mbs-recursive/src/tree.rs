@@ -12,6 +12,7 @@ use crate::passes::{self, Fault};
 use crate::plan::Plan;
 use crate::rows::{Loop, Row};
 use crate::space::{Numbers, Space};
+use crate::state::TreeState;
 use crate::told::Told;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -23,7 +24,6 @@ use mbs_core::inputs::Prescribed;
 use mbs_core::model::Owner;
 use mbs_core::scene::align::aligned;
 use mbs_core::scene::{BodyId, Freedom, Joint, Scene};
-use mbs_core::step::InputError;
 
 /// A part of a joint: one link of the recursion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -340,29 +340,15 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             && self.links.iter().zip(&other.links).all(same)
     }
 
-    /// Guides and courses.
+    /// Guides and courses: they name the places of a state's inputs, and set them.
     #[must_use]
     pub fn prescribed(&self) -> &Prescribed<T> {
         &self.prescribed
     }
 
-    /// Sets the input of `scene.effects[effect]` between two steps; it holds until it is set again, and the next step is
-    /// made with it from its beginning.
-    ///
-    /// # Errors
-    /// [`InputError`] where the effect has none (it has one where it is enabled and its course is
-    /// [`Signal::Input`](mbs_core::scene::Signal::Input)), or where a component is not finite.
-    pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
-        self.prescribed.set_course(effect, value)
-    }
-
-    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step.
-    ///
-    /// # Errors
-    /// [`InputError`] where the guide is no input ([`Motion::Input`](mbs_core::scene::Motion::Input)), or where a component is
-    /// not finite.
-    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
-        self.prescribed.set_guide(guide, motion)
+    /// The inputs that are set in a state, with the functions of time.
+    pub(crate) fn inputs<'a>(&'a self, state: &'a TreeState<T>) -> (&'a Prescribed<T>, &'a [T]) {
+        (&self.prescribed, &state.inputs)
     }
 
     /// Number of freedoms of the tree: a ball has three, a free body six (in the plane three), a guided joint none.
@@ -412,9 +398,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 }
 
-impl<T: Real, S: Space<T>> Inputs<T> for TreeModel<T, S> {
+impl<T: Real> Inputs<T> for (&Prescribed<T>, &[T]) {
     fn evaluate(&self, t: T, guides: &mut [[T; 3]], courses: &mut [[T; 3]]) {
-        self.prescribed.write(t, guides, courses);
+        self.0.write(t, self.1, guides, courses);
     }
 }
 

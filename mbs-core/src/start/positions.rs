@@ -117,7 +117,8 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
     fn remember(&mut self, s: &mut State<T>) {
         let (model, terms) = (self.problem.model, &mut self.problem.terms);
         if model.has_forces() {
-            model.evaluate_forces(&s.q, &s.v, &s.memory, terms);
+            terms.angles.copy_from_slice(&s.memory);
+            model.evaluate_forces(&s.q, &s.v, terms);
             model.remember(terms, &mut s.memory);
         }
     }

@@ -16,6 +16,7 @@ use crate::inputs::Prescribed;
 use crate::laws::Supplies;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
+use crate::model::State;
 use crate::natural::{Affine, NaturalModel};
 use crate::scene::{BodyId, Freedom, Scene};
 use alloc::boxed::Box;
@@ -125,9 +126,9 @@ impl<T: Real, const D: usize> Loads<T, D> {
         Ok((Self { list, prescribed, values, tables }, effects))
     }
 
-    /// The effects, and the inputs of the instant `t`.
-    pub(super) fn at(&mut self, t: T) -> (&[Load<T, D>], Supplies<'_, T>) {
-        self.prescribed.write(t, &mut [], &mut self.values);
+    /// The effects, and the courses of a state's instant, with the inputs that its accelerations were made with.
+    pub(super) fn at(&mut self, state: &State<T>) -> (&[Load<T, D>], Supplies<'_, T>) {
+        self.prescribed.write(state.t, &state.applied, &mut [], &mut self.values);
         (&self.list, self.tables.supplies(&self.values))
     }
 }
