@@ -99,7 +99,7 @@ impl Linkage {
     #[must_use]
     pub fn new(scene: &Scene<f64>) -> Self {
         let scene = &*aligned(scene);
-        let is_guided = |j| scene.guides.iter().any(|guide| guide.joint == j);
+        let is_guided = |j| scene.guides.iter().any(|guide| guide.joint.index() == j);
         let joints = scene.joints.iter().enumerate();
         let links = joints.map(|(j, x)| Link::new(x, scene.dimension, is_guided(j))).collect();
         let mut linkage = Self {

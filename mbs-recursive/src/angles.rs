@@ -26,12 +26,15 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                         *last = Some(seat.link);
                     }
                 }
-                Kind::Ball => {}
-                _ => {
-                    for (link, part) in
-                        (seat.first..).zip(parts(scene, &seat.branch, kind.is_guided()))
-                    {
-                        links[joint][part.number] = Some(link);
+                Kind::Revolute
+                | Kind::Prismatic
+                | Kind::Ball
+                | Kind::GuidedRevolute
+                | Kind::GuidedPrismatic => {
+                    let parts = parts(scene, &seat.branch, kind.is_guided());
+                    for (link, part) in (seat.first..).zip(parts) {
+                        let is_known = part.kind != Kind::Ball;
+                        links[joint][part.number] = is_known.then_some(link);
                     }
                 }
             }

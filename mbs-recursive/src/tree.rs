@@ -17,13 +17,12 @@ use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::actions::{Actions, Tables};
-use mbs_core::algebra::{Matrix, Vector, cross};
+use mbs_core::algebra::{Matrix, Vector};
 use mbs_core::cluster::{Cluster, Clusters, scene_length};
 use mbs_core::inputs::Prescribed;
 use mbs_core::model::Owner;
-use mbs_core::natural::joint_axes;
 use mbs_core::scene::align::aligned;
-use mbs_core::scene::{BodyId, Joint, JointKind, Scene};
+use mbs_core::scene::{BodyId, Freedom, Joint, Scene};
 use mbs_core::step::InputError;
 
 /// A part of a joint: one link of the recursion.
@@ -437,24 +436,20 @@ pub(crate) fn parts<T: Real>(scene: &Scene<T>, branch: &Branch, is_guided: bool)
     let free = Part { kind: Kind::Free, axis: zero, number: 0 };
     let Some(joint) = branch.joint else { return vec![free] };
     let joint: &Joint<T> = &scene.joints[joint];
-    let [n, d] = joint_axes(joint, scene.dimension).map(Vector::<T, 3>::from);
+    if joint.kind.is_free() {
+        return vec![free];
+    }
     let (turn, slide) = if is_guided {
         (Kind::GuidedRevolute, Kind::GuidedPrismatic)
     } else {
         (Kind::Revolute, Kind::Prismatic)
     };
-    let part = |kind, axis, number| Part { kind, axis, number };
-    let mut parts = match joint.kind {
-        JointKind::Revolute => vec![part(turn, n, 0)],
-        JointKind::Prismatic => vec![part(slide, n, 0)],
-        JointKind::Cylindrical => vec![part(slide, n, 0), part(turn, n, 1)],
-        JointKind::Universal => vec![part(turn, n, 0), part(turn, d, 1)],
-        JointKind::Planar => {
-            vec![part(slide, d, 0), part(slide, cross(&n, &d), 1), part(turn, n, 2)]
-        }
-        JointKind::Spherical => vec![part(Kind::Ball, zero, 0)],
-        JointKind::Free | JointKind::Distance | JointKind::Weld => vec![free],
+    let part = |(number, freedom)| match freedom {
+        Freedom::Slide(axis) => Part { kind: slide, axis: joint.direction(axis), number },
+        Freedom::Turn(axis) => Part { kind: turn, axis: joint.direction(axis), number },
+        Freedom::Ball => Part { kind: Kind::Ball, axis: zero, number },
     };
+    let mut parts: Vec<Part<T>> = joint.kind.numbered(scene.dimension).map(part).collect();
     if branch.is_reversed {
         parts.reverse();
         for part in &mut parts {

@@ -3,7 +3,7 @@
 use crate::scenes::empty;
 use mbs_core::scene::{
     Body, BodyId, Dimension, Effect, EffectKind, Guide, Inertia, InitialCondition, InitialTarget,
-    Joint, JointKind, Motion, Scene,
+    Joint, JointId, JointKind, Motion, Scene,
 };
 
 /// A small generator of the same numbers on every machine (xorshift64*), by its state, which is not zero.
@@ -105,7 +105,7 @@ pub fn tree(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
         let n_rates = kind.n_coordinates(dimension);
         let rate = Some((0..n_rates).map(|_| random.next()).collect());
         initials.push(InitialCondition {
-            target: InitialTarget::Joint { joint: i, value: None, rate },
+            target: InitialTarget::Joint { joint: JointId::new(i), value: None, rate },
         });
     }
     let scene = empty(&format!("random tree {seed}"), dimension, Some([0.0, -9.81, 0.0]));
@@ -127,7 +127,7 @@ pub fn guided(mut scene: Scene<f64>, seed: u64, chances: usize) -> Scene<f64> {
             0 => Motion::Ramp { rate },
             _ => Motion::Sine { amplitude: 0.3 * amplitude, frequency: 1.5 + rate, phase },
         };
-        scene.guides.push(Guide { joint, law });
+        scene.guides.push(Guide { joint: JointId::new(joint), law });
     }
     let guides = &scene.guides;
     scene.initials.retain(|initial| match &initial.target {
@@ -163,20 +163,17 @@ fn joint(
     place: [f64; 3],
 ) -> Joint<f64> {
     let first = random.axis(dimension);
-    let axes = match (kind, dimension) {
-        (JointKind::Revolute, Dimension::Planar) | (JointKind::Spherical, _) => [None; 2],
-        (JointKind::Universal, _) => {
-            // Across the first.
-            let d = random.axis(dimension);
-            let second = [
-                first[1] * d[2] - first[2] * d[1],
-                first[2] * d[0] - first[0] * d[2],
-                first[0] * d[1] - first[1] * d[0],
-            ];
-            [Some(first), Some(second)]
-        }
-        _ => [Some(first), None],
-    };
+    let [needs_first, needs_second] = kind.needs_axes(dimension);
+    let second = needs_second.then(|| {
+        // Across the first.
+        let d = random.axis(dimension);
+        [
+            first[1] * d[2] - first[2] * d[1],
+            first[2] * d[0] - first[0] * d[2],
+            first[0] * d[1] - first[1] * d[0],
+        ]
+    });
+    let axes = [needs_first.then_some(first), second];
     Joint {
         name: format!("{}-{:?}", kind.name(), bodies[1]),
         kind,

@@ -3,7 +3,7 @@
 use crate::checkpoint::tape::{Tape, Told, holds};
 use mbs_core::Real;
 use mbs_core::natural::{Affine, NaturalModel};
-use mbs_core::scene::{BodyId, Dimension, Inertia, Joint, JointKind, Quantity, Scene};
+use mbs_core::scene::{BodyId, Dimension, Inertia, Joint, Quantity, Scene, Translation};
 use mbs_scene::{Animation, Polyline, Trace};
 
 /// Pictures kept of a run at most.
@@ -30,10 +30,9 @@ impl<T: Real, const D: usize> Figure<T, D> {
         let bodies = (0..scene.bodies.len()).map(|b| layout.body(b)).collect();
         let traces = layout.traces();
         let up = scene.gravity.map_or([0.0; 3], |g| g.map(|x| -x.to_f64()));
-        let ground = scene.joints.iter().flat_map(|j| {
-            (0..2)
-                .filter(|&k| j.bodies[k] == BodyId::Ground && !slides(j.kind))
-                .map(|k| j.points[k].map(Real::to_f64))
+        let ground = scene.joints.iter().filter(|j| rail(j, scene.dimension).is_none());
+        let ground = ground.flat_map(|j| {
+            (0..2).filter(|&k| j.bodies[k] == BodyId::Ground).map(|k| j.points[k].map(Real::to_f64))
         });
         let animation = Animation {
             dimension: D,
@@ -41,7 +40,7 @@ impl<T: Real, const D: usize> Figure<T, D> {
             bodies,
             traces,
             ground: ground.collect(),
-            rails: rails(scene),
+            rails: scene.joints.iter().filter_map(|j| rail(j, scene.dimension)).collect(),
             ..Animation::default()
         };
         let points = layout.points;
@@ -93,17 +92,17 @@ impl<T: Real, const D: usize> Figure<T, D> {
     }
 }
 
-fn slides(kind: JointKind) -> bool {
-    matches!(kind, JointKind::Prismatic | JointKind::Cylindrical)
-}
-
-/// Straight guides on the ground: place and direction.
-fn rails<T: Real>(scene: &Scene<T>) -> Vec<[[f64; 3]; 2]> {
-    let joints =
-        scene.joints.iter().filter(|j| slides(j.kind) && j.bodies.contains(&BodyId::Ground));
-    let axis =
-        |j: &Joint<T>| j.axes[0].map(|axis| [j.points[0], axis].map(|p| p.map(Real::to_f64)));
-    joints.filter_map(axis).collect()
+/// The straight guide of a joint on the ground that slides along a line: place and direction.
+fn rail<T: Real>(joint: &Joint<T>, dimension: Dimension) -> Option<[[f64; 3]; 2]> {
+    match joint.kind.translation(dimension) {
+        Translation::Along(axis) if joint.bodies.contains(&BodyId::Ground) => {
+            let direction = joint.direction(axis).into();
+            Some([joint.points[0], direction].map(|p: [T; 3]| p.map(Real::to_f64)))
+        }
+        Translation::Along(_) | Translation::Fixed | Translation::Across(_) | Translation::Free => {
+            None
+        }
+    }
 }
 
 struct Layout<'a, T: Real, const D: usize> {
@@ -125,7 +124,7 @@ fn used<T: Real>(scene: &Scene<T>) -> Vec<Vec<[T; 3]>> {
         }
     }
     for output in &scene.outputs {
-        if let Quantity::Position { body, at } = output.quantity {
+        if let Quantity::Position { body: BodyId::Body(body), at } = output.quantity {
             used[body].push(at);
         }
     }
@@ -133,8 +132,8 @@ fn used<T: Real>(scene: &Scene<T>) -> Vec<Vec<[T; 3]>> {
 }
 
 impl<T: Real, const D: usize> Layout<'_, T, D> {
-    fn add(&mut self, body: usize, at: [T; 3]) -> usize {
-        self.points.push(self.model.point(BodyId::Body(body), at));
+    fn add(&mut self, body: BodyId, at: [T; 3]) -> usize {
+        self.points.push(self.model.point(body, at));
         self.points.len() - 1
     }
 
@@ -163,7 +162,8 @@ impl<T: Real, const D: usize> Layout<'_, T, D> {
     fn body(&mut self, body: usize) -> Polyline {
         let places = self.places(body);
         let name = self.scene.bodies[body].name.clone();
-        let mut chain: Vec<usize> = places.iter().map(|p| self.add(body, *p)).collect();
+        let mut chain: Vec<usize> =
+            places.iter().map(|p| self.add(BodyId::Body(body), *p)).collect();
         if chain.len() == 1 {
             return Polyline { name, chains: self.cross(body, places[0]) };
         }
@@ -178,7 +178,7 @@ impl<T: Real, const D: usize> Layout<'_, T, D> {
 
     /// A spatial body with many places: strokes from its centre to each.
     fn star(&mut self, body: usize, places: &[usize]) -> Vec<Vec<usize>> {
-        let center = self.add(body, self.scene.bodies[body].center);
+        let center = self.add(BodyId::Body(body), self.scene.bodies[body].center);
         places.iter().map(|&place| vec![center, place]).collect()
     }
 
@@ -197,7 +197,7 @@ impl<T: Real, const D: usize> Layout<'_, T, D> {
                 let (mut a, mut b) = (at, at);
                 a[i] -= reach;
                 b[i] += reach;
-                vec![self.add(body, a), self.add(body, b)]
+                vec![self.add(BodyId::Body(body), a), self.add(BodyId::Body(body), b)]
             })
             .collect()
     }

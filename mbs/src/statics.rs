@@ -11,7 +11,7 @@ use mbs_core::algebra::{norm, rotation_vector};
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{Dimension, Output, Quantity, Scene};
+use mbs_core::scene::{Dimension, JointId, Output, Quantity, Scene};
 use mbs_core::start::{Assembled, restart};
 use mbs_core::{Cliques, Real, SpdSolver};
 use mbs_linear::{
@@ -184,8 +184,9 @@ impl StaticEquilibrium {
         let moved = moved(scene, &from, &places(&state));
         let joints = (0..scene.joints.len())
             .filter(|&j| scene.joints[j].kind.n_coordinates(scene.dimension) > 0)
-            .map(|joint| Quantity::JointValue { joint });
-        let reactions = (0..scene.joints.len()).map(|joint| Quantity::Reaction { joint });
+            .map(|joint| Quantity::JointValue { joint: JointId::new(joint) });
+        let reactions =
+            (0..scene.joints.len()).map(|joint| Quantity::Reaction { joint: JointId::new(joint) });
         let stability = stability(&model, &state);
         let (joints, _) = measured(&of_joints(scene, joints), &model, &state)?;
         let all = of_joints(scene, reactions);

@@ -9,7 +9,7 @@ use mbs_core::actions::{Action, Actions};
 use mbs_core::model::{Model, Owner, State, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{BodyId, JointKind, Scene};
+use mbs_core::scene::{BodyId, Scene};
 use mbs_core::step::{InputError, StepError, StepReport};
 use mbs_recursive::space::Space;
 use mbs_recursive::{
@@ -58,8 +58,7 @@ fn angles<T: Real, const D: usize>(
         let angle = match action {
             // Joints with an effect about their axis have one angle.
             Action::Angle { joint, .. } => {
-                let is_turn = |number: &usize| !is_slide(scene.joints[*joint].kind, *number);
-                let number = (0..coordinates[*joint].len()).find(is_turn)?;
+                let (number, _) = scene.joints[*joint].kind.turn(scene.dimension)?;
                 Angle::Of(coordinates[*joint][number]?)
             }
             Action::Turn { bodies, .. } => Angle::Between(*bodies),
@@ -71,15 +70,6 @@ fn angles<T: Real, const D: usize>(
         Some((natural.memory_of_effect(*effect)?, angle))
     };
     list.iter().filter_map(angle).collect()
-}
-
-/// Is this coordinate of a joint a slide?
-fn is_slide(kind: JointKind, number: usize) -> bool {
-    match kind {
-        JointKind::Cylindrical => number == 0,
-        JointKind::Planar | JointKind::Free => number < 2,
-        _ => false,
-    }
 }
 
 /// A scene in relative coordinates.

@@ -104,8 +104,8 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         let actions = Actions::new(scene).map(|actions| actions.list).unwrap_or_default();
         for (effect, action) in actions {
             let Action::Angle { joint, .. } = action else { continue };
-            // A joint with effects about its axis has one angle, its last coordinate.
-            let start = starts.get(joint).and_then(|values| values.last());
+            let turn = scene.joints[joint].kind.turn(scene.dimension);
+            let start = turn.and_then(|(number, _)| starts[joint].get(number));
             if let (Some(place), Some(&start)) = (model.memory_of_effect(effect), start) {
                 s.memory[place] = start;
             }
@@ -303,7 +303,8 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         let AssemblyError::Position { residual, mut owner, mut initial, .. } = error else {
             return error;
         };
-        let is_guided = |joint: &usize| scene.guides.iter().any(|guide| guide.joint == *joint);
+        let is_guided =
+            |joint: &usize| scene.guides.iter().any(|guide| guide.joint.index() == *joint);
         if initial.is_none() && !matches!(&owner, Owner::Joint(joint) if is_guided(joint)) {
             // What was on its way farthest is what the user can change.
             let far = |hold: &StartRow<T, D>| hold.distance(self.length).to_f64();
@@ -313,11 +314,9 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
             }
         }
         let held = self.problem.holds.iter().filter(|hold| hold.owner == owner);
-        let guided = scene
-            .guides
-            .iter()
-            .zip(&self.guides)
-            .filter(|(guide, _)| matches!(owner, Owner::Joint(joint) if joint == guide.joint));
+        let guided = scene.guides.iter().zip(&self.guides).filter(
+            |(guide, _)| matches!(owner, Owner::Joint(joint) if joint == guide.joint.index()),
+        );
         let guided = guided.map(|(_, value)| value[0]);
         let targets = held.map(StartRow::target).chain(guided);
         let largest = targets.fold(T::ZERO, |a: T, b| if b.abs() > a.abs() { b } else { a });

@@ -1,7 +1,7 @@
 //! Mechanisms whose redundancy is known from books: dependent sets, their nature, and what mends them.
 
 use crate::support::{Build, GROUND, Point, dof, four_bar, sets, told};
-use mbs_core::scene::{Dimension, JointKind};
+use mbs_core::scene::{Dimension, JointId, JointKind};
 use mbs_doctor::{Linkage, Nature, diagnose, reference};
 use mbs_testkit::retell;
 
@@ -224,7 +224,7 @@ fn guides_that_say_the_same_twice_are_in_the_set() {
     let mut b = Build::planar();
     four_bar(&mut b, 0.0);
     for joint in [0, 3] {
-        b.0.guides.push(Guide { joint, law: Motion::Ramp { rate: 1.0 } });
+        b.0.guides.push(Guide { joint: JointId::new(joint), law: Motion::Ramp { rate: 1.0 } });
     }
     let d = told(&b.0);
     assert_eq!(

@@ -57,7 +57,7 @@ fn places(scene: &Scene<f64>) -> Vec<Vec<Place>> {
         }
     }
     // welds and free joints hold at any place
-    let is_placed = |kind| !matches!(kind, JointKind::Weld | JointKind::Free);
+    let is_placed = |kind: JointKind| !kind.is_rigid() && !kind.is_free();
     for (j, joint) in scene.joints.iter().enumerate().filter(|(_, j)| is_placed(j.kind)) {
         joint.bodies.into_iter().zip(joint.points).for_each(|(b, p)| add(Owner::Joint(j), b, p));
     }
@@ -74,10 +74,10 @@ fn places(scene: &Scene<f64>) -> Vec<Vec<Place>> {
                 bodies.into_iter().for_each(|b| add(Owner::Effect(e, "at"), b, at));
             }
             EffectKind::Force { body, at, .. } | EffectKind::AeroDrag { body, at, .. } => {
-                add(Owner::Effect(e, "at"), BodyId::Body(body), at);
+                add(Owner::Effect(e, "at"), body, at);
             }
             EffectKind::Tire { body, center, .. } => {
-                add(Owner::Effect(e, "center"), BodyId::Body(body), center);
+                add(Owner::Effect(e, "center"), body, center);
             }
             _ => {}
         }

@@ -127,8 +127,8 @@ fn steering_ramps_end_where_those_of_an_independent_program_do() {
     for (name, reference) in RAMP_STEERS {
         let mut scene = common::scene(name);
         let at = [scene.bodies[0].center, [1.0, 0.0, 0.57], [0.0, 1.0, 0.57]];
-        let place = |at| Quantity::Position { body: 0, at };
-        let speed = |at| Quantity::Velocity { body: 0, at };
+        let place = |at| Quantity::Position { body: BodyId::Body(0), at };
+        let speed = |at| Quantity::Velocity { body: BodyId::Body(0), at };
         let quantities = at.map(place).into_iter().chain(at.map(speed));
         scene.outputs = quantities
             .enumerate()
@@ -167,8 +167,8 @@ fn run(name: &str, formulation: &str, (step, duration): (f64, f64)) -> (Vec<[f64
     let at = scene.bodies[0].center;
     let output = |name: &str, quantity| Output { name: name.into(), quantity };
     scene.outputs = vec![
-        output("place", Quantity::Position { body: 0, at }),
-        output("acceleration", Quantity::Acceleration { body: 0, at }),
+        output("place", Quantity::Position { body: BodyId::Body(0), at }),
+        output("acceleration", Quantity::Acceleration { body: BodyId::Body(0), at }),
     ];
     let overrides = Overrides {
         formulation: Some(formulation.to_owned()),

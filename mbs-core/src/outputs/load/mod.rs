@@ -16,8 +16,8 @@ use crate::inputs::Prescribed;
 use crate::laws::Supplies;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
-use crate::natural::{Affine, NaturalModel, joint_axes};
-use crate::scene::{BodyId, Scene};
+use crate::natural::{Affine, NaturalModel};
+use crate::scene::{BodyId, Freedom, Scene};
 use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -149,10 +149,10 @@ impl<T: Real, const D: usize> Load<T, D> {
                 let gauge = Gauge::Along { points: points(ends), direction, offset: *offset };
                 (ends.map(|e| e.0), gauge, law)
             }
-            Action::Angle { joint, law } => {
+            Action::Angle { joint, axis, law } => {
                 let joint = &scene.joints[*joint];
-                let axis = joint_axes(joint, scene.dimension)[0].into();
-                let angle = Coordinate::angle(scene, model, joint, 0);
+                let angle = Coordinate::of_freedom(scene, model, (joint, Freedom::Turn(*axis)));
+                let axis = joint.direction(*axis);
                 let gauge = Gauge::Angle { axis, angle, memory: model.memory_of_effect(effect) };
                 (joint.bodies, gauge, law)
             }
