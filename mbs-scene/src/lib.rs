@@ -23,6 +23,6 @@ pub use write::{
     Degraded, EffectEntry, EnergySummary, ErrorEstimate, Explanation, Fallback, GuideEntry,
     JointGroup, LargestStep, MarginSummary, Outputs, Overrun, PilotReference, Price, Prices,
     RealtimeSummary, Relative, Rod, RunError, RunSummary, SearchEnd, SecondLook, Simulated, Sizes,
-    Times, TrialEntry, ViolationSummary, append_steps, long, readable, shortest, write_choice,
-    write_overruns, write_steps,
+    Times, TrialEntry, ViolationSummary, WriteError, append_steps, long, readable, shortest,
+    to_toml, write_choice, write_overruns, write_steps,
 };

@@ -10,7 +10,9 @@ mod effect;
 mod error;
 mod fault;
 mod id;
+mod number;
 mod output;
+mod resolve;
 
 pub use data::{
     Body, Dimension, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointKind, Motion,
@@ -23,4 +25,5 @@ pub use effect::{
 pub use error::{Entry, SceneError};
 pub use fault::SceneFault;
 pub use id::{BodyId, EffectId, GROUND, GuideId, InitialId, JointId, OutputId};
+pub use number::{Number, Vector3};
 pub use output::{Output, Quantity, SolverTable};

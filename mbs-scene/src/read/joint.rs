@@ -1,13 +1,12 @@
 //! `[[joint]]`.
 
 use crate::read::fields::{Fields, Read};
-use mbs_core::Real;
-use mbs_core::scene::{BodyId, Joint, JointKind};
+use mbs_core::scene::{BodyId, Joint, JointKind, Number};
 
 const KEYS: [&str; 8] = ["name", "kind", "bodies", "at", "axis", "axes", "points", "direction"];
 
 /// Reads a joint; `centers` are the bodies' centres of mass, where a free joint is placed by default.
-pub(crate) fn read<T: Real>(fields: &Fields<'_>, centers: &[[T; 3]]) -> Read<Joint<T>> {
+pub(crate) fn read(fields: &Fields<'_>, centers: &[[Number; 3]]) -> Read<Joint<Number>> {
     let kind = read_kind(fields)?;
     let geometry = geometry_keys(kind, fields.context.is_planar());
     let known = [&["name", "kind", "bodies"], geometry].concat();
@@ -20,7 +19,7 @@ pub(crate) fn read<T: Real>(fields: &Fields<'_>, centers: &[[T; 3]]) -> Read<Joi
             Some(center) if fields.get("at").is_none() => center,
             _ => fields.vector("at")?,
         };
-        [at, at]
+        [at.clone(), at]
     };
     let vector = |key: &str| fields.get(key).map(|item| fields.context.vector(item)).transpose();
     let axes = if kind == JointKind::Universal {
@@ -59,14 +58,14 @@ fn geometry_keys(kind: JointKind, is_planar: bool) -> &'static [&'static str] {
 }
 
 /// A free joint speaks about the centre of mass of the second body, or of the first when that is the ground.
-fn default_place<T: Real>(
+fn default_place(
     kind: JointKind,
     bodies: [BodyId; 2],
-    centers: &[[T; 3]],
-) -> Option<[T; 3]> {
+    centers: &[[Number; 3]],
+) -> Option<[Number; 3]> {
     match (kind, bodies) {
         (JointKind::Free, [_, BodyId::Body(i)] | [BodyId::Body(i), BodyId::Ground]) => {
-            centers.get(i).copied()
+            centers.get(i).cloned()
         }
         _ => None,
     }

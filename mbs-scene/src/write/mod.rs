@@ -7,8 +7,10 @@ mod explanation;
 mod json;
 mod readable;
 mod realtime;
+mod scene;
 #[cfg(test)]
 mod tests;
+pub(crate) mod toml;
 
 pub use choice::{
     Candidate, Choice, Fallback, PilotReference, SecondLook, TrialEntry, write_choice,
@@ -25,3 +27,4 @@ pub use json::{
 pub use readable::readable;
 pub(crate) use readable::rounded;
 pub use realtime::{Degraded, MarginSummary, Overrun, RealtimeSummary, Times, write_overruns};
+pub use scene::{WriteError, to_toml};
