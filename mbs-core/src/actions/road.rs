@@ -32,6 +32,16 @@ impl<T: Real> Compiler<'_, T> {
                     height: *height,
                     rounding: *rounding,
                 },
+                RoadFeature::Stairs { start, tread, riser, height, count } => {
+                    let rise = |i: u32| Feature::Rise {
+                        start: *start + T::from_f64(f64::from(i)) * (*tread + *riser),
+                        length: *riser,
+                        height: *height,
+                        rounding: *riser * T::HALF,
+                    };
+                    self.actions.tables.features.extend((0..*count).map(rise));
+                    continue;
+                }
                 RoadFeature::Bump { start, length, amplitude } => {
                     Feature::Bump { start: *start, length: *length, amplitude: *amplitude }
                 }

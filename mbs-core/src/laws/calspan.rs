@@ -33,18 +33,24 @@ pub struct Coefficients<T> {
     pub trail: [T; 2],
 }
 
-impl<T: Real> Coefficients<T> {
-    /// The tire of the Bombardier Iltis.
-    #[must_use]
-    pub fn iltis() -> Self {
-        let n = T::from_f64;
+impl<T> Coefficients<T> {
+    /// The tire of the Bombardier Iltis, in numbers made from doubles.
+    pub(crate) fn iltis_by(n: impl Fn(f64) -> T) -> Self {
         Self {
             a: [n(2625.0), n(14.47), n(12930.0), n(2.29), n(18175.0)],
-            omega: T::ONE,
+            omega: n(1.0),
             b: [n(-0.464e-4), n(1.216), n(2.18e-11)],
             skid: n(1.0274),
             trail: [n(-0.171e-4), n(0.171e-4)],
         }
+    }
+}
+
+impl<T: Real> Coefficients<T> {
+    /// The tire of the Bombardier Iltis.
+    #[must_use]
+    pub fn iltis() -> Self {
+        Self::iltis_by(T::from_f64)
     }
 }
 

@@ -294,6 +294,19 @@ pub enum RoadFeature<T> {
         /// Length of each rounded corner, at most half the length [m].
         rounding: T,
     },
+    /// Risers, each with a tread behind it: rise i begins at start + i (tread + riser). A riser is all rounding, without a straight part.
+    Stairs {
+        /// Where the first riser begins [m].
+        start: T,
+        /// Length of a tread along x [m].
+        tread: T,
+        /// Length of a riser along x [m].
+        riser: T,
+        /// Height of a riser; negative: down [m].
+        height: T,
+        /// Number of risers.
+        count: u32,
+    },
     /// amplitude (1 - cos(2 pi (x - start) / length)), once.
     Bump {
         /// Where it begins [m].

@@ -23,7 +23,11 @@ mod fault;
 mod id;
 mod joint;
 #[cfg(feature = "alloc")]
+mod number;
+#[cfg(feature = "alloc")]
 mod output;
+#[cfg(feature = "alloc")]
+mod resolve;
 
 #[cfg(feature = "alloc")]
 pub use axes::transverse;
@@ -44,5 +48,7 @@ pub use fault::SceneFault;
 #[cfg(feature = "alloc")]
 pub use id::{BodyId, EffectId, GROUND, GuideId, InitialId, JointId, OutputId};
 pub use joint::{Axis, Freedom, JOINTS, JointForm, JointKind, Rotation, Translation};
+#[cfg(feature = "alloc")]
+pub use number::{Number, Vector3};
 #[cfg(feature = "alloc")]
 pub use output::{Output, Quantity, SolverTable};

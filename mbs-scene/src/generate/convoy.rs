@@ -1,9 +1,10 @@
 //! Copies of a vehicle behind each other on one road.
 
 use super::GenerateError;
-use super::text::{Text, number, quoted};
+use super::text::{Text, number};
 use crate::read::SceneFile;
 use crate::read::tree::{Item, Member, Node};
+use crate::write::toml::{quoted, value};
 use mbs_core::scene::{EffectKind, Scene};
 
 const COMMENT: &str = "\
@@ -126,19 +127,6 @@ impl Copy {
             Node::Table(members) => table(members, |item| self.moved(item)),
             _ => value(item),
         }
-    }
-}
-
-/// A value as it was.
-fn value(item: &Item) -> String {
-    match &item.node {
-        Node::Text(text) => quoted(text),
-        Node::Number(text) => text.clone(),
-        Node::Bool(flag) => flag.to_string(),
-        // No key of a scene is a date.
-        Node::Date => quoted(""),
-        Node::List(items) => list(items, value),
-        Node::Table(members) => table(members, value),
     }
 }
 

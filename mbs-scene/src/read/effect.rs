@@ -7,22 +7,21 @@ mod load;
 mod tire;
 
 use crate::read::fields::{Fields, Read};
-use mbs_core::Real;
-use mbs_core::scene::{Effect, EffectKind};
+use mbs_core::scene::{Effect, EffectKind, Number};
 
 /// A kind: its name, its keys, its reader.
-type Kind<T> = (&'static str, &'static [&'static str], fn(&Fields<'_>) -> Read<EffectKind<T>>);
+type Kind = (&'static str, &'static [&'static str], fn(&Fields<'_>) -> Read<EffectKind<Number>>);
 
 /// Every kind, in the order of the format.
-fn kinds<T: Real>() -> [Kind<T>; 14] {
+fn kinds() -> [Kind; 14] {
     [
         (
             "spring-damper",
             &["bodies", "points", "stiffness", "damping", "free_length"],
             line::spring_damper,
         ),
-        ("torque", &["body", "joint", "value", "table"], load::torque),
-        ("force", &["body", "at", "value", "table", "frame"], load::force),
+        ("torque", &["body", "joint", "value", "table", "input"], load::torque),
+        ("force", &["body", "at", "value", "table", "input", "frame"], load::force),
         ("torsion-spring", &["joint", "stiffness", "damping", "free_value"], joint::torsion_spring),
         ("bumper", &["bodies", "points", "stiffness", "damping", "clearance"], line::bumper),
         ("polynomial-spring", &["bodies", "points", "coefficients", "direction"], |fields| {
@@ -31,7 +30,7 @@ fn kinds<T: Real>() -> [Kind<T>; 14] {
         ("polynomial-damper", &["bodies", "points", "coefficients", "direction"], |fields| {
             line::polynomial(fields, true)
         }),
-        ("actuator", &["bodies", "points", "value", "table"], line::actuator),
+        ("actuator", &["bodies", "points", "value", "table", "input"], line::actuator),
         ("limit", &["joint", "lower", "upper", "stiffness", "damping"], joint::limit),
         (
             "friction",
@@ -62,8 +61,8 @@ fn kinds<T: Real>() -> [Kind<T>; 14] {
 const COMMON: [&str; 3] = ["name", "kind", "enabled"];
 
 /// Reads an effect; without a name it is called `effect-N`, counted from 1.
-pub(crate) fn read<T: Real>(index: usize, fields: &Fields<'_>) -> Read<Effect<T>> {
-    let kinds = kinds::<T>();
+pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<Effect<Number>> {
+    let kinds = kinds();
     let word = fields.word("kind")?;
     let Some((_, keys, read)) = kinds.iter().find(|(name, ..)| *name == word.0) else {
         return fields.unknown_word("kind", word, &kinds.map(|(name, ..)| name));

@@ -40,6 +40,16 @@ fn numbers<T: Real>(feature: &RoadFeature<T>, place: Place) -> Result<(), SceneE
             }
             Ok(())
         }
+        RoadFeature::Stairs { start, tread, riser, height, count } => {
+            place.finite("start", *start)?;
+            place.not_negative("tread", *tread)?;
+            place.positive("riser", *riser)?;
+            place.finite("height", *height)?;
+            if *count == 0 {
+                return place.fault("count", SceneFault::WrongCount { needed: 1, found: 0 });
+            }
+            Ok(())
+        }
         RoadFeature::Bump { start, length, amplitude } => {
             place.finite("start", *start)?;
             place.positive("length", *length)?;
@@ -76,6 +86,10 @@ fn hollow<T: Real>(feature: &RoadFeature<T>, wheel: T, place: Place) -> Result<(
         RoadFeature::Rise { length, height, rounding, .. } => {
             // one of the two corners is hollow, whether the rise goes up or down
             ("height", height.abs() / ((*length - *rounding) * *rounding))
+        }
+        RoadFeature::Stairs { riser, height, .. } => {
+            let rounding = *riser * T::HALF;
+            ("height", height.abs() / ((*riser - rounding) * rounding))
         }
         RoadFeature::Bump { length, amplitude, .. } => {
             // both ends of a bump, the middle of a hole

@@ -1,18 +1,18 @@
-//! `value`, or `table` over time.
+//! `value`, or `table` over time; with `input = true` a value that is set between steps.
 
 use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
 use crate::read::tree::{Item, Node};
-use mbs_core::Real;
-use mbs_core::scene::Signal;
+use mbs_core::scene::{Number, Signal};
 
 /// `value`, or `table` with rows `[time, value]`; a vector may also stand flat: `[time, x, y, z]`.
-pub(super) fn course<T: Real>(fields: &Fields<'_>, is_scalar: bool) -> Read<Signal<T>> {
+pub(super) fn course(fields: &Fields<'_>, is_scalar: bool) -> Read<Signal<Number>> {
     fields.exclusive("value", "table")?;
+    fields.exclusive("table", "input")?;
     let context = fields.context;
     let value = |item| {
         if is_scalar {
-            return Ok([context.number(item)?, T::ZERO, T::ZERO]);
+            return Ok([context.number(item)?, Number::ZERO, Number::ZERO]);
         }
         context.vector(item)
     };
@@ -20,7 +20,9 @@ pub(super) fn course<T: Real>(fields: &Fields<'_>, is_scalar: bool) -> Read<Sign
         let Some(item) = fields.get("value") else {
             return context.fault(fields.header, ReadFault::Missing { key: "value or table" });
         };
-        return Ok(Signal::Constant(value(item)?));
+        let is_input = fields.flag("input", false)?;
+        let value = value(item)?;
+        return Ok(if is_input { Signal::Input(value) } else { Signal::Constant(value) });
     };
     let rows = context.list(table, "a list of rows [time, value]")?;
     let read_row = |row| match context.list(row, "a row [time, value]")? {

@@ -1,15 +1,14 @@
 //! Effects on the coordinate of a joint.
 
 use crate::read::fields::{Fields, Read};
-use mbs_core::Real;
-use mbs_core::scene::EffectKind;
+use mbs_core::scene::{EffectKind, Number};
 
 /// Rate below which friction falls with the rate, where none is written [rad/s or m/s].
 const REGULARISATION: &str = "1e-3";
 /// Stribeck rate in regularisations, where none is written: the static level is reached between the two.
 const STRIBECK: &str = "10";
 
-pub(super) fn torsion_spring<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
+pub(super) fn torsion_spring(fields: &Fields<'_>) -> Read<EffectKind<Number>> {
     Ok(EffectKind::TorsionSpring {
         joint: fields.context.joint(fields.need("joint")?)?,
         stiffness: fields.number_or_zero("stiffness")?,
@@ -18,7 +17,7 @@ pub(super) fn torsion_spring<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>
     })
 }
 
-pub(super) fn limit<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
+pub(super) fn limit(fields: &Fields<'_>) -> Read<EffectKind<Number>> {
     Ok(EffectKind::Limit {
         joint: fields.context.joint(fields.need("joint")?)?,
         lower: fields.number("lower")?,
@@ -29,18 +28,18 @@ pub(super) fn limit<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
 }
 
 /// `static` is `coulomb` where it is left out: no Stribeck effect.
-pub(super) fn friction<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
+pub(super) fn friction(fields: &Fields<'_>) -> Read<EffectKind<Number>> {
     let joint = fields.context.joint(fields.need("joint")?)?;
-    let coulomb: T = fields.number("coulomb")?;
-    let regularisation: T = fields.number_or("regularisation", REGULARISATION)?;
+    let coulomb: Number = fields.number("coulomb")?;
+    let regularisation: Number = fields.number_or("regularisation", REGULARISATION)?;
     let stribeck = match fields.optional("stribeck")? {
         Some(stribeck) => stribeck,
-        None => regularisation * fields.number_or::<T>("stribeck", STRIBECK)?,
+        None => regularisation.clone() * fields.number_or("stribeck", STRIBECK)?,
     };
     Ok(EffectKind::Friction {
         joint,
+        r#static: fields.optional("static")?.unwrap_or_else(|| coulomb.clone()),
         coulomb,
-        r#static: fields.optional("static")?.unwrap_or(coulomb),
         stribeck,
         viscous: fields.number_or_zero("viscous")?,
         regularisation,

@@ -4,14 +4,13 @@ use super::course::course;
 use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
 use crate::read::tree::Item;
-use mbs_core::Real;
-use mbs_core::scene::{EffectKind, PolynomialPiece};
+use mbs_core::scene::{EffectKind, Number, PolynomialPiece};
 
-pub(super) fn spring_damper<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
-    let stiffness: T = fields.number_or_zero("stiffness")?;
+pub(super) fn spring_damper(fields: &Fields<'_>) -> Read<EffectKind<Number>> {
+    let stiffness: Number = fields.number_or_zero("stiffness")?;
     let free_length = match fields.get("free_length") {
         // a pure damper has no free length
-        None if stiffness.is_zero() => T::ZERO,
+        None if stiffness.is_zero() => Number::ZERO,
         _ => fields.number("free_length")?,
     };
     Ok(EffectKind::SpringDamper {
@@ -23,7 +22,7 @@ pub(super) fn spring_damper<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>>
     })
 }
 
-pub(super) fn bumper<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
+pub(super) fn bumper(fields: &Fields<'_>) -> Read<EffectKind<Number>> {
     Ok(EffectKind::Bumper {
         bodies: fields.pair()?,
         points: fields.two_vectors("points")?,
@@ -33,7 +32,7 @@ pub(super) fn bumper<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
     })
 }
 
-pub(super) fn actuator<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
+pub(super) fn actuator(fields: &Fields<'_>) -> Read<EffectKind<Number>> {
     Ok(EffectKind::Actuator {
         bodies: fields.pair()?,
         points: fields.two_vectors("points")?,
@@ -41,7 +40,7 @@ pub(super) fn actuator<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
     })
 }
 
-pub(super) fn polynomial<T: Real>(fields: &Fields<'_>, of_rate: bool) -> Read<EffectKind<T>> {
+pub(super) fn polynomial(fields: &Fields<'_>, of_rate: bool) -> Read<EffectKind<Number>> {
     let context = fields.context;
     let form = "a list of pieces [lower, upper, c0, c1, ...]";
     let pieces = context.list(fields.need("coefficients")?, form)?;
@@ -55,7 +54,7 @@ pub(super) fn polynomial<T: Real>(fields: &Fields<'_>, of_rate: bool) -> Read<Ef
 }
 
 /// `[lower, upper, c0, c1, ...]`.
-fn piece<T: Real>(fields: &Fields<'_>, item: &Item) -> Read<PolynomialPiece<T>> {
+fn piece(fields: &Fields<'_>, item: &Item) -> Read<PolynomialPiece<Number>> {
     let context = fields.context;
     let numbers = context.list(item, "a piece [lower, upper, c0, c1, ...]")?;
     let [lower, upper, rest @ ..] = numbers else {
@@ -69,25 +68,25 @@ fn piece<T: Real>(fields: &Fields<'_>, item: &Item) -> Read<PolynomialPiece<T>> 
     })
 }
 
-pub(super) fn bushing<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
+pub(super) fn bushing(fields: &Fields<'_>) -> Read<EffectKind<Number>> {
     Ok(EffectKind::Bushing {
         bodies: fields.pair()?,
         at: fields.vector("at")?,
         stiffness: six(fields, fields.need("stiffness")?)?,
         damping: match fields.get("damping") {
             Some(item) => six(fields, item)?,
-            None => [T::ZERO; 6],
+            None => [const { Number::ZERO }; 6],
         },
     })
 }
 
 /// Along and about x, y, z; in the plane along x, y and about z.
-fn six<T: Real>(fields: &Fields<'_>, item: &Item) -> Read<[T; 6]> {
+fn six(fields: &Fields<'_>, item: &Item) -> Read<[Number; 6]> {
     let context = fields.context;
     if context.is_planar() {
         let [x, y, about] = context.numbers_of(item, "a list of three numbers: [x, y, theta]")?;
-        let zero = T::ZERO;
-        return Ok([x, y, zero, zero, zero, about]);
+        const ZERO: Number = Number::ZERO;
+        return Ok([x, y, ZERO, ZERO, ZERO, about]);
     }
     context.numbers_of(item, "a list of six numbers: along x, y, z, then about x, y, z")
 }

@@ -3,14 +3,13 @@
 use super::course::course;
 use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
-use mbs_core::Real;
-use mbs_core::scene::{AxisFrame, EffectKind};
+use mbs_core::scene::{AxisFrame, EffectKind, Number};
 
 /// Density of air, where none is written [kg/m^3].
 const AIR: &str = "1.2";
 
 /// On a body (from the ground) or on a joint (first body on second).
-pub(super) fn torque<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
+pub(super) fn torque(fields: &Fields<'_>) -> Read<EffectKind<Number>> {
     fields.exclusive("joint", "body")?;
     if let Some(joint) = fields.get("joint") {
         let joint = fields.context.joint(joint)?;
@@ -24,7 +23,7 @@ pub(super) fn torque<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
     Ok(EffectKind::BodyTorque { body, course: course(fields, is_scalar)? })
 }
 
-pub(super) fn force<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
+pub(super) fn force(fields: &Fields<'_>) -> Read<EffectKind<Number>> {
     let frame = match fields.get("frame") {
         None => AxisFrame::Global,
         Some(_) => match fields.word("frame")? {
@@ -41,7 +40,7 @@ pub(super) fn force<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
     })
 }
 
-pub(super) fn aero_drag<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
+pub(super) fn aero_drag(fields: &Fields<'_>) -> Read<EffectKind<Number>> {
     Ok(EffectKind::AeroDrag {
         body: fields.context.moving_body(fields.need("body")?)?,
         at: fields.vector("at")?,
@@ -50,7 +49,7 @@ pub(super) fn aero_drag<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
     })
 }
 
-pub(super) fn speed_hold<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
+pub(super) fn speed_hold(fields: &Fields<'_>) -> Read<EffectKind<Number>> {
     Ok(EffectKind::SpeedHold {
         body: fields.context.moving_body(fields.need("body")?)?,
         direction: fields.vector("direction")?,

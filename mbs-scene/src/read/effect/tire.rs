@@ -2,10 +2,9 @@
 
 use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
-use mbs_core::Real;
-use mbs_core::scene::{CalspanCoefficients, EffectKind};
+use mbs_core::scene::{CalspanCoefficients, EffectKind, Number};
 
-pub(super) fn tire<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
+pub(super) fn tire(fields: &Fields<'_>) -> Read<EffectKind<Number>> {
     let context = fields.context;
     Ok(EffectKind::Tire {
         body: context.moving_body(fields.need("body")?)?,
@@ -20,7 +19,7 @@ pub(super) fn tire<T: Real>(fields: &Fields<'_>) -> Read<EffectKind<T>> {
 }
 
 /// `side = "calspan"` with `coefficients`, where they are left out those of the Iltis.
-fn side<T: Real>(fields: &Fields<'_>) -> Read<Option<CalspanCoefficients<T>>> {
+fn side(fields: &Fields<'_>) -> Read<Option<CalspanCoefficients<Number>>> {
     let model = fields.get("side").map(|_| fields.word("side")).transpose()?;
     match model {
         Some(("calspan", _)) => {}
@@ -34,7 +33,7 @@ fn side<T: Real>(fields: &Fields<'_>) -> Read<Option<CalspanCoefficients<T>>> {
         Some(word) => return fields.unknown_word("side", word, &["none", "calspan"]),
     }
     let Some(item) = fields.get("coefficients") else {
-        return Ok(Some(CalspanCoefficients::iltis()));
+        return Ok(Some(CalspanCoefficients::of_iltis()));
     };
     let form = "a table: { a = [..], omega = .., b = [..], skid = .., trail = [..] }";
     let table = fields.context.table(item, form)?;
