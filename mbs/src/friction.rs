@@ -17,7 +17,7 @@ use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross};
 use mbs_core::natural::joint_axes;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{BodyId, Effect, EffectKind, JointKind, Scene};
+use mbs_core::scene::{self, BodyId, Effect, EffectKind, JointKind, Scene};
 
 /// Regularisations that a step may change the rate by: where friction holds, Runge and Kutta's method of order four is stable up to 2.8.
 const FAR: f64 = 3.0;
@@ -44,10 +44,11 @@ impl Frictions {
         let is_explicit = settings.formulation == FormulationKind::Recursive
             && settings.integrator == IntegratorKind::Rk4;
         let friction = |(effect, e): (usize, &Effect<T>)| match &e.kind {
-            EffectKind::Friction { joint, coulomb, r#static, regularisation, .. } if e.enabled => {
+            EffectKind::Friction(law) if e.enabled => {
+                let &scene::Friction { joint, coulomb, r#static, regularisation, .. } = law;
                 let (joint, regularisation) = (joint.index(), regularisation.to_f64());
                 // What is viscous alone rises nowhere.
-                let has_rise = coulomb.max(*r#static) > T::ZERO;
+                let has_rise = coulomb.max(r#static) > T::ZERO;
                 has_rise.then_some(Friction { effect, joint, regularisation })
             }
             _ => None,

@@ -204,7 +204,7 @@ impl<T: Real> Search<'_, T> {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "tire"))]
 mod tests {
     extern crate std;
 

@@ -4,7 +4,7 @@
 //! third component of every vector at zero. Names live here and nowhere below; references are indices.
 
 pub mod align;
-mod check;
+pub(crate) mod check;
 mod data;
 mod effect;
 mod error;
@@ -12,13 +12,16 @@ mod fault;
 mod id;
 mod output;
 
+pub use crate::effects::{
+    Actuator, AeroDrag, BodyTorque, Bumper, Bushing, EffectKind, Force, Friction, JointTorque,
+    Limit, Own, Polynomial, SpeedHold, SpringDamper, Tire, TorsionSpring,
+};
 pub use data::{
     Body, Dimension, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointKind, Motion,
     Scene, Start, TableEnds,
 };
 pub use effect::{
-    AxisFrame, CalspanCoefficients, Effect, EffectKind, PolynomialPiece, Road, RoadFeature, Signal,
-    UserLaw,
+    AxisFrame, CalspanCoefficients, Effect, PolynomialPiece, Road, RoadFeature, Signal, UserLaw,
 };
 pub use error::{Entry, SceneError};
 pub use fault::SceneFault;
