@@ -118,12 +118,12 @@ mod data {
             coulomb: T = Number(NotNegative), "N m or N", Needed;
             /// Friction of slow motion.
             r#static as "static": T = Number(NotNegative), "N m or N", As("coulomb");
-            /// Rate below which friction falls to zero with the rate.
-            regularisation: T = Number(Positive), "rad/s or m/s", Number("1e-3");
             /// Rate at which the one becomes the other.
             stribeck: T = Number(Positive), "rad/s or m/s", Times("10", "regularisation");
             /// Viscous part.
             viscous: T = Number(NotNegative), "N m s/rad or N s/m", ZERO;
+            /// Rate below which friction falls to zero with the rate.
+            regularisation: T = Number(Positive), "rad/s or m/s", Number("1e-3");
         }
     }
 

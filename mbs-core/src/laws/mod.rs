@@ -8,12 +8,12 @@ pub mod body;
 pub mod bumper;
 pub mod calspan;
 pub mod entry;
-pub mod foot;
 pub mod guide;
 pub mod kink;
 pub mod operations;
 pub mod own;
 pub mod road;
+pub mod road_contact;
 pub mod scalar;
 pub mod tire;
 

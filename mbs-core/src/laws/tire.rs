@@ -32,10 +32,10 @@ use super::body::{Action, BodyMotion, WrenchesLaw, put};
 use super::bumper;
 use super::calspan::{self, Coefficients};
 use super::entry::entry;
-use super::foot::{self, CELLS, Foot, foot};
 use super::kink::{self, Kink};
 use super::operations::{Operations, count};
 use super::road::Feature;
+use super::road_contact::{CELLS, RoadContact, most_heights, road_contact};
 use super::scalar::Measure;
 use super::{Part, Supplies};
 use crate::Real;
@@ -67,7 +67,7 @@ pub struct TireLaw<T> {
 
 /// A wheel over its road.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Touch<T> {
+pub struct TireContact<T> {
     /// Deflection, positive pressed in [m], and the rate at which it ends [m/s].
     pub deflection: [T; 2],
     /// The centre, along the road from its zero and up [m].
@@ -124,9 +124,13 @@ entry!(TireLaw<T> { radius, radial, rolling, side, road, travel, up, leans });
 
 impl<T: Real> TireLaw<T> {
     /// How far it is pressed in, and where it is over its road. Cost: that of the nearest point, and no force.
-    pub fn touch(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>) -> Touch<T> {
+    pub fn contact(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>) -> TireContact<T> {
         let Stand { place, velocity, depth, rate, .. } = self.stand(motion, supplies);
-        Touch { deflection: [depth, rate], place, speed: [velocity[0], self.along_up(&velocity)] }
+        TireContact {
+            deflection: [depth, rate],
+            place,
+            speed: [velocity[0], self.along_up(&velocity)],
+        }
     }
 
     #[inline]
@@ -137,7 +141,7 @@ impl<T: Real> TireLaw<T> {
         });
         let center = Vector::<T, 3>::from(motion.position);
         let place = [center[0] + way, self.along_up(&center)];
-        let foot = foot(self.road, supplies, place);
+        let foot = road_contact(self.road, supplies, place);
         let stance = self.stance(&Vector::from(motion.axis), &foot);
         let depth = self.radius - stance.reach;
         let ground = Vector::<T, 3>::new(-speed, T::ZERO, T::ZERO);
@@ -151,7 +155,7 @@ impl<T: Real> TireLaw<T> {
     }
 
     /// Where a wheel with the given axis touches the road; how its deflection changes.
-    fn stance(&self, axis: &Vector<T, 3>, foot: &Foot<T>) -> Stance<T> {
+    fn stance(&self, axis: &Vector<T, 3>, foot: &RoadContact<T>) -> Stance<T> {
         let normal = self.vector(foot.normal);
         let upright = Stance {
             normal,
@@ -329,7 +333,8 @@ impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
     }
 
     fn watch(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>) -> [[T; 2]; 3] {
-        let Touch { deflection: [depth, rate], place, speed } = self.touch(motion, supplies);
+        let TireContact { deflection, place, speed } = self.contact(motion, supplies);
+        let [depth, rate] = deflection;
         [[-depth, rate], [place[0], speed[0]], [place[1], speed[1]]]
     }
 
@@ -382,7 +387,7 @@ fn nearest<T: Real>(features: &[Feature<T>]) -> Operations {
     let spot = height + ops(9, 12).and(1, 0, 0);
     let (settled, cell) = (ops(5, 8).and(1, 0, 0), ops(0, 2));
     let cells = u64::from(CELLS);
-    spot * count(foot::most_heights::<T>())
+    spot * count(most_heights::<T>())
         + settled * (1 + cells)
         + cell * cells
         + hollow

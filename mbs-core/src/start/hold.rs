@@ -30,7 +30,7 @@ enum Kind<T: Real, const D: usize> {
 
 /// One held row.
 #[derive(Debug, Clone)]
-pub(super) struct Hold<T: Real, const D: usize> {
+pub(super) struct StartRow<T: Real, const D: usize> {
     kind: Kind<T, D>,
     /// Held value (`None`: only the rate), held rate (`None`: only the value).
     pub(super) value: Option<T>,
@@ -41,7 +41,7 @@ pub(super) struct Hold<T: Real, const D: usize> {
     pub(super) owner: crate::model::Owner,
 }
 
-impl<T: Real, const D: usize> Hold<T, D> {
+impl<T: Real, const D: usize> StartRow<T, D> {
     /// All rows that a scene's initial entries hold.
     pub(super) fn all(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Vec<Self> {
         let mut holds = Vec::new();

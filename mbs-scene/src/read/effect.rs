@@ -35,14 +35,14 @@ pub(crate) fn read<T: Real>(index: usize, fields: &Fields<'_>) -> Read<Effect<T>
     };
     let enabled = fields.flag("enabled", true)?;
     let row = choose(fields, &named)?;
-    let mut values: Vec<Value<T>> = Vec::new();
-    for field in EFFECTS[row].fields {
-        let value = match value::read(fields, field, word.0)? {
-            Some(value) => value,
-            None => default(fields, (EFFECTS[row].fields, field), &values)?,
-        };
-        values.push(value);
-    }
+    let all = EFFECTS[row].fields;
+    let written = all.iter().map(|field| value::read(fields, field, word.0));
+    let written: Vec<Option<Value<T>>> = written.collect::<Read<_>>()?;
+    let value = |i: usize| match &written[i] {
+        Some(value) => Ok(value.clone()),
+        None => default(fields, (all, &written), i),
+    };
+    let values: Vec<_> = (0..all.len()).map(value).collect::<Read<_>>()?;
     match EffectKind::of(row, values) {
         Some(kind) => Ok(Effect { name, enabled, kind }),
         None => fields.context.fault(fields.header, ReadFault::Missing { key: "kind" }),
@@ -65,35 +65,40 @@ fn choose(fields: &Fields<'_>, named: &[usize]) -> Read<usize> {
     }
 }
 
-/// What holds where a key is left out; `values` are those of the fields before it.
+/// What holds where the key of field `i` is left out.
 fn default<T: Real>(
     fields: &Fields<'_>,
-    (all, field): (&[Field], &'static Field),
-    values: &[Value<T>],
+    (all, written): (&'static [Field], &[Option<Value<T>>]),
+    i: usize,
 ) -> Read<Value<T>> {
-    let earlier = |key: &str| {
-        let at = all.iter().position(|field| field.key == key);
-        match at.and_then(|at| values.get(at)) {
-            Some(Value::Number(x)) => *x,
-            _ => T::ZERO,
-        }
+    let field = &all[i];
+    let other = |key: &str| {
+        let at = all.iter().position(|field| field.key == key).unwrap_or(i);
+        let value = match written.get(at) {
+            Some(Some(value)) => value.clone(),
+            _ => default(fields, (all, written), at)?,
+        };
+        Ok(if let Value::Number(x) = value { x } else { T::ZERO })
     };
     let decimal = |text: &str| T::from_decimal(text).unwrap_or(T::ZERO);
     match (field.form, field.default) {
-        (Form::Six, Default::Number(text)) => Ok(Value::Six([decimal(text); 6])),
-        (_, Default::Number(text)) => Ok(Value::Number(decimal(text))),
-        (_, Default::As(key)) => Ok(Value::Number(earlier(key))),
-        (_, Default::Times(text, key)) => Ok(Value::Number(earlier(key) * decimal(text))),
-        (_, Default::NeededWith(key)) if earlier(key).is_zero() => Ok(Value::Number(T::ZERO)),
-        (Form::MaybeAxis, Default::Nothing) => Ok(Value::MaybeAxis(None)),
-        (Form::Frame, Default::Nothing) => Ok(Value::Frame(AxisFrame::Global)),
-        (Form::Side, Default::Nothing) => Ok(Value::Side(None)),
-        _ => {
-            let key = match field.form {
-                Form::Signal(_) => "value or table",
-                _ => field.key,
-            };
-            fields.context.fault(fields.header, ReadFault::Missing { key })
+        (Form::Six, Default::Number(text)) => return Ok(Value::Six([decimal(text); 6])),
+        (_, Default::Number(text)) => return Ok(Value::Number(decimal(text))),
+        (_, Default::As(key)) => return other(key).map(Value::Number),
+        (_, Default::Times(text, key)) => {
+            return other(key).map(|x| Value::Number(x * decimal(text)));
         }
+        (_, Default::NeededWith(key)) if other(key)?.is_zero() => {
+            return Ok(Value::Number(T::ZERO));
+        }
+        (Form::MaybeAxis, Default::Nothing) => return Ok(Value::MaybeAxis(None)),
+        (Form::Frame, Default::Nothing) => return Ok(Value::Frame(AxisFrame::Global)),
+        (Form::Side, Default::Nothing) => return Ok(Value::Side(None)),
+        _ => {}
     }
+    let key = match field.form {
+        Form::Signal(_) => "value or table",
+        _ => field.key,
+    };
+    fields.context.fault(fields.header, ReadFault::Missing { key })
 }

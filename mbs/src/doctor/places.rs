@@ -193,7 +193,8 @@ fn whose(scene: &Scene<f64>, place: &Place) -> String {
 /// A place as the file writes it.
 fn written(scene: &Scene<f64>, point: Vector<f64, 3>) -> String {
     let n = if scene.dimension == Dimension::Planar { 2 } else { 3 };
-    let numbers: Vec<String> = (0..n).map(|i| mbs_scene::readable(point[i] + 0.0)).collect();
+    let numbers: Vec<String> =
+        (0..n).map(|i| mbs_scene::format::significant(point[i] + 0.0)).collect();
     format!("[{}]", numbers.join(", "))
 }
 

@@ -3,10 +3,10 @@
 use mbs_core::Real;
 use mbs_core::effects::EFFECTS;
 use mbs_core::scene::{Dimension, EffectKind, Scene};
-use mbs_scene::Absence;
+use mbs_scene::MissingEffect;
 
 /// One line for each thing that is not simulated.
-pub(super) fn absent<T: Real>(scene: &Scene<T>) -> Vec<Absence> {
+pub(super) fn absent<T: Real>(scene: &Scene<T>) -> Vec<MissingEffect> {
     let any = |is: &dyn Fn(&EffectKind<T>) -> bool| {
         scene.effects.iter().any(|effect| effect.enabled && is(&effect.kind))
     };
@@ -40,6 +40,6 @@ pub(super) fn absent<T: Real>(scene: &Scene<T>) -> Vec<Absence> {
     missing
         .map(|(_, what, text)| (what, text))
         .chain(of_kinds)
-        .map(|(what, text)| Absence { what: what.to_owned(), text: text.to_owned() })
+        .map(|(what, text)| MissingEffect { what: what.to_owned(), text: text.to_owned() })
         .collect()
 }

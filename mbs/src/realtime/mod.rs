@@ -90,7 +90,7 @@ mod words;
 pub use document::run_document;
 pub use error::PacingError;
 pub use mbs_realtime::{
-    Action, Clock, Entry, Margin, Overrun, Pace, PaceError, Pacer, Quiet, Report, Spread,
+    Action, Clock, Entry, Margin, Overrun, Pace, PaceError, Pacer, Recovery, Report, Spread,
     SystemClock, Task, Work,
 };
 pub use summary::OVERRUNS;
@@ -114,7 +114,7 @@ pub struct Pacing {
     /// The loop waits awake for so long before each begin [s].
     pub awake: f64,
     /// When a degraded run comes back up.
-    pub quiet: Quiet,
+    pub quiet: Recovery,
 }
 
 impl Default for Pacing {
@@ -124,7 +124,7 @@ impl Default for Pacing {
             overrun: Overrun::Finish,
             degrade: Degrade::Measured,
             awake: 1e-4,
-            quiet: Quiet::default(),
+            quiet: Recovery::default(),
         }
     }
 }
