@@ -73,7 +73,8 @@ fn default<T: Real>(
 ) -> Read<Value<T>> {
     let field = &all[i];
     let other = |key: &str| {
-        let at = all.iter().position(|field| field.key == key).unwrap_or(i);
+        let at = all.iter().position(|field| field.key == key).filter(|at| *at != i);
+        let Some(at) = at else { return Ok(T::ZERO) };
         let value = match written.get(at) {
             Some(Some(value)) => value.clone(),
             _ => default(fields, (all, written), at)?,
