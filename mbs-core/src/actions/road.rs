@@ -10,14 +10,14 @@ use alloc::vec;
 
 impl<T: Real> Compiler<'_, T> {
     /// The tracks of the left and the right wheels, and the course of a road that moves.
-    pub(super) fn roads(&mut self) -> ([Part; 2], Option<u32>) {
+    pub(crate) fn roads(&mut self) -> ([Part; 2], Option<u32>) {
         if let Some(roads) = self.roads {
             return roads;
         }
         let road = &self.scene.road;
         let left = self.features(&road.left);
         let right = if road.left == road.right { left } else { self.features(&road.right) };
-        let travel = (!road.speed.is_zero()).then(|| self.course(SignalInput::travel(road.speed)));
+        let travel = (!road.speed.is_zero()).then(|| self.input(SignalInput::travel(road.speed)));
         *self.roads.insert(([left, right], travel))
     }
 

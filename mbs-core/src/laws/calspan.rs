@@ -13,6 +13,7 @@
 //! sixteen times below its peak for the Iltis: a feature of the formula. Mz changes its sign where |Fy| > F. Friction mu falls with
 //! the load and would be negative above 26.5 kN for the Iltis: it is held at 0.2 from 22.2 kN on, where the model says nothing.
 
+use super::entry::entry;
 use crate::Real;
 
 /// Friction below which the polynomial, which falls to zero and below at loads it was never fitted for, is not followed [-].
@@ -32,6 +33,8 @@ pub struct Coefficients<T> {
     /// AF1, AF2 [m/N].
     pub trail: [T; 2],
 }
+
+entry!(Coefficients<T> { a, omega, b, skid, trail });
 
 impl<T> Coefficients<T> {
     /// The tire of the Bombardier Iltis, in numbers made from doubles.

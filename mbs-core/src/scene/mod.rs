@@ -9,7 +9,7 @@ pub mod align;
 #[cfg(feature = "alloc")]
 mod axes;
 #[cfg(feature = "alloc")]
-mod check;
+pub(crate) mod check;
 #[cfg(feature = "alloc")]
 mod data;
 mod dimension;
@@ -30,6 +30,11 @@ mod output;
 mod resolve;
 
 #[cfg(feature = "alloc")]
+pub use crate::effects::{
+    Actuator, AeroDrag, BodyTorque, Bumper, Bushing, EffectKind, Force, Friction, JointTorque,
+    Limit, Own, Polynomial, SpeedHold, SpringDamper, Tire, TorsionSpring,
+};
+#[cfg(feature = "alloc")]
 pub use axes::transverse;
 #[cfg(feature = "alloc")]
 pub use data::{
@@ -38,8 +43,7 @@ pub use data::{
 pub use dimension::Dimension;
 #[cfg(feature = "alloc")]
 pub use effect::{
-    AxisFrame, CalspanCoefficients, Effect, EffectKind, PolynomialPiece, Road, RoadFeature, Signal,
-    UserLaw,
+    AxisFrame, CalspanCoefficients, Effect, PolynomialPiece, Road, RoadFeature, Signal, UserLaw,
 };
 #[cfg(feature = "alloc")]
 pub use error::{Entry, SceneError};

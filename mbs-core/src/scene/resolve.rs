@@ -2,9 +2,9 @@
 
 use crate::Real;
 use crate::scene::{
-    Body, CalspanCoefficients, Dimension, Effect, EffectKind, Entry, Guide, Inertia,
-    InitialCondition, InitialTarget, Joint, Motion, Number, Output, PolynomialPiece, Quantity,
-    Road, RoadFeature, Scene, SceneError, SceneFault, Signal, SolverTable,
+    Body, CalspanCoefficients, Dimension, Effect, Entry, Guide, Inertia, InitialCondition,
+    InitialTarget, Joint, Motion, Number, Output, Quantity, Road, RoadFeature, Scene, SceneError,
+    SceneFault, SolverTable,
 };
 use alloc::vec::Vec;
 
@@ -49,13 +49,13 @@ fn rows<T, U, const N: usize>(x: &[[T; N]], f: &mut impl FnMut(&T) -> U) -> Vec<
     x.iter().map(|row| all(row, f)).collect()
 }
 
-impl<T> Scene<T> {
+impl<T: Clone> Scene<T> {
     /// The scene with other numbers; refused where an effect is a law in code.
     fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Result<Scene<U>, SceneError> {
-        let effect = |(i, effect): (usize, &Effect<T>), f: &mut _| {
+        let effect = |(i, effect): (usize, &Effect<T>), f: &mut dyn FnMut(&T) -> U| {
             let refused =
                 SceneError { entry: Entry::Effect(i), field: "kind", fault: SceneFault::InCode };
-            let kind = effect.kind.map(f).ok_or(refused)?;
+            let kind = effect.kind.clone().map(&mut |x: T| f(&x)).ok_or(refused)?;
             Ok(Effect { name: effect.name.clone(), enabled: effect.enabled, kind })
         };
         Ok(Scene {
@@ -138,155 +138,6 @@ impl<T> Motion<T> {
             }
             Self::Input(motion) => Motion::Input(all(motion, f)),
             Self::Ramp { rate } => Motion::Ramp { rate: f(rate) },
-        }
-    }
-}
-
-impl<T> Signal<T> {
-    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Signal<U> {
-        match self {
-            Self::Constant(value) => Signal::Constant(all(value, f)),
-            Self::Table(table) => {
-                Signal::Table(table.iter().map(|(t, value)| (f(t), all(value, f))).collect())
-            }
-            Self::Input(value) => Signal::Input(all(value, f)),
-        }
-    }
-}
-
-impl<T> EffectKind<T> {
-    /// The same effect with other numbers; `None` for a law in code.
-    #[allow(clippy::too_many_lines, reason = "one arm for each kind")]
-    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Option<EffectKind<U>> {
-        Some(match self {
-            Self::SpringDamper { bodies, points, stiffness, damping, free_length } => {
-                EffectKind::SpringDamper {
-                    bodies: *bodies,
-                    points: pair(points, f),
-                    stiffness: f(stiffness),
-                    damping: f(damping),
-                    free_length: f(free_length),
-                }
-            }
-            Self::TorsionSpring { joint, stiffness, damping, free_value } => {
-                EffectKind::TorsionSpring {
-                    joint: *joint,
-                    stiffness: f(stiffness),
-                    damping: f(damping),
-                    free_value: f(free_value),
-                }
-            }
-            Self::Force { body, at, course, frame } => EffectKind::Force {
-                body: *body,
-                at: all(at, f),
-                course: course.map(f),
-                frame: *frame,
-            },
-            Self::BodyTorque { body, course } => {
-                EffectKind::BodyTorque { body: *body, course: course.map(f) }
-            }
-            Self::JointTorque { joint, course } => {
-                EffectKind::JointTorque { joint: *joint, course: course.map(f) }
-            }
-            Self::Actuator { bodies, points, course } => EffectKind::Actuator {
-                bodies: *bodies,
-                points: pair(points, f),
-                course: course.map(f),
-            },
-            Self::Polynomial { bodies, points, direction, of_rate, pieces } => {
-                EffectKind::Polynomial {
-                    bodies: *bodies,
-                    points: pair(points, f),
-                    direction: direction.as_ref().map(|d| all(d, f)),
-                    of_rate: *of_rate,
-                    pieces: pieces.iter().map(|piece| piece.map(f)).collect(),
-                }
-            }
-            Self::Bumper { bodies, points, stiffness, damping, clearance } => EffectKind::Bumper {
-                bodies: *bodies,
-                points: pair(points, f),
-                stiffness: f(stiffness),
-                damping: f(damping),
-                clearance: f(clearance),
-            },
-            Self::Bushing { bodies, at, stiffness, damping } => EffectKind::Bushing {
-                bodies: *bodies,
-                at: all(at, f),
-                stiffness: all(stiffness, f),
-                damping: all(damping, f),
-            },
-            Self::Limit { joint, lower, upper, stiffness, damping } => EffectKind::Limit {
-                joint: *joint,
-                lower: f(lower),
-                upper: f(upper),
-                stiffness: f(stiffness),
-                damping: f(damping),
-            },
-            Self::Friction { joint, coulomb, r#static, stribeck, viscous, regularisation } => {
-                EffectKind::Friction {
-                    joint: *joint,
-                    coulomb: f(coulomb),
-                    r#static: f(r#static),
-                    stribeck: f(stribeck),
-                    viscous: f(viscous),
-                    regularisation: f(regularisation),
-                }
-            }
-            Self::AeroDrag { body, at, area_coefficient, density } => EffectKind::AeroDrag {
-                body: *body,
-                at: all(at, f),
-                area_coefficient: f(area_coefficient),
-                density: f(density),
-            },
-            Self::SpeedHold { body, direction, speed, gain, limit } => EffectKind::SpeedHold {
-                body: *body,
-                direction: all(direction, f),
-                speed: f(speed),
-                gain: f(gain),
-                limit: f(limit),
-            },
-            Self::Tire {
-                body,
-                center,
-                axis,
-                radius,
-                stiffness,
-                damping,
-                rolling_resistance,
-                side,
-            } => EffectKind::Tire {
-                body: *body,
-                center: all(center, f),
-                axis: axis.as_ref().map(|axis| all(axis, f)),
-                radius: f(radius),
-                stiffness: f(stiffness),
-                damping: f(damping),
-                rolling_resistance: f(rolling_resistance),
-                side: side.as_ref().map(|side| side.map(f)),
-            },
-            Self::Own { .. } => return None,
-        })
-    }
-}
-
-impl<T> PolynomialPiece<T> {
-    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> PolynomialPiece<U> {
-        PolynomialPiece {
-            lower: f(&self.lower),
-            upper: f(&self.upper),
-            coefficients: self.coefficients.iter().map(f).collect(),
-        }
-    }
-}
-
-impl<T> CalspanCoefficients<T> {
-    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> CalspanCoefficients<U> {
-        CalspanCoefficients {
-            a: all(&self.a, f),
-            omega: f(&self.omega),
-            b: all(&self.b, f),
-            skid: f(&self.skid),
-            trail: all(&self.trail, f),
         }
     }
 }

@@ -5,7 +5,7 @@ use super::text::{Text, number};
 use crate::read::SceneFile;
 use crate::read::tree::{Item, Member, Node};
 use crate::write::toml::{quoted, value};
-use mbs_core::scene::{EffectKind, Scene};
+use mbs_core::scene::Scene;
 
 const COMMENT: &str = "\
 Convoy: one vehicle many times over, behind each other on one road and driving in x.
@@ -30,7 +30,7 @@ pub(super) fn text(
         return Err(GenerateError::Spacing(spacing));
     }
     let scene = vehicle.scene::<f64>().map_err(|_| GenerateError::NoScene)?;
-    if !scene.effects.iter().any(|effect| matches!(effect.kind, EffectKind::Tire { .. })) {
+    if !scene.effects.iter().any(|effect| effect.kind.row().needs_road) {
         return Err(GenerateError::NoTires);
     }
     let mut text = Text::new(COMMENT, command);

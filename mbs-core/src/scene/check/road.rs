@@ -73,7 +73,7 @@ fn numbers<T: Real>(feature: &RoadFeature<T>, place: Place) -> Result<(), SceneE
 /// The radius of the largest wheel: what it can roll through, all can.
 fn largest_wheel<T: Real>(scene: &Scene<T>) -> T {
     let radius = |kind: &EffectKind<T>| match kind {
-        EffectKind::Tire { radius, .. } => *radius,
+        EffectKind::Tire(tire) => tire.radius,
         _ => T::ZERO,
     };
     scene.effects.iter().map(|effect| radius(&effect.kind)).fold(T::ZERO, T::max)

@@ -1,85 +1,71 @@
-//! `[[effect]]`: each kind with its keys.
+//! `[[effect]]`: any kind with its keys, by the table of mbs-core.
 
 use super::{Keys, Node, WriteError, Writer, list};
-use mbs_core::scene::{
-    AxisFrame, BodyId, CalspanCoefficients, Effect, EffectKind, JointId, Number, PolynomialPiece,
-    Signal,
-};
+use mbs_core::effects::{Field, Form, SignalForm, Value};
+use mbs_core::scene::{AxisFrame, CalspanCoefficients, Effect, Number, PolynomialPiece, Signal};
 
 impl Writer<'_> {
     pub(super) fn effect(self, effect: &Effect<Number>) -> Result<Keys, WriteError> {
+        let row = effect.kind.row();
+        let Some(first) = row.names.first() else {
+            return Err(WriteError::InCode(effect.name.clone()));
+        };
+        let values = effect.kind.values();
+        let entries = || row.fields.iter().zip(&values);
+        let named = entries().find_map(|(field, value)| match (field.form, value) {
+            (Form::Name(name), Value::Name(true)) => Some(name),
+            _ => None,
+        });
         let mut keys = Keys::default();
         keys.push("name", effect.name.as_str());
         if !effect.enabled {
             keys.push("enabled", Node::Bool(false));
         }
-        match &effect.kind {
-            EffectKind::SpringDamper { .. }
-            | EffectKind::Bumper { .. }
-            | EffectKind::Polynomial { .. }
-            | EffectKind::Actuator { .. }
-            | EffectKind::Bushing { .. } => self.between(&mut keys, &effect.kind)?,
-            EffectKind::TorsionSpring { .. }
-            | EffectKind::JointTorque { .. }
-            | EffectKind::Limit { .. }
-            | EffectKind::Friction { .. } => self.on_joint(&mut keys, &effect.kind)?,
-            EffectKind::Own { .. } => return Err(WriteError::InCode(effect.name.clone())),
-            EffectKind::Force { .. }
-            | EffectKind::BodyTorque { .. }
-            | EffectKind::AeroDrag { .. }
-            | EffectKind::SpeedHold { .. }
-            | EffectKind::Tire { .. } => self.on_body(&mut keys, &effect.kind)?,
-        }
+        keys.push("kind", named.unwrap_or(first));
+        entries().try_for_each(|(field, value)| self.field(&mut keys, field, value))?;
         Ok(keys)
     }
 
-    /// Kind, bodies, and what stands where.
-    fn line(
+    /// A key, or none where its value is the default that follows from others.
+    fn field(
         self,
         keys: &mut Keys,
-        kind: &str,
-        (bodies, points): (&[BodyId; 2], &[[Number; 3]; 2]),
+        field: &Field,
+        value: &Value<Number>,
     ) -> Result<(), WriteError> {
-        keys.push("kind", kind);
-        keys.push("bodies", self.pair(*bodies)?);
-        keys.push("points", self.two(points));
-        Ok(())
-    }
-
-    fn between(self, keys: &mut Keys, kind: &EffectKind<Number>) -> Result<(), WriteError> {
-        match kind {
-            EffectKind::SpringDamper { bodies, points, stiffness, damping, free_length } => {
-                self.line(keys, "spring-damper", (bodies, points))?;
-                keys.push("stiffness", stiffness);
-                keys.push("damping", damping);
-                keys.push("free_length", free_length);
-            }
-            EffectKind::Bumper { bodies, points, stiffness, damping, clearance } => {
-                self.line(keys, "bumper", (bodies, points))?;
-                keys.push("stiffness", stiffness);
-                keys.push("damping", damping);
-                keys.push("clearance", clearance);
-            }
-            EffectKind::Polynomial { bodies, points, direction, of_rate, pieces } => {
-                let name = if *of_rate { "polynomial-damper" } else { "polynomial-spring" };
-                self.line(keys, name, (bodies, points))?;
+        let key = field.key;
+        match value {
+            Value::Bodies(bodies) => keys.push(key, self.pair(*bodies)?),
+            Value::Body(body) => keys.push(key, self.body_name(*body)?),
+            Value::Joint(joint) => keys.push(key, self.joint_name(*joint)?),
+            Value::Point(x) | Value::Axis(x) => keys.push(key, self.vector(x)),
+            Value::Points(x) => keys.push(key, self.two(x)),
+            Value::MaybeAxis(x) => keys.push_some(key, x.as_ref().map(|x| self.vector(x))),
+            Value::Number(x) => keys.push_some(key, (!x.is_computed()).then_some(x)),
+            Value::Six(x) => keys.push(key, self.six(x)),
+            Value::Pieces(pieces) => {
                 let piece = |PolynomialPiece { lower, upper, coefficients }: &_| {
                     list([lower, upper].into_iter().chain(coefficients).map(Node::from))
                 };
-                keys.push("coefficients", list(pieces.iter().map(piece)));
-                keys.push_some("direction", direction.as_ref().map(|d| self.vector(d)));
+                keys.push(key, list(pieces.iter().map(piece)));
             }
-            EffectKind::Actuator { bodies, points, course } => {
-                self.line(keys, "actuator", (bodies, points))?;
-                self.course(keys, course, true);
+            Value::Signal(signal) => {
+                let is_scalar = match field.form {
+                    Form::Signal(SignalForm::Vector) => false,
+                    Form::Signal(SignalForm::Moment) => self.is_planar(),
+                    _ => true,
+                };
+                self.signal(keys, signal, is_scalar);
             }
-            EffectKind::Bushing { bodies, at, stiffness, damping } => {
-                keys.push("kind", "bushing");
-                keys.push("bodies", self.pair(*bodies)?);
-                keys.push("at", self.vector(at));
-                keys.push("stiffness", self.six(stiffness));
-                keys.push("damping", self.six(damping));
+            Value::Frame(frame) => {
+                keys.push_some(key, (*frame == AxisFrame::Body).then_some("body"))
             }
+            Value::Side(side) => {
+                keys.push_some(key, side.as_ref().map(|_| "calspan"));
+                let given = side.as_ref().filter(|side| **side != CalspanCoefficients::of_iltis());
+                keys.push_some("coefficients", given.map(coefficients));
+            }
+            // the kind's name says it
             _ => {}
         }
         Ok(())
@@ -91,112 +77,10 @@ impl Writer<'_> {
         if self.is_planar() { list([x, y, about].map(Node::from)) } else { numbers.into() }
     }
 
-    fn on_joint(self, keys: &mut Keys, kind: &EffectKind<Number>) -> Result<(), WriteError> {
-        let head = |keys: &mut Keys, kind: &str, joint: &JointId| {
-            keys.push("kind", kind);
-            keys.push("joint", self.joint_name(*joint)?);
-            Ok(())
-        };
-        match kind {
-            EffectKind::TorsionSpring { joint, stiffness, damping, free_value } => {
-                head(keys, "torsion-spring", joint)?;
-                keys.push("stiffness", stiffness);
-                keys.push("damping", damping);
-                keys.push("free_value", free_value);
-            }
-            EffectKind::JointTorque { joint, course } => {
-                head(keys, "torque", joint)?;
-                self.course(keys, course, true);
-            }
-            EffectKind::Limit { joint, lower, upper, stiffness, damping } => {
-                head(keys, "limit", joint)?;
-                keys.push("lower", lower);
-                keys.push("upper", upper);
-                keys.push("stiffness", stiffness);
-                keys.push("damping", damping);
-            }
-            EffectKind::Friction {
-                joint,
-                coulomb,
-                r#static,
-                stribeck,
-                viscous,
-                regularisation,
-            } => {
-                head(keys, "friction", joint)?;
-                keys.push("coulomb", coulomb);
-                keys.push("static", r#static);
-                keys.push_some("stribeck", (!stribeck.is_computed()).then_some(stribeck));
-                keys.push("viscous", viscous);
-                keys.push("regularisation", regularisation);
-            }
-            _ => {}
-        }
-        Ok(())
-    }
-
-    fn on_body(self, keys: &mut Keys, kind: &EffectKind<Number>) -> Result<(), WriteError> {
-        let head = |keys: &mut Keys, kind: &str, body: &BodyId| {
-            keys.push("kind", kind);
-            keys.push("body", self.body_name(*body)?);
-            Ok(())
-        };
-        match kind {
-            EffectKind::Force { body, at, course, frame } => {
-                head(keys, "force", body)?;
-                keys.push("at", self.vector(at));
-                self.course(keys, course, false);
-                if *frame == AxisFrame::Body {
-                    keys.push("frame", "body");
-                }
-            }
-            EffectKind::BodyTorque { body, course } => {
-                head(keys, "torque", body)?;
-                self.course(keys, course, self.is_planar());
-            }
-            EffectKind::AeroDrag { body, at, area_coefficient, density } => {
-                head(keys, "aero-drag", body)?;
-                keys.push("at", self.vector(at));
-                keys.push("area_coefficient", area_coefficient);
-                keys.push("density", density);
-            }
-            EffectKind::SpeedHold { body, direction, speed, gain, limit } => {
-                head(keys, "speed-hold", body)?;
-                keys.push("direction", self.vector(direction));
-                keys.push("speed", speed);
-                keys.push("gain", gain);
-                keys.push("limit", limit);
-            }
-            EffectKind::Tire {
-                body,
-                center,
-                axis,
-                radius,
-                stiffness,
-                damping,
-                rolling_resistance,
-                side,
-            } => {
-                head(keys, "tire", body)?;
-                keys.push("center", self.vector(center));
-                keys.push_some("axis", axis.as_ref().map(|axis| self.vector(axis)));
-                keys.push("radius", radius);
-                keys.push("stiffness", stiffness);
-                keys.push("damping", damping);
-                keys.push("rolling_resistance", rolling_resistance);
-                keys.push_some("side", side.as_ref().map(|_| "calspan"));
-                let given = side.as_ref().filter(|side| **side != CalspanCoefficients::of_iltis());
-                keys.push_some("coefficients", given.map(coefficients));
-            }
-            _ => {}
-        }
-        Ok(())
-    }
-
     /// `value`, or `table` over time; an input by its value at the start.
-    fn course(self, keys: &mut Keys, course: &Signal<Number>, is_scalar: bool) {
+    fn signal(self, keys: &mut Keys, signal: &Signal<Number>, is_scalar: bool) {
         let value = |x: &[Number; 3]| if is_scalar { Node::from(&x[0]) } else { self.vector(x) };
-        match course {
+        match signal {
             Signal::Constant(x) => keys.push("value", value(x)),
             Signal::Table(rows) => {
                 keys.push("table", list(rows.iter().map(|(t, x)| list([t.into(), value(x)]))));
