@@ -9,6 +9,8 @@ pub mod align;
 #[cfg(feature = "alloc")]
 mod axes;
 #[cfg(feature = "alloc")]
+mod build;
+#[cfg(feature = "alloc")]
 pub(crate) mod check;
 #[cfg(feature = "alloc")]
 mod data;
@@ -36,6 +38,8 @@ pub use crate::effects::{
 };
 #[cfg(feature = "alloc")]
 pub use axes::transverse;
+#[cfg(feature = "alloc")]
+pub use build::StartedJoint;
 #[cfg(feature = "alloc")]
 pub use data::{
     Body, Guide, Inertia, InitialCondition, InitialTarget, Joint, Motion, Scene, Start, TableEnds,

@@ -39,7 +39,7 @@ enum Source {
     Product(Number, Number),
     /// This double in every precision, whatever its decimal text.
     Double,
-    /// The third component of a vector of two numbers.
+    /// Not given, but assumed: the third component of a vector of two numbers.
     Absent,
 }
 
@@ -76,14 +76,15 @@ impl Number {
         Self { near, source: Some(Box::new(Source::Double)) }
     }
 
-    /// The third component of a vector that was given by two numbers: zero in the plane, missing in space.
+    /// A number that was not given: zero for the third component of a vector of two numbers.
     #[must_use]
-    pub(crate) fn absent() -> Self {
-        Self { near: 0.0, source: Some(Box::new(Source::Absent)) }
+    pub fn assumed(near: f64) -> Self {
+        Self { near, source: Some(Box::new(Source::Absent)) }
     }
 
-    /// Whether it stands for a number that was not given.
-    pub(crate) fn is_absent(&self) -> bool {
+    /// Whether it was assumed, not given.
+    #[must_use]
+    pub fn is_absent(&self) -> bool {
         matches!(self.source.as_deref(), Some(Source::Absent))
     }
 
@@ -117,8 +118,7 @@ impl Number {
             Some(Source::Text(text)) => read(text),
             Some(Source::Sum(a, b)) => a.value::<T>() + b.value::<T>(),
             Some(Source::Product(a, b)) => a.value::<T>() * b.value::<T>(),
-            Some(Source::Double) => T::from_f64(self.near),
-            Some(Source::Absent) => T::ZERO,
+            Some(Source::Double | Source::Absent) => T::from_f64(self.near),
         }
     }
 
@@ -203,6 +203,6 @@ impl From<[Number; 3]> for Vector3 {
 
 impl From<[Number; 2]> for Vector3 {
     fn from([x, y]: [Number; 2]) -> Self {
-        Self([x, y, Number::absent()])
+        Self([x, y, Number::assumed(0.0)])
     }
 }

@@ -19,12 +19,14 @@ impl Scene<Number> {
     pub fn resolve<T: Real>(&self) -> Result<Scene<T>, SceneError> {
         let is_spatial = self.dimension == Dimension::Spatial;
         let (mut has_two, not_a_number) = (false, T::from_f64(f64::NAN));
-        let scene = self.map(&mut |x: &Number| {
+        let mut scene = self.map(&mut |x: &Number| {
             let is_missing = is_spatial && x.is_absent();
             has_two |= is_missing;
             // the check then finds its place
             if is_missing { not_a_number } else { x.value() }
         })?;
+        // may be assumed
+        scene.duration = self.duration.value();
         match scene.check() {
             Ok(()) => Ok(scene),
             Err(SceneError { fault: SceneFault::NotFinite, entry, field }) if has_two => {
@@ -128,7 +130,7 @@ impl<T> InitialCondition<T> {
 }
 
 impl<T> Motion<T> {
-    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Motion<U> {
+    pub(super) fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Motion<U> {
         match self {
             Self::Table { rows: table, ends } => {
                 Motion::Table { rows: rows(table, f), ends: *ends }

@@ -7,6 +7,7 @@ mod explanation;
 mod json;
 mod realtime;
 mod scene;
+mod serde;
 #[cfg(test)]
 mod tests;
 pub(crate) mod toml;

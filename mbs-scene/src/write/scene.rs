@@ -24,12 +24,15 @@ pub enum WriteError {
     InCode(String),
     /// A body or joint that an entry refers to is not there (scenes built in code); the entry's key.
     UnknownReference(&'static str),
+    /// The system does not take the file; what it says.
+    NotWritten(String),
 }
 
 impl Display for WriteError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::InCode(name) => write!(f, "effect `{name}` is a law in code, which has no text"),
+            Self::NotWritten(problem) => write!(f, "the file cannot be written: {problem}"),
             Self::UnknownReference(key) => {
                 write!(f, "`{key}` points to something that is not in the scene")
             }
@@ -57,14 +60,30 @@ pub fn to_toml(scene: &Scene<Number>) -> Result<String, WriteError> {
     Ok(toml::text(&tree(scene)?))
 }
 
-/// A scene as a file without comments.
-impl TryFrom<&Scene<Number>> for SceneFile {
-    type Error = WriteError;
-
-    fn try_from(scene: &Scene<Number>) -> Result<Self, WriteError> {
-        let text = to_toml(scene)?;
+impl SceneFile {
+    /// A scene as a file without comments.
+    ///
+    /// # Errors
+    /// As [`to_toml`].
+    pub fn of(scene: &Scene<Number>) -> Result<Self, WriteError> {
         // What the writer writes is TOML.
-        Ok(Self::parse(&text, &scene.name).unwrap_or_default())
+        Ok(Self::parse(&to_toml(scene)?, &scene.name).unwrap_or_default())
+    }
+
+    /// The file of a scene that was read from this one and changed: values that changed and parts that are new are written, all else
+    /// keeps its text, comments too; a file without comments where the change is of another kind.
+    ///
+    /// # Errors
+    /// As [`to_toml`].
+    pub fn updated(&self, scene: &Scene<Number>) -> Result<Self, WriteError> {
+        let new = tree(scene)?;
+        let old = self.numbers().ok().map(|scene| tree(&scene)).transpose()?;
+        let edited = old.and_then(|old| self.edited(&old, &new));
+        let file = edited.and_then(|text| Self::parse(&text, self.file()).ok());
+        match file {
+            Some(file) if file.numbers().is_ok_and(|written| written == *scene) => Ok(file),
+            _ => Self::of(scene),
+        }
     }
 }
 
@@ -167,7 +186,7 @@ impl Writer<'_> {
 
     /// A vector of the scene's dimension; one that leaves the plane keeps its third number, for the check.
     fn vector(self, [x, y, z]: &[Number; 3]) -> Node {
-        let n = if self.is_planar() && z.is_zero() { 2 } else { 3 };
+        let n = if z.is_absent() || (self.is_planar() && z.is_zero()) { 2 } else { 3 };
         list([x, y, z].into_iter().take(n).map(Node::from))
     }
 
