@@ -1,5 +1,6 @@
-//! One effect of each kind.
+//! One effect of each kind: chosen ones, and examples of kinds that have none here.
 
+use mbs_core::effects::{EFFECTS, Places, Row};
 use mbs_core::laws::body::{Action, BodyMotion};
 use mbs_core::laws::own::{ScalarLaw, UserBodyLaw, UserScalarLaw, WrenchLaw};
 use mbs_core::laws::scalar::Measure;
@@ -17,14 +18,22 @@ const BODIES: [BodyId; 2] = [BodyId::Ground, BodyId::Body(2)];
 const POINTS: [[f64; 3]; 2] = [[0.5, 0.0, 0.0], [2.0, 1.0, 0.5]];
 
 /// Name and data of one effect of each kind.
-pub(crate) fn all(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
+pub(crate) fn all(dimension: Dimension) -> Vec<(String, EffectKind<f64>)> {
     let depth = if dimension == Dimension::Planar { 0.0 } else { 1.0 };
     let flat = |[x, y, z]: [f64; 3]| [x, y, z * depth];
     let mut all = springs_and_forces(POINTS.map(flat), flat(CENTER));
     let six = [1.0, 1.0, depth, depth, depth, 1.0];
     all.extend(between(POINTS.map(flat), six));
     all.extend(on_a_body(flat(CENTER), dimension));
-    all
+    let (pair, body) = ((BODIES, POINTS.map(flat)), (COUPLER, flat(CENTER)));
+    let places = Places { pair, body, joint: CRANK };
+    let is_chosen = |row: &Row| all.iter().any(|(_, kind)| kind.row() == row);
+    let others = EFFECTS.iter().enumerate().filter(|(_, row)| !is_chosen(row));
+    let examples = others.filter_map(|(i, row)| {
+        Some((row.module.replace('_', "-"), EffectKind::example(i, &places)?))
+    });
+    let examples: Vec<_> = examples.collect();
+    all.into_iter().map(|(name, kind)| (name.to_owned(), kind)).chain(examples).collect()
 }
 
 /// What every build has.

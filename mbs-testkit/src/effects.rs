@@ -1,6 +1,7 @@
 //! One mechanism, and every kind of effect on it: an arm on a hinge, a slider on the arm, and two loose bodies.
 
 use crate::scene;
+use mbs_core::effects::{EFFECTS, Places, Row};
 use mbs_core::scene::{
     Actuator, AeroDrag, BodyId, Bumper, Bushing, CalspanCoefficients, Dimension, Effect,
     EffectKind, Friction, JointId, Limit, Polynomial, PolynomialPiece, RoadFeature, Scene, Signal,
@@ -212,7 +213,7 @@ pub fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
         area_coefficient: 2.0,
         density: 1.2,
     });
-    vec![
+    let mut all = vec![
         ("actuator", EffectKind::Actuator(Actuator { bodies, points: ends, course })),
         ("spring by a polynomial", polynomial(dimension, None, false)),
         ("damper by a polynomial", polynomial(dimension, None, true)),
@@ -230,5 +231,21 @@ pub fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
         ("speed hold", speed_hold(dimension)),
         ("tire that is a spring", tire(dimension, false)),
         ("tire that rolls", tire(dimension, true)),
-    ]
+    ];
+    all.extend(examples(dimension, &all));
+    all
+}
+
+/// Examples of the kinds with a feature that are not among `all`.
+fn examples(
+    dimension: Dimension,
+    all: &[(&str, EffectKind<f64>)],
+) -> Vec<(&'static str, EffectKind<f64>)> {
+    let ends = points(dimension);
+    let places =
+        Places { pair: (BODIES, ends), body: (BODIES[1], ends[1]), joint: JointId::new(0) };
+    let is_missing =
+        |row: &Row| row.feature.is_some() && !all.iter().any(|(_, kind)| kind.row() == row);
+    let missing = EFFECTS.iter().enumerate().filter(|(_, row)| is_missing(row));
+    missing.filter_map(|(i, row)| Some((row.module, EffectKind::example(i, &places)?))).collect()
 }

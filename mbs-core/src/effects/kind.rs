@@ -66,6 +66,8 @@ pub(crate) trait EffectModel<T: Real>: EffectData<T> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Row {
+    /// Its module, the name of its kind in small letters.
+    pub module: &'static str,
     /// Its names in scene files; none for a law in code.
     pub names: &'static [&'static str],
     /// Its fields.
@@ -88,8 +90,12 @@ pub struct Row {
 
 impl Row {
     /// The row of a kind.
-    pub(super) const fn of<K: EffectModel<f64>>(feature: Option<(&'static str, bool)>) -> Self {
+    pub(super) const fn of<K: EffectModel<f64>>(
+        module: &'static str,
+        feature: Option<(&'static str, bool)>,
+    ) -> Self {
         Self {
+            module,
             names: K::NAMES,
             fields: K::FIELDS,
             law: K::LAW,
@@ -146,14 +152,14 @@ macro_rules! kinds {
         })*
 
         /// Every kind of effect, in the order of the format.
-        pub const EFFECTS: &[Row] = &[$(Row::of::<$Kind<f64>>(kind::feature_of! $gate)),*];
+        pub const EFFECTS: &[Row] = &[$(Row::of::<$Kind<f64>>(stringify!($module), kind::feature_of! $gate)),*];
 
         impl<T> EffectKind<T> {
             /// What is known of its kind.
             #[must_use]
             pub const fn row(&self) -> &'static Row {
                 match self {
-                    $(Self::$Kind(_) => const { &Row::of::<$Kind<f64>>(kind::feature_of! $gate) },)*
+                    $(Self::$Kind(_) => const { &Row::of::<$Kind<f64>>(stringify!($module), kind::feature_of! $gate) },)*
                 }
             }
 

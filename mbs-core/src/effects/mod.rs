@@ -8,11 +8,15 @@
 #[cfg(feature = "alloc")]
 mod data;
 #[cfg(feature = "alloc")]
+mod example;
+#[cfg(feature = "alloc")]
 mod field;
 #[cfg(feature = "alloc")]
 mod kind;
 mod table;
 
+#[cfg(feature = "alloc")]
+pub use example::Places;
 #[cfg(feature = "alloc")]
 pub(crate) use field::EffectData;
 #[cfg(feature = "alloc")]
