@@ -292,7 +292,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         let m = self.mechanism();
         let mut s = workspace.store();
-        self.place(state, &mut s);
+        self.place_in(state, &mut s);
         let write = |is_new, s: &mut Store<'_, T, S>| {
             let kept = (&state.inputs[..], is_new);
             self.prescribed.write_end(state.t, kept, (s.guides, s.courses));
@@ -317,12 +317,12 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     pub fn energies(&self, state: &TreeState<T>, workspace: &mut Workspace<T, S>) -> [T; 2] {
         let m = self.mechanism();
         let mut s = workspace.store();
-        self.place(state, &mut s);
+        self.place_in(state, &mut s);
         [ledger::kinetic(m.links, s.placed), own(ledger::potential(&m, &s.instant(&m)))]
     }
 
     /// Puts a state into the scratch.
-    fn place(&self, state: &TreeState<T>, s: &mut Store<'_, T, S>) {
+    pub(crate) fn place_in(&self, state: &TreeState<T>, s: &mut Store<'_, T, S>) {
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
         s.lambda.copy_from_slice(&state.lambda);
@@ -333,7 +333,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Puts a state with its accelerations into the scratch and finds the forces through all joints.
     fn balance(&self, state: &TreeState<T>, s: &mut Store<'_, T, S>) {
         let m = self.mechanism();
-        self.place(state, s);
+        self.place_in(state, s);
         s.a[0] = S::motion(S::Spin::zero(), -m.gravity);
         own(inverse::spread(m.links, s.placed, &state.a, s.a));
         let n = m.loops.rows.len();
@@ -364,13 +364,18 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         assert_eq!(efforts.len(), self.n_freedoms, "one effort per freedom");
         let mut s = workspace.store();
         self.balance(state, &mut s);
+        self.efforts_of(&s, efforts);
+        Ok(())
+    }
+
+    /// Efforts along all freedoms by the forces through the joints.
+    pub(crate) fn efforts_of(&self, s: &Store<'_, T, S>, efforts: &mut [T]) {
         for (i, link) in self.links.iter().enumerate().skip(1) {
             if !link.kind.is_guided() {
                 let out = &mut efforts[link.v as usize..];
                 own(inverse::effort(link, &s.placed[i], &s.condensed[i], out));
             }
         }
-        Ok(())
     }
 
     /// The mass matrix in joint coordinates, row by row.
@@ -392,12 +397,24 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         state: &TreeState<T>,
         workspace: &mut Workspace<T, S>,
     ) -> Vec<T> {
-        let n = self.n_freedoms;
-        let mut mass = vec![T::ZERO; n * n];
-        let mut s = workspace.store();
-        self.place(state, &mut s);
-        inverse::mass_matrix(&self.links, s.placed, s.condensed, n, &mut mass);
+        let mut mass = vec![T::ZERO; self.n_freedoms * self.n_freedoms];
+        self.write_tree_mass_matrix(state, workspace, &mut mass);
         mass
+    }
+
+    /// The same into a slice; no allocation.
+    ///
+    /// # Panics
+    /// If it has not the square of the freedoms.
+    pub fn write_tree_mass_matrix(
+        &self,
+        state: &TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+        mass: &mut [T],
+    ) {
+        let mut s = workspace.store();
+        self.place_in(state, &mut s);
+        inverse::mass_matrix(&self.links, s.placed, s.condensed, self.n_freedoms, mass);
     }
 
     fn refuse_loops(&self) -> Result<(), LoopError> {

@@ -18,6 +18,7 @@ mod figure;
 mod fingerprint;
 pub mod folder;
 mod friction;
+pub mod front;
 mod interrupt;
 mod journal;
 mod modes;
