@@ -5,7 +5,7 @@ use crate::lane::{Lane, Method};
 use crate::race::{Runner, race};
 use crate::scenes::Prepared;
 use crate::{Request, faer_beside, say};
-use mbs_parallel::{Crew, Pool};
+use mbs_parallel::{Pool, ThreadTeam};
 use mbs_sparse::{Counters, Multifrontal, Options, Ordering};
 use serde_json::{Value, json};
 
@@ -42,7 +42,7 @@ pub(crate) fn measure<const D: usize>(
         say(&order(name, &solver.counters()));
     }
     let several: Vec<usize> = request.threads.iter().copied().filter(|&n| n > 1).collect();
-    let crews = teams(&several, Crew::new)?;
+    let crews = teams(&several, ThreadTeam::new)?;
     let pools = teams(&several, Pool::new)?;
     let clocks: Vec<Clock> = (0..=several.len()).map(|_| Clock::new()).collect();
     let clock = |i: usize| is_first.then(|| &clocks[i]);
@@ -131,7 +131,8 @@ mod tests {
         let scene = crate::scenes::tests::chain(12);
         let prepared = Prepared::<3>::new(scene).unwrap();
         let solver = Multifrontal::<f64>::analyse(&prepared.model, Options::default());
-        let (crew, pool, clock) = (Crew::new(2).unwrap(), Pool::new(2).unwrap(), Clock::new());
+        let (crew, pool, clock) =
+            (ThreadTeam::new(2).unwrap(), Pool::new(2).unwrap(), Clock::new());
         let method = Method::Three;
         let mut lanes = [
             Lane::alone(&prepared, method, solver.clone(), ("chosen", Some(&clock))),

@@ -4,7 +4,7 @@ use crate::augmented::merge;
 use crate::race::{Runner, Timing, Work, race, timed};
 use crate::{Request, say};
 use mbs_core::team::{Alone, Team};
-use mbs_parallel::{Crew, Pool};
+use mbs_parallel::{Pool, ThreadTeam};
 use serde_json::json;
 
 /// A fork inside a pool: all of a measurement is made there.
@@ -32,7 +32,7 @@ pub(crate) fn measure(request: &Request) -> Result<(), String> {
     sizes.retain(|&n| n > 1);
     tell("alone", 1, race(&mut [&mut Work(|| fork(&Alone))], request.seconds));
     for n in sizes {
-        let crew = Crew::new(n).map_err(|e| format!("no {n} threads: {e}"))?;
+        let crew = ThreadTeam::new(n).map_err(|e| format!("no {n} threads: {e}"))?;
         tell("crew", n, race(&mut [&mut Work(|| fork(&crew))], request.seconds));
         drop(crew);
         let pool = Pool::new(n).map_err(|e| format!("no {n} threads: {e}"))?;

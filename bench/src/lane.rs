@@ -164,7 +164,7 @@ impl Named for Alone {
     }
 }
 
-impl Named for mbs_parallel::Crew {
+impl Named for mbs_parallel::ThreadTeam {
     fn word(&self) -> &'static str {
         "crew"
     }

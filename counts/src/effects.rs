@@ -4,11 +4,13 @@ use mbs_core::laws::body::{Action, BodyMotion};
 use mbs_core::laws::own::{ScalarLaw, UserBodyLaw, UserScalarLaw, WrenchLaw};
 use mbs_core::laws::scalar::Measure;
 use mbs_core::scene::{
-    AxisFrame, BodyId, CalspanCoefficients, Dimension, EffectKind, PolynomialPiece, Signal, UserLaw,
+    AxisFrame, BodyId, CalspanCoefficients, Dimension, EffectKind, JointId, PolynomialPiece,
+    Signal, UserLaw,
 };
 
 /// The coupler, its centre, and a pair of points on the ground and on the rocker.
-const COUPLER: usize = 1;
+const COUPLER: BodyId = BodyId::Body(1);
+const CRANK: JointId = JointId::new(0);
 const CENTER: [f64; 3] = [1.0, 1.5, 0.25];
 const BODIES: [BodyId; 2] = [BodyId::Ground, BodyId::Body(2)];
 const POINTS: [[f64; 3]; 2] = [[0.5, 0.0, 0.0], [2.0, 1.0, 0.5]];
@@ -36,18 +38,18 @@ fn springs_and_forces(points: [[f64; 3]; 2], at: [f64; 3]) -> Vec<(&'static str,
         ),
         (
             "torsion-spring",
-            EffectKind::TorsionSpring { joint: 0, stiffness, damping, free_value: 0.0 },
+            EffectKind::TorsionSpring { joint: CRANK, stiffness, damping, free_value: 0.0 },
         ),
         ("force", EffectKind::Force { body, at, course: course.clone(), frame: AxisFrame::Body }),
         ("body-torque", EffectKind::BodyTorque { body, course: course.clone() }),
-        ("joint-torque", EffectKind::JointTorque { joint: 0, course: course.clone() }),
+        ("joint-torque", EffectKind::JointTorque { joint: CRANK, course: course.clone() }),
         ("actuator", EffectKind::Actuator { bodies, points, course }),
     ]
 }
 
 /// Laws of a length, an angle or a place between bodies.
 fn between(points: [[f64; 3]; 2], six: [f64; 6]) -> Vec<(&'static str, EffectKind<f64>)> {
-    let (bodies, joint) = (BODIES, 0);
+    let (bodies, joint) = (BODIES, CRANK);
     let (stiffness, damping) = (100.0, 1.0);
     let pieces =
         vec![PolynomialPiece { lower: 0.0, upper: 4.0, coefficients: vec![-100.0, 50.0, 5.0] }];

@@ -3,7 +3,7 @@
 use crate::effects;
 use mbs_core::scene::{
     Body, BodyId, Dimension, Effect, Guide, Inertia, InitialCondition, InitialTarget, Joint,
-    JointKind, Motion, Scene,
+    JointId, JointKind, Motion, Scene,
 };
 
 /// The four-bar with an effect of that name, `out`, `off` or `on`; or with a guide of its crank.
@@ -16,7 +16,7 @@ pub(crate) fn with(dimension: Dimension, effect: &str, switch: &str) -> Scene<f6
     if effect == "guide" {
         let law = Motion::Sine { amplitude: 0.5, frequency: 1.0, phase: 0.0 };
         scene.initials.clear();
-        scene.guides.push(Guide { joint: 0, law });
+        scene.guides.push(Guide { joint: JointId::new(0), law });
     }
     scene
 }
@@ -59,7 +59,11 @@ fn four_bar(dimension: Dimension) -> Scene<f64> {
         bodies: vec![body("crank", [a, b]), body("coupler", [b, c]), body("rocker", [c, d])],
         joints,
         initials: vec![InitialCondition {
-            target: InitialTarget::Joint { joint: 0, value: None, rate: Some(vec![2.0]) },
+            target: InitialTarget::Joint {
+                joint: JointId::new(0),
+                value: None,
+                rate: Some(vec![2.0]),
+            },
         }],
         guides: vec![],
         road: Default::default(),

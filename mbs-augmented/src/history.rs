@@ -1,6 +1,6 @@
 //! What one step leaves for the next beside the state, to look at and to go on from.
 
-use crate::index_change::Index;
+use crate::index_change::ConstraintIndex;
 use alloc::vec::Vec;
 use mbs_core::step::Counts;
 
@@ -21,7 +21,7 @@ pub struct History<T> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IndexHistory<T> {
     /// The present index.
-    pub index: Index,
+    pub index: ConstraintIndex,
     /// Changes of it so far.
     pub changes: u32,
     /// The last trial, and the last step that was kept [s].

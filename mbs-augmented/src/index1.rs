@@ -13,7 +13,7 @@
 
 use crate::inputs::take_inputs;
 use crate::options::{Options, Penalty};
-use crate::projection::{Left, Level};
+use crate::projection::{Level, ResidualLimits};
 use crate::workspace::{Mass, Workspace};
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
@@ -87,7 +87,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     let rounding = T::EPSILON * T::from_f64(1024.0);
     let limit = (T::ONE + size) * T::from_f64(5e-10).max(rounding);
     let goal = size * rounding;
-    let left = Left { goal, enough: goal, limit };
+    let left = ResidualLimits { goal, enough: goal, limit };
     let acceleration = w.project(model, Level::Acceleration, left, options.max_sweeps)?;
     check_rotations(model, &w.terms)?;
     w.commit(model, &rule, options.compensated, T::ONE, s);
@@ -242,7 +242,7 @@ fn velocities<T: Real, M: Model<T>, S: SpdSolver<T>>(
     }
     let limit = (length + speed) * T::from_f64(5e-10).max(rounding * T::from_f64(64.0));
     let goal = speed * rounding;
-    let left = Left { goal, enough: goal, limit };
+    let left = ResidualLimits { goal, enough: goal, limit };
     let left = w.project(model, Level::Velocity, left, options.max_sweeps)?;
     if w.restore_penalties() {
         w.factor(model, (T::ZERO, T::ZERO), false)?;

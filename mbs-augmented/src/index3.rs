@@ -21,8 +21,8 @@ use crate::workspace::{Mass, Workspace};
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    Counts, StepError, StepReport, Stop, Yardstick, check_guides, check_rotations, largest,
-    largest_or_nan, step_scale, stopping,
+    ConvergenceCriterion, Counts, StepError, StepReport, Stop, check_guides, check_rotations,
+    largest, largest_or_nan, step_scale, stopping,
 };
 use mbs_core::team::{add_product, norm_inf, on_stretches, set_product, set_sum};
 use mbs_core::{Real, SpdSolver};
@@ -184,8 +184,8 @@ fn iterate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         let moved = is_measured.then(|| norm_inf(model.team(), &w.dq[..w.f.len()]));
         let measures = (scale, options.tolerance);
         let sizes = (length, || norm_inf(model.team(), &w.q));
-        let yardstick = Yardstick::of_coordinates(iterations, measures, sizes, moved);
-        let stop = stopping(iterations, correction, pace.last(), &yardstick);
+        let criterion = ConvergenceCriterion::of_coordinates(iterations, measures, sizes, moved);
+        let stop = stopping(iterations, correction, pace.last(), &criterion);
         let stop = stop.or(pace.is_enough(correction).then_some(Stop::Converged));
         if let Some(stop) = stop {
             return Ok(((iterations, correction, stop), pace.since));

@@ -14,7 +14,7 @@ use mbs_core::{Real, SpdSolver};
 
 /// Which form of the equations is stepped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Index {
+pub enum ConstraintIndex {
     /// Accelerations constrained.
     One,
     /// Positions constrained.
@@ -35,7 +35,7 @@ pub struct IndexChange<T> {
     /// Reductions of one step in a row after which index-1 is tried, whatever the step (the flowchart's maxite).
     pub patience: u32,
     /// Present index.
-    index: Index,
+    index: ConstraintIndex,
     changes: u32,
     /// The last trial, and the last step that was kept [s].
     tried: T,
@@ -52,7 +52,7 @@ impl<T: Real> IndexChange<T> {
             threshold: T::from_f64(1e-4),
             hysteresis: T::TWO,
             patience: 4,
-            index: Index::Three,
+            index: ConstraintIndex::Three,
             changes: 0,
             tried: T::ZERO,
             last: T::ZERO,
@@ -61,7 +61,7 @@ impl<T: Real> IndexChange<T> {
 
     /// The present index.
     #[must_use]
-    pub fn index(&self) -> Index {
+    pub fn index(&self) -> ConstraintIndex {
         self.index
     }
 
@@ -96,8 +96,12 @@ impl<T: Real> IndexChange<T> {
     ) -> bool {
         let is_grown = reductions == 0 && h > self.last;
         let wanted = match self.index {
-            Index::Three if h < self.threshold || reductions >= self.patience => Index::One,
-            Index::One if is_grown && h > self.threshold * self.hysteresis => Index::Three,
+            ConstraintIndex::Three if h < self.threshold || reductions >= self.patience => {
+                ConstraintIndex::One
+            }
+            ConstraintIndex::One if is_grown && h > self.threshold * self.hysteresis => {
+                ConstraintIndex::Three
+            }
             same => same,
         };
         if wanted == self.index {
@@ -134,8 +138,8 @@ impl<T: Real> IndexChange<T> {
         w: &mut Workspace<T, S>,
     ) -> Result<StepReport<T>, StepError> {
         match self.index {
-            Index::One => index1::step(model, (h, length), &self.index1, s, w),
-            Index::Three => index3::step(model, (h, length), &self.index3, s, w),
+            ConstraintIndex::One => index1::step(model, (h, length), &self.index1, s, w),
+            ConstraintIndex::Three => index3::step(model, (h, length), &self.index3, s, w),
         }
     }
 }

@@ -16,7 +16,7 @@ mod projection;
 mod workspace;
 
 pub use history::{History, IndexHistory};
-pub use index_change::{Index, IndexChange};
+pub use index_change::{ConstraintIndex, IndexChange};
 pub use inputs::take_inputs;
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use multi_index::MultiIndex;

@@ -3,7 +3,7 @@
 use crate::index_change::IndexChange;
 use crate::inputs::take_inputs;
 use crate::workspace::Workspace;
-use mbs_core::control::{Accepted, Attempt, Driver, Invariant, LocalError, Rules, Stepper};
+use mbs_core::control::{Accepted, Driver, Invariant, LocalError, Rules, Stepper, TrialStep};
 use mbs_core::model::{Model, State};
 use mbs_core::step::StepError;
 use mbs_core::{Real, SpdSolver};
@@ -105,7 +105,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Stepper<T> for Trial<'_, T, M, S> {
         Ok(())
     }
 
-    fn attempt(&mut self, h: T) -> Result<Attempt<T>, StepError> {
+    fn attempt(&mut self, h: T) -> Result<TrialStep<T>, StepError> {
         let report = self.change.step(self.model, (h, self.length), self.s, self.w);
         let report = report.inspect_err(|_| self.w.undo())?;
         let s = &*self.s;
@@ -115,7 +115,7 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Stepper<T> for Trial<'_, T, M, S> {
         let acceleration_energy =
             [&self.saved.a, &s.a].map(|a| self.model.kinetic_energy(a).to_f64());
         self.change.tried(h);
-        Ok(Attempt { report, t: s.t, energies, error: error.to_f64(), acceleration_energy })
+        Ok(TrialStep { report, t: s.t, energies, error: error.to_f64(), acceleration_energy })
     }
 
     fn undo(&mut self) {

@@ -9,7 +9,7 @@
 //! violation times what the penalties leave and times the turn of the rows, and d is orthogonal to directions that are off by the
 //! turn: that is why the factor has to be from before a correction that was small already.
 
-use crate::projection::{Left, Level};
+use crate::projection::{Level, ResidualLimits};
 use crate::workspace::{Mass, Workspace};
 use core::mem::swap;
 use mbs_core::model::Model;
@@ -42,10 +42,15 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         let goal = bare * T::EPSILON * T::from_f64([16.0, ROUNDING][k]);
         let enough = (size * T::EPSILON * T::from_f64(LEFT[k])).min(limit);
         if is_nearby {
-            return self.project_nearby(model, level, Left { goal, enough, limit }, max_sweeps);
+            return self.project_nearby(
+                model,
+                level,
+                ResidualLimits { goal, enough, limit },
+                max_sweeps,
+            );
         }
         let enough = if model.has_forces() { enough } else { goal };
-        self.project(model, level, Left { goal, enough, limit }, max_sweeps)
+        self.project(model, level, ResidualLimits { goal, enough, limit }, max_sweeps)
     }
 
     /// Projects v or a, once unless the violation is at most `goal`, then by sweeps of this kind while they shrink it until it is
@@ -57,10 +62,10 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         &mut self,
         model: &M,
         level: Level,
-        allowed: Left<T>,
+        allowed: ResidualLimits<T>,
         max_sweeps: u32,
     ) -> Result<T, StepError> {
-        let Left { goal, enough, .. } = allowed;
+        let ResidualLimits { goal, enough, .. } = allowed;
         self.begin();
         let mut violation = self.violation(model, level);
         let (mut sweeps, mut most) = (0, goal);

@@ -32,7 +32,7 @@ const SHORT: [f64; 2] = [0.01, 0.7];
 
 /// How much of a violation may be left by a projection.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Left<T> {
+pub(crate) struct ResidualLimits<T> {
     /// A violation that is not swept at all.
     pub(crate) goal: T,
     /// What sweeps may leave.
@@ -75,7 +75,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         &mut self,
         model: &M,
         level: Level,
-        left: Left<T>,
+        left: ResidualLimits<T>,
         max_sweeps: u32,
     ) -> Result<T, StepError> {
         self.begin();
@@ -93,7 +93,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         &mut self,
         model: &M,
         level: Level,
-        Left { goal, enough, limit }: Left<T>,
+        ResidualLimits { goal, enough, limit }: ResidualLimits<T>,
         (done, max_sweeps): (u32, u32),
     ) -> Result<T, StepError> {
         let mut violation = self.violation(model, level);

@@ -22,8 +22,8 @@ use crate::workspace::{Mass, Workspace};
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    StepError, StepReport, Stop, Yardstick, check_guides, check_rotations, largest, largest_or_nan,
-    step_scale, stopping,
+    ConvergenceCriterion, StepError, StepReport, Stop, check_guides, check_rotations, largest,
+    largest_or_nan, step_scale, stopping,
 };
 use mbs_core::team::{norm_inf, on_stretches};
 use mbs_core::{Real, SymmetricSolver};
@@ -139,8 +139,8 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         evaluate(model, options, s, w);
         let noise =
             norm_inf(model.team(), &w.dq).max(length * rule.dt) * T::EPSILON * T::from_f64(64.0);
-        let yardstick = Yardstick { scale, goal: scale * options.tolerance, noise };
-        if let Some(stop) = stopping(iterations, correction, last, &yardstick) {
+        let criterion = ConvergenceCriterion { scale, goal: scale * options.tolerance, noise };
+        if let Some(stop) = stopping(iterations, correction, last, &criterion) {
             return Ok((iterations, correction, stop));
         }
         last = correction;

@@ -19,7 +19,8 @@ use crate::workspace::{Mass, Workspace};
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    StepError, StepReport, Stop, Yardstick, check_rotations, largest_or_nan, step_scale, stopping,
+    ConvergenceCriterion, StepError, StepReport, Stop, check_rotations, largest_or_nan, step_scale,
+    stopping,
 };
 use mbs_core::team::{norm_inf, on_stretches};
 use mbs_core::{Real, SymmetricSolver};
@@ -118,8 +119,8 @@ fn iterate<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
         let moved = options.compensated.then(|| norm_inf(model.team(), &w.dq));
         let measures = (scale, options.tolerance);
         let sizes = (length, || norm_inf(model.team(), &w.q));
-        let yardstick = Yardstick::of_coordinates(iterations, measures, sizes, moved);
-        if let Some(stop) = stopping(iterations, correction, last, &yardstick) {
+        let criterion = ConvergenceCriterion::of_coordinates(iterations, measures, sizes, moved);
+        if let Some(stop) = stopping(iterations, correction, last, &criterion) {
             return Ok((iterations, correction, stop));
         }
         last = correction;

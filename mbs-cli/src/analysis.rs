@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum};
 use mbs::core::scene::Scene;
 use mbs::folder::{Folder, WriteError, id};
 use mbs::scene_file::{Channel, SceneFile};
-use mbs::{LeftOut, Names, Place, Search, Still, StopError, words};
+use mbs::{LeftOut, Names, Place, Search, StaticEquilibrium, StopError, words};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -66,7 +66,9 @@ enum At {
 /// Runs `mbs equilibrium`.
 pub(crate) fn equilibrium(arguments: &Equilibrium) -> ExitCode {
     let search = arguments.common.search();
-    let told = |scene: &Scene<f64>| Still::new(scene, search).map(|s| (s.to_json(), still(&s)));
+    let told = |scene: &Scene<f64>| {
+        StaticEquilibrium::new(scene, search).map(|s| (s.to_json(), still(&s)))
+    };
     command(&arguments.common, "equilibrium.json", told)
 }
 
@@ -144,7 +146,7 @@ fn located(scene: &Scene<f64>, error: &StopError, document: &SceneFile) -> Strin
 }
 
 /// An equilibrium as text.
-fn still(s: &Still) -> String {
+fn still(s: &StaticEquilibrium) -> String {
     let found = &s.found;
     let [coordinates, constraints, rank] = s.sizes;
     let stable = match (s.unstable, s.neutral.unwrap_or(0)) {
@@ -198,7 +200,7 @@ fn still(s: &Still) -> String {
 }
 
 /// How far it went.
-fn moved(s: &Still) -> String {
+fn moved(s: &StaticEquilibrium) -> String {
     let Some([way, turn]) = &s.moved else { return "no body".to_owned() };
     let part = |size: f64, unit: &str, body: &str| {
         if size > 0.0 {

@@ -164,7 +164,7 @@ fn named<U: Copy>(
 ) -> Result<U, Refusal> {
     let place = names.iter().position(|n| *n == name);
     place.and_then(|i| values.get(i).copied()).ok_or_else(|| {
-        let hint = mbs::scene_file::suggestion(name, names, "built are");
+        let hint = mbs::scene_file::nearest_name(name, names, "built are");
         Refusal::new("settings-refused", format!("unknown {key} `{name}`"), hint)
     })
 }

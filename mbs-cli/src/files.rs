@@ -4,7 +4,7 @@ use crate::refusal::Refusal;
 use crate::say::warn;
 use mbs::core::scene::{Entry, Scene};
 use mbs::folder::{Folder, WriteError, id, write_file};
-use mbs::scene_file::{Choice, Provenance, SceneFile, readable};
+use mbs::scene_file::{PilotReport, Provenance, SceneFile, format::significant};
 use mbs::{Overrides, Settings, SettingsError};
 use std::fs::File;
 use std::io::{self, Read};
@@ -169,7 +169,7 @@ pub(crate) fn provenance(
         precision: settings.precision.name().to_owned(),
         formulation: settings.formulation.name().to_owned(),
         integrator: settings.integrator.name().to_owned(),
-        step: format!("{} s", readable(settings.step)),
+        step: format!("{} s", significant(settings.step)),
         version: format!("mbs {}", env!("CARGO_PKG_VERSION")),
         cpu: processor(),
     }
@@ -201,7 +201,7 @@ fn unreadable(path: &Path, what: &str, error: &io::Error) -> Refusal {
 /// The evidence of a choice, as an object and as a table.
 pub(crate) fn write_choice(
     part: &mut mbs::folder::Part<'_>,
-    choice: &Choice,
+    choice: &PilotReport,
 ) -> Result<(), WriteError> {
     let text = serde_json::to_string_pretty(choice).unwrap_or_default();
     part.table("choice.json", |sink| writeln!(sink, "{text}"))?;

@@ -5,7 +5,7 @@ use clap::Args;
 use mbs::core::scene::Scene;
 use mbs::folder::{Part, WriteError};
 use mbs::realtime::{
-    Degrade, OVERRUNS, Overrun, Pacing, PacingError, Quiet, SystemClock, run_document,
+    Degrade, OVERRUNS, Overrun, Pacing, PacingError, Recovery, SystemClock, run_document,
 };
 use mbs::scene_file::{RunSummary, SceneFile, write_overruns};
 use mbs::{Outcome, Settings};
@@ -52,7 +52,7 @@ impl Arguments {
             overrun: self.overrun.unwrap_or(other.overrun),
             degrade: self.degrade.clone().map_or(other.degrade, Degrade::Listed),
             awake: self.awake.unwrap_or(other.awake),
-            quiet: Quiet { tasks: self.quiet.unwrap_or(other.quiet.tasks), ..other.quiet },
+            quiet: Recovery { tasks: self.quiet.unwrap_or(other.quiet.tasks), ..other.quiet },
         }))
     }
 

@@ -11,7 +11,7 @@ use mbs::auto::{Clock, Goal, Plan, PlanError, Processor, plan, run_plan, time};
 use mbs::estimate::estimate;
 use mbs::folder::{Folder, WriteError};
 use mbs::realtime::Pacing;
-use mbs::scene_file::{Provenance, RunError, SceneFile, readable};
+use mbs::scene_file::{Provenance, RunError, SceneFile, format::significant};
 use mbs::{
     CHECKPOINT, Outcome, Overrides, Precision, Settings, StopError, run_document_kept, words,
 };
@@ -377,7 +377,7 @@ impl Bar {
             self.bar.set_message(format!(
                 "t = {} of {} s",
                 words::time(t),
-                readable(self.duration)
+                significant(self.duration)
             ));
         }
     }

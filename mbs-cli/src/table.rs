@@ -1,6 +1,6 @@
 //! The short table at the end of a run.
 
-use mbs::scene_file::{RunSummary, readable};
+use mbs::scene_file::{RunSummary, format::significant};
 use mbs::{Outcome, words};
 use std::fmt::Write;
 use std::path::Path;
@@ -43,7 +43,7 @@ fn headline(s: &RunSummary) -> String {
     let lengths = match &s.control {
         Some(c) => format!("{} to {} s", words::few(c.smallest_step), words::few(c.largest_step)),
         None if is_of_its_own => format!("{} s on average", words::few(mean)),
-        None => format!("{} s", readable(s.step)),
+        None => format!("{} s", significant(s.step)),
     };
     let integrator = match s.integrator.as_str() {
         "" | "trapezoidal" => String::new(),
@@ -54,7 +54,7 @@ fn headline(s: &RunSummary) -> String {
         s.scene,
         s.precision,
         counted(s.steps, "step"),
-        readable(s.end_time),
+        significant(s.end_time),
         if s.completed { "" } else { " (stopped)" }
     )
 }

@@ -1,6 +1,5 @@
 #![doc = include_str!("../README.md")]
 
-mod cure;
 mod decompose;
 mod linkage;
 mod loops;
@@ -9,11 +8,11 @@ mod matrix;
 mod parts;
 mod perturb;
 mod rank;
+mod remedy;
 mod residual;
 mod sets;
 mod svd;
 
-pub use cure::{Change, Cure};
 pub use linkage::{Jacobian, Linkage, Poses, reference};
 pub use loops::{Corner, Drive, Loop, drives, loops};
 pub use masses::{Massless, massless};
@@ -21,6 +20,7 @@ pub use matrix::Matrix;
 pub use parts::Part;
 pub use perturb::Nature;
 pub use rank::{Rank, UNCERTAIN};
+pub use remedy::{JointChange, Remedy};
 pub use sets::{Diagnosis, Member, Set, diagnose};
 pub use svd::{Svd, singular_values};
 

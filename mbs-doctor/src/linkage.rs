@@ -13,7 +13,7 @@ use crate::matrix::Matrix;
 use crate::parts::{Part, parts};
 use mbs_core::algebra::cross;
 use mbs_core::cluster::mass_properties;
-use mbs_core::outputs::{Transmission, Wrench};
+use mbs_core::outputs::{JointWrenches, Wrench};
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::align::aligned;
 use mbs_core::scene::{BodyId, Dimension, Joint, JointKind, Scene};
@@ -33,12 +33,12 @@ pub fn reference(scene: &Scene<f64>) -> Vec<RigidMotion<f64>> {
 pub(crate) struct Link {
     pub(crate) joint: Joint<f64>,
     pub(crate) is_guided: bool,
-    transmission: Transmission<f64>,
+    transmission: JointWrenches<f64>,
 }
 
 impl Link {
     pub(crate) fn new(joint: &Joint<f64>, dimension: Dimension, is_guided: bool) -> Self {
-        let transmission = Transmission::new(joint, dimension, is_guided, 1.0);
+        let transmission = JointWrenches::new(joint, dimension, is_guided, 1.0);
         Self { joint: joint.clone(), is_guided, transmission }
     }
 
@@ -99,7 +99,7 @@ impl Linkage {
     #[must_use]
     pub fn new(scene: &Scene<f64>) -> Self {
         let scene = &*aligned(scene);
-        let is_guided = |j| scene.guides.iter().any(|guide| guide.joint == j);
+        let is_guided = |j| scene.guides.iter().any(|guide| guide.joint.index() == j);
         let joints = scene.joints.iter().enumerate();
         let links = joints.map(|(j, x)| Link::new(x, scene.dimension, is_guided(j))).collect();
         let mut linkage = Self {

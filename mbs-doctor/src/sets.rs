@@ -1,12 +1,12 @@
 //! Dependent sets of joints, with what each joint of them leaves open.
 
-use crate::cure::{Cure, cure};
 use crate::decompose::{Group, ZERO, groups};
 use crate::linkage::{Jacobian, Linkage, Poses};
 use crate::matrix::Matrix;
 use crate::parts::Part;
 use crate::perturb::{Nature, neighbours};
 use crate::rank::Rank;
+use crate::remedy::{Remedy, remedy};
 use crate::svd::singular_values;
 use mbs_core::rigid::RigidMotion;
 
@@ -37,7 +37,7 @@ pub struct Set {
     /// The largest singular value that was taken as zero, over the largest [-].
     pub sigma: f64,
     /// What would mend it, where that was found.
-    pub cure: Option<Cure>,
+    pub remedy: Option<Remedy>,
 }
 
 /// What the joints of a scene do at a position.
@@ -135,8 +135,8 @@ impl Found<'_> {
             nature,
             is_exact,
             sigma: self.rank.sigma.get(first).map_or(0.0, |s| s / self.rank.sigma[0]),
-            cure: (may_mend || !is_exact)
-                .then(|| cure(self.linkage, (self.part, self.at), (&self.jacobian, null), group))
+            remedy: (may_mend || !is_exact)
+                .then(|| remedy(self.linkage, (self.part, self.at), (&self.jacobian, null), group))
                 .flatten(),
         }
     }

@@ -1,7 +1,7 @@
 //! Teams: every piece of work is done once, panics come through, and nothing is left behind.
 
 use mbs_core::team::{self, Alone, Team};
-use mbs_parallel::{Crew, Pool, Threads};
+use mbs_parallel::{Pool, ThreadTeam, Threads};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -32,8 +32,8 @@ impl Team for Any {
 }
 
 fn teams() -> Vec<Any> {
-    let crews = [2, 3, 8].map(|n| Threads::Crew(Crew::new(n).expect("threads")));
-    let threads = [Threads::One].into_iter().chain(crews);
+    let teams = [2, 3, 8].map(|n| Threads::ThreadTeam(ThreadTeam::new(n).expect("threads")));
+    let threads = [Threads::One].into_iter().chain(teams);
     let mut teams: Vec<Any> = threads.map(Any::Threads).collect();
     // Rayon's locks are in the standard library, which `cargo xtask races` cannot watch.
     if option_env!("MBS_SANITIZED").is_none() {
@@ -57,7 +57,7 @@ fn forks(team: &impl Team, level: u32, number: u64, leaves: &AtomicUsize) -> u64
 
 #[test]
 fn every_leaf_of_nested_forks_is_run_once() {
-    // More forks than the queue of a crew has places. Leaves are numbered 2^12 .. 2^13.
+    // More forks than the queue of a thread team has places. Leaves are numbered 2^12 .. 2^13.
     for team in teams() {
         for _ in 0..20 {
             let leaves = AtomicUsize::new(0);
@@ -146,10 +146,10 @@ fn values_of_a_fork_are_dropped_once() {
 
 #[test]
 fn a_crew_may_be_called_by_several_threads_and_dropped_by_any() {
-    let crew = Crew::new(3).expect("threads");
+    let shared = ThreadTeam::new(3).expect("threads");
     std::thread::scope(|scope| {
         for _ in 0..4 {
-            let team = Threads::Crew(crew.clone());
+            let team = Threads::ThreadTeam(shared.clone());
             scope.spawn(move || {
                 let leaves = AtomicUsize::new(0);
                 for _ in 0..50 {
@@ -158,12 +158,12 @@ fn a_crew_may_be_called_by_several_threads_and_dropped_by_any() {
             });
         }
     });
-    drop(crew);
+    drop(shared);
 }
 
 #[test]
 fn a_crew_that_fell_asleep_works_on() {
-    let team = Threads::Crew(Crew::new(3).expect("threads"));
+    let team = Threads::ThreadTeam(ThreadTeam::new(3).expect("threads"));
     for _ in 0..3 {
         std::thread::sleep(std::time::Duration::from_millis(40));
         let leaves = AtomicUsize::new(0);

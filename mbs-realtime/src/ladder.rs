@@ -16,7 +16,7 @@ const MOST_TIMES: u32 = 64;
 
 /// When a loop that was degraded comes back up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Quiet {
+pub struct Recovery {
     /// Tasks in a row that must be in time and light. `≥ 1`.
     pub tasks: u32,
     /// A task is light that takes at most so many hundredths of a period. `1 ..= 100`.
@@ -25,7 +25,7 @@ pub struct Quiet {
     pub patience: u32,
 }
 
-impl Default for Quiet {
+impl Default for Recovery {
     /// 500 tasks of at most 70 % of a period; patience 10.
     fn default() -> Self {
         Self { tasks: 500, percent: 70, patience: 10 }
@@ -34,8 +34,8 @@ impl Default for Quiet {
 
 /// Where on the ladder the loop stands.
 #[derive(Debug, Clone)]
-pub(crate) struct Ladder {
-    quiet: Quiet,
+pub(crate) struct DegradationLadder {
+    quiet: Recovery,
     period: Duration,
     last: usize,
     level: usize,
@@ -47,9 +47,9 @@ pub(crate) struct Ladder {
     since_rise: Option<u64>,
 }
 
-impl Ladder {
+impl DegradationLadder {
     /// `levels` `≥ 1`: 0 is everything, `levels − 1` the least.
-    pub(crate) fn new(quiet: Quiet, period: Duration, levels: usize) -> Self {
+    pub(crate) fn new(quiet: Recovery, period: Duration, levels: usize) -> Self {
         Self {
             quiet,
             period,

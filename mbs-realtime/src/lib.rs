@@ -8,7 +8,7 @@ mod report;
 mod sample;
 
 pub use clock::{Clock, SystemClock, wait_until};
-pub use ladder::Quiet;
+pub use ladder::Recovery;
 pub use log::{Action, Entry};
 pub use pacer::{Overrun, Pace, PaceError, Pacer, Task, Work};
 pub use report::{Margin, Report, Spread};

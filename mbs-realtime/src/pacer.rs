@@ -7,7 +7,7 @@
 //! ```
 
 use crate::clock::{Clock, wait_until};
-use crate::ladder::{Ladder, Quiet};
+use crate::ladder::{DegradationLadder, Recovery};
 use crate::log::{Action, Entry, Log};
 use crate::report::{Report, margin, spread};
 use crate::sample::{Sample, nanos};
@@ -24,7 +24,7 @@ pub enum Overrun {
     /// The late result is published at the next boundary of a period, and the next task begins there; until then the last result
     /// stands. The schedule is put off by these periods and they are not caught up: no task is left out, but each comes later.
     Hold,
-    /// As [`Finish`](Self::Finish), and the level goes down one step of the ladder; it comes back up as [`Quiet`] says.
+    /// As [`Finish`](Self::Finish), and the level goes down one step of the ladder; it comes back up as [`Recovery`] says.
     Degrade,
 }
 
@@ -38,7 +38,7 @@ pub struct Pace {
     /// The loop waits asleep until so long before a begin, then awake: systems wake sleepers late. Zero: asleep only.
     pub awake: Duration,
     /// When a degraded loop comes back up.
-    pub quiet: Quiet,
+    pub quiet: Recovery,
     /// Entries of the log at most; those beyond are counted.
     pub log: usize,
 }
@@ -51,7 +51,7 @@ impl Pace {
             period,
             overrun: Overrun::Finish,
             awake: Duration::from_micros(100),
-            quiet: Quiet::default(),
+            quiet: Recovery::default(),
             log: 1000,
         }
     }
@@ -119,7 +119,7 @@ impl<E, F: FnMut(Task) -> Result<ControlFlow<()>, E>> Work for F {
 #[derive(Debug, Clone)]
 pub struct Pacer {
     pace: Pace,
-    ladder: Ladder,
+    ladder: DegradationLadder,
     jitter: Sample,
     duration: Sample,
     margin: Sample,
@@ -152,7 +152,7 @@ impl Pacer {
         }
         Ok(Self {
             pace,
-            ladder: Ladder::new(quiet, pace.period, levels),
+            ladder: DegradationLadder::new(quiet, pace.period, levels),
             jitter: Sample::new(),
             duration: Sample::new(),
             margin: Sample::new(),

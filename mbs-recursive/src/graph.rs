@@ -114,7 +114,7 @@ impl Demands {
         let n = scene.joints.len();
         let mut new = Self { is_guided: vec![false; n], effect: vec![None; n] };
         for guide in &scene.guides {
-            new.is_guided[guide.joint] = true;
+            new.is_guided[guide.joint.index()] = true;
         }
         for (effect, action) in &actions.list {
             if let Action::Angle { joint, .. } = action {

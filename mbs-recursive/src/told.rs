@@ -19,7 +19,7 @@ impl Told {
     pub(crate) fn new<T: Real>(scene: &Scene<T>, clusters: &Clusters<T>) -> Self {
         let mut guide = vec![None; scene.joints.len()];
         for (g, law) in scene.guides.iter().enumerate() {
-            guide[law.joint].get_or_insert(g);
+            guide[law.joint.index()].get_or_insert(g);
         }
         let mut is_idle: Vec<bool> = clusters.clusters.iter().map(|c| c.rod.is_some()).collect();
         for joint in &scene.joints {

@@ -2,6 +2,7 @@
 
 pub mod compare;
 mod dice;
+pub mod format;
 mod generate;
 mod page;
 mod read;
@@ -12,17 +13,17 @@ mod write;
 pub use dice::Dice;
 pub use generate::{Family, GenerateError, MOST_BODIES, generate};
 pub use page::page;
-pub use read::{Place, ReadError, ReadFault, SceneFile, Sweep, SweepFault, suggestion};
+pub use read::{Place, ReadError, ReadFault, SceneFile, Sweep, SweepFault, nearest_name};
 pub use record::{
     Animation, Channel, ChannelSeries, Component, EnergySeries, IterationSeries, Polyline,
     Provenance, RunRecord, StepRow, StepSeries, Trace, ViolationSeries,
 };
 pub use report::{Report, Section};
 pub use write::{
-    Absence, Candidate, Change, Choice, Chosen, Contact, ControlSummary, ControllerStep, CsvWriter,
-    Degraded, EffectEntry, EnergySummary, ErrorEstimate, Explanation, Fallback, GuideEntry,
-    JointGroup, LargestStep, MarginSummary, Outputs, Overrun, PilotReference, Price, Prices,
-    RealtimeSummary, Relative, Rod, RunError, RunSummary, SearchEnd, SecondLook, Simulated, Sizes,
-    Times, TrialEntry, ViolationSummary, append_steps, long, readable, shortest, write_choice,
-    write_overruns, write_steps,
+    Candidate, Contact, ControlSummary, ControllerStep, CsvWriter, Degraded, EffectCost,
+    EffectCosts, EffectEntry, EnergySummary, ErrorEstimate, Explanation, Fallback, GuideEntry,
+    JointsByKind, LargestStep, MarginSummary, MethodChoice, MissingEffect, OutputChange, Outputs,
+    Overrun, PilotReference, PilotReport, RealtimeSummary, Relative, RunError, RunSummary,
+    SearchEnd, SecondLook, Simulated, Sizes, ThinRod, Times, TrialEntry, ViolationSummary,
+    append_steps, write_choice, write_overruns, write_steps,
 };

@@ -1,7 +1,7 @@
 //! What a run leaves behind, as plain data: channels, pictures, energies, counts.
 
 use crate::write::ControlSummary;
-use mbs_core::scene::{Dimension, JointKind, Quantity, Scene};
+use mbs_core::scene::{Dimension, JointId, JointKind, Quantity, Scene};
 
 /// A recorded channel: its name and its components.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -41,7 +41,7 @@ impl Channel {
             let labels = &["x", "y", "z"][..scene.dimension.count()];
             Self::labelled(name, labels.iter().map(|label| (*label, unit)))
         };
-        let units = |joint: usize| coordinate_units(scene.joints[joint].kind, scene.dimension);
+        let units = |joint: JointId| coordinate_units(scene.joints[joint].kind, scene.dimension);
         scene
             .outputs
             .iter()

@@ -1,6 +1,6 @@
 //! Inputs that were set since the last step, taken into the state that the next one begins with.
 
-use crate::step::choose;
+use crate::step::select_pivots;
 use crate::workspace::Workspace;
 use mbs_core::model::{Load, Model, State, System, Tangent};
 use mbs_core::step::{StepError, add_response, has_new_inputs, load_at};
@@ -27,7 +27,7 @@ pub fn take_inputs<T: Real, M: Model<T>>(
     }
     let n = model.n_unknowns();
     if w.is_stale {
-        choose(model, s, w)?;
+        select_pivots(model, s, w)?;
     }
     w.a.fill(T::ZERO);
     w.dq.fill(T::ZERO);

@@ -18,6 +18,6 @@ mod workspace;
 pub use history::History;
 pub use inputs::take_inputs;
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
-pub use options::{Coordinates, Options, Rechoice};
+pub use options::{Coordinates, Options, PivotChange};
 pub use step::step;
 pub use workspace::Workspace;

@@ -16,7 +16,7 @@ pub struct Options<T> {
     /// Newton iterations allowed in one step.
     pub max_iterations: u32,
     /// When independent coordinates are chosen anew.
-    pub rechoice: Rechoice,
+    pub pivot_change: PivotChange,
     /// Put the geometric stiffness of the constraints, the curvature of their surface, into the tangent; P1 (44) has none.
     pub geometric_stiffness: bool,
 }
@@ -33,7 +33,7 @@ pub enum Coordinates {
 
 /// When independent coordinates are chosen anew, always between steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Rechoice {
+pub enum PivotChange {
     /// When a pivot fell below a hundredth of what it was, R grew above 10, or the position problem took more than 4 iterations.
     WhenNeeded,
     /// At every step.
@@ -48,7 +48,7 @@ impl<T: Real> Default for Options<T> {
             coordinates: Coordinates::Tangent,
             tolerance: T::tolerance(1e-10).max(T::EPSILON * T::from_f64(64.0)),
             max_iterations: 20,
-            rechoice: Rechoice::WhenNeeded,
+            pivot_change: PivotChange::WhenNeeded,
             geometric_stiffness: true,
         }
     }

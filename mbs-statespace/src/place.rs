@@ -113,7 +113,7 @@ impl<T: Real> Workspace<T> {
     /// # Errors
     /// [`StepError::RankLost`] when the rank is not that of the start.
     pub(crate) fn choose_columns(&mut self) -> Result<(), StepError> {
-        let choice = self.elimination.choose(&self.jacobian.values);
+        let choice = self.elimination.select_pivots(&self.jacobian.values);
         self.choices += 1;
         self.counts.factorizations += 1;
         self.first_basis = T::ZERO;

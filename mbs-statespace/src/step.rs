@@ -13,7 +13,7 @@
 //! without it (an option) it is the printed one. f is evaluated as (M a - Q)_i + J_i^T lambda, the same without R.
 
 use crate::inputs::take_inputs;
-use crate::options::{Coordinates, Options, Rechoice};
+use crate::options::{Coordinates, Options, PivotChange};
 use crate::workspace::Workspace;
 use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::{Rule, is_far};
@@ -46,7 +46,7 @@ pub fn step<T: Real, M: Model<T>>(
     take_inputs(model, s, w)?;
     let rule = options.integrator.rule(dt);
     w.counts = Counts::default();
-    let is_new = w.is_stale || options.rechoice == Rechoice::EveryStep;
+    let is_new = w.is_stale || options.pivot_change == PivotChange::EveryStep;
     let mut outcome = attempt(model, (&rule, length), options, s, (w, is_new));
     if outcome.is_err() && !is_new {
         outcome = attempt(model, (&rule, length), options, s, (w, true));
@@ -78,7 +78,7 @@ fn attempt<T: Real, M: Model<T>>(
 ) -> Result<Done<T>, StepError> {
     let n = model.n_unknowns();
     if is_new {
-        choose(model, s, w)?;
+        select_pivots(model, s, w)?;
     }
     predict(model, (rule, length), s, w);
     if !norm_inf(&w.dq[..n]).is_finite() {
@@ -117,7 +117,7 @@ fn predict<T: Real, M: Model<T>>(
 /// Chooses independent coordinates at the start of the step. The rank found at the start of the motion must stand.
 ///
 /// Rank is a matter of positions that fulfil the constraints: elsewhere rows that repeat each other need not.
-pub(crate) fn choose<T: Real, M: Model<T>>(
+pub(crate) fn select_pivots<T: Real, M: Model<T>>(
     model: &M,
     s: &State<T>,
     w: &mut Workspace<T>,

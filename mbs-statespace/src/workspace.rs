@@ -71,7 +71,7 @@ impl<T: Real> Workspace<T> {
         let mut jacobian = Jacobian::new(model);
         jacobian.gather(model, &terms);
         let mut elimination = Elimination::new(jacobian.pattern(n), column_scales(model));
-        let rank = elimination.choose(&jacobian.values).rank;
+        let rank = elimination.select_pivots(&jacobian.values).rank;
         elimination.reserve(2 * elimination.n_entries());
         let pivots = elimination.pivots();
         let widest = (0..model.n_elements()).map(|e| model.clique(e).len()).max().unwrap_or(0);

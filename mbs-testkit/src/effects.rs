@@ -2,8 +2,8 @@
 
 use crate::scene;
 use mbs_core::scene::{
-    BodyId, CalspanCoefficients, Dimension, Effect, EffectKind, PolynomialPiece, RoadFeature,
-    Scene, Signal,
+    BodyId, CalspanCoefficients, Dimension, Effect, EffectKind, JointId, PolynomialPiece,
+    RoadFeature, Scene, Signal,
 };
 
 const SPATIAL: &str = r#"
@@ -146,11 +146,11 @@ pub fn bushing(dimension: Dimension, damping: f64) -> EffectKind<f64> {
 }
 
 /// Stops of a joint.
-fn limit(joint: usize, lower: f64, upper: f64) -> EffectKind<f64> {
+fn limit(joint: JointId, lower: f64, upper: f64) -> EffectKind<f64> {
     EffectKind::Limit { joint, lower, upper, stiffness: 40.0, damping: 2.0 }
 }
 
-fn friction(joint: usize) -> EffectKind<f64> {
+fn friction(joint: JointId) -> EffectKind<f64> {
     let (coulomb, r#static, stribeck) = (1.0, 1.2, 0.2);
     let (viscous, regularisation) = (0.3, 0.1);
     EffectKind::Friction { joint, coulomb, r#static, stribeck, viscous, regularisation }
@@ -159,7 +159,7 @@ fn friction(joint: usize) -> EffectKind<f64> {
 /// A drive of the left body.
 fn speed_hold(dimension: Dimension) -> EffectKind<f64> {
     let direction = place(dimension, [1.0, 0.1, -0.2]);
-    EffectKind::SpeedHold { body: 2, direction, speed: 1.2, gain: 8.0, limit: 5.0 }
+    EffectKind::SpeedHold { body: BODIES[0], direction, speed: 1.2, gain: 8.0, limit: 5.0 }
 }
 
 /// A wheel that is pressed into the road by 0.1 m; `rolls` with side force in space, and resistance.
@@ -176,7 +176,7 @@ pub fn tire(dimension: Dimension, rolls: bool) -> EffectKind<f64> {
         ..iltis
     };
     EffectKind::Tire {
-        body: 2,
+        body: BODIES[0],
         center: place(dimension, [0.05, -0.2, 0.9]),
         axis: is_spatial.then_some([0.05, 1.0, 0.1]),
         radius: 0.5,
@@ -193,7 +193,8 @@ pub fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
     let course = Signal::Table(vec![(0.0, [3.0, 0.0, 0.0]), (1.0, [-8.0, 0.0, 0.0])]);
     let (bodies, ends) = (BODIES, points(dimension));
     let direction = Some([0.8, 0.3, 0.4]);
-    let drag = EffectKind::AeroDrag { body: 3, at: ends[1], area_coefficient: 2.0, density: 1.2 };
+    let drag =
+        EffectKind::AeroDrag { body: BODIES[1], at: ends[1], area_coefficient: 2.0, density: 1.2 };
     vec![
         ("actuator", EffectKind::Actuator { bodies, points: ends, course }),
         ("spring by a polynomial", polynomial(dimension, None, false)),
@@ -203,11 +204,11 @@ pub fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
         ("bumper out of contact", bumper(dimension, 5.0)),
         ("bumper in contact", bumper(dimension, -0.4)),
         ("bushing", bushing(dimension, 1.0)),
-        ("limits of a hinge", limit(0, -0.01, 0.01)),
-        ("limits of a slide", limit(1, -0.01, 0.01)),
-        ("limits that are far", limit(0, -9.0, 9.0)),
-        ("friction of a hinge", friction(0)),
-        ("friction of a slide", friction(1)),
+        ("limits of a hinge", limit(JointId::new(0), -0.01, 0.01)),
+        ("limits of a slide", limit(JointId::new(1), -0.01, 0.01)),
+        ("limits that are far", limit(JointId::new(0), -9.0, 9.0)),
+        ("friction of a hinge", friction(JointId::new(0))),
+        ("friction of a slide", friction(JointId::new(1))),
         ("drag", drag),
         ("speed hold", speed_hold(dimension)),
         ("tire that is a spring", tire(dimension, false)),

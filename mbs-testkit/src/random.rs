@@ -3,7 +3,7 @@
 use crate::scenes::empty;
 use mbs_core::scene::{
     Body, BodyId, Dimension, Effect, EffectKind, Guide, Inertia, InitialCondition, InitialTarget,
-    Joint, JointKind, Motion, Scene,
+    Joint, JointId, JointKind, Motion, Scene,
 };
 
 /// A small generator of the same numbers on every machine (xorshift64*), by its state, which is not zero.
@@ -105,7 +105,7 @@ pub fn tree(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
         let n_rates = kind.n_coordinates(dimension);
         let rate = Some((0..n_rates).map(|_| random.next()).collect());
         initials.push(InitialCondition {
-            target: InitialTarget::Joint { joint: i, value: None, rate },
+            target: InitialTarget::Joint { joint: JointId::new(i), value: None, rate },
         });
     }
     let scene = empty(&format!("random tree {seed}"), dimension, Some([0.0, -9.81, 0.0]));
@@ -127,7 +127,7 @@ pub fn guided(mut scene: Scene<f64>, seed: u64, chances: usize) -> Scene<f64> {
             0 => Motion::Ramp { rate },
             _ => Motion::Sine { amplitude: 0.3 * amplitude, frequency: 1.5 + rate, phase },
         };
-        scene.guides.push(Guide { joint, law });
+        scene.guides.push(Guide { joint: JointId::new(joint), law });
     }
     let guides = &scene.guides;
     scene.initials.retain(|initial| match &initial.target {

@@ -103,7 +103,7 @@ fn turn_initial(
     match target {
         InitialTarget::Joint { joint, value, rate } => {
             // Rotation vectors and angular velocities are told in global axes.
-            if joints[*joint].kind == JointKind::Spherical {
+            if joints[joint.index()].kind == JointKind::Spherical {
                 for x in [value, rate].into_iter().flatten() {
                     *x = turn([x[0], x[1], x[2]]).to_vec();
                 }
@@ -134,7 +134,7 @@ pub fn reorder(scene: &Scene<f64>) -> Scene<f64> {
     s.joints.iter_mut().flat_map(|j| &mut j.bodies).for_each(renumber);
     for initial in &mut s.initials {
         if let InitialTarget::Body { body, .. } = &mut initial.target {
-            *body = n - 1 - *body;
+            renumber(body);
         }
     }
     for effect in &mut s.effects {
@@ -148,7 +148,7 @@ pub fn reorder(scene: &Scene<f64>) -> Scene<f64> {
             | EffectKind::BodyTorque { body, .. }
             | EffectKind::AeroDrag { body, .. }
             | EffectKind::SpeedHold { body, .. }
-            | EffectKind::Tire { body, .. } => *body = n - 1 - *body,
+            | EffectKind::Tire { body, .. } => renumber(body),
             EffectKind::TorsionSpring { .. }
             | EffectKind::JointTorque { .. }
             | EffectKind::Limit { .. }

@@ -31,7 +31,7 @@ impl<T: Real, const D: usize> Channels<T, D> {
             .transpose()
             .map_err(StopError::Reaction)?;
         let asked = scene.outputs.iter().filter_map(|o| match o.quantity {
-            Quantity::Reaction { joint } => Some(joint),
+            Quantity::Reaction { joint } => Some(joint.index()),
             _ => None,
         });
         let asked: Vec<usize> = asked.collect();

@@ -7,7 +7,7 @@ use crate::settings::Settings;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::control::{
-    Accepted, Attempt, Crossing, Driver, EnergyRule, Invariant, LocalError, Rules, Stepper,
+    Accepted, Driver, EnergyRule, Event, Invariant, LocalError, Rules, Stepper, TrialStep,
 };
 use mbs_core::model::{Model, State};
 use mbs_core::natural::{ModelError, NaturalModel};
@@ -127,7 +127,7 @@ where
         Ok(())
     }
 
-    fn attempt(&mut self, h: T) -> Result<Attempt<T>, StepError> {
+    fn attempt(&mut self, h: T) -> Result<TrialStep<T>, StepError> {
         let report = self.engine.step(self.model, h, self.state);
         let report = report.inspect_err(|_| self.engine.undo())?;
         if let Some(turns) = self.turns {
@@ -143,7 +143,7 @@ where
             [&self.saved.a, &self.state.a].map(|a| self.model.kinetic_energy(a).to_f64());
         self.engine.tried(h);
         let (t, error) = (self.state.t, error.to_f64());
-        Ok(Attempt { report, t, energies, error, acceleration_energy })
+        Ok(TrialStep { report, t, energies, error, acceleration_energy })
     }
 
     fn undo(&mut self) {
@@ -151,8 +151,8 @@ where
         self.engine.undo();
     }
 
-    fn crossing(&mut self, _: T) -> Option<Crossing> {
-        self.events.as_mut()?.crossing(self.state)
+    fn first_event(&mut self, _: T) -> Option<Event> {
+        self.events.as_mut()?.first_event(self.state)
     }
 
     fn keep(&mut self, at_event: bool) {

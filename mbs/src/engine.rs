@@ -235,7 +235,7 @@ where
             Index::One(_) => (1, 0),
             Index::Three(_) => (3, 0),
             Index::Both(change) => {
-                let is_one = change.index() == mbs_augmented::Index::One;
+                let is_one = change.index() == mbs_augmented::ConstraintIndex::One;
                 (if is_one { 1 } else { 3 }, change.changes())
             }
         })

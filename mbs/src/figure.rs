@@ -125,7 +125,7 @@ fn used<T: Real>(scene: &Scene<T>) -> Vec<Vec<[T; 3]>> {
         }
     }
     for output in &scene.outputs {
-        if let Quantity::Position { body, at } = output.quantity {
+        if let Quantity::Position { body: BodyId::Body(body), at } = output.quantity {
             used[body].push(at);
         }
     }
@@ -133,8 +133,8 @@ fn used<T: Real>(scene: &Scene<T>) -> Vec<Vec<[T; 3]>> {
 }
 
 impl<T: Real, const D: usize> Layout<'_, T, D> {
-    fn add(&mut self, body: usize, at: [T; 3]) -> usize {
-        self.points.push(self.model.point(BodyId::Body(body), at));
+    fn add(&mut self, body: BodyId, at: [T; 3]) -> usize {
+        self.points.push(self.model.point(body, at));
         self.points.len() - 1
     }
 
@@ -163,7 +163,8 @@ impl<T: Real, const D: usize> Layout<'_, T, D> {
     fn body(&mut self, body: usize) -> Polyline {
         let places = self.places(body);
         let name = self.scene.bodies[body].name.clone();
-        let mut chain: Vec<usize> = places.iter().map(|p| self.add(body, *p)).collect();
+        let mut chain: Vec<usize> =
+            places.iter().map(|p| self.add(BodyId::Body(body), *p)).collect();
         if chain.len() == 1 {
             return Polyline { name, chains: self.cross(body, places[0]) };
         }
@@ -178,7 +179,7 @@ impl<T: Real, const D: usize> Layout<'_, T, D> {
 
     /// A spatial body with many places: strokes from its centre to each.
     fn star(&mut self, body: usize, places: &[usize]) -> Vec<Vec<usize>> {
-        let center = self.add(body, self.scene.bodies[body].center);
+        let center = self.add(BodyId::Body(body), self.scene.bodies[body].center);
         places.iter().map(|&place| vec![center, place]).collect()
     }
 
@@ -197,7 +198,7 @@ impl<T: Real, const D: usize> Layout<'_, T, D> {
                 let (mut a, mut b) = (at, at);
                 a[i] -= reach;
                 b[i] += reach;
-                vec![self.add(body, a), self.add(body, b)]
+                vec![self.add(BodyId::Body(body), a), self.add(BodyId::Body(body), b)]
             })
             .collect()
     }

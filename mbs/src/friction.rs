@@ -45,7 +45,7 @@ impl Frictions {
             && settings.integrator == IntegratorKind::Rk4;
         let friction = |(effect, e): (usize, &Effect<T>)| match &e.kind {
             EffectKind::Friction { joint, coulomb, r#static, regularisation, .. } if e.enabled => {
-                let (joint, regularisation) = (*joint, regularisation.to_f64());
+                let (joint, regularisation) = (joint.index(), regularisation.to_f64());
                 // What is viscous alone rises nowhere.
                 let has_rise = coulomb.max(*r#static) > T::ZERO;
                 has_rise.then_some(Friction { effect, joint, regularisation })

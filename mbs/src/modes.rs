@@ -4,9 +4,9 @@
 //! lambda = -zeta omega_0 +- i omega_0 sqrt(1 - zeta^2):   omega_0 = |lambda|,  zeta = -Re lambda / |lambda|
 //! ```
 
-use crate::ready::Ready;
+use crate::ready::AssembledScene;
 use crate::rest::{LeftOut, at_rest, left_out};
-use crate::statics::{Search, left_out_json, settle, workspace};
+use crate::statics::{Search, find_equilibrium, left_out_json, workspace};
 use crate::stop::StopError;
 use core::f64::consts::TAU;
 use mbs_core::scene::{Dimension, Scene};
@@ -114,16 +114,16 @@ impl Modes {
         search: Search,
     ) -> Result<Self, StopError> {
         let left_out = if place == Place::Initial { Vec::new() } else { left_out(scene) };
-        let (Ready { model, start, .. }, found) = match place {
+        let (AssembledScene { model, start, .. }, found) = match place {
             Place::Equilibrium => {
                 let still = at_rest(scene);
-                let mut ready = Ready::<f64, D>::assembled(&still)?;
-                let found = settle(&still, &ready.model, search, &mut ready.start.state)?;
+                let mut ready = AssembledScene::<f64, D>::assembled(&still)?;
+                let found = find_equilibrium(&still, &ready.model, search, &mut ready.start.state)?;
                 (ready, Some(found))
             }
-            Place::Initial => (Ready::assembled(scene)?, None),
+            Place::Initial => (AssembledScene::assembled(scene)?, None),
             Place::Moving => {
-                let (ready, found) = Ready::settled(scene, search)?;
+                let (ready, found) = AssembledScene::settled(scene, search)?;
                 (ready, Some(found))
             }
         };

@@ -15,14 +15,14 @@ use mbs_sparse::Multifrontal;
 
 /// A model, its solver, and its consistent start.
 #[derive(Debug, Clone)]
-pub(crate) struct Ready<T: Real, const D: usize> {
+pub(crate) struct AssembledScene<T: Real, const D: usize> {
     pub(crate) model: NaturalModel<T, D>,
     pub(crate) solver: Multifrontal<T>,
     pub(crate) start: Assembled<T>,
     rank: Option<usize>,
 }
 
-impl<T: Real, const D: usize> Ready<T, D> {
+impl<T: Real, const D: usize> AssembledScene<T, D> {
     /// Builds the model of a scene and assembles it; it settles where the scene asks for it.
     ///
     /// # Errors

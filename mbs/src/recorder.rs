@@ -8,7 +8,7 @@ use mbs_core::Real;
 use mbs_core::real::DoubleDouble;
 use mbs_scene::{
     Channel, ChannelSeries, ControlSummary, EnergySeries, IterationSeries, StepRow, StepSeries,
-    ViolationSeries, ViolationSummary, long,
+    ViolationSeries, ViolationSummary, format::full,
 };
 
 /// Rows kept at most (and one more for the end); twice as many where the number of steps is not known before.
@@ -224,7 +224,7 @@ impl Recorder {
     /// The same with all digits, where there are more than those of `f64`.
     pub(crate) fn last_long(&self) -> Option<Vec<(String, Vec<String>)>> {
         let row = self.long_table().last()?;
-        Some(self.by_channels(row.into_iter().map(long)))
+        Some(self.by_channels(row.into_iter().map(full)))
     }
 
     fn by_channels<V>(&self, mut row: impl Iterator<Item = V>) -> Vec<(String, Vec<V>)> {

@@ -12,7 +12,7 @@ use crate::precision::{PrecisionError, not_built_hint};
 use mbs_core::Real;
 use mbs_core::control::EnergyRule;
 use mbs_core::scene::{Scene, SceneError, SolverTable};
-use mbs_scene::{Choice, readable};
+use mbs_scene::{PilotReport, format::significant};
 
 /// Steps of a run at most: at a microsecond each they take eleven days.
 const MOST_STEPS: f64 = 1e12;
@@ -94,7 +94,7 @@ pub struct Settings {
     /// Threads that share the work of a step.
     pub threads: usize,
     /// What a pilot measured, where one chose.
-    pub choice: Option<Box<Choice>>,
+    pub choice: Option<Box<PilotReport>>,
     /// What ends the run from outside.
     pub interrupt: Interrupt,
 }
@@ -166,7 +166,7 @@ impl SettingsError {
     #[must_use]
     pub fn hint(&self) -> String {
         match self {
-            Self::NotBuilt { value, built, .. } => mbs_scene::suggestion(value, built, "built are"),
+            Self::NotBuilt { value, built, .. } => mbs_scene::nearest_name(value, built, "built are"),
             Self::NotInBuild(precision) => not_built_hint(*precision),
             Self::NotPositive { .. } => "write a number larger than zero".to_owned(),
             Self::LimitOrder(_) => "write the larger one first: U, then L".to_owned(),
@@ -186,7 +186,7 @@ impl SettingsError {
             Self::TooManySteps { .. } => "write a longer step, or a shorter duration".to_owned(),
             Self::Scene(error) => error.fault.advice().to_owned(),
             Self::StepTooLong { duration, .. } => {
-                format!("write a step of {} s at most, or a longer duration", readable(*duration))
+                format!("write a step of {} s at most, or a longer duration", significant(*duration))
             }
         }
     }
@@ -198,13 +198,13 @@ impl core::fmt::Display for SettingsError {
             Self::NotBuilt { key, value, .. } => write!(f, "unknown {key} `{value}`"),
             Self::NotInBuild(precision) => PrecisionError::NotBuilt(*precision).fmt(f),
             Self::NotPositive { key, value } => {
-                write!(f, "{key} must be positive and finite, but is {}", readable(*value))
+                write!(f, "{key} must be positive and finite, but is {}", significant(*value))
             }
             Self::LimitOrder([upper, lower]) => write!(
                 f,
                 "energy_tolerance: U must be larger than L, but U is {} and L is {}",
-                readable(*upper),
-                readable(*lower)
+                significant(*upper),
+                significant(*lower)
             ),
             Self::NotTogether { formulation, option } => {
                 write!(f, "formulation `{}` has no `{option}`", formulation.name())
@@ -216,8 +216,8 @@ impl core::fmt::Display for SettingsError {
             Self::TooManySteps { step, duration } => write!(
                 f,
                 "a step of {} s is too short for a run of {} s: more than {MOST_STEPS:e} steps",
-                readable(*step),
-                readable(*duration)
+                significant(*step),
+                significant(*duration)
             ),
         }
     }

@@ -2,19 +2,19 @@
 
 mod carry;
 
-pub use carry::Refusal;
+pub use carry::SwitchError;
 
 use crate::checkpoint::{Kept, inputs};
 use crate::choice::FormulationKind;
 use crate::control::Control;
 use crate::engine::Engine;
 use crate::explain::kinds::damps;
-use crate::ready::Ready;
+use crate::ready::AssembledScene;
 use crate::settings::Settings;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
-use mbs_core::control::{Accepted, Attempt, Invariant, Limit};
+use mbs_core::control::{Accepted, Invariant, Limit, TrialStep};
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{EffectKind, Scene, Signal};
@@ -49,17 +49,17 @@ where
     /// # Errors
     /// [`StopError`] when there is no model, no consistent start, or the formulation cannot run the scene.
     pub fn new(scene: &Scene<T>, settings: &Settings) -> Result<Self, StopError> {
-        Self::of(scene, settings, Ready::new(scene)?)
+        Self::of(scene, settings, AssembledScene::new(scene)?)
     }
 
     /// The same of a scene that is ready.
     pub(crate) fn of(
         scene: &Scene<T>,
         settings: &Settings,
-        mut ready: Ready<T, D>,
+        mut ready: AssembledScene<T, D>,
     ) -> Result<Self, StopError> {
         let natural = (settings.formulation != FormulationKind::Recursive).then(|| ready.sizes());
-        let Ready { model, solver, start, .. } = ready;
+        let AssembledScene { model, solver, start, .. } = ready;
         let mut state = start.state.clone();
         let engine = Engine::new(scene, settings, &model, solver, &mut state)?;
         let sizes = engine.sizes().or(natural).unwrap_or_default();
@@ -117,7 +117,7 @@ where
         let change = invariant.change(energies);
         invariant.mark(state.t.to_f64(), energies);
         let t = state.t;
-        let attempt = Attempt { report, t, energies, error: 0.0, acceleration_energy: [0.0; 2] };
+        let attempt = TrialStep { report, t, energies, error: 0.0, acceleration_energy: [0.0; 2] };
         Ok(Accepted {
             attempt,
             step: rest,

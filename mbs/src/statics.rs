@@ -2,7 +2,7 @@
 
 use crate::channels::Channels;
 use crate::modes::{eigenvalues, neutral_directions};
-use crate::ready::Ready;
+use crate::ready::AssembledScene;
 use crate::rest::{LeftOut, at_rest, left_out};
 use crate::simulation::rank;
 use crate::stop::StopError;
@@ -11,7 +11,7 @@ use mbs_core::algebra::{norm, rotation_vector};
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{Dimension, Output, Quantity, Scene};
+use mbs_core::scene::{Dimension, JointId, Output, Quantity, Scene};
 use mbs_core::start::{Assembled, restart};
 use mbs_core::{Cliques, Real, SpdSolver};
 use mbs_linear::{
@@ -45,7 +45,7 @@ pub enum Search {
 ///
 /// # Errors
 /// [`StopError::Equilibrium`]; positions are then unchanged.
-pub fn settle<T: Real, const D: usize>(
+pub fn find_equilibrium<T: Real, const D: usize>(
     scene: &Scene<T>,
     model: &NaturalModel<T, D>,
     search: Search,
@@ -109,7 +109,7 @@ pub fn equilibrium_start<T: Real, const D: usize>(
     solver: &mut impl SpdSolver<T>,
     start: &mut Assembled<T>,
 ) -> Result<Equilibrium<T>, StopError> {
-    let found = settle(scene, model, search, &mut start.state)?;
+    let found = find_equilibrium(scene, model, search, &mut start.state)?;
     let analyse = mbs_sparse::Options::default();
     let state = &mut start.state;
     let residual = restart(scene, model, |p| Multifrontal::analyse(p, analyse), solver, state);
@@ -132,7 +132,7 @@ pub struct Moved {
 
 /// A static equilibrium, told.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Still {
+pub struct StaticEquilibrium {
     /// Name of the scene.
     pub scene: String,
     /// Coordinates, constraints, their rank.
@@ -159,7 +159,7 @@ pub struct Still {
     pub outputs: Vec<(Channel, Vec<f64>)>,
 }
 
-impl Still {
+impl StaticEquilibrium {
     /// Assembles a scene and lets it settle.
     ///
     /// # Errors
@@ -174,18 +174,19 @@ impl Still {
     fn in_space<const D: usize>(scene: &Scene<f64>, search: Search) -> Result<Self, StopError> {
         let left_out = left_out(scene);
         let scene = &at_rest(scene);
-        let Ready { model, start, .. } = Ready::<f64, D>::assembled(scene)?;
+        let AssembledScene { model, start, .. } = AssembledScene::<f64, D>::assembled(scene)?;
         let mut state = start.state;
         let places = |state: &State<f64>| -> Vec<RigidMotion<f64>> {
             (0..scene.bodies.len()).map(|body| model.motion(scene, body, state)).collect()
         };
         let from = places(&state);
-        let found = settle(scene, &model, search, &mut state)?;
+        let found = find_equilibrium(scene, &model, search, &mut state)?;
         let moved = moved(scene, &from, &places(&state));
         let joints = (0..scene.joints.len())
             .filter(|&j| scene.joints[j].kind.n_coordinates(scene.dimension) > 0)
-            .map(|joint| Quantity::JointValue { joint });
-        let reactions = (0..scene.joints.len()).map(|joint| Quantity::Reaction { joint });
+            .map(|joint| Quantity::JointValue { joint: JointId::new(joint) });
+        let reactions =
+            (0..scene.joints.len()).map(|joint| Quantity::Reaction { joint: JointId::new(joint) });
         let stability = stability(&model, &state);
         let (joints, _) = measured(&of_joints(scene, joints), &model, &state)?;
         let all = of_joints(scene, reactions);

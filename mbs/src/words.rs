@@ -6,16 +6,18 @@ use crate::tree::ROUNDINGS;
 use mbs_core::Real;
 use mbs_core::control::Limit;
 use mbs_core::scene::{Body, BodyId, Inertia, Scene};
-use mbs_scene::{Contact, ControlSummary, ErrorEstimate, RunError, RunSummary, readable};
+use mbs_scene::{
+    Contact, ControlSummary, ErrorEstimate, RunError, RunSummary, format::significant,
+};
 
 /// Three significant digits: the size is what matters.
 #[must_use]
 pub fn few(x: f64) -> String {
-    significant(x, 3)
+    rounded(x, 3)
 }
 
-fn significant(x: f64, digits: usize) -> String {
-    readable(format!("{x:.*e}", digits - 1).parse().unwrap_or(x))
+fn rounded(x: f64, digits: usize) -> String {
+    significant(format!("{x:.*e}", digits - 1).parse().unwrap_or(x))
 }
 
 /// What kept a step from being longer, as it stands in files.
@@ -49,7 +51,7 @@ pub(crate) fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
             format!("{}, {}, {}", s.coordinates, s.constraints, s.constraint_rank),
         ),
         row("steps", s.steps.to_string()),
-        row("time reached", format!("{} s", readable(s.end_time))),
+        row("time reached", format!("{} s", significant(s.end_time))),
         row("Newton iterations", s.iterations.to_string()),
         row("factorisations", s.factorizations.to_string()),
         row("largest energy error", format!("{} J", size(s.energy.max_error))),
@@ -129,7 +131,7 @@ fn contacts(s: &RunSummary) -> Option<String> {
     }
     let one = |c: &Contact| {
         let end = c.end.map_or_else(String::new, |end| format!(" ({end})"));
-        format!("`{}`{end} {} at {} s", c.effect, c.event, significant(c.time, 6))
+        format!("`{}`{end} {} at {} s", c.effect, c.event, rounded(c.time, 6))
     };
     let mut text = s.contacts.iter().take(FIRST).map(one).collect::<Vec<_>>().join(", ");
     let more = s.contacts.len().saturating_sub(FIRST) as u64 + s.contacts_left_out;
@@ -178,7 +180,7 @@ pub fn stopped_at(error: &RunError) -> String {
         (None, Some(body)) => format!(" (body `{body}`)"),
         (None, None) => String::new(),
     };
-    format!("at t = {} s{whose}", readable(error.time))
+    format!("at t = {} s{whose}", significant(error.time))
 }
 
 /// A note where fewer threads are used than were asked for.
@@ -214,8 +216,8 @@ pub(crate) fn notes<T: Real>(
     if settings.step > settings.duration && s.control.is_none() {
         notes.push(format!(
             "the step of {} s is longer than the run: there is one step of {} s",
-            readable(settings.step),
-            readable(settings.duration)
+            significant(settings.step),
+            significant(settings.duration)
         ));
     }
     for (body, is_held) in scene.bodies.iter().zip(held(scene)) {

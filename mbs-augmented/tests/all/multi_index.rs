@@ -1,6 +1,6 @@
 //! Steps of variable length and index: consistency at the change, no trace of rejected steps, counts.
 
-use mbs_augmented::{Index, IndexChange, MultiIndex, Options, Workspace, index1, index3};
+use mbs_augmented::{ConstraintIndex, IndexChange, MultiIndex, Options, Workspace, index1, index3};
 use mbs_core::SpdSolver;
 use mbs_core::control::{EnergyRule, Rules};
 use mbs_core::model::{Model, State};
@@ -119,15 +119,15 @@ fn short_steps_are_made_in_index_1_and_long_ones_in_index_3_with_room_between() 
         change.keep();
         (change.index(), is_changed)
     };
-    assert_eq!(index_at(&mut change, 1.1e-4, 0), (Index::Three, false));
-    assert_eq!(index_at(&mut change, 0.9e-4, 0), (Index::One, true));
-    assert_eq!(index_at(&mut change, 1.9e-4, 0), (Index::One, false));
-    assert_eq!(index_at(&mut change, 2.1e-4, 0), (Index::Three, true));
+    assert_eq!(index_at(&mut change, 1.1e-4, 0), (ConstraintIndex::Three, false));
+    assert_eq!(index_at(&mut change, 0.9e-4, 0), (ConstraintIndex::One, true));
+    assert_eq!(index_at(&mut change, 1.9e-4, 0), (ConstraintIndex::One, false));
+    assert_eq!(index_at(&mut change, 2.1e-4, 0), (ConstraintIndex::Three, true));
     // Reductions that do not help lead to index-1 at any step; back only once it grows again.
-    assert_eq!(index_at(&mut change, 1e-3, 3), (Index::Three, false));
-    assert_eq!(index_at(&mut change, 5e-4, 4), (Index::One, true));
-    assert_eq!(index_at(&mut change, 5e-4, 0), (Index::One, false));
-    assert_eq!(index_at(&mut change, 6e-4, 0), (Index::Three, true));
+    assert_eq!(index_at(&mut change, 1e-3, 3), (ConstraintIndex::Three, false));
+    assert_eq!(index_at(&mut change, 5e-4, 4), (ConstraintIndex::One, true));
+    assert_eq!(index_at(&mut change, 5e-4, 0), (ConstraintIndex::One, false));
+    assert_eq!(index_at(&mut change, 6e-4, 0), (ConstraintIndex::Three, true));
     assert_eq!(change.changes(), 4);
 }
 

@@ -93,14 +93,15 @@ impl<T: Real> Compiler<'_, T> {
             EffectKind::TorsionSpring { joint, stiffness, damping, free_value } => {
                 let (stiffness, damping, free) = (*stiffness, *damping, *free_value);
                 let law = Law::SpringDamper { stiffness, damping, free };
-                self.push(Action::Angle { joint: *joint, law });
+                self.push(Action::Angle { joint: joint.index(), law });
             }
             EffectKind::JointTorque { joint, course } => {
                 let law = Law::Torque { course: self.course(SignalInput::new(course)) };
-                self.push(Action::Angle { joint: *joint, law });
+                self.push(Action::Angle { joint: joint.index(), law });
             }
             EffectKind::Force { body, at, course, frame } => {
-                let at = (*body, *at);
+                let Some(body) = body.index() else { return };
+                let at = (body, *at);
                 let action = match (course, frame) {
                     (Signal::Constant(force), AxisFrame::Global) => {
                         Action::Constant { at, force: *force }
@@ -113,8 +114,9 @@ impl<T: Real> Compiler<'_, T> {
                 self.push(action);
             }
             EffectKind::BodyTorque { body, course } => {
+                let Some(body) = body.index() else { return };
                 let course = self.course(SignalInput::new(course));
-                self.push(Action::Torque { body: *body, course });
+                self.push(Action::Torque { body, course });
             }
             _ => {
                 self.add_law(kind);

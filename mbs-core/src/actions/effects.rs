@@ -15,7 +15,7 @@ use crate::laws;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
 use crate::natural::joint_axes;
-use crate::scene::{BodyId, Dimension, EffectKind, JointKind, PolynomialPiece, UserLaw};
+use crate::scene::{BodyId, Dimension, EffectKind, JointId, JointKind, PolynomialPiece, UserLaw};
 
 impl<T: Real> Compiler<'_, T> {
     /// A law along a length or about an angle.
@@ -79,15 +79,17 @@ impl<T: Real> Compiler<'_, T> {
         match kind {
             #[cfg(feature = "drag")]
             EffectKind::AeroDrag { body, at, area_coefficient, density } => {
+                let Some(body) = body.index() else { return };
                 let (area_coefficient, density) = (*area_coefficient, *density);
                 let law = BodyLaw::Drag { area_coefficient, density };
-                self.push(Action::OnBody { at: (*body, *at), axis: unit(0).into(), law });
+                self.push(Action::OnBody { at: (body, *at), axis: unit(0).into(), law });
             }
             #[cfg(feature = "speed-hold")]
             EffectKind::SpeedHold { body, direction, speed, gain, limit } => {
+                let Some(body) = body.index() else { return };
                 let (speed, gain, limit) = (*speed, *gain, *limit);
                 let law = BodyLaw::SpeedHold(laws::speed_hold::SpeedHold { speed, gain, limit });
-                let at = (*body, mass_properties(self.scene, *body).1.into());
+                let at = (body, mass_properties(self.scene, body).1.into());
                 self.push(Action::OnBody { at, axis: direction_of(*direction), law });
             }
             #[cfg(feature = "tire")]
@@ -101,6 +103,7 @@ impl<T: Real> Compiler<'_, T> {
                 rolling_resistance,
                 side,
             } => {
+                let Some(body) = body.index() else { return };
                 let (roads, travel) = self.roads();
                 let law = BodyLaw::Tire(laws::tire::Tire {
                     radius: *radius,
@@ -113,7 +116,7 @@ impl<T: Real> Compiler<'_, T> {
                     leans: given.is_some() && !self.is_planar(),
                 });
                 let axis = given.map_or_else(|| unit(2).into(), direction_of);
-                self.push(Action::OnBody { at: (*body, *center), axis, law });
+                self.push(Action::OnBody { at: (body, *center), axis, law });
             }
             #[cfg(feature = "own-laws")]
             EffectKind::Own { law, course } => {
@@ -125,6 +128,7 @@ impl<T: Real> Compiler<'_, T> {
                     }
                     UserLaw::Joint { joint, law } => self.on_joint(joint, Law::Own { law, course }),
                     UserLaw::Body { body, at, axis, law } => {
+                        let Some(body) = body.index() else { return };
                         let law = BodyLaw::Own { law, course };
                         self.push(Action::OnBody { at: (body, at), axis: direction_of(axis), law });
                     }
@@ -139,15 +143,15 @@ impl<T: Real> Compiler<'_, T> {
     }
 
     /// A law of a joint's one coordinate.
-    fn on_joint(&mut self, index: usize, law: Law<T>) {
-        let joint = &self.scene.joints[index];
+    fn on_joint(&mut self, id: JointId, law: Law<T>) {
+        let joint = &self.scene.joints[id];
         self.push(match joint.kind {
             JointKind::Prismatic => {
                 let direction = direction_of(joint_axes(joint, self.scene.dimension)[0]);
                 let ends = [0, 1].map(|i| (joint.bodies[i], joint.points[i]));
                 Action::Along { ends, direction, offset: T::ZERO, law }
             }
-            _ => Action::Angle { joint: index, law },
+            _ => Action::Angle { joint: id.index(), law },
         });
     }
 

@@ -34,13 +34,13 @@ pub trait Stepper<T: Real> {
     ///
     /// # Errors
     /// [`StepError`]; the state is then as before.
-    fn attempt(&mut self, h: T) -> Result<Attempt<T>, StepError>;
+    fn attempt(&mut self, h: T) -> Result<TrialStep<T>, StepError>;
 
     /// Puts the state back that was there before the last attempt.
     fn undo(&mut self);
 
     /// The first event within the last attempt of length `h` [s].
-    fn crossing(&mut self, h: T) -> Option<Crossing> {
+    fn first_event(&mut self, h: T) -> Option<Event> {
         let _ = h;
         None
     }
@@ -51,7 +51,7 @@ pub trait Stepper<T: Real> {
 
 /// What a trial came to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Attempt<T> {
+pub struct TrialStep<T> {
     /// What the step did.
     pub report: StepReport<T>,
     /// Time at its end [s].
@@ -68,7 +68,7 @@ pub struct Attempt<T> {
 
 /// An event within a trial, or at its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Crossing {
+pub struct Event {
     /// Share of the trial after which it comes, aimed a hair past it: from 0.001 to 1; up to 1.05 where the trial ends just
     /// short of it, so that no tiny step need follow.
     pub share: f64,
@@ -112,7 +112,7 @@ pub enum Limit {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accepted<T> {
     /// What the last trial came to; iterations, factorisations and solutions of all that came to their end.
-    pub attempt: Attempt<T>,
+    pub attempt: TrialStep<T>,
     /// Its length [s].
     pub step: T,
     /// Trials before it that were rejected, or shortened for an event.
@@ -207,7 +207,7 @@ impl Effort {
     }
 
     /// The last trial with the work of all.
-    fn told<T>(&self, mut attempt: Attempt<T>) -> Attempt<T> {
+    fn told<T>(&self, mut attempt: TrialStep<T>) -> TrialStep<T> {
         let report = &mut attempt.report;
         [report.iterations, report.factorizations, report.solves] = self.work;
         report.rejected = self.rejected;
@@ -315,7 +315,7 @@ impl<T: Real> Driver<T> {
                 }
             };
             effort.add(&attempt.report);
-            let crossing = stepper.crossing(h);
+            let crossing = stepper.first_event(h);
             let retry = crossing.filter(|c| !c.is_landed && effort.landings < MOST_LANDINGS);
             let retry = retry.and_then(|c| {
                 let to = self.shortened((t, h), c.share).ok()?;
@@ -391,7 +391,7 @@ impl<T: Real> Driver<T> {
     }
 
     /// What the rules say of a trial.
-    fn judge(&self, attempt: &Attempt<T>, change: f64, invariant: &Invariant) -> Judgement<T> {
+    fn judge(&self, attempt: &TrialStep<T>, change: f64, invariant: &Invariant) -> Judgement<T> {
         let (mut energy, mut error) = (self.energy, self.error);
         let mut kept = (f64::INFINITY, Limit::Largest);
         let mut rejected: Option<(f64, Limit)> = None;

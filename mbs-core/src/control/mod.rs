@@ -7,18 +7,18 @@
 //! A mass of 1 kg that falls 9.81 m onto nothing: its steps are exact, so they grow to the largest.
 //!
 //! ```
-//! use mbs_core::control::{Attempt, Driver, EnergyRule, Invariant, Rules, Stepper};
+//! use mbs_core::control::{TrialStep, Driver, EnergyRule, Invariant, Rules, Stepper};
 //! use mbs_core::step::{StepError, StepReport};
 //!
 //! struct Fall { t: f64, y: f64, v: f64, saved: [f64; 3] }
 //!
 //! impl Stepper<f64> for Fall {
-//!     fn attempt(&mut self, h: f64) -> Result<Attempt<f64>, StepError> {
+//!     fn attempt(&mut self, h: f64) -> Result<TrialStep<f64>, StepError> {
 //!         self.saved = [self.t, self.y, self.v];
 //!         let v = self.v - 9.81 * h;
 //!         (self.t, self.y, self.v) = (self.t + h, self.y + 0.5 * h * (self.v + v), v);
 //!         let energies = [0.5 * v * v, 9.81 * self.y, 0.0];
-//!         Ok(Attempt { energies, t: self.t, report: StepReport::default(), error: 0.0, acceleration_energy: [0.0; 2] })
+//!         Ok(TrialStep { energies, t: self.t, report: StepReport::default(), error: 0.0, acceleration_energy: [0.0; 2] })
 //!     }
 //!     fn undo(&mut self) {
 //!         [self.t, self.y, self.v] = self.saved;
@@ -44,7 +44,7 @@ mod energy;
 mod estimate;
 mod invariant;
 
-pub use driver::{Accepted, Attempt, Crossing, Driver, DriverHistory, Limit, Rules, Stepper};
+pub use driver::{Accepted, Driver, DriverHistory, Event, Limit, Rules, Stepper, TrialStep};
 pub use energy::EnergyRule;
 pub use estimate::LocalError;
 pub use invariant::Invariant;

@@ -86,7 +86,7 @@ impl Pendulum {
 }
 
 impl Stepper<f64> for Pendulum {
-    fn attempt(&mut self, h: f64) -> Result<Attempt<f64>, StepError> {
+    fn attempt(&mut self, h: f64) -> Result<TrialStep<f64>, StepError> {
         self.trials.push((h, false));
         if h > self.fails_from {
             return Err(StepError::NotConverged { iterations: 1, correction: 1.0, unknown: 0 });
@@ -98,18 +98,18 @@ impl Stepper<f64> for Pendulum {
         let error = error.of(h, &[from], &[to]);
         let energies = self.energies();
         let report = StepReport::default();
-        Ok(Attempt { report, t: self.t, energies, error, acceleration_energy: self.accelerating })
+        Ok(TrialStep { report, t: self.t, energies, error, acceleration_energy: self.accelerating })
     }
 
     fn undo(&mut self) {
         (self.t, self.x) = self.saved;
     }
 
-    fn crossing(&mut self, h: f64) -> Option<Crossing> {
+    fn first_event(&mut self, h: f64) -> Option<Event> {
         let event = self.event?;
         let from = self.saved.0;
         let is_inside = from < event && self.t >= event;
-        is_inside.then(|| Crossing {
+        is_inside.then(|| Event {
             share: (event - from) / h,
             is_landed: self.t <= event + 1e-12,
             is_too_stiff: false,

@@ -91,9 +91,9 @@ fn of_place<T: Real>(
 mod tests {
     extern crate std;
 
-    use super::super::foot::foot;
     use super::super::guide::spline_curvatures;
     use super::super::road::Feature;
+    use super::super::road_contact::road_contact;
     use super::*;
     use std::vec::Vec;
 
@@ -155,7 +155,7 @@ mod tests {
         for i in 0..2200 {
             let x = 0.003 + 0.005 * f64::from(i);
             let center = [x, road::height(road, &supplies, x).value + 0.3];
-            let at = foot(road, &supplies, center);
+            let at = road_contact(road, &supplies, center);
             let u = x - at.normal[0] * at.distance;
             for kink in &all {
                 // On a crest the foot stays at the corner, up to rounding; in the hollow h''' moves the jump.

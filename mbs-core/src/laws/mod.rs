@@ -10,8 +10,6 @@ pub mod bumper;
 pub mod calspan;
 #[cfg(feature = "drag")]
 pub mod drag;
-#[cfg(feature = "tire")]
-pub mod foot;
 #[cfg(feature = "friction")]
 pub mod friction;
 pub mod guide;
@@ -23,6 +21,8 @@ pub mod own;
 pub mod polynomial;
 #[cfg(feature = "tire")]
 pub mod road;
+#[cfg(feature = "tire")]
+pub mod road_contact;
 pub mod scalar;
 #[cfg(feature = "speed-hold")]
 pub mod speed_hold;

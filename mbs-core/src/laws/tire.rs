@@ -30,7 +30,7 @@
 use super::body::{Action, BodyMotion, put};
 use super::bumper;
 use super::calspan::{self, Coefficients};
-use super::foot::{Foot, foot};
+use super::road_contact::{RoadContact, road_contact};
 use super::scalar::Measure;
 use super::{Part, Supplies};
 use crate::Real;
@@ -62,7 +62,7 @@ pub struct Tire<T> {
 
 /// A wheel over its road.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Touch<T> {
+pub struct TireContact<T> {
     /// Deflection, positive pressed in [m], and the rate at which it ends [m/s].
     pub deflection: [T; 2],
     /// The centre, along the road from its zero and up [m].
@@ -159,9 +159,13 @@ impl<T: Real> Tire<T> {
     }
 
     /// How far it is pressed in, and where it is over its road. Cost: that of the nearest point, and no force.
-    pub fn touch(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>) -> Touch<T> {
+    pub fn contact(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>) -> TireContact<T> {
         let Stand { place, velocity, depth, rate, .. } = self.stand(motion, supplies);
-        Touch { deflection: [depth, rate], place, speed: [velocity[0], self.along_up(&velocity)] }
+        TireContact {
+            deflection: [depth, rate],
+            place,
+            speed: [velocity[0], self.along_up(&velocity)],
+        }
     }
 
     #[inline]
@@ -172,7 +176,7 @@ impl<T: Real> Tire<T> {
         });
         let center = Vector::<T, 3>::from(motion.position);
         let place = [center[0] + way, self.along_up(&center)];
-        let foot = foot(self.road, supplies, place);
+        let foot = road_contact(self.road, supplies, place);
         let stance = self.stance(&Vector::from(motion.axis), &foot);
         let depth = self.radius - stance.reach;
         let ground = Vector::<T, 3>::new(-speed, T::ZERO, T::ZERO);
@@ -186,7 +190,7 @@ impl<T: Real> Tire<T> {
     }
 
     /// Where a wheel with the given axis touches the road; how its deflection changes.
-    fn stance(&self, axis: &Vector<T, 3>, foot: &Foot<T>) -> Stance<T> {
+    fn stance(&self, axis: &Vector<T, 3>, foot: &RoadContact<T>) -> Stance<T> {
         let normal = self.vector(foot.normal);
         let upright = Stance {
             normal,

@@ -129,7 +129,7 @@ impl<T: Real> Builder<'_, T> {
                     RowDraft::GuidedAngle { x1, x2, y, guide }
                 }
             };
-            self.joint_group(law.joint).rows.push(row);
+            self.joint_group(law.joint.index()).rows.push(row);
         }
     }
 }

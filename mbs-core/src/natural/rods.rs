@@ -39,7 +39,7 @@ impl<T: Real> Rods<T> {
             | Quantity::Velocity { body, at }
             | Quantity::Acceleration { body, at } = &output.quantity
             {
-                rods.point(BodyId::Body(*body), at);
+                rods.point(*body, at);
             }
         }
         rods
@@ -92,7 +92,7 @@ impl<T: Real> Rods<T> {
                 InitialTarget::Body { body, velocity, .. } => {
                     // an angular velocity says how the line swings
                     if let Some((at, _)) = velocity {
-                        self.point(BodyId::Body(*body), at);
+                        self.point(*body, at);
                     }
                 }
                 InitialTarget::Joint { joint, .. } => {

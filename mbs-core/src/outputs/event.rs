@@ -7,7 +7,7 @@
 //!
 //! Values and rates at both ends of the step give a cubic for each, and its first change of sign is told as a share of the step.
 //! A trial that ends within a band about zero has landed: there the value is on neither side, and the next step leaves to either
-//! without a second event. Whoever steps makes a trial, asks [`Events::crossing`], tries again from the same beginning with that
+//! without a second event. Whoever steps makes a trial, asks [`Events::first_event`], tries again from the same beginning with that
 //! share of the step while it has not landed, and ends with [`Events::accept`]. It is the method of the secant with a cubic in
 //! place of a line, and two or three trials are usual.
 //!
@@ -26,7 +26,7 @@
 use super::cubic::Cubic;
 use super::load::{Gap, Load, Loads, N_READING, Reading};
 use crate::Real;
-use crate::control::Crossing;
+use crate::control::Event;
 use crate::laws::kink::Kink;
 use crate::model::State;
 use crate::natural::{ModelError, NaturalModel};
@@ -131,13 +131,13 @@ impl<T: Real, const D: usize> Events<T, D> {
     ///
     /// Cost: as [`start`](Self::start), and some eighty operations for each gap and each kink near the way of a wheel that is
     /// pressed in; a bisection of fifty cubics for each that changes. No allocation.
-    pub fn crossing(&mut self, state: &State<T>) -> Option<Crossing> {
+    pub fn first_event(&mut self, state: &State<T>) -> Option<Event> {
         self.read(state);
         let (from, to) = (self.t.to_f64(), state.t.to_f64());
         if self.watched.is_empty() || !(to > from) {
             return None;
         }
-        let mut first: Option<Crossing> = None;
+        let mut first: Option<Event> = None;
         self.trials += 1;
         let is_slow = self.trials > SLOW;
         for watched in &self.watched {
@@ -207,14 +207,14 @@ impl<T: Real> Watched<T> {
     }
 
     /// Hands out the first change of each gap and of each kink that may be passed.
-    fn crossings(&self, ([from, to], is_slow): ([f64; 2], bool), mut take: impl FnMut(Crossing)) {
+    fn crossings(&self, ([from, to], is_slow): ([f64; 2], bool), mut take: impl FnMut(Event)) {
         let (begin, end) = (&self.begin, &self.end);
         for i in 0..self.n_gaps {
             let late = TIME_ROUNDINGS * T::EPSILON.to_f64() * to.abs();
             let step = (to - from, self.band + late * begin.gaps[i].rate.abs().to_f64());
             if let Some(share) = self.entry([begin.gaps[i], end.gaps[i]], step) {
                 let effect = self.effect;
-                return take(Crossing { share, is_landed: false, is_too_stiff: true, effect });
+                return take(Event { share, is_landed: false, is_too_stiff: true, effect });
             }
         }
         let mut watch = |begin: Gap<T>, end: Gap<T>| {
@@ -227,7 +227,7 @@ impl<T: Real> Watched<T> {
                 if is_slow && !is_landed {
                     share = share.min(self.free([begin, end], to - from));
                 }
-                take(Crossing { share, is_landed, is_too_stiff: false, effect });
+                take(Event { share, is_landed, is_too_stiff: false, effect });
             }
         };
         for i in 0..self.n_gaps {

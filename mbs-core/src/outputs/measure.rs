@@ -5,7 +5,7 @@ use crate::Real;
 use crate::inputs::GuideInput;
 use crate::model::State;
 use crate::natural::{Affine, ModelError, NaturalModel};
-use crate::scene::{BodyId, InitialTarget, Joint, Quantity, Scene};
+use crate::scene::{InitialTarget, Joint, JointId, Quantity, Scene};
 use crate::step::StepError;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -55,7 +55,11 @@ impl<T: Real, const D: usize> Measures<T, D> {
         if scene.outputs.is_empty() {
             for joint in 0..scene.joints.len() {
                 if scene.joints[joint].kind.n_coordinates(scene.dimension) > 0 {
-                    measures.add((scene, &starts), model, &Quantity::JointValue { joint });
+                    measures.add(
+                        (scene, &starts),
+                        model,
+                        &Quantity::JointValue { joint: JointId::new(joint) },
+                    );
                 }
             }
         }
@@ -75,19 +79,19 @@ impl<T: Real, const D: usize> Measures<T, D> {
         model: &NaturalModel<T, D>,
         quantity: &Quantity<T>,
     ) {
-        let point = |body, at| model.point(BodyId::Body(body), at);
-        let coordinates = |joint: usize| Coordinate::of_joint(scene, model, &scene.joints[joint]);
+        let point = |body, at| model.point(body, at);
+        let coordinates = |joint: JointId| Coordinate::of_joint(scene, model, &scene.joints[joint]);
         let channel = match *quantity {
             Quantity::Position { body, at } => Channel::Position(point(body, at)),
             Quantity::Velocity { body, at } => Channel::Velocity(point(body, at)),
             Quantity::Acceleration { body, at } => Channel::Acceleration(point(body, at)),
             Quantity::JointValue { joint } => {
                 let start = self.memory.len();
-                self.memory.extend_from_slice(&starts[joint]);
-                Channel::Value(coordinates(joint), start, joint)
+                self.memory.extend_from_slice(&starts[joint.index()]);
+                Channel::Value(coordinates(joint), start, joint.index())
             }
             Quantity::JointRate { joint } => Channel::Rate(coordinates(joint)),
-            Quantity::Reaction { joint } => Channel::Reaction(joint),
+            Quantity::Reaction { joint } => Channel::Reaction(joint.index()),
         };
         self.n_components += channel.len();
         self.channels.push(channel);
@@ -257,13 +261,13 @@ pub fn start_values<T: Real>(scene: &Scene<T>) -> Vec<Vec<T>> {
     let zeros = |joint: &Joint<T>| vec![T::ZERO; joint.kind.n_coordinates(scene.dimension)];
     let mut values: Vec<Vec<T>> = scene.joints.iter().map(zeros).collect();
     for guide in &scene.guides {
-        if let Some(values) = values.get_mut(guide.joint) {
+        if let Some(values) = values.get_mut(guide.joint.index()) {
             values.fill(GuideInput::new(&guide.law).at(T::ZERO)[0]);
         }
     }
     for initial in &scene.initials {
         if let InitialTarget::Joint { joint, value: Some(value), .. } = &initial.target
-            && let Some(values) = values.get_mut(*joint)
+            && let Some(values) = values.get_mut(joint.index())
         {
             values.iter_mut().zip(value).for_each(|(to, from)| *to = *from);
         }

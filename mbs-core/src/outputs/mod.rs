@@ -26,4 +26,4 @@ pub use event::{EventHistory, Events};
 pub use measure::{Measures, start_values};
 pub use reaction::{LARGEST_BLOCK, Reactions};
 pub use turns::Turns;
-pub use wrench::{Transmission, Wrench};
+pub use wrench::{JointWrenches, Wrench};

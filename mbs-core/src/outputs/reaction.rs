@@ -13,7 +13,7 @@ use super::frame::Frame;
 use super::load::Loads;
 use super::minimum_norm::MinimumNorm;
 use super::peel::{Block, peel};
-use super::wrench::{Carrier, Wrench};
+use super::wrench::{Wrench, WrenchBasis};
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, raised};
 use crate::cluster::mass_properties;
@@ -33,7 +33,7 @@ pub const LARGEST_BLOCK: usize = 400;
 pub struct Reactions<T: Real, const D: usize> {
     bodies: Vec<Balance<T, D>>,
     gravity: Vector<T, 3>,
-    joints: Vec<Carrier<T, D>>,
+    joints: Vec<WrenchBasis<T, D>>,
     loads: Loads<T, D>,
     blocks: Vec<Block>,
     length: T,
@@ -76,8 +76,8 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         if scene.dimension.count() != D {
             return Err(ModelError::Dimension.into());
         }
-        let joints: Vec<Carrier<T, D>> =
-            (0..scene.joints.len()).map(|joint| Carrier::new(scene, model, joint)).collect();
+        let joints: Vec<WrenchBasis<T, D>> =
+            (0..scene.joints.len()).map(|joint| WrenchBasis::new(scene, model, joint)).collect();
         let pairs: Vec<_> =
             joints.iter().map(|j| (j.n_directions() > 0).then_some(j.bodies)).collect();
         let blocks = peel(scene.bodies.len(), &pairs);

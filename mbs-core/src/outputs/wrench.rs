@@ -53,7 +53,7 @@ impl<T: Real> Wrench<T> {
 
 /// What a joint can transmit, by its kind and axes alone.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Transmission<T: Real> {
+pub struct JointWrenches<T: Real> {
     dimension: Dimension,
     kind: JointKind,
     /// a, v, w in the reference configuration.
@@ -64,7 +64,7 @@ pub struct Transmission<T: Real> {
     length: T,
 }
 
-impl<T: Real> Transmission<T> {
+impl<T: Real> JointWrenches<T> {
     /// Of a joint that passed its scene's check. Moments are unit forces at a lever of `length` [m], so that all directions
     /// are forces.
     #[must_use]
@@ -148,20 +148,20 @@ impl<T: Real> Transmission<T> {
 
 /// A joint as a carrier of wrenches, its places read off natural coordinates.
 #[derive(Debug, Clone)]
-pub(super) struct Carrier<T: Real, const D: usize> {
+pub(super) struct WrenchBasis<T: Real, const D: usize> {
     pub(super) bodies: [BodyId; 2],
     places: [Affine<T, D>; 2],
-    transmission: Transmission<T>,
+    transmission: JointWrenches<T>,
 }
 
-impl<T: Real, const D: usize> Carrier<T, D> {
+impl<T: Real, const D: usize> WrenchBasis<T, D> {
     pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, index: usize) -> Self {
         let joint = &scene.joints[index];
-        let is_guided = scene.guides.iter().any(|guide| guide.joint == index);
+        let is_guided = scene.guides.iter().any(|guide| guide.joint.index() == index);
         Self {
             bodies: joint.bodies,
             places: [0, 1].map(|i| model.point(joint.bodies[i], joint.points[i])),
-            transmission: Transmission::new(joint, scene.dimension, is_guided, model.length()),
+            transmission: JointWrenches::new(joint, scene.dimension, is_guided, model.length()),
         }
     }
 

@@ -1,6 +1,6 @@
 //! Bodies, joints, initial conditions and guides.
 
-use crate::scene::{Effect, Output, Road, SolverTable};
+use crate::scene::{BodyId, Effect, JointId, Output, Road, SolverTable};
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -63,15 +63,6 @@ pub enum Start {
     Initial,
     /// The static equilibrium, with the velocities of the initial conditions.
     Equilibrium,
-}
-
-/// A body by its index, or the ground.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum BodyId {
-    /// The fixed frame.
-    Ground,
-    /// `scene.bodies[i]`.
-    Body(usize),
 }
 
 /// A rigid body.
@@ -210,8 +201,8 @@ pub struct InitialCondition<T> {
 pub enum InitialTarget<T> {
     /// Joint coordinates and rates, in the order of the joint's numbers [rad, m, rad/s, m/s].
     Joint {
-        /// Index of the joint.
-        joint: usize,
+        /// The joint.
+        joint: JointId,
         /// Coordinates from the reference configuration.
         value: Option<Vec<T>>,
         /// Their rates; for a spherical joint the relative angular velocity in global axes.
@@ -219,8 +210,8 @@ pub enum InitialTarget<T> {
     },
     /// Velocity of a material point and/or angular velocity of a body.
     Body {
-        /// Index of the body.
-        body: usize,
+        /// The body.
+        body: BodyId,
         /// Material point (reference configuration) and its velocity [m, m/s].
         velocity: Option<([T; 3], [T; 3])>,
         /// Angular velocity in global axes [rad/s]; planar scenes use the third component.
@@ -231,8 +222,8 @@ pub enum InitialTarget<T> {
 /// Kinematic guidance: a joint coordinate follows a law of time, counted from the reference configuration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Guide<T> {
-    /// Index of the guided joint (one coordinate: revolute or prismatic).
-    pub joint: usize,
+    /// The guided joint (one coordinate: revolute or prismatic).
+    pub joint: JointId,
     /// The law.
     pub law: Motion<T>,
 }

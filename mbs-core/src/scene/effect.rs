@@ -1,7 +1,7 @@
 //! Opt-in effects, as data.
 
 use crate::laws::own::{UserBodyLaw, UserScalarLaw};
-use crate::scene::BodyId;
+use crate::scene::{BodyId, JointId};
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -54,8 +54,8 @@ pub enum EffectKind<T> {
     },
     /// torque on the second body = -(stiffness (angle - free_value) + damping rate) about a revolute joint's axis.
     TorsionSpring {
-        /// Index of the joint.
-        joint: usize,
+        /// The joint.
+        joint: JointId,
         /// Stiffness [N m/rad].
         stiffness: T,
         /// Damping [N m s/rad].
@@ -65,8 +65,8 @@ pub enum EffectKind<T> {
     },
     /// A force at a point of a body.
     Force {
-        /// Index of the body.
-        body: usize,
+        /// The body.
+        body: BodyId,
         /// Point of application, reference configuration [m].
         at: [T; 3],
         /// Force [N].
@@ -76,15 +76,15 @@ pub enum EffectKind<T> {
     },
     /// A torque on a body, from the ground: planar counter-clockwise in the first component, spatial a vector in global axes [N m].
     BodyTorque {
-        /// Index of the body.
-        body: usize,
+        /// The body.
+        body: BodyId,
         /// Torque [N m].
         course: Signal<T>,
     },
     /// A torque of the first body on the second about the joint's axis (first component) [N m].
     JointTorque {
-        /// Index of the joint.
-        joint: usize,
+        /// The joint.
+        joint: JointId,
         /// Torque [N m].
         course: Signal<T>,
     },
@@ -136,8 +136,8 @@ pub enum EffectKind<T> {
     },
     /// Elastic stops of a joint with one coordinate.
     Limit {
-        /// Index of the joint.
-        joint: usize,
+        /// The joint.
+        joint: JointId,
         /// Coordinate below which the lower stop pushes [rad or m].
         lower: T,
         /// Coordinate above which the upper stop pushes [rad or m].
@@ -149,8 +149,8 @@ pub enum EffectKind<T> {
     },
     /// Stribeck friction of a joint with one coordinate, regularised.
     Friction {
-        /// Index of the joint.
-        joint: usize,
+        /// The joint.
+        joint: JointId,
         /// Friction of fast motion [N m or N].
         coulomb: T,
         /// Friction of slow motion [N m or N].
@@ -164,8 +164,8 @@ pub enum EffectKind<T> {
     },
     /// Drag of still air, against the velocity of a point.
     AeroDrag {
-        /// Index of the body.
-        body: usize,
+        /// The body.
+        body: BodyId,
         /// Point, reference configuration [m].
         at: [T; 3],
         /// Drag coefficient times area [m^2].
@@ -175,8 +175,8 @@ pub enum EffectKind<T> {
     },
     /// A force at the centre of mass along a direction of the body that holds its speed.
     SpeedHold {
-        /// Index of the body.
-        body: usize,
+        /// The body.
+        body: BodyId,
         /// Direction, fixed in the body.
         direction: [T; 3],
         /// Speed to hold [m/s].
@@ -188,8 +188,8 @@ pub enum EffectKind<T> {
     },
     /// A wheel on the scene's road.
     Tire {
-        /// Index of the body that carries the wheel.
-        body: usize,
+        /// The body that carries the wheel.
+        body: BodyId,
         /// Centre of the wheel, reference configuration [m].
         center: [T; 3],
         /// Axis of the wheel, fixed in the body, pointing to the left of the direction of travel. Planar scenes: `None`.
@@ -228,15 +228,15 @@ pub enum UserLaw<T> {
     },
     /// On the coordinate of a joint that has one.
     Joint {
-        /// Index of the joint.
-        joint: usize,
+        /// The joint.
+        joint: JointId,
         /// The law.
         law: UserScalarLaw<T>,
     },
     /// On a body.
     Body {
-        /// Index of the body.
-        body: usize,
+        /// The body.
+        body: BodyId,
         /// Point, reference configuration [m].
         at: [T; 3],
         /// Direction, fixed in the body.

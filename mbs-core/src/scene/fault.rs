@@ -29,6 +29,8 @@ pub enum SceneFault {
     ReservedName,
     /// An index points to nothing (scenes built in code).
     UnknownReference,
+    /// The ground, where only a body can stand.
+    NeedsMovingBody,
     /// Both bodies are the same.
     SameBody,
     /// A principal moment of inertia is larger than the sum of the other two; the two sides [kg m^2]. Of welded bodies together.
@@ -136,6 +138,7 @@ impl SceneFault {
                 "choose another name: `ground` is the fixed frame, `t` the time column"
             }
             Self::UnknownReference => "use the index of something that is in the scene",
+            Self::NeedsMovingBody => "name a body of the scene",
             Self::SameBody => "name two different bodies",
             Self::TriangleInequality(_) => {
                 "check the moments and products; flat bodies need all the digits they are given in"
@@ -189,6 +192,7 @@ impl SceneFault {
             Self::DuplicateName(i) => write!(f, "repeats the name of number {}", i + 1),
             Self::ReservedName => write!(f, "is empty or reserved"),
             Self::UnknownReference => write!(f, "points to something that is not in the scene"),
+            Self::NeedsMovingBody => write!(f, "is the ground, which does not move"),
             Self::SameBody => write!(f, "has the same body twice"),
             Self::TriangleInequality([largest, sum]) => write!(
                 f,

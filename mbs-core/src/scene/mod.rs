@@ -9,11 +9,12 @@ mod data;
 mod effect;
 mod error;
 mod fault;
+mod id;
 mod output;
 
 pub use data::{
-    Body, BodyId, Dimension, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointKind,
-    Motion, Scene, Start, TableEnds,
+    Body, Dimension, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointKind, Motion,
+    Scene, Start, TableEnds,
 };
 pub use effect::{
     AxisFrame, CalspanCoefficients, Effect, EffectKind, PolynomialPiece, Road, RoadFeature, Signal,
@@ -21,4 +22,5 @@ pub use effect::{
 };
 pub use error::{Entry, SceneError};
 pub use fault::SceneFault;
+pub use id::{BodyId, EffectId, GROUND, GuideId, InitialId, JointId, OutputId};
 pub use output::{Output, Quantity, SolverTable};

@@ -1,5 +1,6 @@
 //! Output channels and the scene's wishes for the solver.
 
+use crate::scene::{BodyId, JointId};
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -18,38 +19,38 @@ pub enum Quantity<T> {
     /// Position of a material point [m], global axes.
     Position {
         /// Body.
-        body: usize,
+        body: BodyId,
         /// Point in the reference configuration [m].
         at: [T; 3],
     },
     /// Velocity of a material point [m/s].
     Velocity {
         /// Body.
-        body: usize,
+        body: BodyId,
         /// Point in the reference configuration [m].
         at: [T; 3],
     },
     /// Acceleration of a material point [m/s^2].
     Acceleration {
         /// Body.
-        body: usize,
+        body: BodyId,
         /// Point in the reference configuration [m].
         at: [T; 3],
     },
     /// Joint coordinates [rad or m], unwrapped.
     JointValue {
         /// Joint.
-        joint: usize,
+        joint: JointId,
     },
     /// Joint rates [rad/s or m/s].
     JointRate {
         /// Joint.
-        joint: usize,
+        joint: JointId,
     },
     /// What the first body does to the second at the joint's place: planar [Fx, Fy, Mz], spatial [Fx, Fy, Fz, Mx, My, Mz].
     Reaction {
         /// Joint.
-        joint: usize,
+        joint: JointId,
     },
 }
 

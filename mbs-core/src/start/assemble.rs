@@ -8,7 +8,7 @@
 
 use super::accelerations::accelerations;
 use super::error::AssemblyError;
-use super::hold::Hold;
+use super::hold::StartRow;
 use super::problem::{Level, Problem, Sweep};
 use crate::Real;
 use crate::algebra::norm_inf;
@@ -54,7 +54,7 @@ pub fn assemble<T: Real, const D: usize, S: SpdSolver<T>>(
     solver: &mut impl SpdSolver<T>,
 ) -> Result<Assembled<T>, AssemblyError> {
     let mut state = State::at_rest(model);
-    let problem = Problem::new(model, Hold::all(scene, model));
+    let problem = Problem::new(model, StartRow::all(scene, model));
     let start_solver = make_start(&problem);
     let mut assembly = Assembly::new(problem, start_solver);
     let (residual_before, stages) = assembly.positions(scene, &mut state)?;
@@ -83,7 +83,7 @@ pub fn restart<T: Real, const D: usize, S: SpdSolver<T>>(
     solver: &mut impl SpdSolver<T>,
     state: &mut State<T>,
 ) -> Result<[T; 3], AssemblyError> {
-    let problem = Problem::new(model, Hold::all(scene, model));
+    let problem = Problem::new(model, StartRow::all(scene, model));
     let start_solver = make_start(&problem);
     let mut assembly = Assembly::new(problem, start_solver);
     assembly.drive(&state.q, T::ONE);

@@ -30,7 +30,7 @@ enum Kind<T: Real, const D: usize> {
 
 /// One held row.
 #[derive(Debug, Clone)]
-pub(super) struct Hold<T: Real, const D: usize> {
+pub(super) struct StartRow<T: Real, const D: usize> {
     kind: Kind<T, D>,
     /// Held value (`None`: only the rate), held rate (`None`: only the value).
     pub(super) value: Option<T>,
@@ -41,7 +41,7 @@ pub(super) struct Hold<T: Real, const D: usize> {
     pub(super) owner: crate::model::Owner,
 }
 
-impl<T: Real, const D: usize> Hold<T, D> {
+impl<T: Real, const D: usize> StartRow<T, D> {
     /// All rows that a scene's initial entries hold.
     pub(super) fn all(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Vec<Self> {
         let mut holds = Vec::new();
@@ -50,7 +50,7 @@ impl<T: Real, const D: usize> Hold<T, D> {
                 InitialTarget::Joint { joint, value, rate } => {
                     let source =
                         Source { model, joint: &scene.joints[*joint], dimension: scene.dimension };
-                    let owner = crate::model::Owner::Joint(*joint);
+                    let owner = crate::model::Owner::Joint(joint.index());
                     let rows = source.rows(value.as_deref(), rate.as_deref());
                     holds.extend(rows.into_iter().map(|(kind, value, rate)| Self {
                         kind,
@@ -61,8 +61,8 @@ impl<T: Real, const D: usize> Hold<T, D> {
                     }));
                 }
                 InitialTarget::Body { body, velocity, angular_velocity } => {
-                    let owner = crate::model::Owner::Body(*body);
-                    let me = BodyId::Body(*body);
+                    let (me, Some(body)) = (*body, body.index()) else { continue };
+                    let owner = crate::model::Owner::Body(body);
                     let mut push = |kind, rate| {
                         holds.push(Self { kind, value: None, rate: Some(rate), initial, owner });
                     };
@@ -72,7 +72,7 @@ impl<T: Real, const D: usize> Hold<T, D> {
                         }
                     }
                     if let (Some(w), Inertia::Rod { from, to }) =
-                        (angular_velocity, scene.bodies[*body].inertia)
+                        (angular_velocity, scene.bodies[body].inertia)
                         && D == 3
                         && !model.has_full_rotation(me)
                     {

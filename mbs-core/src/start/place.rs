@@ -106,11 +106,11 @@ impl<'a, T: Real> Placement<'a, T> {
 fn given_values<T: Real>(scene: &Scene<T>, guides: &[[T; 3]]) -> Vec<Option<Vec<T>>> {
     let mut given = vec![None; scene.joints.len()];
     for (guide, value) in scene.guides.iter().zip(guides) {
-        given[guide.joint] = Some(vec![value[0]]);
+        given[guide.joint.index()] = Some(vec![value[0]]);
     }
     for initial in &scene.initials {
         if let InitialTarget::Joint { joint, value: Some(value), .. } = &initial.target {
-            given[*joint] = Some(value.clone());
+            given[joint.index()] = Some(value.clone());
         }
     }
     given

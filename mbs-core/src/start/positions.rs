@@ -9,7 +9,7 @@
 
 use super::assemble::{Assembly, MAX_SWEEPS, SLOW, raises};
 use super::error::AssemblyError;
-use super::hold::Hold;
+use super::hold::StartRow;
 use super::place::Placement;
 use super::problem::Level;
 use crate::Real;
@@ -303,23 +303,22 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         let AssemblyError::Position { residual, mut owner, mut initial, .. } = error else {
             return error;
         };
-        let is_guided = |joint: &usize| scene.guides.iter().any(|guide| guide.joint == *joint);
+        let is_guided =
+            |joint: &usize| scene.guides.iter().any(|guide| guide.joint.index() == *joint);
         if initial.is_none() && !matches!(&owner, Owner::Joint(joint) if is_guided(joint)) {
             // What was on its way farthest is what the user can change.
-            let far = |hold: &Hold<T, D>| hold.distance(self.length).to_f64();
+            let far = |hold: &StartRow<T, D>| hold.distance(self.length).to_f64();
             let holds = self.problem.holds.iter();
             if let Some(hold) = holds.max_by(|a, b| far(a).total_cmp(&far(b))) {
                 (owner, initial) = (hold.owner, Some(hold.initial));
             }
         }
         let held = self.problem.holds.iter().filter(|hold| hold.owner == owner);
-        let guided = scene
-            .guides
-            .iter()
-            .zip(&self.guides)
-            .filter(|(guide, _)| matches!(owner, Owner::Joint(joint) if joint == guide.joint));
+        let guided = scene.guides.iter().zip(&self.guides).filter(
+            |(guide, _)| matches!(owner, Owner::Joint(joint) if joint == guide.joint.index()),
+        );
         let guided = guided.map(|(_, value)| value[0]);
-        let targets = held.map(Hold::target).chain(guided);
+        let targets = held.map(StartRow::target).chain(guided);
         let largest = targets.fold(T::ZERO, |a: T, b| if b.abs() > a.abs() { b } else { a });
         let reached = (largest != T::ZERO && tau < T::ONE - T::from_f64(SMALL))
             .then(|| [(largest * tau).to_f64(), largest.to_f64()]);

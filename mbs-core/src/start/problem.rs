@@ -7,7 +7,7 @@
 //!
 //! E and the damping are in the matrix only: they make it regular, and what is converged knows nothing of them.
 
-use super::hold::Hold;
+use super::hold::StartRow;
 use crate::Real;
 use crate::blocks::{BlockSource, Cliques};
 use crate::elements::Span;
@@ -42,7 +42,7 @@ fn lent<T: Real>() -> T {
 #[derive(Debug)]
 pub struct Problem<'a, T: Real, const D: usize> {
     pub(super) model: &'a NaturalModel<T, D>,
-    pub(super) holds: Vec<Hold<T, D>>,
+    pub(super) holds: Vec<StartRow<T, D>>,
     cliques: Vec<u32>,
     spans: Vec<Span>,
     /// Size of each unknown: the scene's length or one.
@@ -72,7 +72,7 @@ pub(super) enum Level {
 }
 
 impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
-    pub(super) fn new(model: &'a NaturalModel<T, D>, holds: Vec<Hold<T, D>>) -> Self {
+    pub(super) fn new(model: &'a NaturalModel<T, D>, holds: Vec<StartRow<T, D>>) -> Self {
         let n = model.n_unknowns();
         let (mut cliques, mut spans) = (Vec::new(), Vec::new());
         let mut add = |unknowns: &mut dyn Iterator<Item = u32>| {

@@ -5,7 +5,7 @@ use crate::Real;
 
 /// What corrections of the coordinates are measured against in one step [m or -].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Yardstick<T> {
+pub struct ConvergenceCriterion<T> {
     /// The displacement that accelerations cause in the step.
     pub scale: T,
     /// A correction below this is small.
@@ -14,7 +14,7 @@ pub struct Yardstick<T> {
     pub noise: T,
 }
 
-impl<T: Real> Yardstick<T> {
+impl<T: Real> ConvergenceCriterion<T> {
     /// For corrections of the coordinates themselves at iteration `iterations`, in a scene of the given `length` [m].
     ///
     /// Rounding is that of the increment `moved` [m] where increments are carried, else of the coordinates. At rest, and in a uniform
@@ -44,9 +44,9 @@ pub fn stopping<T: Real>(
     iterations: u32,
     correction: T,
     last: T,
-    yardstick: &Yardstick<T>,
+    criterion: &ConvergenceCriterion<T>,
 ) -> Option<Stop> {
-    let Yardstick { scale, goal, noise } = *yardstick;
+    let ConvergenceCriterion { scale, goal, noise } = *criterion;
     if correction <= goal {
         return Some(Stop::Converged);
     }

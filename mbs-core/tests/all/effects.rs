@@ -288,9 +288,12 @@ fn what_acts_between_two_bodies_does_no_work_when_they_move_as_one() {
             let (velocity, omega) = match kind {
                 EffectKind::AeroDrag { .. }
                 | EffectKind::SpeedHold { .. }
-                | EffectKind::Tire { .. }
-                | EffectKind::Limit { joint: 0, .. }
-                | EffectKind::Friction { joint: 0, .. } => continue,
+                | EffectKind::Tire { .. } => continue,
+                EffectKind::Limit { joint, .. } | EffectKind::Friction { joint, .. }
+                    if joint.index() == 0 =>
+                {
+                    continue;
+                }
                 // The arm turns about its hinge alone.
                 EffectKind::Limit { .. } | EffectKind::Friction { .. } => {
                     let hinge = &scene.joints[0];

@@ -2,7 +2,7 @@
 //! constraint manifold.
 
 use mbs_core::model::{Load, Model, Owner, Tangent, Terms};
-use mbs_core::scene::Scene;
+use mbs_core::scene::{JointId, Scene};
 use mbs_testkit::{
     PLANAR, Random, SPATIAL, close, jacobian, matrix, model, plus, rates, reference, residual,
     scene,
@@ -138,7 +138,7 @@ fn geometric_stiffness_is_the_derivative_of_the_constraint_forces() {
     fn check<M: Model<f64>>(at: &mut At<M>, random: &mut Random, scene: &Scene<f64>) {
         let m = at.model.n_constraints();
         let guided = |row| match at.model.owner_of_row(row) {
-            Owner::Joint(j) => scene.guides.iter().any(|g| g.joint == j),
+            Owner::Joint(j) => scene.guides.iter().any(|g| g.joint == JointId::new(j)),
             _ => false,
         };
         // The curvature of guided rows is left out of the tangent.
@@ -259,7 +259,7 @@ fn residual_changes_as_the_tangent_says_along_the_whole_newton_residual() {
     fn check<M: Model<f64>>(at: &mut At<M>, random: &mut Random, scene: &Scene<f64>) {
         let (n, m, e) = (at.model.n_unknowns(), at.model.n_constraints(), at.model.n_extended());
         let guided = |row| match at.model.owner_of_row(row) {
-            Owner::Joint(j) => scene.guides.iter().any(|g| g.joint == j),
+            Owner::Joint(j) => scene.guides.iter().any(|g| g.joint == JointId::new(j)),
             _ => false,
         };
         let free: Vec<bool> = (0..m).map(guided).collect();

@@ -3,9 +3,9 @@
 mod given;
 
 use given::Given;
-use mbs_core::laws::foot::foot;
 use mbs_core::laws::guide::{spline, spline_curvatures};
 use mbs_core::laws::road::Feature;
+use mbs_core::laws::road_contact::road_contact;
 use mbs_core::laws::{Part, Supplies};
 
 /// One body of a planar scene that slides along x, from zero.
@@ -213,7 +213,7 @@ fn foot_of([x, z]: [f64; 2]) -> f64 {
         Feature::Bump { start: 4.0, length: 3.0, amplitude: 0.04 },
     ];
     let supplies = Supplies { features: &features, ..Supplies::courses(&[]) };
-    let at = foot(Part { first: 0, n: 2 }, &supplies, [x, z]);
+    let at = road_contact(Part { first: 0, n: 2 }, &supplies, [x, z]);
     x - at.normal[0] * at.distance
 }
 
@@ -303,7 +303,7 @@ fn a_state_set_from_outside_is_a_new_beginning() {
     given.go(2.0);
     given.events.start(&given.state);
     given.go(2.1);
-    assert_eq!(given.events.crossing(&given.state), None);
+    assert_eq!(given.events.first_event(&given.state), None);
 }
 
 #[test]
@@ -370,7 +370,7 @@ fn a_contact_that_starts_with_a_step_too_long_for_it_is_told_with_the_share_that
         };
         let mut given = Given::<f64, 2>::new(&slider(BUMPER), &course);
         given.go(0.1);
-        let told = given.events.crossing(&given.state).filter(|crossing| crossing.is_too_stiff);
+        let told = given.events.first_event(&given.state).filter(|crossing| crossing.is_too_stiff);
         match (told, share) {
             (Some(told), Some(share)) => {
                 assert!((told.share - share).abs() < 1e-9, "{way}: {told:?}")

@@ -195,17 +195,17 @@ fn power<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>) -> f64 {
                 -(stiffness * (length - free_length) + damping * rate) * rate
             }
             EffectKind::TorsionSpring { joint, damping, free_value, stiffness } => {
-                let rate = joint_rate(scene, field, *joint);
+                let rate = joint_rate(scene, field, joint.index());
                 -(stiffness * (0.0 - free_value) + damping * rate) * rate
             }
             EffectKind::JointTorque { joint, course } => {
-                at_start(course)[0] * joint_rate(scene, field, *joint)
+                at_start(course)[0] * joint_rate(scene, field, joint.index())
             }
             EffectKind::Force { body, at, course, .. } => {
-                dot(&at_start(course), &field.point(BodyId::Body(*body), *at))
+                dot(&at_start(course), &field.point(*body, *at))
             }
             EffectKind::BodyTorque { body, course } => {
-                let (tau, w) = (at_start(course), field.spin(BodyId::Body(*body)));
+                let (tau, w) = (at_start(course), field.spin(*body));
                 if D == 2 { tau[0] * w[2] } else { dot(&tau, &w) }
             }
             other => unreachable!("the scenes of these tests have no {other:?}"),

@@ -3,7 +3,9 @@
 use crate::small::{GROUND, add_body, add_joint, add_rod, hold, output, scene, start};
 use mbs_core::algebra::{Matrix, Vector, rotation, rotation_vector};
 use mbs_core::outputs::Measures;
-use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Motion, Quantity, Scene, TableEnds};
+use mbs_core::scene::{
+    BodyId, Dimension, Inertia, JointId, JointKind, Motion, Quantity, Scene, TableEnds,
+};
 
 /// Assembly closes to rounding of a few products of numbers of order one.
 const CLOSED: f64 = 1e-11;
@@ -40,11 +42,11 @@ fn a_planar_pendulum_moves_as_a_circle_says() {
     let (angle, rate) = (0.4_f64, 1.5);
     hold(&mut s, pivot, &[angle], &[rate]);
     let at = [2.0, 0.0, 0.0];
-    output(&mut s, Quantity::Acceleration { body: 0, at });
-    output(&mut s, Quantity::Position { body: 0, at });
-    output(&mut s, Quantity::JointRate { joint: pivot });
-    output(&mut s, Quantity::Velocity { body: 0, at });
-    output(&mut s, Quantity::JointValue { joint: pivot });
+    output(&mut s, Quantity::Acceleration { body: BodyId::Body(0), at });
+    output(&mut s, Quantity::Position { body: BodyId::Body(0), at });
+    output(&mut s, Quantity::JointRate { joint: JointId::new(pivot) });
+    output(&mut s, Quantity::Velocity { body: BodyId::Body(0), at });
+    output(&mut s, Quantity::JointValue { joint: JointId::new(pivot) });
     let (sin, cos) = angle.sin_cos();
     // rod about its end: alpha = -3 g cos / (2 l)
     let alpha = -1.5 * 9.81 * cos / 2.0;
@@ -93,8 +95,8 @@ fn held_values_and_rates_are_measured_as_they_were_held() {
     for (kind, axes, value, rate) in cases {
         let mut s = single(kind, axes);
         hold(&mut s, 0, value, rate);
-        output(&mut s, Quantity::JointValue { joint: 0 });
-        output(&mut s, Quantity::JointRate { joint: 0 });
+        output(&mut s, Quantity::JointValue { joint: JointId::new(0) });
+        output(&mut s, Quantity::JointRate { joint: JointId::new(0) });
         let found = measured::<3>(&s);
         assert_near(&found, &[value, rate].concat());
     }
@@ -179,8 +181,8 @@ fn a_rod_between_balls_turns_by_the_smallest_rotation() {
     let mut s = scene(Dimension::Spatial, [0.0, 0.0, -9.81]);
     let rod = add_rod(&mut s, 1.0, [0.0; 3], [1.0, 0.0, 0.0]);
     add_joint(&mut s, JointKind::Spherical, [GROUND, rod], [0.0; 3], [None; 2]);
-    output(&mut s, Quantity::JointValue { joint: 0 });
-    output(&mut s, Quantity::JointRate { joint: 0 });
+    output(&mut s, Quantity::JointValue { joint: JointId::new(0) });
+    output(&mut s, Quantity::JointRate { joint: JointId::new(0) });
     let (model, mut state) = start::<3>(&s);
     assert!(!model.has_full_rotation(rod));
     let mut measures = Measures::new(&s, &model).unwrap();

@@ -3,7 +3,7 @@
 use mbs_core::Cliques;
 use mbs_core::model::{Load, Model, Owner};
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{BodyId, Scene};
+use mbs_core::scene::{BodyId, JointId, Scene};
 use mbs_core::start::{Assembled, AssemblyError, assemble};
 use mbs_sparse::{Multifrontal, Options};
 use mbs_testkit::{
@@ -268,7 +268,7 @@ fn contradicting_entries_are_named() {
     four_bar.guides.clear();
     let mut add = |joint: usize, value: Option<f64>, rate: Option<f64>| {
         let target = mbs_core::scene::InitialTarget::Joint {
-            joint,
+            joint: JointId::new(joint),
             value: value.map(|x| vec![x]),
             rate: rate.map(|x| vec![x]),
         };
@@ -290,8 +290,11 @@ fn contradicting_entries_are_named() {
     }
     four_bar.initials.clear();
     let mut add = |joint: usize, rate: f64| {
-        let target =
-            mbs_core::scene::InitialTarget::Joint { joint, value: None, rate: Some(vec![rate]) };
+        let target = mbs_core::scene::InitialTarget::Joint {
+            joint: JointId::new(joint),
+            value: None,
+            rate: Some(vec![rate]),
+        };
         four_bar.initials.push(mbs_core::scene::InitialCondition { target });
     };
     add(0, 1.0);
@@ -312,7 +315,11 @@ fn a_gap_of_a_millionth_of_the_size_is_refused_and_one_of_rounding_is_not() {
         four_bar.initials.clear();
         for (joint, &value) in values.iter().enumerate() {
             let value = Some(vec![value]);
-            let target = mbs_core::scene::InitialTarget::Joint { joint, value, rate: None };
+            let target = mbs_core::scene::InitialTarget::Joint {
+                joint: JointId::new(joint),
+                value,
+                rate: None,
+            };
             four_bar.initials.push(mbs_core::scene::InitialCondition { target });
         }
         start::<2>(&four_bar)

@@ -1,7 +1,7 @@
 //! Mechanisms whose redundancy is known from books: dependent sets, their nature, and what mends them.
 
 use crate::support::{Build, GROUND, Point, dof, four_bar, sets, told};
-use mbs_core::scene::{Dimension, JointKind};
+use mbs_core::scene::{Dimension, JointId, JointKind};
 use mbs_doctor::{Linkage, Nature, diagnose, reference};
 use mbs_testkit::retell;
 
@@ -29,7 +29,7 @@ fn a_spatial_four_bar_has_three_redundancies_across_its_plane() {
         assert_eq!(member.is_unique, [true, true, false, false, false, true]);
     }
     let cure =
-        d.sets[0].cure.as_ref().expect("revolute, spherical, cylindrical: two joints are enough");
+        d.sets[0].remedy.as_ref().expect("revolute, spherical, cylindrical: two joints are enough");
     assert!(cure.changes.len() == 2 && cure.is_smallest && cure.body.is_none(), "{cure:?}");
     for change in &cure.changes {
         let joint = &mut b.0.joints[change.joint];
@@ -68,7 +68,7 @@ fn a_third_crank_makes_all_six_pins_of_a_parallelogram_dependent() {
     let d = told(&b.0);
     assert_eq!(dof(&d), 1);
     assert_eq!(sets(&d), [((0..6).collect(), 1, Nature::Structural)]);
-    let cure = d.sets[0].cure.as_ref().expect("one crank may go");
+    let cure = d.sets[0].remedy.as_ref().expect("one crank may go");
     assert_eq!((cure.changes.len(), cure.body), (2, Some(3)), "{cure:?}");
 }
 
@@ -180,7 +180,7 @@ fn the_same_joint_twice_is_named_and_one_of_them_may_go() {
         let d = told(&b.0);
         let found = sets(&d);
         assert_eq!(found, [(vec![1, 2], n, Nature::Structural)], "{kind:?}");
-        let cure = d.sets[0].cure.as_ref().expect("one is enough");
+        let cure = d.sets[0].remedy.as_ref().expect("one is enough");
         assert_eq!(
             cure.changes.iter().map(|c| (c.joint, c.kind)).collect::<Vec<_>>(),
             [(1, K::Free)]
@@ -200,7 +200,7 @@ fn a_dead_point_is_a_position_and_not_a_redundancy() {
     b.pin(rocker, GROUND, d);
     let flat = told(&b.0);
     assert_eq!((dof(&flat), sets(&flat)), (2, vec![(vec![0, 1, 2, 3], 1, Nature::Singular)]));
-    assert!(flat.sets[0].cure.is_none(), "no joint is to blame");
+    assert!(flat.sets[0].remedy.is_none(), "no joint is to blame");
 }
 
 #[test]
@@ -224,7 +224,7 @@ fn guides_that_say_the_same_twice_are_in_the_set() {
     let mut b = Build::planar();
     four_bar(&mut b, 0.0);
     for joint in [0, 3] {
-        b.0.guides.push(Guide { joint, law: Motion::Ramp { rate: 1.0 } });
+        b.0.guides.push(Guide { joint: JointId::new(joint), law: Motion::Ramp { rate: 1.0 } });
     }
     let d = told(&b.0);
     assert_eq!(

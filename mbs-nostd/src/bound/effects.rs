@@ -7,9 +7,9 @@ use crate::inputs::{Motion, Prescriptions, SignalLaw};
 use mbs_core::Real;
 use mbs_core::laws::body::BodyLaw;
 #[cfg(feature = "tire")]
-use mbs_core::laws::foot::{self, CELLS};
-#[cfg(feature = "tire")]
 use mbs_core::laws::road::Feature;
+#[cfg(feature = "tire")]
+use mbs_core::laws::road_contact::{self, CELLS};
 use mbs_core::laws::scalar::Law;
 use mbs_recursive::loads::{Gauge, Load};
 use mbs_recursive::mechanism::Mechanism;
@@ -220,7 +220,7 @@ fn road<T: Real>(features: &[Feature<T>]) -> Operations {
     let spot = height + ops(9, 12).and(1, 0, 0);
     let (settled, cell) = (ops(5, 8).and(1, 0, 0), ops(0, 2));
     let cells = u64::from(CELLS);
-    spot * count(foot::most_heights::<T>())
+    spot * count(road_contact::most_heights::<T>())
         + settled * (1 + cells)
         + cell * cells
         + hollow

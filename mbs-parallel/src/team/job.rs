@@ -10,7 +10,7 @@
 //! 1. *A handle never outlives its job.* [`Job::with_handle`] is the only way to make one. It gives the handle to `lend`, and
 //!    does not return (nor unwind) before `is_done` is true. A handle is consumed by [`Handle::run`], which is the last to touch
 //!    the job: its last access is the store to `done`. A handle that is dropped instead of run would make the owner wait for
-//!    ever, which is no memory fault; `lend` gets handles back that nobody took ([`Crew`](super::Crew) pops until all are run).
+//!    ever, which is no memory fault; `lend` gets handles back that nobody took ([`ThreadTeam`](super::ThreadTeam) pops until all are run).
 //! 2. *Nobody touches closure or panic at the same time.* Before the handle is made only the owner can name the job. Then the
 //!    owner reads nothing but `done` until it is true; the handle is neither `Clone` nor `Copy`, so there is one runner. The
 //!    runner's writes happen before its `Release` store of `done`; the owner's `Acquire` load that sees it happens before its

@@ -1,14 +1,14 @@
-//! Teams of threads for the work of one step: [`Pool`] on rayon, [`Crew`] with a queue of crossbeam, and [`Threads`], a crew
+//! Teams of threads for the work of one step: [`Pool`] on rayon, [`ThreadTeam`] with a queue of crossbeam, and [`Threads`], a thread team
 //! or none, chosen at run time.
 //!
 //! All of them give the same bits: how work is cut is none of their business ([`mbs_core::team`]).
 
-mod crew;
 mod job;
 mod pool;
+mod thread_team;
 
-pub use crew::Crew;
 pub use pool::Pool;
+pub use thread_team::ThreadTeam;
 
 use mbs_core::team::{Alone, Team};
 
@@ -19,16 +19,16 @@ pub enum Threads {
     #[default]
     One,
     /// Threads that wait for work awake.
-    Crew(Crew),
+    ThreadTeam(ThreadTeam),
 }
 
 impl Threads {
-    /// The caller's thread for `n` = 1 (or 0), a [`Crew`] of n for more.
+    /// The caller's thread for `n` = 1 (or 0), a [`ThreadTeam`] of n for more.
     ///
     /// # Errors
     /// When the operating system gives no threads.
     pub fn new(n: usize) -> std::io::Result<Self> {
-        if n <= 1 { Ok(Self::One) } else { Crew::new(n).map(Self::Crew) }
+        if n <= 1 { Ok(Self::One) } else { ThreadTeam::new(n).map(Self::ThreadTeam) }
     }
 }
 
@@ -41,7 +41,7 @@ impl Team for Threads {
     ) -> (A, B) {
         match self {
             Self::One => Alone.join(a, b),
-            Self::Crew(crew) => crew.join(a, b),
+            Self::ThreadTeam(team) => team.join(a, b),
         }
     }
 
@@ -49,7 +49,7 @@ impl Team for Threads {
     fn size(&self) -> usize {
         match self {
             Self::One => 1,
-            Self::Crew(crew) => crew.size(),
+            Self::ThreadTeam(team) => team.size(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The loop allocates nothing, however many overruns there are.
 
 use crate::common::{Script, ms};
-use mbs_realtime::{Overrun, Pace, Pacer, Quiet};
+use mbs_realtime::{Overrun, Pace, Pacer, Recovery};
 use mbs_testkit::allocations;
 
 #[test]
@@ -11,7 +11,7 @@ fn no_policy_allocates_within_the_loop() {
     for overrun in [Overrun::Finish, Overrun::Hold, Overrun::Degrade] {
         let durations = (0..TASKS).map(|k| ms(if k % 100 > 66 { 12 } else { 3 })).collect();
         let mut script = Script::new(durations);
-        let quiet = Quiet { tasks: 20, ..Quiet::default() };
+        let quiet = Recovery { tasks: 20, ..Recovery::default() };
         let pace = Pace { overrun, quiet, log: 100, ..Pace::every(ms(10)) };
         let mut pacer = Pacer::new(pace, 4).expect("a pace");
         let mut clock = script.clock();

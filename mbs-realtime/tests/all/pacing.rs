@@ -1,11 +1,11 @@
 //! Every policy on a clock that is told what time it is: scripted durations in, instants out. Nothing here takes time.
 
 use crate::common::{Script, at, ms, us};
-use mbs_realtime::{Action, Overrun, Pace, PaceError, Pacer, Quiet};
+use mbs_realtime::{Action, Overrun, Pace, PaceError, Pacer, Recovery};
 use std::time::Duration;
 
 fn pace(overrun: Overrun) -> Pace {
-    let quiet = Quiet { tasks: 4, percent: 70, patience: 3 };
+    let quiet = Recovery { tasks: 4, percent: 70, patience: 3 };
     Pace { overrun, quiet, ..Pace::every(ms(10)) }
 }
 
@@ -234,7 +234,7 @@ fn a_pace_that_is_none_is_refused() {
     assert_eq!(refused(Pace { period: Duration::ZERO, ..good }, 1), Some(PaceError::NoPeriod));
     assert_eq!(refused(good, 0), Some(PaceError::NoLevel));
     for (tasks, percent) in [(0, 70), (4, 0), (4, 101)] {
-        let quiet = Quiet { tasks, percent, patience: 0 };
+        let quiet = Recovery { tasks, percent, patience: 0 };
         assert_eq!(refused(Pace { quiet, ..good }, 1), Some(PaceError::NoQuiet));
     }
     assert_eq!(refused(good, 1), None);

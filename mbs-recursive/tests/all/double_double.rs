@@ -10,7 +10,7 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::outputs::Measures;
 use mbs_core::real::DoubleDouble as Pair;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{Output, Quantity, Scene};
+use mbs_core::scene::{JointId, Output, Quantity, Scene};
 use mbs_recursive::{Options, Planar, TreeModel, TreeState, Workspace};
 use mbs_testkit::{file_in, start_in};
 
@@ -134,7 +134,10 @@ fn andrews_mechanism_has_all_digits_of_its_reference() {
     ];
     for name in joints {
         let joint = scene.joints.iter().position(|joint| joint.name == name).expect("a joint");
-        scene.outputs.push(Output { name: name.into(), quantity: Quantity::JointRate { joint } });
+        scene.outputs.push(Output {
+            name: name.into(),
+            quantity: Quantity::JointRate { joint: JointId::new(joint) },
+        });
     }
     let mut run = Run::new(&scene, 1e-26);
     let starts = [

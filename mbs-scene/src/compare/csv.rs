@@ -1,7 +1,7 @@
 //! The runs of a comparison as a table.
 
 use super::data::{Comparison, RunEntry, Status};
-use crate::write::shortest;
+use crate::format::shortest;
 use std::io;
 
 const HEADER: [&str; 26] = [

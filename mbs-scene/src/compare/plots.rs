@@ -3,7 +3,7 @@
 use super::captions;
 use super::data::{Comparison, MethodRuns, RunEntry, Status};
 use super::text::{per_step, reason, seconds, short};
-use crate::write::rounded;
+use crate::format::rounded;
 use serde::Serialize;
 
 /// Digits of what is drawn.

@@ -1,9 +1,9 @@
 //! A comparison as tables, for the terminal and the page.
 
 use super::data::{Comparison, MethodRuns, RankLevel, RunEntry, Status};
+use crate::format::{rounded, significant};
 use crate::record::Provenance;
 use crate::report::{Report, Section};
-use crate::write::{readable, rounded};
 
 /// Failures of a method that are listed in the terminal.
 const MOST_SETTINGS: usize = 4;
@@ -40,14 +40,18 @@ impl Comparison {
         let mut rows = vec![
             row(
                 "compared",
-                format!("the first {} s of {} s", readable(self.compared), readable(self.duration)),
+                format!(
+                    "the first {} s of {} s",
+                    significant(self.compared),
+                    significant(self.duration)
+                ),
             ),
             row(
                 "error",
                 format!(
                     "largest over the outputs at {} instants, one every {} s, each output in its scale",
                     self.instants,
-                    readable(rounded(self.interval, 4))
+                    significant(rounded(self.interval, 4))
                 ),
             ),
         ];
@@ -264,13 +268,13 @@ pub(super) fn reason(run: &RunEntry) -> (String, String) {
     let owner =
         owner.or_else(|| e.body.as_ref().map(|b| format!(" at body `{b}`"))).unwrap_or_default();
     let place =
-        format!("{} from t = {} s{owner}", short(run.setting), readable(rounded(e.time, 4)));
+        format!("{} from t = {} s{owner}", short(run.setting), significant(rounded(e.time, 4)));
     (format!("{}: {}", e.code, e.message), place)
 }
 
 /// Three digits.
 pub(super) fn short(x: f64) -> String {
-    readable(rounded(x, 3))
+    significant(rounded(x, 3))
 }
 
 /// A time with a unit that suits it.
@@ -281,7 +285,7 @@ pub(super) fn seconds(t: f64) -> String {
         t if t >= 1e-6 => (t * 1e6, "us"),
         t => (t * 1e9, "ns"),
     };
-    format!("{} {unit}", readable(rounded(size, 3)))
+    format!("{} {unit}", significant(rounded(size, 3)))
 }
 
 #[cfg(test)]

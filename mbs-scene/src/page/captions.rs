@@ -1,7 +1,7 @@
 //! The sentence under each plot.
 
+use crate::format::significant;
 use crate::record::{EnergySeries, IterationSeries, StepSeries, ViolationSeries};
-use crate::write::readable;
 
 pub(super) fn energy_error(series: &EnergySeries) -> String {
     let Some((time, value)) = peak(&series.times, &series.invariant_error) else {
@@ -12,7 +12,7 @@ pub(super) fn energy_error(series: &EnergySeries) -> String {
                 to the last digit."
             .to_owned();
     }
-    let time = readable(time);
+    let time = significant(time);
     format!(
         "How far the energy invariant Pi = T + V - work of dampers, forces and guides is from its \
          start: at most {value:.3e} J, at t = {time} s. A drift grows; rounding scatters."

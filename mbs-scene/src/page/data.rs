@@ -1,9 +1,9 @@
 //! The data of the page as compact JSON.
 
+use crate::format::rounded;
 use crate::page::captions;
 use crate::page::decimate::{envelope, kept, spread};
 use crate::record::{Animation, ChannelSeries, RunRecord};
-use crate::write::rounded;
 use serde::Serialize;
 
 /// Significant digits of what is drawn; a screen resolves four.

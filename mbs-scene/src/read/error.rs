@@ -212,11 +212,11 @@ impl ReadFault {
             Self::Syntax { line, .. } => units::of_line(line)
                 .unwrap_or_else(|| "see https://toml.io for the syntax of the file".to_owned()),
             Self::NumberInText { text } => units::hint(text),
-            Self::UnknownKey { key, known } => suggestion(key, known, "keys"),
+            Self::UnknownKey { key, known } => nearest_name(key, known, "keys"),
             Self::UnusedKey { known, .. } => format!("remove it; {}", listing(known, "keys")),
-            Self::UnknownWord { found, known, .. } => suggestion(found, known, "choices"),
-            Self::UnknownBody { name, known } => suggestion(name, known, "bodies"),
-            Self::UnknownJoint { name, known } => suggestion(name, known, "joints"),
+            Self::UnknownWord { found, known, .. } => nearest_name(found, known, "choices"),
+            Self::UnknownBody { name, known } => nearest_name(name, known, "bodies"),
+            Self::UnknownJoint { name, known } => nearest_name(name, known, "joints"),
             Self::GroundDoesNotMove => "name a body".to_owned(),
             Self::WrongType { expected, .. } => format!("write {expected}"),
             Self::WrongCount { needed, .. } => {
@@ -262,7 +262,7 @@ fn numbered(entry: Entry, index: usize) -> Entry {
 
 /// What to say about a word that is not in a list: the nearest, or all.
 #[must_use]
-pub fn suggestion<S: AsRef<str>>(found: &str, known: &[S], what: &str) -> String {
+pub fn nearest_name<S: AsRef<str>>(found: &str, known: &[S], what: &str) -> String {
     if let Some(hint) = hints::of_word(found, known) {
         return hint;
     }

@@ -4,7 +4,7 @@ use crate::read::names::Names;
 use crate::read::tree::{Item, Member, Node, Span};
 use crate::read::{ReadError, ReadFault, SceneFile};
 use mbs_core::Real;
-use mbs_core::scene::{BodyId, Dimension};
+use mbs_core::scene::{BodyId, Dimension, JointId};
 
 /// What the readers of all entries share.
 #[derive(Debug, Clone, Copy)]
@@ -146,17 +146,17 @@ impl<'a> Context<'a> {
         }
     }
 
-    pub(crate) fn moving_body(&self, item: &'a Item) -> Read<usize> {
+    pub(crate) fn moving_body(&self, item: &'a Item) -> Read<BodyId> {
         match self.body(item)? {
-            BodyId::Body(i) => Ok(i),
+            body @ BodyId::Body(_) => Ok(body),
             BodyId::Ground => self.fault(&item.span, ReadFault::GroundDoesNotMove),
         }
     }
 
-    pub(crate) fn joint(&self, item: &'a Item) -> Read<usize> {
+    pub(crate) fn joint(&self, item: &'a Item) -> Read<JointId> {
         let name = self.text(item)?;
         match self.joints.place(name) {
-            Some(i) => Ok(i),
+            Some(i) => Ok(JointId::new(i)),
             None => {
                 let (name, known) = (name.to_owned(), self.joints.list().to_vec());
                 self.fault(&item.span, ReadFault::UnknownJoint { name, known })

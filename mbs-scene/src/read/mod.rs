@@ -20,6 +20,6 @@ pub(crate) mod tree;
 mod units;
 
 pub use document::SceneFile;
-pub use error::{ReadError, ReadFault, suggestion};
+pub use error::{ReadError, ReadFault, nearest_name};
 pub use place::Place;
 pub use sweep::{Sweep, SweepFault};

@@ -152,9 +152,12 @@ fn the_planar_scene_of_the_format_is_read() {
     assert_eq!(scene.effects[1].name, "effect-2");
     assert!(!scene.effects[1].enabled);
     assert_eq!(scene.solver.formulation.as_deref(), Some("auto"));
-    assert_eq!(scene.outputs[0].quantity, Quantity::Position { body: 1, at: [2.0, 0.0, 0.0] });
+    assert_eq!(
+        scene.outputs[0].quantity,
+        Quantity::Position { body: BodyId::Body(1), at: [2.0, 0.0, 0.0] }
+    );
     let velocity = Some(([2.0, 0.0, 0.0], [0.0; 3]));
-    let expected = InitialTarget::Body { body: 1, velocity, angular_velocity: None };
+    let expected = InitialTarget::Body { body: BodyId::Body(1), velocity, angular_velocity: None };
     assert_eq!(scene.initials[1].target, expected);
 }
 

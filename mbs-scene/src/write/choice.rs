@@ -1,13 +1,12 @@
 //! What a choice by measurement was made of: who could run, what the pilot measured of each, who was chosen.
 
-use super::csv::shortest;
-use super::readable::{readable, rounded};
+use crate::format::{rounded, shortest, significant};
 use serde::Serialize;
 use std::io;
 
 /// The evidence of a choice.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct Choice {
+pub struct PilotReport {
     /// Wanted error of the outputs, each in its scale.
     pub error: Option<f64>,
     /// Time for each frame of that length [s].
@@ -123,12 +122,12 @@ pub struct Fallback {
 /// Head of the table of candidates.
 const HEAD: [&str; 6] = ["", "candidate", "step or tolerance", "CPU time", "error", "why"];
 
-impl Choice {
+impl PilotReport {
     /// The candidates as a table, its head first.
     #[must_use]
     pub fn table(&self) -> Vec<Vec<String>> {
         let number = |x: Option<f64>, unit: &str| {
-            x.map_or_else(|| "-".to_owned(), |x| format!("{}{unit}", readable(rounded(x, 3))))
+            x.map_or_else(|| "-".to_owned(), |x| format!("{}{unit}", significant(rounded(x, 3))))
         };
         let row = |c: &Candidate| {
             let why = match (&c.out, c.over_chosen) {
@@ -173,7 +172,7 @@ const COLUMNS: [&str; 14] = [
 ///
 /// # Errors
 /// Those of the sink.
-pub fn write_choice(sink: impl io::Write, choice: &Choice) -> io::Result<()> {
+pub fn write_choice(sink: impl io::Write, choice: &PilotReport) -> io::Result<()> {
     let mut out = csv::Writer::from_writer(sink);
     out.write_record(COLUMNS)?;
     let number = |x: Option<f64>| x.map(shortest).unwrap_or_default();
@@ -214,7 +213,7 @@ mod tests {
             TrialEntry { setting: 0.5, outcome: "completed".into(), ..TrialEntry::default() };
         let chosen = Candidate { rank: Some(1), trials: vec![trial; 2], ..Candidate::default() };
         let out = Candidate { out: Some("no tree".into()), ..Candidate::default() };
-        let choice = Choice { candidates: vec![chosen, out], ..Choice::default() };
+        let choice = PilotReport { candidates: vec![chosen, out], ..PilotReport::default() };
         let mut sink = Vec::new();
         write_choice(&mut sink, &choice).unwrap();
         let text = String::from_utf8(sink).unwrap();

@@ -1,5 +1,6 @@
 //! CSV: one row per recorded time, written as the run goes.
 
+use crate::format::{full, shortest};
 use crate::record::{Channel, StepSeries};
 use mbs_core::real::DoubleDouble;
 use std::io::{self, Write};
@@ -58,7 +59,7 @@ impl<W: Write> CsvWriter<W> {
     /// # Panics
     /// If the count of values is not that of the header.
     pub fn long_row(&mut self, time: f64, values: &[DoubleDouble]) -> io::Result<()> {
-        self.fields(core::iter::once(shortest(time)).chain(values.iter().map(|&x| long(x))))
+        self.fields(core::iter::once(shortest(time)).chain(values.iter().map(|&x| full(x))))
     }
 
     fn fields(&mut self, fields: impl Iterator<Item = String>) -> io::Result<()> {
@@ -132,23 +133,4 @@ fn write_step_rows<W: Write>(mut out: csv::Writer<W>, steps: &StepSeries) -> io:
         out.write_record(record).map_err(io::Error::from)?;
     }
     out.flush()
-}
-
-/// At most 32 digits; exponents where [`shortest`] has them.
-#[must_use]
-pub fn long(x: DoubleDouble) -> String {
-    let size = x.hi().abs();
-    let is_plain = x.hi() == 0.0 || !size.is_finite() || (1.0e-4..1.0e15).contains(&size);
-    if is_plain { format!("{x}") } else { format!("{x:e}") }
-}
-
-/// The shortest decimal text that reads back as the same number; exponents where they are shorter.
-#[must_use]
-pub fn shortest(x: f64) -> String {
-    let size = x.abs();
-    if x == 0.0 || !x.is_finite() || (1.0e-4..1.0e15).contains(&size) {
-        format!("{x}")
-    } else {
-        format!("{x:e}")
-    }
 }

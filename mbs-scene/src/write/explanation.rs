@@ -1,7 +1,7 @@
 //! What `mbs explain` says of a scene, as plain data with the keys of its JSON object.
 
-use super::choice::Choice;
-use super::json::{Chosen, RunError};
+use super::choice::PilotReport;
+use super::json::{MethodChoice, RunError};
 use serde::Serialize;
 
 /// What is simulated, what is not, and the price of each effect. Numbers that are not finite are written as `null`.
@@ -13,10 +13,10 @@ pub struct Explanation {
     pub formulation: String,
     /// What `auto` chose and why.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub chosen: Option<Chosen>,
+    pub chosen: Option<MethodChoice>,
     /// The candidates of a choice by measurement: by structure, or with what a pilot measured.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub choice: Option<Choice>,
+    pub choice: Option<PilotReport>,
     /// Integrator.
     pub integrator: String,
     /// `f32`, `f64`, `dd`.
@@ -34,9 +34,9 @@ pub struct Explanation {
     /// Every effect of the scene.
     pub effects: Vec<EffectEntry>,
     /// What the scene could have and has not.
-    pub absent: Vec<Absence>,
+    pub absent: Vec<MissingEffect>,
     /// Prices; `None` where the scene does not start.
-    pub prices: Option<Prices>,
+    pub prices: Option<EffectCosts>,
 }
 
 /// Bodies, joints, guides, and the sizes of the model.
@@ -45,7 +45,7 @@ pub struct Simulated {
     /// Names of the bodies.
     pub bodies: Vec<String>,
     /// Joints by kind.
-    pub joints: Vec<JointGroup>,
+    pub joints: Vec<JointsByKind>,
     /// Guided joints.
     pub guides: Vec<GuideEntry>,
     /// Acceleration of gravity [m/s^2], where it acts.
@@ -60,12 +60,12 @@ pub struct Simulated {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative_error: Option<RunError>,
     /// Thin rods in space.
-    pub rods: Vec<Rod>,
+    pub rods: Vec<ThinRod>,
 }
 
 /// Joints of one kind.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
-pub struct JointGroup {
+pub struct JointsByKind {
     /// Kind, as in scene files.
     pub kind: String,
     /// Names, in the order of the file.
@@ -139,7 +139,7 @@ pub struct ControllerStep {
 
 /// A thin rod in space, which has no inertia about itself.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
-pub struct Rod {
+pub struct ThinRod {
     /// Name of the body.
     pub body: String,
     /// Is its spin about itself a coordinate in natural coordinates? It is where a joint holds more than points of its line.
@@ -159,7 +159,7 @@ pub struct EffectEntry {
 
 /// Something that the scene has not.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
-pub struct Absence {
+pub struct MissingEffect {
     /// A short fixed word for programs.
     pub what: String,
     /// One line.
@@ -168,7 +168,7 @@ pub struct Absence {
 
 /// What each effect costs and does, by leaving it out.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct Prices {
+pub struct EffectCosts {
     /// Steps of each timed run.
     pub timed_steps: u64,
     /// How often each was timed.
@@ -186,14 +186,14 @@ pub struct Prices {
     /// The largest step with all effects.
     pub largest_step: LargestStep,
     /// Each enabled effect alone left out.
-    pub effects: Vec<Price>,
+    pub effects: Vec<EffectCost>,
     /// All effects of a kind left out together, for kinds with more than one.
-    pub kinds: Vec<Price>,
+    pub kinds: Vec<EffectCost>,
 }
 
 /// What leaving effects out saves and changes.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct Price {
+pub struct EffectCost {
     /// Names of what is left out.
     pub names: Vec<String>,
     /// Their kind.
@@ -215,14 +215,14 @@ pub struct Price {
     /// The largest step without them.
     pub largest_step: LargestStep,
     /// What changes in the outputs.
-    pub changes: Vec<Change>,
+    pub changes: Vec<OutputChange>,
 }
 
-impl Price {
+impl EffectCost {
     /// The change that is largest beside its range, if there is more than rounding.
     #[must_use]
-    pub fn largest_change(&self) -> Option<&Change> {
-        let size = |change: &Change| (change.relative.unwrap_or(0.0), change.largest);
+    pub fn largest_change(&self) -> Option<&OutputChange> {
+        let size = |change: &OutputChange| (change.relative.unwrap_or(0.0), change.largest);
         self.changes.iter().filter(|change| !change.is_rounding).max_by(|a, b| {
             let ((a, x), (b, y)) = (size(a), size(b));
             a.total_cmp(&b).then(x.total_cmp(&y))
@@ -232,7 +232,7 @@ impl Price {
 
 /// How an output differs between two runs.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct Change {
+pub struct OutputChange {
     /// Name of the channel.
     pub output: String,
     /// Unit of these components of it.

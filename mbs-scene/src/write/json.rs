@@ -1,6 +1,6 @@
 //! JSON: the summary of a run, with the keys of the scene format.
 
-use super::choice::Choice;
+use super::choice::PilotReport;
 use super::estimate::ErrorEstimate;
 use super::realtime::RealtimeSummary;
 use crate::record::StepRow;
@@ -68,7 +68,7 @@ pub struct RunSummary {
     pub estimate: Option<ErrorEstimate>,
     /// What `auto` chose and why.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub chosen: Option<Chosen>,
+    pub chosen: Option<MethodChoice>,
     /// Joints whose reaction is not unique; the smallest one is given.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub not_unique: Vec<String>,
@@ -183,7 +183,7 @@ pub struct ViolationSummary {
 
 /// What `auto` chose.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
-pub struct Chosen {
+pub struct MethodChoice {
     /// Formulation that ran.
     pub formulation: String,
     /// Formulation, integrator, and step or tolerance that ran.
@@ -193,7 +193,7 @@ pub struct Chosen {
     pub reasons: Vec<String>,
     /// What was measured; absent where nothing was.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub evidence: Option<Choice>,
+    pub evidence: Option<PilotReport>,
 }
 
 /// Channels by name, in order; one number is written as a number, several as a list.

@@ -5,23 +5,21 @@ mod csv;
 mod estimate;
 mod explanation;
 mod json;
-mod readable;
 mod realtime;
 #[cfg(test)]
 mod tests;
 
 pub use choice::{
-    Candidate, Choice, Fallback, PilotReference, SecondLook, TrialEntry, write_choice,
+    Candidate, Fallback, PilotReference, PilotReport, SecondLook, TrialEntry, write_choice,
 };
-pub use csv::{CsvWriter, append_steps, long, shortest, write_steps};
+pub use csv::{CsvWriter, append_steps, write_steps};
 pub use estimate::ErrorEstimate;
 pub use explanation::{
-    Absence, Change, ControllerStep, EffectEntry, Explanation, GuideEntry, JointGroup, LargestStep,
-    Price, Prices, Relative, Rod, SearchEnd, Simulated, Sizes,
+    ControllerStep, EffectCost, EffectCosts, EffectEntry, Explanation, GuideEntry, JointsByKind,
+    LargestStep, MissingEffect, OutputChange, Relative, SearchEnd, Simulated, Sizes, ThinRod,
 };
 pub use json::{
-    Chosen, Contact, ControlSummary, EnergySummary, Outputs, RunError, RunSummary, ViolationSummary,
+    Contact, ControlSummary, EnergySummary, MethodChoice, Outputs, RunError, RunSummary,
+    ViolationSummary,
 };
-pub use readable::readable;
-pub(crate) use readable::rounded;
 pub use realtime::{Degraded, MarginSummary, Overrun, RealtimeSummary, Times, write_overruns};

@@ -1,6 +1,6 @@
 //! How a paced run kept up with the clock: an object of its JSON, and a line of CSV for each overrun.
 
-use super::csv::shortest;
+use crate::format::shortest;
 use std::io::{self, Write};
 
 /// A run that was paced. Times in seconds.

@@ -10,7 +10,7 @@
 //! linked along rows and columns; an entry stands for what it is in the pattern even when its number is zero just now, so the
 //! order found holds for other numbers too.
 
-use super::{Choice, Elimination, Pattern, index};
+use super::{Elimination, Pattern, PivotSelection, index};
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
@@ -221,7 +221,7 @@ impl<T: Real> Elimination<T> {
     ///
     /// Cost: the elimination once, and for each pivot a look at every row. Allocates only when the factors need more than
     /// was reserved.
-    pub fn choose(&mut self, values: &[T]) -> Choice<T> {
+    pub fn select_pivots(&mut self, values: &[T]) -> PivotSelection<T> {
         let (m, n) = (self.pattern.n_rows(), self.pattern.n_columns);
         self.scale_rows(values);
         let scales = (&self.row_scales[..], &self.column_scales[..]);
@@ -254,7 +254,7 @@ impl<T: Real> Elimination<T> {
         self.close_order();
         self.refactor(values);
         self.note_pivots();
-        Choice { rank, last, rest }
+        PivotSelection { rank, last, rest }
     }
 
     /// The rows and columns that are left after the pivots, and the patterns of the factors.

@@ -5,7 +5,7 @@
 //! R = [-J_d^-1 J_i; 1],      J R = 0                                                          [P1 (21)]
 //! ```
 //!
-//! [`Elimination::choose`] finds the rank, the pivot rows and the dependent columns; [`Elimination::refactor`] repeats the
+//! [`Elimination::select_pivots`] finds the rank, the pivot rows and the dependent columns; [`Elimination::refactor`] repeats the
 //! arithmetic for new numbers in the same order. The pivot columns are the dependent unknowns, the others the independent ones.
 
 mod choose;
@@ -56,9 +56,9 @@ pub struct Pivots<T> {
     pub decay: T,
 }
 
-/// What [`Elimination::choose`] found.
+/// What [`Elimination::select_pivots`] found.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Choice<T> {
+pub struct PivotSelection<T> {
     /// The rank r.
     pub rank: usize,
     /// The last pivot accepted: its row and its size in the scaled matrix.

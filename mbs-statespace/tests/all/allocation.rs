@@ -2,21 +2,21 @@
 //! when independent columns are chosen anew.
 
 use crate::common::Bench;
-use mbs_statespace::Rechoice;
+use mbs_statespace::PivotChange;
 use mbs_testkit::scenes::{CHAIN, DOUBLE, N_FOUR_BAR};
 use mbs_testkit::{PLANAR, SPATIAL, allocations};
 
 fn check<const D: usize>(text: &str, steps: u32) {
-    for rechoice in [Rechoice::WhenNeeded, Rechoice::EveryStep] {
+    for pivot_change in [PivotChange::WhenNeeded, PivotChange::EveryStep] {
         let mut bench = Bench::<f64, D>::new(text);
-        bench.options.rechoice = rechoice;
+        bench.options.pivot_change = pivot_change;
         let before = allocations::count();
         for _ in 0..steps {
             let report = bench.try_step(1e-3);
             assert!(report.is_ok(), "{}: {report:?}", bench.scene.name);
         }
         let count = allocations::count() - before;
-        assert_eq!(count, 0, "{} {rechoice:?}", bench.scene.name);
+        assert_eq!(count, 0, "{} {pivot_change:?}", bench.scene.name);
     }
 }
 

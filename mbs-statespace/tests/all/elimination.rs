@@ -168,7 +168,7 @@ fn random_sparse_matrices_have_the_rank_and_the_null_space_of_a_dense_eliminatio
         let repeated = random.below(6);
         let matrix = Sparse::random(&mut random, n, independent, repeated);
         let mut e = Elimination::new(matrix.pattern(), vec![1.0; n]);
-        let choice = e.choose(&matrix.values());
+        let choice = e.select_pivots(&matrix.values());
         assert_eq!(choice.rank, matrix.rank(), "trial {trial}");
         deficient += usize::from(choice.rank < matrix.rows.len());
         check(&matrix, &e, &mut random);
@@ -196,7 +196,7 @@ fn frozen_pivots_serve_other_numbers_of_the_pattern_even_where_some_were_zero() 
             continue;
         }
         let mut e = Elimination::new(matrix.pattern(), vec![1.0; n]);
-        e.choose(&thin.values());
+        e.select_pivots(&thin.values());
         e.refactor(&matrix.values());
         if e.pivots().smallest > 1e-2 {
             check(&matrix, &e, &mut random);
@@ -211,7 +211,7 @@ fn light_columns_become_dependent() {
     // x + y = 0 with masses 100 and 1: the light y follows.
     let pattern = Pattern { n_columns: 2, starts: vec![0, 2], columns: vec![0, 1] };
     let mut e = Elimination::new(pattern, vec![0.1, 1.0]);
-    e.choose(&[1.0, 1.0]);
+    e.select_pivots(&[1.0, 1.0]);
     assert_eq!((e.dependent(), e.independent()), (&[1][..], &[0][..]));
 }
 
@@ -220,14 +220,14 @@ fn pivots_tell_how_near_a_matrix_is_to_losing_rank() {
     // [1 1; 1 1+e]: e is what the second row adds.
     let pattern = Pattern { n_columns: 2, starts: vec![0, 2, 4], columns: vec![0, 1, 0, 1] };
     let mut e = Elimination::new(pattern, vec![1.0; 2]);
-    assert_eq!(e.choose(&[1.0, 1.0, 1.0, -1.0]).rank, 2);
+    assert_eq!(e.select_pivots(&[1.0, 1.0, 1.0, -1.0]).rank, 2);
     for share in [1e-3, 1e-6] {
         e.refactor(&[1.0, 1.0, 1.0, 1.0 + share]);
         let pivots = e.pivots();
         assert!((0.1 * share..share).contains(&pivots.smallest), "{pivots:?}");
         assert!(pivots.decay < share, "{pivots:?}");
     }
-    let lost = e.choose(&[1.0, 1.0, 1.0, 1.0]);
+    let lost = e.select_pivots(&[1.0, 1.0, 1.0, 1.0]);
     assert_eq!((lost.rank, lost.rest), (1, (lost.rest.0, 0.0)));
     assert_eq!(e.dropped_rows().len(), 1);
 }
@@ -236,13 +236,13 @@ fn pivots_tell_how_near_a_matrix_is_to_losing_rank() {
 fn a_row_of_zeros_and_an_empty_matrix_are_no_constraints() {
     let pattern = Pattern { n_columns: 2, starts: vec![0, 0, 1], columns: vec![1] };
     let mut e = Elimination::new(pattern, vec![1.0; 2]);
-    assert_eq!(e.choose(&[0.0]).rank, 0);
-    assert_eq!(e.choose(&[3.0]).rank, 1);
+    assert_eq!(e.select_pivots(&[0.0]).rank, 0);
+    assert_eq!(e.select_pivots(&[3.0]).rank, 1);
     assert_eq!((e.dependent(), e.dropped_rows()), (&[1][..], &[0][..]));
     let mut none = Elimination::<f64>::new(
         Pattern { n_columns: 3, starts: vec![0], columns: vec![] },
         vec![1.0; 3],
     );
-    assert_eq!(none.choose(&[]).rank, 0);
+    assert_eq!(none.select_pivots(&[]).rank, 0);
     assert_eq!(none.independent(), &[0, 1, 2]);
 }

@@ -3,7 +3,7 @@
 use crate::common::Bench;
 use mbs_core::model::Model;
 use mbs_core::{Cliques, Real};
-use mbs_statespace::{Coordinates, Rechoice, StepError, Workspace};
+use mbs_statespace::{Coordinates, PivotChange, StepError, Workspace};
 use mbs_testkit::retell::{turn_scene, turned};
 use mbs_testkit::scenes::{CHAIN, DOUBLE, GUIDED, REDUNDANT, SLIDER, TOP, TWO_FOUR_BARS};
 use mbs_testkit::{PLANAR, SPATIAL, apart, scene, scene_in};
@@ -56,7 +56,7 @@ fn check_rechoice<const D: usize>(text: &str, dt: f64, steps: u32) {
     let mut forced = Bench::<f64, D>::new(text);
     // Iterated to rounding, or each step would keep a tolerance of its own.
     (plain.options.tolerance, forced.options.tolerance) = (1e-14, 1e-14);
-    forced.options.rechoice = Rechoice::EveryStep;
+    forced.options.pivot_change = PivotChange::EveryStep;
     let (mut sets, mut last) = (0, Vec::new());
     for _ in 0..steps {
         plain.run(dt, 1);
@@ -83,16 +83,16 @@ fn choosing_anew_at_every_step_does_not_change_the_motion() {
 
 #[test]
 fn chosen_columns_as_coordinates_change_the_motion_by_the_error_of_the_rule_only() {
-    let position = |dt: f64, steps, rechoice| {
+    let position = |dt: f64, steps, pivot_change| {
         let mut bench = Bench::<f64, 2>::new(&SLIDER);
         bench.options.coordinates = Coordinates::Chosen;
-        bench.options.rechoice = rechoice;
+        bench.options.pivot_change = pivot_change;
         bench.run(dt, steps);
         bench.state.q
     };
     let difference = |dt, steps| {
-        let forced = position(dt, steps, Rechoice::EveryStep);
-        apart(&position(dt, steps, Rechoice::WhenNeeded), &forced)
+        let forced = position(dt, steps, PivotChange::EveryStep);
+        apart(&position(dt, steps, PivotChange::WhenNeeded), &forced)
     };
     let (coarse, fine) = (difference(1e-3, 300), difference(2.5e-4, 1200));
     assert!(fine > ROUNDING && coarse > 8.0 * fine, "{coarse:e} {fine:e}: second order");

@@ -170,7 +170,7 @@ fn bennetts_linkage_keeps_the_rank_of_its_start() {
     let mut bench = Bench::<f64, 3>::new(&text);
     assert_eq!(bench.w.elimination().independent().len(), 1);
     assert!(!bench.w.elimination().dropped_rows().is_empty(), "its hinges are redundant");
-    bench.options.rechoice = mbs_statespace::Rechoice::EveryStep;
+    bench.options.pivot_change = mbs_statespace::PivotChange::EveryStep;
     for _ in 0..1000 {
         // The dropped rows are met too: the linkage moves because its lengths are what they are, to rounding.
         let report = bench.try_step(1e-3).unwrap();

@@ -8,7 +8,7 @@ use crate::compare::ladder::{Instants, count, work};
 use crate::compare::method::{Control, Method};
 use crate::engine::Engine;
 use crate::names::Names;
-use crate::ready::Ready;
+use crate::ready::AssembledScene;
 use crate::settings::{DEFAULT_STEP, Overrides, Settings, SettingsError};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
@@ -50,7 +50,7 @@ pub(crate) struct SceneBench<'a, T: Real, const D: usize> {
     channels: Vec<Channel>,
     length: f64,
     /// What all trials begin from, or why none can.
-    ready: &'a Result<Ready<T, D>, Box<RunError>>,
+    ready: &'a Result<AssembledScene<T, D>, Box<RunError>>,
     clock: &'a mut dyn Clock,
     begun: f64,
     /// Steps that an integrator of its own control may try in an interval.
@@ -64,7 +64,7 @@ where
     /// A bench on which so many seconds were spent before.
     pub(crate) fn new(
         (scene, base): (&'a Scene<T>, &'a Overrides),
-        ready: &'a Result<Ready<T, D>, Box<RunError>>,
+        ready: &'a Result<AssembledScene<T, D>, Box<RunError>>,
         instants: Instants,
         (clock, spent): (&'a mut dyn Clock, f64),
     ) -> Self {

@@ -29,7 +29,7 @@ use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, Method};
 use crate::names::Names;
 use crate::precision::Work;
-use crate::ready::Ready;
+use crate::ready::AssembledScene;
 use crate::settings::{Overrides, Settings};
 use crate::tree::{InSpace, Plane};
 use bench::SceneBench;
@@ -37,7 +37,7 @@ use entrant::Entrant;
 use finish::Place;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
-use mbs_scene::{Candidate, Choice};
+use mbs_scene::{Candidate, PilotReport};
 use race::{Race, Wanted};
 
 /// Instants at which errors are taken, where the caller has none.
@@ -124,7 +124,7 @@ pub(crate) struct Pilot<'a> {
 }
 
 impl Work for Pilot<'_> {
-    type Done = (Vec<Pick>, Choice);
+    type Done = (Vec<Pick>, PilotReport);
 
     fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done
     where
@@ -139,12 +139,12 @@ fn chosen<T: Real, const D: usize>(
     task: &Task<'_>,
     methods: &[Method],
     clock: &mut dyn Clock,
-) -> (Vec<Pick>, Choice)
+) -> (Vec<Pick>, PilotReport)
 where
     Plane<D>: InSpace<T>,
 {
     let begun = clock.seconds();
-    let ready = Ready::<T, D>::new(scene);
+    let ready = AssembledScene::<T, D>::new(scene);
     let mut ready = ready.map_err(|e| Box::new(e.report(0.0, &Names::new(scene))));
     let structure = structure::structure(scene, task.settings.duration, ready.as_mut().ok());
     let methods = &few_methods(task, methods, &structure)[..];
@@ -178,7 +178,7 @@ where
         extend(&mut choice, scaled(task.instants, instants));
         return (picks, choice);
     }
-    (Vec::new(), Choice::default())
+    (Vec::new(), PilotReport::default())
 }
 
 /// Of all methods those that were the cheapest on some scene, for some error, where a tree and the caller leave them: explicit and
@@ -203,7 +203,7 @@ fn scaled(whole: Instants, span: Instants) -> f64 {
 }
 
 /// CPU times of the whole run from those of the pilot's span, and a word about it.
-fn extend(choice: &mut Choice, times: f64) {
+fn extend(choice: &mut PilotReport, times: f64) {
     if times <= 1.0 + 1e-9 {
         return;
     }
@@ -254,21 +254,21 @@ fn picks(race: &Race<'_>, places: &[Place], times: f64) -> Vec<Pick> {
 pub(crate) fn candidates<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
-) -> Option<Choice>
+) -> Option<PilotReport>
 where
     Plane<D>: InSpace<T>,
 {
     let methods = methods(scene, &Overrides::default(), settings, &Goal::default()).ok()?;
-    let mut ready = Ready::<T, D>::new(scene).ok();
+    let mut ready = AssembledScene::<T, D>::new(scene).ok();
     let structure = structure::structure(scene, settings.duration, ready.as_mut());
     let candidate = |method: &Method| Candidate {
         out: structure.refuses(method),
         basis: "the pilot decides".to_owned(),
         ..report::candidate(&Entrant::new(*method, 1.0, 1.0))
     };
-    Some(Choice {
+    Some(PilotReport {
         structure: structure.words(),
         candidates: methods.iter().map(candidate).collect(),
-        ..Choice::default()
+        ..PilotReport::default()
     })
 }

@@ -9,7 +9,7 @@ use crate::stop::StopError;
 use crate::{Names, run_document};
 use cpu_time::ThreadTime;
 use mbs_core::scene::Scene;
-use mbs_scene::{Choice, Fallback, SceneFile};
+use mbs_scene::{Fallback, PilotReport, SceneFile};
 use std::time::Instant;
 
 /// Settings to run with, in the order in which they are tried.
@@ -108,7 +108,7 @@ fn ranked(
     scene: &Scene<f64>,
     task: &Task<'_>,
     (picks, methods): (&[Pick], &[Method]),
-    choice: &Choice,
+    choice: &PilotReport,
 ) -> Vec<Settings> {
     let of = |pick: &Pick| {
         let settings =
@@ -131,7 +131,7 @@ fn ranked(
 
 /// Where the pilot has got nowhere: every method that starts, in the order of its candidates, with the step of the scene, or a
 /// tolerance of a hundredth of the wanted error.
-fn blind(task: &Task<'_>, choice: &Choice, methods: &[Method]) -> Vec<Pick> {
+fn blind(task: &Task<'_>, choice: &PilotReport, methods: &[Method]) -> Vec<Pick> {
     let starts = |m: &&Method| {
         let same = choice.candidates.iter().find(|c| c.method == m.name());
         same.is_none_or(|c| c.trials.iter().all(|t| t.reached > 0.0))

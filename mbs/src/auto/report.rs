@@ -6,13 +6,17 @@ use super::race::{BUDGET, Race};
 use super::structure::Structure;
 use super::trial::End;
 use crate::words::{duration, few};
-use mbs_scene::{Candidate, Choice, Fallback, PilotReference, SecondLook, TrialEntry};
+use mbs_scene::{Candidate, Fallback, PilotReference, PilotReport, SecondLook, TrialEntry};
 
 /// Candidates that are told beside the chosen one.
 const TOLD: usize = 3;
 
 /// The evidence: the ranked ones first, then those that are out.
-pub(super) fn evidence(race: &mut Race<'_>, places: &[Place], structure: &Structure) -> Choice {
+pub(super) fn evidence(
+    race: &mut Race<'_>,
+    places: &[Place],
+    structure: &Structure,
+) -> PilotReport {
     let pilot_seconds = race.bench.spent();
     let pilot_budget = race.budget();
     let chosen = places.first().map(|place| place.prediction.point.seconds);
@@ -46,7 +50,7 @@ pub(super) fn evidence(race: &mut Race<'_>, places: &[Place], structure: &Struct
         setting: best.setting,
         uncertainty: best.own,
     });
-    Choice {
+    PilotReport {
         error: Some(race.wanted.error),
         deadline: race.wanted.deadline,
         structure: structure.words(),
@@ -55,7 +59,7 @@ pub(super) fn evidence(race: &mut Race<'_>, places: &[Place], structure: &Struct
         reference,
         candidates,
         notes: notes(race, places),
-        ..Choice::default()
+        ..PilotReport::default()
     }
 }
 
@@ -109,7 +113,7 @@ fn notes(race: &Race<'_>, places: &[Place]) -> Vec<String> {
 }
 
 /// Why, one sentence each.
-pub(crate) fn reasons(choice: &Choice) -> Vec<String> {
+pub(crate) fn reasons(choice: &PilotReport) -> Vec<String> {
     let mut reasons = Vec::new();
     let placed = || choice.candidates.iter().filter(|c| c.rank.is_some());
     let Some(first) = placed().next() else { return vec!["nothing was left to choose".to_owned()] };

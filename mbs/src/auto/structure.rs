@@ -3,7 +3,7 @@
 use crate::choice::FormulationKind;
 use crate::compare::method::Method;
 use crate::names::Names;
-use crate::ready::Ready;
+use crate::ready::AssembledScene;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
@@ -37,12 +37,12 @@ pub(crate) struct Structure {
 pub(crate) fn structure<T: Real, const D: usize>(
     scene: &Scene<T>,
     duration: f64,
-    ready: Option<&mut Ready<T, D>>,
+    ready: Option<&mut AssembledScene<T, D>>,
 ) -> Structure
 where
     Plane<D>: InSpace<T>,
 {
-    let natural = ready.map(Ready::sizes);
+    let natural = ready.map(AssembledScene::sizes);
     let tree = TreeModel::<T, <Plane<D> as InSpace<T>>::Space>::new(scene);
     let loops = tree.map(|tree| tree.cut_joints().count());
     let enabled = || scene.effects.iter().filter(|effect| effect.enabled);

@@ -147,9 +147,10 @@ fn walk_penalty<T: Real>(history: &mut augmented::History<T>, tape: &mut impl Ta
 
 fn walk_index<T: Real>(history: &mut augmented::IndexHistory<T>, tape: &mut impl Tape) -> Told {
     let augmented::IndexHistory { index, changes, tried, last } = history;
-    let mut is_one = *index == augmented::Index::One;
+    let mut is_one = *index == augmented::ConstraintIndex::One;
     tape.flag(&mut is_one)?;
-    *index = if is_one { augmented::Index::One } else { augmented::Index::Three };
+    *index =
+        if is_one { augmented::ConstraintIndex::One } else { augmented::ConstraintIndex::Three };
     tape.small(changes)?;
     tape.real(tried)?;
     tape.real(last)

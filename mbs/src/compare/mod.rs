@@ -34,7 +34,7 @@ use ladder::Instants;
 use mbs_core::cluster::scene_length;
 use mbs_core::scene::Scene;
 use mbs_scene::compare::{Cell, Comparison, ConvergenceMap};
-use mbs_scene::{Channel, SceneFile, readable};
+use mbs_scene::{Channel, SceneFile, format::significant};
 use method::Method;
 use pass::Scenes;
 use reference::Known;
@@ -281,7 +281,11 @@ impl<'a> Study<'a> {
         let list = |numbers: &[f64]| {
             let first = numbers.first().copied().unwrap_or_default();
             let last = numbers.last().copied().unwrap_or_default();
-            format!("{} to {}", mbs_scene::readable(first), mbs_scene::readable(last))
+            format!(
+                "{} to {}",
+                mbs_scene::format::significant(first),
+                mbs_scene::format::significant(last)
+            )
         };
         let mut text = format!(
             "{} methods, steps {} s, tolerances {}, each run timed {} times or more; work for about {:.0} s, runs of at most {:.2} s \
@@ -368,7 +372,7 @@ impl CompareError {
             }
             Self::Table(error) => error.hint(),
             Self::StepTooLong(_, duration) => {
-                format!("write steps of {} s at most, or a longer duration", readable(*duration))
+                format!("write steps of {} s at most, or a longer duration", significant(*duration))
             }
             Self::NoReference(_) => {
                 "give a table with --reference, a shorter --duration, or a longer --time-limit".to_owned()

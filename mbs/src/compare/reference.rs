@@ -3,7 +3,7 @@
 use super::ladder::{Instants, count};
 use super::table::Table;
 use mbs_scene::compare::{CrossCheck, OutputScale, Reference, output_scales, row_distance};
-use mbs_scene::{Channel, readable};
+use mbs_scene::{Channel, format::significant};
 
 /// The reference is well known at an instant if its uncertainty so far is less than this share of the least error ranked.
 const KNOWN: f64 = 3.0;
@@ -136,7 +136,7 @@ impl Known {
                 a.method,
                 b.method,
                 self.largest_miss(k, &a.rows[k]),
-                readable(instants.time(k + 1))
+                significant(instants.time(k + 1))
             );
             self.notes.push(note);
         } else if !self.report.is_verified {
@@ -203,7 +203,7 @@ impl Known {
             notes.push(format!(
                 "the two runs of the reference part: after {} s they are further apart than a third of the least error ranked; \
                  compared is what comes before",
-                readable(t)
+                significant(t)
             ));
         }
         let report = Reference {

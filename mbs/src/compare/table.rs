@@ -84,7 +84,7 @@ pub(super) fn read(
         }
         let end = duration.max(instants.time(instants.count));
         if t < 0.0 || t > end * (1.0 + SAME_TIME) {
-            let [t, end] = [t, end].map(mbs_scene::readable);
+            let [t, end] = [t, end].map(mbs_scene::format::significant);
             return Err(TableError::Beyond(line, t, end));
         }
         last = t;
@@ -104,7 +104,7 @@ pub(super) fn read(
         return Err(TableError::Empty);
     }
     if table.rows.iter().all(Option::is_none) {
-        return Err(TableError::NoInstant(mbs_scene::readable(instants.interval)));
+        return Err(TableError::NoInstant(mbs_scene::format::significant(instants.interval)));
     }
     table.digits.iter_mut().for_each(|sum| *sum = (*sum / given).sqrt());
     Ok(table)
@@ -139,7 +139,7 @@ impl TableError {
     pub fn hint(&self) -> String {
         let hint = match self {
             Self::UnknownColumn(name, known) => {
-                let suggestion = mbs_scene::suggestion(name, known, "outputs");
+                let suggestion = mbs_scene::nearest_name(name, known, "outputs");
                 return format!("{suggestion}; or leave the column out");
             }
             Self::NoInstant(_) => {

@@ -142,7 +142,7 @@ impl Study<'_> {
                 None => return Ok(None),
             }
         }
-        let h = mbs_scene::readable(self.instants.interval / count(between as usize));
+        let h = mbs_scene::format::significant(self.instants.interval / count(between as usize));
         let name = format!(
             "{}, f64, extrapolated from steps of {h} s, a half and a quarter",
             formulation.name()

@@ -2,7 +2,7 @@
 
 use super::{Checkup, Finding, Motion, Moved};
 use mbs_core::scene::Entry;
-use mbs_doctor::{Change, Cure, Loop, Set};
+use mbs_doctor::{JointChange, Loop, Remedy, Set};
 use serde_json::{Value, json};
 
 /// The object; `line` says where an entry's key stands in the scene file.
@@ -105,12 +105,12 @@ impl Names<'_> {
             "nature": set.nature.name(),
             "singular_value": set.sigma,
             "members": set.members.iter().map(member).collect::<Vec<_>>(),
-            "cure": set.cure.as_ref().map(|cure| self.cure(cure)),
+            "remedy": set.remedy.as_ref().map(|remedy| self.remedy(remedy)),
         })
     }
 
-    fn cure(&self, cure: &Cure) -> Value {
-        let change = |c: &Change| {
+    fn remedy(&self, remedy: &Remedy) -> Value {
+        let change = |c: &JointChange| {
             json!({
                 "joint": self.joint(c.joint),
                 "kind": if c.kind == mbs_core::scene::JointKind::Free { "left-out" } else { c.kind.name() },
@@ -118,9 +118,9 @@ impl Names<'_> {
             })
         };
         json!({
-            "changes": cure.changes.iter().map(change).collect::<Vec<_>>(),
-            "body_left_out": cure.body.map(|b| self.bodies[b].as_str()),
-            "fewest": cure.is_smallest,
+            "changes": remedy.changes.iter().map(change).collect::<Vec<_>>(),
+            "body_left_out": remedy.body.map(|b| self.bodies[b].as_str()),
+            "fewest": remedy.is_smallest,
         })
     }
 

@@ -18,12 +18,12 @@ mod units;
 pub use finding::{Finding, Severity, Topic};
 pub use json::to_json;
 pub use methods::Attempt;
-pub use motion::{Motion, Nearest, Straight};
+pub use motion::{LinearMotion, Motion, Nearest};
 pub use report::report;
 pub use start::Moved;
 
 use crate::names::Names;
-use crate::ready::Ready;
+use crate::ready::AssembledScene;
 use crate::settings::Settings;
 use crate::simulation::{Simulation, rank};
 use crate::stop::StopError;
@@ -191,7 +191,7 @@ fn begin<const D: usize>(scene: &Scene<f64>) -> Result<Begun<D>, StopError>
 where
     Plane<D>: InSpace<f64>,
 {
-    let Ready { model, start, .. } = Ready::new(scene)?;
+    let AssembledScene { model, start, .. } = AssembledScene::new(scene)?;
     let poses = places(scene, &model, &start.state);
     Ok(Begun { model, start, poses })
 }

@@ -34,7 +34,7 @@ pub struct Motion {
     /// The nearest singular position of each part with loops.
     pub nearest: Vec<Nearest>,
     /// Corners of loops, in the order of the loops.
-    pub corners: Vec<Straight>,
+    pub corners: Vec<LinearMotion>,
     /// Why the run stopped: code, message and hint.
     pub error: Option<(&'static str, String, &'static str)>,
     /// Whose: the place in the scene.
@@ -60,7 +60,7 @@ pub struct Nearest {
 
 /// A corner of a loop along the motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Straight {
+pub struct LinearMotion {
     /// Number of the loop.
     pub lap: usize,
     /// The joint in the corner.
@@ -86,7 +86,7 @@ struct Watch<'a> {
     scene: &'a Scene<f64>,
     linkage: &'a Linkage,
     tracks: Vec<Track<'a>>,
-    corners: Vec<Straight>,
+    corners: Vec<LinearMotion>,
 }
 
 /// One part, watched.
@@ -199,7 +199,7 @@ impl<'a> Watch<'a> {
                 .flat_map(|(lap, of): (usize, &Loop)| of.corners.iter().map(move |c| (lap, c)))
         };
         if t == 0.0 {
-            let straight = |(lap, c): (usize, &mbs_doctor::Corner)| Straight {
+            let straight = |(lap, c): (usize, &mbs_doctor::Corner)| LinearMotion {
                 lap,
                 joint: c.joint,
                 turn: c.turn,

@@ -74,10 +74,10 @@ fn places(scene: &Scene<f64>) -> Vec<Vec<Place>> {
                 bodies.into_iter().for_each(|b| add(Owner::Effect(e, "at"), b, at));
             }
             EffectKind::Force { body, at, .. } | EffectKind::AeroDrag { body, at, .. } => {
-                add(Owner::Effect(e, "at"), BodyId::Body(body), at);
+                add(Owner::Effect(e, "at"), body, at);
             }
             EffectKind::Tire { body, center, .. } => {
-                add(Owner::Effect(e, "center"), BodyId::Body(body), center);
+                add(Owner::Effect(e, "center"), body, center);
             }
             _ => {}
         }
@@ -211,7 +211,8 @@ fn whose(scene: &Scene<f64>, place: &Place) -> String {
 /// A place as the file writes it.
 fn written(scene: &Scene<f64>, point: Vector<f64, 3>) -> String {
     let n = if scene.dimension == Dimension::Planar { 2 } else { 3 };
-    let numbers: Vec<String> = (0..n).map(|i| mbs_scene::readable(point[i] + 0.0)).collect();
+    let numbers: Vec<String> =
+        (0..n).map(|i| mbs_scene::format::significant(point[i] + 0.0)).collect();
     format!("[{}]", numbers.join(", "))
 }
 

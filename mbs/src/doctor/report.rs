@@ -6,7 +6,7 @@ use crate::words::{few, size};
 use core::fmt::Write;
 use mbs_core::scene::{Entry, Scene};
 use mbs_doctor::UNCERTAIN;
-use mbs_scene::{Provenance, Report, Section, readable};
+use mbs_scene::{Provenance, Report, Section, format::significant};
 
 /// Ways and turns below this are rounding [m or rad].
 const ROUNDING: f64 = 1e-12;
@@ -244,7 +244,7 @@ fn motion(c: &Checkup) -> Option<Section> {
         format!(
             "{} up to t = {} s, run by {}",
             counted(usize::try_from(m.positions).unwrap_or(usize::MAX), "position"),
-            readable(m.reached),
+            significant(m.reached),
             m.formulation
         ),
     )];
@@ -276,7 +276,7 @@ fn motion(c: &Checkup) -> Option<Section> {
 }
 
 /// Corners that changed their side, those at the same time together.
-fn changes(c: &Checkup, corners: &[super::Straight]) -> Vec<Vec<String>> {
+fn changes(c: &Checkup, corners: &[super::LinearMotion]) -> Vec<Vec<String>> {
     let mut changed: Vec<(f64, usize)> =
         corners.iter().filter_map(|s| Some((s.changed?, s.joint))).collect();
     changed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));

@@ -1,9 +1,9 @@
-//! Dependent sets as findings, and the words for their cure.
+//! Dependent sets as findings, and the words for their remedy.
 
 use super::finding::{Finding, Severity, Topic, body_names, counted, joint_names};
 use crate::words::few;
 use mbs_core::scene::{JointKind, Scene};
-use mbs_doctor::{Change, Cure, Diagnosis, Nature, Set};
+use mbs_doctor::{Diagnosis, JointChange, Nature, Remedy, Set};
 
 /// One finding per set.
 pub(super) fn findings(
@@ -73,10 +73,10 @@ fn message(scene: &Scene<f64>, set: &Set) -> String {
 }
 
 fn remedy(scene: &Scene<f64>, set: &Set) -> String {
-    match (&set.cure, set.nature, set.is_exact) {
-        (Some(cure), _, true) => words(scene, cure),
-        (Some(cure), _, false) => {
-            format!("give places and axes with all their digits; or {}", words(scene, cure))
+    match (&set.remedy, set.nature, set.is_exact) {
+        (Some(remedy), _, true) => words(scene, remedy),
+        (Some(remedy), _, false) => {
+            format!("give places and axes with all their digits; or {}", words(scene, remedy))
         }
         (None, Nature::Singular, _) => {
             "start a little away from this position with an [[initial]] value, or run it: index-3 and index-1 pass it".to_owned()
@@ -103,8 +103,8 @@ fn of_one_pair(scene: &Scene<f64>, set: &Set) -> bool {
 }
 
 /// What would be changed, in one sentence.
-pub(super) fn words(scene: &Scene<f64>, cure: &Cure) -> String {
-    let joint = |change: &Change| {
+pub(super) fn words(scene: &Scene<f64>, remedy: &Remedy) -> String {
+    let joint = |change: &JointChange| {
         let name = &scene.joints[change.joint].name;
         let was = scene.joints[change.joint].kind.name();
         match (change.kind, change.axis) {
@@ -119,15 +119,15 @@ pub(super) fn words(scene: &Scene<f64>, cure: &Cure) -> String {
             (kind, None) => format!("make `{name}` {} instead of {was}", kind.name()),
         }
     };
-    if let Some(body) = cure.body {
-        let joints: Vec<usize> = cure.changes.iter().map(|c| c.joint).collect();
+    if let Some(body) = remedy.body {
+        let joints: Vec<usize> = remedy.changes.iter().map(|c| c.joint).collect();
         return format!(
             "leave body {} out with {}; all else moves as before",
             body_names(scene, &[body]),
             joint_names(scene, &joints)
         );
     }
-    let changes: Vec<String> = cure.changes.iter().map(joint).collect();
-    let least = if cure.is_smallest { "; fewer joints do not suffice" } else { "" };
+    let changes: Vec<String> = remedy.changes.iter().map(joint).collect();
+    let least = if remedy.is_smallest { "; fewer joints do not suffice" } else { "" };
     format!("{}: the motion stays, and every reaction is determined{least}", changes.join(" and "))
 }

@@ -123,7 +123,9 @@ fn follow<const D: usize>(
             InitialTarget::Body { body, velocity, angular_velocity } => {
                 n += if velocity.is_some() { D } else { 0 };
                 n += if angular_velocity.is_some() { 2 * D - 3 } else { 0 };
-                is_written[*body] = true;
+                if let BodyId::Body(b) = body {
+                    is_written[*b] = true;
+                }
             }
             InitialTarget::Joint { .. } => {}
         }

@@ -3,7 +3,9 @@
 use super::finding::{Finding, Severity, Topic, body_names};
 use crate::words::few;
 use mbs_core::cluster::{mass_properties, scene_length};
-use mbs_core::scene::{BodyId, EffectKind, Entry, InitialTarget, JointKind, Motion, Scene};
+use mbs_core::scene::{
+    BodyId, EffectKind, Entry, InitialTarget, JointId, JointKind, Motion, Scene,
+};
 
 /// Mass over the cube of the size [kg/m^3]: a slender rod of a metre and a kilogram has 1, a block of steel 8000.
 const DENSITIES: [f64; 2] = [1e-6, 1e8];
@@ -107,7 +109,7 @@ fn like_degrees(x: f64) -> bool {
 }
 
 fn angles(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
-    let turns = |joint: usize| scene.joints[joint].kind == JointKind::Revolute;
+    let turns = |joint: JointId| scene.joints[joint].kind == JointKind::Revolute;
     let mut tell = |x: f64, entry: Entry, key: &'static str| {
         let message = format!("{} rad is more than a turn and looks like degrees", few(x));
         let remedy = format!("write {} for {} degrees", few(x.to_radians()), few(x));

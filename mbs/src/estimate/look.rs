@@ -6,7 +6,7 @@ use crate::auto::Clock;
 use crate::channels::Channels;
 use crate::engine::Engine;
 use crate::names::Names;
-use crate::ready::Ready;
+use crate::ready::AssembledScene;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
@@ -74,7 +74,7 @@ pub(super) struct Seen {
 /// What is looked at.
 pub(super) struct Look<'a, const D: usize> {
     pub(super) scene: &'a Scene<f64>,
-    pub(super) ready: &'a Ready<f64, D>,
+    pub(super) ready: &'a AssembledScene<f64, D>,
     /// Time and components of each row of the run.
     pub(super) rows: &'a [(f64, Vec<f64>)],
     /// Steps of the run.

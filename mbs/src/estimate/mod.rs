@@ -19,7 +19,7 @@ mod stiffness;
 use crate::auto::Clock;
 use crate::choice::{FormulationKind, IntegratorKind, Precision, StepRule};
 use crate::compare::ladder::count;
-use crate::ready::Ready;
+use crate::ready::AssembledScene;
 use crate::run::Outcome;
 use crate::settings::Settings;
 use crate::tree::{InSpace, Plane};
@@ -109,7 +109,7 @@ impl Judge<'_> {
     {
         let begun = clock.seconds();
         let mut estimate = ErrorEstimate::default();
-        let Ok(ready) = Ready::<f64, D>::new(self.scene) else {
+        let Ok(ready) = AssembledScene::<f64, D>::new(self.scene) else {
             // the run has started in another precision
             estimate.missing = Some("the scene does not start in f64".to_owned());
             return estimate;

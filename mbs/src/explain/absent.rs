@@ -3,10 +3,10 @@
 use super::kinds::{damps, follows_time, springs};
 use mbs_core::Real;
 use mbs_core::scene::{Dimension, EffectKind, Scene};
-use mbs_scene::Absence;
+use mbs_scene::MissingEffect;
 
 /// One line for each thing that is not simulated.
-pub(super) fn absent<T: Real>(scene: &Scene<T>) -> Vec<Absence> {
+pub(super) fn absent<T: Real>(scene: &Scene<T>) -> Vec<MissingEffect> {
     let any = |is: &dyn Fn(&EffectKind<T>) -> bool| {
         scene.effects.iter().any(|effect| effect.enabled && is(&effect.kind))
     };
@@ -43,6 +43,6 @@ pub(super) fn absent<T: Real>(scene: &Scene<T>) -> Vec<Absence> {
     ];
     let missing = lines.into_iter().filter(|(is_there, ..)| !is_there);
     missing
-        .map(|(_, what, text)| Absence { what: what.to_owned(), text: text.to_owned() })
+        .map(|(_, what, text)| MissingEffect { what: what.to_owned(), text: text.to_owned() })
         .collect()
 }

@@ -4,7 +4,7 @@ use crate::run::Outcome;
 use mbs_core::Real;
 use mbs_core::cluster::scene_length;
 use mbs_core::scene::Scene;
-use mbs_scene::{Change, Channel};
+use mbs_scene::{Channel, OutputChange};
 
 /// What is smaller than this share of the size of its unit is rounding, or the tolerance of the iteration.
 const ROUNDING: f64 = 1e-9;
@@ -81,7 +81,7 @@ impl<'a> Outputs<'a> {
     }
 
     /// The largest differences of the rows that both runs have.
-    pub(crate) fn changes(&self, other: &Outcome) -> Vec<Change> {
+    pub(crate) fn changes(&self, other: &Outcome) -> Vec<OutputChange> {
         let pairs = || {
             let pairs = self.run.rows().iter().zip(other.rows());
             pairs.take_while(|(a, b)| a.0.total_cmp(&b.0).is_eq())
@@ -91,7 +91,7 @@ impl<'a> Outputs<'a> {
             for ((_, a), (_, b)) in pairs() {
                 largest = part.columns.iter().fold(largest, |x, &c| larger(x, (a[c] - b[c]).abs()));
             }
-            Change {
+            OutputChange {
                 output: part.channel.clone(),
                 unit: part.unit.clone(),
                 largest,

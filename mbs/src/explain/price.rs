@@ -9,7 +9,7 @@ use crate::settings::Settings;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
-use mbs_scene::{Price, Prices, RunError};
+use mbs_scene::{EffectCost, EffectCosts, RunError};
 use std::time::Instant;
 
 /// A recorded step takes so many times one that is only made.
@@ -29,7 +29,7 @@ pub(super) fn prices<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
     effort: &Effort,
-) -> (Prices, Option<RunError>)
+) -> (EffectCosts, Option<RunError>)
 where
     Plane<D>: InSpace<T>,
 {
@@ -48,7 +48,7 @@ where
         let run = (plan.duration, run.summary.completed);
         largest_step::<T, D>(scene, settings, run, &has_time)
     };
-    let mut prices = Prices {
+    let mut prices = EffectCosts {
         timed_steps: plan.timed_steps,
         repeats: effort.repeats,
         seconds_per_step: times[0].best(),
@@ -57,12 +57,12 @@ where
         completed: with_all.summary.completed,
         iterations_per_step: iterations(&with_all),
         largest_step: reach(scene, &with_all),
-        ..Prices::default()
+        ..EffectCosts::default()
     };
     let outputs = Outputs::new(scene, &with_all);
     for ((leave, scene), own) in leaves.iter().zip(&scenes[1..]).zip(&times[1..]) {
         let outcome = run(scene);
-        let price = Price {
+        let price = EffectCost {
             names: leave.effects.iter().map(|&i| scene.effects[i].name.clone()).collect(),
             kind: leave.kind.to_owned(),
             completed: outcome.summary.completed,
@@ -138,15 +138,15 @@ impl Plan {
 }
 
 /// share = 1 − without / with; the noise is the worse of the two.
-fn share(with_all: &Times, without: &Times) -> Price {
+fn share(with_all: &Times, without: &Times) -> EffectCost {
     let share = with_all.best().zip(without.best()).map(|(with, without)| 1.0 - without / with);
     let noise = with_all.noise().zip(without.noise()).map(|(a, b)| a.max(b));
-    Price {
+    EffectCost {
         seconds_per_step: without.best(),
         share,
         noise,
         below_noise: share.zip(noise).map(|(share, noise)| share.abs() <= noise),
-        ..Price::default()
+        ..EffectCost::default()
     }
 }
 

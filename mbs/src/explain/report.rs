@@ -2,8 +2,8 @@
 
 use crate::words::{duration, few, stop_text};
 use mbs_scene::{
-    Choice, ControllerStep, Explanation, LargestStep, Price, Prices, Provenance, Relative, Report,
-    SearchEnd, Section, Sizes, readable,
+    ControllerStep, EffectCost, EffectCosts, Explanation, LargestStep, PilotReport, Provenance,
+    Relative, Report, SearchEnd, Section, Sizes, format::significant,
 };
 
 /// The tables of an explanation.
@@ -41,7 +41,7 @@ fn simulated(e: &Explanation) -> Section {
         rows.push(row("guided joints", guides.collect::<Vec<_>>().join(", ")));
     }
     if let Some(gravity) = &s.gravity {
-        let g: Vec<String> = gravity.iter().map(|x| readable(*x)).collect();
+        let g: Vec<String> = gravity.iter().map(|x| significant(*x)).collect();
         rows.push(row("gravity", format!("[{}] m/s^2", g.join(", "))));
     }
     rows.push(row("degrees of freedom", s.dof.map_or("unknown".to_owned(), |n| n.to_string())));
@@ -68,13 +68,13 @@ fn simulated(e: &Explanation) -> Section {
         .map_or(e.formulation.clone(), |c| format!("{} ({})", c.formulation, c.reasons.join("; ")));
     rows.push(row("formulation", formulation));
     rows.push(row("integrator", format!("{}, {}", e.integrator, e.precision)));
-    let run = format!("{} s, step {} s", readable(e.duration), readable(e.step));
+    let run = format!("{} s, step {} s", significant(e.duration), significant(e.step));
     rows.push(row("run", run));
     Section { title: "What is simulated".to_owned(), rows, ..Section::default() }
 }
 
 /// Who could run the scene, and what a pilot measured of them.
-fn candidates(choice: &Choice) -> Section {
+fn candidates(choice: &PilotReport) -> Section {
     let mut table = choice.table();
     let head = table.remove(0);
     let is_measured = choice.error.is_some();
@@ -157,7 +157,7 @@ fn absent(e: &Explanation) -> Section {
     }
 }
 
-fn whole(prices: &Prices) -> Section {
+fn whole(prices: &EffectCosts) -> Section {
     let row = |label: &str, value: String| vec![label.to_owned(), value];
     let completes = if prices.completed { "completes" } else { "stops early" };
     Section {
@@ -170,7 +170,7 @@ fn whole(prices: &Prices) -> Section {
             row("of it to watch the energy invariant", monitor(prices)),
             row(
                 "run",
-                format!("{completes} (over the first {} s)", readable(prices.compared_duration)),
+                format!("{completes} (over the first {} s)", significant(prices.compared_duration)),
             ),
             row("largest step", largest_step(&prices.largest_step)),
         ],
@@ -184,7 +184,7 @@ fn whole(prices: &Prices) -> Section {
 }
 
 /// What watching the invariant costs, and as a share of a step.
-fn monitor(prices: &Prices) -> String {
+fn monitor(prices: &EffectCosts) -> String {
     let Some(seconds) = prices.monitor_seconds_per_step else {
         return "not measured".to_owned();
     };
@@ -196,7 +196,7 @@ fn monitor(prices: &Prices) -> String {
     )
 }
 
-fn price_list(title: &str, list: &[Price], prices: &Prices) -> Option<Section> {
+fn price_list(title: &str, list: &[EffectCost], prices: &EffectCosts) -> Option<Section> {
     let rows = list.iter().map(|price| {
         vec![
             name(price),
@@ -222,7 +222,7 @@ fn price_list(title: &str, list: &[Price], prices: &Prices) -> Option<Section> {
             "Share of a step = 1 - CPU time per step without it / with all effects: what leaving it out saves, a changed number of \
              iterations per step (in brackets: with all effects) included. Below noise: not larger than the distance of the two best repeats. Changes: the first {} s, with \
              the given step, in percent of the output's own range.",
-            readable(prices.compared_duration)
+            significant(prices.compared_duration)
         ),
         head: head.map(str::to_owned).collect(),
         rows: rows.collect(),
@@ -232,10 +232,10 @@ fn price_list(title: &str, list: &[Price], prices: &Prices) -> Option<Section> {
 }
 
 /// Every output that changes, effect by effect.
-fn changes(prices: &Prices) -> Option<Section> {
-    let of_price = |price: &Price| {
+fn changes(prices: &EffectCosts) -> Option<Section> {
+    let of_price = |price: &EffectCost| {
         let changed = price.changes.iter().filter(|change| !change.is_rounding);
-        let row = |change: &mbs_scene::Change| {
+        let row = |change: &mbs_scene::OutputChange| {
             vec![
                 name(price),
                 change.output.clone(),
@@ -257,14 +257,14 @@ fn changes(prices: &Prices) -> Option<Section> {
     })
 }
 
-fn name(price: &Price) -> String {
+fn name(price: &EffectCost) -> String {
     match price.names.as_slice() {
         [one] => one.clone(),
         several => format!("all {} {}", several.len(), price.kind),
     }
 }
 
-fn share(price: &Price) -> String {
+fn share(price: &EffectCost) -> String {
     match (price.share, price.below_noise) {
         (None, _) => "not measured".to_owned(),
         (_, Some(true)) => "below noise".to_owned(),
@@ -272,7 +272,7 @@ fn share(price: &Price) -> String {
     }
 }
 
-fn largest_change(price: &Price) -> String {
+fn largest_change(price: &EffectCost) -> String {
     let Some(change) = price.largest_change() else {
         return "nothing".to_owned();
     };
@@ -283,8 +283,8 @@ fn largest_change(price: &Price) -> String {
 fn largest_step(found: &LargestStep) -> String {
     let Some(step) = found.step else { return "stops as given".to_owned() };
     match found.end {
-        SearchEnd::Stops => format!("{} s", readable(step)),
-        SearchEnd::Limit => format!("{} s or more", readable(step)),
+        SearchEnd::Stops => format!("{} s", significant(step)),
+        SearchEnd::Limit => format!("{} s or more", significant(step)),
         SearchEnd::NotMeasured => "not measured".to_owned(),
     }
 }

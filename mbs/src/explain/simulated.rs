@@ -12,7 +12,7 @@ use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Motion, Scene};
 use mbs_nostd::export::Gathered;
 use mbs_nostd::{Bounds, bound};
 use mbs_recursive::{TreeModel, TreeState};
-use mbs_scene::{ControllerStep, GuideEntry, JointGroup, Relative, Rod, Simulated, Sizes};
+use mbs_scene::{ControllerStep, GuideEntry, JointsByKind, Relative, Simulated, Sizes, ThinRod};
 
 /// Takes stock of a scene.
 pub(super) fn simulated<T: Real, const D: usize>(scene: &Scene<T>, settings: &Settings) -> Simulated
@@ -70,11 +70,11 @@ where
     Ok(Relative { sizes, loops: cut_joints.len(), cut_joints, controller })
 }
 
-fn joints<T>(scene: &Scene<T>) -> Vec<JointGroup> {
+fn joints<T>(scene: &Scene<T>) -> Vec<JointsByKind> {
     let group = |kind: JointKind| {
         let joints = scene.joints.iter().filter(|joint| joint.kind == kind);
         let names = joints.map(|joint| joint.name.clone()).collect();
-        JointGroup { kind: kind.name().to_owned(), names }
+        JointsByKind { kind: kind.name().to_owned(), names }
     };
     JointKind::ALL.map(group).into_iter().filter(|group| !group.names.is_empty()).collect()
 }
@@ -94,7 +94,7 @@ fn guides<T>(scene: &Scene<T>) -> Vec<GuideEntry> {
 }
 
 /// Thin rods in space; in the plane there is no rotation about a rod.
-fn rods<T: Real, const D: usize>(scene: &Scene<T>) -> Vec<Rod> {
+fn rods<T: Real, const D: usize>(scene: &Scene<T>) -> Vec<ThinRod> {
     let is_rod = |inertia: &Inertia<T>| matches!(inertia, Inertia::Rod { .. });
     if scene.dimension == Dimension::Planar || !scene.bodies.iter().any(|b| is_rod(&b.inertia)) {
         return Vec::new();
@@ -102,7 +102,7 @@ fn rods<T: Real, const D: usize>(scene: &Scene<T>) -> Vec<Rod> {
     let Ok(model) = NaturalModel::<T, D>::new(scene) else { return Vec::new() };
     let bodies = scene.bodies.iter().enumerate().filter(|(_, body)| is_rod(&body.inertia));
     bodies
-        .map(|(i, body)| Rod {
+        .map(|(i, body)| ThinRod {
             body: body.name.clone(),
             idle_spin_carried: model.has_full_rotation(BodyId::Body(i)),
         })

@@ -1,8 +1,8 @@
 //! Why a run cannot be paced as it is asked for.
 
 use crate::precision::PrecisionError;
-use crate::simulation::Refusal;
-use mbs_scene::{readable, suggestion};
+use crate::simulation::SwitchError;
+use mbs_scene::{format::significant, nearest_name};
 
 /// A pacing that is refused.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +34,7 @@ pub enum PacingError {
         /// Its name.
         name: String,
         /// Why.
-        why: Refusal,
+        why: SwitchError,
     },
     /// Nothing that may be left out saves time.
     NoLadder,
@@ -52,7 +52,7 @@ impl PacingError {
             }
             Self::Time { .. } => "write a number of seconds from 0 to 1".to_owned(),
             Self::Quiet => "write at least one period".to_owned(),
-            Self::NoEffect { name, known } => suggestion(name, known, "effects that are on"),
+            Self::NoEffect { name, known } => nearest_name(name, known, "effects that are on"),
             Self::Steps { is_controlled: true } => {
                 "name effects, or leave --degrade out".to_owned()
             }
@@ -60,7 +60,7 @@ impl PacingError {
                 "write a shorter --step, so that a period has more of them, or name effects"
                     .to_owned()
             }
-            Self::Fixed { why: Refusal::FormulationKind, .. } => {
+            Self::Fixed { why: SwitchError::Formulation, .. } => {
                 "take --formulation index-3, index-1, multi-index or recursive, or --degrade steps"
                     .to_owned()
             }
@@ -86,7 +86,7 @@ impl PacingError {
 impl core::fmt::Display for PacingError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::Time { key, value } => write!(f, "{key} cannot be {} s", readable(*value)),
+            Self::Time { key, value } => write!(f, "{key} cannot be {} s", significant(*value)),
             Self::Quiet => write!(f, "quiet time cannot be no period"),
             Self::NoEffect { name, .. } => {
                 write!(f, "degrade: the scene has no effect `{name}` that is on")
@@ -97,7 +97,7 @@ impl core::fmt::Display for PacingError {
             Self::Steps { .. } => {
                 write!(f, "degrade: a period has not steps enough to make them longer")
             }
-            Self::Fixed { name, why: Refusal::FormulationKind } => {
+            Self::Fixed { name, why: SwitchError::Formulation } => {
                 write!(f, "degrade: this formulation cannot leave `{name}` out while it runs")
             }
             Self::Fixed { name, .. } => write!(

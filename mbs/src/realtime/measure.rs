@@ -21,7 +21,7 @@ use core::cell::Cell;
 use core::time::Duration;
 use mbs_core::Real;
 use mbs_realtime::{Clock, SystemClock};
-use mbs_scene::Change;
+use mbs_scene::OutputChange;
 use std::time::Instant;
 
 /// Time for everything [s], about.
@@ -196,8 +196,8 @@ where
 }
 
 /// The output that changes most, and by which share of its range; none where an output without a range changes.
-fn largest(changes: &[Change]) -> Option<(String, f64)> {
-    let share = |change: &Change| match change.relative {
+fn largest(changes: &[OutputChange]) -> Option<(String, f64)> {
+    let share = |change: &OutputChange| match change.relative {
         Some(share) => Some(share),
         None => change.is_rounding.then_some(0.0),
     };

@@ -9,7 +9,7 @@
 //!
 //! ```
 //! use core::{cell::Cell, ops::ControlFlow, time::Duration};
-//! use mbs::core::scene::{BodyId, Signal, Effect, EffectKind};
+//! use mbs::core::scene::{BodyId, Signal, Effect, EffectKind, JointId};
 //! use mbs::realtime::{Clock, Overrun, Pace, Pacer, Task, Work};
 //! use mbs::{Overrides, Settings, Simulation, StopError, scene_file::SceneFile};
 //!
@@ -62,7 +62,7 @@
 //! "#;
 //! let mut scene = SceneFile::parse(text, "arm.toml")?.scene::<f64>()?;
 //! // what the input is at the start, before the first `set_input`: 9.81 N m hold 1 kg at 1 m
-//! let kind = EffectKind::JointTorque { joint: 0, course: Signal::Input([9.81, 0.0, 0.0]) };
+//! let kind = EffectKind::JointTorque { joint: JointId::new(0), course: Signal::Input([9.81, 0.0, 0.0]) };
 //! scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
 //! let settings = Settings::new(&scene, &Overrides { step: Some(1e-3), ..Overrides::default() })?;
 //! let simulation = Simulation::new(&scene, &settings).expect("the scene starts");
@@ -90,7 +90,7 @@ mod words;
 pub use document::run_document;
 pub use error::PacingError;
 pub use mbs_realtime::{
-    Action, Clock, Entry, Margin, Overrun, Pace, PaceError, Pacer, Quiet, Report, Spread,
+    Action, Clock, Entry, Margin, Overrun, Pace, PaceError, Pacer, Recovery, Report, Spread,
     SystemClock, Task, Work,
 };
 pub use summary::OVERRUNS;
@@ -114,7 +114,7 @@ pub struct Pacing {
     /// The loop waits awake for so long before each begin [s].
     pub awake: f64,
     /// When a degraded run comes back up.
-    pub quiet: Quiet,
+    pub quiet: Recovery,
 }
 
 impl Default for Pacing {
@@ -124,7 +124,7 @@ impl Default for Pacing {
             overrun: Overrun::Finish,
             degrade: Degrade::Measured,
             awake: 1e-4,
-            quiet: Quiet::default(),
+            quiet: Recovery::default(),
         }
     }
 }

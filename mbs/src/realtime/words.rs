@@ -1,7 +1,7 @@
 //! What is said about a paced run: rows of a summary, and a note.
 
 use crate::words::{duration, few};
-use mbs_scene::{Degraded, RealtimeSummary, readable};
+use mbs_scene::{Degraded, RealtimeSummary, format::significant};
 
 /// Rows of the summary of a run: labels, and values with their units.
 #[must_use]
@@ -33,7 +33,7 @@ pub fn rows(s: &RealtimeSummary) -> Vec<(&'static str, String)> {
 
 /// Did it hold, and what was done where not?
 fn deadline(s: &RealtimeSummary) -> String {
-    let of = format!("{} periods of {} s", s.periods, readable(s.period));
+    let of = format!("{} periods of {} s", s.periods, significant(s.period));
     if s.deadline_held {
         return format!("held in {of} ({})", s.overrun);
     }

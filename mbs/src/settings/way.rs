@@ -4,7 +4,7 @@ use super::{Settings, SettingsError};
 use crate::choice::{IntegratorKind, StepRule};
 use crate::settings::Overrides;
 use mbs_core::scene::Scene;
-use mbs_scene::{Chosen, readable};
+use mbs_scene::{MethodChoice, format::significant};
 
 /// A step that is longer than the run by less than this share is that of the run, written in fewer digits.
 const SAME_LENGTH: f64 = 1e-9;
@@ -21,7 +21,11 @@ pub(crate) fn is_too_long(step: f64, duration: f64) -> bool {
 
 /// Says so.
 pub(crate) fn too_long(step: f64, duration: f64) -> String {
-    format!("the step of {} s is longer than the run of {} s", readable(step), readable(duration))
+    format!(
+        "the step of {} s is longer than the run of {} s",
+        significant(step),
+        significant(duration)
+    )
 }
 
 impl Settings {
@@ -56,13 +60,13 @@ impl Settings {
             }
             (true, None) => format!("{way} with steps of its own"),
             _ if self.rule != StepRule::Fixed => format!("{way} with steps of controlled length"),
-            _ => format!("{way} with steps of {} s", readable(self.step)),
+            _ => format!("{way} with steps of {} s", significant(self.step)),
         }
     }
 
     /// What `auto` chose and why; nothing where a formulation was asked for.
     #[must_use]
-    pub fn chosen(&self) -> Option<Chosen> {
+    pub fn chosen(&self) -> Option<MethodChoice> {
         let (formulation, ran) = (self.formulation.name().to_owned(), self.way());
         if let Some(choice) = &self.choice {
             let mut reasons = crate::auto::reasons(choice);
@@ -71,9 +75,14 @@ impl Settings {
             if !is_first {
                 reasons.insert(0, format!("what ran: {ran}"));
             }
-            return Some(Chosen { formulation, ran, reasons, evidence: Some((**choice).clone()) });
+            return Some(MethodChoice {
+                formulation,
+                ran,
+                reasons,
+                evidence: Some((**choice).clone()),
+            });
         }
-        (self.asked == "auto").then(|| Chosen {
+        (self.asked == "auto").then(|| MethodChoice {
             formulation,
             ran,
             reasons: vec![if self.integrator.is_of_first_order() {

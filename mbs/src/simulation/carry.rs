@@ -18,9 +18,9 @@ use mbs_core::{Cliques, Real};
 /// Why a state cannot be taken over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Refusal {
+pub enum SwitchError {
     /// The formulation has no way to make accelerations consistent between two steps.
-    FormulationKind,
+    Formulation,
     /// The models have other coordinates, constraints, or measured angles whose turns are counted.
     Coordinates,
 }
@@ -34,20 +34,20 @@ where
     /// turns (torsion springs and the like), and in nothing else that makes coordinates.
     ///
     /// # Errors
-    /// [`Refusal`].
-    pub fn takes_over(&self, other: &Self) -> Result<(), Refusal> {
+    /// [`SwitchError`].
+    pub fn takes_over(&self, other: &Self) -> Result<(), SwitchError> {
         match (&self.engine, &other.engine) {
             (Engine::Augmented { .. }, Engine::Augmented { .. }) => {}
             (Engine::Recursive(own), Engine::Recursive(tree)) => {
                 if !own.has_same_coordinates(tree) {
-                    return Err(Refusal::Coordinates);
+                    return Err(SwitchError::Coordinates);
                 }
             }
-            _ => return Err(Refusal::FormulationKind),
+            _ => return Err(SwitchError::Formulation),
         }
         let is_same =
             self.model.has_same_coordinates(&other.model) && same_memory(&self.model, &other.model);
-        if is_same { Ok(()) } else { Err(Refusal::Coordinates) }
+        if is_same { Ok(()) } else { Err(SwitchError::Coordinates) }
     }
 
     /// Takes time, positions and velocities over from another simulation of the same mechanism, whose effects may be others, so that

@@ -1,7 +1,7 @@
 //! The table of a sweep: its columns, and rows as texts.
 
 use super::member::Row;
-use mbs_scene::{Channel, shortest};
+use mbs_scene::{Channel, format::shortest};
 use std::collections::BTreeMap;
 use std::io;
 

@@ -41,7 +41,7 @@ fn a_start_from_equilibrium_takes_the_initial_velocities() {
     let mut scene = scene("simple-pendulum");
     scene.initials = vec![mbs::core::scene::InitialCondition {
         target: mbs::core::scene::InitialTarget::Joint {
-            joint: 0,
+            joint: mbs::core::scene::JointId::new(0),
             value: Some(vec![0.4]),
             rate: Some(vec![2.0]),
         },

@@ -138,7 +138,7 @@ fn the_spatial_four_bar_is_told_with_all_its_joints_its_cure_and_who_runs_it() {
     assert_eq!(refused.collect::<Vec<_>>(), ["classical"]);
     // What the cure says, made in the scene: no finding is left.
     let mut mended = scene.clone();
-    let cure = c.joint_level.sets[0].cure.as_ref().expect("there is one");
+    let cure = c.joint_level.sets[0].remedy.as_ref().expect("there is one");
     for change in &cure.changes {
         let joint = &mut mended.joints[change.joint];
         joint.kind = change.kind;

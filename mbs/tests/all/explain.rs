@@ -2,7 +2,7 @@
 
 use crate::common::{self, path};
 use mbs::explain::{Effort, explain, report};
-use mbs::scene_file::{Explanation, Price, Provenance, SceneFile, SearchEnd};
+use mbs::scene_file::{EffectCost, Explanation, Provenance, SceneFile, SearchEnd};
 use mbs::{Overrides, Settings};
 use mbs_core::scene::Scene;
 
@@ -59,7 +59,7 @@ fn explained(scene: &Scene<f64>) -> (Explanation, Settings) {
     (explain::<f64, 2>(scene, &settings, &LITTLE), settings)
 }
 
-fn price<'a>(explanation: &'a Explanation, name: &str) -> &'a Price {
+fn price<'a>(explanation: &'a Explanation, name: &str) -> &'a EffectCost {
     let prices = explanation.prices.as_ref().expect("it starts");
     prices.effects.iter().find(|p| p.names == [name]).expect("it is on the list")
 }

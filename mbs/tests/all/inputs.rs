@@ -5,7 +5,7 @@ use crate::common;
 use mbs::core::laws::body::{Action, BodyMotion};
 use mbs::core::laws::own::{ScalarLaw, UserBodyLaw, UserScalarLaw, WrenchLaw};
 use mbs::core::laws::scalar::Measure;
-use mbs::core::scene::{BodyId, Effect, EffectKind, Motion, Scene, Signal, UserLaw};
+use mbs::core::scene::{BodyId, Effect, EffectKind, JointId, Motion, Scene, Signal, UserLaw};
 use mbs::core::step::InputError;
 use mbs::scene_file::SceneFile;
 use mbs::{FormulationKind, Overrides, Settings, Simulation};
@@ -70,7 +70,7 @@ fn wheel() -> Scene<f64> {
     "#;
     let document = SceneFile::parse(TEXT, "wheel").unwrap_or_else(|e| panic!("{}", e.render()));
     let mut scene = document.scene().unwrap_or_else(|e| panic!("{}", e.render()));
-    let kind = EffectKind::JointTorque { joint: 0, course: Signal::Input([0.0; 3]) };
+    let kind = EffectKind::JointTorque { joint: JointId::new(0), course: Signal::Input([0.0; 3]) };
     scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
     scene
 }
@@ -128,7 +128,8 @@ fn a_torque_that_is_set_every_ten_milliseconds_leaves_every_rule_its_order_in_a_
     let scene = {
         let mut scene = common::scene("four-bar");
         scene.outputs.clear();
-        let kind = EffectKind::JointTorque { joint: 0, course: Signal::Input([0.0; 3]) };
+        let kind =
+            EffectKind::JointTorque { joint: JointId::new(0), course: Signal::Input([0.0; 3]) };
         scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
         scene
     };
@@ -234,7 +235,7 @@ fn an_input_that_is_set_to_a_constant_is_that_constant() {
     for formulation in
         FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
     {
-        let torque = |course| EffectKind::JointTorque { joint: 0, course };
+        let torque = |course| EffectKind::JointTorque { joint: JointId::new(0), course };
         let mut plain = simulation(&with(torque(Signal::Constant([3.0, 0.0, 0.0]))), formulation);
         let mut driven = simulation(&with(torque(Signal::Input([3.0, 0.0, 0.0]))), formulation);
         let effect = 0;
@@ -258,7 +259,10 @@ fn an_input_changes_the_motion_from_the_next_step_on() {
     for formulation in
         FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
     {
-        let scene = with(EffectKind::JointTorque { joint: 0, course: Signal::Input([0.0; 3]) });
+        let scene = with(EffectKind::JointTorque {
+            joint: JointId::new(0),
+            course: Signal::Input([0.0; 3]),
+        });
         let (mut still, mut driven) =
             (simulation(&scene, formulation), simulation(&scene, formulation));
         for k in 0..100 {
@@ -331,7 +335,7 @@ fn a_spring_of_one_s_own_is_the_spring_of_the_library() {
 #[test]
 fn a_wrench_of_one_s_own_takes_what_the_ledger_says() {
     let law = UserLaw::Body {
-        body: 1,
+        body: BodyId::Body(1),
         at: [2.0, 0.0, 0.0],
         axis: [1.0, 0.0, 0.0],
         law: UserBodyLaw::of::<Honey>(),

@@ -5,7 +5,7 @@ use crate::retell;
 
 use crate::common::SCENES;
 use crate::common::oracle::{METHODS, Method, Told, disagreement, everything, rows, tell};
-use mbs::core::scene::{Output, Quantity, Scene};
+use mbs::core::scene::{BodyId, Output, Quantity, Scene};
 
 /// Step and span of a scene: the step resolves its motion, and the span ends before chaos has made rounding large.
 fn span(name: &str) -> (f64, f64) {
@@ -70,7 +70,7 @@ fn the_redundant_spatial_four_bar_moves_like_the_planar_one_or_is_refused() {
     let pins =
         [1, 2].map(|joint| (spatial.joints[joint].points[0], planar.joints[joint].points[0]));
     let output = |body, at| {
-        let quantity = Quantity::Position { body, at };
+        let quantity = Quantity::Position { body: BodyId::Body(body), at };
         Output { name: format!("pin {body}"), quantity }
     };
     spatial.outputs = vec![output(0, pins[0].0), output(1, pins[1].0)];

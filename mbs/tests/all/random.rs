@@ -128,7 +128,10 @@ fn retold_apart(
             .map(|i| {
                 let body = order(i);
                 let at = scene.bodies[body].center;
-                let quantity = mbs::core::scene::Quantity::Position { body, at };
+                let quantity = mbs::core::scene::Quantity::Position {
+                    body: mbs::core::scene::BodyId::Body(body),
+                    at,
+                };
                 mbs::core::scene::Output { name: format!("centre-{i}"), quantity }
             })
             .collect();

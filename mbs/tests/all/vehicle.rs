@@ -4,11 +4,11 @@ use crate::common;
 
 use mbs::core::actions::{Action, Actions};
 use mbs::core::laws::body::{BodyLaw, BodyMotion};
-use mbs::core::laws::{foot::foot, road::height};
+use mbs::core::laws::{road::height, road_contact::road_contact};
 use mbs::core::model::State;
 use mbs::core::natural::NaturalModel;
 use mbs::core::scene::{BodyId, Output, Quantity, Scene};
-use mbs::{Overrides, Settings, Still};
+use mbs::{Overrides, Settings, StaticEquilibrium};
 use std::collections::BTreeMap;
 
 /// A number of the published equilibrium (Robotran model of UCLouvain), held to 1e-3 of itself.
@@ -19,8 +19,8 @@ fn published(what: &str, ours: f64, theirs: f64) {
 
 #[test]
 fn static_equilibrium_is_the_published_one() {
-    let still =
-        Still::new(&common::scene("iltis-equilibrium"), mbs::Search::Down).expect("it rests");
+    let still = StaticEquilibrium::new(&common::scene("iltis-equilibrium"), mbs::Search::Down)
+        .expect("it rests");
     let find = |list: &[(mbs::scene_file::Channel, Vec<f64>)], name: &str| {
         let found = list.iter().find(|(channel, _)| channel.name == name);
         found.unwrap_or_else(|| panic!("no {name}")).1.clone()
@@ -88,7 +88,7 @@ fn nominal_forces_and_those_of_the_equilibrium_are_the_published_ones() {
     ];
     for (what, wanted) in [("nominal", nominal), ("equilibrium", at_rest)] {
         if what == "equilibrium" {
-            mbs::settle(&scene, &model, mbs::Search::Down, &mut state).expect("it rests");
+            mbs::find_equilibrium(&scene, &model, mbs::Search::Down, &mut state).expect("it rests");
         }
         let found = forces(&scene, &state.q, &model);
         for (element, both) in wanted {
@@ -127,8 +127,8 @@ fn steering_ramps_end_where_those_of_an_independent_program_do() {
     for (name, reference) in RAMP_STEERS {
         let mut scene = common::scene(name);
         let at = [scene.bodies[0].center, [1.0, 0.0, 0.57], [0.0, 1.0, 0.57]];
-        let place = |at| Quantity::Position { body: 0, at };
-        let speed = |at| Quantity::Velocity { body: 0, at };
+        let place = |at| Quantity::Position { body: BodyId::Body(0), at };
+        let speed = |at| Quantity::Velocity { body: BodyId::Body(0), at };
         let quantities = at.map(place).into_iter().chain(at.map(speed));
         scene.outputs = quantities
             .enumerate()
@@ -167,8 +167,8 @@ fn run(name: &str, formulation: &str, (step, duration): (f64, f64)) -> (Vec<[f64
     let at = scene.bodies[0].center;
     let output = |name: &str, quantity| Output { name: name.into(), quantity };
     scene.outputs = vec![
-        output("place", Quantity::Position { body: 0, at }),
-        output("acceleration", Quantity::Acceleration { body: 0, at }),
+        output("place", Quantity::Position { body: BodyId::Body(0), at }),
+        output("acceleration", Quantity::Acceleration { body: BodyId::Body(0), at }),
     ];
     let overrides = Overrides {
         formulation: Some(formulation.to_owned()),
@@ -321,7 +321,7 @@ fn wheels_stand_on_the_nearest_point_of_every_stair() {
             let steep = h.slope.hypot(1.0);
             for distance in [0.30, 0.36, 0.45] {
                 let center = [x - distance * h.slope / steep, h.value + distance / steep];
-                let found = foot(road, &supplies, center).distance;
+                let found = road_contact(road, &supplies, center).distance;
                 assert!((found - distance).abs() < 1e-12, "{name}, {x}: {found}, not {distance}");
                 let near = (-5000..=5000).step_by(if i % 20 == 0 { 1 } else { 5000 }).map(|k| {
                     let u = x + SEARCHED * f64::from(k);

@@ -10,7 +10,7 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{BodyId, Scene};
 use mbs_core::start::assemble;
 use mbs_core::{Alone, Team};
-use mbs_parallel::{Crew, Multifrontal, SparseOptions};
+use mbs_parallel::{ThreadTeam, Multifrontal, SparseOptions};
 
 const PENDULUMS: usize = 100;
 
@@ -60,7 +60,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let start = assemble(&scene, &model, |p| Multifrontal::analyse(p, options), &mut solver)?.state;
 
     let alone = run(&model, &start, Alone)?;
-    let shared = run(&model, &start, Crew::new(2)?)?;
+    let shared = run(&model, &start, ThreadTeam::new(2)?)?;
 
     assert!(alone == shared, "threads change no bit");
     let last = BodyId::Body(2 * PENDULUMS - 1);

@@ -165,7 +165,7 @@ impl<T: Real, const D: usize> Load<T, D> {
             #[cfg(feature = "tire")]
             Self::OnBody { point, frame, axis, law: BodyLaw::Tire(tire), .. } => {
                 let axis = frame.rotation(&state.q) * axis;
-                let touch = tire.touch(&motion((point, frame), &axis, state), supplies);
+                let touch = tire.contact(&motion((point, frame), &axis, state), supplies);
                 let [depth, rate] = touch.deflection;
                 gaps[0] = Gap { value: -depth, rate };
                 *place = [0, 1].map(|i| Gap { value: touch.place[i], rate: touch.speed[i] });

@@ -3,7 +3,7 @@
 use super::vector::Place;
 use super::{between, course, own, tire};
 use crate::Real;
-use crate::scene::{EffectKind, Scene, SceneError, SceneFault};
+use crate::scene::{BodyId, EffectKind, JointId, Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(
     scene: &Scene<T>,
@@ -90,16 +90,21 @@ fn on_joint<T: Real>(
     }
 }
 
-pub(super) fn known_body<T>(scene: &Scene<T>, body: usize, place: Place) -> Result<(), SceneError> {
-    if body < scene.bodies.len() {
-        Ok(())
-    } else {
-        place.fault("body", SceneFault::UnknownReference)
-    }
+pub(super) fn known_body<T>(
+    scene: &Scene<T>,
+    body: BodyId,
+    place: Place,
+) -> Result<usize, SceneError> {
+    let fault = match body.index() {
+        Some(index) if index < scene.bodies.len() => return Ok(index),
+        Some(_) => SceneFault::UnknownReference,
+        None => SceneFault::NeedsMovingBody,
+    };
+    Err(SceneError { entry: place.entry, field: "body", fault })
 }
 
-fn single_rotation<T>(scene: &Scene<T>, joint: usize, place: Place) -> Result<(), SceneError> {
-    let Some(joint) = scene.joints.get(joint) else {
+fn single_rotation<T>(scene: &Scene<T>, joint: JointId, place: Place) -> Result<(), SceneError> {
+    let Some(joint) = scene.joints.get(joint.index()) else {
         return place.fault("joint", SceneFault::UnknownReference);
     };
     match joint.kind.n_rotations(scene.dimension) {
@@ -110,10 +115,10 @@ fn single_rotation<T>(scene: &Scene<T>, joint: usize, place: Place) -> Result<()
 
 pub(super) fn single_coordinate<T>(
     scene: &Scene<T>,
-    joint: usize,
+    joint: JointId,
     place: Place,
 ) -> Result<(), SceneError> {
-    let Some(joint) = scene.joints.get(joint) else {
+    let Some(joint) = scene.joints.get(joint.index()) else {
         return place.fault("joint", SceneFault::UnknownReference);
     };
     match joint.kind.n_coordinates(scene.dimension) {

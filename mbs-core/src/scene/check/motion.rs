@@ -1,12 +1,14 @@
 //! Guides and initial conditions, and whether they agree.
 
+use super::effect::known_body;
 use super::is_planar;
 use super::vector::Place;
 use crate::Real;
 use crate::inputs::GuideInput;
 use crate::laws::guide::{largest_rate, spline};
 use crate::scene::{
-    Entry, Guide, InitialCondition, InitialTarget, Motion, Scene, SceneError, SceneFault, TableEnds,
+    Entry, Guide, InitialCondition, InitialTarget, JointId, Motion, Scene, SceneError, SceneFault,
+    TableEnds,
 };
 use alloc::vec;
 use alloc::vec::Vec;
@@ -15,14 +17,14 @@ pub(super) fn check_guides<T: Real>(scene: &Scene<T>) -> Result<(), SceneError> 
     let mut guided = vec![None; scene.joints.len()];
     for (i, guide) in scene.guides.iter().enumerate() {
         let place = scene.place(Entry::Guide(i));
-        let Some(joint) = scene.joints.get(guide.joint) else {
+        let Some(joint) = scene.joints.get(guide.joint.index()) else {
             return place.fault("joint", SceneFault::UnknownReference);
         };
         let n = joint.kind.n_coordinates(scene.dimension);
         if n != 1 {
             return place.fault("joint", SceneFault::NoSingleCoordinate(n));
         }
-        if let Some(first) = guided[guide.joint].replace(i) {
+        if let Some(first) = guided[guide.joint.index()].replace(i) {
             return place.fault("joint", SceneFault::GivenTwice(first));
         }
         check_law(&guide.law, place)?;
@@ -103,7 +105,7 @@ pub(super) fn check_initials<T: Real>(scene: &Scene<T>) -> Result<(), SceneError
         guide: vec![None; scene.joints.len()],
     };
     for guide in &scene.guides {
-        if let Some(slot) = seen.guide.get_mut(guide.joint) {
+        if let Some(slot) = seen.guide.get_mut(guide.joint.index()) {
             *slot = Some(guide);
         }
     }
@@ -131,29 +133,27 @@ fn check_initial<T: Real>(
     let place = scene.place(Entry::Initial(i));
     match &initial.target {
         InitialTarget::Joint { joint, value, rate } => {
-            if *joint >= scene.joints.len() {
+            if joint.index() >= scene.joints.len() {
                 return place.fault("joint", SceneFault::UnknownReference);
             }
-            let guide = seen.guide[*joint];
+            let guide = seen.guide[joint.index()];
             if value.is_none() && rate.is_none() {
                 return place.fault("value", SceneFault::Missing);
             }
             if let Some(numbers) = value {
-                once(&mut seen.value[*joint], i, "value", place)?;
+                once(&mut seen.value[joint.index()], i, "value", place)?;
                 check_numbers(scene, *joint, ("value", numbers), place)?;
                 agrees(guide, 0, ("value", numbers), place)?;
             }
             if let Some(numbers) = rate {
-                once(&mut seen.rate[*joint], i, "rate", place)?;
+                once(&mut seen.rate[joint.index()], i, "rate", place)?;
                 check_numbers(scene, *joint, ("rate", numbers), place)?;
                 agrees(guide, 1, ("rate", numbers), place)?;
             }
             Ok(())
         }
         InitialTarget::Body { body, velocity, angular_velocity } => {
-            if *body >= scene.bodies.len() {
-                return place.fault("body", SceneFault::UnknownReference);
-            }
+            let body = known_body(scene, *body, place)?;
             if velocity.is_none() && angular_velocity.is_none() {
                 return place.fault("velocity", SceneFault::Missing);
             }
@@ -162,7 +162,7 @@ fn check_initial<T: Real>(
                 place.vector("velocity", *velocity)?;
             }
             if let Some(spin) = angular_velocity {
-                once(&mut seen.spin[*body], i, "angular_velocity", place)?;
+                once(&mut seen.spin[body], i, "angular_velocity", place)?;
                 check_spin(*spin, place)?;
             }
             Ok(())
@@ -184,7 +184,7 @@ fn once(
 
 fn check_numbers<T: Real>(
     scene: &Scene<T>,
-    joint: usize,
+    joint: JointId,
     (field, numbers): (&'static str, &[T]),
     place: Place,
 ) -> Result<(), SceneError> {

@@ -18,7 +18,7 @@ pub(super) fn check<T: Real>(
             place.vector("at", at)
         }
         Quantity::JointValue { joint } | Quantity::JointRate { joint } => {
-            match scene.joints.get(joint) {
+            match scene.joints.get(joint.index()) {
                 None => place.fault("joint", SceneFault::UnknownReference),
                 Some(joint) if joint.kind.n_coordinates(scene.dimension) == 0 => {
                     place.fault("joint", SceneFault::NoCoordinate)
@@ -26,7 +26,7 @@ pub(super) fn check<T: Real>(
                 Some(_) => Ok(()),
             }
         }
-        Quantity::Reaction { joint } if joint >= scene.joints.len() => {
+        Quantity::Reaction { joint } if joint.index() >= scene.joints.len() => {
             place.fault("joint", SceneFault::UnknownReference)
         }
         Quantity::Reaction { .. } => Ok(()),

@@ -60,7 +60,7 @@ fn natural(rows: Vec<[f64; 2]>) -> Motion<f64> {
 }
 
 fn value(joint: usize, value: Option<Vec<f64>>, rate: Option<Vec<f64>>) -> InitialCondition<f64> {
-    InitialCondition { target: InitialTarget::Joint { joint, value, rate } }
+    InitialCondition { target: InitialTarget::Joint { joint: JointId::new(joint), value, rate } }
 }
 
 /// Applies `spoil` and returns where and what is refused.
@@ -103,8 +103,10 @@ fn names_are_there_free_and_different() {
     assert_eq!(found, (Entry::Body(0), "name", SceneFault::ReservedName));
     let found = refused(planar(), |s| s.joints[1].name = " ".into());
     assert_eq!(found, (Entry::Joint(1), "name", SceneFault::ReservedName));
-    let twice =
-        |name: &str| Output { name: name.into(), quantity: Quantity::JointRate { joint: 0 } };
+    let twice = |name: &str| Output {
+        name: name.into(),
+        quantity: Quantity::JointRate { joint: JointId::new(0) },
+    };
     let found = refused(planar(), |s| s.outputs = vec![twice("a"), twice("a")]);
     assert_eq!(found, (Entry::Output(1), "name", SceneFault::DuplicateName(0)));
     let found = refused(planar(), |s| s.outputs = vec![twice("t")]);
@@ -168,7 +170,7 @@ fn tables_of_guides_that_jump_within_the_run_are_refused() {
     let at = |shift: f64, ends| {
         let mut scene = planar();
         let rows = rows.map(|[t, x]| [t + shift, x]).to_vec();
-        scene.guides = vec![Guide { joint: 0, law: Motion::Table { rows, ends } }];
+        scene.guides = vec![Guide { joint: JointId::new(0), law: Motion::Table { rows, ends } }];
         scene.check().expect("nothing is wrong with it until the duration is known");
         move |duration| scene.check_run(duration)
     };
@@ -258,13 +260,15 @@ fn guides_have_one_coordinate_once_and_ordered_rows() {
     let ramp = || Motion::Ramp { rate: 1.0 };
     let found = refused(planar(), |s| {
         s.joints[0].kind = JointKind::Weld;
-        s.guides = vec![guide(0, ramp())];
+        s.guides = vec![guide(JointId::new(0), ramp())];
     });
     assert_eq!(found, (Entry::Guide(0), "joint", SceneFault::NoSingleCoordinate(0)));
-    let found = refused(planar(), |s| s.guides = vec![guide(0, ramp()), guide(0, ramp())]);
+    let found = refused(planar(), |s| {
+        s.guides = vec![guide(JointId::new(0), ramp()), guide(JointId::new(0), ramp())]
+    });
     assert_eq!(found, (Entry::Guide(1), "joint", SceneFault::GivenTwice(0)));
     let rows = natural(vec![[0.0, 0.0], [1.0, 1.0], [1.0, 2.0]]);
-    let found = refused(planar(), |s| s.guides = vec![guide(0, rows)]);
+    let found = refused(planar(), |s| s.guides = vec![guide(JointId::new(0), rows)]);
     assert_eq!(found, (Entry::Guide(0), "table", SceneFault::TableOrder(2)));
 }
 
@@ -273,7 +277,7 @@ fn initial_values_agree_with_guides_and_counts() {
     let law = Motion::Sine { amplitude: 2.0, frequency: 0.5, phase: 0.0 };
     let rate = 2.0 * core::f64::consts::PI;
     let mut guided = planar();
-    guided.guides = vec![Guide { joint: 0, law }];
+    guided.guides = vec![Guide { joint: JointId::new(0), law }];
     guided.initials = vec![value(0, Some(vec![0.0]), Some(vec![rate + 1.0e-10]))];
     let (entry, field, fault) =
         refused(guided, |s| s.initials = vec![value(0, None, Some(vec![rate + 1.0e-6]))]);
@@ -300,7 +304,7 @@ fn effects_act_between_different_points_and_on_rotations() {
     let found = refused(spatial(), |s| {
         s.joints[1].kind = JointKind::Prismatic;
         let course = Signal::Constant([1.0, 0.0, 0.0]);
-        let kind = EffectKind::JointTorque { joint: 1, course };
+        let kind = EffectKind::JointTorque { joint: JointId::new(1), course };
         s.effects = vec![Effect { name: "motor".into(), enabled: true, kind }];
     });
     assert_eq!(found, (Entry::Effect(0), "joint", SceneFault::NoSingleRotation(0)));
@@ -360,7 +364,7 @@ proptest! {
         let six = core::array::from_fn(|i| numbers[i]);
         scene.bodies[0].inertia = Inertia::Spatial(six);
         let rows = (0..4).map(|i| [numbers[2 * i], numbers[2 * i + 1]]).collect();
-        scene.guides = vec![Guide { joint: references[0], law: natural(rows) }];
+        scene.guides = vec![Guide { joint: JointId::new(references[0]), law: natural(rows) }];
         scene.initials = vec![value(references[1], Some(numbers[..references[2]].to_vec()), None)];
         scene.effects = vec![spring([vector(3), vector(6)], [BodyId::Body(references[3]), BodyId::Ground])];
         let rows = (0..4).map(|i| [numbers[2 * i], numbers[2 * i + 1]]).collect();

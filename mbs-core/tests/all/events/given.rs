@@ -80,7 +80,7 @@ impl<'a, T: Real, const D: usize> Given<'a, T, D> {
             let (mut step, mut trials) = (h.min(to - t), 0);
             loop {
                 self.go(t + step);
-                let Some(crossing) = self.events.crossing(&self.state) else { break };
+                let Some(crossing) = self.events.first_event(&self.state) else { break };
                 if crossing.is_landed {
                     landings.push(Landing { t: t + step, effect: crossing.effect, trials });
                     break;

@@ -3,8 +3,8 @@
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{
-    Body, BodyId, Dimension, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointKind,
-    Motion, Output, Quantity, Scene,
+    Body, BodyId, Dimension, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointId,
+    JointKind, Motion, Output, Quantity, Scene,
 };
 use mbs_testkit::scenes::empty;
 
@@ -51,12 +51,14 @@ pub(crate) fn add_joint(
 pub(crate) fn hold(scene: &mut Scene<f64>, joint: usize, value: &[f64], rate: &[f64]) {
     let numbers = |x: &[f64]| (!x.is_empty()).then(|| x.to_vec());
     let (value, rate) = (numbers(value), numbers(rate));
-    scene.initials.push(InitialCondition { target: InitialTarget::Joint { joint, value, rate } });
+    scene.initials.push(InitialCondition {
+        target: InitialTarget::Joint { joint: JointId::new(joint), value, rate },
+    });
 }
 
 /// Guides a joint.
 pub(crate) fn guide(scene: &mut Scene<f64>, joint: usize, law: Motion<f64>) {
-    scene.guides.push(Guide { joint, law });
+    scene.guides.push(Guide { joint: JointId::new(joint), law });
 }
 
 /// Adds an output channel.

@@ -1,7 +1,7 @@
 //! What can be wrong with a sweep, beside what can be wrong with any file.
 
-use crate::read::error::suggestion;
-use crate::write::readable;
+use crate::format::significant;
+use crate::read::error::nearest_name;
 use core::fmt::{self, Display, Formatter};
 
 /// The faults of a sweep file.
@@ -134,8 +134,8 @@ impl Display for SweepFault {
             Self::Step { from, to } => write!(
                 f,
                 "no step of this length leads from {} towards {}",
-                readable(*from),
-                readable(*to)
+                significant(*from),
+                significant(*to)
             ),
             Self::TooMany(n) => write!(f, "{n} members are more than {MOST_MEMBERS}"),
             Self::ZipCount { first, needed, found } => write!(
@@ -157,12 +157,12 @@ impl SweepFault {
                 "write table, name, key and index, such as body.crank.mass, joint.\"front left\".at[0]"
                     .to_owned()
             }
-            Self::NoKey { at, key, known } if at.is_empty() => suggestion(key, known, "tables"),
+            Self::NoKey { at, key, known } if at.is_empty() => nearest_name(key, known, "tables"),
             Self::NoKey { key, known, .. } => {
-                let advice = suggestion(key, known, "keys");
+                let advice = nearest_name(key, known, "keys");
                 format!("{advice}; a key left out in the scene is varied once it is written there")
             }
-            Self::NoEntry { name, known, .. } => suggestion(name, known, "names"),
+            Self::NoEntry { name, known, .. } => nearest_name(name, known, "names"),
             Self::Ambiguous { table, entries } => {
                 let paths: Vec<_> = entries.iter().map(|i| format!("{table}[{i}]")).collect();
                 format!("write {}", paths.join(" or "))

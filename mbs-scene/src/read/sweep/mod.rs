@@ -9,10 +9,10 @@ mod values;
 
 pub use fault::SweepFault;
 
+use crate::format::rounded;
 use crate::read::fields::Read;
 use crate::read::tree::Span;
 use crate::read::{ReadError, ReadFault, SceneFile};
-use crate::write::rounded;
 use fault::MOST_MEMBERS;
 use mbs_core::scene::{Scene, SceneFault};
 use path::Address;

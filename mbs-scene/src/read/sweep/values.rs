@@ -10,7 +10,7 @@
 //! Computed values are rounded to 15 digits, so that a tenth is 0.1 and no machine's last bit shows.
 
 use crate::dice::Dice;
-use crate::write::rounded;
+use crate::format::rounded;
 
 /// Significant digits of computed values: what every decimal text keeps through `f64`.
 const DIGITS: usize = 15;

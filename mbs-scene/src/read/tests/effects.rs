@@ -144,12 +144,24 @@ fn effects_of_joints_have_their_defaults() {
     assert_eq!(scene.start, Start::Equilibrium);
     assert_eq!(scene.road, Road::default());
     let kinds = kinds(CART);
-    let limit =
-        EffectKind::Limit { joint: 0, lower: -0.2, upper: 0.3, stiffness: 1e5, damping: 0.0 };
+    let limit = EffectKind::Limit {
+        joint: JointId::new(0),
+        lower: -0.2,
+        upper: 0.3,
+        stiffness: 1e5,
+        damping: 0.0,
+    };
     assert_eq!(kinds[0], limit);
     let friction = |numbers: [f64; 5]| {
         let [coulomb, r#static, stribeck, viscous, regularisation] = numbers;
-        EffectKind::Friction { joint: 0, coulomb, r#static, stribeck, viscous, regularisation }
+        EffectKind::Friction {
+            joint: JointId::new(0),
+            coulomb,
+            r#static,
+            stribeck,
+            viscous,
+            regularisation,
+        }
     };
     assert_eq!(kinds[1], friction([2.0, 2.0, 0.01, 0.0, 1e-3]));
     assert_eq!(kinds[2], friction([2.0, 3.0, 0.1, 0.5, 0.01]));
@@ -170,7 +182,7 @@ fn effects_in_the_plane_have_three_directions_and_no_axis() {
     };
     assert_eq!(kinds[4], bushing);
     let tire = EffectKind::Tire {
-        body: 0,
+        body: BodyId::Body(0),
         center: [1.0, 0.0, 0.0],
         axis: None,
         radius: 0.4,
@@ -222,11 +234,15 @@ fn effects_of_a_car_read_with_their_defaults() {
     let kinds = kinds(CAR);
     let EffectKind::Bushing { stiffness, damping, .. } = kinds[3] else { panic!() };
     assert_eq!((stiffness, damping), ([1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [0.0; 6]));
-    let drag =
-        EffectKind::AeroDrag { body: 0, at: [0.0, 0.0, 0.8], area_coefficient: 1.1, density: 1.2 };
+    let drag = EffectKind::AeroDrag {
+        body: BodyId::Body(0),
+        at: [0.0, 0.0, 0.8],
+        area_coefficient: 1.1,
+        density: 1.2,
+    };
     assert_eq!(kinds[4], drag);
     let hold = EffectKind::SpeedHold {
-        body: 0,
+        body: BodyId::Body(0),
         direction: [1.0, 0.0, 0.0],
         speed: 5.0,
         gain: 1e4,

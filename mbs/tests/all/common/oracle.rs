@@ -3,7 +3,7 @@
 //! Each method runs at dt and dt/2. Its error is estimated by the largest difference of the two over the run, channel by
 //! channel; two methods agree when they differ by at most [`SHARE`] times the larger of their estimates.
 
-use mbs::core::scene::{Dimension, Output, Quantity, Scene};
+use mbs::core::scene::{BodyId, Dimension, JointId, Output, Quantity, Scene};
 use mbs::{Overrides, Settings, StopError};
 
 /// Times the larger of two methods' own errors that they may differ by.
@@ -43,14 +43,14 @@ pub(crate) fn everything(scene: &Scene<f64>) -> Scene<f64> {
             }
             _ => data.center,
         };
-        all.push(Quantity::Position { body, at });
-        all.push(Quantity::Velocity { body, at });
-        all.push(Quantity::Acceleration { body, at });
+        all.push(Quantity::Position { body: BodyId::Body(body), at });
+        all.push(Quantity::Velocity { body: BodyId::Body(body), at });
+        all.push(Quantity::Acceleration { body: BodyId::Body(body), at });
     }
     for (joint, data) in scene.joints.iter().enumerate() {
         if data.kind.n_coordinates(dimension) > 0 {
-            all.push(Quantity::JointValue { joint });
-            all.push(Quantity::JointRate { joint });
+            all.push(Quantity::JointValue { joint: JointId::new(joint) });
+            all.push(Quantity::JointRate { joint: JointId::new(joint) });
         }
     }
     let asked = scene.outputs.drain(..).map(|output| output.quantity);

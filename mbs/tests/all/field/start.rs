@@ -4,7 +4,7 @@ use super::{field, read, text};
 use mbs::core::Real;
 use mbs::core::model::State;
 use mbs::core::natural::NaturalModel;
-use mbs::core::scene::{InitialCondition, InitialTarget, Scene};
+use mbs::core::scene::{InitialCondition, InitialTarget, JointId, Scene};
 use mbs::core::start::AssemblyError;
 use mbs::scene_file::SceneFile;
 use mbs::{Overrides, Settings};
@@ -48,7 +48,8 @@ fn sized(scene: &Scene<f64>, size: f64) -> Scene<f64> {
 
 fn hold(scene: &mut Scene<f64>, joint: &str, value: f64) {
     let joint = scene.joints.iter().position(|j| j.name == joint).expect("a joint of the scene");
-    let target = InitialTarget::Joint { joint, value: Some(vec![value]), rate: None };
+    let target =
+        InitialTarget::Joint { joint: JointId::new(joint), value: Some(vec![value]), rate: None };
     scene.initials.push(InitialCondition { target });
 }
 

@@ -36,7 +36,7 @@ fn pieces(rows: &[(f64, f64, &[f64])]) -> EffectKind<f64> {
 
 fn tire(radius: f64, axis: Option<[f64; 3]>, rolling_resistance: f64) -> EffectKind<f64> {
     EffectKind::Tire {
-        body: 0,
+        body: BodyId::Body(0),
         center: [0.0; 3],
         axis,
         radius,
@@ -81,15 +81,31 @@ fn a_distance_along_a_line_may_be_zero_but_the_line_has_a_direction() {
 fn limits_and_friction_need_one_coordinate_and_ordered_levels() {
     let limit =
         |joint, lower| EffectKind::Limit { joint, lower, upper: 1.0, stiffness: 1.0, damping: 0.0 };
-    assert_eq!(fault(planar(), limit(7, 0.0)), ("joint", SceneFault::UnknownReference));
-    assert_eq!(fault(planar(), limit(0, 1.0)), ("lower", SceneFault::RangeOrder([1.0, 1.0])));
+    assert_eq!(
+        fault(planar(), limit(JointId::new(7), 0.0)),
+        ("joint", SceneFault::UnknownReference)
+    );
+    assert_eq!(
+        fault(planar(), limit(JointId::new(0), 1.0)),
+        ("lower", SceneFault::RangeOrder([1.0, 1.0]))
+    );
     let mut scene = spatial();
     scene.joints[0].kind = JointKind::Spherical;
     scene.joints[0].axes = [None; 2];
-    assert_eq!(fault(scene, limit(0, 0.0)), ("joint", SceneFault::NoSingleCoordinate(3)));
+    assert_eq!(
+        fault(scene, limit(JointId::new(0), 0.0)),
+        ("joint", SceneFault::NoSingleCoordinate(3))
+    );
     let friction = |coulomb, regularisation| {
         let (r#static, stribeck, viscous) = (2.0, 0.1, 0.0);
-        EffectKind::Friction { joint: 0, coulomb, r#static, stribeck, viscous, regularisation }
+        EffectKind::Friction {
+            joint: JointId::new(0),
+            coulomb,
+            r#static,
+            stribeck,
+            viscous,
+            regularisation,
+        }
     };
     let low = SceneFault::StaticBelowCoulomb([2.0, 3.0]);
     assert_eq!(fault(planar(), friction(3.0, 1e-3)), ("static", low));

@@ -1,17 +1,17 @@
 //! Static equilibria: where they are, how far away, and what they leave out.
 
 use super::super::{field, read, text};
-use mbs::{Search, Still};
+use mbs::{Search, StaticEquilibrium};
 
 /// Ten digits: the search ends at rounding, and the stiffness of a pad is far above what rounding moves.
 const CLOSE: f64 = 1e-10;
 
-fn still(name: &str) -> Still {
-    Still::new(&field(name), Search::Down).unwrap_or_else(|e| panic!("{name}: {e}"))
+fn still(name: &str) -> StaticEquilibrium {
+    StaticEquilibrium::new(&field(name), Search::Down).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
 /// The first coordinate of the first joint.
-fn joint(still: &Still) -> f64 {
+fn joint(still: &StaticEquilibrium) -> f64 {
     still.joints[0].1[0]
 }
 
@@ -32,7 +32,8 @@ fn pads_hold_at_any_distance_below_and_through_a_joint_limit() {
     // A pad 0.1 m and 20 m below, and stops of the joint in place of the pad.
     for clearance in [0.1, 0.3] {
         let text = text("02-pad").replace("clearance = 0.0", &format!("clearance = {clearance}"));
-        let found = Still::new(&read(&text, "pad"), Search::Down).expect("the pad holds it");
+        let found =
+            StaticEquilibrium::new(&read(&text, "pad"), Search::Down).expect("the pad holds it");
         let place = -clearance - 5.0 * 9.81 / 20_000.0;
         assert!((joint(&found) - place).abs() < CLOSE, "{clearance}: {found:?}");
     }
@@ -44,7 +45,8 @@ fn pads_hold_at_any_distance_below_and_through_a_joint_limit() {
         text.find("[solver]").expect("it ends with the solver"),
     );
     let text = format!("{}{limit}\n\n{}", &text[..start], &text[end..]);
-    let found = Still::new(&read(&text, "limit"), Search::Down).expect("the stop holds it");
+    let found =
+        StaticEquilibrium::new(&read(&text, "limit"), Search::Down).expect("the stop holds it");
     assert!((joint(&found) + 20.0 + 5.0 * 9.81 / 20_000.0).abs() < CLOSE, "{found:?}");
 }
 
@@ -79,12 +81,12 @@ value = 3.0
 #[test]
 fn near_its_start_a_pendulum_stands_and_otherwise_it_hangs() {
     let scene = read(PENDULUM, "pendulum");
-    let near = Still::new(&scene, Search::Near).expect("it stands");
+    let near = StaticEquilibrium::new(&scene, Search::Near).expect("it stands");
     assert!((joint(&near).abs() - core::f64::consts::PI).abs() < CLOSE, "{near:?}");
     assert_eq!(near.unstable, Some(1));
     let [_, turn] = near.moved.expect("there is a body");
     assert!((turn.size - (core::f64::consts::PI - 3.0)).abs() < CLOSE, "{turn:?}");
-    let down = Still::new(&scene, Search::Down).expect("it hangs");
+    let down = StaticEquilibrium::new(&scene, Search::Down).expect("it hangs");
     assert!(joint(&down).abs() < CLOSE && down.unstable == Some(0), "{down:?}");
     let [way, turn] = down.moved.expect("there is a body");
     // Half a metre of centre on a turn of 3 rad: a chord of sin(1.5) metres.
@@ -98,12 +100,13 @@ fn rates_that_do_not_fit_do_not_keep_it_from_an_equilibrium() {
         "{PENDULUM}rate = 2.0\n[[initial]]\nbody = \"rod\"\nat = [0.0, -1.0]\nvelocity = [9.0, 0.0]\n"
     );
     let scene = read(&text, "pendulum");
-    let found = Still::new(&scene, Search::Down).expect("rates are not used");
+    let found = StaticEquilibrium::new(&scene, Search::Down).expect("rates are not used");
     assert!(joint(&found).abs() < CLOSE);
     // Rates of guides are not used either, nor accelerations that a guided mechanism could not have.
     let guided = text.replace("[[initial]]\njoint = \"pivot\"\nvalue = 3.0\nrate = 2.0\n", "")
         + "[[guide]]\njoint = \"pivot\"\nramp = { rate = 5.0 }\n";
-    Still::new(&read(&guided, "guided"), Search::Down).expect("a guide holds its value");
+    StaticEquilibrium::new(&read(&guided, "guided"), Search::Down)
+        .expect("a guide holds its value");
 }
 
 #[test]
@@ -111,7 +114,8 @@ fn dry_friction_is_left_out_by_name_and_viscous_friction_is_not() {
     let viscous = still("04-modes-viscous-friction");
     assert!(viscous.left_out.is_empty());
     let dry = text("04-modes-viscous-friction").replace("coulomb = 0.0", "coulomb = 40.0");
-    let found = Still::new(&read(&dry, "dry"), Search::Down).expect("the spring holds it");
+    let found =
+        StaticEquilibrium::new(&read(&dry, "dry"), Search::Down).expect("the spring holds it");
     let left_out: Vec<_> = found.left_out.iter().map(|l| (l.effect.as_str(), l.part)).collect();
     assert_eq!(left_out, [("rub", "dry friction")]);
     assert!(joint(&found).abs() < CLOSE);

@@ -1,7 +1,7 @@
 //! Equilibria and modes at any size and in any unit: a length of a millimetre to a hundred metres, other masses, other times.
 
 use super::super::read;
-use mbs::{Modes, Place, Search, Still};
+use mbs::{Modes, Place, Search, StaticEquilibrium};
 
 /// Nine digits between sizes: the differences behind the eigenvalues leave that much.
 const CLOSE: f64 = 1e-9;
@@ -71,7 +71,8 @@ fn tree([l, m, t]: [f64; 3]) -> String {
 fn equilibria_and_modes_are_the_same_in_every_unit() {
     let analyse = |units: [f64; 3]| {
         let scene = read(&tree(units), "tree");
-        let still = Still::new(&scene, Search::Down).unwrap_or_else(|e| panic!("{units:?}: {e}"));
+        let still = StaticEquilibrium::new(&scene, Search::Down)
+            .unwrap_or_else(|e| panic!("{units:?}: {e}"));
         let modes = Modes::new(&scene, Place::Equilibrium, Search::Down);
         (still, modes.unwrap_or_else(|e| panic!("{units:?}: {e}")).modes)
     };
@@ -83,9 +84,9 @@ fn equilibria_and_modes_are_the_same_in_every_unit() {
         for [m, t] in [[1.0, 1.0], [1e-6, 1.0], [1e6, 1.0], [1.0, 1e-3], [1.0, 60.0]] {
             let (scaled, others) = analyse([l, m, t]);
             assert_eq!((scaled.unstable, scaled.neutral), (Some(0), Some(0)), "{l} {m} {t}");
-            let slide = |s: &Still| s.joints[2].1[0];
+            let slide = |s: &StaticEquilibrium| s.joints[2].1[0];
             assert!((slide(&scaled) / l - slide(&still)).abs() < CLOSE, "{l} {m} {t}");
-            let angle = |s: &Still| s.joints[0].1[0];
+            let angle = |s: &StaticEquilibrium| s.joints[0].1[0];
             assert!((angle(&scaled) - angle(&still)).abs() < CLOSE, "{l} {m} {t}");
             assert_eq!(others.len(), modes.len(), "{l} {m} {t}");
             for (a, b) in others.iter().zip(&modes) {
@@ -93,7 +94,7 @@ fn equilibria_and_modes_are_the_same_in_every_unit() {
                 let close = if t < 1.0 { FAST } else { CLOSE };
                 assert!(apart < close * b.real.hypot(b.imaginary), "{l} {m} {t}: {a:?} {b:?}");
             }
-            let near = Still::new(&read(&tree([l, m, t]), "tree"), Search::Near);
+            let near = StaticEquilibrium::new(&read(&tree([l, m, t]), "tree"), Search::Near);
             let near = near.unwrap_or_else(|e| panic!("{l} {m} {t}: {e}"));
             assert!((slide(&near) / l - slide(&still)).abs() < CLOSE, "{l} {m} {t}: {near:?}");
             assert!((angle(&near) - angle(&still)).abs() < CLOSE, "{l} {m} {t}: {near:?}");

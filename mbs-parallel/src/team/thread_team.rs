@@ -29,12 +29,12 @@ const ASLEEP: Duration = Duration::from_millis(20);
 /// Meant for steps that follow one another closely: threads burn time while they wait awake. For work that comes now and then
 /// take [`Pool`](super::Pool).
 #[derive(Debug, Clone)]
-pub struct Crew {
+pub struct ThreadTeam {
     shared: Arc<Shared>,
     hands: Arc<Hands>,
 }
 
-/// What all threads of a crew see.
+/// What all threads of a thread team see.
 #[derive(Debug)]
 struct Shared {
     forks: ArrayQueue<Handle>,
@@ -52,7 +52,7 @@ struct Hands {
     wakers: Vec<Unparker>,
 }
 
-impl Crew {
+impl ThreadTeam {
     /// The caller and `n` - 1 threads more.
     ///
     /// # Errors
@@ -68,7 +68,7 @@ impl Crew {
         for k in 1..n {
             let parker = Parker::new();
             let (unparker, shared) = (parker.unparker().clone(), shared.clone());
-            let name = format!("mbs crew {k}");
+            let name = format!("mbs team {k}");
             let thread =
                 std::thread::Builder::new().name(name).spawn(move || help(&shared, &parker))?;
             hands.wakers.push(unparker);
@@ -124,7 +124,7 @@ fn help(shared: &Shared, parker: &Parker) {
     }
 }
 
-impl Team for Crew {
+impl Team for ThreadTeam {
     #[inline]
     fn join<A: Send, B: Send>(
         &self,
@@ -148,7 +148,7 @@ impl Team for Crew {
     }
 }
 
-impl Crew {
+impl ThreadTeam {
     /// Puts `b` into the queue and runs `a`; both have been run when it returns.
     #[inline(never)]
     fn fork(&self, a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {

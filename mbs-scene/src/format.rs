@@ -1,4 +1,6 @@
-//! Numbers for people: no digits that say nothing.
+//! Decimal text of numbers: in full, the shortest that reads back, or nine significant digits for people.
+
+use mbs_core::real::DoubleDouble;
 
 /// Significant digits that a message or a table shows.
 const DIGITS: usize = 9;
@@ -7,18 +9,37 @@ const DIGITS: usize = 9;
 ///
 /// # Examples
 /// ```
-/// assert_eq!(mbs_scene::readable(0.714_200_000_000_000_1), "0.7142");
-/// assert_eq!(mbs_scene::readable(1.0e-7 / 3.0), "3.33333333e-8");
-/// assert_eq!(mbs_scene::readable(10.0), "10");
+/// assert_eq!(mbs_scene::format::significant(0.714_200_000_000_000_1), "0.7142");
+/// assert_eq!(mbs_scene::format::significant(1.0e-7 / 3.0), "3.33333333e-8");
+/// assert_eq!(mbs_scene::format::significant(10.0), "10");
 /// ```
 #[must_use]
-pub fn readable(x: f64) -> String {
+pub fn significant(x: f64) -> String {
     let rounded = rounded(x, DIGITS);
     let size = rounded.abs();
     if size == 0.0 {
         return "0".to_owned();
     }
     if (1e-4..1e9).contains(&size) { format!("{rounded}") } else { format!("{rounded:e}") }
+}
+
+/// At most 32 digits; exponents where [`shortest()`] has them.
+#[must_use]
+pub fn full(x: DoubleDouble) -> String {
+    let size = x.hi().abs();
+    let is_plain = x.hi() == 0.0 || !size.is_finite() || (1.0e-4..1.0e15).contains(&size);
+    if is_plain { format!("{x}") } else { format!("{x:e}") }
+}
+
+/// The shortest decimal text that reads back as the same number; exponents where they are shorter.
+#[must_use]
+pub fn shortest(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 || !x.is_finite() || (1.0e-4..1.0e15).contains(&size) {
+        format!("{x}")
+    } else {
+        format!("{x:e}")
+    }
 }
 
 /// Rounds to so many significant digits, which shortens the decimal text.
@@ -41,7 +62,7 @@ mod tests {
 
     #[test]
     fn numbers_are_short_and_never_lose_their_size() {
-        let texts = [-0.0, 1.0, -2.5e-5, 123_456_789.4, 1e12, f64::NAN].map(readable);
+        let texts = [-0.0, 1.0, -2.5e-5, 123_456_789.4, 1e12, f64::NAN].map(significant);
         assert_eq!(texts, ["0", "1", "-2.5e-5", "123456789", "1e12", "NaN"]);
     }
 }

@@ -34,7 +34,7 @@ use crate::Real;
 
 /// The nearest point of a road, as seen from a centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Foot<T> {
+pub struct RoadContact<T> {
     /// Distance, negative below the road [m].
     pub distance: T,
     /// Unit normal of the road there: along x, and up.
@@ -61,12 +61,16 @@ pub const CELLS: u32 = 16;
 
 /// The nearest point to (x, z) [m]. Cost: one height where the road is level within the centre's height above it, a few on
 /// slopes; where the point is not surely the nearest, about forty.
-pub fn foot<T: Real>(road: Part, supplies: &Supplies<'_, T>, [x, z]: [T; 2]) -> Foot<T> {
+pub fn road_contact<T: Real>(
+    road: Part,
+    supplies: &Supplies<'_, T>,
+    [x, z]: [T; 2],
+) -> RoadContact<T> {
     let below = road::height(road, supplies, x);
     let above = z - below.value;
     let reach = above.abs();
     let Some(hollow) = road::hollow(road, supplies, [x - reach, x + reach]) else {
-        return Foot { distance: above, normal: [T::ZERO, T::ONE], bend: T::ZERO };
+        return RoadContact { distance: above, normal: [T::ZERO, T::ONE], bend: T::ZERO };
     };
     let goal = T::EPSILON * T::from_f64(4.0) * (reach + x.abs() + z.abs());
     let search = Search { road, supplies, center: [x, z], goal, slack: T::TWO * goal * reach };
@@ -80,7 +84,7 @@ pub fn foot<T: Real>(road: Part, supplies: &Supplies<'_, T>, [x, z]: [T; 2]) -> 
     search.foot(&search.among(near, distance))
 }
 
-impl<T: Real> Foot<T> {
+impl<T: Real> RoadContact<T> {
     /// How the normal turns as the centre moves along the road by its tangent (normal_up, -normal_x) [1/m]. In a hollow it
     /// grows without bound where the centre comes to the centre of curvature; it is cut off at a hundred times h''.
     pub fn turn(&self) -> T {
@@ -187,7 +191,7 @@ impl<T: Real> Search<'_, T> {
         best
     }
 
-    fn foot(&self, spot: &Spot<T>) -> Foot<T> {
+    fn foot(&self, spot: &Spot<T>) -> RoadContact<T> {
         let Height { value, slope, curvature } = spot.height;
         let inverse = T::ONE / (T::ONE + slope * slope).sqrt();
         let (mut normal, mut bend) = ([-slope * inverse, inverse], curvature);
@@ -200,7 +204,7 @@ impl<T: Real> Search<'_, T> {
             bend = -T::ONE / (T::EPSILON * length);
         }
         let distance = normal[0] * to_center[0] + normal[1] * to_center[1];
-        Foot { distance, normal, bend }
+        RoadContact { distance, normal, bend }
     }
 }
 
@@ -249,7 +253,7 @@ mod tests {
                 let x = from + (to - from) * spread(i);
                 let above = heights[0] + (heights[1] - heights[0]) * spread(7 * i + 3);
                 let z = road::height(road, s, x).value + above;
-                let found = foot(road, s, [x, z]).distance.abs();
+                let found = road_contact(road, s, [x, z]).distance.abs();
                 let searched = by_search(road, s, [x, z]);
                 let case = format!("{features:?} at ({x}, {z}): {found}, {searched}");
                 assert!(found <= searched + 1e-13, "{case}");
@@ -291,7 +295,7 @@ mod tests {
     fn a_wheel_over_the_foot_of_a_stair_stands_where_it_touches() {
         // The hollow that an unguarded Newton method leaves: 0.3912 m.
         with(&[rise(0.577, -0.15, 0.2885)], |road, s| {
-            let at = foot(road, s, [0.343_526_631, 0.290_336_3]);
+            let at = road_contact(road, s, [0.343_526_631, 0.290_336_3]);
             assert!((at.distance - 0.356).abs() < 1e-9, "{at:?}");
         });
     }
@@ -307,9 +311,11 @@ mod tests {
             let step = 1e-6;
             for i in 0..80 {
                 let c = [0.1 * f64::from(i), 0.8];
-                let near = |dx: f64, dz: f64| foot(road, s, [c[0] + dx, c[1] + dz]);
+                let near = |dx: f64, dz: f64| road_contact(road, s, [c[0] + dx, c[1] + dz]);
                 let at = near(0.0, 0.0);
-                let slope = |a: Foot<f64>, b: Foot<f64>| (a.distance - b.distance) / (2.0 * step);
+                let slope = |a: RoadContact<f64>, b: RoadContact<f64>| {
+                    (a.distance - b.distance) / (2.0 * step)
+                };
                 let by = [
                     slope(near(step, 0.0), near(-step, 0.0)),
                     slope(near(0.0, step), near(0.0, -step)),
@@ -342,7 +348,7 @@ mod tests {
             |road, s| {
                 // Height 0.25 and slope 0.2 in the middle.
                 let expected = (0.7 - 0.25) / 1.04_f64.sqrt();
-                assert!((foot(road, s, [2.0, 0.7]).distance - expected).abs() < 1e-14);
+                assert!((road_contact(road, s, [2.0, 0.7]).distance - expected).abs() < 1e-14);
             },
         );
     }
@@ -357,13 +363,13 @@ mod tests {
             ..Supplies::courses(&[])
         };
         let road = Part { first: 0, n: 1 };
-        let at = foot(road, &s, [0.9, 0.9]);
+        let at = road_contact(road, &s, [0.9, 0.9]);
         let d = (0.01_f64 + 0.16).sqrt();
         assert!((at.distance - d).abs() < 1e-12, "{at:?}");
         assert!((at.normal[0] + 0.1 / d).abs() < 1e-12 && (at.normal[1] - 0.4 / d).abs() < 1e-12);
         assert!((at.turn() - 1.0 / d).abs() < 1e-6 / d);
         // In the hollow at the other end the wheel rests on both sides, and one is told.
-        let at = foot(road, &s, [-0.05, 0.3]);
+        let at = road_contact(road, &s, [-0.05, 0.3]);
         let slope = (0.3 + 0.05 * 0.5) / 1.25_f64.sqrt();
         assert!((at.distance - slope).abs() < 1e-14, "{at:?} {slope}");
     }
@@ -389,7 +395,7 @@ mod tests {
                 let x = knots[3 * (i % 2)][0] - 0.06 + 0.0015 * i as f64;
                 let center = [x, road::height(road, &s, x).value + 0.3];
                 let (found, searched) =
-                    (foot(road, &s, center).distance, by_search(road, &s, center));
+                    (road_contact(road, &s, center).distance, by_search(road, &s, center));
                 assert!(found <= searched + 1e-13, "{knots:?} {center:?}: {found}, {searched}");
             }
         }
@@ -401,7 +407,7 @@ mod tests {
             for center in
                 [[f64::NAN, 0.3], [1.0, f64::NAN], [1.0, f64::INFINITY], [f64::INFINITY, 0.3]]
             {
-                let _ = foot(road, s, center);
+                let _ = road_contact(road, s, center);
             }
         });
     }

@@ -22,7 +22,7 @@ use mbs_core::scene::{BodyId, Dimension, Joint, JointKind};
 
 /// One joint with another kind.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Change {
+pub struct JointChange {
     /// Index of the joint.
     pub joint: usize,
     /// Its new kind; `Free`: leave it out.
@@ -33,9 +33,9 @@ pub struct Change {
 
 /// Changes that make all equations of a set independent and leave the motion as it is.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Cure {
+pub struct Remedy {
     /// One change per joint.
-    pub changes: Vec<Change>,
+    pub changes: Vec<JointChange>,
     /// A body that is left out, with the joints above.
     pub body: Option<usize>,
     /// Was every smaller number of joints tried in vain?
@@ -44,7 +44,7 @@ pub struct Cure {
 
 /// A change, and what it takes from the null space: one row per direction given up.
 struct Choice {
-    change: Change,
+    change: JointChange,
     link: Link,
     place: usize,
     taken: Vec<Vec<f64>>,
@@ -53,13 +53,13 @@ struct Choice {
 /// Combinations of joints that are tried.
 const MOST_TRIED: usize = 200_000;
 
-/// Searches a cure for a group of dependent joints at a position.
-pub(crate) fn cure(
+/// Searches a remedy for a group of dependent joints at a position.
+pub(crate) fn remedy(
     linkage: &Linkage,
     (part, at): (&Part, &Poses),
     (jacobian, null): (&Jacobian, &Matrix),
     group: &Group,
-) -> Option<Cure> {
+) -> Option<Remedy> {
     let mut options = Vec::new();
     for &place in &group.places {
         options.extend(options_of(linkage, (part, at), (jacobian, null), place));
@@ -67,7 +67,7 @@ pub(crate) fn cure(
     let k = group.redundant;
     let told = |chosen: Vec<usize>, is_smallest| {
         let found: Vec<&Choice> = chosen.into_iter().map(|i| &options[i]).collect();
-        holds(linkage, (part, at), group, &found).then(|| Cure {
+        holds(linkage, (part, at), group, &found).then(|| Remedy {
             changes: found.iter().map(|o| o.change.clone()).collect(),
             body: None,
             is_smallest,
@@ -80,7 +80,7 @@ pub(crate) fn cure(
 }
 
 /// A body that can be left out with all its joints: a third crank of a parallelogram carries nothing that others do not.
-fn without_a_body(linkage: &Linkage, (part, at): (&Part, &Poses), group: &Group) -> Option<Cure> {
+fn without_a_body(linkage: &Linkage, (part, at): (&Part, &Poses), group: &Group) -> Option<Remedy> {
     let links: Vec<(usize, &Link)> =
         group.places.iter().map(|&i| (part.joints[i], &linkage.links[part.joints[i]])).collect();
     let sizes = |links: &[&Link], bodies: &[usize]| {
@@ -106,12 +106,12 @@ fn without_a_body(linkage: &Linkage, (part, at): (&Part, &Poses), group: &Group)
         let Some([rows, columns, after]) = sizes(&left, &others) else { continue };
         if rows == after && columns - after == n - rank {
             let joints = links.iter().filter(|(_, link)| touches(link));
-            let change = |(joint, _): &(usize, &Link)| Change {
+            let change = |(joint, _): &(usize, &Link)| JointChange {
                 joint: *joint,
                 kind: JointKind::Free,
                 axis: None,
             };
-            return Some(Cure {
+            return Some(Remedy {
                 changes: joints.map(change).collect(),
                 body: Some(body),
                 is_smallest: false,
@@ -176,7 +176,7 @@ fn options_of(
         // Directions given up that are determined would leave a new freedom.
         if !taken.is_empty() && independent(&taken) {
             options.push(Choice {
-                change: Change { joint: index, kind, axis },
+                change: JointChange { joint: index, kind, axis },
                 link: new,
                 place,
                 taken,
