@@ -2,7 +2,7 @@
 
 use crate::common::settings;
 use crate::retell::{reorder, turn_by, turn_scene, turned_in_plane};
-use mbs::core::scene::{BodyId, Dimension, InitialTarget, JointKind, Scene};
+use mbs::core::scene::{BodyId, Dimension, InitialTarget, JointId, JointKind, Scene};
 use mbs::front::tree::{Matrix, Tree, TreeError, TreeRange};
 use mbs::{InSpace, Plane, Simulation};
 use mbs_testkit::random::{self, Random};
@@ -71,7 +71,8 @@ fn wandering(scene: &Scene<f64>, seed: u64) -> Tree {
 fn moved(scene: &Scene<f64>, tree: &Tree, v: &[f64], h: f64) -> Vec<f64> {
     let mut q = tree.coordinates().to_vec();
     let spatial = scene.dimension == Dimension::Spatial;
-    let joints = (0..scene.joints.len()).filter_map(|j| tree.coordinates_of(j).ok());
+    let joints =
+        (0..scene.joints.len()).map(JointId::new).filter_map(|j| tree.coordinates_of(j).ok());
     let free = (0..scene.bodies.len()).filter_map(|b| tree.free_coordinates_of(BodyId::Body(b)));
     let mut ranges: Vec<TreeRange> = joints.chain(free).collect();
     ranges.sort_by_key(|range| range.v.start);
@@ -349,7 +350,7 @@ fn order_and_direction_of_a_mechanism_change_nothing() {
 #[test]
 fn what_has_no_coordinates_is_refused_by_name() {
     let named = |scene: &Scene<f64>, name: &str| {
-        scene.joints.iter().position(|joint| joint.name == name).expect("a joint")
+        JointId::new(scene.joints.iter().position(|joint| joint.name == name).expect("a joint"))
     };
     let bar = file("four-bar");
     let cut = tree(&bar).coordinates_of(named(&bar, "end-0")).expect_err("cut");

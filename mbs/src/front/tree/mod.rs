@@ -15,7 +15,7 @@ use inner::Inner;
 use layout::Layout;
 use mbs_core::algebra::Vector;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{BodyId, Dimension, JointKind, Scene};
+use mbs_core::scene::{BodyId, Dimension, JointId, JointKind, Scene};
 use mbs_recursive::{EffortTerms, Planar, Spatial};
 
 /// A mechanism in relative coordinates, at any position and velocity.
@@ -167,15 +167,15 @@ impl Tree {
     ///
     /// # Errors
     /// [`TreeError::Cut`], [`TreeError::Guided`] or [`TreeError::NoCoordinates`] with the joint's name.
-    pub fn coordinates_of(&self, joint: usize) -> Result<TreeRange, TreeError> {
-        if let Some(range) = self.layout.range(joint) {
+    pub fn coordinates_of(&self, joint: JointId) -> Result<TreeRange, TreeError> {
+        if let Some(range) = self.layout.range(joint.index()) {
             return Ok(range);
         }
         let data = &self.scene.joints[joint];
         let name = data.name.clone();
         if self.scene.guides.iter().any(|guide| guide.joint == joint) {
             Err(TreeError::Guided { joint: name })
-        } else if self.cuts.contains(&joint) {
+        } else if self.cuts.contains(&joint.index()) {
             Err(TreeError::Cut { joint: name })
         } else if data.kind == JointKind::Weld {
             Ok(TreeRange { q: 0..0, v: 0..0 })
