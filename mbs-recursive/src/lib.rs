@@ -54,7 +54,7 @@ mod turns;
 
 pub use at::Outside;
 #[cfg(feature = "alloc")]
-pub use error::{LanesError, LoopError, TreeError};
+pub use error::{LanesError, TreeError};
 #[cfg(feature = "alloc")]
 pub use history::History;
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};

@@ -1,4 +1,4 @@
-//! Equations of motion of a tree at any state, as matrices and efforts; effects are left out.
+//! Equations of motion of a tree at any state, as matrices and efforts; without effects, unless they are asked for.
 //!
 //! ```text
 //! M v̇ + c + g = τ + Jᵀ λ,   J v̇ + J̇ v = 0        g: gravity,   c: velocity products and motion of guided joints
@@ -10,7 +10,7 @@ use crate::at::own;
 use crate::evaluate::{Level, accelerations_under};
 use crate::inverse;
 use crate::loops::Loops;
-use crate::mechanism::{Inputs, Mechanism, Store};
+use crate::mechanism::{Inputs, Mechanism};
 use crate::options::Options;
 use crate::passes::kinematics;
 use crate::space::{Numbers, Space};
@@ -26,8 +26,10 @@ use mbs_core::step::StepError;
 /// Parts of the efforts M v̇ + c + g.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EffortTerms {
+    /// All of them, less what effects do: zero at the accelerations of free motion.
+    WithEffects,
     /// All of them.
-    All,
+    WithoutEffects,
     /// g alone, at rest.
     Gravity,
     /// M v̇ alone, at rest without gravity.
@@ -61,7 +63,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         })
     }
 
-    /// Writes the efforts along all freedoms that make the state's accelerations `a` where loops are open and no effects act.
+    /// Writes the efforts along all freedoms that make the state's accelerations `a` where loops are open.
     ///
     /// Cost: two outward passes and an inward one; no allocation.
     ///
@@ -74,11 +76,13 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         efforts: &mut [T],
     ) {
         let none = Loops { loops: &[], rows: &[], ..self.mechanism().loops };
-        let m = Mechanism { loads: &[], loops: none, ..self.mechanism() };
+        let has_effects = terms == EffortTerms::WithEffects;
+        let loads = if has_effects { &self.loads[..] } else { &[] };
+        let m = Mechanism { loads, loops: none, ..self.mechanism() };
         let mut s = workspace.store();
         self.place_in(state, &mut s);
         s.a[0] = S::motion(S::Spin::zero(), -m.gravity);
-        if terms != EffortTerms::All {
+        if matches!(terms, EffortTerms::Gravity | EffortTerms::Inertia) {
             s.v.fill(T::ZERO);
             s.guides.iter_mut().for_each(|[_, rate, second]| (*rate, *second) = (T::ZERO, T::ZERO));
             own(kinematics(m.links, (s.z, s.v, s.guides), s.placed));
@@ -90,7 +94,29 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let a = if terms == EffortTerms::Gravity { &*s.v } else { &state.a };
         own(inverse::spread(m.links, s.placed, a, s.a));
         own(inverse::forces(&m, &mut s));
-        self.efforts_of(&s, efforts);
+        for (i, link) in self.links.iter().enumerate().skip(1) {
+            if !link.kind.is_guided() {
+                let out = &mut efforts[link.v as usize..];
+                own(inverse::effort(link, &s.placed[i], &s.condensed[i], out));
+            }
+        }
+    }
+
+    /// Writes the mass matrix, loops being open, row by row.
+    ///
+    /// Cost: bodies times depth; no allocation.
+    ///
+    /// # Panics
+    /// If `mass` has not the square of the freedoms.
+    pub fn write_mass_matrix(
+        &self,
+        state: &TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+        mass: &mut [T],
+    ) {
+        let mut s = workspace.store();
+        self.place_in(state, &mut s);
+        inverse::mass_matrix(&self.links, s.placed, s.condensed, self.n_freedoms, mass);
     }
 
     /// Evaluates accelerations and multipliers of a state under efforts along the freedoms and gravity, without effects.
@@ -121,80 +147,26 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(())
     }
 
-    /// Puts the links where a state has them: what Jacobians are of.
+    /// Puts the links where a state has them: what [`add_jacobian`](Self::add_jacobian) sees.
     ///
     /// Cost: an outward pass; no allocation.
     pub fn place(&self, state: &TreeState<T>, workspace: &mut Workspace<T, S>) {
         self.place_in(state, &mut workspace.store());
     }
 
-    /// Writes the Jacobian of a body's point, which was at `at` in the reference configuration, row by row: of its velocity, and where
-    /// `rows` has six rows of the body's angular velocity; global axes.
+    /// Adds `weight` times the Jacobian of a body's point, which was at `at` in the reference configuration, row by row: of its velocity,
+    /// and where there are six rows of the body's angular velocity; global axes.
     ///
     /// Cost: the links on the way to the ground; no allocation.
-    pub fn write_jacobian(
+    pub fn add_jacobian(
         &self,
-        (body, at): (BodyId, [T; 3]),
+        (body, at, weight): (BodyId, [T; 3], T),
         workspace: &mut Workspace<T, S>,
         rows: &mut [T],
     ) {
-        rows.fill(T::ZERO);
-        let (link, point) = self.seat_point(body, at);
-        self.add_jacobian((link as usize, point, T::ONE), &workspace.store(), rows);
-    }
-
-    /// Writes the Jacobian of the centre of mass of all that moves: three rows.
-    ///
-    /// Cost: bodies times depth; no allocation.
-    pub fn write_center_jacobian(&self, workspace: &mut Workspace<T, S>, rows: &mut [T]) {
-        rows.fill(T::ZERO);
         let s = workspace.store();
-        for (link, share) in self.masses() {
-            self.add_jacobian((link, self.links[link].center, share), &s, rows);
-        }
-    }
-
-    /// Position, velocity and acceleration of the centre of mass of all that moves, zero where that has no mass.
-    ///
-    /// Cost: two outward passes; no allocation.
-    pub fn center_of_mass(
-        &self,
-        state: &TreeState<T>,
-        workspace: &mut Workspace<T, S>,
-    ) -> [[T; 3]; 3] {
-        let mut s = workspace.store();
-        self.place_in(state, &mut s);
-        s.a[0] = S::Motion::zero();
-        own(inverse::spread(&self.links, s.placed, &state.a, s.a));
-        let mut sums = [S::Point::zero(); 3];
-        for (link, share) in self.masses() {
-            let (p, a) = (&s.placed[link], &s.a[link]);
-            let position = S::point_from(&self.base) + p.position + p.center;
-            let velocity = S::point(&S::carried(&p.velocity, &p.center));
-            let central = S::centrifugal(&S::spin(&p.velocity), &p.center);
-            let acceleration = S::point(&S::carried(a, &p.center)) + central;
-            for (sum, x) in sums.iter_mut().zip([position, velocity, acceleration]) {
-                *sum += x * share;
-            }
-        }
-        sums.map(|sum| S::point_into(&sum).into())
-    }
-
-    /// Links with mass, and what of all mass each has.
-    fn masses(&self) -> impl Iterator<Item = (usize, T)> + '_ {
-        let total = self.links.iter().fold(T::ZERO, |sum, link| sum + link.mass);
-        let shares = self.links.iter().map(move |link| link.mass / total);
-        shares.enumerate().filter(move |_| total > T::ZERO)
-    }
-
-    /// Adds `weight` times the rows of a link's point.
-    fn add_jacobian(
-        &self,
-        (link, point, weight): (usize, S::Point, T),
-        s: &Store<'_, T, S>,
-        rows: &mut [T],
-    ) {
-        let arm = S::rotate(&s.placed[link].rotation, &point);
+        let (link, point) = self.seat_point(body, at);
+        let arm = S::rotate(&s.placed[link as usize].rotation, &point);
         for (k, row) in rows.chunks_exact_mut(self.n_freedoms.max(1)).enumerate() {
             let mut unit = Vector::<T, 3>::zeros();
             unit[k % 3] = weight;
@@ -203,15 +175,24 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             } else {
                 S::motion(S::spin_from(&unit), S::Point::zero())
             };
-            own(inverse::add_along(&self.links, s.placed, (link, wrench), row));
+            own(inverse::add_along(&self.links, s.placed, (link as usize, wrench), row));
         }
     }
 
     /// Writes the Jacobian of the cut joints' equations row by row: rows times freedoms.
     ///
     /// Cost: for each row the links on the way to the ground; no allocation.
-    pub fn write_loop_rows(&self, workspace: &mut Workspace<T, S>, rows: &mut [T]) {
-        let s = workspace.store();
+    ///
+    /// # Panics
+    /// If `rows` has not rows times freedoms numbers.
+    pub fn write_loop_rows(
+        &self,
+        state: &TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+        rows: &mut [T],
+    ) {
+        let mut s = workspace.store();
+        self.place_in(state, &mut s);
         let n = self.n_freedoms;
         rows.fill(T::ZERO);
         for lap in &self.loops {

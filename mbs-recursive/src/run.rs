@@ -2,7 +2,6 @@
 
 use crate::at::own;
 use crate::bounded::{self, BoundedReport, Bounds, Unwatched};
-use crate::error::LoopError;
 use crate::evaluate::{Level, accelerations};
 use crate::explicit;
 use crate::inverse;
@@ -14,8 +13,6 @@ use crate::space::{Numbers, Space};
 use crate::state::{Explicit, TreeState, Workspace};
 use crate::trapezoidal::{self, Start, failure};
 use crate::tree::TreeModel;
-use alloc::vec;
-use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross};
 use mbs_core::ode::{Adaptive, Extrapolation, Method, Radau, Tableau};
@@ -344,81 +341,6 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             }));
         }
         own(inverse::forces(&m, s));
-    }
-
-    /// The efforts along all freedoms that make a state's accelerations, beyond effects and gravity: zero at the accelerations of
-    /// free motion.
-    ///
-    /// # Errors
-    /// [`LoopError::Closed`]: with loops they are not unique.
-    ///
-    /// # Panics
-    /// If `efforts` is not as long as the freedoms.
-    pub fn inverse_dynamics(
-        &self,
-        state: &TreeState<T>,
-        workspace: &mut Workspace<T, S>,
-        efforts: &mut [T],
-    ) -> Result<(), LoopError> {
-        self.refuse_loops()?;
-        assert_eq!(efforts.len(), self.n_freedoms, "one effort per freedom");
-        let mut s = workspace.store();
-        self.balance(state, &mut s);
-        self.efforts_of(&s, efforts);
-        Ok(())
-    }
-
-    /// Efforts along all freedoms by the forces through the joints.
-    pub(crate) fn efforts_of(&self, s: &Store<'_, T, S>, efforts: &mut [T]) {
-        for (i, link) in self.links.iter().enumerate().skip(1) {
-            if !link.kind.is_guided() {
-                let out = &mut efforts[link.v as usize..];
-                own(inverse::effort(link, &s.placed[i], &s.condensed[i], out));
-            }
-        }
-    }
-
-    /// The mass matrix in joint coordinates, row by row.
-    ///
-    /// # Errors
-    /// [`LoopError::Closed`]: with loops the coordinates depend on each other; ask for [`tree_mass_matrix`](Self::tree_mass_matrix).
-    pub fn mass_matrix(
-        &self,
-        state: &TreeState<T>,
-        workspace: &mut Workspace<T, S>,
-    ) -> Result<Vec<T>, LoopError> {
-        self.refuse_loops()?;
-        Ok(self.tree_mass_matrix(state, workspace))
-    }
-
-    /// The mass matrix of the spanning tree, its loops being open, row by row.
-    pub fn tree_mass_matrix(
-        &self,
-        state: &TreeState<T>,
-        workspace: &mut Workspace<T, S>,
-    ) -> Vec<T> {
-        let mut mass = vec![T::ZERO; self.n_freedoms * self.n_freedoms];
-        self.write_tree_mass_matrix(state, workspace, &mut mass);
-        mass
-    }
-
-    /// The same into a slice; no allocation.
-    ///
-    /// # Panics
-    /// If it has not the square of the freedoms.
-    pub fn write_tree_mass_matrix(
-        &self,
-        state: &TreeState<T>,
-        workspace: &mut Workspace<T, S>,
-        mass: &mut [T],
-    ) {
-        let mut s = workspace.store();
-        self.place_in(state, &mut s);
-        inverse::mass_matrix(&self.links, s.placed, s.condensed, self.n_freedoms, mass);
-    }
-
-    fn refuse_loops(&self) -> Result<(), LoopError> {
-        if self.rows.is_empty() { Ok(()) } else { Err(LoopError::Closed { rows: self.rows.len() }) }
     }
 
     /// What the first body of each joint does to the second at the joint's place on the second, global axes: force and moment

@@ -358,7 +358,7 @@ fn what_has_no_coordinates_is_refused_by_name() {
     let guided = file("guided-four-bar");
     let joint = guided.guides[0].joint;
     let error = tree(&guided).coordinates_of(joint).expect_err("guided");
-    assert_eq!(error, TreeError::Guided { joint: guided.joints[joint].name.clone() });
+    assert_eq!((error.code(), error.joint()), ("guided-joint", Some(&*guided.joints[joint].name)));
     let zoo = scene(mbs_testkit::SPATIAL);
     let error = tree(&zoo).coordinates_of(named(&zoo, "floating")).expect_err("free");
     assert_eq!(error.code(), "no-coordinates");
@@ -375,7 +375,7 @@ fn what_has_no_coordinates_is_refused_by_name() {
     assert_eq!(tree.forward_dynamics(&vec![f64::NAN; n]).map_err(code), Err("not-finite"));
     let mut ball = self::tree(&floating(Dimension::Spatial));
     let [n_q, n] = [ball.coordinates().len(), ball.velocities().len()];
-    assert_eq!(ball.set(&vec![0.0; n_q], &vec![0.0; n]), Err(TreeError::NoRotation { first: 3 }));
+    assert_eq!(ball.set(&vec![0.0; n_q], &vec![0.0; n]).map_err(code), Err("no-rotation"));
 }
 
 #[test]

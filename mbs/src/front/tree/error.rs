@@ -7,151 +7,126 @@ use std::fmt;
 /// Why there is no tree, or why it does not answer.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
-pub enum TreeError {
+pub struct TreeError {
+    /// What is wrong.
+    pub kind: TreeErrorKind,
+    joint: Option<String>,
+    body: Option<String>,
+}
+
+/// What is wrong.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum TreeErrorKind {
     /// The mechanism has no model in relative coordinates.
-    NoTree {
-        /// Why.
-        reason: StopError,
-        /// The joint that it is about.
-        joint: Option<String>,
-        /// The body that it is about.
-        body: Option<String>,
-    },
+    NoTree(StopError),
     /// No accelerations follow from the efforts.
-    NoAccelerations {
-        /// Why.
-        reason: StopError,
-        /// The joint that it is about.
-        joint: Option<String>,
-    },
-    /// The joint closes a loop: its equations are rows of the loops, it has no coordinates.
-    Cut {
-        /// Its name.
-        joint: String,
-    },
-    /// The joint follows its guide: it has no coordinates.
-    Guided {
-        /// Its name.
-        joint: String,
-    },
-    /// The joint neither holds nor carries anything: it is free between two moving bodies, or within one body.
-    NoCoordinates {
-        /// Its name.
-        joint: String,
-    },
-    /// Too many numbers, or too few.
-    Length {
-        /// `"q"`, `"v"`, `"effort"`, `"accelerations"` or `"motions"`.
-        what: &'static str,
-        /// What the tree has.
-        expected: usize,
-        /// What was given.
-        found: usize,
-    },
-    /// A number is infinite or none.
-    NotFinite {
-        /// As above.
-        what: &'static str,
-        /// Its place.
-        index: usize,
-    },
-    /// Four numbers that are all zero are no quaternion.
-    NoRotation {
-        /// Place of the first one in q.
-        first: usize,
-    },
+    NoAccelerations(StopError),
+    /// The joint closes a loop: its equations are rows of the loop Jacobian.
+    Cut,
+    /// The joint follows its guide.
+    Guided,
+    /// The joint carries nothing: it is free between two moving bodies, or within one body.
+    Idle,
+    /// Too many numbers, or too few: what they are, how many the tree has, how many were given.
+    Length(&'static str, usize, usize),
+    /// An infinite number or none: what it is, and its place.
+    NotFinite(&'static str, usize),
+    /// Four zeros from this place of q are no quaternion.
+    NoRotation(usize),
 }
 
 impl TreeError {
-    pub(super) fn no_tree(reason: StopError, names: &Names) -> Self {
+    /// About what an error of the model names.
+    pub(super) fn of_model(
+        kind: fn(StopError) -> TreeErrorKind,
+        (reason, names): (StopError, &Names),
+    ) -> Self {
         let (joint, body) = reason.owner().map_or((None, None), |owner| names.of(owner));
-        Self::NoTree { reason, joint, body }
+        Self { kind: kind(reason), joint, body }
     }
 
-    pub(super) fn no_accelerations(reason: StopError, names: &Names) -> Self {
-        let joint = reason.owner().and_then(|owner| names.of(owner).0);
-        Self::NoAccelerations { reason, joint }
+    pub(super) fn of_joint(kind: TreeErrorKind, joint: &str) -> Self {
+        Self { kind, joint: Some(joint.to_owned()), body: None }
     }
 
     /// A short fixed word for programs.
     #[must_use]
     pub fn code(&self) -> &'static str {
-        match self {
-            Self::NoTree { .. } => "no-tree",
-            Self::NoAccelerations { .. } => "no-accelerations",
-            Self::Cut { .. } => "cut-joint",
-            Self::Guided { .. } => "guided-joint",
-            Self::NoCoordinates { .. } => "no-coordinates",
-            Self::Length { .. } => "wrong-length",
-            Self::NotFinite { .. } => "not-finite",
-            Self::NoRotation { .. } => "no-rotation",
-        }
+        self.words().0
     }
 
     /// The name of the joint that it is about.
     #[must_use]
     pub fn joint(&self) -> Option<&str> {
-        match self {
-            Self::NoTree { joint, .. } | Self::NoAccelerations { joint, .. } => joint.as_deref(),
-            Self::Cut { joint } | Self::Guided { joint } | Self::NoCoordinates { joint } => {
-                Some(joint)
-            }
-            Self::Length { .. } | Self::NotFinite { .. } | Self::NoRotation { .. } => None,
-        }
+        self.joint.as_deref()
     }
 
     /// The name of the body that it is about.
     #[must_use]
     pub fn body(&self) -> Option<&str> {
-        if let Self::NoTree { body, .. } = self { body.as_deref() } else { None }
+        self.body.as_deref()
     }
 
     /// What to do.
     #[must_use]
     pub fn hint(&self) -> &'static str {
-        match self {
-            Self::NoTree { reason, .. } => reason.hint(),
-            Self::NoAccelerations { .. } => {
-                "leave this position, in which the loops are singular; check that q and v close the loops: `follow` a simulation there"
+        self.words().1
+    }
+
+    /// Code, hint and message.
+    fn words(&self) -> (&'static str, &'static str, String) {
+        use TreeErrorKind as Kind;
+        let no_coordinates = |whose| format!("a joint that {whose} has no coordinates");
+        match &self.kind {
+            Kind::NoTree(reason) => ("no-tree", reason.hint(), reason.to_string()),
+            Kind::NoAccelerations(reason) => (
+                "no-accelerations",
+                "leave this position, in which loops are singular; check that q and v close them: `follow` a simulation there",
+                format!("no accelerations follow from the efforts: {reason}"),
+            ),
+            Kind::Cut => {
+                let hint = "use `loop_jacobian`, or coordinates of another joint of the loop";
+                ("cut-joint", hint, no_coordinates("closes a loop"))
             }
-            Self::Cut { .. } => "use `loop_jacobian`, or coordinates of another joint of the loop",
-            Self::Guided { .. } => "use its guide, or leave the guide out",
-            Self::NoCoordinates { .. } => "use the joints that hold its bodies",
-            Self::Length { .. } => {
-                "make it as long as `coordinates` for q, as `velocities` for all others"
+            Kind::Guided => (
+                "guided-joint",
+                "use its guide, or leave the guide out",
+                no_coordinates("is guided"),
+            ),
+            Kind::Idle => {
+                let hint = "use the joints that hold its bodies";
+                ("no-coordinates", hint, no_coordinates("carries nothing"))
             }
-            Self::NotFinite { .. } => "give finite numbers",
-            Self::NoRotation { .. } => {
-                "give a quaternion (w, x, y, z); no rotation is (1, 0, 0, 0)"
+            Kind::Length(what, expected, found) => {
+                let hint = "make q as long as `coordinates`, all others as `velocities`";
+                let message = format!("{what} has {found} numbers, and the tree {expected}");
+                ("wrong-length", hint, message)
+            }
+            Kind::NotFinite(what, place) => {
+                ("not-finite", "give finite numbers", format!("{what}[{place}] is not finite"))
+            }
+            Kind::NoRotation(place) => {
+                let message =
+                    format!("q[{place}] and the three numbers behind it are no quaternion");
+                ("no-rotation", "give (w, x, y, z); no rotation is (1, 0, 0, 0)", message)
             }
         }
     }
 }
 
+impl From<TreeErrorKind> for TreeError {
+    fn from(kind: TreeErrorKind) -> Self {
+        Self { kind, joint: None, body: None }
+    }
+}
+
 impl fmt::Display for TreeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoTree { reason, joint, body } => {
-                if let Some(name) = joint.as_ref().or(body.as_ref()) {
-                    write!(f, "`{name}`: ")?;
-                }
-                write!(f, "{reason}")
-            }
-            Self::NoAccelerations { reason, .. } => {
-                write!(f, "no accelerations follow from the efforts: {reason}")
-            }
-            Self::Cut { joint } => write!(f, "`{joint}` closes a loop and has no coordinates"),
-            Self::Guided { joint } => write!(f, "`{joint}` is guided and has no coordinates"),
-            Self::NoCoordinates { joint } => {
-                write!(f, "`{joint}` constrains nothing and has no coordinates")
-            }
-            Self::Length { what, expected, found } => {
-                write!(f, "{what} has {found} numbers, and the tree {expected}")
-            }
-            Self::NotFinite { what, index } => write!(f, "{what}[{index}] is not finite"),
-            Self::NoRotation { first } => {
-                write!(f, "q[{first}] and the three numbers behind it are no quaternion")
-            }
+        let (_, _, message) = self.words();
+        match self.joint().or(self.body()) {
+            Some(name) => write!(f, "`{name}`: {message}"),
+            None => write!(f, "{message}"),
         }
     }
 }

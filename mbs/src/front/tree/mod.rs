@@ -5,18 +5,23 @@ mod inner;
 mod layout;
 mod values;
 
-pub use error::TreeError;
+pub use error::{TreeError, TreeErrorKind};
 pub use values::{Matrix, PointMotion, TreeRange};
 
 use crate::names::Names;
 use crate::simulation::Simulation;
+use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
-use inner::Inner;
+use inner::{Inner, Typed, with};
 use layout::Layout;
 use mbs_core::algebra::Vector;
+use mbs_core::cluster::mass_properties;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{BodyId, Dimension, JointId, JointKind, Scene};
-use mbs_recursive::{EffortTerms, Planar, Spatial};
+use mbs_core::scene::{BodyId, JointId, JointKind, Scene};
+use mbs_recursive::EffortTerms;
+
+/// A point of a body, in the reference configuration, and what it counts.
+type Weighted = (BodyId, [f64; 3], f64);
 
 /// A mechanism in relative coordinates, at any position and velocity.
 ///
@@ -48,11 +53,12 @@ use mbs_recursive::{EffortTerms, Planar, Spatial};
 /// [`follow`](Self::follow).
 #[derive(Debug, Clone)]
 pub struct Tree {
-    inner: Box<dyn Inner>,
+    inner: Inner,
     layout: Layout,
+    /// Centres of mass, each with its part of all mass.
+    shares: Vec<Weighted>,
     scene: Scene<f64>,
     names: Names,
-    cuts: Vec<usize>,
     q: Vec<f64>,
     v: Vec<f64>,
     answer: Vec<f64>,
@@ -70,26 +76,30 @@ impl Tree {
     /// The tree of a scene that passed its check, at rest in the reference configuration.
     ///
     /// # Errors
-    /// [`TreeError::NoTree`].
+    /// [`TreeErrorKind::NoTree`].
     #[doc(hidden)]
     pub fn new(scene: &Scene<f64>) -> Result<Self, TreeError> {
         let names = Names::new(scene);
-        let inner = match scene.dimension {
-            Dimension::Planar => inner::of_scene::<Planar>(scene),
-            Dimension::Spatial => inner::of_scene::<Spatial>(scene),
-        };
-        let mut inner = inner.map_err(|reason| TreeError::no_tree(reason, &names))?;
-        let mut layout = inner.layout(scene);
-        let ([n_q, n], rows) = (layout.n, inner.n_rows());
-        let mut q = vec![0.0; n_q];
+        let made = Inner::new(scene);
+        let mut inner =
+            made.map_err(|e| TreeError::of_model(TreeErrorKind::NoTree, (e, &names)))?;
+        let (mut layout, rows) =
+            with!(&inner, tree => (Layout::new(scene, &tree.model), tree.model.n_rows()));
+        let [n_q, n] = layout.n;
+        let (mut q, zero) = (vec![0.0; n_q], vec![0.0; n]);
         layout.coordinates_outward(&inner.state().z, &mut q);
+        let total: f64 = scene.bodies.iter().map(|body| body.mass).sum();
+        let share = |b| {
+            let (mass, center, _) = mass_properties(scene, b);
+            (BodyId::new(b), center.into(), if total > 0.0 { mass / total } else { 0.0 })
+        };
         Ok(Self {
-            cuts: inner.cut_joints(),
+            shares: (0..scene.bodies.len()).map(share).collect(),
             scene: scene.clone(),
-            v: vec![0.0; n],
-            answer: vec![0.0; n],
-            tree: vec![0.0; n],
-            zero: vec![0.0; n],
+            v: zero.clone(),
+            answer: zero.clone(),
+            tree: zero.clone(),
+            zero,
             mass: Matrix::zeros(n, n),
             loops: Matrix::zeros(rows, n),
             jacobian: Matrix::zeros(6, n),
@@ -108,9 +118,7 @@ impl Tree {
     pub fn set(&mut self, q: &[f64], v: &[f64]) -> Result<(), TreeError> {
         checked("q", q, self.q.len())?;
         checked("v", v, self.v.len())?;
-        self.layout.check_rotations(q)?;
-        self.q.copy_from_slice(q);
-        self.layout.normalise(&mut self.q);
+        self.layout.normalise(q, &mut self.q)?;
         self.v.copy_from_slice(v);
         let state = self.inner.state();
         self.layout.coordinates_inward(&self.q, &mut state.z);
@@ -128,7 +136,7 @@ impl Tree {
     /// within half a turn of the tree's own, so that turns are counted from call to call.
     ///
     /// # Errors
-    /// [`TreeError::Length`] for a simulation of another number of bodies.
+    /// [`TreeErrorKind::Length`] for a simulation of another number of bodies.
     pub fn follow<const D: usize>(
         &mut self,
         simulation: &Simulation<f64, D>,
@@ -149,13 +157,18 @@ impl Tree {
         (t, guides): (f64, impl Iterator<Item = [f64; 3]>),
         motions: &[RigidMotion<f64>],
     ) -> Result<(), TreeError> {
-        let (expected, found) = (self.scene.bodies.len(), motions.len());
-        if expected != found {
-            return Err(TreeError::Length { what: "motions", expected, found });
+        if motions.len() != self.scene.bodies.len() {
+            let (expected, found) = (self.scene.bodies.len(), motions.len());
+            return Err(TreeErrorKind::Length("motions", expected, found).into());
         }
-        guides.enumerate().for_each(|(g, motion)| self.inner.set_guide(g, motion));
-        self.inner.state().t = t;
-        self.inner.read(&self.scene, motions);
+        with!(&mut self.inner, tree => {
+            for (guide, motion) in guides.enumerate() {
+                // A guide that follows a law of time refuses, and follows it here too.
+                let _ = tree.model.set_guide(guide, motion);
+            }
+            tree.state.t = t;
+            tree.model.read_motions(&self.scene, motions, &mut tree.state);
+        });
         let state = self.inner.state();
         self.layout.coordinates_outward(&state.z, &mut self.q);
         self.layout.velocities_outward(&state.v, &mut self.v);
@@ -166,22 +179,24 @@ impl Tree {
     /// Where the numbers of a joint stand in q and v. A weld has none.
     ///
     /// # Errors
-    /// [`TreeError::Cut`], [`TreeError::Guided`] or [`TreeError::NoCoordinates`] with the joint's name.
+    /// [`TreeErrorKind::Cut`], [`TreeErrorKind::Guided`] or [`TreeErrorKind::Idle`] with the joint's name.
     pub fn coordinates_of(&self, joint: JointId) -> Result<TreeRange, TreeError> {
         if let Some(range) = self.layout.range(joint.index()) {
             return Ok(range);
         }
         let data = &self.scene.joints[joint];
-        let name = data.name.clone();
-        if self.scene.guides.iter().any(|guide| guide.joint == joint) {
-            Err(TreeError::Guided { joint: name })
-        } else if self.cuts.contains(&joint.index()) {
-            Err(TreeError::Cut { joint: name })
+        let mut cuts =
+            with!(&self.inner, tree => tree.model.cut_joints().collect::<Vec<_>>()).into_iter();
+        let kind = if self.scene.guides.iter().any(|guide| guide.joint == joint) {
+            TreeErrorKind::Guided
+        } else if cuts.any(|cut| cut == joint.index()) {
+            TreeErrorKind::Cut
         } else if data.kind == JointKind::Weld {
-            Ok(TreeRange { q: 0..0, v: 0..0 })
+            return Ok(TreeRange { q: 0..0, v: 0..0 });
         } else {
-            Err(TreeError::NoCoordinates { joint: name })
-        }
+            TreeErrorKind::Idle
+        };
+        Err(TreeError::of_joint(kind, &data.name))
     }
 
     /// Where the numbers of a free body stand, whether a free joint names it or none. Of bodies that are welded the first one in the
@@ -209,7 +224,8 @@ impl Tree {
     /// Cost: bodies times depth, and n².
     pub fn mass_matrix(&mut self) -> &Matrix {
         let n = self.v.len();
-        self.inner.write_mass(&mut self.rows[..n * n]);
+        let rows = &mut self.rows[..n * n];
+        with!(&mut self.inner, t => t.model.write_mass_matrix(&t.state, &mut t.workspace, rows));
         self.mass.take_rows(&self.layout, &self.rows);
         for i in 0..n {
             for j in 0..n {
@@ -222,7 +238,8 @@ impl Tree {
 
     /// J, one row for each equation of the joints that close loops, n columns.
     pub fn loop_jacobian(&mut self) -> &Matrix {
-        self.inner.write_loop_rows(&mut self.rows[..self.loops.data.len()]);
+        let rows = &mut self.rows[..self.loops.data.len()];
+        with!(&mut self.inner, t => t.model.write_loop_rows(&t.state, &mut t.workspace, rows));
         self.loops.take_rows(&self.layout, &self.rows);
         &self.loops
     }
@@ -236,13 +253,13 @@ impl Tree {
     /// joints, and gravity.
     pub fn bias_forces(&mut self) -> &[f64] {
         self.accelerations(None);
-        self.efforts(EffortTerms::All)
+        self.efforts(EffortTerms::WithoutEffects)
     }
 
     /// v̇ under efforts τ along v and gravity, loops closed.
     ///
     /// # Errors
-    /// [`TreeError::Length`], [`TreeError::NotFinite`]; [`TreeError::NoAccelerations`] at a singular position.
+    /// [`TreeErrorKind::Length`], [`TreeErrorKind::NotFinite`]; [`TreeErrorKind::NoAccelerations`] at a singular position.
     pub fn forward_dynamics(&mut self, effort: &[f64]) -> Result<&[f64], TreeError> {
         checked("effort", effort, self.v.len())?;
         self.accelerate(Some(effort))?;
@@ -263,7 +280,7 @@ impl Tree {
         checked("accelerations", accelerations, self.v.len())?;
         if self.loops.rows == 0 {
             self.accelerations(Some(accelerations));
-            return Ok(self.efforts(EffortTerms::All));
+            return Ok(self.efforts(EffortTerms::WithoutEffects));
         }
         self.accelerate(None)?;
         self.layout.accelerations_inward(accelerations, &mut self.tree);
@@ -275,19 +292,16 @@ impl Tree {
     /// Of the velocity of a body's point, which was at `at` in the reference configuration [m]: 3 × n, global axes. In the plane the third
     /// row is zero.
     pub fn point_jacobian(&mut self, body: BodyId, at: [f64; 3]) -> &Matrix {
-        self.jacobian(3, Some((body, at)))
+        self.jacobian(3, Some((body, at, 1.0)))
     }
 
     /// Of the velocity of a body's centre of mass (rows 0 to 2) and of its angular velocity (3 to 5): 6 × n, global axes.
     pub fn frame_jacobian(&mut self, body: BodyId) -> &Matrix {
-        let center = match body {
-            BodyId::Ground => [0.0; 3],
-            BodyId::Body(b) => mbs_core::cluster::mass_properties(&self.scene, b).1.into(),
-        };
-        self.jacobian(6, Some((body, center)))
+        let center = body.index().map_or([0.0; 3], |b| self.shares[b].1);
+        self.jacobian(6, Some((body, center, 1.0)))
     }
 
-    /// Of the velocity of the centre of mass of all bodies that move: 3 × n, global axes.
+    /// Of the velocity of the centre of mass of all bodies: 3 × n, global axes.
     pub fn center_of_mass_jacobian(&mut self) -> &Matrix {
         self.jacobian(3, None)
     }
@@ -295,25 +309,43 @@ impl Tree {
     /// Motion of a body's point, which was at `at` in the reference configuration [m]. The acceleration is that of v̇ = 0, J̇ v: add the
     /// Jacobian times v̇.
     pub fn point(&mut self, body: BodyId, at: [f64; 3]) -> PointMotion {
-        let BodyId::Body(b) = body else {
-            return PointMotion { position: at, ..PointMotion::default() };
-        };
-        self.accelerations(None);
-        let motion = self.inner.motions()[b].point(&Vector::from(at));
-        PointMotion::of(motion.map(Into::into))
+        let at_rest = RigidMotion::at_rest(at.into());
+        let motion = body.index().map_or(at_rest, |b| self.motions()[b]);
+        PointMotion::of(motion.point(&at.into()))
     }
 
-    /// Motion of the centre of mass of all bodies that move; the acceleration as that of a [`point`](Self::point). Zero where they have no
-    /// mass.
+    /// Motion of the centre of mass of all bodies; the acceleration as that of a [`point`](Self::point).
     pub fn center_of_mass(&mut self) -> PointMotion {
-        self.accelerations(None);
-        PointMotion::of(self.inner.center_of_mass())
+        self.motions();
+        let motions = with!(&self.inner, tree => &tree.motions);
+        let mut sum = [Vector::<f64, 3>::zeros(); 3];
+        for (motion, &(_, center, share)) in motions.iter().zip(&self.shares) {
+            let point = motion.point(&center.into());
+            sum.iter_mut().zip(point).for_each(|(sum, x)| *sum += x * share);
+        }
+        PointMotion::of(sum)
     }
 
-    fn jacobian(&mut self, rows: usize, of: Option<(BodyId, [f64; 3])>) -> &Matrix {
-        let size = rows * self.v.len();
-        self.inner.write_jacobian(of, &mut self.rows[..size]);
+    /// The motions of the bodies at v̇ = 0.
+    fn motions(&mut self) -> &[RigidMotion<f64>] {
+        self.accelerations(None);
+        with!(&mut self.inner, tree => {
+            tree.model.write_motions(&tree.state, &mut tree.workspace, &mut tree.motions);
+            &tree.motions
+        })
+    }
+
+    /// Of a point, or of the centre of mass.
+    fn jacobian(&mut self, rows: usize, point: Option<Weighted>) -> &Matrix {
         self.jacobian.resize_rows(rows);
+        let to = &mut self.rows[..rows * self.v.len()];
+        to.fill(0.0);
+        with!(&mut self.inner, tree => {
+            tree.model.place(&tree.state, &mut tree.workspace);
+            for &point in point.as_ref().map_or(&self.shares[..], std::slice::from_ref) {
+                tree.model.add_jacobian(point, &mut tree.workspace, to);
+            }
+        });
         self.jacobian.take_rows(&self.layout, &self.rows);
         &self.jacobian
     }
@@ -329,7 +361,8 @@ impl Tree {
 
     /// Efforts of the state's accelerations.
     fn efforts(&mut self, terms: EffortTerms) -> &[f64] {
-        self.inner.write_efforts(terms, &mut self.tree);
+        let out = &mut self.tree;
+        with!(&mut self.inner, t => t.model.write_efforts((&t.state, terms), &mut t.workspace, out));
         self.layout.efforts_outward(&self.tree, &mut self.answer);
         &self.answer
     }
@@ -337,17 +370,24 @@ impl Tree {
     /// Accelerations under efforts, into the state.
     fn accelerate(&mut self, effort: Option<&[f64]>) -> Result<(), TreeError> {
         self.layout.efforts_inward(effort.unwrap_or(&self.zero), &mut self.tree);
-        let done = self.inner.accelerate(&self.tree);
-        done.map_err(|reason| TreeError::no_accelerations(reason, &self.names))
+        let (efforts, names) = (&self.tree, &self.names);
+        with!(&mut self.inner, tree => {
+            let Typed { model, state, workspace, .. } = &mut **tree;
+            model.accelerate_under(efforts, state, workspace).map_err(|error| {
+                let freedom = |u| model.owner_of_unknown(u);
+                let reason = StopError::step(error, freedom, |row| model.owner_of_row(row));
+                TreeError::of_model(TreeErrorKind::NoAccelerations, (reason, names))
+            })
+        })
     }
 }
 
 /// # Errors
-/// [`TreeError::Length`] or [`TreeError::NotFinite`].
+/// [`TreeErrorKind::Length`] or [`TreeErrorKind::NotFinite`].
 fn checked(what: &'static str, x: &[f64], expected: usize) -> Result<(), TreeError> {
     if x.len() != expected {
-        return Err(TreeError::Length { what, expected, found: x.len() });
+        return Err(TreeErrorKind::Length(what, expected, x.len()).into());
     }
     let bad = x.iter().position(|x| !x.is_finite());
-    bad.map_or(Ok(()), |index| Err(TreeError::NotFinite { what, index }))
+    bad.map_or(Ok(()), |place| Err(TreeErrorKind::NotFinite(what, place).into()))
 }

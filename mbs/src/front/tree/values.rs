@@ -1,6 +1,7 @@
 //! What a tree answers with.
 
 use super::layout::Layout;
+use mbs_core::algebra::Vector;
 use std::ops::{Index, Range};
 
 /// A dense matrix, row by row.
@@ -72,7 +73,8 @@ pub struct PointMotion {
 }
 
 impl PointMotion {
-    pub(super) fn of([position, velocity, acceleration]: [[f64; 3]; 3]) -> Self {
+    pub(super) fn of(motion: [Vector<f64, 3>; 3]) -> Self {
+        let [position, velocity, acceleration] = motion.map(Into::into);
         Self { position, velocity, acceleration }
     }
 }
