@@ -166,8 +166,8 @@ impl<T: Real, M: Model<T>, C: Meter> Model<T> for ClockedModel<'_, M, C> {
     fn advance(&self, q: &[T], dq: &[T], phi_n: &[T], terms: &mut Terms<T>) {
         self.clock.read(Phase::Evaluation, || self.model.advance(q, dq, phi_n, terms));
     }
-    fn evaluate_forces(&self, q: &[T], v: &[T], memory: &[T], terms: &mut Terms<T>) {
-        self.clock.read(Phase::Forces, || self.model.evaluate_forces(q, v, memory, terms));
+    fn evaluate_forces(&self, q: &[T], v: &[T], terms: &mut Terms<T>) {
+        self.clock.read(Phase::Forces, || self.model.evaluate_forces(q, v, terms));
     }
     fn evaluate_bias(&self, q: &[T], v: &[T], terms: &mut Terms<T>) {
         self.clock.read(Phase::Bias, || self.model.evaluate_bias(q, v, terms));

@@ -47,10 +47,10 @@ pub(crate) fn measure<const D: usize>(
 fn terms<const D: usize>(prepared: &Prepared<D>, state: &State<f64>) -> (Terms<f64>, Vec<f64>) {
     let model = &prepared.model;
     let mut terms = model.terms();
-    model.set_inputs(state.t, &mut terms);
+    model.set_inputs(state.t, state, &mut terms);
     model.evaluate(&state.q, &mut terms);
     if model.has_forces() {
-        model.evaluate_forces(&state.q, &state.v, &state.memory, &mut terms);
+        model.evaluate_forces(&state.q, &state.v, &mut terms);
     }
     let mut penalty = vec![0.0; model.n_constraints()];
     model.effective_masses(&terms, &mut penalty);

@@ -18,8 +18,7 @@ use crate::workspace::{Mass, Workspace};
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    Counts, StepError, StepReport, Stop, check_guides, check_rotations, keep_inputs, largest,
-    largest_or_nan,
+    Counts, StepError, StepReport, Stop, check_guides, check_rotations, largest, largest_or_nan,
 };
 use mbs_core::team::{add_product, norm_inf, on_stretches, set_product, set_sum, subtract};
 use mbs_core::{Real, SpdSolver};
@@ -62,7 +61,7 @@ pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
         }
         iterations += 1;
         constrain(model, (&rule, length, iterations == 1), options, s, w)?;
-        let correction = newton(model, &rule, s, w)?;
+        let correction = newton(model, &rule, w)?;
         done = if correction <= goal || (iterations > 1 && correction * correction <= goal * last) {
             Some(Stop::Converged)
         } else if iterations > 1 && correction > last * T::HALF && correction <= enough(size, w) {
@@ -132,7 +131,7 @@ pub fn settle<T: Real, M: Model<T>, S: SpdSolver<T>>(
     w.factor(model, (T::ZERO, T::ZERO), false)?;
     velocities(model, (length, false), options, w)?;
     if model.has_forces() {
-        model.evaluate_forces(&w.q, &w.v, &s.memory, &mut w.terms);
+        model.evaluate_forces(&w.q, &w.v, &mut w.terms);
     }
     model.evaluate_bias(&w.q, &w.v, &mut w.terms);
     let goal = norm_inf(model.team(), &s.a).max(T::ONE) * options.tolerance;
@@ -160,7 +159,7 @@ pub fn settle<T: Real, M: Model<T>, S: SpdSolver<T>>(
     for to in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {
         to.copy_from_slice(&w.lambda);
     }
-    keep_inputs(model, s);
+    s.applied.copy_from_slice(&s.inputs);
     if model.has_forces() || model.has_guides() {
         s.power = model.power(&s.q, &s.v, &s.reaction, &w.terms);
     }
@@ -189,7 +188,7 @@ fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
             Penalty::Fixed(alpha) => alpha,
         };
     }
-    model.set_inputs(s.t + rule.dt, &mut w.terms);
+    model.set_inputs(s.t + rule.dt, s, &mut w.terms);
 }
 
 /// q, v from the accelerations by the integrator, projected; the matrix W at q is left factored. Returns |phi'|.
@@ -329,12 +328,11 @@ fn move_to<T: Real, M: Model<T>, S: SpdSolver<T>>(
 fn newton<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
     rule: &Rule<T>,
-    s: &State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<T, StepError> {
     if model.has_forces() {
         // With stiffness or damping the matrix of the accelerations is not that of the projections.
-        model.evaluate_forces(&w.q, &w.v, &s.memory, &mut w.terms);
+        model.evaluate_forces(&w.q, &w.v, &mut w.terms);
         w.factor(model, (T::ONE / rule.acceleration, rule.velocity / rule.acceleration), false)?;
     }
     model.evaluate_bias(&w.q, &w.v, &mut w.terms);

@@ -100,7 +100,7 @@ fn begin<T: Real, M: Model<T>, S: SpdSolver<T>>(
             };
         }
     });
-    model.set_inputs(s.t + rule.dt, &mut w.terms);
+    model.set_inputs(s.t + rule.dt, s, &mut w.terms);
     evaluate(model, options, s, w);
 }
 
@@ -117,7 +117,7 @@ fn evaluate<T: Real, M: Model<T>, S: SpdSolver<T>>(
         model.evaluate(&w.q, &mut w.terms);
     }
     if model.has_forces() {
-        model.evaluate_forces(&w.q, &w.v, &s.memory, &mut w.terms);
+        model.evaluate_forces(&w.q, &w.v, &mut w.terms);
     }
 }
 

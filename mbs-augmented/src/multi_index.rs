@@ -35,9 +35,9 @@ impl<T: Real> MultiIndex<T> {
         s: &State<T>,
     ) -> Self {
         let mut terms = model.terms();
-        model.set_inputs(s.t, &mut terms);
+        model.set_inputs(s.t, s, &mut terms);
         model.evaluate(&s.q, &mut terms);
-        model.evaluate_forces(&s.q, &s.v, &s.memory, &mut terms);
+        model.evaluate_forces(&s.q, &s.v, &mut terms);
         let energies = [model.kinetic_energy(&s.v), model.potential_energy(&s.q, &terms), s.work];
         let invariant = Invariant::new(energies.map(T::to_f64), ground, T::EPSILON.to_f64());
         Self {

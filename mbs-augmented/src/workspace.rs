@@ -75,10 +75,9 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         let (n, e, m) = (model.n_unknowns(), model.n_extended(), model.n_constraints());
         let zeros = |k| vec![T::ZERO; k];
         let mut terms = model.terms();
-        let mut q = zeros(e);
-        model.write_reference(&mut q);
-        model.set_inputs(T::ZERO, &mut terms);
-        model.evaluate(&q, &mut terms);
+        let start = State::at_rest(model);
+        model.set_inputs(start.t, &start, &mut terms);
+        model.evaluate(&start.q, &mut terms);
         let mut masses = zeros(m);
         model.effective_masses(&terms, &mut masses);
         let scratch = zeros(solver.n_scratch());
@@ -90,7 +89,7 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
             factored,
             factored_laws,
             dq: zeros(e),
-            q,
+            q: start.q,
             v: zeros(e),
             a: zeros(e),
             dq_predicted: zeros(e),

@@ -50,7 +50,7 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     let newton = iterate(model, &rule, length, options, s, w)?;
     let violation = if options.stabilisation == Stabilisation::Projection {
         positions(model, &rule, length, options, s, w)?;
-        w.clean(model, (length, T::ONE), options.max_sweeps, s)?
+        w.clean(model, (length, T::ONE), options.max_sweeps)?
     } else {
         check_guides(model, &w.q, &w.terms)?;
         w.mu.copy_from_slice(&w.lambda);
@@ -74,7 +74,7 @@ fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
 ) {
     w.predict(model, (rule, T::ONE, length), s);
     w.lambda.copy_from_slice(&s.lambda);
-    model.set_inputs(s.t + rule.dt, &mut w.terms);
+    model.set_inputs(s.t + rule.dt, s, &mut w.terms);
     evaluate(model, options, s, w);
 }
 

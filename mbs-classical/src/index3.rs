@@ -54,7 +54,7 @@ pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     if newton.1 > length * T::from_f64(1e-7) {
         factor(model, &rule, options, w)?;
     }
-    let violation = w.clean(model, (length, rule.acceleration), options.max_sweeps, s)?;
+    let violation = w.clean(model, (length, rule.acceleration), options.max_sweeps)?;
     check_rotations(model, &w.terms)?;
     w.commit(model, &rule, options.compensated, rule.acceleration, s);
     Ok(StepReport::of_newton(newton, w.counts, violation))
@@ -77,7 +77,7 @@ fn predict<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
             *lambda = expected(first + k) * inverse;
         }
     });
-    model.set_inputs(s.t + rule.dt, &mut w.terms);
+    model.set_inputs(s.t + rule.dt, s, &mut w.terms);
     w.evaluate(model, options.compensated, s);
 }
 

@@ -10,7 +10,7 @@
 //! what a factor of a near configuration or delta left.
 
 use crate::workspace::{Mass, Workspace};
-use mbs_core::model::{Model, State};
+use mbs_core::model::Model;
 use mbs_core::step::{StepError, check_guides, largest};
 use mbs_core::team::{norm_inf, on_stretches, subtract};
 use mbs_core::{Real, SymmetricSolver};
@@ -55,7 +55,6 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         model: &M,
         (length, unit): (T, T),
         max_sweeps: u32,
-        s: &State<T>,
     ) -> Result<[T; 3], StepError> {
         if model.has_guides() {
             model.evaluate_phi_t(&self.q, &mut self.terms);
@@ -73,7 +72,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         let goal = (size * rounding, (T::ONE + size) * limit);
         let acceleration = self.project(model, Level::Acceleration, goal, max_sweeps)?;
 
-        self.evaluate_forces(model, s);
+        self.evaluate_forces(model);
         self.balance(model, unit);
         Ok([norm_inf(model.team(), &self.terms.phi), velocity, acceleration])
     }

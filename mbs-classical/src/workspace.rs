@@ -69,10 +69,9 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         let zeros = |k| vec![T::ZERO; k];
         let saddle = Saddle::new(model);
         let mut terms = model.terms();
-        let mut q = zeros(e);
-        model.write_reference(&mut q);
-        model.set_inputs(T::ZERO, &mut terms);
-        model.evaluate(&q, &mut terms);
+        let start = State::at_rest(model);
+        model.set_inputs(start.t, &start, &mut terms);
+        model.evaluate(&start.q, &mut terms);
         let mut masses = zeros(m);
         model.effective_masses(&terms, &mut masses);
         let mut this = Self {
@@ -82,7 +81,7 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
             saddle,
             terms,
             dq: zeros(e),
-            q,
+            q: start.q,
             v: zeros(e),
             a: zeros(e),
             change: zeros(e),
@@ -177,13 +176,13 @@ impl<T: Real, S: SymmetricSolver<T>> Workspace<T, S> {
         } else {
             model.evaluate(&self.q, &mut self.terms);
         }
-        self.evaluate_forces(model, s);
+        self.evaluate_forces(model);
     }
 
     /// Forces at the current q, v.
-    pub(crate) fn evaluate_forces<M: Model<T>>(&mut self, model: &M, s: &State<T>) {
+    pub(crate) fn evaluate_forces<M: Model<T>>(&mut self, model: &M) {
         if model.has_forces() {
-            model.evaluate_forces(&self.q, &self.v, &s.memory, &mut self.terms);
+            model.evaluate_forces(&self.q, &self.v, &mut self.terms);
         }
     }
 

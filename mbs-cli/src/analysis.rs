@@ -21,13 +21,13 @@ use std::process::ExitCode;
 pub(crate) struct Common {
     /// Scene file (TOML).
     scene: PathBuf,
-    /// One JSON object on standard output and nothing else.
+    /// Print one JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
-    /// Directory for the same JSON object as a file, equilibrium.json or modes.json; made if missing.
+    /// Directory for the same JSON object as a file, equilibrium.json or modes.json; created if missing. Default: no file.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// The equilibrium near the start, stable or not, by Newton's method. Default: the search goes down to a stable one.
+    /// Find the equilibrium near the start, stable or not, by Newton's method. Default: a search down to a stable one.
     #[arg(long)]
     near: bool,
 }
@@ -50,8 +50,7 @@ pub(crate) struct Equilibrium {
 pub(crate) struct Modes {
     #[command(flatten)]
     common: Common,
-    /// State to linearise about: the static equilibrium at rest; the start with its velocities; or the positions of the
-    /// equilibrium with the velocities of the start.
+    /// State to linearise about: the equilibrium at rest, the initial state, or the equilibrium with the initial velocities (moving).
     #[arg(long, value_enum, default_value_t = At::Equilibrium)]
     at: At,
 }

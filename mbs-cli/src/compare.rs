@@ -18,54 +18,52 @@ use std::process::ExitCode;
 pub(crate) struct Arguments {
     /// Scene file (TOML).
     pub(crate) scene: PathBuf,
-    /// Formulations, such as index-3,recursive; left out: all.
+    /// Formulations, such as index-3,recursive. Default: all.
     #[arg(long, value_name = "F,..", value_delimiter = ',')]
     formulation: Vec<String>,
-    /// Precisions: f64, f32, dd (32 digits, dear); left out: f64 and f32.
+    /// Precisions: f64, f32, dd (32 digits, the slowest). Default: f64,f32.
     #[arg(long, value_name = "P,..", value_delimiter = ',')]
     precision: Vec<String>,
-    /// Steps [s]; left out: from 10 times that of the scene to 1/32 of it, as far as the budget goes.
+    /// Steps [s]. Default: from 10 times the scene's step down to 1/32 of it, within the budget.
     #[arg(long, value_name = "H,..", value_delimiter = ',', allow_hyphen_values = true)]
     steps: Vec<f64>,
-    /// Tolerances of controlled steps; left out: from 1e-3 to 1e-10, as far as the budget goes.
+    /// Tolerances of controlled steps. Default: from 1e-3 to 1e-10, within the budget.
     #[arg(long, value_name = "E,..", value_delimiter = ',', allow_hyphen_values = true)]
     tolerances: Vec<f64>,
-    /// Errors at which methods are ranked; left out: 1e-2,1e-4,1e-6.
+    /// Errors at which methods are ranked, relative to each output's range. Default: 1e-2,1e-4,1e-6.
     #[arg(long, value_name = "E,..", value_delimiter = ',', allow_hyphen_values = true)]
     error: Vec<f64>,
-    /// Duration [s]; left out: the scene's.
+    /// Duration [s]. Default: the scene's.
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<f64>,
-    /// Times that each run is timed at least; more where they differ.
+    /// Least number of timings of each run; more where they differ.
     #[arg(long, value_name = "N", default_value_t = Request::default().repeats)]
     repeats: u32,
-    /// CPU time of a run at most [s].
+    /// Largest CPU time of a run [s].
     #[arg(long, value_name = "S", default_value_t = Request::default().time_limit, allow_hyphen_values = true)]
     time_limit: f64,
-    /// Work of all runs together [s], roughly: it decides how far steps are refined where none are given.
+    /// CPU time of all runs together [s], approximately. It limits how far default steps are refined.
     #[arg(long, value_name = "S", default_value_t = Request::default().budget, allow_hyphen_values = true)]
     budget: f64,
-    /// Table that errors are taken against, with the columns of run.csv; left out: references/NAME.csv beside the scene
-    /// NAME.toml if it is there, else runs that are not under test.
+    /// Reference table with the columns of run.csv. Default: references/NAME.csv beside the scene NAME.toml, else runs that are not under test.
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
     /// Leave out the convergence maps over step and penalty.
     #[arg(long)]
     no_maps: bool,
-    /// Also choose by measurement at each error, as `mbs run --error` does, and hold the choice against the best of all methods.
+    /// Also choose by measurement at each error, as `mbs run --error` does, and compare the choice with the best method.
     #[arg(long)]
     choice: bool,
-    /// Directory for compare.csv, compare.json, compare.html, and for the journal that a later start goes on from; made if
-    /// missing.
+    /// Directory for compare.csv, compare.json, compare.html and the journal of finished runs; created if missing. Default: no files.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Go on from the runs that an earlier start left in the directory.
+    /// Resume: keep the runs that an earlier start left in the directory.
     #[arg(long, requires = "out", conflicts_with = "restart")]
     resume: bool,
-    /// Throw away what an earlier start left in the directory.
+    /// Discard the runs that an earlier start left in the directory.
     #[arg(long, requires = "out")]
     restart: bool,
-    /// One JSON object on standard output and nothing else.
+    /// Print one JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
 }

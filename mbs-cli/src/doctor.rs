@@ -11,8 +11,11 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 const STATUS: &str = "\
-Findings are notes, doubts and faults, each with its place in the scene and what would mend it; see docs/DOCTOR.md.
-Exit status: 0 no fault (doubts are told and run), 1 scene or usage refused, 2 a fault: no start, or the run stops.";
+A finding is a note, a doubt or a fault, with its place in the scene and a remedy; see docs/DOCTOR.md.
+Exit status:
+  0  no fault; doubts are reported, and the scene runs
+  1  the scene or the usage was refused
+  2  a fault: the scene does not start, or its run stops";
 
 /// Arguments of `mbs doctor`.
 #[derive(Debug, Args)]
@@ -20,22 +23,22 @@ Exit status: 0 no fault (doubts are told and run), 1 scene or usage refused, 2 a
 pub(crate) struct Arguments {
     /// Scene file (TOML).
     scene: PathBuf,
-    /// One JSON object on standard output and nothing else.
+    /// Print one JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
-    /// Directory for doctor.json and doctor.html; made if missing.
+    /// Directory for doctor.json and doctor.html; created if missing. Default: no files.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Formulation of the run that is watched; like the options below: left out, the scene's, else auto.
+    /// Formulation of the run that is examined. Default: the scene's, else auto.
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
-    /// Step of that run [s]; else 0.001.
+    /// Step of that run [s]. Default: the scene's, else 0.001.
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
-    /// Duration of that run [s].
+    /// Duration of that run [s]. Default: the scene's.
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<f64>,
-    /// Look at the start only: no run.
+    /// Examine the start only, without a run.
     #[arg(long)]
     still: bool,
 }

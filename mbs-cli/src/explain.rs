@@ -17,31 +17,31 @@ use std::process::ExitCode;
 pub(crate) struct Arguments {
     /// Scene file (TOML).
     pub(crate) scene: PathBuf,
-    /// Formulation; like the options below: left out, the scene's, else auto.
+    /// Formulation. Default: the scene's, else auto.
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
-    /// Step [s]; else 0.001.
+    /// Step [s]. Default: the scene's, else 0.001.
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
-    /// Duration [s].
+    /// Duration [s]. Default: the scene's.
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<f64>,
-    /// Wanted error, as in `mbs run`: runs the pilot of the choice and tells what each candidate would cost.
+    /// Required error, as in `mbs run`: runs the pilot and reports what each candidate would cost. Default: none.
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     error: Option<f64>,
-    /// Deadline, as in `mbs run`.
+    /// Deadline of a frame, as in `mbs run` [s, or 1ms, 500us]. Default: none.
     #[arg(long, value_name = "S", value_parser = time, allow_hyphen_values = true)]
     deadline: Option<f64>,
-    /// Directory for explain.json and explain.html; made if missing.
+    /// Directory for explain.json and explain.html; created if missing. Default: no files.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// One JSON object on standard output and nothing else.
+    /// Print one JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
-    /// f32, f64; left out: f64.
+    /// Precision: f32 or f64. Default: f64.
     #[arg(long, value_name = "P")]
     pub(crate) precision: Option<String>,
-    /// Integrator; left out, the scene's, else trapezoidal.
+    /// Integrator. Default: the scene's, else trapezoidal.
     #[arg(long, value_name = "I")]
     integrator: Option<String>,
 }

@@ -13,16 +13,16 @@ use std::process::ExitCode;
 pub(crate) struct Arguments {
     /// Scene file (TOML).
     pub(crate) scene: PathBuf,
-    /// File of Rust to write: constant tables, and a solver of just their size.
+    /// Rust file to write: constant tables, and a solver of exactly their size.
     #[arg(long, value_name = "FILE", required_unless_present = "binary")]
     rust: Option<PathBuf>,
-    /// File of bytes to write, which mbs-nostd reads without allocation.
+    /// Binary file to write, which mbs-nostd reads without allocation.
     #[arg(long, value_name = "FILE")]
     binary: Option<PathBuf>,
-    /// f32, f64; left out: f64.
+    /// Precision: f32 or f64. Default: f64.
     #[arg(long, value_name = "P")]
     pub(crate) precision: Option<String>,
-    /// JSON of `mbs explain`: its effects may be dropped when time runs out, the least missed first.
+    /// JSON of `mbs explain`: the solver may leave out its effects when time runs out, smallest change first. Default: none.
     #[arg(long, value_name = "JSON")]
     ladder: Option<PathBuf>,
 }

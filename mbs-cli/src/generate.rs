@@ -11,24 +11,24 @@ use std::process::ExitCode;
 /// Arguments of `mbs generate`.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// What to make.
+    /// Family of scenes.
     family: Word,
-    /// How many: bodies of a chain or tree, four-bar linkages, vehicles of a convoy; of a net about as many bodies.
+    /// Bodies of a chain or tree, four-bar linkages, vehicles of a convoy; of a net the bodies approximately.
     #[arg(long, value_name = "N")]
     count: Option<usize>,
     /// Meshes of a net from front to back, with --columns in place of --count.
     #[arg(long, value_name = "R", requires = "columns", conflicts_with = "count")]
     rows: Option<usize>,
-    /// Meshes of a net from left to right.
+    /// Meshes of a net from left to right, with --rows.
     #[arg(long, value_name = "C", requires = "rows")]
     columns: Option<usize>,
     /// Scene of one vehicle of a convoy.
     #[arg(long, value_name = "SCENE")]
     of: Option<PathBuf>,
-    /// Distance from one vehicle of a convoy to the next [m]; else 8.
+    /// Distance from one vehicle of a convoy to the next [m]. Default: 8.
     #[arg(long, value_name = "M", allow_hyphen_values = true)]
     spacing: Option<f64>,
-    /// File to write; else standard output.
+    /// File to write. Default: standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }

@@ -10,8 +10,9 @@ use std::path::{Path, PathBuf};
 /// Arguments of a run that is kept.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Write DIR/checkpoint.mbs at the start and each so many simulated seconds, and the rows as the run goes, so that a run that is
-    /// killed can go on with --resume. No step and no result changes by it.
+    /// Write DIR/checkpoint.mbs at the start and after each SECONDS of simulated time. Default: no checkpoint.
+    ///
+    /// Rows are written while the run advances, so that --resume can continue a run that was killed. Steps and results do not change.
     #[arg(
         long,
         value_name = "SECONDS",
@@ -20,11 +21,10 @@ pub(crate) struct Arguments {
         allow_hyphen_values = true
     )]
     checkpoint: Option<f64>,
-    /// Go on from DIR/checkpoint.mbs, or from FILE, with the settings of its run; the results are those of a run in one go, to the
-    /// last bit.
+    /// Resume from DIR/checkpoint.mbs, or from FILE, with the settings of its run. Results have the bits of an uninterrupted run.
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, conflicts_with_all = ["restart", "realtime"])]
     resume: Option<Option<PathBuf>>,
-    /// Throw away the checkpoint that an earlier start left in the directory.
+    /// Discard the checkpoint that an earlier start left in the directory.
     #[arg(long, requires = "out")]
     restart: bool,
 }

@@ -26,43 +26,46 @@ use mbs::{Precision, PrecisionError};
 use refusal::{Refusal, usage};
 use std::process::ExitCode;
 
-/// Dynamics of multibody systems: a scene file in; motion, energies and plots out.
+/// Dynamics of multibody systems: reads a scene file, writes motion, energies and plots.
 #[derive(Debug, Parser)]
 #[command(name = "mbs", version, about = ABOUT, arg_required_else_help = true, after_help = STATUS)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
-    /// Read files of more than 64 MiB or 8 million values: they may take eighty times their size in memory.
+    /// Read files of more than 64 MiB or 8 million values; they may need eighty times their size in memory.
     #[arg(long, global = true)]
     big: bool,
 }
 
 const ABOUT: &str =
-    "Dynamics of multibody systems: a scene file in; motion, energies and plots out.";
+    "Dynamics of multibody systems: reads a scene file, writes motion, energies and plots.";
 const STATUS: &str = "\
 Example: mbs run scenes/double-pendulum.toml --out out
-Exit status: 0 completed, 1 scene or usage refused, 2 the run stopped early or some of a sweep did (their data are
-kept), there is no equilibrium, or the doctor found a fault, 3 this build lacks the precision.";
+Exit status:
+  0  completed
+  1  the scene or the usage was refused
+  2  a run stopped early (its data are kept), there is no equilibrium, or the doctor found a fault
+  3  this build lacks the precision";
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Simulate a scene: summary, and with --out run.csv, run.json and run.html.
+    /// Simulate a scene; with --out, write run.csv, run.json and run.html.
     Run(Box<run::Arguments>),
-    /// What accuracy costs: every method over a range of steps, CPU time against true error; resumable after a kill.
+    /// Measure CPU time and true error of every method over a range of steps; --resume continues it.
     Compare(compare::Arguments),
-    /// What a scene simulates, what it does not, and the measured price of each effect.
+    /// Report what a scene simulates, what it does not, and the measured cost of each effect.
     Explain(explain::Arguments),
-    /// What is wrong or doubtful: dependent joints by name, reactions, branches, masses, units, start; and what would mend it.
+    /// Report faults and doubts, with remedies: dependent joints by name, reactions, branches, masses, units, start.
     Doctor(doctor::Arguments),
     /// Write a scene as constant tables for a controller: Rust, or bytes.
     Export(export::Arguments),
-    /// Static equilibrium: joint coordinates, reactions and outputs, and whether it is stable.
+    /// Find the static equilibrium: joint coordinates, reactions, outputs, stability.
     Equilibrium(analysis::Equilibrium),
-    /// Linearise: eigenvalues, frequencies and damping ratios.
+    /// Linearise a scene: eigenvalues, frequencies, damping ratios.
     Modes(analysis::Modes),
     /// Write a large scene: chain, tree, n-four-bar, net, or a convoy of a vehicle.
     Generate(generate::Arguments),
-    /// Many runs of a scene with varied numbers: one table, resumable after a kill.
+    /// Run a scene with many varied numbers, into one table; the same command continues a killed sweep.
     Sweep(sweep::Arguments),
 }
 

@@ -13,24 +13,30 @@ use mbs::{Outcome, Settings};
 /// Options of a paced run.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// At the pace of the clock, one period after the other; docs/REALTIME.md says more.
+    /// Run at the pace of the clock, one period after the other; see docs/REALTIME.md.
     #[arg(long)]
     pub(crate) realtime: bool,
-    /// With --realtime: time between two boundaries [s]; else the step. It is cut into equal steps that are not longer than the step.
+    /// With --realtime: length of a period [s]. Default: the step.
+    ///
+    /// It is cut into equal steps that are not longer than the step.
     #[arg(long, value_name = "P", allow_hyphen_values = true, requires = "realtime")]
     period: Option<f64>,
-    /// With --realtime, of a late period: finish (the next begins at once, the delay is caught up), hold (its outputs wait for the
-    /// next boundary, the delay stays), degrade (finish, and go on with less); else finish.
+    /// With --realtime: policy for a late period, finish, hold or degrade. Default: finish.
+    ///
+    /// finish: the next period begins at once, and the delay is made up.
+    ///
+    /// hold: the outputs wait for the next boundary, and the delay stays.
+    ///
+    /// degrade: as finish, and the next periods run at a lower level.
     #[arg(long, value_name = "POLICY", value_parser = policy, requires = "realtime")]
     overrun: Option<Overrun>,
-    /// With --overrun degrade: names of effects, or `steps`, each one more level that leaves it out too; `steps` makes steps twice as
-    /// long. Left out: by measurement, what changes the outputs least first.
+    /// With --overrun degrade: effects to leave out, one more at each level; `steps` doubles the step. Default: measured, smallest change of the outputs first.
     #[arg(long, value_name = "LIST", value_delimiter = ',', requires = "overrun")]
     degrade: Option<Vec<String>>,
-    /// With --overrun degrade: periods in time, with three tenths to spare, before a level is taken back; else 500.
+    /// With --overrun degrade: periods in time, with 30 % to spare, before one level is restored. Default: 500.
     #[arg(long, value_name = "N", requires = "overrun")]
     quiet: Option<u32>,
-    /// With --realtime: waits awake for so long before each period, asleep before that [s]; else 1e-4.
+    /// With --realtime: busy waiting before each period [s]; earlier the thread sleeps. Default: 1e-4.
     #[arg(long, value_name = "S", allow_hyphen_values = true, requires = "realtime")]
     awake: Option<f64>,
 }

@@ -26,72 +26,97 @@ const NOT_CHOSEN: [&str; 3] = ["checkpoint", "resume", "realtime"];
 pub(crate) struct Arguments {
     /// Scene file (TOML).
     pub(crate) scene: PathBuf,
-    /// auto, index-1, index-3, multi-index, classical, state-space, recursive; like the options below: left out, the scene's, else auto.
+    /// Formulation: auto, index-1, index-3, multi-index, classical, state-space or recursive. Default: the scene's, else auto.
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
-    /// Step [s]; the first one where lengths are controlled, and with rk54, rk853, gbs and radau5. Default: 0.001.
+    /// Step [s]; the first step where its length is controlled, and with rk54, rk853, gbs and radau5. Default: the scene's, else 0.001.
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
-    /// Longest step where lengths are controlled, and with rk54, rk853, gbs and radau5 [s]; also the distance of recorded rows. Default: the
-    /// step.
+    /// Longest step where lengths are controlled, and with rk54, rk853, gbs and radau5 [s]. Default: the scene's, else the step.
+    ///
+    /// It is also the distance of recorded rows.
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step_max: Option<f64>,
-    /// What chooses the length of the steps: fixed, energy (changes of the energy invariant; as publication 2 prints it: energy-printed), error (an estimate of the local
-    /// error), both; left out: what tolerances are given for, energy in multi-index, else fixed.
+    /// Rule for the length of steps: fixed, energy, energy-published, error or both.
+    ///
+    /// Default: the rule of the tolerance that is given; else energy in multi-index, and fixed in the others.
+    ///
+    /// energy: by the change of the energy invariant; energy-published: the same as publication 2 prints it.
+    ///
+    /// error: by an estimate of the local error; both: by the shorter of the two steps.
+    ///
+    /// energy-printed is the same as energy-published.
     #[arg(long, value_name = "C")]
     step_control: Option<String>,
-    /// A step that changes the invariant by more than U of the energy that moves is repeated shorter; the change is kept between
-    /// L and U as far as the largest step allows; else 1e-5,1e-7.
+    /// Limits U,L of the invariant's change in a step, relative to the energy that moves. Default: the scene's, else 1e-5,1e-7.
+    ///
+    /// A step that changes it by more than U is repeated with a shorter length.
+    ///
+    /// Below L the next step is longer, up to the largest step.
     #[arg(long, value_name = "U,L", value_parser = two_numbers, allow_hyphen_values = true)]
     energy_tolerance: Option<[f64; 2]>,
-    /// Error of a step by its estimate, in lengths of the scene; else 1e-6.
+    /// Tolerance of the estimated local error of a step, relative to the scene's length. Default: the scene's, else 1e-6.
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     error_tolerance: Option<f64>,
-    /// on, off: steps of a controlled length end where contact is made or broken and at kinks of the road; else on.
-    #[arg(long, value_name = "WORD", value_parser = switch, action = clap::ArgAction::Set)]
+    /// on or off: controlled steps end where a contact begins or ends, and at kinks of the road. Default: the scene's, else on.
+    #[arg(long, visible_alias = "locate-events", value_name = "WORD", value_parser = switch, action = clap::ArgAction::Set)]
     events: Option<bool>,
-    /// The run stops when the invariant is off by more than this share of the energy turned over; else 0.1.
-    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
+    /// Largest error of the energy invariant, relative to the exchanged energy; the run stops beyond it. Default: the scene's, else 0.1.
+    #[arg(long, value_name = "RATIO", allow_hyphen_values = true)]
     energy_alarm: Option<f64>,
-    /// Duration [s].
+    /// Duration [s]. Default: the scene's.
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<f64>,
-    /// Fixed penalty alpha: N/m in index-3 and in multi-index' long steps, kg in index-1 (left out: in proportion to the mass); in classical a regularisation
-    /// of 1/alpha, in recursive the report's closing forces (left out: neither).
+    /// Fixed penalty alpha: N/m in index-3 and in the long steps of multi-index, kg in index-1. Default: the scene's, else in proportion to the mass.
+    ///
+    /// In classical it is a regularisation of 1/alpha, in recursive it gives the report's closing forces. Default there: neither.
     #[arg(long, value_name = "A", allow_hyphen_values = true)]
     penalty: Option<f64>,
-    /// Corrections of an iteration are small below this share of what accelerations move in a step. Default: 1e-10. With rk54, rk853, gbs and
-    /// radau5 the error of each step, relative to the size of each coordinate; the errors of the steps add up. Default: 1e-8, with gbs 2e-10.
+    /// Newton tolerance, relative to the displacement per step. Default: the scene's, else 1e-10.
+    ///
+    /// With rk54, rk853, gbs and radau5: the error of each step, relative to the size of each coordinate. Default: 1e-8, with gbs 2e-10.
+    ///
+    /// The errors of the steps add up.
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     tolerance: Option<f64>,
-    /// Threads that share the work of a step in index-3, index-1, multi-index and classical; worth it above some hundred bodies.
-    /// The results are the same to the last bit.
+    /// Threads that share the work of a step in index-3, index-1, multi-index and classical. Default: 1.
+    ///
+    /// Results are the same to the last bit. Threads save time above some hundred bodies.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// Directory for run.csv, steps.csv, run.json and run.html, with --realtime also realtime.csv; made if missing.
+    /// Directory for run.csv, steps.csv, run.json and run.html, with --realtime also realtime.csv; created if missing. Default: no files.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
     keep: keep::Arguments,
-    /// One JSON object on standard output and nothing else.
+    /// Print one JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
-    /// f32, f64, dd (pairs of doubles: 32 digits, for reference runs); left out: f64.
+    /// Precision: f32, f64 or dd (pairs of doubles, 32 digits, for reference runs). Default: f64.
     #[arg(long, value_name = "P")]
     pub(crate) precision: Option<String>,
-    /// trapezoidal, newmark, generalised-alpha, hht; in recursive also rk4, rk54, rk853 (order 8), gbs (extrapolation, for reference runs), radau5 (implicit, of order 5, for stiff effects; give it a
-    /// longer --step-max). Default: trapezoidal.
+    /// Integrator: trapezoidal, newmark, generalised-alpha or hht. Default: the scene's, else trapezoidal.
+    ///
+    /// recursive also has rk4, rk54, rk853 (order 8) and gbs (extrapolation, for reference runs).
+    ///
+    /// recursive also has radau5 (implicit, of order 5, for stiff effects; give it a longer --step-max).
     #[arg(long, value_name = "I")]
     integrator: Option<String>,
-    /// Wanted error: the largest of the outputs over the run, each beside its own range, as in `mbs compare`. A short pilot measures which
-    /// formulation, integrator and step reach it in the least time, and says why; --formulation and --integrator narrow the choice.
+    /// Required error: the largest over the run, relative to each output's range, as in `mbs compare`. Default: none.
+    ///
+    /// A short pilot measures which formulation, integrator and step reach it in the least time, and reports why.
+    ///
+    /// --formulation and --integrator narrow the choice.
     #[arg(long, value_name = "E", allow_hyphen_values = true, conflicts_with_all = NOT_CHOSEN)]
     error: Option<f64>,
-    /// Deadline [s, or 1ms, 500us]: the run is made in frames of this length, each computed within the same time even where its steps
-    /// are slowest, as accurately as that allows (with --error: as cheaply as the error allows).
+    /// Deadline of a frame [s, or 1ms, 500us]. Default: none.
+    ///
+    /// The run is made in frames of this length. Each is computed within this time, also where its steps are slowest.
+    ///
+    /// The error is then the smallest that fits; with --error, the cost is the smallest that reaches the error.
     #[arg(long, value_name = "S", value_parser = time, allow_hyphen_values = true, conflicts_with_all = NOT_CHOSEN)]
     deadline: Option<f64>,
-    /// Leaves out the estimate of the outputs' errors, which takes up to 30 % of the run's time.
+    /// Leave out the estimate of the outputs' errors, which takes up to 30 % of the run's time.
     #[arg(long)]
     no_estimate: bool,
     #[command(flatten)]

@@ -19,37 +19,36 @@ use std::process::ExitCode;
 pub(crate) struct Arguments {
     /// Scene file (TOML).
     pub(crate) scene: PathBuf,
-    /// Sweep file (TOML): which numbers of the scene are varied, and how; docs/SWEEPS.md has its keys.
+    /// Sweep file (TOML): the numbers to vary, and how; docs/SWEEPS.md lists its keys.
     sweep: PathBuf,
-    /// Runs at the same time; left out: one for each processor.
+    /// Runs at the same time. Default: one for each processor.
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
-    /// Directory for the table and for the journal that a later start goes on from; left out: called as the sweep file,
-    /// without its ending, in the current directory.
+    /// Directory for the table and the journal of finished runs. Default: the sweep file's name without its ending, in the current directory.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Throw away what an earlier start left in the directory.
+    /// Discard the runs that an earlier start left in the directory.
     #[arg(long)]
     restart: bool,
-    /// One JSON object on standard output and nothing else.
+    /// Print one JSON object on standard output and nothing else.
     #[arg(long)]
     json: bool,
-    /// Formulation; like the options below as in `mbs run`, the same for all members.
+    /// Formulation of all members. Default: the scene's, else auto.
     #[arg(long, value_name = "F")]
     formulation: Option<String>,
-    /// Integrator.
+    /// Integrator of all members. Default: the scene's, else trapezoidal.
     #[arg(long, value_name = "I")]
     integrator: Option<String>,
-    /// f32, f64; left out: f64.
+    /// Precision: f32 or f64. Default: f64.
     #[arg(long, value_name = "P")]
     pub(crate) precision: Option<String>,
-    /// Step [s].
+    /// Step [s]. Default: the scene's, else 0.001.
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     step: Option<f64>,
-    /// Error of a step by its estimate, in lengths of the scene.
+    /// Tolerance of the estimated local error of a step, relative to the scene's length. Default: the scene's, else fixed steps.
     #[arg(long, value_name = "E", allow_hyphen_values = true)]
     error_tolerance: Option<f64>,
-    /// Duration [s].
+    /// Duration [s]. Default: the scene's.
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     duration: Option<f64>,
 }

@@ -2,7 +2,7 @@
 
 use crate::Real;
 use crate::algebra::{Matrix, Vector, norm};
-use crate::scene::{BodyId, Inertia, JointKind, Scene};
+use crate::scene::{BodyId, Inertia, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -40,7 +40,7 @@ impl<T: Real> Clusters<T> {
             BodyId::Ground => n,
             BodyId::Body(i) => i,
         };
-        for joint in scene.joints.iter().filter(|j| j.kind == JointKind::Weld) {
+        for joint in scene.joints.iter().filter(|j| j.kind.is_rigid()) {
             let (a, b) = (
                 root(&mut parent, node(joint.bodies[0])),
                 root(&mut parent, node(joint.bodies[1])),

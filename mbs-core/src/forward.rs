@@ -55,8 +55,13 @@ macro_rules! forward_model {
         fn approaches(&self, q: &[$T], to: &[$T], take: impl FnMut($T)) {
             self.$model.approaches(q, to, take);
         }
-        fn set_inputs(&self, t: $T, terms: &mut $crate::model::Terms<$T>) {
-            self.$model.set_inputs(t, terms);
+        fn set_inputs(
+            &self,
+            t: $T,
+            state: &$crate::model::State<$T>,
+            terms: &mut $crate::model::Terms<$T>,
+        ) {
+            self.$model.set_inputs(t, state, terms);
         }
         fn remember(&self, terms: &$crate::model::Terms<$T>, memory: &mut [$T]) {
             self.$model.remember(terms, memory);

@@ -6,6 +6,7 @@ use crate::scene::{Motion, Scene, Signal, TableEnds};
 use crate::step::InputError;
 use alloc::vec;
 use alloc::vec::Vec;
+use core::ops::Range;
 
 /// The guides of a scene and the courses of its effects.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,108 +53,133 @@ impl<T: Real> Prescribed<T> {
         self.courses.len()
     }
 
-    /// Writes value, rate and acceleration of each guide and the vector of each course at time `t`.
-    pub fn write(&self, t: T, guides: &mut [[T; 3]], courses: &mut [[T; 3]]) {
-        for (value, guide) in guides.iter_mut().zip(&self.guides) {
-            *value = guide.at(t);
-        }
-        for (value, (_, course)) in courses.iter_mut().zip(&self.courses) {
-            *value = course.at(t);
-        }
+    /// Writes value, rate and acceleration of each guide and the vector of each course at time `t`, with `inputs` in their
+    /// [places](Self::input).
+    pub fn write(&self, t: T, inputs: &[T], guides: &mut [[T; 3]], courses: &mut [[T; 3]]) {
+        self.write_parts(t, inputs.split_at(self.first_course()), (guides, courses));
     }
 
-    /// Sets the course of `scene.effects[effect]` from now on.
-    ///
-    /// # Errors
-    /// [`InputError`] where the effect has no input, or a component is not finite.
-    pub fn set_course(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
-        InputError::check(effect, &value)?;
-        let mut is_set = false;
-        for (_, course) in self.courses.iter_mut().filter(|(e, _)| *e == effect) {
-            is_set |= course.set(value);
-        }
-        if is_set { Ok(()) } else { Err(InputError::NotAnInput { number: effect }) }
-    }
-
-    /// Sets value, rate and acceleration of `scene.guides[guide]` at the end of the next step.
-    ///
-    /// # Errors
-    /// [`InputError`] where the guide is no input, or a component is not finite.
-    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
-        InputError::check(guide, &motion)?;
-        let is_set = self.guides.get_mut(guide).is_some_and(|guide| guide.set(motion));
-        if is_set { Ok(()) } else { Err(InputError::NotAnInput { number: guide }) }
-    }
-
-    /// The guides and courses that are set between steps, by number: what a state keeps of them, guides first.
-    fn guide_inputs(&self) -> impl Iterator<Item = (usize, [T; 3])> + '_ {
-        self.guides.iter().enumerate().filter_map(|(i, guide)| match guide.law {
-            Motion::Input(motion) => Some((i, motion)),
-            _ => None,
-        })
-    }
-
-    fn course_inputs(&self) -> impl Iterator<Item = (usize, [T; 3])> + '_ {
-        self.courses.iter().enumerate().filter_map(|(i, (_, course))| match course.course {
-            Signal::Input(value) => Some((i, value)),
-            _ => None,
-        })
-    }
-
-    /// What is set between steps, as it is set now: guides, then courses.
-    #[must_use]
-    pub fn inputs(&self) -> Vec<[T; 3]> {
-        self.guide_inputs().chain(self.course_inputs()).map(|(_, value)| value).collect()
-    }
-
-    /// Writes the [`inputs`](Self::inputs) of now: those that a step was made with.
-    pub fn keep(&self, kept: &mut [[T; 3]]) {
-        if kept.is_empty() {
-            return;
-        }
-        let now = self.guide_inputs().chain(self.course_inputs());
-        for (to, (_, value)) in kept.iter_mut().zip(now) {
-            *to = value;
-        }
-    }
-
-    /// The same of courses alone.
-    pub fn keep_courses(&self, kept: &mut [[T; 3]]) {
-        let first = self.guide_inputs().count();
-        for (to, (_, value)) in kept.iter_mut().skip(first).zip(self.course_inputs()) {
-            *to = value;
-        }
-    }
-
-    /// Are courses set to other values than those that were kept?
-    #[must_use]
-    pub fn differs(&self, kept: &[[T; 3]]) -> bool {
-        if kept.is_empty() {
-            return false;
-        }
-        let first = self.guide_inputs().count();
-        self.course_inputs().zip(&kept[first..]).any(|((_, now), before)| now != *before)
-    }
-
-    /// Writes guides and courses at time `t` where a step has ended that was made with the inputs `kept`; courses as they are set
-    /// now, if `is_new`.
+    /// Writes guides and courses at time `t` where a step has ended that was made with the inputs `applied`; courses are those of
+    /// `inputs`.
     pub fn write_end(
         &self,
         t: T,
-        (kept, is_new): (&[[T; 3]], bool),
+        (applied, inputs): (&[T], &[T]),
         (guides, courses): (&mut [[T; 3]], &mut [[T; 3]]),
     ) {
-        self.write(t, guides, courses);
-        let mut kept = kept.iter();
-        for ((i, _), value) in self.guide_inputs().zip(kept.by_ref()) {
-            guides[i] = *value;
+        let first = self.first_course();
+        self.write_parts(t, (&applied[..first], &inputs[first..]), (guides, courses));
+    }
+
+    fn write_parts(
+        &self,
+        t: T,
+        (of_guides, of_courses): (&[T], &[T]),
+        (guides, courses): (&mut [[T; 3]], &mut [[T; 3]]),
+    ) {
+        let mut inputs = of_guides.as_chunks().0.iter();
+        for (value, guide) in guides.iter_mut().zip(&self.guides) {
+            *value = guide.input().and_then(|_| inputs.next()).map_or_else(|| guide.at(t), |u| *u);
         }
-        if !is_new {
-            for ((i, _), value) in self.course_inputs().zip(kept) {
-                courses[i] = *value;
-            }
+        let mut inputs = of_courses.as_chunks().0.iter();
+        for (value, (_, course)) in courses.iter_mut().zip(&self.courses) {
+            *value =
+                course.input().and_then(|_| inputs.next()).map_or_else(|| course.at(t), |u| *u);
         }
     }
+
+    /// The scene's number of each guide that is an input, and what it begins with.
+    pub fn guide_inputs(&self) -> impl Iterator<Item = (usize, [T; 3])> + '_ {
+        self.guides.iter().enumerate().filter_map(|(i, guide)| Some((i, guide.input()?)))
+    }
+
+    /// The scene's number of each effect that has an input, and what it begins with.
+    pub fn effect_inputs(&self) -> impl Iterator<Item = (usize, [T; 3])> + '_ {
+        self.courses.iter().filter_map(|(effect, course)| Some((*effect, course.input()?)))
+    }
+
+    /// What the inputs of a state begin with, three numbers each: guides, then effects.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<T> {
+        self.guide_inputs().chain(self.effect_inputs()).flat_map(|(_, value)| value).collect()
+    }
+
+    /// Place of the first number of an effect's input.
+    fn first_course(&self) -> usize {
+        3 * self.guide_inputs().count()
+    }
+
+    /// The place among a state's inputs of that of `scene.effects[effect]`: force, torque, or what its own law asks for.
+    ///
+    /// # Errors
+    /// [`InputError::NotAnInput`] where the effect has none: it has one where it is enabled and its course is [`Signal::Input`].
+    pub fn input(&self, effect: usize) -> Result<Range<usize>, InputError> {
+        let place = self.effect_inputs().position(|(e, _)| e == effect);
+        let place = place.ok_or(InputError::NotAnInput { number: effect })?;
+        Ok(part(self.first_course() + 3 * place))
+    }
+
+    /// The place among a state's inputs of value, rate and acceleration of `scene.guides[guide]`.
+    ///
+    /// # Errors
+    /// [`InputError::NotAnInput`] where the guide is none ([`Motion::Input`]).
+    pub fn guide_input(&self, guide: usize) -> Result<Range<usize>, InputError> {
+        let place = self.guide_inputs().position(|(g, _)| g == guide);
+        place.map(|place| part(3 * place)).ok_or(InputError::NotAnInput { number: guide })
+    }
+
+    /// Sets the input of `scene.effects[effect]` between two steps, among the `inputs` of a state. It holds until it is set again,
+    /// and the next step is made with it from its beginning.
+    ///
+    /// # Errors
+    /// [`InputError`] where the effect has [none](Self::input), or where a component is not finite.
+    pub fn set_input(
+        &self,
+        inputs: &mut [T],
+        effect: usize,
+        value: [T; 3],
+    ) -> Result<(), InputError> {
+        InputError::check(effect, &value)?;
+        inputs[self.input(effect)?].copy_from_slice(&value);
+        Ok(())
+    }
+
+    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step, among the `inputs` of a state.
+    /// Values that jump make accelerations jump with the square of the step: pass what a smooth reference gives.
+    ///
+    /// # Errors
+    /// [`InputError`] where the guide is [no input](Self::guide_input), or where a component is not finite.
+    pub fn set_guide(
+        &self,
+        inputs: &mut [T],
+        guide: usize,
+        motion: [T; 3],
+    ) -> Result<(), InputError> {
+        InputError::check(guide, &motion)?;
+        inputs[self.guide_input(guide)?].copy_from_slice(&motion);
+        Ok(())
+    }
+
+    /// Has an effect another input than the one that was applied?
+    #[must_use]
+    pub fn differs(&self, inputs: &[T], applied: &[T]) -> bool {
+        if inputs.is_empty() {
+            return false;
+        }
+        let first = self.first_course();
+        inputs[first..] != applied[first..]
+    }
+
+    /// The inputs of effects are applied now; guides are set for the end of the next step, where the state is not yet.
+    pub fn apply(&self, inputs: &[T], applied: &mut [T]) {
+        let first = self.first_course();
+        applied[first..].copy_from_slice(&inputs[first..]);
+    }
+}
+
+/// The numbers of one input.
+fn part(first: usize) -> Range<usize> {
+    first..first + 3
 }
 
 /// A guide law with its spline prepared.
@@ -191,7 +217,7 @@ impl<T: Real> GuideInput<T> {
         &self.curvature
     }
 
-    /// Value, rate, acceleration at time `t`. Cost: one law; no allocation.
+    /// Value, rate, acceleration at time `t`; of an input, what it begins with. Cost: one law; no allocation.
     pub fn at(&self, t: T) -> [T; 3] {
         let m = match &self.law {
             Motion::Table { rows, .. } => guide::spline(rows, &self.curvature, t),
@@ -204,13 +230,12 @@ impl<T: Real> GuideInput<T> {
         [m.value, m.rate, m.acceleration]
     }
 
-    /// Sets value, rate and acceleration at the end of the next step; says whether the guide is an input.
-    pub fn set(&mut self, motion: [T; 3]) -> bool {
-        let is_input = matches!(self.law, Motion::Input(_));
-        if is_input {
-            self.law = Motion::Input(motion);
+    /// Value, rate and acceleration that an input begins with; `None` of a law.
+    fn input(&self) -> Option<[T; 3]> {
+        match self.law {
+            Motion::Input(motion) => Some(motion),
+            _ => None,
         }
-        is_input
     }
 }
 
@@ -247,16 +272,15 @@ impl<T: Real> SignalInput<T> {
         self.travel
     }
 
-    /// Sets the value from now on; says whether the course is an input.
-    pub fn set(&mut self, value: [T; 3]) -> bool {
-        let is_input = matches!(self.course, Signal::Input(_));
-        if is_input {
-            self.course = Signal::Input(value);
+    /// What an input begins with; `None` of other courses.
+    fn input(&self) -> Option<[T; 3]> {
+        match self.course {
+            Signal::Input(value) => Some(value),
+            _ => None,
         }
-        is_input
     }
 
-    /// Value at time `t`.
+    /// Value at time `t`; of an input, what it begins with.
     pub fn at(&self, t: T) -> [T; 3] {
         if let Some(speed) = self.travel {
             return [speed * t, speed, T::ZERO];

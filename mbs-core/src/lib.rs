@@ -32,7 +32,6 @@ pub mod refined;
 pub mod rigid;
 #[cfg(feature = "alloc")]
 pub mod saddle;
-#[cfg(feature = "alloc")]
 pub mod scene;
 #[cfg(feature = "alloc")]
 pub mod start;

@@ -34,6 +34,8 @@ pub struct Terms<T> {
     pub guides: Vec<[T; 3]>,
     /// Inputs at this instant: the vector of each force or torque course.
     pub courses: Vec<[T; 3]>,
+    /// Measured angles of the last step, with their turns: those of [`State::memory`].
+    pub angles: Vec<T>,
 }
 
 /// Weights of the tangent matrix T = M + damping C + stiffness (K + K_geo(lambda)) + J^T diag(penalty) J.
@@ -94,7 +96,7 @@ pub trait Model<T: Real>: Cliques + Sync {
     fn terms(&self) -> Terms<T>;
     /// Writes the unknowns' reference values and all constants.
     fn write_reference(&self, q: &mut [T]);
-    /// Guides and courses, where there may be some that are set between steps.
+    /// Guides and courses, which say where the inputs of a state stand; `None`: it has none.
     fn inputs(&self) -> Option<&Prescribed<T>> {
         None
     }
@@ -104,14 +106,14 @@ pub trait Model<T: Real>: Cliques + Sync {
     /// Hands out the ratios of the straight way from `q` to `to` at which two points that a law may push apart come close, where they
     /// pass each other: just before they are closest, and before that, where the force is not across the way.
     fn approaches(&self, q: &[T], to: &[T], take: impl FnMut(T));
-    /// Evaluates the scene's guides and courses at time `t` into `terms`.
-    fn set_inputs(&self, t: T, terms: &mut Terms<T>);
+    /// Writes the scene's guides and courses at time `t`, and the inputs and remembered angles of `state`, into `terms`: once a step.
+    fn set_inputs(&self, t: T, state: &State<T>, terms: &mut Terms<T>);
     /// phi and J at `q`.
     fn evaluate(&self, q: &[T], terms: &mut Terms<T>);
     /// phi and J at `q + dq`, from `phi_n` at `q`: free of the cancellation in phi.
     fn advance(&self, q: &[T], dq: &[T], phi_n: &[T], terms: &mut Terms<T>);
-    /// Applied forces and their tangents at (`q`, `v`); `memory` holds the angles of the last step.
-    fn evaluate_forces(&self, q: &[T], v: &[T], memory: &[T], terms: &mut Terms<T>);
+    /// Applied forces and their tangents at (`q`, `v`).
+    fn evaluate_forces(&self, q: &[T], v: &[T], terms: &mut Terms<T>);
     /// Writes the measured angles of `terms` into `memory`, at the end of a step.
     fn remember(&self, terms: &Terms<T>, memory: &mut [T]);
     /// phi_t at `q`. Does nothing without guides.
@@ -240,8 +242,13 @@ pub struct State<T> {
     pub phi: Vec<T>,
     /// Measured angles with their turns.
     pub memory: Vec<T>,
-    /// The inputs that accelerations, multipliers and power were made with: see [`Prescribed::inputs`].
-    pub inputs: Vec<[T; 3]>,
+    /// What is set from outside for the next step, three numbers each: guides, then effects, in the places that
+    /// [`Prescribed::input`] and [`Prescribed::guide_input`] name.
+    pub inputs: Vec<T>,
+    /// The inputs that accelerations, multipliers and power were made with.
+    pub applied: Vec<T>,
+    /// Values of signals; none yet.
+    pub signals: Vec<T>,
     /// Work done on the mechanism by dampers, courses and guides since the start [J].
     pub work: T,
     /// Their power at this instant [W].
@@ -255,6 +262,7 @@ impl<T: Real> State<T> {
         let zeros = |k| alloc::vec![T::ZERO; k];
         let mut q = zeros(n);
         model.write_reference(&mut q);
+        let inputs = model.inputs().map(Prescribed::inputs).unwrap_or_default();
         Self {
             t: T::ZERO,
             dt: T::ZERO,
@@ -268,7 +276,9 @@ impl<T: Real> State<T> {
             reaction: zeros(m),
             phi: zeros(m),
             memory: zeros(model.n_memory()),
-            inputs: model.inputs().map(Prescribed::inputs).unwrap_or_default(),
+            applied: inputs.clone(),
+            inputs,
+            signals: Vec::new(),
             work: T::ZERO,
             power: T::ZERO,
         }
@@ -288,8 +298,8 @@ impl<T: Real> State<T> {
         }
     }
 
-    /// Overwrites the `n` unknowns, the multipliers and everything else but constants and inputs with another state, of a model with
-    /// the same unknowns and rows, without allocating.
+    /// Overwrites the `n` unknowns, the multipliers and everything else but constants, inputs and signals with another state, of a
+    /// model with the same unknowns and rows, without allocating.
     ///
     /// # Panics
     /// If the models have other numbers of them.
@@ -312,5 +322,7 @@ impl<T: Real> State<T> {
     pub fn copy_from(&mut self, other: &Self) {
         self.copy_unknowns(other, other.q.len());
         self.inputs.copy_from_slice(&other.inputs);
+        self.applied.copy_from_slice(&other.applied);
+        self.signals.copy_from_slice(&other.signals);
     }
 }

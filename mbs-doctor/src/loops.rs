@@ -14,8 +14,7 @@ use crate::linkage::{Linkage, Poses, pose};
 use crate::parts::Part;
 use crate::rank::Rank;
 use mbs_core::algebra::cross;
-use mbs_core::natural::joint_axes;
-use mbs_core::scene::{BodyId, Dimension, JointKind};
+use mbs_core::scene::{BodyId, Dimension, Freedom, Rotation, Translation};
 use std::collections::VecDeque;
 
 /// A corner of a loop.
@@ -114,16 +113,15 @@ fn corners(linkage: &Linkage, at: &Poses, joints: &[usize]) -> Vec<Corner> {
     let n = joints.len();
     for (i, &j) in joints.iter().enumerate() {
         let link = &linkage.links[j];
-        match link.joint.kind {
-            JointKind::Prismatic | JointKind::Cylindrical | JointKind::Planar => {}
-            JointKind::Distance => {
-                // Both ends, the one at the body shared with the joint before it first.
-                let before = linkage.links[joints[(i + n - 1) % n]].joint.bodies;
-                let is_forward = before.contains(&link.joint.bodies[0]);
-                let ends = if is_forward { [0, 1] } else { [1, 0] };
-                stations.extend(ends.map(|end| (j, link.place(at, end))));
-            }
-            _ => stations.push((j, link.place(at, 1))),
+        let kind = link.joint.kind;
+        if kind.is_link() {
+            // Both ends, the one at the body shared with the joint before it first.
+            let before = linkage.links[joints[(i + n - 1) % n]].joint.bodies;
+            let is_forward = before.contains(&link.joint.bodies[0]);
+            let ends = if is_forward { [0, 1] } else { [1, 0] };
+            stations.extend(ends.map(|end| (j, link.place(at, end))));
+        } else if kind.translation(linkage.dimension) == Translation::Fixed {
+            stations.push((j, link.place(at, 1)));
         }
     }
     let m = stations.len();
@@ -140,14 +138,12 @@ fn corners(linkage: &Linkage, at: &Poses, joints: &[usize]) -> Vec<Corner> {
 
 fn turn(linkage: &Linkage, at: &Poses, joint: usize, [to, from]: [Vector; 2]) -> Option<Corner> {
     let link = &linkage.links[joint].joint;
-    let is_planar = linkage.dimension == Dimension::Planar;
-    let axis = match link.kind {
-        _ if is_planar => Some(Vector::new(0.0, 0.0, 1.0)),
-        JointKind::Revolute => {
-            let [a, _] = joint_axes(link, linkage.dimension).map(Vector::from);
-            Some(pose(at, link.bodies[0]).rotation * a)
+    let axis = match (linkage.dimension, link.kind.rotation(linkage.dimension)) {
+        (Dimension::Planar, _) => Some(Vector::new(0.0, 0.0, 1.0)),
+        (Dimension::Spatial, Rotation::About(axis)) => {
+            Some(pose(at, link.bodies[0]).rotation * link.direction(axis))
         }
-        _ => None,
+        (Dimension::Spatial, Rotation::Fixed | Rotation::Universal(_) | Rotation::Free) => None,
     };
     let across = |x: Vector| axis.map_or(x, |a| x - a * a.dot(&x));
     let [to, from] = [across(to), across(from)];
@@ -194,13 +190,11 @@ pub fn drives(linkage: &Linkage, part: &Part, at: &Poses, rank: &Rank) -> Vec<Dr
             [v + cross(&turn, &(place - center)) / part.length, turn]
         });
         let [slide, turn] = [second[0] - first[0], second[1] - first[1]];
-        let [a, _] = joint_axes(&link.joint, linkage.dimension).map(Vector::from);
-        let a = pose(at, link.joint.bodies[0]).rotation * a;
-        match link.joint.kind {
-            JointKind::Prismatic => a.dot(&slide),
-            JointKind::Revolute if linkage.dimension == Dimension::Planar => turn[2],
-            JointKind::Revolute => a.dot(&turn),
-            _ => (slide.norm_squared() + turn.norm_squared()).sqrt(),
+        let along = |axis| pose(at, link.joint.bodies[0]).rotation * link.joint.direction(axis);
+        match link.joint.kind.single(linkage.dimension) {
+            Some(Freedom::Slide(axis)) => along(axis).dot(&slide),
+            Some(Freedom::Turn(axis)) => along(axis).dot(&turn),
+            Some(Freedom::Ball) | None => (slide.norm_squared() + turn.norm_squared()).sqrt(),
         }
     };
     let rates: Vec<f64> = part.joints.iter().map(rate).collect();

@@ -18,7 +18,7 @@ use crate::parts::Part;
 use crate::rank::Rank;
 use crate::sets::dimension;
 use mbs_core::outputs::Wrench;
-use mbs_core::scene::{BodyId, Dimension, Joint, JointKind};
+use mbs_core::scene::{Axis, BodyId, Dimension, Freedom, Joint, JointKind};
 
 /// One joint with another kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -125,17 +125,34 @@ fn index(body: BodyId) -> Option<usize> {
     if let BodyId::Body(b) = body { Some(b) } else { None }
 }
 
-/// The gentler kinds that a joint may be replaced by.
-fn gentler(kind: JointKind, dimension: Dimension) -> &'static [JointKind] {
-    use JointKind as K;
-    match (kind, dimension) {
-        (K::Revolute, Dimension::Spatial) => &[K::Cylindrical, K::Universal, K::Spherical, K::Free],
-        (K::Prismatic, Dimension::Spatial) => &[K::Cylindrical, K::Free],
-        (K::Universal, _) => &[K::Spherical, K::Free],
-        (K::Weld, Dimension::Spatial) => &[K::Spherical, K::Free],
-        (K::Weld, Dimension::Planar) => &[K::Revolute, K::Free],
-        _ => &[K::Free],
-    }
+/// The gentler kinds that a joint may be replaced by, those with the fewest freedoms first: they let move what it does and more, about the
+/// axes that it has. A second axis to turn about is found.
+fn gentler(joint: &Joint<f64>, dimension: Dimension) -> Vec<JointKind> {
+    let own = joint.kind.freedoms(dimension);
+    let fits = |kind: &JointKind| {
+        let freedoms = kind.freedoms(dimension);
+        let lets = |freedom: &Freedom| match freedom {
+            Freedom::Turn(_) => freedoms.contains(freedom) || freedoms.contains(&Freedom::Ball),
+            Freedom::Slide(_) | Freedom::Ball => freedoms.contains(freedom),
+        };
+        let needed = kind.needs_axes(dimension);
+        let is_found = takes_second_axis(*kind, dimension);
+        let is_placed = (!needed[0] || joint.axes[0].is_some()) && (!needed[1] || is_found);
+        let is_allowed = dimension == Dimension::Spatial || !kind.is_spatial_only();
+        let is_joint = !joint.kind.is_link() && !kind.is_link();
+        let is_gentler = is_joint
+            && kind.n_coordinates(dimension) > joint.kind.n_coordinates(dimension)
+            && own.iter().all(lets);
+        kind.is_free() || is_allowed && is_placed && is_gentler
+    };
+    let mut kinds: Vec<JointKind> = JointKind::ALL.into_iter().rev().filter(fits).collect();
+    kinds.sort_by_key(|kind| kind.n_coordinates(dimension));
+    kinds
+}
+
+/// Does the kind turn about a second axis?
+fn takes_second_axis(kind: JointKind, dimension: Dimension) -> bool {
+    kind.freedoms(dimension).contains(&Freedom::Turn(Axis::Second))
 }
 
 fn options_of(
@@ -149,8 +166,8 @@ fn options_of(
     let rows = jacobian.rows[place].clone();
     let own = &jacobian.wrenches[rows.clone()];
     let mut options = Vec::new();
-    for &kind in gentler(link.joint.kind, linkage.dimension) {
-        let axis = if kind == JointKind::Universal {
+    for kind in gentler(&link.joint, linkage.dimension) {
+        let axis = if takes_second_axis(kind, linkage.dimension) {
             let Some(axis) = open_moment(link, at, (own, rows.start), null) else { continue };
             Some(axis)
         } else {

@@ -11,8 +11,7 @@ use crate::Vector;
 use crate::linkage::{Link, Poses, pose};
 use crate::parts::Part;
 use mbs_core::algebra::{cross, norm, rotation_vector};
-use mbs_core::natural::joint_axes;
-use mbs_core::scene::{Dimension, JointKind};
+use mbs_core::scene::{Axis, Dimension, Freedom, Rotation};
 
 /// Residuals of a joint's rows [m, and angles times the part's length]; `met` is a pose that meets them.
 pub(crate) fn residuals(
@@ -28,7 +27,7 @@ pub(crate) fn residuals(
         let is_guide = i >= guide;
         if w.force != Vector::zeros() {
             let [now, then] = [opened, offset(link, met)];
-            let is_distance = link.joint.kind == JointKind::Distance;
+            let is_distance = link.joint.kind.is_link();
             return match (is_guide, is_distance, i) {
                 (false, true, 0) => norm(&now) - norm(&then),
                 // A guide's slide, and that of a hinged link along its hinge, stay as they were.
@@ -49,34 +48,34 @@ fn offset(link: &Link, at: &Poses) -> Vector {
     link.place(at, 1) - link.place(at, 0)
 }
 
-/// The slide of a pose along the axis.
+/// The slide of a pose along the axis that a guide drives, or of the hinge.
 fn along(link: &Link, dimension: Dimension, at: &Poses, offset: &Vector) -> f64 {
-    let [a, _] = joint_axes(&link.joint, dimension).map(Vector::from);
-    (pose(at, link.joint.bodies[0]).rotation * a).dot(offset)
+    let driven = link.joint.kind.single(dimension).and_then(Freedom::axis);
+    let axis = link.joint.direction(driven.unwrap_or(Axis::First));
+    (pose(at, link.joint.bodies[0]).rotation * axis).dot(offset)
 }
 
 /// The angle by which the bodies are turned against what the joint allows.
 fn turned(link: &Link, dimension: Dimension, met: &Poses, at: &Poses, is_guide: bool) -> Vector {
     let [first, second] = link.joint.bodies.map(|body| pose(at, body).rotation);
-    let [a, b] = joint_axes(&link.joint, dimension).map(Vector::from);
-    match link.joint.kind {
+    match link.joint.kind.rotation(dimension) {
         _ if is_guide => {
             let [first_met, second_met] = link.joint.bodies.map(|body| pose(met, body).rotation);
             // What the relative rotation has changed by, in present axes of the first body.
             let change = first * (first_met.transpose() * second_met);
             rotation_vector(&(second * change.transpose()))
         }
-        JointKind::Revolute | JointKind::Cylindrical | JointKind::Planar
-            if dimension == Dimension::Spatial =>
-        {
-            cross(&(first * a), &(second * a))
+        Rotation::About(axis) => {
+            let axis = link.joint.direction(axis);
+            cross(&(first * axis), &(second * axis))
         }
-        JointKind::Universal => {
+        Rotation::Universal(axes) => {
+            let [a, b] = axes.map(|axis| link.joint.direction(axis));
             let [x, y] = [first * a, second * b];
             let n = cross(&x, &y);
             n * ((a.dot(&b) - x.dot(&y)) / n.dot(&n))
         }
-        _ => (0..3).fold(Vector::zeros(), |e, k| {
+        Rotation::Fixed | Rotation::Free => (0..3).fold(Vector::zeros(), |e, k| {
             let [u, w] = [first, second].map(|r| r.column(k).into_owned());
             e + cross(&u, &w) * 0.5
         }),

@@ -112,7 +112,6 @@ pub(crate) struct Search<'a, T, M, S> {
     /// Positions, multipliers, measured angles and J^T lambda - Q, as accepted.
     q: Vec<T>,
     lambda: Vec<T>,
-    memory: Vec<T>,
     residual: Vec<T>,
     phi: Vec<T>,
     /// The same for a step on trial.
@@ -138,7 +137,7 @@ pub(crate) struct Search<'a, T, M, S> {
 impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     pub(crate) fn new(model: &'a M, s: &State<T>, w: &'a mut Workspace<T, S>) -> Self {
         let zeros = |k| vec![T::ZERO; k];
-        model.set_inputs(s.t, &mut w.terms);
+        model.set_inputs(s.t, s, &mut w.terms);
         let (n, m) = (w.n, w.m);
         Self {
             model,
@@ -146,7 +145,6 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
             v: s.v.clone(),
             q: s.q.clone(),
             lambda: zeros(m),
-            memory: s.memory.clone(),
             residual: zeros(n),
             phi: zeros(m),
             next: s.q.clone(),
@@ -242,7 +240,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     fn step(&mut self, is_balanced: bool) -> Option<T> {
         let n = self.w.n;
         self.model.evaluate(&self.q, &mut self.w.terms);
-        self.model.evaluate_forces(&self.q, &self.v, &self.memory, &mut self.w.terms);
+        self.model.evaluate_forces(&self.q, &self.v, &mut self.w.terms);
         if !self.factor(self.s) {
             return None;
         }
@@ -296,7 +294,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
                 *there = q + ratio * d;
             }
             self.model.evaluate(&there, &mut self.w.terms);
-            self.model.evaluate_forces(&there, &self.v, &self.memory, &mut self.w.terms);
+            self.model.evaluate_forces(&there, &self.v, &mut self.w.terms);
             self.w.residual(self.model, None, &free, &mut force);
             !(work(&force) >= -given * T::HALF)
         })
@@ -353,7 +351,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
 
     /// Forces at `next`.
     fn evaluate(&mut self) {
-        self.model.evaluate_forces(&self.next, &self.v, &self.memory, &mut self.w.terms);
+        self.model.evaluate_forces(&self.next, &self.v, &mut self.w.terms);
         self.measure();
     }
 
@@ -373,7 +371,9 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
             self.bound = T::ONE / (T::from_f64(10.0) * T::EPSILON.sqrt() * lively);
         }
         self.met = self.met.max(self.scale);
-        self.model.remember(&self.w.terms, &mut self.memory);
+        let mut angles = core::mem::take(&mut self.w.terms.angles);
+        self.model.remember(&self.w.terms, &mut angles);
+        self.w.terms.angles = angles;
         self.q.copy_from_slice(&self.next);
         self.lambda.copy_from_slice(&self.next_lambda);
         self.residual.copy_from_slice(&self.next_residual);
@@ -418,12 +418,13 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     /// Writes what was found into the state.
     pub(crate) fn finish(mut self, from: &[T], s: &mut State<T>) -> Equilibrium<T> {
         let report = self.report(from);
-        let Search { q, memory, lambda, w, .. } = self;
+        let Search { q, lambda, w, .. } = self;
         s.q.copy_from_slice(&q);
         s.q_low.fill(T::ZERO);
         s.a.fill(T::ZERO);
         s.a_aux.fill(T::ZERO);
-        s.memory.copy_from_slice(&memory);
+        s.memory.copy_from_slice(&w.terms.angles);
+        s.applied.copy_from_slice(&s.inputs);
         s.phi.copy_from_slice(&w.terms.phi);
         for to in [&mut s.lambda, &mut s.lambda_previous, &mut s.reaction] {
             to.copy_from_slice(&lambda);
@@ -435,7 +436,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     /// omega^2 > 1/s.
     fn report(&mut self, from: &[T]) -> Equilibrium<T> {
         self.model.evaluate(&self.q, &mut self.w.terms);
-        self.model.evaluate_forces(&self.q, &self.v, &self.memory, &mut self.w.terms);
+        self.model.evaluate_forces(&self.q, &self.v, &mut self.w.terms);
         let bound = self.bound;
         let [unstable, stiff] = [bound, -bound].map(|s| {
             self.factor(s);

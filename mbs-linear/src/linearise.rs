@@ -141,7 +141,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
         w: &'a mut Workspace<T, S>,
     ) -> Result<Self, LinearError> {
         let n = w.n;
-        model.set_inputs(s.t, &mut w.terms);
+        model.set_inputs(s.t, s, &mut w.terms);
         if instant == Instant::Rest {
             for guide in &mut w.terms.guides {
                 *guide = [guide[0], T::ZERO, T::ZERO];
@@ -306,9 +306,8 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Field<'a, T, M, S> {
             last = Some(violation);
             self.chart.correct(&rates, &mut self.v[..n]);
         }
-        let (memory, terms) = (&self.start.memory, &mut self.w.terms);
-        self.model.evaluate_forces(&self.q, &self.v, memory, terms);
-        self.model.evaluate_bias(&self.q, &self.v, terms);
+        self.model.evaluate_forces(&self.q, &self.v, &mut self.w.terms);
+        self.model.evaluate_bias(&self.q, &self.v, &mut self.w.terms);
         let mut a = vec![T::ZERO; self.model.n_extended()];
         let (mut lambda, mut residual) = (vec![T::ZERO; m], vec![T::ZERO; n]);
         let (mut last, mut open, mut left) = (None, T::ZERO, T::ZERO);

@@ -104,7 +104,7 @@ impl<T: Real, const G: usize, const C: usize> Values<G, C, T> {
     }
 
     /// Writes a course that is an input.
-    pub(crate) fn set_course(&mut self, number: usize, value: [T; 3]) -> Result<(), InputError> {
+    pub(crate) fn set_input(&mut self, number: usize, value: [T; 3]) -> Result<(), InputError> {
         InputError::check(number, &value)?;
         let (Some(to), Some(true)) = (self.courses.get_mut(number), self.is_course.get(number))
         else {

@@ -177,8 +177,8 @@ impl<
     ///
     /// # Errors
     /// [`InputError`] where there is no such course, it is no input, or a component is not finite. Nothing is written then.
-    pub fn set_course(&mut self, course: usize, value: [T; 3]) -> Result<(), InputError> {
-        self.inputs.set_course(course, value)
+    pub fn set_input(&mut self, course: usize, value: [T; 3]) -> Result<(), InputError> {
+        self.inputs.set_input(course, value)
     }
 
     /// Writes value, rate and acceleration that a guide has at the end of the next step.

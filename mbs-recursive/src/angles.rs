@@ -26,12 +26,15 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                         *last = Some(seat.link);
                     }
                 }
-                Kind::Ball => {}
-                _ => {
-                    for (link, part) in
-                        (seat.first..).zip(parts(scene, &seat.branch, kind.is_guided()))
-                    {
-                        links[joint][part.number] = Some(link);
+                Kind::Revolute
+                | Kind::Prismatic
+                | Kind::Ball
+                | Kind::GuidedRevolute
+                | Kind::GuidedPrismatic => {
+                    let parts = parts(scene, &seat.branch, kind.is_guided());
+                    for (link, part) in (seat.first..).zip(parts) {
+                        let is_known = part.kind != Kind::Ball;
+                        links[joint][part.number] = is_known.then_some(link);
                     }
                 }
             }
@@ -49,7 +52,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     pub fn coordinate(&self, state: &TreeState<T>, link: u32) -> T {
         let link = &self.links[link as usize];
         if link.kind.is_guided() {
-            self.prescribed.guides()[link.v as usize].at(state.t)[0]
+            let guide = link.v as usize;
+            let input = self.prescribed.guide_input(guide).ok();
+            let law = || self.prescribed.guides()[guide].at(state.t)[0];
+            input.map_or_else(law, |place| state.applied[place.start])
         } else {
             state.z[link.z as usize]
         }

@@ -1,14 +1,13 @@
 //! Equations of cut joints, and effects, from the scene.
 //!
-//! | joint | rows (p: from the first body's point to the second's; v, w across the axis in the first body) |
+//! | freedoms | rows (p: from the first body's point to the second's; u, n, v, w in the first body, v, w across n) |
 //! |---|---|
-//! | revolute | p = 0; space: v·n, w·n |
-//! | spherical | p = 0 |
-//! | universal | p = 0, a·b |
-//! | prismatic | p·v, p·w, v·n, w·n, v·w; plane: p·v, x·y |
-//! | cylindrical | p·v, p·w, v·n, w·n |
-//! | planar | p·n, v·n, w·n |
-//! | distance | (p·p − L²)/(2L); hinged: p·a |
+//! | no slide; slides | p = 0; p·u for each u across the slides |
+//! | no turn | v·n, w·n, v·w; plane: x·y |
+//! | one turn | v·n, w·n; plane: none |
+//! | two turns | a·b |
+//! | ball | none |
+//! | link | (p·p − L²)/(2L); hinged: p·a |
 
 use crate::error::TreeError;
 use crate::link::Kind;
@@ -22,8 +21,7 @@ use mbs_core::Real;
 use mbs_core::actions::{self, Action};
 use mbs_core::algebra::{Vector, norm};
 use mbs_core::laws::scalar::Law;
-use mbs_core::natural::{joint_axes, transverse};
-use mbs_core::scene::{BodyId, Joint, JointKind, Scene};
+use mbs_core::scene::{Axis, BodyId, Dimension, Joint, Scene, Translation, transverse};
 
 impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Adds a cut joint's rows.
@@ -44,47 +42,35 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 
     fn add_rows(&mut self, scene: &Scene<T>, joint: &Joint<T>) {
-        let [n, b] = joint_axes(joint, scene.dimension).map(Vector::<T, 3>::from);
+        let (kind, dimension) = (joint.kind, scene.dimension);
         let rows = &mut self.rows;
         let gap = |d: &Vector<T, 3>, constant| Row::Gap { direction: S::point_from(d), constant };
-        let dot = |x: &Vector<T, 3>, y: &Vector<T, 3>| Row::Dot {
-            x: S::point_from(x),
-            y: S::point_from(y),
-            constant: x.dot(y),
+        let dot = |[x, y]: [Vector<T, 3>; 2]| Row::Dot {
+            x: S::point_from(&x),
+            y: S::point_from(&y),
+            constant: x.dot(&y),
         };
-        let point = (0..S::Point::N).map(|axis| Row::Coincidence { axis: index(axis) });
-        let is_spatial = S::DIMENSION == 3;
-        let [v, w] = transverse(&n, scene.dimension);
-        match joint.kind {
-            JointKind::Revolute | JointKind::Spherical => rows.extend(point),
-            JointKind::Universal => {
-                rows.extend(point);
-                rows.push(dot(&n, &b));
-            }
-            JointKind::Prismatic if is_spatial => {
-                rows.extend([gap(&v, T::ZERO), gap(&w, T::ZERO), dot(&v, &n), dot(&w, &n)]);
-                rows.push(dot(&v, &w));
-            }
-            JointKind::Prismatic => {
-                let across = Vector::<T, 3>::new(-n[1], n[0], T::ZERO);
-                rows.extend([gap(&across, T::ZERO), dot(&n, &across)]);
-            }
-            JointKind::Cylindrical => {
-                rows.extend([gap(&v, T::ZERO), gap(&w, T::ZERO), dot(&v, &n), dot(&w, &n)]);
-            }
-            JointKind::Planar => rows.extend([gap(&n, T::ZERO), dot(&v, &n), dot(&w, &n)]),
-            JointKind::Distance => {
-                let d = Vector::<T, 3>::from(joint.points[1]) - Vector::from(joint.points[0]);
-                rows.push(Row::Length { length: norm(&d) });
-                if joint.axes[0].is_some() {
-                    rows.push(gap(&n, n.dot(&d)));
-                }
-                return;
-            }
-            JointKind::Free | JointKind::Weld => return,
+        if kind.translation(dimension) == Translation::Fixed {
+            rows.extend((0..S::Point::N).map(|axis| Row::Coincidence { axis: index(axis) }));
         }
-        if joint.kind == JointKind::Revolute && is_spatial {
-            rows.extend([dot(&v, &n), dot(&w, &n)]);
+        rows.extend(joint.across_slides(dimension).map(|u| gap(&u, T::ZERO)));
+        if let Some(n) = joint.common_axis(dimension) {
+            let [v, w] = transverse(&n, dimension);
+            match dimension {
+                Dimension::Planar => {
+                    rows.push(dot([n, Vector::<T, 3>::new(-n[1], n[0], T::ZERO)]));
+                }
+                Dimension::Spatial => rows.extend([dot([v, n]), dot([w, n])]),
+            }
+        }
+        rows.extend(joint.kept_angle(dimension).map(dot));
+        if kind.is_link() {
+            let d = Vector::<T, 3>::from(joint.points[1]) - Vector::from(joint.points[0]);
+            rows.push(Row::Length { length: norm(&d) });
+            if joint.is_hinged_link() {
+                let hinge = joint.direction(Axis::First);
+                rows.push(gap(&hinge, hinge.dot(&d)));
+            }
         }
     }
 
@@ -148,7 +134,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         if links[0] == links[1] {
             return Ok(None);
         }
-        let is_planar_free = joint.kind == JointKind::Free && S::DIMENSION == 2;
+        let is_planar_free = joint.kind.is_free() && S::DIMENSION == 2;
         let load = is_planar_free.then_some(Load::Between { links, gauge: Gauge::Turn, law });
         load.map(Some).ok_or(index)
     }
@@ -163,7 +149,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         action: &Action<T>,
     ) -> Result<Option<Load<T, S>>, usize> {
         Ok(Some(match action {
-            Action::Angle { joint, law } => {
+            Action::Angle { joint, law, .. } => {
                 return self.about_axis(scene, (*joint, turning.get(joint)), *law);
             }
             Action::Length { ends, law } => {

@@ -11,7 +11,7 @@
 //! 6. joints near the ground; joints named first.
 //!
 //! What the ground does not reach starts from a root of its own, which is free: a body with a free joint to the ground, or
-//! the heaviest one. `distance` joints are always cut, free joints between moving bodies constrain nothing.
+//! the heaviest one. Links are always cut, free joints between moving bodies constrain nothing.
 
 use crate::error::TreeError;
 use crate::told;
@@ -22,7 +22,7 @@ use core::cmp::{Ordering, Reverse};
 use mbs_core::Real;
 use mbs_core::actions::{Action, Actions};
 use mbs_core::cluster::Clusters;
-use mbs_core::scene::{BodyId, JointKind, Scene};
+use mbs_core::scene::{BodyId, Freedom, Scene};
 
 /// A step of the tree: a cluster and the joint it hangs by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,7 +91,7 @@ pub(crate) fn span<T: Real>(
         if demands.is_guided[j] {
             return Err(TreeError::GuideCut { joint: j });
         }
-        if is_inner || matches!(joint.kind, JointKind::Free | JointKind::Weld) {
+        if is_inner || joint.kind.is_free() || joint.kind.is_rigid() {
             continue;
         }
         if let Some(effect) = demands.effect[j] {
@@ -133,15 +133,14 @@ fn edges<T: Real>(
     let mut edges = Vec::new();
     for (j, joint) in scene.joints.iter().enumerate() {
         let ends = joint.bodies.map(&node);
-        let carries =
-            !matches!(joint.kind, JointKind::Free | JointKind::Distance | JointKind::Weld);
-        if ends[0] == ends[1] || !carries {
+        let n_coordinates = joint.kind.n_coordinates(scene.dimension);
+        if ends[0] == ends[1] || n_coordinates == 0 || joint.kind.is_free() {
             continue;
         }
         let is_massive = ends
             .iter()
             .all(|&c| clusters.clusters.get(c).is_none_or(|cluster| cluster.mass > T::ZERO));
-        let is_on_line = joint.kind == JointKind::Spherical
+        let is_on_line = joint.freedoms(scene.dimension).contains(&Freedom::Ball)
             && (0..2).any(|i| {
                 let rod = clusters.clusters.get(ends[i]).and_then(|cluster| cluster.rod);
                 rod.is_some_and(|rod| told::is_on_line(&rod, joint.points[i]))
@@ -150,7 +149,7 @@ fn edges<T: Real>(
             !demands.is_guided[j],
             demands.effect[j].is_none(),
             is_massive,
-            joint.kind.n_coordinates(scene.dimension),
+            n_coordinates,
             is_on_line,
         );
         edges.push(Edge { joint: j, ends, rank });
@@ -222,7 +221,7 @@ struct Roots {
 
 impl Roots {
     fn new<T: Real>(scene: &Scene<T>, clusters: &Clusters<T>) -> Self {
-        let is_free = |j: &usize| scene.joints[*j].kind == JointKind::Free;
+        let is_free = |j: &usize| scene.joints[*j].kind.is_free();
         let free: Vec<usize> = (0..scene.joints.len()).filter(is_free).collect();
         let mass = |c: usize| clusters.clusters[c].mass;
         let mut heavy: Vec<usize> = (0..clusters.clusters.len()).collect();

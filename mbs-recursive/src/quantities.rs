@@ -10,7 +10,7 @@ use crate::at::own;
 use crate::evaluate::{Level, accelerations_under};
 use crate::inverse;
 use crate::loops::Loops;
-use crate::mechanism::{Inputs, Mechanism};
+use crate::mechanism::Mechanism;
 use crate::options::Options;
 use crate::passes::kinematics;
 use crate::space::{Numbers, Space};
@@ -138,7 +138,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let mut s = workspace.store();
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
-        self.evaluate(state.t, s.guides, s.courses);
+        self.prescribed.write(state.t, &state.applied, s.guides, s.courses);
         let level = Level::Fine;
         let left = accelerations_under(&m, &Options::default(), (level, efforts), &mut s);
         left.map_err(|fault| failure(&m, fault))?;

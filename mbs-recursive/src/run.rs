@@ -35,12 +35,12 @@ pub fn step<T: Real, S: Space<T>>(
     let m = model.mechanism();
     let mut s = workspace.store();
     let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
-    let report = trapezoidal::step(&m, model, (dt, options), start, &mut s);
+    let report = trapezoidal::step(&m, &model.inputs(state), (dt, options), start, &mut s);
     let report = report.map_err(|error| model.with_effect(error))?;
     // Work by the trapezoidal rule in time.
     let power = own(ledger::power(&m, &mut s));
     state.work += (state.power + power) * dt * T::HALF;
-    take(model, (dt, power), &s, state);
+    take((dt, power), &s, state);
     Ok(report)
 }
 
@@ -63,9 +63,9 @@ pub fn bounded_step<T: Real, S: Space<T>>(
     let mut s = workspace.store();
     let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
     let start = (start, &mut Unwatched);
-    let report = bounded::step(&m, model, (dt, options, bounds), start, &mut s);
+    let report = bounded::step(&m, &model.inputs(state), (dt, options, bounds), start, &mut s);
     let report = report.map_err(|error| model.with_effect(error))?;
-    take(model, (dt, state.power), &s, state);
+    take((dt, state.power), &s, state);
     Ok(report)
 }
 
@@ -87,11 +87,11 @@ pub fn rk4_step<T: Real, S: Space<T>>(
     let (mut s, scratch) = workspace.parts();
     let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
     let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
-    let report = explicit::rk4(&m, model, (dt, options), memory, &mut s);
+    let report = explicit::rk4(&m, &model.inputs(state), (dt, options), memory, &mut s);
     let report = report.map_err(|error| model.with_effect(error))?;
     state.work += work(scratch);
     let power = own(ledger::power(&m, &mut s));
-    take(model, (dt, power), &s, state);
+    take((dt, power), &s, state);
     Ok(report)
 }
 
@@ -209,12 +209,13 @@ fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     let (mut s, scratch) = workspace.parts();
     let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
     let memory = (start, &mut scratch.y[..], &mut scratch.scratch[..]);
-    let report = explicit::controlled(&m, model, (dt, options, &mut driver), memory, &mut s);
+    let report =
+        explicit::controlled(&m, &model.inputs(state), (dt, options, &mut driver), memory, &mut s);
     *slot(scratch) = Some(driver);
     let report = report.map_err(|error| model.with_effect(error))?;
     state.work += work(scratch);
     let power = own(ledger::power(&m, &mut s));
-    take(model, (dt, power), &s, state);
+    take((dt, power), &s, state);
     Ok(report)
 }
 
@@ -224,13 +225,8 @@ fn work<T: Real>(scratch: &Explicit<T>) -> T {
 }
 
 /// The end of a step enters the state.
-fn take<T: Real, S: Space<T>>(
-    model: &TreeModel<T, S>,
-    (dt, power): (T, T),
-    s: &Store<'_, T, S>,
-    state: &mut TreeState<T>,
-) {
-    model.prescribed.keep(&mut state.inputs);
+fn take<T: Real, S: Space<T>>((dt, power): (T, T), s: &Store<'_, T, S>, state: &mut TreeState<T>) {
+    state.applied.copy_from_slice(&state.inputs);
     state.t += dt;
     state.power = power;
     state.z.copy_from_slice(s.z);
@@ -263,7 +259,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let mut s = workspace.store();
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
-        self.evaluate(state.t, s.guides, s.courses);
+        self.inputs(state).evaluate(state.t, s.guides, s.courses);
         accelerations(&m, options, Level::Fine, &mut s).map_err(|fault| failure(&m, fault))?;
         state.a.copy_from_slice(s.zdd);
         state.lambda.copy_from_slice(s.lambda);
@@ -284,27 +280,22 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         state: &mut TreeState<T>,
         workspace: &mut Workspace<T, S>,
     ) -> Result<bool, StepError> {
-        if !self.prescribed.differs(&state.inputs) {
+        if !self.prescribed.differs(&state.inputs, &state.applied) {
             return Ok(false);
         }
         let m = self.mechanism();
         let mut s = workspace.store();
         self.place_in(state, &mut s);
-        let write = |is_new, s: &mut Store<'_, T, S>| {
-            let kept = (&state.inputs[..], is_new);
-            self.prescribed.write_end(state.t, kept, (s.guides, s.courses));
-        };
-        write(false, &mut s);
-        own(kinematics(&self.links, (s.z, s.v, s.guides), s.placed));
         let before = own(ledger::potential(&m, &s.instant(&m)));
-        write(true, &mut s);
+        let at_end = (&state.applied[..], &state.inputs[..]);
+        self.prescribed.write_end(state.t, at_end, (s.guides, s.courses));
         accelerations(&m, options, Level::Fine, &mut s).map_err(|fault| failure(&m, fault))?;
         let after = own(ledger::potential(&m, &s.instant(&m)));
         state.power = own(ledger::power(&m, &mut s));
         state.work += after - before;
         state.a.copy_from_slice(s.zdd);
         state.lambda.copy_from_slice(s.lambda);
-        self.prescribed.keep_courses(&mut state.inputs);
+        self.prescribed.apply(&state.inputs, &mut state.applied);
         Ok(true)
     }
 
@@ -323,7 +314,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
         s.lambda.copy_from_slice(&state.lambda);
-        self.evaluate(state.t, s.guides, s.courses);
+        self.prescribed.write(state.t, &state.applied, s.guides, s.courses);
         own(kinematics(&self.links, (s.z, s.v, s.guides), s.placed));
     }
 

@@ -3,6 +3,7 @@
 use crate::at::own;
 use crate::error::TreeError;
 use crate::evaluate::{Level, accelerations};
+use crate::graph::Branch;
 use crate::inverse;
 use crate::joint::write;
 use crate::link::{Kind, Placed};
@@ -73,6 +74,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let motions: Vec<_> =
             (0..scene.bodies.len()).map(|body| natural.motion(scene, body, state)).collect();
         let mut start = self.read(scene, state.t, &motions);
+        start.inputs.copy_from_slice(&state.inputs);
         self.take_turns(natural, state, &mut start);
         self.settle(&mut start, &mut Workspace::new(self))?;
         Ok(start)
@@ -154,7 +156,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let mut s = workspace.store();
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
-        self.evaluate(state.t, s.guides, s.courses);
+        self.inputs(state).evaluate(state.t, s.guides, s.courses);
         let fault = |fault| failure(&m, fault);
         if !self.rows.is_empty() {
             accelerations(&m, &options, Level::Once, &mut s).map_err(fault)?;
@@ -162,7 +164,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         accelerations(&m, &options, Level::Fine, &mut s).map_err(fault)?;
         state.power = own(crate::ledger::power(&m, &mut s));
-        self.prescribed.keep(&mut state.inputs);
+        state.applied.copy_from_slice(&state.inputs);
         state.z.copy_from_slice(s.z);
         state.v.copy_from_slice(s.v);
         state.a.copy_from_slice(s.zdd);
@@ -185,21 +187,14 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let origin = &self.origins[seat.link as usize];
         let [position, velocity, _] = child.point(origin);
         let link = &self.links[seat.link as usize];
-        // How far the child turned against the parent: its last numbers, in reverse the other way round.
-        let turned = |values: &[T]| {
-            let sign = if seat.branch.is_reversed { -T::ONE } else { T::ONE };
-            let mut last = Vector::<T, 3>::zeros();
-            last.iter_mut().rev().zip(values.iter().rev()).for_each(|(to, x)| *to = *x * sign);
-            last
-        };
         match link.kind {
             Kind::Free => {
                 let (z, v) = (&mut state.z[link.z as usize..], &mut state.v[link.v as usize..]);
                 let rotation = S::rotation_from(&child.rotation);
                 S::write_rotation(&rotation, z);
-                orient::<T, S>(&child.rotation, turned(values), z);
+                orient::<T, S>(&child.rotation, turned(&seat.branch, values), z);
                 if S::DIMENSION == 2 {
-                    z[0] = unwrap(z[0], turned(values)[2]);
+                    z[0] = unwrap(z[0], turned(&seat.branch, values)[2]);
                 }
                 let spin = S::spin_from(&child.omega);
                 own(write(&S::unrotate_spin(&rotation, &spin), v, 0));
@@ -207,15 +202,11 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 own(write(&S::point_from(&(position - self.base)), z, place));
                 own(write(&S::point_from(&velocity), v, S::Spin::N));
             }
-            Kind::Ball => {
-                let (z, v) = (&mut state.z[link.z as usize..], &mut state.v[link.v as usize..]);
-                let relative = parent.rotation.transpose() * child.rotation;
-                S::write_rotation(&S::rotation_from(&relative), z);
-                orient::<T, S>(&relative, turned(values), z);
-                let spin = child.rotation.transpose() * (child.omega - parent.omega);
-                own(write(&S::spin_from(&spin), v, 0));
-            }
-            _ => {
+            Kind::Revolute
+            | Kind::Prismatic
+            | Kind::Ball
+            | Kind::GuidedRevolute
+            | Kind::GuidedPrismatic => {
                 let [hold, hold_rate, _] = parent.point(origin);
                 let gap = [position - hold, velocity - hold_rate];
                 let is_guided = link.kind.is_guided();
@@ -254,6 +245,12 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
                 let seen = rotation.transpose() * (child.rotation * shown);
                 *z = unwrap(w.dot(&seen).atan2(v.dot(&seen)), values[part.number]);
                 rotation *= mbs_core::algebra::rotation(&(part.axis * *z));
+            } else if part.kind == Kind::Ball {
+                let relative = rotation.transpose() * child.rotation;
+                let z = &mut state.z[self.links[at].z as usize..];
+                S::write_rotation(&S::rotation_from(&relative), z);
+                orient::<T, S>(&relative, turned(&seat.branch, values), z);
+                rotation = child.rotation;
             } else {
                 *z = gap.dot(&axes[k]);
             }
@@ -272,12 +269,20 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         let mut spin = parent.omega;
         for (k, part) in chain.iter().enumerate() {
+            let v = &mut state.v[self.links[seat.first as usize + k].v as usize..];
+            if part.kind == Kind::Ball {
+                // A ball stands alone, or with slides.
+                let own = child.rotation.transpose() * turning;
+                crate::at::own(write(&S::spin_from(&own), v, 0));
+                spin = child.omega;
+                continue;
+            }
             if part.kind == Kind::Revolute {
                 spin += axes[k] * rates[k];
             } else {
                 rates[k] = (gap_rate - cross(&spin, &gap)).dot(&axes[k]);
             }
-            state.v[self.links[seat.first as usize + k].v as usize] = rates[k];
+            v[0] = rates[k];
         }
     }
 
@@ -294,7 +299,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         motions: &mut [RigidMotion<T>],
     ) {
         let s = workspace.store();
-        self.evaluate(state.t, s.guides, s.courses);
+        self.prescribed.write(state.t, &state.applied, s.guides, s.courses);
         own(kinematics(&self.links, (&state.z, &state.v, s.guides), s.placed));
         s.a[0] = S::Motion::zero();
         own(inverse::spread(&self.links, s.placed, &state.a, s.a));
@@ -331,7 +336,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let mut s = workspace.store();
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
-        self.evaluate(state.t, s.guides, s.courses);
+        self.prescribed.write(state.t, &state.applied, s.guides, s.courses);
         if accelerations(&m, &sharp, Level::Once, &mut s).is_err() {
             accelerations(&m, &options, Level::Once, &mut s).map_err(|fault| failure(&m, fault))?;
         }
@@ -340,6 +345,14 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         // no rows take more freedoms than there are
         Ok(counted.min(self.n_freedoms()))
     }
+}
+
+/// How far the child of a branch turned against the parent: the last coordinates of its joint, in reverse the other way round.
+fn turned<T: Real>(branch: &Branch, values: &[T]) -> Vector<T, 3> {
+    let sign = if branch.is_reversed { -T::ONE } else { T::ONE };
+    let mut last = Vector::<T, 3>::zeros();
+    last.iter_mut().rev().zip(values.iter().rev()).for_each(|(to, x)| *to = *x * sign);
+    last
 }
 
 /// A vector of space without what the plane does not have.

@@ -26,9 +26,12 @@ pub struct TreeState<T> {
     pub a: Vec<T>,
     /// Multipliers of the cut joints' equations [N, N m].
     pub lambda: Vec<T>,
-    /// The inputs that accelerations, multipliers and power were made with: see
-    /// [`Prescribed::inputs`](mbs_core::inputs::Prescribed::inputs).
-    pub inputs: Vec<[T; 3]>,
+    /// What is set from outside for the next step, in the places that
+    /// [`Prescribed::input`](mbs_core::inputs::Prescribed::input) and
+    /// [`Prescribed::guide_input`](mbs_core::inputs::Prescribed::guide_input) name.
+    pub inputs: Vec<T>,
+    /// The inputs that accelerations, multipliers and power were made with.
+    pub applied: Vec<T>,
     /// Work done by dampers, courses and guides since the start [J].
     pub work: T,
     /// Their power at this instant [W].
@@ -48,6 +51,7 @@ impl<T: Real> TreeState<T> {
             a: vec![T::ZERO; model.n_freedoms],
             lambda: vec![T::ZERO; model.rows.len()],
             inputs: model.prescribed.inputs(),
+            applied: model.prescribed.inputs(),
             work: T::ZERO,
             power: T::ZERO,
         }
@@ -55,15 +59,18 @@ impl<T: Real> TreeState<T> {
 
     /// Overwrites this state with another of the same model, without allocating.
     pub fn copy_from(&mut self, other: &Self) {
+        self.copy_coordinates(other);
+        self.inputs.copy_from_slice(&other.inputs);
+        self.applied.copy_from_slice(&other.applied);
+    }
+
+    /// Overwrites everything but inputs with the state of a model of the same coordinates, without allocating.
+    pub fn copy_coordinates(&mut self, other: &Self) {
         self.t = other.t;
         self.z.copy_from_slice(&other.z);
         self.v.copy_from_slice(&other.v);
         self.a.copy_from_slice(&other.a);
         self.lambda.copy_from_slice(&other.lambda);
-        // A tree with other effects has other inputs; to settle there takes its own.
-        if self.inputs.len() == other.inputs.len() {
-            self.inputs.copy_from_slice(&other.inputs);
-        }
         self.work = other.work;
         self.power = other.power;
     }

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross, norm};
 use mbs_core::cluster::Clusters;
-use mbs_core::scene::{BodyId, JointKind, Scene};
+use mbs_core::scene::{BodyId, Scene};
 
 /// Guides by joint, and thin rods without spin by cluster.
 pub(crate) struct Told {
@@ -28,12 +28,8 @@ impl Told {
                 let cluster = &clusters.clusters[c];
                 let (Some(rod), BodyId::Body(b)) = (cluster.rod, body) else { continue };
                 is_idle[c] &= b != cluster.bodies[0]
-                    || joint.kind == JointKind::Free
-                    || (matches!(joint.kind, JointKind::Spherical | JointKind::Distance)
-                        && is_on_line(&rod, joint.points[i])
-                        && !(i == 0
-                            && joint.kind == JointKind::Distance
-                            && joint.axes[0].is_some()));
+                    || joint.kind.is_free()
+                    || (joint.is_ball_at(i) && is_on_line(&rod, joint.points[i]));
             }
         }
         Self { guide, is_idle }

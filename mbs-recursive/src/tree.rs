@@ -12,19 +12,18 @@ use crate::passes::{self, Fault};
 use crate::plan::Plan;
 use crate::rows::{Loop, Row};
 use crate::space::{Numbers, Space};
+use crate::state::TreeState;
 use crate::told::Told;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::actions::{Actions, Tables};
-use mbs_core::algebra::{Matrix, Vector, cross};
+use mbs_core::algebra::{Matrix, Vector};
 use mbs_core::cluster::{Cluster, Clusters, scene_length};
 use mbs_core::inputs::Prescribed;
 use mbs_core::model::Owner;
-use mbs_core::natural::joint_axes;
 use mbs_core::scene::align::aligned;
-use mbs_core::scene::{BodyId, Joint, JointKind, Scene};
-use mbs_core::step::InputError;
+use mbs_core::scene::{BodyId, Freedom, Joint, Scene};
 
 /// A part of a joint: one link of the recursion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -341,29 +340,15 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             && self.links.iter().zip(&other.links).all(same)
     }
 
-    /// Guides and courses.
+    /// Guides and courses: they name the places of a state's inputs, and set them.
     #[must_use]
     pub fn prescribed(&self) -> &Prescribed<T> {
         &self.prescribed
     }
 
-    /// Sets the input of `scene.effects[effect]` between two steps; it holds until it is set again, and the next step is
-    /// made with it from its beginning.
-    ///
-    /// # Errors
-    /// [`InputError`] where the effect has none (it has one where it is enabled and its course is
-    /// [`Signal::Input`](mbs_core::scene::Signal::Input)), or where a component is not finite.
-    pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
-        self.prescribed.set_course(effect, value)
-    }
-
-    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step.
-    ///
-    /// # Errors
-    /// [`InputError`] where the guide is no input ([`Motion::Input`](mbs_core::scene::Motion::Input)), or where a component is
-    /// not finite.
-    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
-        self.prescribed.set_guide(guide, motion)
+    /// The inputs that are set in a state, with the functions of time.
+    pub(crate) fn inputs<'a>(&'a self, state: &'a TreeState<T>) -> (&'a Prescribed<T>, &'a [T]) {
+        (&self.prescribed, &state.inputs)
     }
 
     /// Number of freedoms of the tree: a ball has three, a free body six (in the plane three), a guided joint none.
@@ -413,9 +398,9 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     }
 }
 
-impl<T: Real, S: Space<T>> Inputs<T> for TreeModel<T, S> {
+impl<T: Real> Inputs<T> for (&Prescribed<T>, &[T]) {
     fn evaluate(&self, t: T, guides: &mut [[T; 3]], courses: &mut [[T; 3]]) {
-        self.prescribed.write(t, guides, courses);
+        self.0.write(t, self.1, guides, courses);
     }
 }
 
@@ -437,24 +422,20 @@ pub(crate) fn parts<T: Real>(scene: &Scene<T>, branch: &Branch, is_guided: bool)
     let free = Part { kind: Kind::Free, axis: zero, number: 0 };
     let Some(joint) = branch.joint else { return vec![free] };
     let joint: &Joint<T> = &scene.joints[joint];
-    let [n, d] = joint_axes(joint, scene.dimension).map(Vector::<T, 3>::from);
+    if joint.kind.is_free() {
+        return vec![free];
+    }
     let (turn, slide) = if is_guided {
         (Kind::GuidedRevolute, Kind::GuidedPrismatic)
     } else {
         (Kind::Revolute, Kind::Prismatic)
     };
-    let part = |kind, axis, number| Part { kind, axis, number };
-    let mut parts = match joint.kind {
-        JointKind::Revolute => vec![part(turn, n, 0)],
-        JointKind::Prismatic => vec![part(slide, n, 0)],
-        JointKind::Cylindrical => vec![part(slide, n, 0), part(turn, n, 1)],
-        JointKind::Universal => vec![part(turn, n, 0), part(turn, d, 1)],
-        JointKind::Planar => {
-            vec![part(slide, d, 0), part(slide, cross(&n, &d), 1), part(turn, n, 2)]
-        }
-        JointKind::Spherical => vec![part(Kind::Ball, zero, 0)],
-        JointKind::Free | JointKind::Distance | JointKind::Weld => vec![free],
+    let part = |(number, freedom)| match freedom {
+        Freedom::Slide(axis) => Part { kind: slide, axis: joint.direction(axis), number },
+        Freedom::Turn(axis) => Part { kind: turn, axis: joint.direction(axis), number },
+        Freedom::Ball => Part { kind: Kind::Ball, axis: zero, number },
     };
+    let mut parts: Vec<Part<T>> = joint.kind.numbered(scene.dimension).map(part).collect();
     if branch.is_reversed {
         parts.reverse();
         for part in &mut parts {

@@ -9,6 +9,7 @@ use crate::loads::{Gauge, Instant, Load};
 use crate::space::{Numbers, Space};
 use crate::state::TreeState;
 use crate::tree::TreeModel;
+use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::laws::Supplies;
@@ -98,8 +99,8 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
 
     /// What an instant says that has coordinates, and no places.
     fn with_angles<R>(&self, state: &TreeState<T>, f: impl FnOnce(&Instant<'_, T, S>) -> R) -> R {
-        let guides: Vec<_> =
-            self.prescribed.guides().iter().map(|guide| guide.at(state.t)).collect();
+        let mut guides = vec![[T::ZERO; 3]; self.prescribed.n_guides()];
+        self.prescribed.write(state.t, &state.applied, &mut guides, &mut []);
         f(&Instant {
             links: &self.links,
             placed: &[],

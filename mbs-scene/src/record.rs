@@ -1,7 +1,7 @@
 //! What a run leaves behind, as plain data: channels, pictures, energies, counts.
 
 use crate::write::ControlSummary;
-use mbs_core::scene::{Dimension, JointId, JointKind, Quantity, Scene};
+use mbs_core::scene::{Dimension, Freedom, JointId, JointKind, Quantity, Scene};
 
 /// A recorded channel: its name and its components.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -95,10 +95,8 @@ fn reaction(name: &str, dimension: Dimension) -> Channel {
 }
 
 fn coordinate_units(kind: JointKind, dimension: Dimension) -> Vec<&'static str> {
-    let n = kind.n_coordinates(dimension);
-    let n_rotations = kind.n_rotations(dimension);
-    // every kind with both lists its translations first
-    (0..n).map(|i| if i + n_rotations < n { "m" } else { "rad" }).collect()
+    let units = |f: &Freedom| core::iter::repeat_n(f.unit(), f.n_coordinates());
+    kind.freedoms(dimension).iter().flat_map(units).collect()
 }
 
 /// Everything the page of a run shows. Series may have any number of points; the page thins them.

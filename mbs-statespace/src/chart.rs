@@ -18,7 +18,7 @@ impl<T: Real> Workspace<T> {
         dt: T,
         s: &State<T>,
     ) -> Result<(), StepError> {
-        model.set_inputs(s.t + dt * T::HALF, &mut self.terms);
+        model.set_inputs(s.t + dt * T::HALF, s, &mut self.terms);
         for dq in &mut self.dq[..model.n_unknowns()] {
             *dq *= T::HALF;
         }

@@ -89,7 +89,7 @@ fn attempt<T: Real, M: Model<T>>(
         predict(model, (rule, length), s, w);
         w.predict_chart();
     }
-    model.set_inputs(s.t + rule.dt, &mut w.terms);
+    model.set_inputs(s.t + rule.dt, s, &mut w.terms);
     w.place(model, (rule, length), options, s)?;
     let newton = iterate(model, (rule, length), options, s, w)?;
     check_guides(model, &w.q, &w.terms)?;
@@ -122,7 +122,7 @@ pub(crate) fn select_pivots<T: Real, M: Model<T>>(
     s: &State<T>,
     w: &mut Workspace<T>,
 ) -> Result<(), StepError> {
-    model.set_inputs(s.t, &mut w.terms);
+    model.set_inputs(s.t, s, &mut w.terms);
     w.dq.fill(T::ZERO);
     w.evaluate(model, s);
     w.is_stale = true;
@@ -145,7 +145,7 @@ fn iterate<T: Real, M: Model<T>>(
     let team = model.team();
     let scale = step_scale(team, rule.dt, &s.a[..n]).max(step_scale(team, rule.dt, &w.a[..n]));
     let mut last = T::ZERO;
-    residual(model, s, w);
+    residual(model, w);
     for iterations in 1..=options.max_iterations {
         if w.d.is_empty() {
             break;
@@ -169,7 +169,7 @@ fn iterate<T: Real, M: Model<T>>(
         let correction = norm_inf(&w.d);
         check_finite(w)?;
         w.place(model, (rule, length), options, s)?;
-        residual(model, s, w);
+        residual(model, w);
 
         let digits = T::from_f64(64.0) * norm_inf(&w.dq[..n]) + T::from_f64(4.0) * length;
         let noise = T::EPSILON * digits;
@@ -189,9 +189,9 @@ fn iterate<T: Real, M: Model<T>>(
 }
 
 /// f = (M a - Q)_i + J_i^T lambda into `d`, with J_d^T lambda = (Q - M a)_d   [P1 (43)]
-fn residual<T: Real, M: Model<T>>(model: &M, s: &State<T>, w: &mut Workspace<T>) {
+fn residual<T: Real, M: Model<T>>(model: &M, w: &mut Workspace<T>) {
     if model.has_forces() {
-        model.evaluate_forces(&w.q, &w.v, &s.memory, &mut w.terms);
+        model.evaluate_forces(&w.q, &w.v, &mut w.terms);
     }
     w.balance(model, T::ONE);
     w.solve_transposed();

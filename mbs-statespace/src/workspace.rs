@@ -66,7 +66,7 @@ impl<T: Real> Workspace<T> {
         let (n, e, m) = (model.n_unknowns(), model.n_extended(), model.n_constraints());
         let zeros = |k| vec![T::ZERO; k];
         let mut terms = model.terms();
-        model.set_inputs(start.t, &mut terms);
+        model.set_inputs(start.t, start, &mut terms);
         model.evaluate(&start.q, &mut terms);
         let mut jacobian = Jacobian::new(model);
         jacobian.gather(model, &terms);

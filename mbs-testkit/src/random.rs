@@ -163,20 +163,17 @@ fn joint(
     place: [f64; 3],
 ) -> Joint<f64> {
     let first = random.axis(dimension);
-    let axes = match (kind, dimension) {
-        (JointKind::Revolute, Dimension::Planar) | (JointKind::Spherical, _) => [None; 2],
-        (JointKind::Universal, _) => {
-            // Across the first.
-            let d = random.axis(dimension);
-            let second = [
-                first[1] * d[2] - first[2] * d[1],
-                first[2] * d[0] - first[0] * d[2],
-                first[0] * d[1] - first[1] * d[0],
-            ];
-            [Some(first), Some(second)]
-        }
-        _ => [Some(first), None],
-    };
+    let [needs_first, needs_second] = kind.needs_axes(dimension);
+    let second = needs_second.then(|| {
+        // Across the first.
+        let d = random.axis(dimension);
+        [
+            first[1] * d[2] - first[2] * d[1],
+            first[2] * d[0] - first[0] * d[2],
+            first[0] * d[1] - first[1] * d[0],
+        ]
+    });
+    let axes = [needs_first.then_some(first), second];
     Joint {
         name: format!("{}-{:?}", kind.name(), bodies[1]),
         kind,

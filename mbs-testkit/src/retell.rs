@@ -1,7 +1,7 @@
 //! The same mechanism told in another way: turned as a whole, its bodies in another order.
 
 use mbs_core::scene::{
-    BodyId, Dimension, EffectKind, Inertia, InitialTarget, Joint, JointKind, Scene,
+    Axis, BodyId, Dimension, EffectKind, Freedom, Inertia, InitialTarget, Joint, Scene,
 };
 
 type Vector = [f64; 3];
@@ -65,7 +65,7 @@ pub fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Sc
         joint.axes = joint.axes.map(|a| a.map(turn));
     }
     for initial in &mut s.initials {
-        turn_initial(&mut initial.target, &scene.joints, turn);
+        turn_initial(&mut initial.target, (&scene.joints, scene.dimension), turn);
     }
     for effect in &mut s.effects {
         match &mut effect.kind {
@@ -97,15 +97,19 @@ pub fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Sc
 
 fn turn_initial(
     target: &mut InitialTarget<f64>,
-    joints: &[Joint<f64>],
+    (joints, dimension): (&[Joint<f64>], Dimension),
     turn: impl Fn(Vector) -> Vector,
 ) {
     match target {
         InitialTarget::Joint { joint, value, rate } => {
             // Rotation vectors and angular velocities are told in global axes.
-            if joints[joint.index()].kind == JointKind::Spherical {
-                for x in [value, rate].into_iter().flatten() {
-                    *x = turn([x[0], x[1], x[2]]).to_vec();
+            for (number, freedom) in joints[joint.index()].kind.numbered(dimension) {
+                // slides along the global axes, or a rotation vector
+                if [Freedom::Slide(Axis::X), Freedom::Ball].contains(&freedom) {
+                    for x in [value.as_mut(), rate.as_mut()].into_iter().flatten() {
+                        let three = &mut x[number..number + 3];
+                        three.copy_from_slice(&turn([three[0], three[1], three[2]]));
+                    }
                 }
             }
         }

@@ -58,8 +58,8 @@ pub fn start_in<T: Real, const D: usize>(scene: &Scene<T>) -> (NaturalModel<T, D
 #[must_use]
 pub fn invariant<T: Real, const D: usize>(model: &NaturalModel<T, D>, state: &State<T>) -> T {
     let mut terms = model.terms();
-    model.set_inputs(state.t, &mut terms);
-    model.evaluate_forces(&state.q, &state.v, &state.memory, &mut terms);
+    model.set_inputs(state.t, state, &mut terms);
+    model.evaluate_forces(&state.q, &state.v, &mut terms);
     model.kinetic_energy(&state.v) + model.potential_energy(&state.q, &terms) - state.work
 }
 

@@ -188,6 +188,11 @@ impl StepRule {
     pub const ALL: [Self; 5] =
         [Self::Fixed, Self::Energy, Self::EnergyPrinted, Self::Error, Self::Both];
 
+    /// The name in [`STEP_RULES`] of a name that a scene or the command line gives: `energy-published` is `energy-printed`.
+    pub(crate) fn canonical(name: &str) -> &str {
+        if name == "energy-published" { "energy-printed" } else { name }
+    }
+
     /// Its name.
     #[must_use]
     pub fn name(self) -> &'static str {

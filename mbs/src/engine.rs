@@ -254,9 +254,9 @@ where
             return tree.energies();
         }
         let mut terms = model.terms();
-        model.set_inputs(s.t, &mut terms);
+        model.set_inputs(s.t, s, &mut terms);
         model.evaluate(&s.q, &mut terms);
-        model.evaluate_forces(&s.q, &s.v, &s.memory, &mut terms);
+        model.evaluate_forces(&s.q, &s.v, &mut terms);
         [model.kinetic_energy(&s.v).to_f64(), model.potential_energy(&s.q, &terms).to_f64()]
     }
 

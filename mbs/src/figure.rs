@@ -3,7 +3,7 @@
 use crate::checkpoint::tape::{Tape, Told, holds};
 use mbs_core::Real;
 use mbs_core::natural::{Affine, NaturalModel};
-use mbs_core::scene::{BodyId, Dimension, Inertia, Joint, JointKind, Quantity, Scene};
+use mbs_core::scene::{BodyId, Dimension, Inertia, Joint, Quantity, Scene, Translation};
 use mbs_scene::{Animation, Polyline, Trace};
 
 /// Pictures kept of a run at most.
@@ -30,10 +30,9 @@ impl<T: Real, const D: usize> Figure<T, D> {
         let bodies = (0..scene.bodies.len()).map(|b| layout.body(b)).collect();
         let traces = layout.traces();
         let up = scene.gravity.map_or([0.0; 3], |g| g.map(|x| -x.to_f64()));
-        let ground = scene.joints.iter().flat_map(|j| {
-            (0..2)
-                .filter(|&k| j.bodies[k] == BodyId::Ground && !slides(j.kind))
-                .map(|k| j.points[k].map(Real::to_f64))
+        let ground = scene.joints.iter().filter(|j| rail(j, scene.dimension).is_none());
+        let ground = ground.flat_map(|j| {
+            (0..2).filter(|&k| j.bodies[k] == BodyId::Ground).map(|k| j.points[k].map(Real::to_f64))
         });
         let animation = Animation {
             dimension: D,
@@ -41,7 +40,7 @@ impl<T: Real, const D: usize> Figure<T, D> {
             bodies,
             traces,
             ground: ground.collect(),
-            rails: rails(scene),
+            rails: scene.joints.iter().filter_map(|j| rail(j, scene.dimension)).collect(),
             ..Animation::default()
         };
         let points = layout.points;
@@ -93,17 +92,17 @@ impl<T: Real, const D: usize> Figure<T, D> {
     }
 }
 
-fn slides(kind: JointKind) -> bool {
-    matches!(kind, JointKind::Prismatic | JointKind::Cylindrical)
-}
-
-/// Straight guides on the ground: place and direction.
-fn rails<T: Real>(scene: &Scene<T>) -> Vec<[[f64; 3]; 2]> {
-    let joints =
-        scene.joints.iter().filter(|j| slides(j.kind) && j.bodies.contains(&BodyId::Ground));
-    let axis =
-        |j: &Joint<T>| j.axes[0].map(|axis| [j.points[0], axis].map(|p| p.map(Real::to_f64)));
-    joints.filter_map(axis).collect()
+/// The straight guide of a joint on the ground that slides along a line: place and direction.
+fn rail<T: Real>(joint: &Joint<T>, dimension: Dimension) -> Option<[[f64; 3]; 2]> {
+    match joint.kind.translation(dimension) {
+        Translation::Along(axis) if joint.bodies.contains(&BodyId::Ground) => {
+            let direction = joint.direction(axis).into();
+            Some([joint.points[0], direction].map(|p: [T; 3]| p.map(Real::to_f64)))
+        }
+        Translation::Along(_) | Translation::Fixed | Translation::Across(_) | Translation::Free => {
+            None
+        }
+    }
 }
 
 struct Layout<'a, T: Real, const D: usize> {

@@ -14,41 +14,42 @@ use crate::simulation::Simulation;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
-use mbs_core::algebra::{Vector, cross};
-use mbs_core::natural::joint_axes;
-use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{BodyId, Effect, EffectKind, JointKind, Scene};
+use mbs_core::natural::NaturalModel;
+use mbs_core::outputs::CoordinateMotion;
+use mbs_core::scene::{Effect, EffectKind, Scene};
 
 /// Regularisations that a step may change the rate by: where friction holds, Runge and Kutta's method of order four is stable up to 2.8.
 const FAR: f64 = 3.0;
 
 /// Friction of a joint.
-#[derive(Debug, Clone, Copy)]
-struct Friction {
+#[derive(Debug, Clone)]
+struct Friction<T: Real, const D: usize> {
     effect: usize,
-    joint: usize,
+    motion: CoordinateMotion<T, D>,
     regularisation: f64,
 }
 
 /// The frictions of a run by explicit steps of fixed length.
 #[derive(Debug, Clone)]
-pub(crate) struct Frictions {
-    all: Vec<Friction>,
+pub(crate) struct Frictions<T: Real, const D: usize> {
+    all: Vec<Friction<T, D>>,
     /// Length of a step [s].
     step: f64,
 }
 
-impl Frictions {
+impl<T: Real, const D: usize> Frictions<T, D> {
     /// Those of a scene; none where the method of the settings follows them.
-    pub(crate) fn new<T: Real>(scene: &Scene<T>, settings: &Settings) -> Self {
+    pub(crate) fn new(scene: &Scene<T>, settings: &Settings, model: &NaturalModel<T, D>) -> Self {
         let is_explicit = settings.formulation == FormulationKind::Recursive
             && settings.integrator == IntegratorKind::Rk4;
         let friction = |(effect, e): (usize, &Effect<T>)| match &e.kind {
             EffectKind::Friction { joint, coulomb, r#static, regularisation, .. } if e.enabled => {
-                let (joint, regularisation) = (joint.index(), regularisation.to_f64());
                 // What is viscous alone rises nowhere.
                 let has_rise = coulomb.max(*r#static) > T::ZERO;
-                has_rise.then_some(Friction { effect, joint, regularisation })
+                let motion = CoordinateMotion::new(scene, model, &scene.joints[*joint]);
+                let regularisation = regularisation.to_f64();
+                let motion = motion.filter(|_| has_rise)?;
+                Some(Friction { effect, motion, regularisation })
             }
             _ => None,
         };
@@ -57,48 +58,17 @@ impl Frictions {
     }
 
     /// The first one that the last step has passed over.
-    pub(crate) fn passed<T: Real, const D: usize>(
-        &self,
-        scene: &Scene<T>,
-        simulation: &Simulation<T, D>,
-    ) -> Option<StopError>
+    pub(crate) fn passed(&self, simulation: &Simulation<T, D>) -> Option<StopError>
     where
         Plane<D>: InSpace<T>,
     {
-        let is_passed = |friction: &&Friction| {
-            let [rate, acceleration] = motion(scene, simulation, friction.joint);
+        let is_passed = |friction: &&Friction<T, D>| {
+            let [rate, acceleration] = friction.motion.at(simulation.state()).map(Real::to_f64);
             let change = acceleration.abs() * self.step;
             change > FAR * friction.regularisation && rate.abs() <= change
         };
-        let &Friction { effect, regularisation, .. } = self.all.iter().find(is_passed)?;
+        let Friction { effect, regularisation, .. } = self.all.iter().find(is_passed)?;
+        let (effect, regularisation) = (*effect, *regularisation);
         Some(StopError::Friction { effect, regularisation, step: self.step })
     }
-}
-
-/// Rate and acceleration of a joint's coordinate.
-fn motion<T: Real, const D: usize>(
-    scene: &Scene<T>,
-    simulation: &Simulation<T, D>,
-    joint: usize,
-) -> [f64; 2]
-where
-    Plane<D>: InSpace<T>,
-{
-    let joint = &scene.joints[joint];
-    let [first, second] = joint.bodies.map(|body| match body {
-        BodyId::Ground => RigidMotion::at_rest(Vector::zeros()),
-        BodyId::Body(b) => simulation.model().motion(scene, b, simulation.state()),
-    });
-    let [axis, _] = joint_axes(joint, scene.dimension).map(Vector::from);
-    let axis = first.rotation * axis;
-    if joint.kind != JointKind::Prismatic {
-        let turn = second.angular_acceleration - first.angular_acceleration;
-        return [second.omega - first.omega, turn].map(|x| axis.dot(&x).to_f64());
-    }
-    let [place, velocity, acceleration] = second.point(&Vector::from(joint.points[1]));
-    let arm = place - first.position;
-    let turning = first.velocity + cross(&first.omega, &arm);
-    let swing = cross(&first.omega, &cross(&first.omega, &arm));
-    let carried = first.acceleration + cross(&first.angular_acceleration, &arm) + swing;
-    [velocity - turning, acceleration - carried].map(|x| axis.dot(&x).to_f64())
 }

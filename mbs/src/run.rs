@@ -129,7 +129,7 @@ where
     /// Time reached [s].
     reached: f64,
     alarm: Alarm,
-    frictions: Frictions,
+    frictions: Frictions<T, D>,
     /// Steps of the record's count that are made.
     done: u64,
     clock: Clock,
@@ -172,6 +172,7 @@ where
         };
         let recorder = Recorder::new(channels, n_rows, simulation.invariant().initial(), keep);
         let figure = Figure::new(scene, simulation.model(), settings.duration);
+        let frictions = Frictions::new(scene, settings, simulation.model());
         let threads = simulation.threads();
         Ok(Self {
             scene,
@@ -187,7 +188,7 @@ where
             counts: Counts::default(),
             reached: 0.0,
             alarm: Alarm::new(settings.energy_alarm),
-            frictions: Frictions::new(scene, settings),
+            frictions,
             done: 0,
             clock: Clock::new(threads),
             kept: None,
@@ -343,7 +344,7 @@ where
             progress.reached(mark.t);
         }
         // energy that is lost says more than an output that is not finite for it
-        let passed = self.frictions.passed(self.scene, &self.simulation);
+        let passed = self.frictions.passed(&self.simulation);
         match self.alarm.rings_for(&self.simulation, is_last, passed) {
             Some(stop) => self.stop(stop),
             None => recorded,

@@ -381,7 +381,9 @@ fn step_rule<T>(
         let default = StepRule::of(of_formulation, solver.error_tolerance.is_some());
         (overrides.step_control.clone(), default)
     };
-    let names = (&from_caller, &solver.step_control, default.name());
+    let [from_caller, from_scene] = [&from_caller, &solver.step_control]
+        .map(|name| name.as_deref().map(|name| StepRule::canonical(name).to_owned()));
+    let names = (&from_caller, &from_scene, default.name());
     let (_, rule) = named("step_control", names, &STEP_RULES, StepRule::ALL)?;
     if rule == StepRule::Fixed || !integrator.is_of_first_order() {
         return Ok(rule);

@@ -157,10 +157,7 @@ where
     /// [`InputError`] where the effect has no input ([`Signal::Input`](mbs_core::scene::Signal::Input)), or where a component is not
     /// finite. Nothing is set then.
     pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
-        if let Engine::Recursive(tree) = &mut self.engine {
-            tree.set_input(effect, value)?;
-        }
-        self.model.set_input(effect, value)
+        self.model.prescribed().set_input(&mut self.state.inputs, effect, value)
     }
 
     /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. Where lengths are controlled, the
@@ -170,10 +167,7 @@ where
     /// [`InputError`] where the guide is no input ([`Motion::Input`](mbs_core::scene::Motion::Input)), or where a component is not
     /// finite. Nothing is set then.
     pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
-        if let Engine::Recursive(tree) = &mut self.engine {
-            tree.set_guide(guide, motion)?;
-        }
-        self.model.set_guide(guide, motion)
+        self.model.prescribed().set_guide(&mut self.state.inputs, guide, motion)
     }
 
     /// An angle or slide of a joint with its turns, by joint and number, where the formulation's own coordinates have it: in a tree, but for
@@ -212,7 +206,7 @@ where
             engine: self.engine.kept(),
             control: self.control.as_ref().map(|control| control.kept()),
             invariant: self.invariant.history(),
-            inputs: inputs(self.model.prescribed()),
+            inputs: inputs(self.model.prescribed(), &self.state.inputs),
         }
     }
 
@@ -324,7 +318,7 @@ fn size<T: Real>(x: [T; 3]) -> f64 {
 /// Rank of the constraints at a state.
 pub(crate) fn rank<T: Real, const D: usize>(model: &NaturalModel<T, D>, state: &State<T>) -> usize {
     let mut terms = model.terms();
-    model.set_inputs(state.t, &mut terms);
+    model.set_inputs(state.t, state, &mut terms);
     model.evaluate(&state.q, &mut terms);
     mbs_core::start::constraint_rank(model, &terms)
 }

@@ -193,9 +193,9 @@ impl StaticEquilibrium {
         let (reactions, not_unique) = measured(&all, &model, &state).unwrap_or_default();
         let (outputs, _) = measured(scene, &model, &state)?;
         let mut terms = model.terms();
-        model.set_inputs(state.t, &mut terms);
+        model.set_inputs(state.t, &state, &mut terms);
         model.evaluate(&state.q, &mut terms);
-        model.evaluate_forces(&state.q, &state.v, &state.memory, &mut terms);
+        model.evaluate_forces(&state.q, &state.v, &mut terms);
         let sizes = [model.n_unknowns(), model.n_constraints(), rank(&model, &state)];
         Ok(Self {
             scene: scene.name.clone(),

@@ -1,7 +1,7 @@
 //! Axes that are almost parallel, or almost across each other: what is said of them, and when a scene is refused for them.
 
 use crate::words::few;
-use mbs_core::model::Model;
+use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Scene;
 use mbs_core::scene::align::{DOUBTFUL, MEANT, Tilt, align, tilts};
@@ -77,9 +77,8 @@ pub(crate) fn almost_dependent<T: Real, const D: usize>(
 fn freedoms<T: Real, const D: usize>(scene: &Scene<T>) -> Option<usize> {
     let model = NaturalModel::<T, D>::new(scene).ok()?;
     let mut terms = model.terms();
-    let mut q = vec![T::ZERO; model.n_extended()];
-    model.write_reference(&mut q);
-    model.set_inputs(T::ZERO, &mut terms);
-    model.evaluate(&q, &mut terms);
+    let start = State::at_rest(&model);
+    model.set_inputs(start.t, &start, &mut terms);
+    model.evaluate(&start.q, &mut terms);
     Some(model.n_unknowns() - constraint_rank(&model, &terms))
 }

@@ -9,8 +9,8 @@ use mbs_core::actions::{Action, Actions};
 use mbs_core::model::{Model, Owner, State, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{BodyId, JointKind, Scene};
-use mbs_core::step::{InputError, StepError, StepReport};
+use mbs_core::scene::{BodyId, Scene};
+use mbs_core::step::{StepError, StepReport};
 use mbs_recursive::space::Space;
 use mbs_recursive::{
     Closure, Options, Planar, Spatial, StartError, TreeModel, TreeState, Workspace,
@@ -58,8 +58,7 @@ fn angles<T: Real, const D: usize>(
         let angle = match action {
             // Joints with an effect about their axis have one angle.
             Action::Angle { joint, .. } => {
-                let is_turn = |number: &usize| !is_slide(scene.joints[*joint].kind, *number);
-                let number = (0..coordinates[*joint].len()).find(is_turn)?;
+                let (number, _) = scene.joints[*joint].kind.turn(scene.dimension)?;
                 Angle::Of(coordinates[*joint][number]?)
             }
             Action::Turn { bodies, .. } => Angle::Between(*bodies),
@@ -71,15 +70,6 @@ fn angles<T: Real, const D: usize>(
         Some((natural.memory_of_effect(*effect)?, angle))
     };
     list.iter().filter_map(angle).collect()
-}
-
-/// Is this coordinate of a joint a slide?
-fn is_slide(kind: JointKind, number: usize) -> bool {
-    match kind {
-        JointKind::Cylindrical => number == 0,
-        JointKind::Planar | JointKind::Free => number < 2,
-        _ => false,
-    }
 }
 
 /// A scene in relative coordinates.
@@ -206,6 +196,7 @@ where
         state.t = self.state.t;
         state.work = self.state.work;
         state.power = self.state.power;
+        state.applied.copy_from_slice(&self.state.applied);
         for &(place, angle) in &self.angles {
             state.memory[place] = match angle {
                 Angle::Of(link) => self.model.coordinate(&self.state, link),
@@ -235,7 +226,7 @@ where
 
     /// Takes the coordinates and velocities of another tree over.
     pub(crate) fn show(&mut self, other: &Self) {
-        self.state.copy_from(&other.state);
+        self.state.copy_coordinates(&other.state);
     }
 
     /// Makes accelerations and multipliers those of this tree's own effects, and tells `natural`'s state.
@@ -244,6 +235,7 @@ where
         natural: &NaturalModel<T, D>,
         state: &mut State<T>,
     ) -> Result<(), StepError> {
+        self.state.inputs.copy_from_slice(&state.inputs);
         self.model.settle(&mut self.state, &mut self.workspace)?;
         self.tell(natural, state);
         Ok(())
@@ -254,26 +246,17 @@ where
         self.state.work = work;
     }
 
-    /// Makes the states those of the inputs that are set now.
+    /// Makes the states those of the inputs that are set in `state` now.
     pub(crate) fn take_inputs(
         &mut self,
         natural: &NaturalModel<T, D>,
         state: &mut State<T>,
     ) -> Result<(), StepError> {
+        self.state.inputs.copy_from_slice(&state.inputs);
         if self.model.take_inputs(&self.options, &mut self.state, &mut self.workspace)? {
             self.tell(natural, state);
         }
         Ok(())
-    }
-
-    /// Sets an effect's input.
-    pub(crate) fn set_input(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
-        self.model.set_input(effect, value)
-    }
-
-    /// Sets a guide's motion.
-    pub(crate) fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
-        self.model.set_guide(guide, motion)
     }
 
     /// Lets an integrator that controls its own steps try no more of them within one length asked for.
@@ -313,8 +296,8 @@ pub(crate) fn tell<T: Real, const D: usize>(
 ) {
     natural.write_motions(motions, state);
     if !state.memory.is_empty() {
-        natural.set_inputs(state.t, terms);
-        natural.evaluate_forces(&state.q, &state.v, &state.memory, terms);
+        natural.set_inputs(state.t, state, terms);
+        natural.evaluate_forces(&state.q, &state.v, terms);
         natural.remember(terms, &mut state.memory);
     }
 }

@@ -63,10 +63,10 @@ impl<'a, const D: usize> Iteration<'a, D> {
     }
 
     pub(crate) fn advance(&mut self) {
-        let State { q, phi, memory, .. } = self.state;
+        let State { q, phi, .. } = self.state;
         self.model.advance(q, &self.dq, phi, &mut self.terms);
         if self.model.has_forces() {
-            self.model.evaluate_forces(&self.q, &self.v, memory, &mut self.terms);
+            self.model.evaluate_forces(&self.q, &self.v, &mut self.terms);
         }
     }
 

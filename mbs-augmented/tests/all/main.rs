@@ -2,5 +2,6 @@
 
 mod allocation;
 mod double_double;
+mod inputs;
 mod invariants;
 mod multi_index;

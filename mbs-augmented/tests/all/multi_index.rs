@@ -41,9 +41,9 @@ impl<const D: usize> Bench<D> {
     fn imbalance(&mut self) -> f64 {
         let Self { model, state: s, .. } = self;
         let mut terms = model.terms();
-        model.set_inputs(s.t, &mut terms);
+        model.set_inputs(s.t, s, &mut terms);
         model.evaluate(&s.q, &mut terms);
-        model.evaluate_forces(&s.q, &s.v, &s.memory, &mut terms);
+        model.evaluate_forces(&s.q, &s.v, &mut terms);
         let load =
             mbs_core::model::Load { mass: Some(&s.a), multipliers: Some(&s.lambda), force: 1.0 };
         let tangent = mbs_core::model::Tangent {

@@ -13,6 +13,7 @@ mod doctor;
 mod double_double;
 mod explain;
 mod generate;
+mod help;
 #[cfg(target_os = "linux")]
 mod hostile;
 #[cfg(not(any(feature = "f32", feature = "dd")))]

@@ -74,7 +74,7 @@ fn the_help_says_what_the_options_of_radau5_mean() {
         ),
         "{flat}"
     );
-    assert!(flat.contains("radau5 the error of each step"), "{flat}");
+    assert!(flat.contains("radau5: the error of each step"), "{flat}");
     assert!(
         flat.contains(
             "Longest step where lengths are controlled, and with rk54, rk853, gbs and radau5"

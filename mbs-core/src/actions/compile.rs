@@ -4,7 +4,7 @@ use super::{Action, ActionError, Actions, Seat, Tables};
 use crate::Real;
 use crate::inputs::{Prescribed, SignalInput};
 use crate::laws::scalar::Law;
-use crate::scene::{AxisFrame, BodyId, EffectKind, Scene, Signal};
+use crate::scene::{AxisFrame, BodyId, EffectKind, JointId, Scene, Signal};
 use alloc::vec::Vec;
 
 impl<T: Real> Actions<T> {
@@ -93,11 +93,11 @@ impl<T: Real> Compiler<'_, T> {
             EffectKind::TorsionSpring { joint, stiffness, damping, free_value } => {
                 let (stiffness, damping, free) = (*stiffness, *damping, *free_value);
                 let law = Law::SpringDamper { stiffness, damping, free };
-                self.push(Action::Angle { joint: joint.index(), law });
+                self.about_axis(*joint, law);
             }
             EffectKind::JointTorque { joint, course } => {
                 let law = Law::Torque { course: self.course(SignalInput::new(course)) };
-                self.push(Action::Angle { joint: joint.index(), law });
+                self.about_axis(*joint, law);
             }
             EffectKind::Force { body, at, course, frame } => {
                 let Some(body) = body.index() else { return };
@@ -122,6 +122,13 @@ impl<T: Real> Compiler<'_, T> {
                 self.add_law(kind);
                 self.add_law_on_body(kind);
             }
+        }
+    }
+
+    /// A law about the one axis that a joint turns about: the scene's check refuses others.
+    fn about_axis(&mut self, id: JointId, law: Law<T>) {
+        if let Some((_, axis)) = self.scene.joints[id].kind.turn(self.scene.dimension) {
+            self.push(Action::Angle { joint: id.index(), axis, law });
         }
     }
 }

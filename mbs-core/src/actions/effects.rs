@@ -14,8 +14,7 @@ use crate::inputs::SignalInput;
 use crate::laws;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
-use crate::natural::joint_axes;
-use crate::scene::{BodyId, Dimension, EffectKind, JointId, JointKind, PolynomialPiece, UserLaw};
+use crate::scene::{BodyId, Dimension, EffectKind, Freedom, JointId, PolynomialPiece, UserLaw};
 
 impl<T: Real> Compiler<'_, T> {
     /// A law along a length or about an angle.
@@ -142,17 +141,18 @@ impl<T: Real> Compiler<'_, T> {
         self.scene.dimension == Dimension::Planar
     }
 
-    /// A law of a joint's one coordinate.
+    /// A law of a joint's one coordinate: the scene's check refuses joints with none or several.
     fn on_joint(&mut self, id: JointId, law: Law<T>) {
         let joint = &self.scene.joints[id];
-        self.push(match joint.kind {
-            JointKind::Prismatic => {
-                let direction = direction_of(joint_axes(joint, self.scene.dimension)[0]);
+        match joint.kind.single(self.scene.dimension) {
+            Some(Freedom::Slide(axis)) => {
+                let direction = direction_of(joint.direction(axis).into());
                 let ends = [0, 1].map(|i| (joint.bodies[i], joint.points[i]));
-                Action::Along { ends, direction, offset: T::ZERO, law }
+                self.push(Action::Along { ends, direction, offset: T::ZERO, law });
             }
-            _ => Action::Angle { joint: id.index(), law },
-        });
+            Some(Freedom::Turn(axis)) => self.push(Action::Angle { joint: id.index(), axis, law }),
+            Some(Freedom::Ball) | None => {}
+        }
     }
 
     fn bushing(&mut self, bodies: [BodyId; 2], at: [T; 3], (k, c): (&[T; 6], &[T; 6])) {

@@ -16,7 +16,7 @@ pub use tables::Tables;
 use crate::inputs::Prescribed;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
-use crate::scene::BodyId;
+use crate::scene::{Axis, BodyId};
 use alloc::vec::Vec;
 
 /// A place on a body, reference configuration [m].
@@ -47,6 +47,8 @@ pub enum Action<T> {
     Angle {
         /// Index of the joint.
         joint: usize,
+        /// What it turns about.
+        axis: Axis,
         /// The law.
         law: Law<T>,
     },

@@ -2,6 +2,7 @@
 
 use super::basis::Combination;
 use super::build::Builder;
+use super::coordinate::{Coordinate, Places};
 use super::draft::{EffectDraft, GroupDraft, difference};
 use super::error::ModelError;
 use super::finish::lifted;
@@ -10,7 +11,7 @@ use crate::actions::{Action, Seat};
 use crate::algebra::{Vector, unit};
 use crate::laws::scalar::Law;
 use crate::model::Owner;
-use crate::scene::{BodyId, Dimension};
+use crate::scene::{BodyId, Dimension, Freedom};
 use alloc::vec::Vec;
 
 impl<T: Real> Builder<'_, T> {
@@ -41,9 +42,15 @@ impl<T: Real> Builder<'_, T> {
                 offset: *offset,
                 law: *law,
             },
-            Action::Angle { joint, law } => {
-                let [x1, x2, y] = self.angle(&self.scene.joints[*joint]);
-                EffectDraft::Angle { x1, x2, y, law: *law }
+            Action::Angle { joint, axis, law } => {
+                let scene = self.scene;
+                let turn = Freedom::Turn(*axis);
+                match self.coordinate(&scene.joints[*joint], scene.dimension, turn) {
+                    Coordinate::Angle { x1, x2, y, .. } => {
+                        EffectDraft::Angle { x1, x2, y, law: *law }
+                    }
+                    Coordinate::Slide { .. } | Coordinate::Rotation => return Ok(()),
+                }
             }
             Action::Turn { bodies: [first, second], law } => {
                 let [x, y] = [0, 1].map(unit);

@@ -6,7 +6,7 @@ use crate::Real;
 use crate::algebra::norm;
 use crate::elements::combine;
 use crate::inputs::Prescribed;
-use crate::model::{Load, Measure, Model, Owner, Tangent, Terms};
+use crate::model::{Load, Measure, Model, Owner, State, Tangent, Terms};
 use crate::team::Alone;
 use alloc::vec;
 use core::ops::Range;
@@ -106,6 +106,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
             measures: vec![Measure::default(); self.n_measures],
             guides: vec![[T::ZERO; 3]; self.prescribed.n_guides()],
             courses: vec![[T::ZERO; 3]; self.prescribed.n_courses()],
+            angles: zeros(self.n_memory),
         }
     }
 
@@ -140,8 +141,9 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         }
     }
 
-    fn set_inputs(&self, t: T, terms: &mut Terms<T>) {
-        self.prescribed.write(t, &mut terms.guides, &mut terms.courses);
+    fn set_inputs(&self, t: T, state: &State<T>, terms: &mut Terms<T>) {
+        terms.angles.copy_from_slice(&state.memory);
+        self.prescribed.write(t, &state.inputs, &mut terms.guides, &mut terms.courses);
         terms.measures.iter_mut().for_each(|measure| measure.rate = T::ZERO);
     }
 
@@ -153,8 +155,8 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
         self.advance_on(&Alone, (q, dq), phi_n, terms);
     }
 
-    fn evaluate_forces(&self, q: &[T], v: &[T], memory: &[T], terms: &mut Terms<T>) {
-        self.evaluate_forces_on(&Alone, (q, v, memory), terms);
+    fn evaluate_forces(&self, q: &[T], v: &[T], terms: &mut Terms<T>) {
+        self.evaluate_forces_on(&Alone, (q, v), terms);
     }
 
     fn remember(&self, terms: &Terms<T>, memory: &mut [T]) {

@@ -6,6 +6,7 @@
 mod affine;
 mod basis;
 mod build;
+mod coordinate;
 mod draft;
 mod effects;
 mod element;
@@ -32,11 +33,11 @@ mod touches;
 
 pub use affine::Affine;
 pub use basis::INDEPENDENCE;
+pub(crate) use coordinate::{Coordinate, Places};
 pub use error::ModelError;
 pub(crate) use finish::index;
 pub use forces::unwrap;
 pub(crate) use group::{add_squares, packed};
-pub use joints::{angle_directions, joint_axes, transverse};
 pub use model::NaturalModel;
 pub use rotation::unwrap_rotation;
 pub use sharing::TOLERANCE;

@@ -16,7 +16,6 @@ use crate::cluster::Clusters;
 use crate::elements::{Distance, Dot, Guided, Linear, Term};
 use crate::inputs::Prescribed;
 use crate::model::Owner;
-use crate::step::InputError;
 use alloc::vec::Vec;
 
 /// A mechanism in natural coordinates of D dimensions: shared points and unit vectors, constant mass matrix.
@@ -96,27 +95,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
         self.length
     }
 
-    /// Sets the input of `scene.effects[effect]` between two steps: force, torque, or what its own law asks for. It holds until
-    /// it is set again, and the next step is made with it from its beginning.
-    ///
-    /// # Errors
-    /// [`InputError`] where the effect has none (it has one where it is enabled and its course is
-    /// [`Signal::Input`](crate::scene::Signal::Input)), or where a component is not finite.
-    pub fn set_input(&mut self, effect: usize, value: [T; 3]) -> Result<(), InputError> {
-        self.prescribed.set_course(effect, value)
-    }
-
-    /// Sets value, rate and acceleration that `scene.guides[guide]` has at the end of the next step. Values that jump make
-    /// accelerations jump with the square of the step: pass what a smooth reference gives.
-    ///
-    /// # Errors
-    /// [`InputError`] where the guide is no input ([`Motion::Input`](crate::scene::Motion::Input)), or where a component is not
-    /// finite.
-    pub fn set_guide(&mut self, guide: usize, motion: [T; 3]) -> Result<(), InputError> {
-        self.prescribed.set_guide(guide, motion)
-    }
-
-    /// Guides and courses, with the inputs as they are set now.
+    /// Guides and courses: they name the places of a state's inputs, and set them.
     #[must_use]
     pub fn prescribed(&self) -> &Prescribed<T> {
         &self.prescribed

@@ -4,7 +4,7 @@ use crate::Real;
 use crate::actions::{Action, Actions};
 use crate::algebra::{Vector, norm};
 use crate::cluster::{Cluster, Clusters};
-use crate::scene::{BodyId, InitialTarget, JointKind, Quantity, Scene};
+use crate::scene::{BodyId, InitialTarget, Quantity, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -72,12 +72,9 @@ impl<T: Real> Rods<T> {
 
     fn ask_joints(&mut self, scene: &Scene<T>) {
         // a free joint has no row
-        for joint in scene.joints.iter().filter(|joint| joint.kind != JointKind::Free) {
+        for joint in scene.joints.iter().filter(|joint| !joint.kind.is_free()) {
             for (side, body) in joint.bodies.into_iter().enumerate() {
-                let is_ball = joint.kind == JointKind::Spherical
-                    || (joint.kind == JointKind::Distance
-                        && (joint.axes[0].is_none() || side == 1));
-                if is_ball {
+                if joint.is_ball_at(side) {
                     self.point(body, &joint.points[side]);
                 } else {
                     self.rotation(body);

@@ -6,9 +6,9 @@
 
 use super::near::Near;
 use crate::Real;
-use crate::algebra::{Vector, along, cross, norm};
+use crate::algebra::{Vector, cross, norm};
 use crate::cluster::{Clusters, root};
-use crate::scene::{Dimension, Joint, JointKind, Scene};
+use crate::scene::{Dimension, Joint, Scene, Translation};
 use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
@@ -81,14 +81,9 @@ fn common<T: Real>(
     joint: &Joint<T>,
     dimension: Dimension,
 ) -> impl Iterator<Item = (EntityKind, Vector<T, 3>)> {
-    let point = Some((EntityKind::Point, Vector::from(joint.points[0])));
-    let axis = joint.axes[0].map(|a| (EntityKind::Direction, along(&Vector::from(a))));
-    let (point, axis) = match (joint.kind, dimension) {
-        (JointKind::Revolute, Dimension::Spatial) => (point, axis),
-        (JointKind::Revolute | JointKind::Spherical | JointKind::Universal, _) => (point, None),
-        (JointKind::Prismatic | JointKind::Cylindrical | JointKind::Planar, _) => (None, axis),
-        (JointKind::Weld | JointKind::Free | JointKind::Distance, _) => (None, None),
-    };
+    let has_point = joint.kind.translation(dimension) == Translation::Fixed;
+    let point = has_point.then(|| (EntityKind::Point, Vector::from(joint.points[0])));
+    let axis = joint.common_axis(dimension).map(|axis| (EntityKind::Direction, axis));
     point.into_iter().chain(axis)
 }
 

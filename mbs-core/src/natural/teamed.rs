@@ -68,11 +68,11 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     pub(super) fn evaluate_forces_on<W: Team>(
         &self,
         team: &W,
-        (q, v, memory): (&[T], &[T], &[T]),
+        (q, v): (&[T], &[T]),
         terms: &mut Terms<T>,
     ) {
-        let Terms { jacobian, force, measures, courses, .. } = terms;
-        let courses = &courses[..];
+        let Terms { jacobian, force, measures, courses, angles, .. } = terms;
+        let (courses, angles) = (&courses[..], &angles[..]);
         let (measures, body_measures) = measures.split_at_mut(self.measures.len());
         let out = Out { jacobian, force, measures, body_measures, ..Out::default() };
         self.on_parts(team, out, |part, out| {
@@ -82,7 +82,7 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
                 let mut element = *element;
                 element.place = part.place(element.place);
                 let before = *measure;
-                *measure = element.evaluate::<D>(&self.pool, (q, v, memory), &supplies, jacobian);
+                *measure = element.evaluate::<D>(&self.pool, (q, v, angles), &supplies, jacobian);
                 element.law.look_back(measure, &before);
             }
             for element in part.body_elements(&self.body_elements) {
@@ -248,8 +248,8 @@ impl<T: Real, const D: usize, W: Team> Model<T> for Teamed<'_, T, D, W> {
     fn advance(&self, q: &[T], dq: &[T], phi_n: &[T], terms: &mut Terms<T>) {
         self.model.advance_on(self.team, (q, dq), phi_n, terms);
     }
-    fn evaluate_forces(&self, q: &[T], v: &[T], memory: &[T], terms: &mut Terms<T>) {
-        self.model.evaluate_forces_on(self.team, (q, v, memory), terms);
+    fn evaluate_forces(&self, q: &[T], v: &[T], terms: &mut Terms<T>) {
+        self.model.evaluate_forces_on(self.team, (q, v), terms);
     }
     fn evaluate_bias(&self, q: &[T], v: &[T], terms: &mut Terms<T>) {
         self.model.evaluate_bias_on(self.team, (q, v), terms);

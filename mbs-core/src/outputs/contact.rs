@@ -59,7 +59,7 @@ impl<T: Real, const D: usize> Contacts<T, D> {
         if self.effects.is_empty() {
             return;
         }
-        let (list, supplies) = self.loads.at(state.t);
+        let (list, supplies) = self.loads.at(state);
         for (load, last) in list.iter().zip(&mut self.last) {
             *last = load.reading(state, &supplies).gaps;
         }
@@ -75,7 +75,7 @@ impl<T: Real, const D: usize> Contacts<T, D> {
         }
         let (from, to) = (self.t, state.t.to_f64());
         let first = self.instants.len();
-        let (list, supplies) = self.loads.at(state.t);
+        let (list, supplies) = self.loads.at(state);
         for ((load, &effect), last) in list.iter().zip(&self.effects).zip(&mut self.last) {
             let gaps = load.reading(state, &supplies).gaps;
             for (end, (a, b)) in last.iter().zip(&gaps).take(load.n_gaps()).enumerate() {

@@ -1,17 +1,11 @@
 //! Joint coordinates measured at a state: the same directions and signs that hold them at the start.
-//!
-//! ```text
-//! angle   atan2(x2.y, x1.y)          x1, x2 in one body, y in the other
-//! slide   x.y                        x from the first body's point to the second's, y in the first
-//! turn    log(R1^T R2),   rate omega2 - omega1 in global axes
-//! ```
 
 use super::frame::Frame;
 use crate::Real;
-use crate::algebra::{Vector, cross, rotation_vector, unit};
+use crate::algebra::{Vector, rotation_vector, unit};
 use crate::model::State;
-use crate::natural::{Affine, NaturalModel, angle_directions, joint_axes, unwrap, unwrap_rotation};
-use crate::scene::{BodyId, Joint, JointKind, Scene};
+use crate::natural::{self, Affine, NaturalModel, Places, unwrap, unwrap_rotation};
+use crate::scene::{BodyId, Freedom, Joint, Scene};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
@@ -39,48 +33,23 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         model: &NaturalModel<T, D>,
         joint: &Joint<T>,
     ) -> Vec<Self> {
-        let [n, d] = joint_axes(joint, scene.dimension);
-        let slide = |along| Self::slide(model, joint, along);
-        let angle = || Self::angle(scene, model, joint, 0);
-        let turn =
-            || Self::Turn { frames: Box::new(joint.bodies.map(|b| Frame::new(scene, model, b))) };
-        match joint.kind {
-            JointKind::Weld | JointKind::Distance => Vec::new(),
-            JointKind::Revolute => alloc::vec![angle()],
-            JointKind::Prismatic => alloc::vec![slide(n)],
-            JointKind::Cylindrical => alloc::vec![slide(n), angle()],
-            JointKind::Universal => {
-                alloc::vec![angle(), Self::angle(scene, model, joint, 1)]
-            }
-            JointKind::Planar => {
-                let second = cross(&Vector::<T, 3>::from(n), &Vector::from(d));
-                alloc::vec![slide(d), slide(second.into()), angle()]
-            }
-            JointKind::Spherical => alloc::vec![turn()],
-            JointKind::Free => {
-                let mut all: Vec<Self> = (0..D).map(|i| slide(unit(i).into())).collect();
-                all.push(if D == 2 { angle() } else { turn() });
-                all
-            }
-        }
+        let freedoms = joint.freedoms(scene.dimension).iter();
+        freedoms.map(|&freedom| Self::of_freedom(scene, model, (joint, freedom))).collect()
     }
 
-    /// Angle number 0 is that of the second body about an axis of the first; number 1 (the universal joint's second) is
-    /// minus that of the first body about an axis of the second.
-    pub(super) fn angle(
+    /// That of one freedom.
+    pub(super) fn of_freedom(
         scene: &Scene<T>,
-        model: &NaturalModel<T, D>,
-        joint: &Joint<T>,
-        number: usize,
+        mut model: &NaturalModel<T, D>,
+        (joint, freedom): (&Joint<T>, Freedom),
     ) -> Self {
-        let [v, w, y] = angle_directions(joint, scene.dimension, number);
-        let [frame, turned] =
-            if number == 0 { joint.bodies } else { [joint.bodies[1], joint.bodies[0]] };
-        Self::Angle {
-            x1: model.direction(frame, v),
-            x2: model.direction(frame, w),
-            y: model.direction(turned, y),
-            sign: if number == 0 { T::ONE } else { -T::ONE },
+        match model.coordinate(joint, scene.dimension, freedom) {
+            natural::Coordinate::Angle { x1, x2, y, sign } => Self::Angle { x1, x2, y, sign },
+            natural::Coordinate::Slide { x, y } => Self::Slide { x, y },
+            natural::Coordinate::Rotation => {
+                let frames = joint.bodies.map(|body| Frame::new(scene, model, body));
+                Self::Turn { frames: Box::new(frames) }
+            }
         }
     }
 
@@ -92,15 +61,6 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
             x2: model.direction(first, y),
             y: model.direction(second, x),
             sign: T::ONE,
-        }
-    }
-
-    fn slide(model: &NaturalModel<T, D>, joint: &Joint<T>, along: [T; 3]) -> Self {
-        let [first, second] = joint.bodies;
-        let [p, q] = joint.points;
-        Self::Slide {
-            x: model.point(second, q).minus(&model.point(first, p)),
-            y: model.direction(first, along),
         }
     }
 
@@ -173,6 +133,50 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
                 let omega = frames[1].turning(q, v) - frames[0].turning(q, v);
                 out.copy_from_slice(omega.as_slice());
             }
+        }
+    }
+}
+
+/// Rate and acceleration of the coordinate of a joint that has one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CoordinateMotion<T: Real, const D: usize> {
+    coordinate: Coordinate<T, D>,
+}
+
+impl<T: Real, const D: usize> CoordinateMotion<T, D> {
+    /// Of a joint; `None` where it has no coordinate or several.
+    #[must_use]
+    pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>, joint: &Joint<T>) -> Option<Self> {
+        let freedom = joint.kind.single(scene.dimension)?;
+        Some(Self { coordinate: Coordinate::of_freedom(scene, model, (joint, freedom)) })
+    }
+
+    /// Its rate and its acceleration at a state [rad/s or m/s, rad/s^2 or m/s^2]. Cost: a few products, no allocation.
+    #[must_use]
+    pub fn at(&self, state: &State<T>) -> [T; 2] {
+        let State { q, v, a, .. } = state;
+        // x.y, its rate and its second derivative
+        let product = |x: &Affine<T, D>, y: &Affine<T, D>| {
+            let ([x, xt, xtt], [y, yt, ytt]) =
+                [x, y].map(|z| [z.value(q), z.rate(v), z.rate(a)]).into();
+            let second = xtt.dot(&y) + T::TWO * xt.dot(&yt) + x.dot(&ytt);
+            [x.dot(&y), xt.dot(&y) + x.dot(&yt), second]
+        };
+        match &self.coordinate {
+            Coordinate::Angle { x1, x2, y, sign } => {
+                let ([c, ct, ctt], [s, st, stt]) = (product(x1, y), product(x2, y));
+                // tan theta = s/c, r^2 = c^2 + s^2
+                let inverse = T::ONE / (c * c + s * s);
+                let rate = (c * st - s * ct) * inverse;
+                let turning = (c * stt - s * ctt) * inverse;
+                let change = T::TWO * (c * ct + s * st) * inverse * rate;
+                [rate, turning - change].map(|x| x * *sign)
+            }
+            Coordinate::Slide { x, y } => {
+                let [_, rate, acceleration] = product(x, y);
+                [rate, acceleration]
+            }
+            Coordinate::Turn { .. } => [T::ZERO; 2],
         }
     }
 }

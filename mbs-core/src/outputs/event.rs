@@ -102,7 +102,8 @@ impl<T: Real, const D: usize> Events<T, D> {
     /// [`ModelError`] as for the model.
     pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ModelError> {
         let (mut loads, effects) = Loads::with_kinks(scene, model)?;
-        let (list, supplies) = loads.at(T::ZERO);
+        let start = State::at_rest(model);
+        let (list, supplies) = loads.at(&start);
         let watch = |(load, &effect): (&Load<T, D>, &usize)| {
             let mut kinks = Vec::new();
             load.kinks(&supplies, |kink| kinks.push(kink));
@@ -181,7 +182,7 @@ impl<T: Real, const D: usize> Events<T, D> {
         if self.watched.is_empty() {
             return;
         }
-        let (list, supplies) = self.loads.at(state.t);
+        let (list, supplies) = self.loads.at(state);
         for (load, watched) in list.iter().zip(&mut self.watched) {
             watched.end = load.reading(state, &supplies);
         }

@@ -21,6 +21,7 @@ mod turns;
 mod wrench;
 
 pub use contact::{Contacts, Instant, MOST_INSTANTS};
+pub use coordinate::CoordinateMotion;
 pub use error::ReactionError;
 pub use event::{EventHistory, Events};
 pub use measure::{Measures, start_values};

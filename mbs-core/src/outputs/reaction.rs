@@ -158,7 +158,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
 
     fn apply_loads(&mut self, state: &State<T>) {
         let Self { bodies, loads, .. } = self;
-        let (loads, supplies) = loads.at(state.t);
+        let (loads, supplies) = loads.at(state);
         for load in loads {
             let mut given: [Option<super::load::Applied<T>>; 2] = [None, None];
             let turned = |body| rotation_of(bodies, body);

@@ -1,24 +1,24 @@
 //! The wrenches a joint can transmit, as directions in global axes at the joint's place on the second body.
 //!
-//! | joint | forces | moments (a: axis, v, w: across it, in the first body) |
-//! |---|---|---|
-//! | revolute | all | v, w; plane: none |
-//! | spherical | all | none |
-//! | universal | all | a x b |
-//! | prismatic | v, w | all |
-//! | cylindrical | v, w | v, w |
-//! | planar | a | v, w |
-//! | weld | all | all |
-//! | distance | along the link; hinged: a | none |
-//! | free | none | none |
+//! | freedoms | forces; moments |
+//! |---|---|
+//! | no slide; slides | all; across the slides, in the first body |
+//! | no turn | all; plane: about z |
+//! | one turn | across its axis, in the first body; plane: none |
+//! | two turns | a x b |
+//! | ball | none |
+//! | link | along it; hinged: along the hinge a |
 //!
-//! A guide adds the direction it drives: the moment about a, or the force along it.
+//! A guide adds the direction it drives: the moment about its axis, or the force along it.
 
 use super::frame::normalised;
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, raised, unit};
-use crate::natural::{Affine, NaturalModel, joint_axes, transverse};
-use crate::scene::{BodyId, Dimension, Joint, JointKind, Scene};
+use crate::natural::{Affine, NaturalModel};
+use crate::scene::{
+    Axis, BodyId, Dimension, Freedom, Joint, Rotation, Scene, Translation, transverse,
+};
+use alloc::vec::Vec;
 
 /// A force and a moment about the joint's place [N, N m], or about a body's centre of mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,16 +51,21 @@ impl<T: Real> Wrench<T> {
     }
 }
 
-/// What a joint can transmit, by its kind and axes alone.
+/// What a joint can transmit, by its kind and axes alone. Directions are those of the reference configuration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointWrenches<T: Real> {
     dimension: Dimension,
-    kind: JointKind,
-    /// a, v, w in the reference configuration.
-    axes: [Vector<T, 3>; 3],
-    second_axis: Vector<T, 3>,
-    is_hinged: bool,
-    is_guided: bool,
+    translation: Translation,
+    rotation: Rotation,
+    /// Directions of the first body that forces act along, where the joint slides; then of moments, where it turns about one axis.
+    forces: Vec<Vector<T, 3>>,
+    moments: Vec<Vector<T, 3>>,
+    /// The axes in the first and the second body, where it turns about two.
+    crossed: [Vector<T, 3>; 2],
+    is_link: bool,
+    /// Of a hinged link.
+    hinge: Option<Vector<T, 3>>,
+    guided: Option<(Freedom, Vector<T, 3>)>,
     length: T,
 }
 
@@ -69,15 +74,26 @@ impl<T: Real> JointWrenches<T> {
     /// are forces.
     #[must_use]
     pub fn new(joint: &Joint<T>, dimension: Dimension, is_guided: bool, length: T) -> Self {
-        let [a, b] = joint_axes(joint, dimension).map(Vector::<T, 3>::from);
-        let [v, w] = transverse(&a, dimension);
+        let rotation = joint.kind.rotation(dimension);
+        let (moments, crossed) = match rotation {
+            Rotation::About(axis) => {
+                let axis = joint.direction(axis);
+                (transverse(&axis, dimension).to_vec(), [axis; 2])
+            }
+            Rotation::Universal(axes) => (Vec::new(), axes.map(|axis| joint.direction(axis))),
+            Rotation::Fixed | Rotation::Free => (Vec::new(), [Vector::zeros(); 2]),
+        };
+        let guided = joint.kind.single(dimension).filter(|_| is_guided);
         Self {
             dimension,
-            kind: joint.kind,
-            axes: [a, v, w],
-            second_axis: b,
-            is_hinged: joint.kind == JointKind::Distance && joint.axes[0].is_some(),
-            is_guided,
+            translation: joint.kind.translation(dimension),
+            rotation,
+            forces: joint.across_slides(dimension).collect(),
+            moments,
+            crossed,
+            is_link: joint.kind.is_link(),
+            hinge: joint.is_hinged_link().then(|| joint.direction(Axis::First)),
+            guided: guided.and_then(|f| f.axis().map(|axis| (f, joint.direction(axis)))),
             length,
         }
     }
@@ -85,18 +101,17 @@ impl<T: Real> JointWrenches<T> {
     /// How many directions it has.
     #[must_use]
     pub fn n_directions(&self) -> usize {
-        let spatial = self.dimension == Dimension::Spatial;
-        let n = match self.kind {
-            JointKind::Free => 0,
-            JointKind::Distance => 1 + usize::from(self.is_hinged),
-            JointKind::Revolute if spatial => 5,
-            JointKind::Prismatic if spatial => 5,
-            JointKind::Weld if spatial => 6,
-            JointKind::Weld | JointKind::Spherical | JointKind::Planar => 3,
-            JointKind::Revolute | JointKind::Prismatic => 2,
-            JointKind::Universal | JointKind::Cylindrical => 4,
+        let n_forces = match self.translation {
+            Translation::Fixed => self.dimension.count(),
+            Translation::Along(_) | Translation::Across(_) | Translation::Free => self.forces.len(),
         };
-        n + usize::from(self.is_guided)
+        let n_moments = match self.rotation {
+            Rotation::Fixed => 2 * self.dimension.count() - 3,
+            Rotation::Universal(_) => 1,
+            Rotation::About(_) | Rotation::Free => self.moments.len(),
+        };
+        let n_link = usize::from(self.is_link) + usize::from(self.hinge.is_some());
+        n_forces + n_moments + n_link + usize::from(self.guided.is_some())
     }
 
     /// Hands out its directions; `places` are those of the joint on both bodies [m], whose rotations are `turned`.
@@ -106,42 +121,38 @@ impl<T: Real> JointWrenches<T> {
         turned: [&Matrix<T, 3>; 2],
         mut take: impl FnMut(Wrench<T>),
     ) {
-        let is_planar = self.dimension == Dimension::Planar;
-        let [a, v, w] = self.axes.map(|axis| turned[0] * axis);
         let xyz: [Vector<T, 3>; 3] = core::array::from_fn(unit);
-        let mut hand = |forces: &[Vector<T, 3>], moments: &[Vector<T, 3>]| {
-            for &force in forces {
-                take(Wrench { force, moment: Vector::zeros() });
+        let d = self.dimension.count();
+        let mut force = |force| take(Wrench { force, moment: Vector::zeros() });
+        match self.translation {
+            Translation::Fixed => xyz[..d].iter().copied().for_each(&mut force),
+            Translation::Along(_) | Translation::Across(_) | Translation::Free => {
+                self.forces.iter().for_each(|u| force(turned[0] * u));
             }
-            for moment in moments {
-                take(Wrench { force: Vector::zeros(), moment: moment * self.length });
-            }
-        };
-        match self.kind {
-            JointKind::Revolute if is_planar => hand(&xyz[..2], &[]),
-            JointKind::Prismatic if is_planar => hand(&[cross(&xyz[2], &a)], &xyz[2..]),
-            JointKind::Weld if is_planar => hand(&xyz[..2], &xyz[2..]),
-            JointKind::Revolute => hand(&xyz, &[v, w]),
-            JointKind::Prismatic => hand(&[v, w], &xyz),
-            JointKind::Weld => hand(&xyz, &xyz),
-            JointKind::Spherical => hand(&xyz, &[]),
-            JointKind::Universal => {
-                hand(&xyz, &[normalised(&cross(&a, &(turned[1] * self.second_axis)))]);
-            }
-            JointKind::Cylindrical => hand(&[v, w], &[v, w]),
-            JointKind::Planar => hand(&[a], &[v, w]),
-            JointKind::Distance => {
-                hand(&[normalised(&(places(1) - places(0)))], &[]);
-                if self.is_hinged {
-                    hand(&[a], &[]);
-                }
-            }
-            JointKind::Free => {}
         }
-        match (self.is_guided, self.kind) {
-            (false, _) => {}
-            (true, JointKind::Prismatic) => hand(&[a], &[]),
-            (true, _) => hand(&[], &[a]),
+        if self.is_link {
+            force(normalised(&(places(1) - places(0))));
+        }
+        self.hinge.iter().for_each(|axis| force(turned[0] * axis));
+        let mut moment = |m: Vector<T, 3>| {
+            take(Wrench { force: Vector::zeros(), moment: m * self.length });
+        };
+        match self.rotation {
+            Rotation::Fixed => xyz[6 - 2 * d..].iter().copied().for_each(&mut moment),
+            Rotation::Universal(_) => {
+                let [a, b] = [0, 1].map(|side| turned[side] * self.crossed[side]);
+                moment(normalised(&cross(&a, &b)));
+            }
+            Rotation::About(_) | Rotation::Free => {
+                self.moments.iter().for_each(|m| moment(turned[0] * m));
+            }
+        }
+        match self.guided.map(|(freedom, axis)| (freedom, turned[0] * axis)) {
+            Some((Freedom::Slide(_), axis)) => {
+                take(Wrench { force: axis, moment: Vector::zeros() });
+            }
+            Some((Freedom::Turn(_) | Freedom::Ball, axis)) => moment(axis),
+            None => {}
         }
     }
 }

@@ -1,28 +1,8 @@
 //! Bodies, joints, initial conditions and guides.
 
-use crate::scene::{BodyId, Effect, JointId, Output, Road, SolverTable};
+use crate::scene::{BodyId, Dimension, Effect, JointId, JointKind, Output, Road, SolverTable};
 use alloc::string::String;
 use alloc::vec::Vec;
-
-/// Planar or spatial.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Dimension {
-    /// Motion in the x-y plane; rotations about z.
-    Planar,
-    /// Motion in space.
-    Spatial,
-}
-
-impl Dimension {
-    /// 2 or 3.
-    #[must_use]
-    pub fn count(self) -> usize {
-        match self {
-            Self::Planar => 2,
-            Self::Spatial => 3,
-        }
-    }
-}
 
 /// A mechanism and what is asked of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,29 +74,6 @@ pub enum Inertia<T> {
     Spatial([T; 6]),
 }
 
-/// The kinds of joint.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum JointKind {
-    /// Common point and axis; rotation about the axis.
-    Revolute,
-    /// Common point (spatial).
-    Spherical,
-    /// Common point, two axes at a fixed angle (spatial).
-    Universal,
-    /// Translation along an axis.
-    Prismatic,
-    /// Translation along and rotation about an axis (spatial).
-    Cylindrical,
-    /// Plane on plane (spatial).
-    Planar,
-    /// No relative motion.
-    Weld,
-    /// All relative motions: carries coordinates, constrains nothing.
-    Free,
-    /// Two points keep their distance: a massless link with two balls, or hinged at the first body.
-    Distance,
-}
-
 /// A joint between two bodies. Positive motion: second body relative to the first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint<T> {
@@ -126,67 +83,12 @@ pub struct Joint<T> {
     pub kind: JointKind,
     /// First and second body.
     pub bodies: [BodyId; 2],
-    /// Place [m], one per body: equal for all kinds but `Distance`.
+    /// Place [m], one per body: equal for all kinds but links.
     pub points: [[T; 3]; 2],
-    /// Axes, any length: `Revolute` (spatial), `Prismatic`, `Cylindrical`: `axes[0]`; `Universal`: first fixed in
-    /// the first body, second in the second; `Planar`: normal, then first translation; `Distance`: `axes[0]` when
-    /// the link is hinged. Unused ones are `None`. A planar revolute has none (its axis is +z).
+    /// Axes, any length, that the kind's [freedoms](crate::scene::Freedom) name: a universal joint's first is fixed in the first
+    /// body, its second in the second; a planar joint has its normal, then its first translation; a link has `axes[0]` when it
+    /// is hinged. Unused ones are `None`. A planar revolute has none (its axis is +z).
     pub axes: [Option<[T; 3]>; 2],
-}
-
-impl JointKind {
-    /// Number of joint coordinates in a scene of that dimension.
-    #[must_use]
-    pub fn n_coordinates(self, dimension: Dimension) -> usize {
-        match (self, dimension) {
-            (Self::Revolute | Self::Prismatic, _) => 1,
-            (Self::Cylindrical | Self::Universal, _) => 2,
-            (Self::Spherical | Self::Planar, _) | (Self::Free, Dimension::Planar) => 3,
-            (Self::Free, Dimension::Spatial) => 6,
-            (Self::Weld | Self::Distance, _) => 0,
-        }
-    }
-
-    /// Number of rotations among the joint coordinates in a scene of that dimension.
-    #[must_use]
-    pub fn n_rotations(self, dimension: Dimension) -> usize {
-        match (self, dimension) {
-            (Self::Revolute | Self::Cylindrical | Self::Planar, _)
-            | (Self::Free, Dimension::Planar) => 1,
-            (Self::Universal, _) => 2,
-            (Self::Spherical, _) | (Self::Free, Dimension::Spatial) => 3,
-            (Self::Prismatic | Self::Weld | Self::Distance, _) => 0,
-        }
-    }
-
-    /// Every kind, in the order of the scene format.
-    pub const ALL: [Self; 9] = [
-        Self::Revolute,
-        Self::Spherical,
-        Self::Universal,
-        Self::Prismatic,
-        Self::Cylindrical,
-        Self::Planar,
-        Self::Weld,
-        Self::Free,
-        Self::Distance,
-    ];
-
-    /// The name used in scene files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Revolute => "revolute",
-            Self::Spherical => "spherical",
-            Self::Universal => "universal",
-            Self::Prismatic => "prismatic",
-            Self::Cylindrical => "cylindrical",
-            Self::Planar => "planar",
-            Self::Weld => "weld",
-            Self::Free => "free",
-            Self::Distance => "distance",
-        }
-    }
 }
 
 /// One `[[initial]]` entry: what is written holds exactly at the start.

@@ -2,25 +2,47 @@
 //!
 //! Everything is given in global axes in the *reference configuration* (hard points). Planar scenes keep the
 //! third component of every vector at zero. Names live here and nowhere below; references are indices.
+//! The table of joints ([`JOINTS`]) needs no allocation.
 
+#[cfg(feature = "alloc")]
 pub mod align;
+#[cfg(feature = "alloc")]
+mod axes;
+#[cfg(feature = "alloc")]
 mod check;
+#[cfg(feature = "alloc")]
 mod data;
+mod dimension;
+#[cfg(feature = "alloc")]
 mod effect;
+#[cfg(feature = "alloc")]
 mod error;
+#[cfg(feature = "alloc")]
 mod fault;
+#[cfg(feature = "alloc")]
 mod id;
+mod joint;
+#[cfg(feature = "alloc")]
 mod output;
 
+#[cfg(feature = "alloc")]
+pub use axes::transverse;
+#[cfg(feature = "alloc")]
 pub use data::{
-    Body, Dimension, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointKind, Motion,
-    Scene, Start, TableEnds,
+    Body, Guide, Inertia, InitialCondition, InitialTarget, Joint, Motion, Scene, Start, TableEnds,
 };
+pub use dimension::Dimension;
+#[cfg(feature = "alloc")]
 pub use effect::{
     AxisFrame, CalspanCoefficients, Effect, EffectKind, PolynomialPiece, Road, RoadFeature, Signal,
     UserLaw,
 };
+#[cfg(feature = "alloc")]
 pub use error::{Entry, SceneError};
+#[cfg(feature = "alloc")]
 pub use fault::SceneFault;
+#[cfg(feature = "alloc")]
 pub use id::{BodyId, EffectId, GROUND, GuideId, InitialId, JointId, OutputId};
+pub use joint::{Axis, Freedom, JOINTS, JointForm, JointKind, Rotation, Translation};
+#[cfg(feature = "alloc")]
 pub use output::{Output, Quantity, SolverTable};

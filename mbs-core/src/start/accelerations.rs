@@ -22,9 +22,9 @@ pub fn accelerations<T: Real, M: Model<T>>(
     terms: &mut Terms<T>,
 ) -> Result<T, AssemblyError> {
     let (n, m) = (model.n_unknowns(), model.n_constraints());
-    model.set_inputs(s.t, terms);
+    model.set_inputs(s.t, s, terms);
     model.evaluate(&s.q, terms);
-    model.evaluate_forces(&s.q, &s.v, &s.memory, terms);
+    model.evaluate_forces(&s.q, &s.v, terms);
     model.evaluate_phi_t(&s.q, terms);
     model.evaluate_bias(&s.q, &s.v, terms);
     let mut penalty = vec![T::ZERO; m];
@@ -89,7 +89,7 @@ fn keep<T: Real, M: Model<T>>(model: &M, s: &mut State<T>, lambda: &[T], terms: 
     }
     s.phi.copy_from_slice(&terms.phi);
     model.remember(terms, &mut s.memory);
-    crate::step::keep_inputs(model, s);
+    s.applied.copy_from_slice(&s.inputs);
     s.power = model.power(&s.q, &s.v, &s.reaction, terms);
 }
 

@@ -56,7 +56,7 @@ pub fn assemble<T: Real, const D: usize, S: SpdSolver<T>>(
     let mut state = State::at_rest(model);
     let problem = Problem::new(model, StartRow::all(scene, model));
     let start_solver = make_start(&problem);
-    let mut assembly = Assembly::new(problem, start_solver);
+    let mut assembly = Assembly::new(problem, start_solver, &state);
     let (residual_before, stages) = assembly.positions(scene, &mut state)?;
     assembly.count_turns(scene, &mut state);
     let position = assembly.largest_position();
@@ -85,7 +85,7 @@ pub fn restart<T: Real, const D: usize, S: SpdSolver<T>>(
 ) -> Result<[T; 3], AssemblyError> {
     let problem = Problem::new(model, StartRow::all(scene, model));
     let start_solver = make_start(&problem);
-    let mut assembly = Assembly::new(problem, start_solver);
+    let mut assembly = Assembly::new(problem, start_solver, state);
     assembly.drive(&state.q, T::ONE);
     let position = norm_inf(&assembly.problem.terms.phi);
     state.v.fill(T::ZERO);
@@ -114,10 +114,10 @@ pub(super) struct Assembly<'a, T: Real, S, const D: usize> {
 }
 
 impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
-    fn new(mut problem: Problem<'a, T, D>, solver: S) -> Self {
+    fn new(mut problem: Problem<'a, T, D>, solver: S, start: &State<T>) -> Self {
         let model = problem.model;
         let rows = model.n_constraints() + problem.holds.len();
-        model.set_inputs(T::ZERO, &mut problem.terms);
+        model.set_inputs(T::ZERO, start, &mut problem.terms);
         let zeros = |k| vec![T::ZERO; k];
         let mut reference = zeros(model.n_extended());
         model.write_reference(&mut reference);

@@ -2,8 +2,8 @@
 
 use crate::Real;
 use crate::algebra::{Matrix, Vector, cross, lowered, raised, rotation, unit};
-use crate::natural::{Affine, NaturalModel, joint_axes, unwrap};
-use crate::scene::{BodyId, Dimension, Inertia, InitialTarget, Joint, JointKind, Scene};
+use crate::natural::{Affine, Coordinate, NaturalModel, Places, unwrap};
+use crate::scene::{BodyId, Dimension, Inertia, InitialTarget, Joint, Scene};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
@@ -245,83 +245,21 @@ type Row<T, const D: usize> = (Kind<T, D>, Option<T>, Option<T>);
 impl<T: Real, const D: usize> Source<'_, T, D> {
     /// The rows of the joint's numbers, in their order; values and rates where they are given.
     fn rows(&self, value: Option<&[T]>, rate: Option<&[T]>) -> Vec<Row<T, D>> {
-        let at = |x: Option<&[T]>, i: usize| x.and_then(|x| x.get(i).copied());
-        let kinds: Vec<(Kind<T, D>, T)> = match self.joint.kind {
-            JointKind::Weld | JointKind::Distance => Vec::new(),
-            JointKind::Revolute => alloc::vec![(self.angle(0), T::ONE)],
-            JointKind::Prismatic => alloc::vec![(self.slide(self.axes()[0]), T::ONE)],
-            JointKind::Cylindrical => {
-                alloc::vec![(self.slide(self.axes()[0]), T::ONE), (self.angle(0), T::ONE)]
-            }
-            JointKind::Universal => {
-                alloc::vec![(self.angle(0), T::ONE), (self.back_angle(), -T::ONE)]
-            }
-            JointKind::Planar => {
-                let [n, d] = self.axes();
-                let n3 = Vector::<T, 3>::from(n);
-                let second: [T; 3] = cross(&n3, &Vector::from(d)).into();
-                alloc::vec![
-                    (self.slide(d), T::ONE),
-                    (self.slide(second), T::ONE),
-                    (self.angle(0), T::ONE)
-                ]
-            }
-            JointKind::Spherical => return self.turning(value, rate, 0),
-            JointKind::Free => {
-                let mut rows: Vec<Row<T, D>> = (0..D)
-                    .map(|i| {
-                        let e = core::array::from_fn(|k| if k == i { T::ONE } else { T::ZERO });
-                        (self.slide(e), at(value, i), at(rate, i))
-                    })
-                    .collect();
-                if self.dimension == Dimension::Planar {
-                    rows.push((self.angle(0), at(value, 2), at(rate, 2)));
-                } else {
-                    rows.extend(self.turning(value, rate, 3));
+        let mut rows = Vec::new();
+        let mut model = self.model;
+        for (number, freedom) in self.joint.kind.numbered(self.dimension) {
+            let (kind, sign) = match model.coordinate(self.joint, self.dimension, freedom) {
+                Coordinate::Angle { x1, x2, y, sign } => (Kind::Angle { x1, x2, y }, sign),
+                Coordinate::Slide { x, y } => (Kind::Slide { x, y }, T::ONE),
+                Coordinate::Rotation => {
+                    rows.extend(self.turning(value, rate, number));
+                    continue;
                 }
-                return rows;
-            }
-        };
-        let rows = kinds.into_iter().enumerate();
-        rows.map(|(i, (kind, sign))| {
-            (kind, at(value, i).map(|x| x * sign), at(rate, i).map(|x| x * sign))
-        })
-        .collect()
-    }
-
-    fn axes(&self) -> [[T; 3]; 2] {
-        joint_axes(self.joint, self.dimension)
-    }
-
-    /// Angle about axis `i` of the first body: of a universal joint's second axis, else of a transverse direction.
-    fn angle(&self, i: usize) -> Kind<T, D> {
-        let [first, second] = self.joint.bodies;
-        let [v, w, y] = crate::natural::angle_directions(self.joint, self.dimension, i);
-        Kind::Angle {
-            x1: self.model.direction(first, v),
-            x2: self.model.direction(first, w),
-            y: self.model.direction(second, y),
+            };
+            let at = |x: Option<&[T]>| x.and_then(|x| x.get(number)).map(|x| *x * sign);
+            rows.push((kind, at(value), at(rate)));
         }
-    }
-
-    /// Minus the universal joint's second angle: the first axis seen from the second body.
-    fn back_angle(&self) -> Kind<T, D> {
-        let [first, second] = self.joint.bodies;
-        let [v, w, y] = crate::natural::angle_directions(self.joint, self.dimension, 1);
-        Kind::Angle {
-            x1: self.model.direction(second, v),
-            x2: self.model.direction(second, w),
-            y: self.model.direction(first, y),
-        }
-    }
-
-    fn slide(&self, along: [T; 3]) -> Kind<T, D> {
-        let [first, second] = self.joint.bodies;
-        let [p, q] = self.joint.points;
-        Kind::Slide {
-            x: self.model.point(second, q).minus(&self.model.point(first, p)),
-            y: self.model.direction(first, along),
-        }
+        rows
     }
 
     /// Three rows of a relative rotation and three of a relative angular velocity, from number `from` on.

@@ -1,11 +1,10 @@
 //! Open trees are placed joint by joint: no equation is solved.
 
 use crate::Real;
-use crate::algebra::{Matrix, Vector, cross, rotation};
+use crate::algebra::{Matrix, Vector, rotation};
 use crate::cluster::Clusters;
-use crate::natural::joint_axes;
 use crate::rigid::RigidMotion;
-use crate::scene::{BodyId, Dimension, InitialTarget, Joint, JointKind, Scene};
+use crate::scene::{BodyId, Dimension, Freedom, InitialTarget, Joint, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -37,7 +36,7 @@ impl<'a, T: Real> Placement<'a, T> {
     ) -> Option<Self> {
         let ground = clusters.clusters.len();
         let node = |body: BodyId| clusters.of(body).unwrap_or(ground);
-        let joints = || scene.joints.iter().enumerate().filter(|(_, j)| j.kind != JointKind::Weld);
+        let joints = || scene.joints.iter().enumerate().filter(|(_, j)| !j.kind.is_rigid());
         let mut touching = vec![Vec::new(); ground + 1];
         for (j, joint) in joints() {
             joint.bodies.into_iter().for_each(|body| touching[node(body)].push(j));
@@ -70,7 +69,7 @@ impl<'a, T: Real> Placement<'a, T> {
             }
         }
         let is_tree = branches.len() == joints().count();
-        let is_known = branches.iter().all(|b| scene.joints[b.joint].kind != JointKind::Distance);
+        let is_known = branches.iter().all(|b| !scene.joints[b.joint].kind.is_link());
         (is_tree && is_known).then_some(Self { scene, clusters, branches, is_complete })
     }
 
@@ -127,26 +126,19 @@ fn relative<T: Real>(
     dimension: Dimension,
     values: &[T],
 ) -> (Matrix<T, 3>, Vector<T, 3>) {
-    let value = |i: usize| values.get(i).copied().unwrap_or(T::ZERO);
-    let three = |i: usize| Vector::<T, 3>::new(value(i), value(i + 1), value(i + 2));
-    let [n, b] = joint_axes(joint, dimension).map(Vector::<T, 3>::from);
-    let place = Vector::<T, 3>::from(joint.points[0]);
-    let still = Matrix::<T, 3>::identity();
-    match joint.kind {
-        JointKind::Weld | JointKind::Distance => (still, place),
-        JointKind::Revolute => (rotation(&(n * value(0))), place),
-        JointKind::Prismatic => (still, place + n * value(0)),
-        JointKind::Cylindrical => (rotation(&(n * value(1))), place + n * value(0)),
-        JointKind::Universal => (rotation(&(n * value(0))) * rotation(&(b * value(1))), place),
-        JointKind::Planar => {
-            let place = place + b * value(0) + cross(&n, &b) * value(1);
-            (rotation(&(n * value(2))), place)
-        }
-        JointKind::Spherical => (rotation(&three(0)), place),
-        JointKind::Free if dimension == Dimension::Planar => {
-            let turn = Vector::<T, 3>::new(T::ZERO, T::ZERO, value(2));
-            (rotation(&turn), place + Vector::<T, 3>::new(value(0), value(1), T::ZERO))
-        }
-        JointKind::Free => (rotation(&three(3)), place + three(0)),
+    let mut place = Vector::<T, 3>::from(joint.points[0]);
+    let mut turn = None;
+    for (number, freedom) in joint.kind.numbered(dimension) {
+        let value = |i: usize| values.get(number + i).copied().unwrap_or(T::ZERO);
+        let by = match freedom {
+            Freedom::Slide(axis) => {
+                place += joint.direction(axis) * value(0);
+                continue;
+            }
+            Freedom::Turn(axis) => rotation(&(joint.direction(axis) * value(0))),
+            Freedom::Ball => rotation(&Vector::<T, 3>::new(value(0), value(1), value(2))),
+        };
+        turn = Some(turn.map_or(by, |turn: Matrix<T, 3>| turn * by));
     }
+    (turn.unwrap_or_else(Matrix::<T, 3>::identity), place)
 }

@@ -104,8 +104,8 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
         let actions = Actions::new(scene).map(|actions| actions.list).unwrap_or_default();
         for (effect, action) in actions {
             let Action::Angle { joint, .. } = action else { continue };
-            // A joint with effects about its axis has one angle, its last coordinate.
-            let start = starts.get(joint).and_then(|values| values.last());
+            let turn = scene.joints[joint].kind.turn(scene.dimension);
+            let start = turn.and_then(|(number, _)| starts[joint].get(number));
             if let (Some(place), Some(&start)) = (model.memory_of_effect(effect), start) {
                 s.memory[place] = start;
             }
@@ -117,7 +117,8 @@ impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {
     fn remember(&mut self, s: &mut State<T>) {
         let (model, terms) = (self.problem.model, &mut self.problem.terms);
         if model.has_forces() {
-            model.evaluate_forces(&s.q, &s.v, &s.memory, terms);
+            terms.angles.copy_from_slice(&s.memory);
+            model.evaluate_forces(&s.q, &s.v, terms);
             model.remember(terms, &mut s.memory);
         }
     }

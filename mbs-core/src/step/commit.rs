@@ -47,10 +47,10 @@ pub fn add_work<T: Real, M: Model<T>>(model: &M, dt: T, s: &mut State<T>, terms:
         return;
     }
     if model.has_forces() {
-        model.evaluate_forces(&s.q, &s.v, &s.memory, terms);
+        model.evaluate_forces(&s.q, &s.v, terms);
         model.remember(terms, &mut s.memory);
     }
-    super::keep_inputs(model, s);
+    s.applied.copy_from_slice(&s.inputs);
     let power = model.power(&s.q, &s.v, &s.reaction, terms);
     s.work += (s.power + power) * dt * T::HALF;
     s.power = power;

@@ -14,15 +14,7 @@ use crate::model::{Model, State, Terms};
 /// Are inputs set to other values than those that the accelerations of `s` were made with?
 #[inline]
 pub fn has_new_inputs<T: Real, M: Model<T>>(model: &M, s: &State<T>) -> bool {
-    !s.inputs.is_empty() && model.inputs().is_some_and(|inputs| inputs.differs(&s.inputs))
-}
-
-/// Keeps the inputs that are set now: those that `s` is made with.
-#[inline]
-pub fn keep_inputs<T: Real, M: Model<T>>(model: &M, s: &mut State<T>) {
-    if let Some(inputs) = model.inputs() {
-        inputs.keep(&mut s.inputs);
-    }
+    model.inputs().is_some_and(|inputs| inputs.differs(&s.inputs, &s.applied))
 }
 
 /// Evaluates the forces at `s` with the inputs that it was reached with, or with those that are set now if `is_new`; returns the
@@ -33,10 +25,13 @@ pub fn load_at<T: Real, M: Model<T>>(
     is_new: bool,
     terms: &mut Terms<T>,
 ) -> T {
+    terms.angles.copy_from_slice(&s.memory);
     if let Some(inputs) = model.inputs() {
-        inputs.write_end(s.t, (&s.inputs, is_new), (&mut terms.guides, &mut terms.courses));
+        let of_effects = if is_new { &s.inputs } else { &s.applied };
+        let at_end = (&s.applied[..], &of_effects[..]);
+        inputs.write_end(s.t, at_end, (&mut terms.guides, &mut terms.courses));
     }
-    model.evaluate_forces(&s.q, &s.v, &s.memory, terms);
+    model.evaluate_forces(&s.q, &s.v, terms);
     model.potential_energy(&s.q, terms)
 }
 
@@ -63,7 +58,6 @@ pub fn add_response<T: Real, M: Model<T>>(
     s.power = model.power(&s.q, &s.v, &s.reaction, terms);
     s.work += work;
     if let Some(inputs) = model.inputs() {
-        // guides are those of the end of the next step: the state is not there yet
-        inputs.keep_courses(&mut s.inputs);
+        inputs.apply(&s.inputs, &mut s.applied);
     }
 }

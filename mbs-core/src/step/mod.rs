@@ -13,7 +13,7 @@ mod scan;
 pub use commit::{add_work, check_guides, check_rotations, take_coordinates};
 pub use error::{InputError, OptionError, StepError};
 #[cfg(feature = "alloc")]
-pub use inputs::{add_response, has_new_inputs, keep_inputs, load_at};
+pub use inputs::{add_response, has_new_inputs, load_at};
 pub use newton::{ConvergenceCriterion, stopping};
 pub use report::{Counts, StepReport, Stop};
 pub use scan::{largest, largest_or_nan, step_scale};

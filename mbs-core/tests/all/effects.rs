@@ -51,10 +51,10 @@ impl<const D: usize> At<D> {
     }
 
     fn evaluate(&mut self) {
-        let State { t, q, v, memory, .. } = &self.state;
-        self.model.set_inputs(*t, &mut self.terms);
+        let State { t, q, v, .. } = &self.state;
+        self.model.set_inputs(*t, &self.state, &mut self.terms);
         self.model.evaluate(q, &mut self.terms);
-        self.model.evaluate_forces(q, v, memory, &mut self.terms);
+        self.model.evaluate_forces(q, v, &mut self.terms);
     }
 
     /// (g(STEP) - g(-STEP)) / 2 STEP, where `moved` moves the state by its argument.

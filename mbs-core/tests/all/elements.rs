@@ -1,7 +1,7 @@
 //! Every element against central differences through [`Model`], at random configurations near and away from the
 //! constraint manifold.
 
-use mbs_core::model::{Load, Model, Owner, Tangent, Terms};
+use mbs_core::model::{Load, Model, Owner, State, Tangent, Terms};
 use mbs_core::scene::{JointId, Scene};
 use mbs_testkit::{
     PLANAR, Random, SPATIAL, close, jacobian, matrix, model, plus, rates, reference, residual,
@@ -41,11 +41,11 @@ impl<M: Model<f64>> At<M> {
     /// Evaluates everything at (q, v, t).
     fn everything(&mut self) {
         let (model, terms) = (&self.model, &mut self.terms);
-        model.set_inputs(self.t, terms);
+        model.set_inputs(self.t, &State::at_rest(model), terms);
         model.evaluate(&self.q, terms);
         model.evaluate_phi_t(&self.q, terms);
         model.evaluate_bias(&self.q, &self.v, terms);
-        model.evaluate_forces(&self.q, &self.v, &vec![0.0; model.n_memory()], terms);
+        model.evaluate_forces(&self.q, &self.v, terms);
     }
 
     /// (g(+STEP) - g(-STEP)) / 2 STEP, where `moved` moves (q, v, t) by its argument.

@@ -1,7 +1,7 @@
 //! Energies, forces and rank of whole models against mechanics written down directly.
 
 use mbs_core::Cliques;
-use mbs_core::model::{Load, Model};
+use mbs_core::model::{Load, Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{BodyId, EffectKind, Inertia, Scene, Signal};
 use mbs_core::start::constraint_rank;
@@ -65,7 +65,7 @@ fn admissible<const D: usize>(
 ) -> (Vec<f64>, Vec<f64>) {
     let mut terms = model.terms();
     let q = reference(model);
-    model.set_inputs(0.0, &mut terms);
+    model.set_inputs(0.0, &State::at_rest(model), &mut terms);
     model.evaluate(&q, &mut terms);
     close("phi", &terms.phi, &vec![0.0; terms.phi.len()], 1e-14);
     let v = random.vector(model.n_unknowns(), model.n_extended(), 1.0);
@@ -230,9 +230,9 @@ fn check_power<const D: usize>(text: &str) {
     for seed in 1..6 {
         let (q, v) = admissible(&model, &mut Random(seed));
         let mut terms = model.terms();
-        model.set_inputs(0.0, &mut terms);
+        model.set_inputs(0.0, &State::at_rest(&model), &mut terms);
         model.evaluate(&q, &mut terms);
-        model.evaluate_forces(&q, &v, &vec![0.0; model.n_memory()], &mut terms);
+        model.evaluate_forces(&q, &v, &mut terms);
         let load = Load { mass: None, multipliers: None, force: 1.0 };
         let f = residual(&model, &terms, &load);
         let found = -dot(&f, &v[..f.len()]);
@@ -268,7 +268,7 @@ fn potential_energy_of_gravity_is_weight_times_height() {
 fn rank<const D: usize>(scene: &Scene<f64>) -> (usize, usize, usize) {
     let model = model::<D>(scene);
     let mut terms = model.terms();
-    model.set_inputs(0.0, &mut terms);
+    model.set_inputs(0.0, &State::at_rest(&model), &mut terms);
     model.evaluate(&reference(&model), &mut terms);
     let rank = constraint_rank(&model, &terms);
     (model.n_unknowns(), model.n_constraints(), rank)

@@ -34,7 +34,7 @@ fn rows_are_the_jacobian<const D: usize>(text: &str) {
     let mut random = Random(7);
     let moved = random.vector(model.n_unknowns(), model.n_extended(), 0.1);
     let q = mbs_testkit::plus(&reference(&model), 1.0, &moved);
-    model.set_inputs(0.1, &mut terms);
+    model.set_inputs(0.1, &State::at_rest(&model), &mut terms);
     model.evaluate(&q, &mut terms);
     let mut told = vec![0; model.n_constraints()];
     let dense = jacobian(&model, &terms);

@@ -365,7 +365,7 @@ fn check_least<const D: usize>(
     let s = &assembled.state;
     assert_eq!(assembled.stages, 1, "one stage, so that the change is least");
     let mut terms = model.terms();
-    model.set_inputs(0.0, &mut terms);
+    model.set_inputs(0.0, s, &mut terms);
     model.evaluate(&s.q, &mut terms);
     let mut rows = jacobian(&model, &terms);
     rows.extend(holds(&model, &s.q));
@@ -424,9 +424,9 @@ fn accelerations_solve_the_equations_of_motion() {
         let (model, assembled) = start::<D>(&scene(text)).unwrap_or_else(|e| panic!("{e}"));
         let s = &assembled.state;
         let mut terms = model.terms();
-        model.set_inputs(0.0, &mut terms);
+        model.set_inputs(0.0, s, &mut terms);
         model.evaluate(&s.q, &mut terms);
-        model.evaluate_forces(&s.q, &s.v, &s.memory, &mut terms);
+        model.evaluate_forces(&s.q, &s.v, &mut terms);
         model.evaluate_bias(&s.q, &s.v, &mut terms);
         let load = Load { mass: Some(&s.a), multipliers: Some(&s.lambda), force: 1.0 };
         let left = residual(&model, &terms, &load);

@@ -53,7 +53,8 @@ int mbs_init(void *memory, size_t size, const uint8_t *model, size_t n, mbs_solv
 /* Inputs, between steps: a guide's value, rate and acceleration at the end of the next step; a course's vector,
  * with which the next step is made from its beginning. */
 int mbs_set_guide(mbs_solver *solver, size_t guide, const mbs_real motion[3]);
-int mbs_set_course(mbs_solver *solver, size_t course, const mbs_real value[3]);
+int mbs_set_input(mbs_solver *solver, size_t course, const mbs_real value[3]);
+#define mbs_set_course mbs_set_input /* its former name */
 
 /* Work of a step: evaluations (at least one), further sweeps, projections. */
 int mbs_set_bounds(mbs_solver *solver, uint32_t evaluations, uint32_t sweeps, uint32_t projections);

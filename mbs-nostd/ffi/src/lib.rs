@@ -122,7 +122,7 @@ pub unsafe extern "C" fn mbs_set_guide(
 /// # Safety
 /// As for [`mbs_set_guide`].
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn mbs_set_course(
+pub unsafe extern "C" fn mbs_set_input(
     solver: *mut mbs_solver,
     course: usize,
     value: *const [Scalar; 3],
@@ -131,7 +131,7 @@ pub unsafe extern "C" fn mbs_set_course(
     let (Some(own), Some(value)) = (unsafe { solver.as_mut() }, unsafe { value.as_ref() }) else {
         return NULL;
     };
-    status(own.solver.set_course(course, *value))
+    status(own.solver.set_input(course, *value))
 }
 
 /// Says how much work a step may be.

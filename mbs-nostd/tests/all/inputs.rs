@@ -41,7 +41,7 @@ fn a_course_written_for_one_step_acts_in_that_whole_step() {
             for k in 0..6 {
                 // one N m on each kg m^2 in the third step alone
                 let torque = if k == 2 { mass[0] } else { 0.0 };
-                solver.set_course(0, [torque, 0.0, 0.0]).expect("an input");
+                solver.set_input(0, [torque, 0.0, 0.0]).expect("an input");
                 solver.step(&model, h, &mut Unwatched).expect("a regular step");
                 let (found, right) = (solver.velocities()[0] / h, if k < 2 { 0.0 } else { 1.0 });
                 assert!((found - right).abs() < 1e-12, "step {k}: {found} of the step");
@@ -68,15 +68,15 @@ fn a_solver_of_fixed_capacity_takes_inputs_as_the_recursion_does() {
         .expect("an input");
     let flash = Checked::new(&gathered.model()).expect("a model");
     let mut solver = Room::new(&flash).expect("room");
-    let (mut host, mut state) = start::<Planar, 2>(&scene);
+    let (host, mut state) = start::<Planar, 2>(&scene);
     let mut workspace = Workspace::new(&host);
     for k in 1..=200 {
         let t = f64::from(k) * 1e-3;
         let (motion, torque) = ([t * t, 2.0 * t, 2.0], [f64::from(k / 10 % 3), 0.0, 0.0]);
-        host.set_guide(0, motion).expect("an input");
-        host.set_input(effect, torque).expect("an input");
+        host.prescribed().set_guide(&mut state.inputs, 0, motion).expect("an input");
+        host.prescribed().set_input(&mut state.inputs, effect, torque).expect("an input");
         solver.set_guide(0, motion).expect("an input");
-        solver.set_course(course, torque).expect("an input");
+        solver.set_input(course, torque).expect("an input");
         let work = (1e-3, &Options::default(), Bounds::default());
         bounded_step(&host, work, &mut state, &mut workspace).expect("a regular step");
         solver.step(&flash, 1e-3, &mut Unwatched).expect("a regular step");
@@ -93,7 +93,7 @@ fn a_table_with_level_ends_steps_from_bytes_as_it_does_on_the_host() {
     let rows = vec![[0.0, 0.0], [0.05, 0.2], [0.1, 0.3]];
     scene.guides[0].law = Motion::Table { rows, ends: TableEnds::Level };
     scene.initials.clear();
-    let (mut host, mut state) = start::<Planar, 2>(&scene);
+    let (host, mut state) = start::<Planar, 2>(&scene);
     let gathered = Gathered::new(&host, &state, &[]);
     let text = bytes(&gathered.model(), false).expect("a scene without own laws");
     let tables = RoomTables::read(&text).expect("a model");
@@ -110,7 +110,7 @@ fn a_table_with_level_ends_steps_from_bytes_as_it_does_on_the_host() {
     }
     // beyond the table the crank rests, and the linkage with it
     assert!(state.v.iter().all(|v| v.abs() < 1e-9), "{:?}", state.v);
-    host.set_guide(0, [0.0; 3]).expect_err("a table is no input");
+    host.prescribed().guide_input(0).expect_err("a table is no input");
 }
 
 #[test]
@@ -121,10 +121,10 @@ fn what_is_no_input_or_not_finite_is_refused_and_changes_nothing() {
     let model = Checked::new(&gathered.model()).expect("a model");
     let mut solver = Room::new(&model).expect("room");
     let mut other = solver.clone();
-    assert_eq!(solver.set_course(1, [1.0; 3]), Err(InputError::NotAnInput { number: 1 }));
-    assert_eq!(solver.set_course(2, [1.0; 3]), Err(InputError::NotAnInput { number: 2 }));
+    assert_eq!(solver.set_input(1, [1.0; 3]), Err(InputError::NotAnInput { number: 1 }));
+    assert_eq!(solver.set_input(2, [1.0; 3]), Err(InputError::NotAnInput { number: 2 }));
     assert_eq!(solver.set_guide(0, [1.0; 3]), Err(InputError::NotAnInput { number: 0 }));
-    let refused = solver.set_course(0, [0.0, f64::NAN, 0.0]);
+    let refused = solver.set_input(0, [0.0, f64::NAN, 0.0]);
     assert_eq!(refused, Err(InputError::NotFinite { number: 0, component: 1 }));
     for _ in 0..10 {
         solver.step(&model, 1e-3, &mut Unwatched).expect("a regular step");

@@ -2,18 +2,26 @@
 
 use crate::read::fields::{Fields, Read};
 use mbs_core::Real;
-use mbs_core::scene::{BodyId, Joint, JointKind};
+use mbs_core::scene::{BodyId, Dimension, Joint, JointKind};
 
 const KEYS: [&str; 8] = ["name", "kind", "bodies", "at", "axis", "axes", "points", "direction"];
 
 /// Reads a joint; `centers` are the bodies' centres of mass, where a free joint is placed by default.
 pub(crate) fn read<T: Real>(fields: &Fields<'_>, centers: &[[T; 3]]) -> Read<Joint<T>> {
     let kind = read_kind(fields)?;
-    let geometry = geometry_keys(kind, fields.context.is_planar());
-    let known = [&["name", "kind", "bodies"], geometry].concat();
+    let is_planar = fields.context.is_planar();
+    let dimension = if is_planar { Dimension::Planar } else { Dimension::Spatial };
+    // Spatial kinds keep their axes in planar scenes: the check speaks about the kind, which is the fault there.
+    let needed = kind.needs_axes(dimension);
+    let axis_keys = kind.axis_keys(dimension);
+    let has_hinge = kind.is_link() && !is_planar;
+    let place = if kind.is_link() { "points" } else { "at" };
+    let mut known = vec!["name", "kind", "bodies", place];
+    known.extend((0..2).filter(|&i| needed[i] || has_hinge && i == 0).map(|i| axis_keys[i]));
+    known.dedup();
     fields.allow(&known, &KEYS)?;
     let bodies = fields.pair()?;
-    let points = if kind == JointKind::Distance {
+    let points = if kind.is_link() {
         fields.two_vectors("points")?
     } else {
         let at = match default_place(kind, bodies, centers) {
@@ -22,15 +30,14 @@ pub(crate) fn read<T: Real>(fields: &Fields<'_>, centers: &[[T; 3]]) -> Read<Joi
         };
         [at, at]
     };
-    let vector = |key: &str| fields.get(key).map(|item| fields.context.vector(item)).transpose();
-    let axes = if kind == JointKind::Universal {
+    let axes = if axis_keys == ["axes"; 2] {
         fields.two_vectors("axes")?.map(Some)
     } else {
-        for key in geometry.iter().filter(|key| ["axis", "direction"].contains(*key)) {
-            if kind != JointKind::Distance {
-                fields.need(key)?;
-            }
+        for i in (0..2).filter(|&i| needed[i]) {
+            fields.need(axis_keys[i])?;
         }
+        let vector =
+            |key: &str| fields.get(key).map(|item| fields.context.vector(item)).transpose();
         [vector("axis")?, vector("direction")?]
     };
     Ok(Joint { name: fields.name()?, kind, bodies, points, axes })
@@ -44,28 +51,14 @@ fn read_kind(fields: &Fields<'_>) -> Read<JointKind> {
     }
 }
 
-/// The keys that say where a joint is. Spatial kinds keep theirs in planar scenes: the check speaks about the
-/// kind, which is the fault there.
-fn geometry_keys(kind: JointKind, is_planar: bool) -> &'static [&'static str] {
-    match kind {
-        JointKind::Revolute if is_planar => &["at"],
-        JointKind::Revolute | JointKind::Prismatic | JointKind::Cylindrical => &["at", "axis"],
-        JointKind::Universal => &["at", "axes"],
-        JointKind::Planar => &["at", "axis", "direction"],
-        JointKind::Distance if is_planar => &["points"],
-        JointKind::Distance => &["points", "axis"],
-        JointKind::Spherical | JointKind::Weld | JointKind::Free => &["at"],
-    }
-}
-
 /// A free joint speaks about the centre of mass of the second body, or of the first when that is the ground.
 fn default_place<T: Real>(
     kind: JointKind,
     bodies: [BodyId; 2],
     centers: &[[T; 3]],
 ) -> Option<[T; 3]> {
-    match (kind, bodies) {
-        (JointKind::Free, [_, BodyId::Body(i)] | [BodyId::Body(i), BodyId::Ground]) => {
+    match bodies {
+        [_, BodyId::Body(i)] | [BodyId::Body(i), BodyId::Ground] if kind.is_free() => {
             centers.get(i).copied()
         }
         _ => None,

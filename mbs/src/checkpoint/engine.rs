@@ -172,10 +172,11 @@ fn walk_choice<T: Real>(history: &mut statespace::History<T>, tape: &mut impl Ta
 
 fn walk_tree<T: Real>(kept: &mut TreeKept<T>, tape: &mut impl Tape) -> Told {
     let TreeKept { state, history, energies } = kept;
-    let TreeState { t, z, v, a, lambda, inputs, work, power } = state;
+    // What is set goes with the natural state.
+    let TreeState { t, z, v, a, lambda, inputs: _, applied, work, power } = state;
     [t, work, power].into_iter().try_for_each(|x| tape.real(x))?;
     [z, v, a, lambda].into_iter().try_for_each(|x| tape.reals(x))?;
-    tape.places(inputs, |tape, value| tape.reals(value))?;
+    tape.places(applied.as_chunks_mut::<3>().0, |tape, value| tape.reals(value))?;
     let recursive::History { rank, pivots, pair, eighth, extrapolation, radau } = history;
     tape.index(rank, pivots.len() + 1)?;
     tape.reals(pivots)?;
@@ -233,7 +234,9 @@ pub(crate) trait Parts: Tape {
             reaction,
             phi,
             memory,
-            inputs,
+            inputs: _,
+            applied,
+            signals: _,
             work,
             power,
         } = state;
@@ -241,7 +244,7 @@ pub(crate) trait Parts: Tape {
         [q, q_low, v, a, a_aux, lambda, lambda_previous, reaction, phi, memory]
             .into_iter()
             .try_for_each(|x| self.reals(x))?;
-        self.places(inputs, |tape, value| tape.reals(value))
+        self.places(applied.as_chunks_mut::<3>().0, |tape, value| tape.reals(value))
     }
 }
 

@@ -11,7 +11,7 @@ use mbs_core::control::{DriverHistory, Invariant};
 use mbs_core::inputs::Prescribed;
 use mbs_core::model::State;
 use mbs_core::outputs::EventHistory;
-use mbs_core::scene::{Motion, Scene, Signal};
+use mbs_core::scene::Scene;
 use std::io::{Read, Write};
 
 /// All of it, as plain data.
@@ -74,18 +74,16 @@ impl<T: Real> ControlKept<T> {
     }
 }
 
-/// The inputs as they are set: of effects, and of guides.
-pub(crate) fn inputs<T: Real>(prescribed: &Prescribed<T>) -> [Vec<(usize, [T; 3])>; 2] {
-    let courses = prescribed.courses().iter().filter_map(|(effect, input)| match input.course() {
-        Signal::Input(value) => Some((*effect, *value)),
-        _ => None,
-    });
-    let guides = prescribed.guides().iter().enumerate();
-    let guides = guides.filter_map(|(guide, input)| match input.law() {
-        Motion::Input(motion) => Some((guide, *motion)),
-        _ => None,
-    });
-    [courses.collect(), guides.collect()]
+/// The inputs as they are set in a state: of effects, and of guides.
+pub(crate) fn inputs<T: Real>(
+    prescribed: &Prescribed<T>,
+    inputs: &[T],
+) -> [Vec<(usize, [T; 3])>; 2] {
+    let mut values = inputs.as_chunks().0.iter();
+    let guides = prescribed.guide_inputs().zip(values.by_ref());
+    let guides = guides.map(|((guide, _), motion)| (guide, *motion)).collect();
+    let effects = prescribed.effect_inputs().zip(values);
+    [effects.map(|((effect, _), value)| (effect, *value)).collect(), guides]
 }
 
 impl<T: Real, const D: usize> Simulation<T, D>

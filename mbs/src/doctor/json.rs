@@ -113,7 +113,7 @@ impl Names<'_> {
         let change = |c: &JointChange| {
             json!({
                 "joint": self.joint(c.joint),
-                "kind": if c.kind == mbs_core::scene::JointKind::Free { "left-out" } else { c.kind.name() },
+                "kind": if c.kind.is_free() { "left-out" } else { c.kind.name() },
                 "second_axis": c.axis,
             })
         };

@@ -57,7 +57,7 @@ fn places(scene: &Scene<f64>) -> Vec<Vec<Place>> {
         }
     }
     // welds and free joints hold at any place
-    let is_placed = |kind| !matches!(kind, JointKind::Weld | JointKind::Free);
+    let is_placed = |kind: JointKind| !kind.is_rigid() && !kind.is_free();
     for (j, joint) in scene.joints.iter().enumerate().filter(|(_, j)| is_placed(j.kind)) {
         joint.bodies.into_iter().zip(joint.points).for_each(|(b, p)| add(Owner::Joint(j), b, p));
     }

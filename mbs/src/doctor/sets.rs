@@ -2,7 +2,7 @@
 
 use super::finding::{Finding, Severity, Topic, body_names, counted, joint_names};
 use crate::words::few;
-use mbs_core::scene::{JointKind, Scene};
+use mbs_core::scene::Scene;
 use mbs_doctor::{Diagnosis, JointChange, Nature, Remedy, Set};
 
 /// One finding per set.
@@ -108,7 +108,7 @@ pub(super) fn words(scene: &Scene<f64>, remedy: &Remedy) -> String {
         let name = &scene.joints[change.joint].name;
         let was = scene.joints[change.joint].kind.name();
         match (change.kind, change.axis) {
-            (JointKind::Free, _) => format!("leave `{name}` out"),
+            (kind, _) if kind.is_free() => format!("leave `{name}` out"),
             (kind, Some(axis)) => {
                 let [x, y, z] = axis.map(few);
                 format!(

@@ -3,9 +3,7 @@
 use super::finding::{Finding, Severity, Topic, body_names};
 use crate::words::few;
 use mbs_core::cluster::{mass_properties, scene_length};
-use mbs_core::scene::{
-    BodyId, EffectKind, Entry, InitialTarget, JointId, JointKind, Motion, Scene,
-};
+use mbs_core::scene::{BodyId, EffectKind, Entry, Freedom, InitialTarget, JointId, Motion, Scene};
 
 /// Mass over the cube of the size [kg/m^3]: a slender rod of a metre and a kilogram has 1, a block of steel 8000.
 const DENSITIES: [f64; 2] = [1e-6, 1e8];
@@ -108,19 +106,23 @@ fn like_degrees(x: f64) -> bool {
     x.abs() > core::f64::consts::TAU && x.abs() <= 720.0 && (steps - steps.round()).abs() < 1e-9
 }
 
+fn is_turn(freedom: Freedom) -> bool {
+    matches!(freedom, Freedom::Turn(_))
+}
+
 fn angles(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
-    let turns = |joint: JointId| scene.joints[joint].kind == JointKind::Revolute;
+    let kind = |joint: JointId| scene.joints[joint].kind;
+    let turns = |joint: JointId| kind(joint).single(scene.dimension).is_some_and(is_turn);
     let mut tell = |x: f64, entry: Entry, key: &'static str| {
         let message = format!("{} rad is more than a turn and looks like degrees", few(x));
         let remedy = format!("write {} for {} degrees", few(x.to_radians()), few(x));
         findings.push(doubt("angle-unit", message, &remedy).at(entry, key));
     };
     for (i, initial) in scene.initials.iter().enumerate() {
-        if let InitialTarget::Joint { joint, value: Some(value), .. } = &initial.target
-            && turns(*joint)
-            && like_degrees(value[0])
-        {
-            tell(value[0], Entry::Initial(i), "value");
+        if let InitialTarget::Joint { joint, value: Some(value), .. } = &initial.target {
+            let numbers = kind(*joint).numbered(scene.dimension).filter(|(_, f)| is_turn(*f));
+            let values = numbers.filter_map(|(number, _)| value.get(number).copied());
+            values.filter(|x| like_degrees(*x)).for_each(|x| tell(x, Entry::Initial(i), "value"));
         }
     }
     for (i, guide) in scene.guides.iter().enumerate() {

@@ -35,9 +35,9 @@ pub(super) fn shortest_period<const D: usize>(
     }
     let n = mbs_core::Cliques::n_unknowns(model);
     let mut terms = model.terms();
-    model.set_inputs(state.t, &mut terms);
+    model.set_inputs(state.t, state, &mut terms);
     model.evaluate(&state.q, &mut terms);
-    model.evaluate_forces(&state.q, &state.v, &state.memory, &mut terms);
+    model.evaluate_forces(&state.q, &state.v, &mut terms);
     let mut penalty = vec![0.0; model.n_constraints()];
     model.effective_masses(&terms, &mut penalty);
     penalty.iter_mut().for_each(|s| *s *= PENALTY);
@@ -63,7 +63,7 @@ pub(super) fn shortest_period<const D: usize>(
             *q = at + step * x;
         }
         model.evaluate(&q, &mut terms);
-        model.evaluate_forces(&q, &state.v, &state.memory, &mut terms);
+        model.evaluate_forces(&q, &state.v, &mut terms);
         solver.assemble(&System { model, terms: &terms, tangent, load }, &mut moved);
         let change =
             moved.iter().zip(&forces).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));

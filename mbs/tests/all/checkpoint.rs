@@ -246,9 +246,12 @@ fn a_simulation_that_is_restored_goes_on_with_inputs_as_they_are_set() {
             first.set_input(effect, [0.3, 0.0, 0.3]).expect("an input");
             first.step(1e-3).expect("a regular step");
         }
+        // set, and no step made with it yet
+        first.set_input(effect, [0.5, 0.0, 0.2]).expect("an input");
         let mut bytes = Vec::new();
         first.save((&scene, &settings), &mut bytes).expect("memory");
         second.restore((&scene, &settings), &bytes[..]).expect("of the same scene");
+        assert_eq!(first.state(), second.state(), "{}", formulation.name());
         // the guide stands still from here on, where it was set last
         assert_eq!(bits(&mut first, 5), bits(&mut second, 5), "{}", formulation.name());
     }

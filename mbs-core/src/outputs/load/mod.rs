@@ -16,8 +16,9 @@ use crate::inputs::Prescribed;
 use crate::laws::Supplies;
 use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
-use crate::natural::{Affine, NaturalModel, joint_axes};
-use crate::scene::{BodyId, Scene};
+use crate::model::State;
+use crate::natural::{Affine, NaturalModel};
+use crate::scene::{BodyId, Freedom, Scene};
 use alloc::boxed::Box;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -125,9 +126,9 @@ impl<T: Real, const D: usize> Loads<T, D> {
         Ok((Self { list, prescribed, values, tables }, effects))
     }
 
-    /// The effects, and the inputs of the instant `t`.
-    pub(super) fn at(&mut self, t: T) -> (&[Load<T, D>], Supplies<'_, T>) {
-        self.prescribed.write(t, &mut [], &mut self.values);
+    /// The effects, and the courses of a state's instant, with the inputs that its accelerations were made with.
+    pub(super) fn at(&mut self, state: &State<T>) -> (&[Load<T, D>], Supplies<'_, T>) {
+        self.prescribed.write(state.t, &state.applied, &mut [], &mut self.values);
         (&self.list, self.tables.supplies(&self.values))
     }
 }
@@ -149,10 +150,10 @@ impl<T: Real, const D: usize> Load<T, D> {
                 let gauge = Gauge::Along { points: points(ends), direction, offset: *offset };
                 (ends.map(|e| e.0), gauge, law)
             }
-            Action::Angle { joint, law } => {
+            Action::Angle { joint, axis, law } => {
                 let joint = &scene.joints[*joint];
-                let axis = joint_axes(joint, scene.dimension)[0].into();
-                let angle = Coordinate::angle(scene, model, joint, 0);
+                let angle = Coordinate::of_freedom(scene, model, (joint, Freedom::Turn(*axis)));
+                let axis = joint.direction(*axis);
                 let gauge = Gauge::Angle { axis, angle, memory: model.memory_of_effect(effect) };
                 (joint.bodies, gauge, law)
             }

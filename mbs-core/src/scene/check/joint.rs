@@ -3,21 +3,18 @@
 use super::vector::{Place, is_parallel};
 use super::{check_pair, is_planar};
 use crate::Real;
-use crate::scene::{Joint, JointKind, Scene, SceneError, SceneFault};
+use crate::scene::{Joint, Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(
     scene: &Scene<T>,
     joint: &Joint<T>,
     place: Place,
 ) -> Result<(), SceneError> {
-    use JointKind::{Cylindrical, Distance, Planar, Spherical, Universal};
     check_pair(scene, joint.bodies, place)?;
-    if is_planar(place.dimension)
-        && matches!(joint.kind, Spherical | Universal | Cylindrical | Planar)
-    {
+    if is_planar(place.dimension) && joint.kind.is_spatial_only() {
         return place.fault("kind", SceneFault::NeedsSpatial);
     }
-    if joint.kind == Distance {
+    if joint.kind.is_link() {
         place.apart("points", joint.points)?;
     } else {
         place.vector("at", joint.points[0])?;
@@ -28,37 +25,21 @@ pub(super) fn check<T: Real>(
     check_axes(joint, place)
 }
 
-/// How a kind uses an axis.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Use {
-    Needed,
-    Optional,
-    NeedsSpatial,
-    None,
-}
-
 fn check_axes<T: Real>(joint: &Joint<T>, place: Place) -> Result<(), SceneError> {
-    let planar = is_planar(place.dimension);
-    let (uses, fields) = match joint.kind {
-        JointKind::Revolute if planar => ([Use::None, Use::None], ["axis", "axis"]),
-        JointKind::Revolute | JointKind::Prismatic | JointKind::Cylindrical => {
-            ([Use::Needed, Use::None], ["axis", "axis"])
-        }
-        JointKind::Universal => ([Use::Needed, Use::Needed], ["axes", "axes"]),
-        JointKind::Planar => ([Use::Needed, Use::Needed], ["axis", "direction"]),
-        JointKind::Distance if planar => ([Use::NeedsSpatial, Use::None], ["axis", "axis"]),
-        JointKind::Distance => ([Use::Optional, Use::None], ["axis", "axis"]),
-        JointKind::Spherical | JointKind::Weld | JointKind::Free => {
-            ([Use::None, Use::None], ["axis", "axis"])
-        }
-    };
-    for ((axis, how), field) in joint.axes.iter().zip(uses).zip(fields) {
-        match (axis, how) {
-            (Some(_), Use::None) => return place.fault(field, SceneFault::NotUsed),
-            (Some(_), Use::NeedsSpatial) => return place.fault(field, SceneFault::NeedsSpatial),
-            (None, Use::Needed) => return place.fault(field, SceneFault::Missing),
-            (Some(axis), Use::Needed | Use::Optional) => place.axis(field, *axis)?,
-            (None, _) => {}
+    let (kind, dimension) = (joint.kind, place.dimension);
+    let fields = kind.axis_keys(dimension);
+    for (i, is_needed) in kind.needs_axes(dimension).into_iter().enumerate() {
+        let may_hinge = kind.is_link() && i == 0;
+        match joint.axes[i] {
+            Some(_) if may_hinge && is_planar(dimension) => {
+                return place.fault(fields[i], SceneFault::NeedsSpatial);
+            }
+            Some(_) if !is_needed && !may_hinge => {
+                return place.fault(fields[i], SceneFault::NotUsed);
+            }
+            Some(axis) => place.axis(fields[i], axis)?,
+            None if is_needed => return place.fault(fields[i], SceneFault::Missing),
+            None => {}
         }
     }
     match joint.axes {

@@ -18,9 +18,9 @@ pub(crate) fn imbalance<const D: usize>(
     state: &State<f64>,
 ) -> [f64; 2] {
     let mut terms = model.terms();
-    model.set_inputs(state.t, &mut terms);
+    model.set_inputs(state.t, state, &mut terms);
     model.evaluate(&state.q, &mut terms);
-    model.evaluate_forces(&state.q, &state.v, &state.memory, &mut terms);
+    model.evaluate_forces(&state.q, &state.v, &mut terms);
     model.evaluate_phi_t(&state.q, &mut terms);
     model.evaluate_bias(&state.q, &state.v, &mut terms);
     let largest = |x: &[f64]| x.iter().fold(0.0_f64, |s, x| s.max(x.abs()));

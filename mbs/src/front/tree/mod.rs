@@ -145,27 +145,28 @@ impl Tree {
         Plane<D>: InSpace<f64>,
     {
         let (model, state) = (simulation.model(), simulation.state());
-        let guides = model.prescribed().guides().iter().map(|guide| guide.at(state.t));
         let motions: Vec<_> =
             (0..self.scene.bodies.len()).map(|b| model.motion(&self.scene, b, state)).collect();
-        self.follow_motions((state.t, guides), &motions)
+        self.follow_motions((state.t, &state.applied), &motions)
     }
 
-    /// The same of the motions of the scene's bodies and guides.
+    /// The same of the motions of the scene's bodies, at a time with these inputs applied.
     pub(crate) fn follow_motions(
         &mut self,
-        (t, guides): (f64, impl Iterator<Item = [f64; 3]>),
+        (t, inputs): (f64, &[f64]),
         motions: &[RigidMotion<f64>],
     ) -> Result<(), TreeError> {
-        if motions.len() != self.scene.bodies.len() {
-            let (expected, found) = (self.scene.bodies.len(), motions.len());
-            return Err(TreeErrorKind::Length("motions", expected, found).into());
+        let n_inputs = self.inner.state().applied.len();
+        let sizes = [
+            ("motions", self.scene.bodies.len(), motions.len()),
+            ("inputs", n_inputs, inputs.len()),
+        ];
+        if let Some((what, expected, found)) = sizes.into_iter().find(|size| size.1 != size.2) {
+            return Err(TreeErrorKind::Length(what, expected, found).into());
         }
         with!(&mut self.inner, tree => {
-            for (guide, motion) in guides.enumerate() {
-                // A guide that follows a law of time refuses, and follows it here too.
-                let _ = tree.model.set_guide(guide, motion);
-            }
+            // Inputs of guides: those of effects act nowhere here.
+            tree.state.applied.copy_from_slice(inputs);
             tree.state.t = t;
             tree.model.read_motions(&self.scene, motions, &mut tree.state);
         });

@@ -1,0 +1,91 @@
+//! What a joint coordinate is measured by, whether it is held, guided, acted on or recorded.
+//!
+//! ```text
+//! angle      atan2(x2.y, x1.y)   x1, x2 in one body, y in the other
+//! slide      x.y                 x from the first body's point to the second's, y in the first
+//! rotation   log(R1^T R2)        its rate is omega2 - omega1, in global axes
+//! ```
+
+use super::affine::Affine;
+use super::basis::Combination;
+use super::build::Builder;
+use super::draft::difference;
+use super::model::NaturalModel;
+use crate::Real;
+use crate::algebra::Vector;
+use crate::scene::{BodyId, Dimension, Freedom, Joint};
+
+/// The points and directions that a freedom is measured by.
+#[derive(Debug, Clone)]
+pub(crate) enum Coordinate<T, X> {
+    /// `sign` times the angle of y in the frame x1, x2.
+    Angle { x1: X, x2: X, y: X, sign: T },
+    /// x.y.
+    Slide { x: X, y: X },
+    /// Rotation of the second body against the first.
+    Rotation,
+}
+
+/// Points and directions of bodies in terms of natural coordinates.
+pub(crate) trait Places<T: Real> {
+    type Place;
+
+    fn direction(&mut self, body: BodyId, d: Vector<T, 3>) -> Self::Place;
+
+    /// Point on the second body less point on the first.
+    fn gap(&mut self, joint: &Joint<T>) -> Self::Place;
+
+    /// The coordinate of a joint's freedom.
+    fn coordinate(
+        &mut self,
+        joint: &Joint<T>,
+        dimension: Dimension,
+        freedom: Freedom,
+    ) -> Coordinate<T, Self::Place> {
+        match freedom {
+            Freedom::Slide(axis) => {
+                let x = self.gap(joint);
+                Coordinate::Slide { x, y: self.direction(joint.bodies[0], joint.direction(axis)) }
+            }
+            Freedom::Turn(axis) => {
+                let [v, w, y] = joint.turn_directions(dimension, axis);
+                let side = joint.side_of_turn(dimension, axis);
+                let (own, other) = (joint.bodies[side], joint.bodies[1 - side]);
+                Coordinate::Angle {
+                    x1: self.direction(own, v),
+                    x2: self.direction(own, w),
+                    y: self.direction(other, y),
+                    sign: if side == 0 { T::ONE } else { -T::ONE },
+                }
+            }
+            Freedom::Ball => Coordinate::Rotation,
+        }
+    }
+}
+
+impl<T: Real> Places<T> for Builder<'_, T> {
+    type Place = Combination<T>;
+
+    fn direction(&mut self, body: BodyId, d: Vector<T, 3>) -> Combination<T> {
+        Builder::direction(self, body, d)
+    }
+
+    fn gap(&mut self, joint: &Joint<T>) -> Combination<T> {
+        let second = self.point(joint.bodies[1], joint.points[1]);
+        let first = self.point(joint.bodies[0], joint.points[0]);
+        difference(&second, &first)
+    }
+}
+
+impl<T: Real, const D: usize> Places<T> for &NaturalModel<T, D> {
+    type Place = Affine<T, D>;
+
+    fn direction(&mut self, body: BodyId, d: Vector<T, 3>) -> Affine<T, D> {
+        NaturalModel::direction(self, body, d.into())
+    }
+
+    fn gap(&mut self, joint: &Joint<T>) -> Affine<T, D> {
+        let [first, second] = [0, 1].map(|i| self.point(joint.bodies[i], joint.points[i]));
+        second.minus(&first)
+    }
+}

@@ -1,0 +1,21 @@
+//! The plane or space.
+
+/// Planar or spatial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// Motion in the x-y plane; rotations about z.
+    Planar,
+    /// Motion in space.
+    Spatial,
+}
+
+impl Dimension {
+    /// 2 or 3.
+    #[must_use]
+    pub const fn count(self) -> usize {
+        match self {
+            Self::Planar => 2,
+            Self::Spatial => 3,
+        }
+    }
+}

@@ -1,0 +1,325 @@
+//! The kinds of joint as data: what each lets move. All else follows from this table; it needs no allocation.
+//!
+//! | freedoms | equations (p: from the first body's point to the second's; all but b and the second body's axis in the first body) |
+//! |---|---|
+//! | no slide; slides | p = 0; p.u = 0 for each u across all slides |
+//! | no turn | space: the axis is common, and v.w = 0; plane: x.y = 0 |
+//! | one turn | space: the axis is common; plane: none |
+//! | two turns | a.b = const |
+//! | ball | none |
+//!
+//! A link (two points at a distance) has no freedoms in the table, since it has no joint coordinates; its equations are its own.
+//! A joint can carry the wrenches of its equations, and is in relative coordinates one link of the tree for each freedom.
+
+use super::Dimension;
+use Axis::{First, Second, Third, X, Y, Z};
+use Freedom::{Ball, Slide, Turn};
+
+/// A direction of a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axis {
+    /// The joint's first axis.
+    First,
+    /// The joint's second axis; as the direction of a slide, its part across the first.
+    Second,
+    /// The first cross the second.
+    Third,
+    /// Global x in the reference configuration.
+    X,
+    /// Global y in the reference configuration.
+    Y,
+    /// Global z in the reference configuration.
+    Z,
+}
+
+/// A relative motion that a joint allows, of the second body against the first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Freedom {
+    /// Translation along a direction of the first body; one coordinate.
+    Slide(Axis),
+    /// Rotation about an axis; one coordinate. Of two turns the first axis is fixed in the first body, the second in the second.
+    Turn(Axis),
+    /// Any rotation; its coordinates are the rotation vector's in global axes of the reference configuration.
+    Ball,
+}
+
+impl Freedom {
+    /// Number of its coordinates.
+    #[must_use]
+    pub const fn n_coordinates(self) -> usize {
+        match self {
+            Slide(_) | Turn(_) => 1,
+            Ball => 3,
+        }
+    }
+
+    /// Unit of its coordinates.
+    #[must_use]
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Slide(_) => "m",
+            Turn(_) | Ball => "rad",
+        }
+    }
+
+    /// Number of rotations among its coordinates.
+    #[must_use]
+    pub const fn n_rotations(self) -> usize {
+        match self {
+            Slide(_) => 0,
+            Turn(_) | Ball => self.n_coordinates(),
+        }
+    }
+
+    /// Its axis; a ball has none.
+    #[must_use]
+    pub const fn axis(self) -> Option<Axis> {
+        match self {
+            Slide(axis) | Turn(axis) => Some(axis),
+            Ball => None,
+        }
+    }
+}
+
+/// How the translation of a joint is constrained.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Translation {
+    /// The points coincide.
+    Fixed,
+    /// They move along a line.
+    Along(Axis),
+    /// They move in the plane across a direction.
+    Across(Axis),
+    /// It is not.
+    Free,
+}
+
+/// How the rotation of a joint is constrained. In the plane it is fixed or free.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rotation {
+    /// The bodies do not turn against each other.
+    Fixed,
+    /// They have an axis in common.
+    About(Axis),
+    /// An axis of the first body keeps its angle with one of the second.
+    Universal([Axis; 2]),
+    /// It is not.
+    Free,
+}
+
+/// What a kind of joint is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct JointForm {
+    /// Name in scene files.
+    pub name: &'static str,
+    /// Freedoms in a planar scene, in the order of the joint's coordinates; `None`: the kind is spatial only.
+    pub planar: Option<&'static [Freedom]>,
+    /// Freedoms in a spatial scene, slides first.
+    pub spatial: &'static [Freedom],
+    /// Two points that keep their distance; hinged at the first body if it has an axis (space).
+    pub is_link: bool,
+}
+
+const fn form(
+    name: &'static str,
+    planar: Option<&'static [Freedom]>,
+    spatial: &'static [Freedom],
+) -> JointForm {
+    JointForm { name, planar, spatial, is_link: false }
+}
+
+macro_rules! kinds {
+    ($($(#[$meta:meta])* $kind:ident = $form:expr;)*) => {
+        /// The kinds of joint.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        pub enum JointKind {
+            $($(#[$meta])* $kind,)*
+        }
+
+        impl JointKind {
+            /// Every kind, in the order of the scene format.
+            pub const ALL: [Self; JOINTS.len()] = [$(Self::$kind),*];
+        }
+
+        /// The forms of all kinds, in the order of [`JointKind::ALL`].
+        pub const JOINTS: [JointForm; [$(stringify!($kind)),*].len()] = [$($form),*];
+    };
+}
+
+kinds! {
+    /// Common point and axis; rotation about the axis.
+    Revolute = form("revolute", Some(&[Turn(Z)]), &[Turn(First)]);
+    /// Common point (spatial).
+    Spherical = form("spherical", None, &[Ball]);
+    /// Common point, two axes at a fixed angle (spatial).
+    Universal = form("universal", None, &[Turn(First), Turn(Second)]);
+    /// Translation along an axis.
+    Prismatic = form("prismatic", Some(&[Slide(First)]), &[Slide(First)]);
+    /// Translation along and rotation about an axis (spatial).
+    Cylindrical = form("cylindrical", None, &[Slide(First), Turn(First)]);
+    /// Plane on plane (spatial).
+    Planar = form("planar", None, &[Slide(Second), Slide(Third), Turn(First)]);
+    /// No relative motion.
+    Weld = form("weld", Some(&[]), &[]);
+    /// All relative motions: carries coordinates, constrains nothing.
+    Free = form(
+        "free",
+        Some(&[Slide(X), Slide(Y), Turn(Z)]),
+        &[Slide(X), Slide(Y), Slide(Z), Ball],
+    );
+    /// Two points keep their distance: a massless link with two balls, or hinged at the first body.
+    Distance = JointForm { is_link: true, ..form("distance", Some(&[]), &[]) };
+}
+
+impl JointKind {
+    /// What it is.
+    #[must_use]
+    pub const fn form(self) -> &'static JointForm {
+        const FORMS: &[JointForm; JOINTS.len()] = &JOINTS;
+        &FORMS[self as usize]
+    }
+
+    /// The name used in scene files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        self.form().name
+    }
+
+    /// Can it stand in a spatial scene alone?
+    #[must_use]
+    pub const fn is_spatial_only(self) -> bool {
+        self.form().planar.is_none()
+    }
+
+    /// Is it two points that keep their distance?
+    #[must_use]
+    pub const fn is_link(self) -> bool {
+        self.form().is_link
+    }
+
+    /// Does it hold two bodies together as one?
+    #[must_use]
+    pub const fn is_rigid(self) -> bool {
+        self.form().spatial.is_empty() && !self.is_link()
+    }
+
+    /// Does it constrain nothing?
+    #[must_use]
+    pub fn is_free(self) -> bool {
+        self.n_coordinates(Dimension::Spatial) == 6
+    }
+
+    /// What it lets move in a scene of that dimension, in the order of the joint's coordinates.
+    #[must_use]
+    pub const fn freedoms(self, dimension: Dimension) -> &'static [Freedom] {
+        match (dimension, self.form()) {
+            (Dimension::Planar, JointForm { planar: Some(freedoms), .. }) => freedoms,
+            (_, JointForm { spatial, .. }) => spatial,
+        }
+    }
+
+    /// The same, each with the number of its first coordinate.
+    pub fn numbered(self, dimension: Dimension) -> impl Iterator<Item = (usize, Freedom)> {
+        self.freedoms(dimension).iter().scan(0, |next, &freedom| {
+            let number = *next;
+            *next += freedom.n_coordinates();
+            Some((number, freedom))
+        })
+    }
+
+    /// Number of joint coordinates in a scene of that dimension.
+    #[must_use]
+    pub fn n_coordinates(self, dimension: Dimension) -> usize {
+        self.freedoms(dimension).iter().map(|freedom| freedom.n_coordinates()).sum()
+    }
+
+    /// Number of rotations among the joint coordinates in a scene of that dimension.
+    #[must_use]
+    pub fn n_rotations(self, dimension: Dimension) -> usize {
+        self.freedoms(dimension).iter().map(|freedom| freedom.n_rotations()).sum()
+    }
+
+    /// Its freedom, where it has one coordinate.
+    #[must_use]
+    pub fn single(self, dimension: Dimension) -> Option<Freedom> {
+        match self.freedoms(dimension) {
+            [one] if one.n_coordinates() == 1 => Some(*one),
+            _ => None,
+        }
+    }
+
+    /// The number of its first turn about an axis, with the axis.
+    #[must_use]
+    pub fn turn(self, dimension: Dimension) -> Option<(usize, Axis)> {
+        self.numbered(dimension).find_map(|(number, freedom)| match freedom {
+            Turn(axis) => Some((number, axis)),
+            Slide(_) | Ball => None,
+        })
+    }
+
+    /// How it constrains translation; a [link](Self::is_link) has equations of its own.
+    #[must_use]
+    pub fn translation(self, dimension: Dimension) -> Translation {
+        let mut slides = self.freedoms(dimension).iter().filter_map(|freedom| match freedom {
+            Slide(axis) => Some(*axis),
+            Turn(_) | Ball => None,
+        });
+        match (slides.next(), slides.next(), slides.next(), dimension) {
+            _ if self.is_link() => Translation::Free,
+            (None, ..) => Translation::Fixed,
+            (Some(axis), None, ..) => Translation::Along(axis),
+            (Some(a), Some(b), None, Dimension::Spatial) => Translation::Across(across(a, b)),
+            (Some(_), Some(_), ..) => Translation::Free,
+        }
+    }
+
+    /// How it constrains rotation; a [link](Self::is_link) has equations of its own.
+    #[must_use]
+    pub fn rotation(self, dimension: Dimension) -> Rotation {
+        let mut turns = self.freedoms(dimension).iter().filter(|freedom| freedom.n_rotations() > 0);
+        match (turns.next(), turns.next(), dimension) {
+            _ if self.is_link() => Rotation::Free,
+            (None, ..) => Rotation::Fixed,
+            (Some(Turn(axis)), None, Dimension::Spatial) => Rotation::About(*axis),
+            (Some(Turn(a)), Some(Turn(b)), Dimension::Spatial) => Rotation::Universal([*a, *b]),
+            (Some(_), ..) => Rotation::Free,
+        }
+    }
+
+    /// Are the joint's first and second axis needed in a scene of that dimension?
+    #[must_use]
+    pub fn needs_axes(self, dimension: Dimension) -> [bool; 2] {
+        let needs = |own| {
+            let axes = self.freedoms(dimension).iter().filter_map(|freedom| freedom.axis());
+            axes.into_iter().any(|axis| axis == own || axis == Third)
+        };
+        // what slides along the part of the second across the first needs both
+        let [first, second] = [First, Second].map(needs);
+        [first || self.slides_along(Second, dimension), second]
+    }
+
+    /// Keys of scene files for its two axes.
+    #[must_use]
+    pub fn axis_keys(self, dimension: Dimension) -> [&'static str; 2] {
+        match self.needs_axes(dimension) {
+            [_, false] => ["axis"; 2],
+            [_, true] if self.slides_along(Second, dimension) => ["axis", "direction"],
+            [_, true] => ["axes"; 2],
+        }
+    }
+
+    /// Is there a slide along this axis?
+    #[must_use]
+    pub fn slides_along(self, axis: Axis, dimension: Dimension) -> bool {
+        self.freedoms(dimension).contains(&Slide(axis))
+    }
+}
+
+/// The direction across two of a frame.
+fn across(a: Axis, b: Axis) -> Axis {
+    let frame = match a {
+        First | Second | Third => [First, Second, Third],
+        X | Y | Z => [X, Y, Z],
+    };
+    frame.into_iter().find(|&axis| axis != a && axis != b).unwrap_or(a)
+}
