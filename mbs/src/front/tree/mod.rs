@@ -1,5 +1,6 @@
 //! [`Tree`]: a mechanism in relative coordinates, at any position and velocity.
 
+mod dynamics;
 mod error;
 mod inner;
 mod layout;
@@ -10,15 +11,12 @@ pub use values::{Matrix, PointMotion, TreeRange};
 
 use crate::names::Names;
 use crate::simulation::Simulation;
-use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
-use inner::{Inner, Typed, with};
+use inner::{Inner, with};
 use layout::Layout;
-use mbs_core::algebra::Vector;
 use mbs_core::cluster::mass_properties;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{BodyId, JointId, JointKind, Scene};
-use mbs_recursive::EffortTerms;
 
 /// A point of a body, in the reference configuration, and what it counts.
 type Weighted = (BodyId, [f64; 3], f64);
@@ -50,7 +48,7 @@ type Weighted = (BodyId, [f64; 3], f64);
 /// **Time.** Only guided joints depend on it: they stand and move as their guides have them at [`time`](Self::set_time), zero at first.
 ///
 /// Answers stand in the tree's own buffers until the next call. After the first calls nothing allocates but
-/// [`follow`](Self::follow).
+/// [`follow`](Self::follow), and [`coordinates_of`](Self::coordinates_of) where it refuses.
 #[derive(Debug, Clone)]
 pub struct Tree {
     inner: Inner,
@@ -115,6 +113,16 @@ impl Tree {
     ///
     /// # Errors
     /// [`TreeError`] for a wrong number of numbers, or one that is not finite; the tree is then unchanged.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// tree.set(&[0.4, -1.1], &[1.3, -0.7])?;
+    /// assert_eq!(tree.coordinates(), [0.4, -1.1]);
+    /// assert_eq!(tree.set(&[0.4], &[1.3]).unwrap_err().code(), "wrong-length");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn set(&mut self, q: &[f64], v: &[f64]) -> Result<(), TreeError> {
         checked("q", q, self.q.len())?;
         checked("v", v, self.v.len())?;
@@ -128,6 +136,17 @@ impl Tree {
     }
 
     /// Sets the time [s] at which guided joints stand.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/guided-four-bar.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// // its crank is guided
+    /// let before = tree.gravity_forces().to_vec();
+    /// tree.set_time(0.25);
+    /// assert_ne!(tree.gravity_forces(), before);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn set_time(&mut self, t: f64) {
         self.inner.state().t = t;
     }
@@ -137,6 +156,19 @@ impl Tree {
     ///
     /// # Errors
     /// [`TreeErrorKind::Length`] for a simulation of another number of bodies.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let scene = file.scene().unwrap();
+    /// # let mut tree = mbs::front::tree::Tree::new(&scene)?;
+    /// # let settings = mbs::Settings::new(&scene, &mbs::Overrides::default()).unwrap();
+    /// let mut simulation = mbs::Simulation::<f64, 2>::new(&scene, &settings).unwrap();
+    /// simulation.step(1e-3)?;
+    /// tree.follow(&simulation)?;
+    /// assert!(tree.velocities()[0] < 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn follow<const D: usize>(
         &mut self,
         simulation: &Simulation<f64, D>,
@@ -181,6 +213,17 @@ impl Tree {
     ///
     /// # Errors
     /// [`TreeErrorKind::Cut`], [`TreeErrorKind::Guided`] or [`TreeErrorKind::Idle`] with the joint's name.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/four-bar.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// use mbs::core::scene::JointId;
+    /// assert_eq!(tree.coordinates_of(JointId::new(0))?.v, 0..1);
+    /// let cut = tree.coordinates_of(JointId::new(3)).unwrap_err();
+    /// assert_eq!((cut.code(), cut.joint()), ("cut-joint", Some("end-0")));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn coordinates_of(&self, joint: JointId) -> Result<TreeRange, TreeError> {
         if let Some(range) = self.layout.range(joint.index()) {
             return Ok(range);
@@ -202,6 +245,16 @@ impl Tree {
 
     /// Where the numbers of a free body stand, whether a free joint names it or none. Of bodies that are welded the first one in the
     /// scene has them.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/free-body.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// use mbs::core::scene::BodyId;
+    /// let at = tree.free_coordinates_of(BodyId::new(0)).expect("nothing holds it");
+    /// assert_eq!((at.q, at.v), (0..7, 0..6));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn free_coordinates_of(&self, body: BodyId) -> Option<TreeRange> {
         let BodyId::Body(body) = body else { return None };
@@ -209,177 +262,31 @@ impl Tree {
     }
 
     /// q: the coordinates.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// assert_eq!(tree.coordinates(), [0.0, 0.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn coordinates(&self) -> &[f64] {
         &self.q
     }
 
     /// v: the velocities.
+    ///
+    /// ```
+    /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
+    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// assert_eq!(tree.velocities(), [0.0, 0.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     #[must_use]
     pub fn velocities(&self) -> &[f64] {
         &self.v
-    }
-
-    /// M, n × n and symmetric; loops are open. ½ vᵀ M v is the kinetic energy where no joint is guided.
-    ///
-    /// Cost: bodies times depth, and n².
-    pub fn mass_matrix(&mut self) -> &Matrix {
-        let n = self.v.len();
-        let rows = &mut self.rows[..n * n];
-        with!(&mut self.inner, t => t.model.write_mass_matrix(&t.state, &mut t.workspace, rows));
-        self.mass.take_rows(&self.layout, &self.rows);
-        for i in 0..n {
-            for j in 0..n {
-                self.rows[j * n + i] = self.mass.data[i * n + j];
-            }
-        }
-        self.mass.take_rows(&self.layout, &self.rows);
-        &self.mass
-    }
-
-    /// J, one row for each equation of the joints that close loops, n columns.
-    pub fn loop_jacobian(&mut self) -> &Matrix {
-        let rows = &mut self.rows[..self.loops.data.len()];
-        with!(&mut self.inner, t => t.model.write_loop_rows(&t.state, &mut t.workspace, rows));
-        self.loops.take_rows(&self.layout, &self.rows);
-        &self.loops
-    }
-
-    /// g: the efforts that hold the mechanism at rest against gravity. A motor that gives them compensates gravity.
-    pub fn gravity_forces(&mut self) -> &[f64] {
-        self.efforts(EffortTerms::Gravity)
-    }
-
-    /// c + g: the efforts that keep all velocities as they are, against centrifugal and Coriolis forces, the motion of guided
-    /// joints, and gravity.
-    pub fn bias_forces(&mut self) -> &[f64] {
-        self.accelerations(None);
-        self.efforts(EffortTerms::WithoutEffects)
-    }
-
-    /// v̇ under efforts τ along v and gravity, loops closed.
-    ///
-    /// # Errors
-    /// [`TreeErrorKind::Length`], [`TreeErrorKind::NotFinite`]; [`TreeErrorKind::NoAccelerations`] at a singular position.
-    pub fn forward_dynamics(&mut self, effort: &[f64]) -> Result<&[f64], TreeError> {
-        checked("effort", effort, self.v.len())?;
-        self.accelerate(Some(effort))?;
-        self.layout.accelerations_outward(&self.inner.state().a, &mut self.answer);
-        Ok(&self.answer)
-    }
-
-    /// The efforts τ that make accelerations v̇: M v̇ + c + g.
-    ///
-    /// With loops many efforts make the same motion. Those returned are smallest in the norm of M⁻¹: τ = M (v̇ − v̇₀), with v̇₀ what
-    /// [`forward_dynamics`](Self::forward_dynamics) gives without efforts. They are zero for free motion. Accelerations that
-    /// open the loops are changed as little as the masses allow. Others are τ + Jᵀ λ for any λ: the motor of a four-bar
-    /// carries all where λ takes the efforts from the other joints.
-    ///
-    /// # Errors
-    /// As for [`forward_dynamics`](Self::forward_dynamics).
-    pub fn inverse_dynamics(&mut self, accelerations: &[f64]) -> Result<&[f64], TreeError> {
-        checked("accelerations", accelerations, self.v.len())?;
-        if self.loops.rows == 0 {
-            self.accelerations(Some(accelerations));
-            return Ok(self.efforts(EffortTerms::WithoutEffects));
-        }
-        self.accelerate(None)?;
-        self.layout.accelerations_inward(accelerations, &mut self.tree);
-        let free = &mut self.inner.state().a;
-        free.iter_mut().zip(&self.tree).for_each(|(a, x)| *a = x - *a);
-        Ok(self.efforts(EffortTerms::Inertia))
-    }
-
-    /// Of the velocity of a body's point, which was at `at` in the reference configuration [m]: 3 × n, global axes. In the plane the third
-    /// row is zero.
-    pub fn point_jacobian(&mut self, body: BodyId, at: [f64; 3]) -> &Matrix {
-        self.jacobian(3, Some((body, at, 1.0)))
-    }
-
-    /// Of the velocity of a body's centre of mass (rows 0 to 2) and of its angular velocity (3 to 5): 6 × n, global axes.
-    pub fn frame_jacobian(&mut self, body: BodyId) -> &Matrix {
-        let center = body.index().map_or([0.0; 3], |b| self.shares[b].1);
-        self.jacobian(6, Some((body, center, 1.0)))
-    }
-
-    /// Of the velocity of the centre of mass of all bodies: 3 × n, global axes.
-    pub fn center_of_mass_jacobian(&mut self) -> &Matrix {
-        self.jacobian(3, None)
-    }
-
-    /// Motion of a body's point, which was at `at` in the reference configuration [m]. The acceleration is that of v̇ = 0, J̇ v: add the
-    /// Jacobian times v̇.
-    pub fn point(&mut self, body: BodyId, at: [f64; 3]) -> PointMotion {
-        let at_rest = RigidMotion::at_rest(at.into());
-        let motion = body.index().map_or(at_rest, |b| self.motions()[b]);
-        PointMotion::of(motion.point(&at.into()))
-    }
-
-    /// Motion of the centre of mass of all bodies; the acceleration as that of a [`point`](Self::point).
-    pub fn center_of_mass(&mut self) -> PointMotion {
-        self.motions();
-        let motions = with!(&self.inner, tree => &tree.motions);
-        let mut sum = [Vector::<f64, 3>::zeros(); 3];
-        for (motion, &(_, center, share)) in motions.iter().zip(&self.shares) {
-            let point = motion.point(&center.into());
-            sum.iter_mut().zip(point).for_each(|(sum, x)| *sum += x * share);
-        }
-        PointMotion::of(sum)
-    }
-
-    /// The motions of the bodies at v̇ = 0.
-    fn motions(&mut self) -> &[RigidMotion<f64>] {
-        self.accelerations(None);
-        with!(&mut self.inner, tree => {
-            tree.model.write_motions(&tree.state, &mut tree.workspace, &mut tree.motions);
-            &tree.motions
-        })
-    }
-
-    /// Of a point, or of the centre of mass.
-    fn jacobian(&mut self, rows: usize, point: Option<Weighted>) -> &Matrix {
-        self.jacobian.resize_rows(rows);
-        let to = &mut self.rows[..rows * self.v.len()];
-        to.fill(0.0);
-        with!(&mut self.inner, tree => {
-            tree.model.place(&tree.state, &mut tree.workspace);
-            for &point in point.as_ref().map_or(&self.shares[..], std::slice::from_ref) {
-                tree.model.add_jacobian(point, &mut tree.workspace, to);
-            }
-        });
-        self.jacobian.take_rows(&self.layout, &self.rows);
-        &self.jacobian
-    }
-
-    /// Sets the accelerations of the state: those given, or v̇ = 0.
-    fn accelerations(&mut self, own: Option<&[f64]>) {
-        let state = self.inner.state();
-        match own {
-            Some(own) => self.layout.accelerations_inward(own, &mut state.a),
-            None => self.layout.accelerations_inward(&self.zero, &mut state.a),
-        }
-    }
-
-    /// Efforts of the state's accelerations.
-    fn efforts(&mut self, terms: EffortTerms) -> &[f64] {
-        let out = &mut self.tree;
-        with!(&mut self.inner, t => t.model.write_efforts((&t.state, terms), &mut t.workspace, out));
-        self.layout.efforts_outward(&self.tree, &mut self.answer);
-        &self.answer
-    }
-
-    /// Accelerations under efforts, into the state.
-    fn accelerate(&mut self, effort: Option<&[f64]>) -> Result<(), TreeError> {
-        self.layout.efforts_inward(effort.unwrap_or(&self.zero), &mut self.tree);
-        let (efforts, names) = (&self.tree, &self.names);
-        with!(&mut self.inner, tree => {
-            let Typed { model, state, workspace, .. } = &mut **tree;
-            model.accelerate_under(efforts, state, workspace).map_err(|error| {
-                let freedom = |u| model.owner_of_unknown(u);
-                let reason = StopError::step(error, freedom, |row| model.owner_of_row(row));
-                TreeError::of_model(TreeErrorKind::NoAccelerations, (reason, names))
-            })
-        })
     }
 }
 
