@@ -101,27 +101,3 @@ impl From<ActionError> for TreeError {
         Self::Effect(error)
     }
 }
-
-/// What a closed mechanism has no unique answer for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum LoopError {
-    /// The mechanism has loops: joint efforts and the mass matrix of its joint coordinates are not unique.
-    Closed {
-        /// Equations of the cut joints.
-        rows: usize,
-    },
-}
-
-impl core::fmt::Display for LoopError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Closed { rows } => write!(
-                f,
-                "the mechanism has loops ({rows} equations of cut joints), so that this is not unique; ask for the tree's own, or for reactions"
-            ),
-        }
-    }
-}
-
-impl core::error::Error for LoopError {}

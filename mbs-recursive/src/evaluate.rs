@@ -75,6 +75,20 @@ pub(crate) fn accelerations_ahead<T: Real, S: Space<T>>(
     finish(m, options, level, s)
 }
 
+/// The same under efforts along the freedoms, and without effects.
+#[cfg(feature = "alloc")]
+pub(crate) fn accelerations_under<T: Real, S: Space<T>>(
+    m: &Mechanism<'_, T, S>,
+    options: &Options<T>,
+    (level, efforts): (Level, &[T]),
+    s: &mut Store<'_, T, S>,
+) -> Result<T, Fault<T>> {
+    let mut condensed = begin(m, s)?;
+    inverse::add_efforts(m.links, s.placed, efforts, condensed)?;
+    core::mem::swap(&mut s.condensed, &mut condensed);
+    finish(m, options, level, s)
+}
+
 /// Places and own inertias; the articulated bodies are handed out for the loads.
 fn begin<'b, T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,

@@ -117,6 +117,57 @@ pub(crate) fn effort<T: Real, S: Space<T>>(
     }
 }
 
+/// Adds what a force on a link about its origin does along every freedom on the way to the ground: Jᵀ f.
+#[cfg(feature = "alloc")]
+pub(crate) fn add_along<T: Real, S: Space<T>>(
+    links: &[Link<T, S>],
+    placed: &[Placed<T, S>],
+    (mut i, mut force): (usize, S::Motion),
+    out: &mut [T],
+) -> Result<(), Outside> {
+    while i > 0 {
+        let (link, p) = (at(links, i)?, at(placed, i)?);
+        for f in 0..link.kind.n_freedoms::<T, S>() {
+            *at_mut(out, link.v as usize + f)? += direction(link, p, f).dot(&force);
+        }
+        force = S::gathered(&force, &p.arm);
+        i = if link.kind == Kind::Free { 0 } else { link.parent as usize };
+    }
+    Ok(())
+}
+
+/// Lets efforts act along the freedoms; between two links those of a ball act on both.
+#[cfg(feature = "alloc")]
+pub(crate) fn add_efforts<T: Real, S: Space<T>>(
+    links: &[Link<T, S>],
+    placed: &[Placed<T, S>],
+    efforts: &[T],
+    condensed: &mut [Condensed<T, S>],
+) -> Result<(), Outside> {
+    for (i, link) in links.iter().enumerate().skip(1) {
+        let (rotation, first) = (&at(placed, i)?.rotation, link.v as usize);
+        let wrench = match link.kind {
+            Kind::Revolute | Kind::Prismatic => {
+                at_mut(condensed, i)?.effort += *at(efforts, first)?;
+                continue;
+            }
+            Kind::GuidedRevolute | Kind::GuidedPrismatic => continue,
+            Kind::Ball => {
+                S::motion(S::rotate_spin(rotation, &read(efforts, first)?), S::Point::zero())
+            }
+            Kind::Free => S::motion(
+                S::rotate_spin(rotation, &read(efforts, first)?),
+                read(efforts, first + S::Spin::N)?,
+            ),
+        };
+        at_mut(condensed, i)?.force -= wrench;
+        if link.parent > 0 {
+            at_mut(condensed, link.parent as usize)?.force += wrench;
+        }
+    }
+    Ok(())
+}
+
 /// The tree's mass matrix by composite inertias, row by row: `mass` has the square of the freedoms, `composite` a place for
 /// each link.
 ///

@@ -34,6 +34,8 @@ mod order;
 pub mod passes;
 pub mod plan;
 mod project;
+#[cfg(feature = "alloc")]
+mod quantities;
 pub mod rows;
 #[cfg(feature = "alloc")]
 mod run;
@@ -52,11 +54,13 @@ mod turns;
 
 pub use at::Outside;
 #[cfg(feature = "alloc")]
-pub use error::{LanesError, LoopError, TreeError};
+pub use error::{LanesError, TreeError};
 #[cfg(feature = "alloc")]
 pub use history::History;
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
 pub use options::{Closure, Options};
+#[cfg(feature = "alloc")]
+pub use quantities::{EffortTerms, JointLinks};
 #[cfg(feature = "alloc")]
 pub use run::{
     bounded_step, extrapolated_step, radau5_step, rk4_step, rk54_step, rk853_step, step,

@@ -2,7 +2,6 @@
 
 use crate::at::own;
 use crate::bounded::{self, BoundedReport, Bounds, Unwatched};
-use crate::error::LoopError;
 use crate::evaluate::{Level, accelerations};
 use crate::explicit;
 use crate::inverse;
@@ -14,8 +13,6 @@ use crate::space::{Numbers, Space};
 use crate::state::{Explicit, TreeState, Workspace};
 use crate::trapezoidal::{self, Start, failure};
 use crate::tree::TreeModel;
-use alloc::vec;
-use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross};
 use mbs_core::ode::{Adaptive, Extrapolation, Method, Radau, Tableau};
@@ -288,7 +285,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         }
         let m = self.mechanism();
         let mut s = workspace.store();
-        self.place(state, &mut s);
+        self.place_in(state, &mut s);
         let before = own(ledger::potential(&m, &s.instant(&m)));
         let at_end = (&state.applied[..], &state.inputs[..]);
         self.prescribed.write_end(state.t, at_end, (s.guides, s.courses));
@@ -308,12 +305,12 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     pub fn energies(&self, state: &TreeState<T>, workspace: &mut Workspace<T, S>) -> [T; 2] {
         let m = self.mechanism();
         let mut s = workspace.store();
-        self.place(state, &mut s);
+        self.place_in(state, &mut s);
         [ledger::kinetic(m.links, s.placed), own(ledger::potential(&m, &s.instant(&m)))]
     }
 
     /// Puts a state into the scratch.
-    fn place(&self, state: &TreeState<T>, s: &mut Store<'_, T, S>) {
+    pub(crate) fn place_in(&self, state: &TreeState<T>, s: &mut Store<'_, T, S>) {
         s.z.copy_from_slice(&state.z);
         s.v.copy_from_slice(&state.v);
         s.lambda.copy_from_slice(&state.lambda);
@@ -324,7 +321,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     /// Puts a state with its accelerations into the scratch and finds the forces through all joints.
     fn balance(&self, state: &TreeState<T>, s: &mut Store<'_, T, S>) {
         let m = self.mechanism();
-        self.place(state, s);
+        self.place_in(state, s);
         s.a[0] = S::motion(S::Spin::zero(), -m.gravity);
         own(inverse::spread(m.links, s.placed, &state.a, s.a));
         let n = m.loops.rows.len();
@@ -335,64 +332,6 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             }));
         }
         own(inverse::forces(&m, s));
-    }
-
-    /// The efforts along all freedoms that make a state's accelerations, beyond effects and gravity: zero at the accelerations of
-    /// free motion.
-    ///
-    /// # Errors
-    /// [`LoopError::Closed`]: with loops they are not unique.
-    ///
-    /// # Panics
-    /// If `efforts` is not as long as the freedoms.
-    pub fn inverse_dynamics(
-        &self,
-        state: &TreeState<T>,
-        workspace: &mut Workspace<T, S>,
-        efforts: &mut [T],
-    ) -> Result<(), LoopError> {
-        self.refuse_loops()?;
-        assert_eq!(efforts.len(), self.n_freedoms, "one effort per freedom");
-        let mut s = workspace.store();
-        self.balance(state, &mut s);
-        for (i, link) in self.links.iter().enumerate().skip(1) {
-            if !link.kind.is_guided() {
-                let out = &mut efforts[link.v as usize..];
-                own(inverse::effort(link, &s.placed[i], &s.condensed[i], out));
-            }
-        }
-        Ok(())
-    }
-
-    /// The mass matrix in joint coordinates, row by row.
-    ///
-    /// # Errors
-    /// [`LoopError::Closed`]: with loops the coordinates depend on each other; ask for [`tree_mass_matrix`](Self::tree_mass_matrix).
-    pub fn mass_matrix(
-        &self,
-        state: &TreeState<T>,
-        workspace: &mut Workspace<T, S>,
-    ) -> Result<Vec<T>, LoopError> {
-        self.refuse_loops()?;
-        Ok(self.tree_mass_matrix(state, workspace))
-    }
-
-    /// The mass matrix of the spanning tree, its loops being open, row by row.
-    pub fn tree_mass_matrix(
-        &self,
-        state: &TreeState<T>,
-        workspace: &mut Workspace<T, S>,
-    ) -> Vec<T> {
-        let n = self.n_freedoms;
-        let mut mass = vec![T::ZERO; n * n];
-        let mut s = workspace.store();
-        self.place(state, &mut s);
-        inverse::mass_matrix(&self.links, s.placed, s.condensed, n, &mut mass);
-        mass
-    }
-
-    fn refuse_loops(&self) -> Result<(), LoopError> {
-        if self.rows.is_empty() { Ok(()) } else { Err(LoopError::Closed { rows: self.rows.len() }) }
     }
 
     /// What the first body of each joint does to the second at the joint's place on the second, global axes: force and moment

@@ -98,6 +98,39 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         Ok(state)
     }
 
+    /// Reads coordinates and velocities from the motions of the scene's bodies, one for each, at the state's time. Angles are those
+    /// nearest to the state's own.
+    ///
+    /// # Panics
+    /// If there are fewer motions than bodies.
+    pub fn read_motions(
+        &self,
+        scene: &Scene<T>,
+        motions: &[RigidMotion<T>],
+        state: &mut TreeState<T>,
+    ) {
+        for seat in &self.seats {
+            let own = &self.links[seat.link as usize];
+            let mut values: Vec<T> = match own.kind {
+                Kind::Free if S::DIMENSION == 2 && seat.branch.is_reversed => {
+                    vec![-state.z[own.z as usize]]
+                }
+                Kind::Free if S::DIMENSION == 2 => vec![state.z[own.z as usize]],
+                // A quaternion has no turns to be counted.
+                Kind::Ball | Kind::Free => Vec::new(),
+                Kind::GuidedRevolute | Kind::GuidedPrismatic => continue,
+                _ => {
+                    let chain = &self.links[seat.first as usize..=seat.link as usize];
+                    chain.iter().map(|link| state.z[link.z as usize]).collect()
+                }
+            };
+            if seat.branch.is_reversed {
+                values.reverse();
+            }
+            self.read_seat((scene, &values), seat, motions, state);
+        }
+    }
+
     /// Coordinates and velocities of motions.
     fn read(&self, scene: &Scene<T>, t: T, motions: &[RigidMotion<T>]) -> TreeState<T> {
         let mut state = TreeState::at_rest(self);

@@ -18,7 +18,7 @@ mod figure;
 mod fingerprint;
 pub mod folder;
 mod friction;
-mod front;
+pub mod front;
 mod interrupt;
 mod journal;
 mod modes;

@@ -275,10 +275,9 @@ impl StopError {
         }
     }
 
-    /// As it stands in JSON.
-    #[must_use]
-    pub fn report(&self, time: f64, names: &Names) -> RunError {
-        let owner = match self {
+    /// What the error is about.
+    pub(crate) fn owner(&self) -> Option<Owner> {
+        match self {
             Self::Start(error) => start_owner(error),
             Self::Step(_, owner) | Self::Tree(_, owner) | Self::Equilibrium(_, owner) => *owner,
             Self::Energy { owner, .. } => Some(*owner),
@@ -290,7 +289,13 @@ impl StopError {
             | Self::Eigenvalues
             | Self::Interrupted
             | Self::NoThreads(_) => None,
-        };
+        }
+    }
+
+    /// As it stands in JSON.
+    #[must_use]
+    pub fn report(&self, time: f64, names: &Names) -> RunError {
+        let owner = self.owner();
         let (joint, body) = owner.map_or((None, None), |o| names.of(o));
         let named = match self {
             Self::Output { output } => names.outputs.get(*output),

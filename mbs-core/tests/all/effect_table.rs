@@ -16,7 +16,8 @@ fn fields_have_keys_of_their_own_and_defaults_name_other_ones() {
         assert_eq!(keys.iter().collect::<BTreeSet<_>>().len(), keys.len(), "{}", row.module);
         for field in row.fields {
             assert!(field.meaning.trim().ends_with('.'), "{}: {}", row.module, field.key);
-            if let Default::As(key) | Default::Times(_, key) | Default::NeededWith(key) = field.default
+            if let Default::As(key) | Default::Times(_, key) | Default::NeededWith(key) =
+                field.default
             {
                 let other = row.fields.iter().find(|other| other.key == key);
                 let other = other.unwrap_or_else(|| panic!("{}: no key {key}", row.module));
@@ -60,9 +61,7 @@ fn every_kind_is_tried_by_the_tests_of_effects() {
 fn the_document_has_the_fields_of_the_table() {
     let text = std::fs::read_to_string(DOCUMENT).expect("the document");
     let mut expected = text.clone();
-    for (heading, group) in
-        [("Between two bodies", 0), ("On a joint", 1), ("On one body", 2)]
-    {
+    for (heading, group) in [("Between two bodies", 0), ("On a joint", 1), ("On one body", 2)] {
         let section = expected.find(&format!("## {heading}\n")).expect("a section");
         let start = section + expected[section..].find("| kind |").expect("a table");
         let end = start + expected[start..].find("\n\n").expect("an end") + 1;
@@ -71,7 +70,10 @@ fn the_document_has_the_fields_of_the_table() {
     if std::env::var_os("MBS_WRITE_DOCS").is_some() {
         std::fs::write(DOCUMENT, &expected).expect("the document");
     } else {
-        assert!(text == expected, "run this test with MBS_WRITE_DOCS=1, and look at the difference");
+        assert!(
+            text == expected,
+            "run this test with MBS_WRITE_DOCS=1, and look at the difference"
+        );
     }
 }
 

@@ -5,6 +5,7 @@ mod mechanism;
 mod part;
 #[cfg(test)]
 mod tests;
+pub mod tree;
 
 pub use error::{Error, PathError, SceneError, UnknownName};
 pub use mechanism::Mechanism;

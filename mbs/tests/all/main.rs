@@ -27,4 +27,5 @@ mod realtime;
 mod reference;
 mod sweep;
 mod threads;
+mod tree;
 mod vehicle;

@@ -8,7 +8,7 @@ use mbs_core::model::Owner;
 use mbs_core::real::DoubleDouble;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_recursive::space::Space;
-use mbs_recursive::{Options, Planar, Spatial, TreeModel, TreeState, Workspace};
+use mbs_recursive::{EffortTerms, Options, Planar, Spatial, TreeModel, TreeState, Workspace};
 use std::hint::black_box;
 
 /// A tree in the states that every program starts from.
@@ -52,7 +52,8 @@ impl<T: Real, S: Space<T>> Open<T, S> {
 
     /// The effort of the first joint in a state.
     fn effort(&mut self, k: usize, efforts: &mut [T]) -> Result<T, Failure> {
-        self.model.inverse_dynamics(&self.states[k], &mut self.workspace, efforts)?;
+        let terms = EffortTerms::WithEffects;
+        self.model.write_efforts((&self.states[k], terms), &mut self.workspace, efforts);
         Ok(efforts[self.first])
     }
 }

@@ -1,0 +1,208 @@
+//! Equations of motion of a tree at any state, as matrices and efforts; without effects, unless they are asked for.
+//!
+//! ```text
+//! M v̇ + c + g = τ + Jᵀ λ,   J v̇ + J̇ v = 0        g: gravity,   c: velocity products and motion of guided joints
+//! τ = bᵀ f                                        by the passes of `inverse`
+//! rows of J and of Jacobians                      bᵀ w along the path to the ground, for a wrench w on a link
+//! ```
+
+use crate::at::own;
+use crate::evaluate::{Level, accelerations_under};
+use crate::inverse;
+use crate::loops::Loops;
+use crate::mechanism::Mechanism;
+use crate::options::Options;
+use crate::passes::kinematics;
+use crate::space::{Numbers, Space};
+use crate::state::{TreeState, Workspace};
+use crate::trapezoidal::failure;
+use crate::tree::TreeModel;
+use core::ops::Range;
+use mbs_core::Real;
+use mbs_core::algebra::Vector;
+use mbs_core::scene::BodyId;
+use mbs_core::step::StepError;
+
+/// Parts of the efforts M v̇ + c + g.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EffortTerms {
+    /// All of them, less what effects do: zero at the accelerations of free motion.
+    WithEffects,
+    /// All of them.
+    WithoutEffects,
+    /// g alone, at rest.
+    Gravity,
+    /// M v̇ alone, at rest without gravity.
+    Inertia,
+}
+
+/// The links of one joint of the tree, or of a body that no joint holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointLinks<T> {
+    /// `scene.joints[joint]`; `None` for a body that no joint holds.
+    pub joint: Option<usize>,
+    /// The body that it carries, the first one of those that are welded.
+    pub body: usize,
+    /// Its links from the parent to the child, one for each freedom; a ball or a free joint has one.
+    pub links: Range<usize>,
+    /// The parent is the joint's second body; then the links stand in reverse order of the joint's numbers.
+    pub is_reversed: bool,
+    /// The origin of the last link in the reference configuration [m].
+    pub origin: [T; 3],
+}
+
+impl<T: Real, S: Space<T>> TreeModel<T, S> {
+    /// The joints of the tree with their links, parents first; joints that are cut are not among them.
+    pub fn joint_links(&self) -> impl Iterator<Item = JointLinks<T>> + '_ {
+        self.seats.iter().map(|seat| JointLinks {
+            joint: seat.branch.joint,
+            body: self.clusters.clusters[seat.branch.cluster].bodies[0],
+            links: seat.first as usize..seat.link as usize + 1,
+            is_reversed: seat.branch.is_reversed,
+            origin: self.origins[seat.link as usize].into(),
+        })
+    }
+
+    /// Writes the efforts along all freedoms that make the state's accelerations `a` where loops are open.
+    ///
+    /// Cost: two outward passes and an inward one; no allocation.
+    ///
+    /// # Panics
+    /// If `efforts` is not as long as the freedoms.
+    pub fn write_efforts(
+        &self,
+        (state, terms): (&TreeState<T>, EffortTerms),
+        workspace: &mut Workspace<T, S>,
+        efforts: &mut [T],
+    ) {
+        let none = Loops { loops: &[], rows: &[], ..self.mechanism().loops };
+        let has_effects = terms == EffortTerms::WithEffects;
+        let loads = if has_effects { &self.loads[..] } else { &[] };
+        let m = Mechanism { loads, loops: none, ..self.mechanism() };
+        let mut s = workspace.store();
+        self.place_in(state, &mut s);
+        s.a[0] = S::motion(S::Spin::zero(), -m.gravity);
+        if matches!(terms, EffortTerms::Gravity | EffortTerms::Inertia) {
+            s.v.fill(T::ZERO);
+            s.guides.iter_mut().for_each(|[_, rate, second]| (*rate, *second) = (T::ZERO, T::ZERO));
+            own(kinematics(m.links, (s.z, s.v, s.guides), s.placed));
+        }
+        if terms == EffortTerms::Inertia {
+            s.a[0] = S::Motion::zero();
+        }
+        // At rest v is zero: gravity alone is the effort of no acceleration.
+        let a = if terms == EffortTerms::Gravity { &*s.v } else { &state.a };
+        own(inverse::spread(m.links, s.placed, a, s.a));
+        own(inverse::forces(&m, &mut s));
+        for (i, link) in self.links.iter().enumerate().skip(1) {
+            if !link.kind.is_guided() {
+                let out = &mut efforts[link.v as usize..];
+                own(inverse::effort(link, &s.placed[i], &s.condensed[i], out));
+            }
+        }
+    }
+
+    /// Writes the mass matrix, loops being open, row by row.
+    ///
+    /// Cost: bodies times depth; no allocation.
+    ///
+    /// # Panics
+    /// If `mass` has not the square of the freedoms.
+    pub fn write_mass_matrix(
+        &self,
+        state: &TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+        mass: &mut [T],
+    ) {
+        let mut s = workspace.store();
+        self.place_in(state, &mut s);
+        inverse::mass_matrix(&self.links, s.placed, s.condensed, self.n_freedoms, mass);
+    }
+
+    /// Evaluates accelerations and multipliers of a state under efforts along the freedoms and gravity, without effects.
+    ///
+    /// Cost: one evaluation; no allocation.
+    ///
+    /// # Errors
+    /// [`StepError`]; the state is then unchanged.
+    ///
+    /// # Panics
+    /// If there are fewer efforts than freedoms.
+    pub fn accelerate_under(
+        &self,
+        efforts: &[T],
+        state: &mut TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+    ) -> Result<(), StepError> {
+        let m = Mechanism { loads: &[], ..self.mechanism() };
+        let mut s = workspace.store();
+        s.z.copy_from_slice(&state.z);
+        s.v.copy_from_slice(&state.v);
+        self.prescribed.write(state.t, &state.applied, s.guides, s.courses);
+        let level = Level::Fine;
+        let left = accelerations_under(&m, &Options::default(), (level, efforts), &mut s);
+        left.map_err(|fault| failure(&m, fault))?;
+        state.a.copy_from_slice(s.zdd);
+        state.lambda.copy_from_slice(s.lambda);
+        Ok(())
+    }
+
+    /// Puts the links where a state has them: what [`add_jacobian`](Self::add_jacobian) sees.
+    ///
+    /// Cost: an outward pass; no allocation.
+    pub fn place(&self, state: &TreeState<T>, workspace: &mut Workspace<T, S>) {
+        self.place_in(state, &mut workspace.store());
+    }
+
+    /// Adds `weight` times the Jacobian of a body's point, which was at `at` in the reference configuration, row by row: of its velocity,
+    /// and where there are six rows of the body's angular velocity; global axes.
+    ///
+    /// Cost: the links on the way to the ground; no allocation.
+    pub fn add_jacobian(
+        &self,
+        (body, at, weight): (BodyId, [T; 3], T),
+        workspace: &mut Workspace<T, S>,
+        rows: &mut [T],
+    ) {
+        let s = workspace.store();
+        let (link, point) = self.seat_point(body, at);
+        let arm = S::rotate(&s.placed[link as usize].rotation, &point);
+        for (k, row) in rows.chunks_exact_mut(self.n_freedoms.max(1)).enumerate() {
+            let mut unit = Vector::<T, 3>::zeros();
+            unit[k % 3] = weight;
+            let wrench = if k < 3 {
+                S::wrench(&arm, &S::point_from(&unit))
+            } else {
+                S::motion(S::spin_from(&unit), S::Point::zero())
+            };
+            own(inverse::add_along(&self.links, s.placed, (link as usize, wrench), row));
+        }
+    }
+
+    /// Writes the Jacobian of the cut joints' equations row by row: rows times freedoms.
+    ///
+    /// Cost: for each row the links on the way to the ground; no allocation.
+    ///
+    /// # Panics
+    /// If `rows` has not rows times freedoms numbers.
+    pub fn write_loop_rows(
+        &self,
+        state: &TreeState<T>,
+        workspace: &mut Workspace<T, S>,
+        rows: &mut [T],
+    ) {
+        let mut s = workspace.store();
+        self.place_in(state, &mut s);
+        let n = self.n_freedoms;
+        rows.fill(T::ZERO);
+        for lap in &self.loops {
+            own(lap.evaluate(&self.rows, s.placed, |k, value| {
+                let row = crate::at::part_mut(rows, k * n, n)?;
+                for (&link, &gradient) in lap.links.iter().zip(&value.gradient) {
+                    inverse::add_along(&self.links, s.placed, (link as usize, gradient), row)?;
+                }
+                Ok(())
+            }));
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! What a tree refuses, with names.
+
+use crate::names::Names;
+use crate::stop::StopError;
+use std::fmt;
+
+/// Why there is no tree, or why it does not answer.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct TreeError {
+    /// What is wrong.
+    pub kind: TreeErrorKind,
+    joint: Option<String>,
+    body: Option<String>,
+}
+
+/// What is wrong.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum TreeErrorKind {
+    /// The mechanism has no model in relative coordinates.
+    NoTree(StopError),
+    /// No accelerations follow from the efforts.
+    NoAccelerations(StopError),
+    /// The joint closes a loop: its equations are rows of the loop Jacobian.
+    Cut,
+    /// The joint follows its guide.
+    Guided,
+    /// The joint carries nothing: it is free between two moving bodies, or within one body.
+    Idle,
+    /// Too many numbers, or too few: what they are, how many the tree has, how many were given.
+    Length(&'static str, usize, usize),
+    /// An infinite number or none: what it is, and its place.
+    NotFinite(&'static str, usize),
+    /// Four zeros from this place of q are no quaternion.
+    NoRotation(usize),
+}
+
+impl TreeError {
+    /// About what an error of the model names.
+    pub(super) fn of_model(
+        kind: fn(StopError) -> TreeErrorKind,
+        (reason, names): (StopError, &Names),
+    ) -> Self {
+        let (joint, body) = reason.owner().map_or((None, None), |owner| names.of(owner));
+        Self { kind: kind(reason), joint, body }
+    }
+
+    pub(super) fn of_joint(kind: TreeErrorKind, joint: &str) -> Self {
+        Self { kind, joint: Some(joint.to_owned()), body: None }
+    }
+
+    /// A short fixed word for programs.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        self.words().0
+    }
+
+    /// The name of the joint that it is about.
+    #[must_use]
+    pub fn joint(&self) -> Option<&str> {
+        self.joint.as_deref()
+    }
+
+    /// The name of the body that it is about.
+    #[must_use]
+    pub fn body(&self) -> Option<&str> {
+        self.body.as_deref()
+    }
+
+    /// What to do.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        self.words().1
+    }
+
+    /// Code, hint and message.
+    fn words(&self) -> (&'static str, &'static str, String) {
+        use TreeErrorKind as Kind;
+        let no_coordinates = |whose| format!("a joint that {whose} has no coordinates");
+        match &self.kind {
+            Kind::NoTree(reason) => ("no-tree", reason.hint(), reason.to_string()),
+            Kind::NoAccelerations(reason) => (
+                "no-accelerations",
+                "leave this position, in which loops are singular; check that q and v close them: `follow` a simulation there",
+                format!("no accelerations follow from the efforts: {reason}"),
+            ),
+            Kind::Cut => {
+                let hint = "use `loop_jacobian`, or coordinates of another joint of the loop";
+                ("cut-joint", hint, no_coordinates("closes a loop"))
+            }
+            Kind::Guided => (
+                "guided-joint",
+                "use its guide, or leave the guide out",
+                no_coordinates("is guided"),
+            ),
+            Kind::Idle => {
+                let hint = "use the joints that hold its bodies";
+                ("no-coordinates", hint, no_coordinates("carries nothing"))
+            }
+            Kind::Length(what, expected, found) => {
+                let hint = "make q as long as `coordinates`, all others as `velocities`";
+                let message = format!("{what} has {found} numbers, and the tree {expected}");
+                ("wrong-length", hint, message)
+            }
+            Kind::NotFinite(what, place) => {
+                ("not-finite", "give finite numbers", format!("{what}[{place}] is not finite"))
+            }
+            Kind::NoRotation(place) => {
+                let message =
+                    format!("q[{place}] and the three numbers behind it are no quaternion");
+                ("no-rotation", "give (w, x, y, z); no rotation is (1, 0, 0, 0)", message)
+            }
+        }
+    }
+}
+
+impl From<TreeErrorKind> for TreeError {
+    fn from(kind: TreeErrorKind) -> Self {
+        Self { kind, joint: None, body: None }
+    }
+}
+
+impl fmt::Display for TreeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (_, _, message) = self.words();
+        match self.joint().or(self.body()) {
+            Some(name) => write!(f, "`{name}`: {message}"),
+            None => write!(f, "{message}"),
+        }
+    }
+}
+
+impl std::error::Error for TreeError {}

@@ -1,0 +1,57 @@
+//! A tree with its state in the coordinates of its links, in the plane or in space.
+
+use crate::stop::StopError;
+use mbs_core::rigid::RigidMotion;
+use mbs_core::scene::{Dimension, Scene};
+use mbs_recursive::space::Space;
+use mbs_recursive::{Planar, Spatial, TreeModel, TreeState, Workspace};
+
+/// By dimension.
+#[derive(Debug, Clone)]
+pub(super) enum Inner {
+    Planar(Box<Typed<Planar>>),
+    Spatial(Box<Typed<Spatial>>),
+}
+
+/// Model, state and scratch.
+#[derive(Debug, Clone)]
+pub(super) struct Typed<S: Space<f64>> {
+    pub(super) model: TreeModel<f64, S>,
+    pub(super) workspace: Workspace<f64, S>,
+    pub(super) state: TreeState<f64>,
+    pub(super) motions: Vec<RigidMotion<f64>>,
+}
+
+/// Does the same in either dimension.
+macro_rules! with {
+    ($inner:expr, $tree:ident => $done:expr) => {
+        match $inner {
+            Inner::Planar($tree) => $done,
+            Inner::Spatial($tree) => $done,
+        }
+    };
+}
+pub(super) use with;
+
+impl Inner {
+    /// The tree of a scene, at rest in the reference configuration.
+    pub(super) fn new(scene: &Scene<f64>) -> Result<Self, StopError> {
+        Ok(match scene.dimension {
+            Dimension::Planar => Self::Planar(Box::new(Typed::new(scene)?)),
+            Dimension::Spatial => Self::Spatial(Box::new(Typed::new(scene)?)),
+        })
+    }
+
+    pub(super) fn state(&mut self) -> &mut TreeState<f64> {
+        with!(self, tree => &mut tree.state)
+    }
+}
+
+impl<S: Space<f64>> Typed<S> {
+    fn new(scene: &Scene<f64>) -> Result<Self, StopError> {
+        let model = TreeModel::new(scene).map_err(StopError::tree)?;
+        let (workspace, state) = (Workspace::new(&model), TreeState::at_rest(&model));
+        let motions = scene.bodies.iter().map(|b| RigidMotion::at_rest(b.center.into())).collect();
+        Ok(Self { model, workspace, state, motions })
+    }
+}
