@@ -1,19 +1,9 @@
 //! Random mechanisms as scene text: any joint between any two bodies, as if at random by someone who knows the format and no mechanics.
 
 use crate::Dice;
+use mbs::core::scene::{Dimension, JointKind};
 use std::fmt::Write;
 
-/// Joints, and what they need besides a place: so many axes.
-const JOINTS: [(&str, usize); 8] = [
-    ("revolute", 1),
-    ("spherical", 0),
-    ("universal", 2),
-    ("prismatic", 1),
-    ("cylindrical", 1),
-    ("planar", 1),
-    ("weld", 0),
-    ("free", 0),
-];
 const FORMULATIONS: [&str; 7] =
     ["auto", "index-1", "index-3", "multi-index", "classical", "state-space", "recursive"];
 
@@ -23,6 +13,10 @@ struct Space {
 }
 
 impl Space {
+    fn dimension(&self) -> Dimension {
+        if self.n == 2 { Dimension::Planar } else { Dimension::Spatial }
+    }
+
     fn vector(&self, dice: &mut Dice, size: f64) -> String {
         // half of the coordinates lie on a grid, where axes are parallel and places coincide
         let mut one = || {
@@ -60,7 +54,7 @@ pub fn mechanism(dice: &mut Dice) -> String {
         let second = if k < bodies { k } else { dice.below(bodies) };
         let first = if k < bodies { dice.below(k + 1) } else { dice.below(bodies + 1) };
         let kind = joint(&mut text, (k, [name(first), name(second + 1)]), (&space, size), dice);
-        if matches!(kind, "revolute" | "prismatic") {
+        if kind.single(space.dimension()).is_some() {
             simple.push(k);
         }
     }
@@ -110,22 +104,26 @@ fn joint(
     (k, bodies): (usize, [String; 2]),
     (space, size): (&Space, f64),
     dice: &mut Dice,
-) -> &'static str {
-    let &(kind, axes) = dice.one_of(&JOINTS);
+) -> JointKind {
+    // a link has two places
+    let kinds: Vec<JointKind> = JointKind::ALL.into_iter().filter(|k| !k.is_link()).collect();
+    let &kind = dice.one_of(&kinds);
     let [first, second] = bodies;
     let _ = writeln!(
         text,
-        "[[joint]]\nname = \"j{k}\"\nkind = \"{kind}\"\nbodies = [\"{first}\", \"{second}\"]\nat = {}",
+        "[[joint]]\nname = \"j{k}\"\nkind = \"{}\"\nbodies = [\"{first}\", \"{second}\"]\nat = {}",
+        kind.name(),
         space.vector(dice, size)
     );
-    let in_plane = space.n == 2 && kind == "revolute";
-    let _ = match axes {
-        1 if !in_plane => writeln!(text, "axis = {}", space.vector(dice, 1.0)),
-        2 => writeln!(text, "axes = [{}, {}]", space.vector(dice, 1.0), space.vector(dice, 1.0)),
-        _ => Ok(()),
-    };
-    if kind == "planar" {
-        let _ = writeln!(text, "direction = {}", space.vector(dice, 1.0));
+    let keys = kind.axis_keys(space.dimension());
+    if keys == ["axes"; 2] {
+        let _ = writeln!(text, "axes = [{}, {}]", space.vector(dice, 1.0), space.vector(dice, 1.0));
+    } else {
+        for (key, is_needed) in keys.into_iter().zip(kind.needs_axes(space.dimension())) {
+            if is_needed {
+                let _ = writeln!(text, "{key} = {}", space.vector(dice, 1.0));
+            }
+        }
     }
     text.push('\n');
     kind

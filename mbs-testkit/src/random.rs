@@ -2,8 +2,8 @@
 
 use crate::scenes::empty;
 use mbs_core::scene::{
-    Body, BodyId, Dimension, Effect, EffectKind, Guide, Inertia, InitialCondition, InitialTarget,
-    Joint, JointId, JointKind, Motion, Scene, SpringDamper,
+    Body, BodyId, Dimension, Effect, EffectKind, Freedom, Guide, Inertia, InitialCondition,
+    InitialTarget, Joint, JointId, JointKind, Motion, Scene, SpringDamper,
 };
 
 /// A small generator of the same numbers on every machine (xorshift64*), by its state, which is not zero.
@@ -183,6 +183,87 @@ fn joint(
     }
 }
 
+/// Two bodies hanging from the ground by joints of one kind, the second from its joint's second body; they start at rest.
+#[must_use]
+pub fn of_kind(seed: u64, kind: JointKind, dimension: Dimension) -> Scene<f64> {
+    let mut random = Random::new(seed ^ 0x1111);
+    let mut scene = tree(seed, dimension, 2);
+    scene.name = format!("{} {}", kind.name(), scene.name);
+    scene.initials.clear();
+    let place = plus(scene.bodies[0].center, random.point(dimension, 0.3));
+    let pairs = [[BodyId::Ground, BodyId::Body(0)], [BodyId::Body(1), BodyId::Body(0)]];
+    let places = [scene.joints[0].points[0], place];
+    scene.joints.clear();
+    for (bodies, place) in pairs.into_iter().zip(places) {
+        scene.joints.push(joint(&mut random, dimension, kind, bodies, place));
+        let name = format!("joint-{}", scene.joints.len());
+        scene.joints.last_mut().into_iter().for_each(|joint| joint.name.clone_from(&name));
+    }
+    scene
+}
+
+/// A chain on balls (pins in the plane) that a joint of one kind closes to the ground.
+#[must_use]
+pub fn closed_by(seed: u64, kind: JointKind, dimension: Dimension) -> Scene<f64> {
+    let mut random = Random::new(seed ^ 0x2222);
+    let (n, pin) = match dimension {
+        Dimension::Planar => (3, JointKind::Revolute),
+        Dimension::Spatial => (2, JointKind::Spherical),
+    };
+    let mut scene = tree(seed, dimension, n);
+    scene.name = format!("{} closes {}", kind.name(), scene.name);
+    scene.initials.clear();
+    for (i, joint) in scene.joints.iter_mut().enumerate() {
+        let first = if i == 0 { BodyId::Ground } else { BodyId::Body(i - 1) };
+        (joint.kind, joint.axes, joint.bodies[0]) = (pin, [None; 2], first);
+        joint.name = format!("pin-{i}");
+    }
+    let place = plus(scene.bodies[n - 1].center, random.point(dimension, 0.3));
+    let bodies = [BodyId::Body(n - 1), BodyId::Ground];
+    let mut closure = joint(&mut random, dimension, kind, bodies, place);
+    if kind.is_link() {
+        closure.points[1] = plus(place, random.point(dimension, 0.9));
+    }
+    scene.joints.push(closure);
+    scene
+}
+
+/// The same with each joint as a chain of massless bodies, one freedom on each.
+#[must_use]
+pub fn split(scene: &Scene<f64>) -> Scene<f64> {
+    let (mut split, dimension) = (scene.clone(), scene.dimension);
+    split.joints.clear();
+    for joint in &scene.joints {
+        let freedoms = joint.freedoms(dimension);
+        let [mut first, last] = joint.bodies;
+        for (i, freedom) in freedoms.iter().enumerate() {
+            let mut second = last;
+            if i + 1 < freedoms.len() {
+                second = BodyId::Body(split.bodies.len());
+                let inertia = match dimension {
+                    Dimension::Planar => Inertia::Planar(0.0),
+                    Dimension::Spatial => Inertia::Spatial([0.0; 6]),
+                };
+                let name = format!("{} {i}", joint.name);
+                let center = joint.points[0];
+                split.bodies.push(Body { name, mass: 0.0, center, inertia });
+            }
+            let kind = match freedom {
+                Freedom::Slide(_) => JointKind::Prismatic,
+                Freedom::Turn(_) => JointKind::Revolute,
+                Freedom::Ball => JointKind::Spherical,
+            };
+            let axis = freedom.axis().map(|axis| joint.direction(axis).into());
+            let axis = axis.filter(|_| kind.needs_axes(dimension)[0]);
+            let name = format!("{} {i}", joint.name);
+            let (bodies, axes) = ([first, second], [axis, None]);
+            split.joints.push(Joint { name, kind, bodies, axes, ..joint.clone() });
+            first = second;
+        }
+    }
+    split
+}
+
 /// A tree with `n_loops` more joints between bodies that are no neighbours: links, and balls (pins in the plane). What they
 /// hold is not told at the start: only one joint of the tree moves, the rest follows.
 #[must_use]
@@ -256,7 +337,7 @@ pub fn sound(seed: u64, dimension: Dimension, n: usize) -> Scene<f64> {
         let [p, q] = [a, b].map(|i| plus(scene.bodies[i].center, random.point(dimension, 0.3)));
         let bodies = [BodyId::Body(a), BodyId::Body(b)];
         let mut closure = joint(&mut random, dimension, kind, bodies, p);
-        if kind == JointKind::Distance {
+        if kind.is_link() {
             (closure.points, closure.axes) = ([p, q], [None; 2]);
         }
         closure.name = format!("closure-{}", scene.joints.len() - n);

@@ -159,6 +159,8 @@ kinds! {
     Cylindrical = form("cylindrical", None, &[Slide(First), Turn(First)]);
     /// Plane on plane (spatial).
     Planar = form("planar", None, &[Slide(Second), Slide(Third), Turn(First)]);
+    /// A pin of the second body in a straight slot of the first: translation along an axis, any rotation.
+    PinInSlot = form("pin-in-slot", Some(&[Slide(First), Turn(Z)]), &[Slide(First), Ball]);
     /// No relative motion.
     Weld = form("weld", Some(&[]), &[]);
     /// All relative motions: carries coordinates, constrains nothing.

@@ -9,6 +9,7 @@ mod eighth;
 mod elements;
 mod events;
 mod extrapolation;
+mod joints;
 mod least;
 mod model;
 mod motion;

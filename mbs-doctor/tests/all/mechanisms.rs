@@ -155,25 +155,15 @@ fn a_linkage_of_four_skew_hinges_is_a_structure_and_one_digit_off_is_told_so() {
 
 #[test]
 fn the_same_joint_twice_is_named_and_one_of_them_may_go() {
-    use JointKind as K;
-    for (kind, n) in [
-        (K::Revolute, 5),
-        (K::Spherical, 3),
-        (K::Universal, 4),
-        (K::Prismatic, 5),
-        (K::Cylindrical, 4),
-        (K::Planar, 3),
-        (K::Weld, 6),
-    ] {
+    let holds = |kind: &JointKind| !kind.is_link() && !kind.is_free();
+    for kind in JointKind::ALL.into_iter().filter(holds) {
+        let n = 6 - kind.n_coordinates(Dimension::Spatial);
         let mut b = Build::spatial();
         let first = b.bar([0.0; 3], [1.0, 0.0, 0.0]);
         let second = b.bar([1.0, 0.0, 0.0], [2.0, 0.3, 0.1]);
         b.pin(GROUND, first, [0.0; 3]);
-        let axes = match kind {
-            K::Spherical | K::Weld => [None; 2],
-            K::Universal | K::Planar => [Z, Some([1.0, 0.0, 0.0])],
-            _ => [Z, None],
-        };
+        let [needs_first, needs_second] = kind.needs_axes(Dimension::Spatial);
+        let axes = [Z.filter(|_| needs_first), needs_second.then_some([1.0, 0.0, 0.0])];
         for _ in 0..2 {
             b.link(kind, [first, second], [[1.0, 0.0, 0.0]; 2], axes);
         }
@@ -183,7 +173,7 @@ fn the_same_joint_twice_is_named_and_one_of_them_may_go() {
         let cure = d.sets[0].remedy.as_ref().expect("one is enough");
         assert_eq!(
             cure.changes.iter().map(|c| (c.joint, c.kind)).collect::<Vec<_>>(),
-            [(1, K::Free)]
+            [(1, JointKind::Free)]
         );
     }
 }

@@ -20,6 +20,7 @@ mod generate;
 mod hints;
 mod inputs;
 mod invariants;
+mod kinds;
 mod modes;
 mod oracle;
 mod random;

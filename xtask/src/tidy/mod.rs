@@ -2,6 +2,7 @@
 
 mod crates;
 mod documents;
+mod kinds;
 mod packages;
 mod sources;
 mod tags;

@@ -45,11 +45,8 @@ pub(crate) fn joint(
     (kind, bodies, at): (JointKind, [BodyId; 2], [f64; 3]),
 ) -> Joint<f64> {
     let mut axis = || Some(vector(random, dimension));
-    let axes = match (kind, dimension) {
-        (JointKind::Revolute, Dimension::Planar) | (JointKind::Spherical, _) => [None, None],
-        (JointKind::Universal | JointKind::Planar, _) => [axis(), axis()],
-        _ => [axis(), None],
-    };
+    let [first, second] = kind.needs_axes(dimension);
+    let axes = [first || kind.is_link(), second].map(|is_used| is_used.then(&mut axis).flatten());
     Joint { name: String::new(), kind, bodies, points: [at; 2], axes }
 }
 

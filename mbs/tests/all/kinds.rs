@@ -1,0 +1,75 @@
+//! Every kind of joint in every formulation: in a tree, in a loop, and beside a chain of massless bodies with one freedom each.
+
+use crate::common::oracle::{METHODS, Method, disagreement, everything, tell};
+use crate::common::random;
+use mbs::core::scene::{Dimension, JointKind, Quantity, Scene};
+
+/// Step and span [s].
+const SPAN: (f64, f64) = (1e-3, 0.2);
+
+/// All methods agree with the first one of them, on what the first scene asks for.
+fn agree(scenes: [&Scene<f64>; 2], methods: &[Method], faults: &mut Vec<String>) {
+    let reference = tell(scenes[0], METHODS[0], SPAN);
+    let reference = reference.unwrap_or_else(|e| panic!("{}: {e}", scenes[0].name));
+    for method in methods {
+        let fault = match tell(scenes[1], *method, SPAN) {
+            Ok(told) => {
+                let (ratio, component) = disagreement(&reference, &told);
+                (!(ratio <= 1.0)).then(|| format!("{ratio:.2}, component {component}"))
+            }
+            Err(error) => Some(format!("{error}")),
+        };
+        faults.extend(fault.map(|fault| format!("{} {method:?}: {fault}", scenes[1].name)));
+    }
+}
+
+/// Kinds with freedoms, each in the plane where it can be and in space.
+fn kinds() -> impl Iterator<Item = (JointKind, Dimension)> {
+    let all = |dimension| JointKind::ALL.map(|kind| (kind, dimension)).into_iter();
+    let all = all(Dimension::Spatial).chain(all(Dimension::Planar));
+    all.filter(|(kind, d)| *d == Dimension::Spatial || !kind.is_spatial_only())
+        .filter(|(kind, _)| !kind.is_rigid())
+}
+
+#[test]
+fn formulations_agree_on_every_kind_of_joint_in_a_tree() {
+    let mut faults = Vec::new();
+    for (kind, dimension) in kinds().filter(|(kind, _)| !kind.is_link()) {
+        for seed in 1..=2 {
+            let scene = everything(&random::of_kind(seed, kind, dimension));
+            agree([&scene, &scene], &METHODS[1..], &mut faults);
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn formulations_agree_on_every_kind_of_joint_in_a_loop() {
+    let mut faults = Vec::new();
+    for (kind, dimension) in kinds().filter(|(kind, _)| !kind.is_free()) {
+        for seed in 1..=2 {
+            let scene = everything(&random::closed_by(seed, kind, dimension));
+            agree([&scene, &scene], &METHODS[1..], &mut faults);
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn every_kind_of_joint_moves_as_a_chain_of_massless_bodies_with_its_freedoms() {
+    let methods = [METHODS[0], Method("recursive", "rk4")];
+    let mut faults = Vec::new();
+    for (kind, dimension) in kinds().filter(|(kind, _)| !kind.is_link()) {
+        let mut scene = everything(&random::of_kind(3, kind, dimension));
+        let is_of_body = |quantity: &Quantity<f64>| match quantity {
+            Quantity::Position { .. } | Quantity::Velocity { .. } => true,
+            Quantity::Acceleration { .. }
+            | Quantity::JointValue { .. }
+            | Quantity::JointRate { .. }
+            | Quantity::Reaction { .. } => false,
+        };
+        scene.outputs.retain(|output| is_of_body(&output.quantity));
+        agree([&scene, &random::split(&scene)], &methods, &mut faults);
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
