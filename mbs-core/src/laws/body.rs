@@ -74,8 +74,8 @@ pub(super) fn put<T>(out: &mut [Action<T>], place: usize, action: Action<T>) {
     }
 }
 
-/// Actions that one law has at most.
-pub const MOST: usize = 4;
+/// Largest number of actions of a law on a body: a tire has four.
+pub const MAX_ACTIONS: usize = 4;
 
 #[cfg_attr(
     not(feature = "effects"),

@@ -9,8 +9,8 @@
 
 use crate::Real;
 
-/// Coefficients that a piece may have.
-pub const MOST: usize = 8;
+/// Largest number of coefficients of a piece: degree 7.
+pub const MAX_COEFFICIENTS: usize = 8;
 
 /// A polynomial about the middle of the range in which it holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,25 +22,25 @@ pub struct Piece<T> {
     /// m.
     pub middle: T,
     /// d_k.
-    pub coefficients: [T; MOST],
+    pub coefficients: [T; MAX_COEFFICIENTS],
     /// The integral of all pieces from the first one's lower end to m.
     pub energy: T,
 }
 
 impl<T: Real> Piece<T> {
-    /// Re-centres coefficients about the middle of their range; what exceeds [`MOST`] is refused with `None`, and so is
+    /// Re-centres coefficients about the middle of their range; what exceeds [`MAX_COEFFICIENTS`] is refused with `None`, and so is
     /// an empty range.
     #[must_use]
     pub fn new([lower, upper]: [T; 2], coefficients: &[T]) -> Option<Self> {
-        if coefficients.len() > MOST || !(lower < upper) {
+        if coefficients.len() > MAX_COEFFICIENTS || !(lower < upper) {
             return None;
         }
         let middle = (lower + upper) * T::HALF;
-        let mut d = [T::ZERO; MOST];
+        let mut d = [T::ZERO; MAX_COEFFICIENTS];
         d[..coefficients.len()].copy_from_slice(coefficients);
         // Repeated synthetic division by (x - m).
-        for k in 0..MOST {
-            for i in (k..MOST - 1).rev() {
+        for k in 0..MAX_COEFFICIENTS {
+            for i in (k..MAX_COEFFICIENTS - 1).rev() {
                 let next = d[i + 1];
                 d[i] += next * middle;
             }

@@ -2,6 +2,7 @@
 
 mod crates;
 mod documents;
+mod language;
 mod packages;
 mod sources;
 mod tags;

@@ -20,7 +20,7 @@ pub(super) fn check<T: Real>(
         for x in [lower, upper].into_iter().chain(coefficients) {
             place.finite(FIELD, *x)?;
         }
-        if coefficients.is_empty() || coefficients.len() > PolynomialPiece::<T>::MOST {
+        if coefficients.is_empty() || coefficients.len() > PolynomialPiece::<T>::MAX_COEFFICIENTS {
             let found = coefficients.len();
             return place.fault(FIELD, SceneFault::PieceCoefficients { piece: i, found });
         }
