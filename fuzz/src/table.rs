@@ -33,7 +33,7 @@ pub fn tables(document: &SceneFile, scene: &Scene<f64>, dice: &mut Dice) -> Resu
         Ok(()) => {}
     }
     if let Err(error) = ladder(&damaged(&prices(scene), dice), scene) {
-        words("a price list", &error.to_string(), "-")?;
+        words("a list of effect costs", &error.to_string(), "-")?;
     }
     Ok(())
 }

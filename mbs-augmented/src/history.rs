@@ -9,11 +9,11 @@ use mbs_core::step::Counts;
 pub struct History<T> {
     /// Factor on the penalty, as it has adapted [-].
     pub boost: T,
-    /// What one correction left of the least felt combination of constraints [-].
+    /// Ratio of the most weakly determined combination of constraints before and after one correction [-].
     pub rho: T,
     /// That combination, m.
     pub probe: Vec<T>,
-    /// What a change of index did that no step has told yet.
+    /// Counts of a change of index that no step has reported yet.
     pub settled: Counts,
 }
 

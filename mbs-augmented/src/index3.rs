@@ -30,7 +30,7 @@ use mbs_core::{Real, SpdSolver};
 /// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
 ///
 /// Cost: about three evaluations, a factorisation and five back-substitutions where nothing but constraints acts and all of them
-/// are felt; else two factorisations and eight back-substitutions or more. No allocation.
+/// are well determined; else two factorisations and eight back-substitutions or more. No allocation.
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.

@@ -71,14 +71,14 @@ impl<T: Real> IndexChange<T> {
         self.changes
     }
 
-    /// What the next step goes on from.
+    /// State that the next step continues from.
     #[must_use]
     pub fn history(&self) -> IndexHistory<T> {
         let Self { index, changes, tried, last, .. } = *self;
         IndexHistory { index, changes, tried, last }
     }
 
-    /// Goes on from a [`history`](Self::history).
+    /// Restores a [`history`](Self::history).
     pub fn set_history(&mut self, history: IndexHistory<T>) {
         let IndexHistory { index, changes, tried, last } = history;
         (self.index, self.changes, self.tried, self.last) = (index, changes, tried, last);

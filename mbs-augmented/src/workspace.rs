@@ -126,14 +126,14 @@ impl<T: Real, S: SpdSolver<T>> Workspace<T, S> {
         self.probe.copy_from_slice(&self.kept.probe);
     }
 
-    /// What the next step goes on from.
+    /// State that the next step continues from.
     #[must_use]
     pub fn history(&self) -> History<T> {
         let Self { boost, rho, settled, .. } = *self;
         History { boost, rho, probe: self.probe.clone(), settled }
     }
 
-    /// Goes on from the history of the same model; says whether it is one, by its length. Else nothing is changed.
+    /// Restores the history of the same model; returns whether it is one, by its length. Else nothing is changed.
     pub fn set_history(&mut self, history: &History<T>) -> bool {
         if history.probe.len() != self.probe.len() {
             return false;

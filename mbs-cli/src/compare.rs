@@ -208,7 +208,7 @@ fn refusal(error: &CompareError, has_journal: bool) -> Refusal {
         CompareError::Journal(JournalError::Interrupted) => {
             let hint = match has_journal {
                 true => "the runs that were finished are kept: go on with --resume",
-                false => "with --out DIR finished runs are kept, and --resume goes on from them",
+                false => "with --out DIR finished runs are kept, and --resume continues from them",
             };
             Refusal::interrupted(error, hint)
         }

@@ -70,7 +70,9 @@ fn refusal(error: &ExportError) -> Refusal {
             "`mbs run SCENE --formulation recursive` says more: controllers step in relative coordinates"
         }
         ExportError::Effect => "leave laws of one's own out: a table cannot hold a function",
-        ExportError::Ladder(_) => "make the price list from this scene: `mbs explain SCENE --json`",
+        ExportError::Ladder(_) => {
+            "make the list of effect costs from this scene: `mbs explain SCENE --json`"
+        }
     };
     Refusal::new("export-refused", error, hint)
 }

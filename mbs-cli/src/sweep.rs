@@ -112,7 +112,7 @@ fn not_run(error: &SweepError, out: &Path) -> Refusal {
     match error {
         SweepError::Write(error) => Refusal::lost(error),
         SweepError::Interrupted(_) => {
-            Refusal::interrupted(error, "the same command goes on with the others")
+            Refusal::interrupted(error, "the same command continues with the others")
         }
         SweepError::Journal(error) => {
             Refusal::new("journal-refused", format!("`{place}`: {error}"), error.hint())

@@ -246,7 +246,7 @@ pub fn rotation_vector<T: Real>(r: &Matrix<T, 3>) -> Vector<T, 3> {
     if n.dot(&w) < T::ZERO { n * -angle } else { n * angle }
 }
 
-/// The gradient of a component of the rotation vector w = log(R) by turns in the axes that R leads to: w_i' = g.omega.
+/// The gradient of a component of the rotation vector w = log(R) with respect to rotations in the axes that R leads to: w_i' = g.omega.
 ///
 /// ```text
 /// g = e_i + w x e_i / 2 + c w x (w x e_i),   c = (1 - a cot a) / |w|^2,   a = |w| / 2

@@ -284,7 +284,7 @@ impl<T: Real> State<T> {
         }
     }
 
-    /// Multipliers at the end of the next step of `dt` [s], as their last change goes on; it counts at most twice.
+    /// Multipliers at the end of the next step of `dt` [s], extrapolated by their last change, at most by twice of it.
     ///
     /// ```text
     /// lambda_k = lambda_n + (dt / dt_n) (lambda_n - lambda_(n-1))

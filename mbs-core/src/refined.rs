@@ -112,7 +112,7 @@ pub const ALL: u32 = 100;
 
 impl<T: Real, S: SpdSolver<f64>> Refined<T, S> {
     /// Over a `solver` that was analysed for the same `cliques`; at most `most` corrections make a solution: one takes what
-    /// the factor gives, [`ALL`] go on to the rounding of `T`. The only place that allocates.
+    /// the factor gives, [`ALL`] continue to the machine precision of `T`. The only place that allocates.
     pub fn new(cliques: &impl Cliques, solver: S, most: u32) -> Self {
         let n = cliques.n_unknowns();
         let cliques = Lists::of(cliques);

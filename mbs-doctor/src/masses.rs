@@ -31,7 +31,7 @@ const ZERO: f64 = 1e-6;
 /// Energy below this share of the mean body's is none: R holds roots of masses.
 const LEAST: f64 = 1e-7;
 
-/// Massless motions of a scene at a pose; `None` where it is too large to be looked at. Spins of rods are told first, each alone.
+/// Massless motions of a scene at a pose; `None` where it is too large. Spins of rods come first, each alone.
 ///
 /// Cost: two decompositions of the rows of all joints, where some body has a direction without inertia; else in proportion to
 /// the bodies.

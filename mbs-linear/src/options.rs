@@ -7,7 +7,7 @@ use mbs_core::step::OptionError;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<T> {
     /// Largest residual force that counts as balanced, relative to the largest sum of absolute forces on a coordinate [-].
-    /// The search goes on to rounding where it can.
+    /// The search continues to machine precision where it can.
     pub tolerance: T,
     /// Factorisations allowed.
     pub max_factorizations: u32,

@@ -19,7 +19,7 @@ const MOST_TIMES: u32 = 64;
 pub struct Recovery {
     /// Tasks in a row that must be in time and light. `≥ 1`.
     pub tasks: u32,
-    /// A task is light that takes at most so many hundredths of a period. `1 ..= 100`.
+    /// A task is light that takes at most this percentage of a period. `1 ..= 100`.
     pub percent: u32,
     /// Late tasks in a row, each shorter than a period, after which the level goes down nevertheless: the debt does not shrink.
     pub patience: u32,

@@ -170,7 +170,7 @@ impl Pacer {
 
     /// Does at most `tasks` tasks, the first at once, and returns when the last result is published.
     ///
-    /// A task that fails is not counted. A loop may be run again: its measures add up, its log goes on, its level stays.
+    /// A task that fails is not counted. A loop may be run again: its measures add up, its log continues, its level stays.
     ///
     /// Cost of a task beside its work: two or three readings of the clock, and some hundred operations; no allocation.
     ///

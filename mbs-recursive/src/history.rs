@@ -27,7 +27,7 @@ pub struct History<T> {
 }
 
 impl<T: Real, S: Space<T>> Workspace<T, S> {
-    /// What the next step goes on from.
+    /// State that the next step continues from.
     #[must_use]
     pub fn history(&self) -> History<T> {
         let (rank, pivots) = self.last();
@@ -41,7 +41,7 @@ impl<T: Real, S: Space<T>> Workspace<T, S> {
         }
     }
 
-    /// Goes on from the history of the same model, stepped with the same `options`. Says whether it is one; else nothing is
+    /// Restores the history of the same model, stepped with the same `options`. Returns whether it is one; else nothing is
     /// changed.
     pub fn set_history(&mut self, history: &History<T>, options: &Options<T>) -> bool {
         let n = self.explicit.y.len();

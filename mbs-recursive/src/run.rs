@@ -171,7 +171,7 @@ pub fn extrapolated_step<T: Real, S: Space<T>>(
 /// Advances `state` by exactly `dt` [s] with collocation at three Radau points, implicit and of order 5, in as many steps as
 /// `options.error` asks for.
 ///
-/// Steps are chosen as in [`rk54_step`], of one length as far as they can be. For stiff effects, which do not hold the step.
+/// Steps are chosen as in [`rk54_step`], of one length where possible. For stiff effects, which do not limit the step.
 ///
 /// Cost: about ten evaluations for each step; for n components n + 1 more where slopes are found anew, and (n/2)³ products five
 /// times where the step changes. The first call allocates 4 n² numbers, others nothing.

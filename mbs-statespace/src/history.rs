@@ -20,14 +20,14 @@ pub struct History<T> {
 }
 
 impl<T: Real> Workspace<T> {
-    /// What the next step goes on from.
+    /// State that the next step continues from.
     #[must_use]
     pub fn history(&self) -> History<T> {
         let Self { usual, first_basis, is_stale, choices, .. } = *self;
         History { order: self.elimination.order(), usual, first_basis, is_stale, choices }
     }
 
-    /// Goes on from the history of the same model. Says whether it is one; else nothing is changed but, at most, that the next
+    /// Restores the history of the same model. Returns whether it is one; else nothing is changed but, at most, that the next
     /// step chooses anew.
     pub fn set_history(&mut self, history: &History<T>) -> bool {
         let is_ours = history.is_stale || history.order.pivots.len() == self.rank;

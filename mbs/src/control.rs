@@ -63,7 +63,7 @@ where
         Ok(Some(Self { driver, estimate, events, turns, saved: state.clone() }))
     }
 
-    /// What the next step goes on from.
+    /// State that the next step continues from.
     pub(crate) fn kept(&self) -> ControlKept<T> {
         let events = self.events.as_ref().map(Events::history);
         ControlKept { driver: self.driver.history(), events }

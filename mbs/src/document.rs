@@ -47,7 +47,7 @@ impl Work for InParts<'_> {
 }
 
 /// Runs a scene with the digits of the settings' precision: as it was read in `f64`, from which the settings are, or read anew from
-/// its document in another; `reached` is told the time of each step [s].
+/// its document in another; `reached` is called with the time of each step [s].
 ///
 /// The same as [`run`]; programs that take what precision comes compile it only once.
 ///

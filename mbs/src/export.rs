@@ -91,7 +91,7 @@ where
     Ok(Exported { rust, bytes })
 }
 
-/// The degrade ladder of a price list, the JSON of `mbs explain`: effects whose absence the run survives and that cost something,
+/// The degrade ladder of a list of effect costs, the JSON of `mbs explain`: effects whose absence the run survives and that cost something,
 /// those in front that change the outputs least.
 ///
 /// # Errors
@@ -99,7 +99,7 @@ where
 pub fn ladder<T>(prices: &str, scene: &Scene<T>) -> Result<Vec<usize>, ExportError> {
     let fault = |what: &str| ExportError::Ladder(what.to_owned());
     let json: Value =
-        serde_json::from_str(prices).map_err(|_| fault("the price list is not JSON"))?;
+        serde_json::from_str(prices).map_err(|_| fault("the list of effect costs is not JSON"))?;
     let entries = json["prices"]["effects"].as_array();
     let entries = entries.ok_or_else(|| fault("the JSON has no prices of effects"))?;
     let mut rungs = Vec::new();
@@ -114,7 +114,9 @@ pub fn ladder<T>(prices: &str, scene: &Scene<T>) -> Result<Vec<usize>, ExportErr
         let name = entry["names"][0].as_str().unwrap_or_default();
         let index = scene.effects.iter().position(|effect| effect.name == name);
         let index = index.ok_or_else(|| {
-            ExportError::Ladder(format!("the price list has \"{name}\", and the scene has not"))
+            ExportError::Ladder(format!(
+                "the list of effect costs has \"{name}\", and the scene has not"
+            ))
         })?;
         rungs.push((change, index));
     }

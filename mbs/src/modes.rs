@@ -44,7 +44,7 @@ pub struct Mode {
     pub real: f64,
     /// Imaginary part [rad/s], not negative; positive stands for a pair.
     pub imaginary: f64,
-    /// Too small to be told from zero.
+    /// Not distinguishable from zero.
     pub is_neutral: bool,
 }
 
@@ -74,7 +74,7 @@ impl Mode {
     }
 }
 
-/// The modes of a scene, told.
+/// The modes of a scene, with its names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes {
     /// Name of the scene.

@@ -23,7 +23,7 @@ use mbs_core::step::{InputError, StepError, StepReport, largest};
 
 /// A scene ready to step, in D dimensions and scalar T.
 ///
-/// Whatever the formulation, its state is told in natural coordinates too: outputs are measured there.
+/// Whatever the formulation, its state is known in natural coordinates too: outputs are measured there.
 #[derive(Debug)]
 pub struct Simulation<T: Real, const D: usize>
 where

@@ -130,7 +130,7 @@ pub struct Moved {
     pub body: String,
 }
 
-/// A static equilibrium, told.
+/// A static equilibrium, with its names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StaticEquilibrium {
     /// Name of the scene.

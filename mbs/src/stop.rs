@@ -220,7 +220,7 @@ impl StopError {
             }
             Self::Step(error, _) => step_hint(error),
             Self::AlmostDependent(_) => {
-                "write that axis; a tilt that is meant and holds the mechanism is larger than 0.001 rad"
+                "write that axis; an intended tilt that holds the mechanism is larger than 0.001 rad"
             }
             Self::Reaction(_) => "leave the reaction outputs out",
             Self::Tree(TreeError::GuideCut { .. } | TreeError::EffectCut { .. }, _) => {
@@ -246,7 +246,7 @@ impl StopError {
             Self::Linear(_) | Self::Eigenvalues => "check the data of the effects",
             Self::NoThreads(_) => "ask for fewer threads",
             Self::Interrupted => {
-                "what was computed is kept; a run that is begun with --checkpoint SECONDS goes on with --resume"
+                "computed rows are kept; a run begun with --checkpoint SECONDS continues with --resume"
             }
             Self::Output { .. } => {
                 "measure a point nearer to the body, try a smaller step, or leave the output out"
@@ -352,7 +352,7 @@ impl core::fmt::Display for StopError {
             ),
             Self::Energy { error, turned_over, share, .. } => write!(
                 f,
-                "the energy is off by {} J, more than {} % of the {} J turned over: the motion is not resolved",
+                "the energy is off by {} J, more than {} % of the {} J exchanged: the motion is not resolved",
                 few(*error),
                 few(*share * 100.0),
                 few(*turned_over)

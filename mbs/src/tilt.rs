@@ -43,7 +43,7 @@ pub(crate) fn notes<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
         let [joint, other] = [tilt.joint, tilt.other].map(|j| &scene.joints[j].name);
         let angle = few(tilt.angle.to_f64());
         let text = format!(
-            "the axis of joint `{joint}` is off by {angle} rad from the direction that joint `{other}` gives: it is taken as meant, without the tilt"
+            "the axis of joint `{joint}` is off by {angle} rad from the direction that joint `{other}` gives: it is taken without the tilt"
         );
         (tilt.joint, text)
     };

@@ -174,7 +174,7 @@ where
         self.energies = self.saved_energies;
     }
 
-    /// What the next step goes on from.
+    /// State that the next step continues from.
     pub(crate) fn kept(&self) -> TreeKept<T> {
         let (state, energies) = (self.state.clone(), self.energies);
         TreeKept { state, history: self.workspace.history(), energies }

@@ -107,7 +107,7 @@ fn files_are_written_and_the_page_stands_alone() {
     let output = run("explain", &[&scene("andrews"), "--duration", "1e-3", "--out", directory]);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     let table = text(&output.stdout);
-    for words in ["What is simulated", "cut at", "Price of each effect", "costs nothing", "drive"] {
+    for words in ["What is simulated", "cut at", "Cost of each effect", "costs nothing", "drive"] {
         assert!(table.contains(words), "{words}: {table}");
     }
     let json = std::fs::read(out.join("explain.json")).expect("it is written");
@@ -117,7 +117,7 @@ fn files_are_written_and_the_page_stands_alone() {
     for word in ["http:", "https:", "src=", "href=", "url(", "<script"] {
         assert!(!html.contains(word), "{word}");
     }
-    assert!(html.contains("mbs explain") && html.contains("Price of each effect"));
+    assert!(html.contains("mbs explain") && html.contains("Cost of each effect"));
 }
 
 #[test]

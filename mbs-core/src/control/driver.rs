@@ -251,7 +251,7 @@ impl<T: Real> Driver<T> {
         self.next
     }
 
-    /// What the next step goes on from.
+    /// State that the next step continues from.
     #[must_use]
     pub fn history(&self) -> DriverHistory<T> {
         DriverHistory {
@@ -262,7 +262,7 @@ impl<T: Real> Driver<T> {
         }
     }
 
-    /// Goes on from the history of a driver by the same rules. Says whether it is one; else nothing is changed.
+    /// Restores the history of a driver with the same rules. Returns whether it is one; else nothing is changed.
     pub fn set_history(&mut self, history: DriverHistory<T>) -> bool {
         let DriverHistory { next, energy, error, stretch } = history;
         let is_step = next > T::ZERO && next <= self.max_step;

@@ -17,7 +17,7 @@
 pub struct EnergyRule {
     /// U: a larger change rejects the step [-].
     pub upper: f64,
-    /// L: the change is kept above it, as far as the largest step allows [-].
+    /// L: the change is kept above it, up to the largest step [-].
     pub lower: f64,
     /// Share of U that the repeated step aims at [-].
     pub safety: f64,

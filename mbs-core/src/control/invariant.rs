@@ -68,7 +68,7 @@ impl Invariant {
         }
     }
 
-    /// Says whether dampers act: what they take is then no measure of an error, only what nobody gave is.
+    /// Says whether dampers act: a loss is then no measure of an error, a gain without a source is.
     #[must_use]
     pub fn with_dampers(self, is_damped: bool) -> Self {
         Self { is_damped, ..self }
@@ -157,7 +157,7 @@ impl Invariant {
         (self.last[0] + self.last[1].abs()).max(self.ground) * libm::sqrt(self.epsilon)
     }
 
-    /// Is the invariant off by more than `share` of the energy turned over, by energy that was lost or that nobody gave? Nothing is
+    /// Is the invariant off by more than `share` of the exchanged energy, lost or gained without a source? Nothing is
     /// said while that is rounding of what is stored, or of the ground. A NaN is off.
     #[must_use]
     pub fn is_off(&self, share: f64) -> bool {
@@ -183,7 +183,7 @@ impl Invariant {
     /// Numbers of a [`history`](Self::history).
     pub const N_HISTORY: usize = 17;
 
-    /// What was seen so far, as numbers: what a run that is taken up again goes on from.
+    /// The measurements so far, as numbers, from which a run resumes.
     #[must_use]
     pub fn history(&self) -> [f64; Self::N_HISTORY] {
         let Self { initial, last: [k, p, w], error, max_error, max_kinetic, .. } = *self;
@@ -193,7 +193,7 @@ impl Invariant {
         core::array::from_fn(|i| if i < seen.len() { seen[i] } else { line[i - seen.len()] })
     }
 
-    /// Goes on from a [`history`](Self::history) of the same scene.
+    /// Restores a [`history`](Self::history) of the same scene.
     pub fn set_history(&mut self, history: [f64; Self::N_HISTORY]) {
         let [initial, k, p, w, error, max_error, max_kinetic, least, most, gross, rest @ ..] =
             history;

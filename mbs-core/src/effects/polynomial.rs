@@ -14,8 +14,8 @@ use crate::laws::operations::Operations;
 use crate::laws::scalar::{Measure, TensionLaw};
 use crate::laws::{Part, Supplies};
 
-/// Coefficients that a piece may have.
-pub const MOST: usize = 8;
+/// Largest number of coefficients of a piece: degree 7.
+pub const MAX_COEFFICIENTS: usize = 8;
 
 /// A polynomial about the middle of the range in which it holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,7 +27,7 @@ pub struct Piece<T> {
     /// m.
     pub middle: T,
     /// d_k.
-    pub coefficients: [T; MOST],
+    pub coefficients: [T; MAX_COEFFICIENTS],
     /// The integral of all pieces from the first one's lower end to m.
     pub energy: T,
 }
@@ -35,19 +35,19 @@ pub struct Piece<T> {
 entry!(Piece<T> { lower, upper, middle, coefficients, energy });
 
 impl<T: Real> Piece<T> {
-    /// Re-centres coefficients about the middle of their range; what exceeds [`MOST`] is refused with `None`, and so is
+    /// Re-centres coefficients about the middle of their range; what exceeds [`MAX_COEFFICIENTS`] is refused with `None`, and so is
     /// an empty range.
     #[must_use]
     pub fn new([lower, upper]: [T; 2], coefficients: &[T]) -> Option<Self> {
-        if coefficients.len() > MOST || !(lower < upper) {
+        if coefficients.len() > MAX_COEFFICIENTS || !(lower < upper) {
             return None;
         }
         let middle = (lower + upper) * T::HALF;
-        let mut d = [T::ZERO; MOST];
+        let mut d = [T::ZERO; MAX_COEFFICIENTS];
         d[..coefficients.len()].copy_from_slice(coefficients);
         // Repeated synthetic division by (x - m).
-        for k in 0..MOST {
-            for i in (k..MOST - 1).rev() {
+        for k in 0..MAX_COEFFICIENTS {
+            for i in (k..MAX_COEFFICIENTS - 1).rev() {
                 let next = d[i + 1];
                 d[i] += next * middle;
             }
@@ -190,7 +190,7 @@ pub use data::Polynomial;
 
 #[cfg(feature = "alloc")]
 mod data {
-    use super::{MOST, Piece, PolynomialLaw, link};
+    use super::{MAX_COEFFICIENTS, Piece, PolynomialLaw, link};
     use crate::effects::data::*;
     use crate::scene::PolynomialPiece;
     use alloc::vec::Vec;
@@ -237,7 +237,7 @@ mod data {
                 for x in [lower, upper].into_iter().chain(coefficients) {
                     place.finite(KEY, *x)?;
                 }
-                if coefficients.is_empty() || coefficients.len() > MOST {
+                if coefficients.is_empty() || coefficients.len() > MAX_COEFFICIENTS {
                     let found = coefficients.len();
                     return place.fault(KEY, SceneFault::PieceCoefficients { piece: i, found });
                 }

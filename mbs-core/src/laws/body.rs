@@ -48,8 +48,8 @@ pub(crate) fn put<T>(out: &mut [Action<T>], place: usize, action: Action<T>) {
     }
 }
 
-/// Actions that one law has at most.
-pub const MOST: usize = 4;
+/// Largest number of actions of a law on a body: a tire has four.
+pub const MAX_ACTIONS: usize = 4;
 
 /// A law on one body. [`BodyLaw`] is one of all that there are.
 pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {

@@ -123,7 +123,7 @@ pub fn largest_rate<T: Real>(table: &[[T; 2]], curvature: &[T]) -> T {
     })
 }
 
-/// The vector of a table, linear between its rows; `row` tells time and vector of one. Before the first and after the last row the
+/// The vector of a table, linear between its rows; `row` gives time and vector of one. Before the first and after the last row the
 /// end value is held; an empty table is zero.
 ///
 /// Cost: one binary search; no allocation.

@@ -56,7 +56,7 @@ pub const fn most_heights<T: Real>() -> usize {
     1 + steps::<T>() + 1 + CELLS as usize + 2 * steps::<T>()
 }
 
-/// Cells in which the reach of a centre is looked at where one search does not tell.
+/// Cells into which the reach of a centre is divided where one search does not suffice.
 pub const CELLS: u32 = 16;
 
 /// The nearest point to (x, z) [m]. Cost: one height where the road is level within the centre's height above it, a few on

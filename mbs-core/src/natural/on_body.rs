@@ -9,7 +9,7 @@ use crate::Real;
 use crate::algebra::{Vector, cross, lowered, raised};
 use crate::elements::{Span, Term, add_gradient, combine};
 use crate::laws::Supplies;
-use crate::laws::body::{Action, BodyLaw, BodyMotion, MOST};
+use crate::laws::body::{Action, BodyLaw, BodyMotion, MAX_ACTIONS};
 use crate::laws::scalar::Measure;
 
 /// A law on a body, with its rows' place in the Jacobian store and its measures' place among the measures.
@@ -60,7 +60,7 @@ impl<T: Real> BodyElement<T> {
             }
             (motion.axis, motion.spin) = (axis.into(), spin.into());
         }
-        let mut actions = [Action::default(); MOST];
+        let mut actions = [Action::default(); MAX_ACTIONS];
         self.law.evaluate(&motion, supplies, &mut actions[..n]);
         let width = rows.len() / n.max(1);
         let measures = &mut measures[self.measures.range()];

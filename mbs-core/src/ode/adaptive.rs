@@ -111,7 +111,7 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
         &self.method
     }
 
-    /// The method, to go on from its own history.
+    /// The method, to restore its history.
     pub fn method_mut(&mut self) -> &mut M {
         &mut self.method
     }
@@ -122,13 +122,13 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
         self.counts
     }
 
-    /// What the next call goes on from.
+    /// State that the next call continues from.
     #[must_use]
     pub fn history(&self) -> AdaptiveHistory<T> {
         AdaptiveHistory { step: self.step, control: self.control.history(), counts: self.counts }
     }
 
-    /// Goes on from the history of a driver of the same method; says whether its step is one: positive and finite.
+    /// Restores the history of a driver of the same method; returns whether its step is valid: positive and finite.
     pub fn set_history(&mut self, history: AdaptiveHistory<T>) -> bool {
         let AdaptiveHistory { step, control, counts } = history;
         let is_step = step > T::ZERO && step.is_finite();

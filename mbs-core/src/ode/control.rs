@@ -48,7 +48,7 @@ impl<T: Real> StepControl<T> {
         (self.memory, self.was_rejected)
     }
 
-    /// Goes on from a [`history`](Self::history).
+    /// Restores a [`history`](Self::history).
     pub fn set_history(&mut self, (memory, was_rejected): (Option<f64>, bool)) {
         (self.memory, self.was_rejected) = (memory, was_rejected);
     }

@@ -22,7 +22,7 @@ pub struct Extrapolation {
 }
 
 impl Extrapolation {
-    /// So many columns, within 3 and 16.
+    /// The method with this number of columns, from 3 to 16.
     #[must_use]
     pub fn new(columns: usize) -> Self {
         Self { columns: columns.clamp(COLUMNS.0, COLUMNS.1) }

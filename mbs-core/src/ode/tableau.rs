@@ -123,8 +123,8 @@ impl<T: Real, const S: usize> Tableau<T, S> {
         &scratch[S * n..][..n]
     }
 
-    /// Size of the error of the trial step in `scratch`, h Σᵢ eᵢ kᵢ, as far as `system` keeps it, with a second estimate
-    /// as told at [`Self::coarse`]: at most one is within the tolerance.
+    /// Size of the error of the trial step in `scratch`, h Σᵢ eᵢ kᵢ, of the components that `system` keeps, with a second estimate
+    /// as described at [`Self::coarse`]: at most one is within the tolerance.
     ///
     /// A number that is not finite anywhere in it or in the new state gives NaN or infinity.
     ///

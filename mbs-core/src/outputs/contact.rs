@@ -97,7 +97,7 @@ impl<T: Real, const D: usize> Contacts<T, D> {
         self.t = to;
     }
 
-    /// Goes on from a state at which these instants were known, and so many more left out.
+    /// Restores a state at which these instants were known, and this number of more left out.
     pub fn resume(&mut self, state: &State<T>, instants: &[Instant], left_out: u64) {
         self.start(state);
         self.instants.clear();

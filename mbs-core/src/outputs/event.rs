@@ -166,7 +166,7 @@ impl<T: Real, const D: usize> Events<T, D> {
         EventHistory { t: self.t, trials: self.trials, begin }
     }
 
-    /// Goes on from the history of the same scene; says whether it is one, by its length. Else nothing is changed.
+    /// Restores the history of the same scene; returns whether it is one, by its length. Else nothing is changed.
     pub fn set_history(&mut self, history: &EventHistory<T>) -> bool {
         if history.begin.len() != self.watched.len() {
             return false;

@@ -108,13 +108,13 @@ impl<T: Real, const D: usize> Measures<T, D> {
         self.channels.iter().map(Channel::len)
     }
 
-    /// The last values of the joint coordinates that are followed, with their turns; then what following them goes on from.
+    /// The last values of the joint coordinates that are followed, with their turns; then the state from which following them continues.
     #[must_use]
     pub fn memory(&self) -> &[T] {
         &self.memory
     }
 
-    /// The same, to go on from others.
+    /// The same, to restore others.
     pub fn memory_mut(&mut self) -> &mut [T] {
         &mut self.memory
     }
@@ -124,14 +124,14 @@ impl<T: Real, const D: usize> Measures<T, D> {
     /// Cost: a few products for each measured joint coordinate, one arc tangent for each angle; no allocation.
     ///
     /// # Errors
-    /// [`StepError::TurnTooLarge`] names a joint whose turns are not known: its positions tell a quarter of a turn less than its rates, and
+    /// [`StepError::TurnTooLarge`] names a joint whose turns are not known: its positions give a quarter of a turn less than its rates, and
     /// a fiftieth of all turns.
     pub fn track(&mut self, state: &State<T>) -> Result<(), StepError> {
         self.follow(state, |_, _| None, true)
     }
 
     /// The same where angles, by joint and number, are known with their turns, as most of a tree are. Its steps may be any number of steps of
-    /// its rule: rates do not tell what is between them, and nothing is refused.
+    /// its rule: rates do not determine the turns between them, and nothing is refused.
     pub fn track_with(&mut self, state: &State<T>, known: impl Fn(usize, usize) -> Option<T>) {
         // Without a check there is no error.
         let _ = self.follow(state, known, false);
@@ -253,7 +253,7 @@ fn copy<T: Real>(from: &[T], to: &mut [T]) {
     }
 }
 
-/// What the coordinates of each joint are at time zero as far as the scene says it (initial values, guides); zero elsewhere.
+/// The coordinates of each joint at time zero where the scene gives them (initial values, guides); zero elsewhere.
 ///
 /// Cost: one pass over joints, guides and initial values.
 #[must_use]

@@ -38,7 +38,7 @@ impl DoubleDouble {
     pub const ONE: Self = Self::from_f64(1.0);
     /// π, to 2⁻¹⁰⁷.
     pub const PI: Self = Self { hi: core::f64::consts::PI, lo: 1.2246467991473532e-16 };
-    /// 2⁻¹⁰⁴, four times u²: what the arithmetic tells from one.
+    /// 2⁻¹⁰⁴, four times u²: the smallest difference from one that the arithmetic resolves.
     pub const EPSILON: Self = Self::from_f64(f64::EPSILON * f64::EPSILON);
 
     /// The same number.

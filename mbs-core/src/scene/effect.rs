@@ -76,13 +76,13 @@ pub struct PolynomialPiece<T> {
     pub lower: T,
     /// Where it ends [m or m/s].
     pub upper: T,
-    /// Coefficients of increasing power, at most [`PolynomialPiece::MOST`].
+    /// Coefficients of increasing power, at most [`PolynomialPiece::MAX_COEFFICIENTS`].
     pub coefficients: Vec<T>,
 }
 
 impl<T> PolynomialPiece<T> {
-    /// Coefficients that a piece may have.
-    pub const MOST: usize = 8;
+    /// Largest number of coefficients of a piece: degree 7.
+    pub const MAX_COEFFICIENTS: usize = 8;
 }
 
 pub use crate::laws::calspan::Coefficients as CalspanCoefficients;

@@ -147,7 +147,7 @@ impl core::fmt::Display for StepError {
             }
             Self::TurnTooLarge { turn, .. } => write!(
                 f,
-                "the joint turns by {turn:.1} rad in one step, more than its position tells: make the step shorter"
+                "the joint turns by {turn:.1} rad in one step, more than its position determines: make the step shorter"
             ),
             Self::Overturned { .. } => write!(
                 f,

@@ -63,7 +63,7 @@ pub extern "C" fn mbs_align() -> usize {
 /// Reads a model into memory.
 ///
 /// # Safety
-/// `memory` has `size` bytes, `model` has `n`; nobody else uses `memory` while the solver is used.
+/// `memory` has `size` bytes, `model` has `n`; nothing else uses `memory` while the solver is used.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mbs_init(
     memory: *mut c_void,

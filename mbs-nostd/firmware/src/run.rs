@@ -30,7 +30,7 @@ pub fn mbs_step(
     solver.step(model, 1e-3, &mut Unwatched)
 }
 
-/// The run; `None` when something went wrong, which was told. `clock` gives what was spent since the last call.
+/// The run; `None` after an error, which was reported. `clock` gives the time since the last call.
 pub fn run(out: &mut impl Write, mut clock: impl FnMut() -> u32) -> Option<()> {
     let Ok(model) = Checked::new(&MODEL) else {
         writeln!(out, "the model does not pass its check").ok()?;

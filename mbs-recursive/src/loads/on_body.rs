@@ -10,7 +10,7 @@ use crate::link::Condensed;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::algebra::Vector;
-use mbs_core::laws::body::{Action, BodyLaw, BodyMotion, MOST};
+use mbs_core::laws::body::{Action, BodyLaw, BodyMotion, MAX_ACTIONS};
 
 /// A law on one body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,7 +51,7 @@ impl<T: Real, S: Space<T>> OnBody<T, S> {
         at: &Instant<'_, T, S>,
         of: impl Fn(usize, &Action<T>) -> T,
     ) -> Result<T, Outside> {
-        let mut actions = [Action::default(); MOST];
+        let mut actions = [Action::default(); MAX_ACTIONS];
         let actions = part_mut(&mut actions, 0, self.law.n_actions())?;
         self.evaluate(at, actions)?;
         Ok(actions.iter().enumerate().fold(T::ZERO, |sum, (k, action)| sum + of(k, action)))
@@ -59,7 +59,7 @@ impl<T: Real, S: Space<T>> OnBody<T, S> {
 
     /// What the law does to its link, about the link's origin.
     pub(super) fn wrench(&self, at: &Instant<'_, T, S>) -> Result<S::Motion, Outside> {
-        let mut actions = [Action::default(); MOST];
+        let mut actions = [Action::default(); MAX_ACTIONS];
         let actions = part_mut(&mut actions, 0, self.law.n_actions())?;
         self.evaluate(at, actions)?;
         let (mut force, mut moment) = (S::Point::zero(), S::Spin::zero());
@@ -78,7 +78,7 @@ impl<T: Real, S: Space<T>> OnBody<T, S> {
         (reach, a): (Reach<T>, &S::Motion),
         c: &mut Condensed<T, S>,
     ) -> Result<(), Outside> {
-        let mut actions = [Action::default(); MOST];
+        let mut actions = [Action::default(); MAX_ACTIONS];
         let actions = part_mut(&mut actions, 0, self.law.n_actions())?;
         self.evaluate(at, actions)?;
         let arm = at.arm(self.link, &self.point)?;

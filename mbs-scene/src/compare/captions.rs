@@ -77,7 +77,7 @@ pub(super) fn times(c: &Comparison) -> String {
         return "No run was timed.".to_owned();
     };
     format!(
-        "The cheapest step is that of {} ({}), the dearest that of {} ({}); at steps of one length the cost is that of a step times \
+        "The cheapest step is that of {} ({}), the most expensive that of {} ({}); at steps of one length the cost is that of a step times \
          their number.",
         low.1,
         seconds(low.0),

@@ -12,7 +12,7 @@ pub struct Comparison {
     pub duration: f64,
     /// Length of the runs that are compared [s]: less where the reference is not known to the end.
     pub compared: f64,
-    /// Errors are taken at so many instants, equally spaced, the start left out.
+    /// Number of instants at which errors are taken, equally spaced, the start left out.
     pub instants: usize,
     /// Distance of the instants [s].
     pub interval: f64,
@@ -44,7 +44,7 @@ pub struct Origin {
     pub command: String,
     /// Version of the program.
     pub version: String,
-    /// Commit it was built from, where the build told it.
+    /// Commit it was built from, where the build set it.
     pub commit: String,
     /// Profile and target features of the build.
     pub build: String,
@@ -99,7 +99,7 @@ pub struct Reference {
     pub cross_check: Option<CrossCheck>,
     /// The instant after which it is not known well enough [s].
     pub known_until: Option<f64>,
-    /// Something else agrees with it within what that can tell, or it is a table.
+    /// Another method agrees with it within its uncertainty, or it is a table.
     pub is_verified: bool,
 }
 
@@ -110,8 +110,19 @@ pub struct CrossCheck {
     pub method: String,
     /// Largest distance from the reference, on the scale of the errors.
     pub difference: f64,
-    /// What it can tell itself: the distance of its two extrapolations.
+    /// Its own uncertainty: the distance of its two extrapolations.
     pub own_uncertainty: f64,
+    /// The same under the name that other references have for it.
+    #[serde(default)]
+    pub uncertainty: f64,
+}
+
+impl CrossCheck {
+    /// The check by `method`, with its largest distance from the reference.
+    #[must_use]
+    pub fn new(method: &str, difference: f64, uncertainty: f64) -> Self {
+        Self { method: method.to_owned(), difference, own_uncertainty: uncertainty, uncertainty }
+    }
 }
 
 /// A method, and its runs from the coarsest to the finest.
@@ -169,7 +180,7 @@ pub struct RunEntry {
     pub error: Option<f64>,
     /// Root of the mean square of the same.
     pub error_rms: Option<f64>,
-    /// The error is less than three times the reference's uncertainty: the reference cannot tell it.
+    /// The error is less than three times the reference's uncertainty: the reference does not resolve it.
     pub is_below_reference: bool,
     /// CPU time of the steps, each time anew from a fresh start, in the order of the repeats [s].
     pub cpu_seconds: Vec<f64>,
@@ -254,7 +265,7 @@ pub struct JudgedChoice {
     pub predicted_error: Option<f64>,
     /// CPU time of the pilot [s].
     pub pilot_seconds: f64,
-    /// Choices that stopped before the one that is told, each with its reason.
+    /// Choices that stopped before the one that is reported, each with its reason.
     pub stopped: Vec<String>,
     /// CPU time of the run [s], the least of several; nothing where all stopped.
     pub cpu_seconds: Option<f64>,
@@ -262,7 +273,7 @@ pub struct JudgedChoice {
     pub true_error: Option<f64>,
     /// The method that takes least at this error.
     pub best_method: Option<String>,
-    /// What it takes, timed by turns with the chosen run [s].
+    /// Its time, measured interleaved with the chosen run [s].
     pub best_seconds: Option<f64>,
     /// The chosen run's time over that.
     pub over_best: Option<f64>,

@@ -11,7 +11,7 @@ const NEARLY: f64 = 1.15;
 const SAME: u64 = 50;
 
 impl Comparison {
-    /// The least error that the reference can tell.
+    /// The least error that the reference resolves.
     #[must_use]
     pub fn floor(&self) -> f64 {
         TELLS * self.reference.uncertainty
@@ -62,7 +62,7 @@ impl Comparison {
     fn ranked(&self, level: f64) -> RankLevel {
         let floor = self.floor();
         if level < floor {
-            let note = format!("the reference tells errors of {floor:.1e} and more only");
+            let note = format!("the reference resolves errors of {floor:.1e} and more only");
             return RankLevel { error: level, note: Some(note), ..RankLevel::default() };
         }
         let (mut reached, mut not_reached) = (Vec::<Rank>::new(), Vec::<String>::new());
@@ -118,7 +118,7 @@ impl MethodRuns {
         front::at_error(&points, level, has_between)
     }
 
-    /// Least CPU time at an error [s], of runs whose results have so many instants; nothing where no timed run reaches it.
+    /// Least CPU time at an error [s], of runs whose results have this number of instants; nothing where no timed run reaches it.
     #[must_use]
     pub fn seconds_at(&self, level: f64, instants: u64) -> Option<f64> {
         Some(self.at_error(level, instants)?[0])

@@ -125,7 +125,7 @@ pub(super) fn panels(comparison: &Comparison) -> Vec<Panel> {
 
 fn floor(comparison: &Comparison) -> Vec<(f64, &'static str)> {
     let floor = comparison.floor();
-    if floor > 0.0 { vec![(floor, "below: the reference cannot tell")] } else { vec![] }
+    if floor > 0.0 { vec![(floor, "below: not resolved by the reference")] } else { vec![] }
 }
 
 fn work_precision(comparison: &Comparison) -> Panel {
@@ -184,7 +184,7 @@ fn setting(m: &MethodRuns, run: &RunEntry) -> String {
 /// What is said of a run under the cursor.
 fn told(m: &MethodRuns, run: &RunEntry) -> String {
     let error = run.error.map_or("no error".to_owned(), |e| format!("error {e:.2e}"));
-    let below = if run.is_below_reference { " (the reference cannot tell)" } else { "" };
+    let below = if run.is_below_reference { " (not resolved by the reference)" } else { "" };
     let cpu = run.cpu_least.map_or("not timed".to_owned(), seconds);
     let (steps, mean) = (run.steps, short(run.mean_step));
     format!(
@@ -219,7 +219,7 @@ fn histogram(comparison: &Comparison) -> Panel {
     };
     Panel {
         title: "Times of single steps",
-        axes: ["CPU time of a step [s]", "share of the steps [%]"],
+        axes: ["CPU time of a step [s]", "fraction of the steps [%]"],
         caption: captions::histogram(comparison),
         lines: comparison.methods.iter().enumerate().filter_map(line).collect(),
         is_plain: true,

@@ -70,7 +70,7 @@ impl Comparison {
             rows.push(row(
                 "beside it",
                 format!(
-                    "{}: {:.1e} away, where it can tell {:.1e}",
+                    "{}: {:.1e} away, with an uncertainty of {:.1e}",
                     check.method, check.difference, check.own_uncertainty
                 ),
             ));
@@ -80,7 +80,7 @@ impl Comparison {
         rows.push(row(
             "time",
             format!(
-                "CPU time of the steps with the energy watched, nothing recorded; least of {} fresh starts or more, by turns",
+                "CPU time of the steps with the energy watched, nothing recorded; least of {} fresh starts or more, interleaved",
                 self.repeats
             ),
         ));
@@ -191,7 +191,7 @@ impl Comparison {
             ]
         };
         let head = [
-            "wanted error",
+            "required error",
             "chosen, step or tolerance",
             "its error",
             "CPU time",

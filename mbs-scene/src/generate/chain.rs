@@ -17,7 +17,7 @@ const JOINTS: [(&str, &[[f64; 3]]); 4] = [
 ];
 
 const COMMENT: &str = "\
-Spatial chain of equal links: revolute joints about y, universal joints, revolute joints about z and balls by turns, hung
+Spatial chain of equal links: revolute joints about y, universal joints, revolute joints about z and spherical joints, in turn, hung
 at one end and let go from the horizontal.
 
 Each link is a uniform square bar of 1 kg, 0.2 m long and 0.04 m wide. Four links make a turn of a coil along x: a straight

@@ -37,7 +37,7 @@ impl GenerateError {
                 "give the distance from one vehicle to the next in metres, such as 8"
             }
             Self::NoScene => {
-                "read the vehicle's scene alone first: its faults are told with their places"
+                "read the vehicle's scene alone first: its faults are then reported with their places"
             }
             Self::NoTires => {
                 "give the scene of a vehicle with an effect of kind \"tire\", such as scenes/iltis-stairs.toml"

@@ -1,5 +1,6 @@
 //! What a choice by measurement was made of: who could run, what the pilot measured of each, who was chosen.
 
+use super::alias;
 use crate::format::{rounded, shortest, significant};
 use serde::Serialize;
 use std::io;
@@ -15,7 +16,7 @@ pub struct PilotReport {
     pub structure: Vec<String>,
     /// Length of the run that the pilot looked at [s].
     pub span: f64,
-    /// Errors were taken at so many instants.
+    /// Number of instants at which errors were taken.
     pub instants: usize,
     /// CPU time of the pilot, and what it was allowed [s].
     pub pilot_seconds: f64,
@@ -74,14 +75,17 @@ pub struct Candidate {
     /// CPU time of the whole run with it [s], predicted.
     pub seconds: Option<f64>,
     /// That over the same of the chosen one.
+    #[serde(flatten, serialize_with = "alias::over_chosen")]
     pub over_chosen: Option<f64>,
     /// Error with it, predicted.
     pub error: Option<f64>,
     /// The slowest step of its trials [s], where steps were timed one by one.
     pub slowest_step: Option<f64>,
     /// What the prediction stands on.
+    #[serde(flatten, serialize_with = "alias::basis")]
     pub basis: String,
     /// Why it is out.
+    #[serde(flatten, serialize_with = "alias::out")]
     pub out: Option<String>,
     /// What was measured.
     pub trials: Vec<TrialEntry>,

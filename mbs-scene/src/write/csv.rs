@@ -34,7 +34,7 @@ impl<W: Write> CsvWriter<W> {
         Ok(Self { out, n_columns: header.len(), n_rows: 0 })
     }
 
-    /// Goes on with a file that has its header.
+    /// Continues a file that has its header.
     pub fn append(sink: W, channels: &[Channel]) -> Self {
         let n_columns = 1 + channels.iter().map(|channel| channel.components.len()).sum::<usize>();
         Self { out: csv::Writer::from_writer(sink), n_columns, n_rows: 0 }
@@ -108,7 +108,7 @@ pub fn write_steps(sink: impl Write, steps: &StepSeries) -> io::Result<()> {
     write_step_rows(out, steps)
 }
 
-/// Goes on with a file that has the header of [`write_steps`].
+/// Continues a file that has the header of [`write_steps`].
 ///
 /// # Errors
 /// Those of the sink.

@@ -1,10 +1,11 @@
 //! What `mbs explain` says of a scene, as plain data with the keys of its JSON object.
 
+use super::alias;
 use super::choice::PilotReport;
 use super::json::{MethodChoice, RunError};
 use serde::Serialize;
 
-/// What is simulated, what is not, and the price of each effect. Numbers that are not finite are written as `null`.
+/// What is simulated, what is not, and the cost of each effect. Numbers that are not finite are written as `null`.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Explanation {
     /// Name of the scene.
@@ -35,7 +36,8 @@ pub struct Explanation {
     pub effects: Vec<EffectEntry>,
     /// What the scene could have and has not.
     pub absent: Vec<MissingEffect>,
-    /// Prices; `None` where the scene does not start.
+    /// Costs of the effects; `None` where the scene does not start.
+    #[serde(flatten, serialize_with = "alias::prices")]
     pub prices: Option<EffectCosts>,
 }
 
@@ -60,6 +62,7 @@ pub struct Simulated {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative_error: Option<RunError>,
     /// Thin rods in space.
+    #[serde(flatten, serialize_with = "alias::rods")]
     pub rods: Vec<ThinRod>,
 }
 
@@ -161,6 +164,7 @@ pub struct EffectEntry {
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
 pub struct MissingEffect {
     /// A short fixed word for programs.
+    #[serde(flatten, serialize_with = "alias::what")]
     pub what: String,
     /// One line.
     pub text: String,
@@ -215,6 +219,7 @@ pub struct EffectCost {
     /// The largest step without them.
     pub largest_step: LargestStep,
     /// What changes in the outputs.
+    #[serde(flatten, serialize_with = "alias::changes")]
     pub changes: Vec<OutputChange>,
 }
 

@@ -1,5 +1,6 @@
 //! Files out: CSV rows as the run goes, JSON at its end.
 
+mod alias;
 mod choice;
 mod csv;
 mod estimate;

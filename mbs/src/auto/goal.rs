@@ -116,12 +116,12 @@ impl GoalError {
                 "write 1e-13 or more; runs with more digits are those of --precision dd, with --integrator gbs and a --tolerance"
             }
             Self::Error(_) => {
-                "write a share of the outputs' ranges, more than 0 and less than 1, such as 1e-4"
+                "write an error relative to each output's range, more than 0 and less than 1, such as 1e-4"
             }
             Self::Deadline(_) => "write a time longer than zero, such as 1ms",
             Self::TooLong(..) => "write a shorter deadline, or a longer --duration",
             Self::Chosen(_) => {
-                "leave it out: it is chosen for the wanted error or the deadline; --formulation, --integrator and --precision narrow the choice"
+                "leave it out: it is chosen for the required error or the deadline; --formulation, --integrator and --precision narrow the choice"
             }
             Self::OwnSteps => "leave --integrator out, or take rk4 or an implicit one",
             Self::NoCandidate => "leave --formulation or --integrator out",
@@ -139,13 +139,13 @@ impl Display for GoalError {
             Self::Error(x) => {
                 write!(
                     f,
-                    "the wanted error must be more than 0 and less than 1, but is {}",
+                    "the required error must be more than 0 and less than 1, but is {}",
                     few(*x)
                 )
             }
             Self::TooFine(x, precision) => write!(
                 f,
-                "the wanted error of {x:e} is finer than numbers of {} are: neighbours of them differ by {:.1e}",
+                "the required error of {x:e} is below the resolution of {}: neighbouring numbers differ by {:.1e}",
                 precision.name(),
                 finest(*precision)
             ),

@@ -40,7 +40,7 @@ pub enum Processor {
 }
 
 impl Processor {
-    /// For a run with so many threads.
+    /// For a run with this number of threads.
     #[must_use]
     pub fn new(threads: usize) -> Self {
         if threads > 1 { Self::Wall(Instant::now()) } else { Self::Thread(ThreadTime::now()) }

@@ -24,7 +24,7 @@ pub(super) fn evidence(
     for (k, place) in places.iter().enumerate() {
         let entrant = &race.entrants[place.entrant];
         let point = place.prediction.point;
-        let missed = if place.reaches { "" } else { "; the wanted error is not reached" };
+        let missed = if place.reaches { "" } else { "; the required error is not reached" };
         candidates.push(Candidate {
             rank: Some(k + 1),
             setting: Some(point.setting),

@@ -61,7 +61,7 @@ impl<T: Real, const D: usize> Engine<T, D>
 where
     Plane<D>: InSpace<T>,
 {
-    /// What the next step goes on from.
+    /// State that the next step continues from.
     pub(crate) fn kept(&self) -> EngineKept<T> {
         match self {
             Self::Augmented { index, workspace, .. } => {

@@ -19,8 +19,8 @@ pub enum CheckpointError {
     /// The file has other than the bytes it says.
     Torn {
         /// Bytes after the head, as it says.
-        told: u64,
-        /// Bytes there are, or one more than told where there are more.
+        stated: u64,
+        /// Bytes there are, or one more than stated where there are more.
         found: u64,
     },
     /// The sum over its bytes is another: they have changed since they were written.
@@ -84,11 +84,11 @@ impl Display for CheckpointError {
                 "the checkpoint was written by mbs {found}, and this is {}",
                 env!("CARGO_PKG_VERSION")
             ),
-            Self::Torn { told, found } if found > told => {
-                write!(f, "the checkpoint is longer than the {told} bytes it says")
+            Self::Torn { stated, found } if found > stated => {
+                write!(f, "the checkpoint is longer than the {stated} bytes it says")
             }
-            Self::Torn { told, found } => {
-                write!(f, "the checkpoint is torn: {found} of its {told} bytes are there")
+            Self::Torn { stated, found } => {
+                write!(f, "the checkpoint is torn: {found} of its {stated} bytes are there")
             }
             Self::Checksum => write!(f, "the checkpoint is damaged: its checksum does not hold"),
             Self::Misfit => write!(f, "the checkpoint has no state of this scene in it"),

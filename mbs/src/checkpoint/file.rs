@@ -57,20 +57,20 @@ impl Checkpoint {
             return Err(CheckpointError::NotACheckpoint);
         }
         let mut eye = Eye(&start);
-        let (mut magic, mut format, mut told, mut sum) = ([0; 8], [0; 4], 0, 0);
-        let torn = |_| CheckpointError::Torn { told: N_HEAD as u64, found: start.len() as u64 };
+        let (mut magic, mut format, mut stated, mut sum) = ([0; 8], [0; 4], 0, 0);
+        let torn = |_| CheckpointError::Torn { stated: N_HEAD as u64, found: start.len() as u64 };
         eye.bytes(&mut magic).map_err(torn)?;
         eye.bytes(&mut format).map_err(torn)?;
         if u32::from_le_bytes(format) != FORMAT {
             let format = u32::from_le_bytes(format);
             return Err(CheckpointError::Version(format!("with format {format}")));
         }
-        eye.word(&mut told).map_err(torn)?;
+        eye.word(&mut stated).map_err(torn)?;
         eye.word(&mut sum).map_err(torn)?;
         let mut rest = Vec::new();
-        source.take(told.saturating_add(1)).read_to_end(&mut rest)?;
-        if rest.len() as u64 != told {
-            return Err(CheckpointError::Torn { told, found: rest.len() as u64 });
+        source.take(stated.saturating_add(1)).read_to_end(&mut rest)?;
+        if rest.len() as u64 != stated {
+            return Err(CheckpointError::Torn { stated, found: rest.len() as u64 });
         }
         if fingerprint(&rest) != sum {
             return Err(CheckpointError::Checksum);
@@ -94,7 +94,7 @@ impl Checkpoint {
         self.times[1]
     }
 
-    /// The settings to go on with: those of its run. What is given must agree with them, but for the number of threads.
+    /// The settings to resume with: those of its run. What is given must agree with them, but for the number of threads.
     ///
     /// # Errors
     /// [`CheckpointError::Settings`] for what no run could have, [`CheckpointError::Setting`] for what this run did not have.
@@ -170,10 +170,10 @@ pub(crate) fn whole(
     walk(&mut pen, &mut kind, &mut times, &mut identity.clone())?;
     body(&mut pen)?;
     let mut bytes = pen.0;
-    let (told, sum) = ((bytes.len() - N_HEAD) as u64, fingerprint(&bytes[N_HEAD..]));
+    let (stated, sum) = ((bytes.len() - N_HEAD) as u64, fingerprint(&bytes[N_HEAD..]));
     bytes[..8].copy_from_slice(&MAGIC);
     bytes[8..12].copy_from_slice(&FORMAT.to_le_bytes());
-    bytes[12..20].copy_from_slice(&told.to_le_bytes());
+    bytes[12..20].copy_from_slice(&stated.to_le_bytes());
     bytes[20..N_HEAD].copy_from_slice(&sum.to_le_bytes());
     Ok(bytes)
 }

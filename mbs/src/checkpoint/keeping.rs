@@ -23,7 +23,8 @@ type Bytes = Result<Vec<u8>, CheckpointError>;
 ///
 /// At its start, and at the first step that ends at or after each multiple of a simulated time, the checkpoint in the directory is
 /// replaced by a new one: written beside it, synced, renamed. No step is made shorter for it. The rows are written as the run goes,
-/// to `run.csv` and `steps.csv` in [`PART`], so that the results of an earlier run stay until there are new ones. What cannot be written is tried again the next time, and told in the end.
+/// to `run.csv` and `steps.csv` in [`PART`], so that the results of an earlier run stay until there are new ones. A write that fails is tried again the next time, and
+/// reported in the end.
 #[derive(Debug)]
 pub struct Keeping {
     out: PathBuf,

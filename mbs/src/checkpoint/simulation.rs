@@ -142,7 +142,7 @@ where
         Ok(sink.write_all(&bytes)?)
     }
 
-    /// Goes on from a checkpoint of the same scene and settings: one of [`save`](Self::save), or the state in that of a run.
+    /// Restores a checkpoint of the same scene and settings: one of [`save`](Self::save), or the state in that of a run.
     ///
     /// # Errors
     /// [`CheckpointError`]; the simulation is then as it was, but that a state-space one may choose its coordinates anew.

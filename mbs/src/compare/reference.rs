@@ -122,17 +122,13 @@ impl Known {
                 miss = Some((k, d));
             }
         }
-        self.report.cross_check = Some(CrossCheck {
-            method: a.method.clone(),
-            difference: largest,
-            own_uncertainty: apart,
-        });
+        self.report.cross_check = Some(CrossCheck::new(&a.method, largest, apart));
         self.report.is_verified = seen > 0 && is_near;
         self.is_refuted = miss.is_some();
         if let Some((k, _)) = miss {
             let note = format!(
                 "the reference is NOT verified: {} and {} agree to {apart:.1e}, and differ from {name} by {} at {} s; no method is \
-                 held against it",
+                 compared with it",
                 a.method,
                 b.method,
                 self.largest_miss(k, &a.rows[k]),
@@ -179,17 +175,11 @@ impl Known {
         // rows are in `f64`, however many digits the run has
         let uncertainty = largest(&best.coarse).max(f64::EPSILON);
         let mut notes = Vec::new();
-        let cross_check = check.map(|check| CrossCheck {
-            method: check.method.clone(),
-            difference: largest(&check.rows),
-            own_uncertainty: distances(
-                &scales,
-                &check.rows[..n.min(check.rows.len())],
-                &check.coarse[..n.min(check.coarse.len())],
-            )
-            .last()
-            .copied()
-            .unwrap_or(f64::INFINITY),
+        let cross_check = check.map(|check| {
+            let (n, m) = (n.min(check.rows.len()), n.min(check.coarse.len()));
+            let apart = distances(&scales, &check.rows[..n], &check.coarse[..m]);
+            let uncertainty = apart.last().copied().unwrap_or(f64::INFINITY);
+            CrossCheck::new(&check.method, largest(&check.rows), uncertainty)
         });
         let is_verified = cross_check.as_ref().is_some_and(|check| {
             let told = check.own_uncertainty.max(uncertainty);
@@ -244,11 +234,11 @@ fn doubt(check: Option<&CrossCheck>) -> String {
         None => "the reference is NOT verified: no other formulation runs the scene to the end"
             .to_owned(),
         Some(check) if check.own_uncertainty > TELLS => format!(
-            "the reference is NOT verified: the check can tell no more than {:.1e} itself",
+            "the reference is NOT verified: the check itself has an uncertainty of {:.1e}",
             check.own_uncertainty
         ),
         Some(check) => format!(
-            "the reference is NOT verified: {} is {:.1e} away, more than both can tell",
+            "the reference is NOT verified: {} is {:.1e} away, more than the uncertainty of both",
             check.method, check.difference
         ),
     }
@@ -365,7 +355,7 @@ mod tests {
         let off = of(&good, Some(&pair(|_| 1e-3, |_| 1.0001e-3)));
         assert!(!off.report.is_verified && off.notes[0].contains("away"), "{:?}", off.notes);
         let blind = of(&good, Some(&pair(|_| 0.0, |_| 0.1)));
-        assert!(!blind.report.is_verified && blind.notes[0].contains("can tell no more"));
+        assert!(!blind.report.is_verified && blind.notes[0].contains("has an uncertainty"));
         assert!(!of(&good, None).report.is_verified);
         assert!(of(&good, Some(&pair(|_| 1e-8, |_| 2e-8))).report.is_verified);
     }

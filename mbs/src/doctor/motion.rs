@@ -385,7 +385,7 @@ fn passes(scene: &Scene<f64>, near: &Nearest) -> Option<Finding> {
         few(near.sigma),
         few(near.sigma_at_start)
     );
-    let remedy = "run it by index-3 or index-1, compare two steps, and see that the branch is the one that is meant";
+    let remedy = "run it by index-3 or index-1, compare two steps, and check that the branch is the intended one";
     let told = (Topic::Motion, "passes-singular-position");
     Some(Finding::new(Severity::Doubt, told, message, remedy).joints(near.joints.clone()))
 }

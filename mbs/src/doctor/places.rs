@@ -129,7 +129,7 @@ fn near_miss(scene: &Scene<f64>, place: &Place, other: &Place) -> Finding {
     let distance = (place.point - other.point).norm();
     let (entry, key) = entry(place);
     let message = format!(
-        "{} is {} from {}: meant to be one point?",
+        "{} is {} from {}: intended as one point?",
         whose(scene, place),
         length(distance),
         whose(scene, other)

@@ -66,7 +66,7 @@ fn message(scene: &Scene<f64>, set: &Set) -> String {
             "at the start only: it is a singular position, where branches of the motion may meet"
         }
         Nature::Both => "at the start; fewer in other positions",
-        Nature::Rigid => "and nothing in the set can move, so that no other position tells more",
+        Nature::Rigid => "and nothing in the set can move, so that no other position decides",
         Nature::Untried => "at the start; no other position was reached to compare with",
     };
     format!("{equations} of {names} {follows} from the others of the set, {nature}.{guided}")

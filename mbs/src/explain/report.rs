@@ -15,8 +15,8 @@ pub fn report(explanation: &Explanation, provenance: Provenance) -> Report {
     sections.extend(explanation.choice.as_ref().map(candidates));
     if let Some(prices) = &explanation.prices {
         sections.push(whole(prices));
-        sections.extend(price_list("Price of each effect", &prices.effects, prices));
-        sections.extend(price_list("Price of effects of a kind together", &prices.kinds, prices));
+        sections.extend(price_list("Cost of each effect", &prices.effects, prices));
+        sections.extend(price_list("Cost of effects of a kind together", &prices.kinds, prices));
         sections.extend(changes(prices));
     }
     Report {
@@ -210,7 +210,7 @@ fn price_list(title: &str, list: &[EffectCost], prices: &EffectCosts) -> Option<
             largest_change(price),
         ]
     });
-    let head = ["left out", "kind", "share of a step", "iterations", "largest step", "the run"];
+    let head = ["left out", "kind", "fraction of a step", "iterations", "largest step", "the run"];
     let head = head.into_iter().chain(["changes most"]);
     let lengths = list.iter().map(|p| {
         let is_felt = p.below_noise == Some(false);
@@ -219,7 +219,7 @@ fn price_list(title: &str, list: &[EffectCost], prices: &EffectCosts) -> Option<
     (!list.is_empty()).then(|| Section {
         title: title.to_owned(),
         caption: format!(
-            "Share of a step = 1 - CPU time per step without it / with all effects: what leaving it out saves, a changed number of \
+            "Fraction of a step = 1 - CPU time per step without it / with all effects: what leaving it out saves, a changed number of \
              iterations per step (in brackets: with all effects) included. Below noise: not larger than the distance of the two best repeats. Changes: the first {} s, with \
              the given step, in percent of the output's own range.",
             significant(prices.compared_duration)

@@ -88,7 +88,7 @@ impl Settings {
             reasons: vec![if self.integrator.is_of_first_order() {
                 format!("integrator {} runs in relative coordinates", self.integrator.name())
             } else {
-                "without a wanted error or a deadline auto means index-3: nothing is measured, and a scene gives the same numbers \
+                "without a required error or a deadline auto means index-3: nothing is measured, and a scene gives the same numbers \
                  every time"
                     .to_owned()
             }],

@@ -51,7 +51,7 @@ where
     }
 
     /// Takes time, positions and velocities over from another simulation of the same mechanism, whose effects may be others, so that
-    /// the next step goes on from there. The change of the energy by effects that come or go is booked as work.
+    /// the next step continues from there. The change of the energy by effects that come or go is booked as work.
     ///
     /// Cost: a copy, and two or three evaluations and factorisations; no allocation.
     ///

@@ -36,7 +36,7 @@ pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) ->
         }
         StepError::TurnTooLarge { turn, .. } => write!(
             f,
-            "the joint turns by {} rad in one step, more than its position tells",
+            "the joint turns by {} rad in one step, more than its position determines",
             few(*turn)
         ),
         StepError::Overturned { .. } => {

@@ -171,7 +171,7 @@ fn effects_of_a_kind_are_left_out_together_too() {
     let together = prices.kinds[0].changes[0].largest;
     assert!(together > price(&explanation, "brake").changes[0].largest);
     let text = report(&explanation, Provenance::default()).text();
-    assert!(text.contains("all 2 torsion-spring") && text.contains("share of a step"), "{text}");
+    assert!(text.contains("all 2 torsion-spring") && text.contains("fraction of a step"), "{text}");
 }
 
 #[test]

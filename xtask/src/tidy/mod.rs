@@ -3,6 +3,7 @@
 mod crates;
 mod documents;
 mod kinds;
+mod language;
 mod packages;
 mod sources;
 mod tags;

@@ -2,7 +2,7 @@
 
 extern crate std;
 
-use super::super::body::MOST;
+use super::super::body::MAX_ACTIONS;
 use super::super::road::Feature;
 use super::*;
 use crate::algebra::rotation;
@@ -54,8 +54,8 @@ fn motion(x: f64, depth: f64, [camber, steer]: [f64; 2]) -> BodyMotion<f64> {
     motion
 }
 
-fn actions(tire: &TireLaw<f64>, motion: &BodyMotion<f64>) -> [Action<f64>; MOST] {
-    let mut out = [Action::default(); MOST];
+fn actions(tire: &TireLaw<f64>, motion: &BodyMotion<f64>) -> [Action<f64>; MAX_ACTIONS] {
+    let mut out = [Action::default(); MAX_ACTIONS];
     tire.evaluate(motion, &supplies(), &mut out[..tire.n_actions()]);
     out
 }

@@ -98,13 +98,13 @@ impl<T: Real> Radau<T> {
         }
     }
 
-    /// What the next step goes on from.
+    /// State that the next step continues from.
     #[must_use]
     pub fn history(&self) -> RadauHistory<T> {
         self.memory.clone()
     }
 
-    /// Goes on from the history of a method for as many components; says whether it is one. Else no more is changed than that slopes
+    /// Restores the history of a method for as many components; returns whether it is one. Else no more is changed than that slopes
     /// are found anew.
     ///
     /// Cost: the factorisations that the history is of.

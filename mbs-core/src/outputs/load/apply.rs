@@ -13,7 +13,7 @@ use super::{Gauge, Load, Wrench};
 use crate::Real;
 use crate::algebra::{Matrix, Vector, norm, raised, rotation_gradient, rotation_vector, unit};
 use crate::laws::Supplies;
-use crate::laws::body::{Action, BodyMotion, MOST};
+use crate::laws::body::{Action, BodyMotion, MAX_ACTIONS};
 use crate::laws::scalar::Law;
 use crate::model::State;
 use crate::natural::{Affine, unwrap_rotation};
@@ -60,7 +60,7 @@ impl<T: Real, const D: usize> Load<T, D> {
                 let body = BodyId::Body(*body);
                 let motion = motion((point, frame), &(turned(body) * axis), state);
                 let at = Vector::from(motion.position);
-                let mut actions = [Action::default(); MOST];
+                let mut actions = [Action::default(); MAX_ACTIONS];
                 let actions = &mut actions[..law.n_actions()];
                 law.evaluate(&motion, supplies, actions);
                 let mut sum = Wrench::zero();

@@ -91,7 +91,7 @@ fn a_file_that_is_not_whole_is_refused_at_every_length() {
     for n in 0..bytes.len() {
         match Checkpoint::read(&bytes[..n]) {
             Err(CheckpointError::NotACheckpoint) if n == 0 => {}
-            Err(CheckpointError::Torn { told, found }) => assert!(found < told, "{n}"),
+            Err(CheckpointError::Torn { stated, found }) => assert!(found < stated, "{n}"),
             other => panic!("{n} bytes: {other:?}"),
         }
     }
@@ -115,7 +115,7 @@ fn a_length_that_is_claimed_takes_no_memory() {
     bytes[12..20].copy_from_slice(&u64::MAX.to_le_bytes());
     let there = bytes.len() as u64 - 28;
     match Checkpoint::read(&bytes[..]) {
-        Err(CheckpointError::Torn { told: u64::MAX, found }) => assert_eq!(found, there),
+        Err(CheckpointError::Torn { stated: u64::MAX, found }) => assert_eq!(found, there),
         other => panic!("{other:?}"),
     }
 }

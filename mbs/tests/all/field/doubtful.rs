@@ -25,9 +25,9 @@ fn places(scene: &Scene<f64>) -> Vec<String> {
 #[test]
 fn ends_that_miss_the_place_they_belong_to_are_named_with_their_distance() {
     let rod = places(&field("12-rod-end-off-its-joint"));
-    assert_eq!(rod, ["the end of rod `crank` is 10 mm from joint `A`: meant to be one point?"]);
+    assert_eq!(rod, ["the end of rod `crank` is 10 mm from joint `A`: intended as one point?"]);
     let spring = places(&field("12-spring-end-off-its-point"));
-    assert_eq!(spring, ["the end of `spring` is 8 mm from joint `eye`: meant to be one point?"]);
+    assert_eq!(spring, ["the end of `spring` is 8 mm from joint `eye`: intended as one point?"]);
 }
 
 #[test]
@@ -60,7 +60,7 @@ fn effects_that_share_a_place_are_named_where_one_of_them_was_moved() {
     let told = places(&read(&apart, "apart"));
     assert_eq!(
         told,
-        ["the end of `spring` is 6 mm from the end of `damper`: meant to be one point?"]
+        ["the end of `spring` is 6 mm from the end of `damper`: intended as one point?"]
     );
     // a rod that ends where its spring does, 6 mm from the joint of both
     let attached = text("12-rod-end-off-its-joint").replace("0.0966", "0.0926")

@@ -1,0 +1,306 @@
+//! Rules for the language (docs/NOTATION.md, second part): words that are not used, short sentences, paths and names that exist.
+//!
+//! Scope of words and sentences: README.md, the documents in `docs/`, the packages' README.md files, the help of the command, and the
+//! documentation and names of public items of the packages that are published. Comments inside a crate are not in scope yet.
+
+use super::{crate_folders, files, name, read, report};
+use crate::process::root;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
+
+/// Words that no text in scope has; in a public name, those without a space.
+const BANNED: [&str; 14] = [
+    "told",
+    "tell",
+    "tells",
+    "telling",
+    "foretold",
+    "felt",
+    "nobody",
+    "so many times",
+    "as far as",
+    "by turns",
+    "go on",
+    "goes on",
+    "going on",
+    "gone on",
+];
+
+/// Most words of a sentence. A code span is one word.
+const MAX_WORDS: usize = 25;
+
+/// Names that say nothing as the whole name of a public constant.
+const VAGUE: [&str; 8] = ["MOST", "LIMIT", "SHARE", "SAME", "NEAR", "FAR", "SLOW", "FEW"];
+
+/// Exceptions: `rule | file | what | reason`. A line that is not needed fails too, so that the list only shrinks.
+const ALLOWED: &str = include_str!("allow.txt");
+
+/// The exceptions of a rule: the file or name they are for, and what is allowed there.
+fn allowed(rule: &str) -> BTreeMap<String, String> {
+    let lines = ALLOWED.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty());
+    let mut found = BTreeMap::new();
+    for line in lines {
+        let cells: Vec<_> = line.split('|').map(str::trim).collect();
+        let [kind, place, what, reason] = cells[..] else {
+            panic!("allow.txt: `{line}` is not `rule | place | what | reason`")
+        };
+        assert!(!reason.is_empty(), "allow.txt: `{line}` has no reason");
+        if kind == rule {
+            found.insert(place.to_owned(), what.to_owned());
+        }
+    }
+    found
+}
+
+/// Fails with what is found beyond the exceptions, and with exceptions for more than is found.
+#[track_caller]
+fn report_beyond(rule: &str, kind: &str, found: &BTreeMap<String, Vec<String>>) {
+    let allowed = allowed(kind);
+    let mut findings = Vec::new();
+    for (place, list) in found {
+        let most = allowed.get(place).map_or(0, |n| n.parse().expect("a count"));
+        if list.len() > most {
+            findings.extend(list.iter().cloned());
+        }
+    }
+    for (place, most) in &allowed {
+        let n = found.get(place).map_or(0, Vec::len);
+        if most.parse::<usize>().expect("a count") > n {
+            findings.push(format!("allow.txt: {place} has {n} only: write that number"));
+        }
+    }
+    report(rule, &findings);
+}
+
+/// The packages that are published: those without `publish = false`.
+fn published() -> Vec<PathBuf> {
+    let mut folders = crate_folders();
+    folders.retain(|folder| !read(folder.join("Cargo.toml")).contains("publish = false"));
+    folders
+}
+
+/// The documents in scope and the help.
+fn documents() -> Vec<PathBuf> {
+    let mut paths = vec![root().join("README.md"), root().join("mbs-cli/tests/command/help.txt")];
+    paths.extend(files(&root().join("docs"), "md"));
+    paths.extend(crate_folders().iter().map(|folder| folder.join("README.md")));
+    paths.retain(|path| path.is_file());
+    paths
+}
+
+/// Is the word, or the words, in a line, with nothing of a word before or after it?
+fn has_word(line: &str, word: &str) -> bool {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_';
+    line.match_indices(word).any(|(at, _)| {
+        !line[..at].ends_with(is_part) && !line[at + word.len()..].starts_with(is_part)
+    })
+}
+
+/// Public items of a source file: the line of each, and the lines of its documentation.
+fn public_items(text: &str) -> Vec<(usize, Vec<(usize, &str)>)> {
+    let (mut found, mut docs, mut in_attribute) = (Vec::new(), Vec::new(), false);
+    for (number, line) in text.lines().enumerate() {
+        let trimmed = line.trim_start();
+        if trimmed.starts_with("///") {
+            docs.push((number + 1, line));
+        } else if in_attribute || trimmed.starts_with("#[") {
+            in_attribute = !trimmed.ends_with(']');
+        } else {
+            if trimmed.starts_with("pub ") {
+                found.push((number + 1, std::mem::take(&mut docs)));
+            }
+            docs.clear();
+        }
+    }
+    found
+}
+
+#[test]
+fn text_in_scope_has_no_banned_word() {
+    let mut found: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    let mut look = |path: &PathBuf, number: usize, line: &str| {
+        let lower = line.to_lowercase();
+        for word in BANNED.iter().filter(|word| has_word(&lower, word)) {
+            let place = format!("{}:{number}: `{word}`", name(path));
+            found.entry(name(path)).or_default().push(place);
+        }
+    };
+    for path in documents() {
+        for (number, line) in read(&path).lines().enumerate() {
+            look(&path, number + 1, line);
+        }
+    }
+    for path in published().iter().flat_map(|folder| files(&folder.join("src"), "rs")) {
+        let text = read(&path);
+        for (number, docs) in public_items(&text) {
+            let line = text.lines().nth(number - 1).unwrap_or_default();
+            let words = line.split(['(', '{', '=', ':']).next().unwrap_or_default();
+            look(&path, number, &words.replace('_', " "));
+            docs.iter().for_each(|(number, line)| look(&path, *number, line));
+        }
+    }
+    report_beyond("Words that are banned (docs/NOTATION.md, second part)", "word", &found);
+}
+
+/// The sentences of a Markdown text with the number of their paragraph's first line: code blocks and headings left out, code spans as
+/// one word, each cell of a table by itself.
+fn sentences(text: &str) -> Vec<(usize, String)> {
+    let (mut found, mut paragraph, mut first, mut is_code) = (Vec::new(), String::new(), 0, false);
+    let mut end = |paragraph: &mut String, first: usize| {
+        found.extend(split(paragraph).into_iter().map(|sentence| (first, sentence)));
+        paragraph.clear();
+    };
+    for (number, line) in text.lines().enumerate() {
+        let line = line.trim();
+        let is_fence = line.starts_with("```");
+        let begins =
+            is_fence || is_code || line.is_empty() || line.starts_with(['#', '|', '!', '<']);
+        let item = ["- ", "* "].iter().find_map(|mark| line.strip_prefix(mark)).or_else(|| {
+            let rest = line.trim_start_matches(|c: char| c.is_ascii_digit());
+            rest.strip_prefix(". ").filter(|_| rest.len() < line.len())
+        });
+        if begins || item.is_some() {
+            end(&mut paragraph, first);
+        }
+        is_code ^= is_fence;
+        if line.starts_with('|') && !is_code {
+            line.split('|').for_each(|cell| end(&mut cell.replace("; ", ". "), number + 1));
+        }
+        if begins {
+            continue;
+        }
+        if paragraph.is_empty() {
+            first = number + 1;
+        }
+        paragraph += item.unwrap_or(line);
+        paragraph.push(' ');
+    }
+    end(&mut paragraph, first);
+    found
+}
+
+/// The sentences of a paragraph. A sentence ends with a full stop, a question or an exclamation, and a space.
+fn split(paragraph: &str) -> Vec<String> {
+    let spans = paragraph.split('`').enumerate();
+    let plain: String = spans.map(|(i, part)| if i % 2 == 0 { part } else { "Code" }).collect();
+    let mut found = vec![String::new()];
+    for word in plain.split_whitespace() {
+        let last = found.last_mut().expect("there is one");
+        last.push_str(word);
+        last.push(' ');
+        if word.trim_end_matches([')', '*', '"']).ends_with(['.', '!', '?']) {
+            found.push(String::new());
+        }
+    }
+    found
+}
+
+#[test]
+fn sentences_of_documents_are_short() {
+    let mut found: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for path in documents().iter().filter(|path| path.extension().is_some_and(|e| e == "md")) {
+        for (number, sentence) in sentences(&read(path)) {
+            let is_word = |word: &&str| word.contains(char::is_alphanumeric);
+            let words = sentence.split_whitespace().filter(is_word).count();
+            if words > MAX_WORDS {
+                let start: String = sentence.chars().take(60).collect();
+                let line = format!("{}:{number}: {words} words: {start}...", name(path));
+                found.entry(name(path)).or_default().push(line);
+            }
+        }
+    }
+    report_beyond("A sentence has at most 25 words", "sentence", &found);
+}
+
+#[test]
+fn paths_in_documents_exist() {
+    let mut findings = Vec::new();
+    let tops: BTreeSet<String> = super::entries(&root()).iter().map(|path| name(path)).collect();
+    let mut paths = documents();
+    paths.extend(["ARCHITECTURE.md", "CONTRIBUTING.md"].map(|file| root().join(file)));
+    for path in paths {
+        for (number, line) in read(&path).lines().enumerate() {
+            for span in line.split('`').skip(1).step_by(2) {
+                let top = span.split('/').next().unwrap_or_default();
+                let is_path = span.contains('/')
+                    && tops.contains(top)
+                    && top != "target"
+                    && span.chars().all(|c| c.is_alphanumeric() || "/._-".contains(c));
+                if is_path
+                    && !root().join(span).exists()
+                    && !root().join(span).with_extension("rs").exists()
+                {
+                    findings.push(format!("{}:{}: `{span}`", name(&path), number + 1));
+                }
+            }
+        }
+    }
+    report("A path in backticks exists", &findings);
+}
+
+#[test]
+fn public_constants_say_what_they_limit() {
+    let mut findings = Vec::new();
+    for path in published().iter().flat_map(|folder| files(&folder.join("src"), "rs")) {
+        let text = read(&path);
+        for (number, docs) in public_items(&text) {
+            let line = text.lines().nth(number - 1).unwrap_or_default().trim_start();
+            let Some(constant) = line.strip_prefix("pub const ").filter(|c| !c.starts_with("fn "))
+            else {
+                continue;
+            };
+            let constant = constant.split(':').next().unwrap_or_default();
+            if docs.is_empty() || VAGUE.contains(&constant) {
+                findings.push(format!("{}:{number}: {constant}", name(&path)));
+            }
+        }
+    }
+    report("A public constant has its documentation and says what it is", &findings);
+}
+
+/// Names of public types that each crate may have: they are read with the crate's name before them.
+const OF_A_CRATE: [&str; 3] = ["Options", "Workspace", "History"];
+
+#[test]
+fn public_type_names_occur_once() {
+    let mut owners: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for folder in published() {
+        for path in files(&folder.join("src"), "rs") {
+            for line in read(&path).lines() {
+                let rest = ["pub struct ", "pub enum ", "pub trait ", "pub type "]
+                    .iter()
+                    .find_map(|kind| line.strip_prefix(kind));
+                let is_part = |c: char| c.is_alphanumeric() || c == '_';
+                let Some(rest) = rest else { continue };
+                let end = rest.find(|c| !is_part(c)).unwrap_or(rest.len());
+                owners.entry(rest[..end].to_owned()).or_default().insert(name(&path));
+            }
+        }
+    }
+    owners.retain(|name, paths| paths.len() > 1 && !OF_A_CRATE.contains(&name.as_str()));
+    let found = owners.into_iter().map(|(name, paths)| {
+        let places = paths.into_iter().map(|path| format!("{name}: {path}")).collect();
+        (name, places)
+    });
+    report_beyond("A public type's name occurs once", "type", &found.collect());
+}
+
+#[test]
+fn text_is_read_as_meant() {
+    let text = "# Title\n\nOne `a b. c` here. Two\nlines; more? Yes.\n\n```sh\ncode. code\n```\n- item one.\n| cell one | cell; two |\n";
+    let found: Vec<_> = sentences(text).into_iter().filter(|(_, s)| !s.is_empty()).collect();
+    let words: Vec<_> = found.iter().map(|(line, s)| (*line, s.trim_end())).collect();
+    let expected = [
+        (3, "One Code here."),
+        (3, "Two lines; more?"),
+        (3, "Yes."),
+        (9, "item one."),
+        (10, "cell one"),
+        (10, "cell."),
+        (10, "two"),
+    ];
+    assert_eq!(words, expected);
+    assert!(has_word("as it is told, so", "told") && !has_word("untold", "told"));
+    let item = "/// Doc.\n#[derive(\n    Debug\n)]\npub struct A;\n/// Private.\nfn b() {}\n";
+    assert_eq!(public_items(item), [(5, vec![(1, "/// Doc.")])]);
+}
