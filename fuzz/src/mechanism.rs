@@ -1,6 +1,7 @@
 //! Random mechanisms as scene text: any joint between any two bodies, as if at random by someone who knows the format and no mechanics.
 
 use crate::Dice;
+use mbs::FORMULATIONS;
 use std::fmt::Write;
 
 /// Joints, and what they need besides a place: so many axes.
@@ -14,8 +15,6 @@ const JOINTS: [(&str, usize); 8] = [
     ("weld", 0),
     ("free", 0),
 ];
-const FORMULATIONS: [&str; 7] =
-    ["auto", "index-1", "index-3", "multi-index", "classical", "state-space", "recursive"];
 
 /// Numbers of a mechanism of so many dimensions.
 struct Space {

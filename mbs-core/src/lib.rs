@@ -14,7 +14,11 @@ pub mod control;
 #[cfg(feature = "alloc")]
 pub mod dense;
 pub mod elements;
+#[cfg(feature = "alloc")]
+pub mod formulation;
 mod forward;
+#[cfg(feature = "alloc")]
+pub mod history;
 #[cfg(feature = "alloc")]
 pub mod inputs;
 pub mod integrator;

@@ -19,7 +19,7 @@ use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross};
 use mbs_core::ode::{Adaptive, Extrapolation, Method, Radau, Tableau};
-use mbs_core::step::{StepError, StepReport};
+use mbs_core::step::{Step, StepError, StepReport};
 
 /// Advances `state` by one step of length `dt` [s] of the trapezoidal rule or another of the Newmark family.
 ///
@@ -34,6 +34,7 @@ pub fn step<T: Real, S: Space<T>>(
     state: &mut TreeState<T>,
     workspace: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
+    check(dt, options)?;
     model.take_inputs(options, state, workspace)?;
     let m = model.mechanism();
     let mut s = workspace.store();
@@ -61,6 +62,7 @@ pub fn bounded_step<T: Real, S: Space<T>>(
     state: &mut TreeState<T>,
     workspace: &mut Workspace<T, S>,
 ) -> Result<BoundedReport<T>, StepError> {
+    check(dt, options)?;
     model.take_inputs(options, state, workspace)?;
     let m = model.mechanism();
     let mut s = workspace.store();
@@ -85,6 +87,7 @@ pub fn rk4_step<T: Real, S: Space<T>>(
     state: &mut TreeState<T>,
     workspace: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
+    check(dt, options)?;
     model.take_inputs(options, state, workspace)?;
     let m = model.mechanism();
     let (mut s, scratch) = workspace.parts();
@@ -108,9 +111,6 @@ pub fn rk4_step<T: Real, S: Space<T>>(
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
-///
-/// # Panics
-/// If `dt` or the first step is not positive and finite.
 pub fn rk54_step<T: Real, S: Space<T>>(
     model: &TreeModel<T, S>,
     dt: T,
@@ -129,9 +129,6 @@ pub fn rk54_step<T: Real, S: Space<T>>(
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
-///
-/// # Panics
-/// If `dt` or the first step is not positive and finite.
 pub fn rk853_step<T: Real, S: Space<T>>(
     model: &TreeModel<T, S>,
     dt: T,
@@ -157,9 +154,6 @@ pub fn rk853_step<T: Real, S: Space<T>>(
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
-///
-/// # Panics
-/// If `dt` or the first step is not positive and finite.
 pub fn extrapolated_step<T: Real, S: Space<T>>(
     model: &TreeModel<T, S>,
     dt: T,
@@ -181,9 +175,6 @@ pub fn extrapolated_step<T: Real, S: Space<T>>(
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
-///
-/// # Panics
-/// If `dt` or the first step is not positive and finite.
 pub fn radau5_step<T: Real, S: Space<T>>(
     model: &TreeModel<T, S>,
     dt: T,
@@ -204,6 +195,7 @@ fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     slot: impl Fn(&mut Explicit<T>) -> &mut Option<Adaptive<T, M>>,
     method: impl FnOnce() -> M,
 ) -> Result<StepReport<T>, StepError> {
+    check(dt, options)?;
     model.take_inputs(options, state, workspace)?;
     let first = options.first_step.unwrap_or(dt);
     let known = slot(&mut workspace.explicit).take();
@@ -219,6 +211,12 @@ fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     let power = own(ledger::power(&m, &mut s));
     take(model, (dt, power), &s, state);
     Ok(report)
+}
+
+/// Is the step one that can be made, with options in their ranges? The tree's length has no part in it.
+fn check<T: Real>(dt: T, options: &Options<T>) -> Result<(), StepError> {
+    Step { dt, length: T::ONE }.checked()?;
+    Ok(options.validate()?)
 }
 
 /// The work of an explicit step.

@@ -8,7 +8,7 @@
 //! its sign does so for a step or two; one that friction throws back does so step after step, and what holds by friction creeps at a
 //! rate that is none of the law's. Implicit methods, and those that control their error, follow the rise.
 
-use crate::choice::{FormulationKind, IntegratorKind};
+use crate::choice::IntegratorKind;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
@@ -41,8 +41,7 @@ pub(crate) struct Frictions {
 impl Frictions {
     /// Those of a scene; none where the method of the settings follows them.
     pub(crate) fn new<T: Real>(scene: &Scene<T>, settings: &Settings) -> Self {
-        let is_explicit = settings.formulation == FormulationKind::Recursive
-            && settings.integrator == IntegratorKind::Rk4;
+        let is_explicit = settings.integrator == IntegratorKind::Rk4;
         let friction = |(effect, e): (usize, &Effect<T>)| match &e.kind {
             EffectKind::Friction { joint, coulomb, r#static, regularisation, .. } if e.enabled => {
                 let (joint, regularisation) = (*joint, regularisation.to_f64());

@@ -10,7 +10,6 @@ mod control;
 mod digits;
 pub mod doctor;
 mod document;
-mod engine;
 pub mod estimate;
 pub mod explain;
 pub mod export;
@@ -20,6 +19,7 @@ pub mod folder;
 mod friction;
 mod interrupt;
 mod journal;
+mod methods;
 mod modes;
 mod names;
 mod precision;
@@ -49,21 +49,19 @@ pub use mbs_sparse as sparse;
 pub use mbs_statespace as statespace;
 
 pub use checkpoint::{Checkpoint, CheckpointError, FILE as CHECKPOINT, Keeping};
-pub use choice::{
-    FORMULATIONS, FormulationKind, INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
-    StepRule,
-};
+pub use choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES, StepRule};
 pub use document::{run_document, run_document_kept};
-pub use engine::{Engine, Index};
 pub use interrupt::Interrupt;
+pub use mbs_core::formulation::{Formulation, SwitchError};
+pub use methods::{FORMULATIONS, FormulationKind, PenaltyUse, Row};
 pub use modes::{Mode, Modes, Place};
 pub use names::Names;
 pub use precision::PrecisionError;
 pub use rest::LeftOut;
 pub use run::{Outcome, Progress, run, run_kept};
 pub use settings::{Overrides, Settings, SettingsError};
-pub use simulation::{Refusal, Simulation};
+pub use simulation::Simulation;
 pub use statics::{Moved, Search, Still, equilibrium_start, settle};
 pub use stop::{INTERRUPTED, StopError};
 pub use tilt::AlmostDependent;
-pub use tree::{InSpace, Plane, Tree};
+pub use tree::{InSpace, Plane};

@@ -1,7 +1,8 @@
 //! Why a run cannot be paced as it is asked for.
 
+use crate::methods::FormulationKind;
 use crate::precision::PrecisionError;
-use crate::simulation::Refusal;
+use mbs_core::formulation::SwitchError;
 use mbs_scene::{readable, suggestion};
 
 /// A pacing that is refused.
@@ -34,7 +35,7 @@ pub enum PacingError {
         /// Its name.
         name: String,
         /// Why.
-        why: Refusal,
+        why: SwitchError,
     },
     /// Nothing that may be left out saves time.
     NoLadder,
@@ -60,9 +61,9 @@ impl PacingError {
                 "write a shorter --step, so that a period has more of them, or name effects"
                     .to_owned()
             }
-            Self::Fixed { why: Refusal::FormulationKind, .. } => {
-                "take --formulation index-3, index-1, multi-index or recursive, or --degrade steps"
-                    .to_owned()
+            Self::Fixed { why: SwitchError::FormulationKind, .. } => {
+                let names = FormulationKind::names(|row| row.switches, "or");
+                format!("take --formulation {names}, or --degrade steps")
             }
             Self::Fixed { .. } => "name another effect, or write steps".to_owned(),
             Self::NoLadder => {
@@ -97,7 +98,7 @@ impl core::fmt::Display for PacingError {
             Self::Steps { .. } => {
                 write!(f, "degrade: a period has not steps enough to make them longer")
             }
-            Self::Fixed { name, why: Refusal::FormulationKind } => {
+            Self::Fixed { name, why: SwitchError::FormulationKind } => {
                 write!(f, "degrade: this formulation cannot leave `{name}` out while it runs")
             }
             Self::Fixed { name, .. } => write!(

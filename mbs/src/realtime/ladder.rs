@@ -3,9 +3,10 @@
 use super::error::PacingError;
 use crate::run::{Rung, Track};
 use crate::settings::Settings;
-use crate::simulation::{Refusal, Simulation};
+use crate::simulation::Simulation;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
+use mbs_core::formulation::SwitchError;
 use mbs_core::scene::Scene;
 use mbs_scene::Degraded;
 
@@ -37,7 +38,7 @@ impl<T: Real> Sought<'_, T> {
     }
 
     /// Can the running scene change between everything and this level, and back?
-    pub(super) fn changes<const D: usize>(&self, rung: &Rung) -> Result<(), Refusal>
+    pub(super) fn changes<const D: usize>(&self, rung: &Rung) -> Result<(), SwitchError>
     where
         Plane<D>: InSpace<T>,
     {
@@ -47,7 +48,7 @@ impl<T: Real> Sought<'_, T> {
         // What does not start is told by the run itself.
         let Ok(full) = Simulation::<T, D>::new(self.scene, self.settings) else { return Ok(()) };
         let less = Simulation::<T, D>::new(&rung.scene(self.scene), self.settings);
-        less.map_err(|_| Refusal::Coordinates)?.takes_over(&full)
+        less.map_err(|_| SwitchError::Coordinates)?.takes_over(&full)
     }
 }
 

@@ -8,12 +8,13 @@ use super::{Outcome, Run, multiple};
 use crate::realtime::summary;
 use crate::recorder::Keep;
 use crate::settings::Settings;
-use crate::simulation::{Refusal, Simulation};
+use crate::simulation::Simulation;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use core::ops::ControlFlow;
 use core::time::Duration;
 use mbs_core::Real;
+use mbs_core::formulation::SwitchError;
 use mbs_core::outputs::Reactions;
 use mbs_core::scene::Scene;
 use mbs_realtime::{Clock, Pacer, Task, Work};
@@ -66,14 +67,14 @@ impl Rung {
 /// Runs a scene at the pace of a clock; `rungs` are the levels, the first that of everything.
 ///
 /// # Errors
-/// [`Refusal`] where a level cannot take the state over, with the effect that it was the last to leave out.
+/// [`SwitchError`] where a level cannot take the state over, with the effect that it was the last to leave out.
 pub(crate) fn paced<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
     track: &Track<T>,
     (pacer, rungs): (&mut Pacer, &[Rung]),
     clock: &mut impl Clock,
-) -> Result<Outcome, (usize, Refusal)>
+) -> Result<Outcome, (usize, SwitchError)>
 where
     Plane<D>: InSpace<T>,
 {
@@ -111,7 +112,7 @@ where
 /// Why a level is not there.
 enum Unready {
     /// It cannot take the state over; the effect that was last left out.
-    Refused((usize, Refusal)),
+    Refused((usize, SwitchError)),
     /// It does not start.
     Stopped(Box<StopError>),
 }

@@ -5,7 +5,7 @@ use crate::common;
 use crate::common::allocations;
 use mbs::realtime::{Clock, Degrade, Overrun, Pacing, PacingError, Quiet, run_document};
 use mbs::scene_file::SceneFile;
-use mbs::{Outcome, Overrides, Refusal, Settings, Simulation};
+use mbs::{Outcome, Overrides, Settings, Simulation, SwitchError};
 use std::cell::Cell;
 use std::time::Duration;
 
@@ -363,7 +363,7 @@ fn what_cannot_be_left_out_while_a_scene_runs_is_refused() {
     let fixed = |why| Some(PacingError::Fixed { name: "spring".to_owned(), why });
     for formulation in ["classical", "state-space"] {
         let found = refused(&slider(), formulation, &["spring"], 4e-3);
-        assert_eq!(found, fixed(Refusal::FormulationKind), "{formulation}");
+        assert_eq!(found, fixed(SwitchError::FormulationKind), "{formulation}");
         assert_eq!(refused(&slider(), formulation, &["steps"], 4e-3), None, "{formulation}");
     }
     // A torsion spring counts turns: while it was gone nobody would.
@@ -378,7 +378,7 @@ fn what_cannot_be_left_out_while_a_scene_runs_is_refused() {
         .replace("free_length = 2.0", "free_value = 0.0");
     let turning =
         SceneFile::parse(&text, "turning.toml").unwrap_or_else(|e| panic!("{}", e.render()));
-    assert_eq!(refused(&turning, "index-3", &["spring"], 4e-3), fixed(Refusal::Coordinates));
+    assert_eq!(refused(&turning, "index-3", &["spring"], 4e-3), fixed(SwitchError::Coordinates));
     let steps = |is_controlled| Some(PacingError::Steps { is_controlled });
     assert_eq!(refused(&slider(), "index-3", &["steps"], 1e-3), steps(false));
     assert_eq!(refused(&slider(), "index-3", &["steps", "steps", "steps"], 4e-3), steps(false));
