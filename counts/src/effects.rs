@@ -1,11 +1,13 @@
-//! One effect of each kind.
+//! One effect of each kind: chosen ones, and examples of kinds that have none here.
 
+use mbs_core::effects::{EFFECTS, Places, Row};
 use mbs_core::laws::body::{Action, BodyMotion};
 use mbs_core::laws::own::{ScalarLaw, UserBodyLaw, UserScalarLaw, WrenchLaw};
 use mbs_core::laws::scalar::Measure;
 use mbs_core::scene::{
-    AxisFrame, BodyId, CalspanCoefficients, Dimension, EffectKind, JointId, PolynomialPiece,
-    Signal, UserLaw,
+    Actuator, AeroDrag, AxisFrame, BodyId, BodyTorque, Bumper, Bushing, CalspanCoefficients,
+    Dimension, EffectKind, Force, Friction, JointId, JointTorque, Limit, Own, Polynomial,
+    PolynomialPiece, Signal, SpeedHold, SpringDamper, Tire, TorsionSpring, UserLaw,
 };
 
 /// The coupler, its centre, and a pair of points on the ground and on the rocker.
@@ -16,14 +18,22 @@ const BODIES: [BodyId; 2] = [BodyId::Ground, BodyId::Body(2)];
 const POINTS: [[f64; 3]; 2] = [[0.5, 0.0, 0.0], [2.0, 1.0, 0.5]];
 
 /// Name and data of one effect of each kind.
-pub(crate) fn all(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
+pub(crate) fn all(dimension: Dimension) -> Vec<(String, EffectKind<f64>)> {
     let depth = if dimension == Dimension::Planar { 0.0 } else { 1.0 };
     let flat = |[x, y, z]: [f64; 3]| [x, y, z * depth];
     let mut all = springs_and_forces(POINTS.map(flat), flat(CENTER));
     let six = [1.0, 1.0, depth, depth, depth, 1.0];
     all.extend(between(POINTS.map(flat), six));
     all.extend(on_a_body(flat(CENTER), dimension));
-    all
+    let (pair, body) = ((BODIES, POINTS.map(flat)), (COUPLER, flat(CENTER)));
+    let places = Places { pair, body, joint: CRANK };
+    let is_chosen = |row: &Row| all.iter().any(|(_, kind)| kind.row() == row);
+    let others = EFFECTS.iter().enumerate().filter(|(_, row)| !is_chosen(row));
+    let examples = others.filter_map(|(i, row)| {
+        Some((row.module.replace('_', "-"), EffectKind::example(i, &places)?))
+    });
+    let examples: Vec<_> = examples.collect();
+    all.into_iter().map(|(name, kind)| (name.to_owned(), kind)).chain(examples).collect()
 }
 
 /// What every build has.
@@ -34,16 +44,33 @@ fn springs_and_forces(points: [[f64; 3]; 2], at: [f64; 3]) -> Vec<(&'static str,
     vec![
         (
             "spring-damper",
-            EffectKind::SpringDamper { bodies, points, stiffness, damping, free_length: 1.0 },
+            EffectKind::SpringDamper(SpringDamper {
+                bodies,
+                points,
+                stiffness,
+                damping,
+                free_length: 1.0,
+            }),
         ),
         (
             "torsion-spring",
-            EffectKind::TorsionSpring { joint: CRANK, stiffness, damping, free_value: 0.0 },
+            EffectKind::TorsionSpring(TorsionSpring {
+                joint: CRANK,
+                stiffness,
+                damping,
+                free_value: 0.0,
+            }),
         ),
-        ("force", EffectKind::Force { body, at, course: course.clone(), frame: AxisFrame::Body }),
-        ("body-torque", EffectKind::BodyTorque { body, course: course.clone() }),
-        ("joint-torque", EffectKind::JointTorque { joint: CRANK, course: course.clone() }),
-        ("actuator", EffectKind::Actuator { bodies, points, course }),
+        (
+            "force",
+            EffectKind::Force(Force { body, at, course: course.clone(), frame: AxisFrame::Body }),
+        ),
+        ("body-torque", EffectKind::BodyTorque(BodyTorque { body, course: course.clone() })),
+        (
+            "joint-torque",
+            EffectKind::JointTorque(JointTorque { joint: CRANK, course: course.clone() }),
+        ),
+        ("actuator", EffectKind::Actuator(Actuator { bodies, points, course })),
     ]
 }
 
@@ -56,36 +83,45 @@ fn between(points: [[f64; 3]; 2], six: [f64; 6]) -> Vec<(&'static str, EffectKin
     vec![
         (
             "polynomial",
-            EffectKind::Polynomial { bodies, points, direction: None, of_rate: false, pieces },
+            EffectKind::Polynomial(Polynomial {
+                bodies,
+                points,
+                direction: None,
+                of_rate: false,
+                pieces,
+            }),
         ),
-        ("bumper", EffectKind::Bumper { bodies, points, stiffness, damping, clearance: 0.1 }),
-        ("limit", EffectKind::Limit { joint, lower: -1.0, upper: 1.0, stiffness, damping }),
+        (
+            "bumper",
+            EffectKind::Bumper(Bumper { bodies, points, stiffness, damping, clearance: 0.1 }),
+        ),
+        ("limit", EffectKind::Limit(Limit { joint, lower: -1.0, upper: 1.0, stiffness, damping })),
         (
             "friction",
-            EffectKind::Friction {
+            EffectKind::Friction(Friction {
                 joint,
                 coulomb: 1.0,
                 r#static: 1.2,
                 stribeck: 0.1,
                 viscous: 0.1,
                 regularisation: 0.01,
-            },
+            }),
         ),
         (
             "bushing",
-            EffectKind::Bushing {
+            EffectKind::Bushing(Bushing {
                 bodies,
                 at: points[1],
                 stiffness: six.map(|share| share * stiffness),
                 damping: six.map(|share| share * damping),
-            },
+            }),
         ),
         (
             "own-length",
-            EffectKind::Own {
+            EffectKind::Own(Own {
                 law: UserLaw::Length { bodies, points, law: UserScalarLaw::of::<Steady>() },
                 course: Signal::Constant([1.0; 3]),
-            },
+            }),
         ),
     ]
 }
@@ -95,20 +131,20 @@ fn on_a_body(at: [f64; 3], dimension: Dimension) -> Vec<(&'static str, EffectKin
     let body = COUPLER;
     let axis = (dimension == Dimension::Spatial).then_some([0.0, 1.0, 0.0]);
     vec![
-        ("drag", EffectKind::AeroDrag { body, at, area_coefficient: 1.0, density: 1.2 }),
+        ("drag", EffectKind::AeroDrag(AeroDrag { body, at, area_coefficient: 1.0, density: 1.2 })),
         (
             "speed-hold",
-            EffectKind::SpeedHold {
+            EffectKind::SpeedHold(SpeedHold {
                 body,
                 direction: [1.0, 0.0, 0.0],
                 speed: 1.0,
                 gain: 10.0,
                 limit: 10.0,
-            },
+            }),
         ),
         (
             "tire",
-            EffectKind::Tire {
+            EffectKind::Tire(Tire {
                 body,
                 center: at,
                 axis,
@@ -117,11 +153,11 @@ fn on_a_body(at: [f64; 3], dimension: Dimension) -> Vec<(&'static str, EffectKin
                 damping: 1.0,
                 rolling_resistance: 0.01,
                 side: axis.map(|_| CalspanCoefficients::iltis()),
-            },
+            }),
         ),
         (
             "own-body",
-            EffectKind::Own {
+            EffectKind::Own(Own {
                 law: UserLaw::Body {
                     body,
                     at,
@@ -129,7 +165,7 @@ fn on_a_body(at: [f64; 3], dimension: Dimension) -> Vec<(&'static str, EffectKin
                     law: UserBodyLaw::of::<Steady>(),
                 },
                 course: Signal::Constant([1.0; 3]),
-            },
+            }),
         ),
     ]
 }

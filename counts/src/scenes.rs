@@ -12,7 +12,7 @@ pub(crate) fn with(dimension: Dimension, effect: &str, switch: &str) -> Scene<f6
     let enabled = switch == "on";
     let effects = effects::all(dimension).into_iter();
     let effects = effects.filter(|(name, _)| *name == effect && switch != "out");
-    scene.effects.extend(effects.map(|(name, kind)| Effect { name: name.into(), enabled, kind }));
+    scene.effects.extend(effects.map(|(name, kind)| Effect { name, enabled, kind }));
     if effect == "guide" {
         let law = Motion::Sine { amplitude: 0.5, frequency: 1.0, phase: 0.0 };
         scene.initials.clear();

@@ -13,6 +13,7 @@ pub mod cluster;
 pub mod control;
 #[cfg(feature = "alloc")]
 pub mod dense;
+pub mod effects;
 pub mod elements;
 mod forward;
 #[cfg(feature = "alloc")]

@@ -4,13 +4,8 @@ use crate::inputs::{Motion, SignalLaw};
 use crate::model::Model;
 use mbs_core::Real;
 use mbs_core::laws::Part;
-#[cfg(feature = "tire")]
-use mbs_core::laws::body::BodyLaw;
-#[cfg(feature = "tire")]
-use mbs_core::laws::road::Feature;
-use mbs_core::laws::scalar::Law;
 use mbs_recursive::link::Kind;
-use mbs_recursive::loads::{Gauge, Load, OnBody};
+use mbs_recursive::loads::{Gauge, Load};
 use mbs_recursive::mechanism::Mechanism;
 use mbs_recursive::plan::Span;
 use mbs_recursive::space::Space;
@@ -316,55 +311,28 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                         Gauge::Rotation { number } => S::DIMENSION == 3 && *number < 3,
                         Gauge::Length { .. } | Gauge::Along { .. } => true,
                     };
-                    links.iter().all(|&link| is_link(link)) && has_angle && self.is_law(law)
+                    links.iter().all(|&link| is_link(link))
+                        && has_angle
+                        && law.fits(&self.m.tables, self.sizes.courses)
                 }
                 Load::Angle { link, law } => {
                     let joint = self.m.links.get(*link as usize);
                     let has_one = joint.is_some_and(|link| {
                         link.kind.is_guided() || link.kind.n_freedoms::<T, S>() == 1
                     });
-                    has_one && self.is_law(law)
+                    has_one && law.fits(&self.m.tables, self.sizes.courses)
                 }
                 Load::Constant { link, .. } => is_link(*link),
                 Load::Force { link, course, .. } | Load::Torque { link, course } => {
                     is_link(*link) && is_course(*course)
                 }
-                Load::OnBody(load) => is_link(load.link) && self.is_body_law(load),
+                Load::OnBody(load) => {
+                    is_link(load.link) && load.law.fits(&self.m.tables, self.sizes.courses)
+                }
             };
             ensure(holds, "effects", i)?;
         }
         Ok(())
-    }
-
-    fn is_law(&self, law: &Law<T>) -> bool {
-        match law {
-            Law::Torque { course } => (*course as usize) < self.sizes.courses,
-            #[cfg(feature = "polynomial")]
-            Law::Polynomial { pieces, .. } => is_part(*pieces, self.m.tables.pieces.len()),
-            _ => true,
-        }
-    }
-
-    #[cfg_attr(not(feature = "tire"), allow(clippy::unused_self, reason = "tires have roads"))]
-    fn is_body_law(&self, load: &OnBody<T, S>) -> bool {
-        match &load.law {
-            #[cfg(feature = "tire")]
-            BodyLaw::Tire(tire) => {
-                let tables = &self.m.tables;
-                let features = tire.road.of(tables.features);
-                let are_splines = features.iter().all(|feature| match feature {
-                    Feature::Spline(part) => {
-                        is_part(*part, tables.knots.0.len()) && is_part(*part, tables.knots.1.len())
-                    }
-                    _ => true,
-                });
-                is_part(tire.road, tables.features.len())
-                    && are_splines
-                    && tire.travel.is_none_or(|course| (course as usize) < self.sizes.courses)
-                    && tire.up < 3
-            }
-            _ => true,
-        }
     }
 
     fn prescriptions(&self, model: &Model<'_, T, S>) -> Result<(), LoadError> {

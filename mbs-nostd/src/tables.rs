@@ -6,11 +6,8 @@ use crate::model::{Beginning, Model};
 use crate::record::{Axes, Reader, Record};
 use heapless::Vec;
 use mbs_core::Real;
-use mbs_core::laws::Supplies;
-#[cfg(feature = "polynomial")]
-use mbs_core::laws::polynomial::Piece;
-#[cfg(feature = "tire")]
-use mbs_core::laws::road::Feature;
+use mbs_core::laws::entry::Entry;
+use mbs_core::laws::{CurvatureEntry, FeatureEntry, KnotEntry, LawTables, PieceEntry, Supplies};
 use mbs_recursive::link::Link;
 use mbs_recursive::loads::Load;
 use mbs_recursive::loops::Loops;
@@ -50,12 +47,9 @@ pub struct Tables<
     couplings: Vec<Coupling, P>,
     updates: Vec<Update, P>,
     loads: Vec<Load<T, S>, E>,
-    #[cfg(feature = "polynomial")]
-    pieces: Vec<Piece<T>, X>,
-    #[cfg(feature = "tire")]
-    features: Vec<Feature<T>, X>,
-    #[cfg(feature = "tire")]
-    road: (Vec<[T; 2], X>, Vec<T, X>),
+    pieces: Vec<PieceEntry<T>, X>,
+    features: Vec<FeatureEntry<T>, X>,
+    road: (Vec<KnotEntry<T>, X>, Vec<CurvatureEntry<T>, X>),
     guides: Vec<Motion<T>, I>,
     courses: Vec<SignalLaw<T>, I>,
     knots: (Vec<[T; 2], X>, Vec<T, X>),
@@ -77,20 +71,30 @@ fn list<X: Record, const N: usize>(
     of: &'static str,
     from: &mut Reader<'_>,
 ) -> Result<Vec<X, N>, LoadError> {
+    list_by(of, from, X::read)
+}
+
+/// Reads a list of what laws refer to; in a build without its effect the list must be empty.
+fn entries<T: Real + Record, X: Entry<T>, const N: usize>(
+    of: &'static str,
+    from: &mut Reader<'_>,
+) -> Result<Vec<X, N>, LoadError> {
+    list_by(of, from, X::of)
+}
+
+#[inline(always)]
+fn list_by<'a, X, const N: usize>(
+    of: &'static str,
+    from: &mut Reader<'a>,
+    read: impl Fn(&mut Reader<'a>) -> Result<X, LoadError>,
+) -> Result<Vec<X, N>, LoadError> {
     let n = u32::read(from)? as usize;
     let mut list = Vec::new();
     for _ in 0..n {
-        let entry = X::read(from)?;
         let too_many = |_| LoadError::Capacity { of, needed: n, capacity: N };
-        list.push(entry).map_err(too_many)?;
+        list.push(read(from)?).map_err(too_many)?;
     }
     Ok(list)
-}
-
-/// A list that this build has no use for must be empty.
-#[cfg(not(all(feature = "polynomial", feature = "tire")))]
-fn nothing(from: &mut Reader<'_>) -> Result<(), LoadError> {
-    if u32::read(from)? == 0 { Ok(()) } else { Err(from.fault(4)) }
 }
 
 impl<
@@ -133,25 +137,13 @@ impl<
             couplings: list("couplings", from)?,
             updates: list("updates", from)?,
             loads: list("effects", from)?,
-            #[cfg(feature = "polynomial")]
-            pieces: list("pieces", from)?,
-            #[cfg(feature = "tire")]
-            features: {
-                #[cfg(not(feature = "polynomial"))]
-                nothing(from)?;
-                list("parts of roads", from)?
-            },
-            #[cfg(feature = "tire")]
-            road: (list("knots of roads", from)?, list("knots of roads", from)?),
-            guides: {
-                #[cfg(not(any(feature = "polynomial", feature = "tire")))]
-                nothing(from)?;
-                #[cfg(not(feature = "tire"))]
-                for _ in 0..3 {
-                    nothing(from)?;
-                }
-                list("guides", from)?
-            },
+            pieces: entries::<T, _, X>("pieces", from)?,
+            features: entries::<T, _, X>("parts of roads", from)?,
+            road: (
+                entries::<T, _, X>("knots of roads", from)?,
+                entries::<T, _, X>("knots of roads", from)?,
+            ),
+            guides: list("guides", from)?,
             courses: list("courses", from)?,
             knots: (list("knots", from)?, list("knots", from)?),
             course_rows: list("rows of courses", from)?,
@@ -188,17 +180,11 @@ impl<
             couplings: &self.couplings,
             updates: &self.updates,
         };
-        #[allow(unused_mut, reason = "some effects have tables")]
-        let mut tables = Supplies::courses(&[]);
-        #[cfg(feature = "polynomial")]
-        {
-            tables.pieces = &self.pieces;
-        }
-        #[cfg(feature = "tire")]
-        {
-            tables.features = &self.features;
-            tables.knots = (&self.road.0, &self.road.1);
-        }
+        let tables = Supplies::courses(&[]).with(LawTables {
+            pieces: &self.pieces,
+            features: &self.features,
+            knots: (&self.road.0, &self.road.1),
+        });
         Model {
             mechanism: Mechanism {
                 links: &self.links,

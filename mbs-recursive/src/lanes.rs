@@ -10,7 +10,7 @@ use crate::space::Space;
 use crate::state::TreeState;
 use crate::tree::TreeModel;
 use mbs_core::real::Lanes;
-use mbs_core::scene::{EffectKind, Scene};
+use mbs_core::scene::Scene;
 
 impl<S: Space<Lanes<N>>, const N: usize> TreeModel<Lanes<N>, S> {
     /// The tree of a scene whose numbers are the same in all lanes, such as one that was read.
@@ -20,17 +20,7 @@ impl<S: Space<Lanes<N>>, const N: usize> TreeModel<Lanes<N>, S> {
     /// # Errors
     /// [`LanesError`] names what has branches that lanes would not take alike.
     pub fn in_lanes(scene: &Scene<Lanes<N>>) -> Result<Self, LanesError> {
-        let is_plain = |kind: &EffectKind<Lanes<N>>| {
-            matches!(
-                kind,
-                EffectKind::SpringDamper { .. }
-                    | EffectKind::TorsionSpring { .. }
-                    | EffectKind::Force { .. }
-                    | EffectKind::BodyTorque { .. }
-                    | EffectKind::JointTorque { .. }
-            )
-        };
-        let branching = scene.effects.iter().position(|e| e.enabled && !is_plain(&e.kind));
+        let branching = scene.effects.iter().position(|e| e.enabled && e.kind.row().has_branches);
         if let Some(effect) = branching {
             return Err(LanesError::Effect { effect });
         }

@@ -25,5 +25,5 @@ pub use write::{
     JointsByKind, LargestStep, MarginSummary, MethodChoice, MissingEffect, OutputChange, Outputs,
     Overrun, PilotReference, PilotReport, RealtimeSummary, Relative, RunError, RunSummary,
     SearchEnd, SecondLook, Simulated, Sizes, ThinRod, Times, TrialEntry, ViolationSummary,
-    append_steps, write_choice, write_overruns, write_steps,
+    WriteError, append_steps, to_toml, write_choice, write_overruns, write_steps,
 };

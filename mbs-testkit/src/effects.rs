@@ -1,9 +1,11 @@
 //! One mechanism, and every kind of effect on it: an arm on a hinge, a slider on the arm, and two loose bodies.
 
 use crate::scene;
+use mbs_core::effects::{EFFECTS, Places, Row};
 use mbs_core::scene::{
-    BodyId, CalspanCoefficients, Dimension, Effect, EffectKind, JointId, PolynomialPiece,
-    RoadFeature, Scene, Signal,
+    Actuator, AeroDrag, BodyId, Bumper, Bushing, CalspanCoefficients, Dimension, Effect,
+    EffectKind, Friction, JointId, Limit, Polynomial, PolynomialPiece, RoadFeature, Scene, Signal,
+    SpeedHold, Tire,
 };
 
 const SPATIAL: &str = r#"
@@ -128,13 +130,19 @@ fn polynomial(dimension: Dimension, direction: Option<[f64; 3]>, of_rate: bool) 
         vec![piece(-3.0, 0.5, &[-2.0, 4.0]), piece(0.5, 4.0, &[-4.0, 6.0, 0.0, 8.0])]
     };
     let direction = direction.map(|d| place(dimension, d));
-    EffectKind::Polynomial { bodies: BODIES, points: points(dimension), direction, of_rate, pieces }
+    EffectKind::Polynomial(Polynomial {
+        bodies: BODIES,
+        points: points(dimension),
+        direction,
+        of_rate,
+        pieces,
+    })
 }
 
 /// A bumper that begins to push after a clearance [m].
 fn bumper(dimension: Dimension, clearance: f64) -> EffectKind<f64> {
     let (bodies, points) = (BODIES, points(dimension));
-    EffectKind::Bumper { bodies, points, stiffness: 150.0, damping: 3.0, clearance }
+    EffectKind::Bumper(Bumper { bodies, points, stiffness: 150.0, damping: 3.0, clearance })
 }
 
 /// A bushing between the loose bodies.
@@ -142,24 +150,30 @@ fn bumper(dimension: Dimension, clearance: f64) -> EffectKind<f64> {
 pub fn bushing(dimension: Dimension, damping: f64) -> EffectKind<f64> {
     let damping = [1.0, 2.0, 3.0, 0.1, 0.2, 0.3].map(|c| c * damping);
     let stiffness = [50.0, 60.0, 70.0, 5.0, 6.0, 7.0];
-    EffectKind::Bushing { bodies: BODIES, at: points(dimension)[0], stiffness, damping }
+    EffectKind::Bushing(Bushing { bodies: BODIES, at: points(dimension)[0], stiffness, damping })
 }
 
 /// Stops of a joint.
 fn limit(joint: JointId, lower: f64, upper: f64) -> EffectKind<f64> {
-    EffectKind::Limit { joint, lower, upper, stiffness: 40.0, damping: 2.0 }
+    EffectKind::Limit(Limit { joint, lower, upper, stiffness: 40.0, damping: 2.0 })
 }
 
 fn friction(joint: JointId) -> EffectKind<f64> {
     let (coulomb, r#static, stribeck) = (1.0, 1.2, 0.2);
     let (viscous, regularisation) = (0.3, 0.1);
-    EffectKind::Friction { joint, coulomb, r#static, stribeck, viscous, regularisation }
+    EffectKind::Friction(Friction { joint, coulomb, r#static, stribeck, viscous, regularisation })
 }
 
 /// A drive of the left body.
 fn speed_hold(dimension: Dimension) -> EffectKind<f64> {
     let direction = place(dimension, [1.0, 0.1, -0.2]);
-    EffectKind::SpeedHold { body: BODIES[0], direction, speed: 1.2, gain: 8.0, limit: 5.0 }
+    EffectKind::SpeedHold(SpeedHold {
+        body: BODIES[0],
+        direction,
+        speed: 1.2,
+        gain: 8.0,
+        limit: 5.0,
+    })
 }
 
 /// A wheel that is pressed into the road by 0.1 m; `rolls` with side force in space, and resistance.
@@ -175,7 +189,7 @@ pub fn tire(dimension: Dimension, rolls: bool) -> EffectKind<f64> {
         trail: iltis.trail.map(|x| x * 100.0),
         ..iltis
     };
-    EffectKind::Tire {
+    EffectKind::Tire(Tire {
         body: BODIES[0],
         center: place(dimension, [0.05, -0.2, 0.9]),
         axis: is_spatial.then_some([0.05, 1.0, 0.1]),
@@ -184,7 +198,7 @@ pub fn tire(dimension: Dimension, rolls: bool) -> EffectKind<f64> {
         damping: 5.0,
         rolling_resistance: if rolls { 0.1 } else { 0.0 },
         side: (rolls && is_spatial).then_some(side),
-    }
+    })
 }
 
 /// Every kind of effect, with what it is.
@@ -193,10 +207,14 @@ pub fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
     let course = Signal::Table(vec![(0.0, [3.0, 0.0, 0.0]), (1.0, [-8.0, 0.0, 0.0])]);
     let (bodies, ends) = (BODIES, points(dimension));
     let direction = Some([0.8, 0.3, 0.4]);
-    let drag =
-        EffectKind::AeroDrag { body: BODIES[1], at: ends[1], area_coefficient: 2.0, density: 1.2 };
-    vec![
-        ("actuator", EffectKind::Actuator { bodies, points: ends, course }),
+    let drag = EffectKind::AeroDrag(AeroDrag {
+        body: BODIES[1],
+        at: ends[1],
+        area_coefficient: 2.0,
+        density: 1.2,
+    });
+    let mut all = vec![
+        ("actuator", EffectKind::Actuator(Actuator { bodies, points: ends, course })),
         ("spring by a polynomial", polynomial(dimension, None, false)),
         ("damper by a polynomial", polynomial(dimension, None, true)),
         ("spring along a direction", polynomial(dimension, direction, false)),
@@ -213,5 +231,21 @@ pub fn every(dimension: Dimension) -> Vec<(&'static str, EffectKind<f64>)> {
         ("speed hold", speed_hold(dimension)),
         ("tire that is a spring", tire(dimension, false)),
         ("tire that rolls", tire(dimension, true)),
-    ]
+    ];
+    all.extend(examples(dimension, &all));
+    all
+}
+
+/// Examples of the kinds with a feature that are not among `all`.
+fn examples(
+    dimension: Dimension,
+    all: &[(&str, EffectKind<f64>)],
+) -> Vec<(&'static str, EffectKind<f64>)> {
+    let ends = points(dimension);
+    let places =
+        Places { pair: (BODIES, ends), body: (BODIES[1], ends[1]), joint: JointId::new(0) };
+    let is_missing =
+        |row: &Row| row.feature.is_some() && !all.iter().any(|(_, kind)| kind.row() == row);
+    let missing = EFFECTS.iter().enumerate().filter(|(_, row)| is_missing(row));
+    missing.filter_map(|(i, row)| Some((row.module, EffectKind::example(i, &places)?))).collect()
 }

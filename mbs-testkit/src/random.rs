@@ -3,7 +3,7 @@
 use crate::scenes::empty;
 use mbs_core::scene::{
     Body, BodyId, Dimension, Effect, EffectKind, Guide, Inertia, InitialCondition, InitialTarget,
-    Joint, JointId, JointKind, Motion, Scene,
+    Joint, JointId, JointKind, Motion, Scene, SpringDamper,
 };
 
 /// A small generator of the same numbers on every machine (xorshift64*), by its state, which is not zero.
@@ -291,12 +291,12 @@ fn spring(random: &mut Random, scene: &Scene<f64>, dimension: Dimension) -> Effe
     let at = plus(scene.bodies[last].center, random.point(dimension, 0.1));
     let bodies = [BodyId::Ground, BodyId::Body(last)];
     let anchor = plus(at, [0.3, 0.8, 0.0]);
-    let kind = EffectKind::SpringDamper {
+    let kind = EffectKind::SpringDamper(SpringDamper {
         bodies,
         points: [anchor, at],
         stiffness: 50.0,
         damping: 1.0,
         free_length: 0.5,
-    };
+    });
     Effect { name: "spring".to_owned(), enabled: true, kind }
 }

@@ -1,8 +1,7 @@
 //! The same mechanism told in another way: turned as a whole, its bodies in another order.
 
-use mbs_core::scene::{
-    Axis, BodyId, Dimension, EffectKind, Freedom, Inertia, InitialTarget, Joint, Scene,
-};
+use mbs_core::effects::{Field, Form, SignalForm, Value};
+use mbs_core::scene::{Axis, BodyId, Dimension, Freedom, Inertia, InitialTarget, Joint, Scene};
 
 type Vector = [f64; 3];
 
@@ -68,28 +67,22 @@ pub fn turn_by(scene: &Scene<f64>, turn: impl Fn(Vector) -> Vector + Copy) -> Sc
         turn_initial(&mut initial.target, (&scene.joints, scene.dimension), turn);
     }
     for effect in &mut s.effects {
-        match &mut effect.kind {
-            EffectKind::SpringDamper { points, .. }
-            | EffectKind::Actuator { points, .. }
-            | EffectKind::Bumper { points, .. } => *points = points.map(turn),
-            EffectKind::Polynomial { points, direction, .. } => {
-                *points = points.map(turn);
-                *direction = direction.map(turn);
+        let row = effect.kind.row();
+        assert!(!row.fields.is_empty(), "what a law of a user's own turns with is not known");
+        assert!(!row.needs_road, "a road does not turn");
+        let turned = |(field, value): (&Field, Value<f64>)| match value {
+            Value::Point(x) => Value::Point(turn(x)),
+            Value::Points(x) => Value::Points(x.map(turn)),
+            Value::Axis(x) => Value::Axis(turn(x)),
+            Value::MaybeAxis(x) => Value::MaybeAxis(x.map(turn)),
+            Value::Six(_) => panic!("the axes of a bushing are global: they do not turn"),
+            Value::Signal(_) if field.form != Form::Signal(SignalForm::Scalar) => {
+                panic!("signals are not turned here")
             }
-            EffectKind::TorsionSpring { .. }
-            | EffectKind::JointTorque { .. }
-            | EffectKind::Limit { .. }
-            | EffectKind::Friction { .. } => {}
-            EffectKind::AeroDrag { at, .. } => *at = turn(*at),
-            EffectKind::SpeedHold { direction, .. } => *direction = turn(*direction),
-            EffectKind::Force { .. } | EffectKind::BodyTorque { .. } => {
-                panic!("the turning of courses is not told here")
-            }
-            EffectKind::Own { .. } => panic!("what a law of a user's own turns with is not told"),
-            EffectKind::Bushing { .. } | EffectKind::Tire { .. } => {
-                panic!("the axes of a bushing and of a road are global: they do not turn")
-            }
-        }
+            other => other,
+        };
+        let values: Vec<_> = row.fields.iter().zip(effect.kind.values()).map(turned).collect();
+        effect.kind = effect.kind.with(values).expect("values of the same fields");
     }
     s.outputs.clear();
     s
@@ -142,23 +135,15 @@ pub fn reorder(scene: &Scene<f64>) -> Scene<f64> {
         }
     }
     for effect in &mut s.effects {
-        match &mut effect.kind {
-            EffectKind::SpringDamper { bodies, .. }
-            | EffectKind::Actuator { bodies, .. }
-            | EffectKind::Polynomial { bodies, .. }
-            | EffectKind::Bumper { bodies, .. }
-            | EffectKind::Bushing { bodies, .. } => bodies.iter_mut().for_each(renumber),
-            EffectKind::Force { body, .. }
-            | EffectKind::BodyTorque { body, .. }
-            | EffectKind::AeroDrag { body, .. }
-            | EffectKind::SpeedHold { body, .. }
-            | EffectKind::Tire { body, .. } => renumber(body),
-            EffectKind::TorsionSpring { .. }
-            | EffectKind::JointTorque { .. }
-            | EffectKind::Limit { .. }
-            | EffectKind::Friction { .. } => {}
-            EffectKind::Own { .. } => panic!("laws of a user's own are not renumbered here"),
-        }
+        let values = effect.kind.values().into_iter().map(|mut value| {
+            match &mut value {
+                Value::Bodies(bodies) => bodies.iter_mut().for_each(renumber),
+                Value::Body(body) => renumber(body),
+                _ => {}
+            }
+            value
+        });
+        effect.kind = effect.kind.with(values).expect("not a law of a user's own");
     }
     s.outputs.clear();
     s

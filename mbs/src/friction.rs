@@ -16,7 +16,7 @@ use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::natural::NaturalModel;
 use mbs_core::outputs::CoordinateMotion;
-use mbs_core::scene::{Effect, EffectKind, Scene};
+use mbs_core::scene::{self, Effect, EffectKind, Scene};
 
 /// Regularisations that a step may change the rate by: where friction holds, Runge and Kutta's method of order four is stable up to 2.8.
 const FAR: f64 = 3.0;
@@ -43,10 +43,11 @@ impl<T: Real, const D: usize> Frictions<T, D> {
         let is_explicit = settings.formulation == FormulationKind::Recursive
             && settings.integrator == IntegratorKind::Rk4;
         let friction = |(effect, e): (usize, &Effect<T>)| match &e.kind {
-            EffectKind::Friction { joint, coulomb, r#static, regularisation, .. } if e.enabled => {
+            EffectKind::Friction(law) if e.enabled => {
+                let &scene::Friction { joint, coulomb, r#static, regularisation, .. } = law;
                 // What is viscous alone rises nowhere.
-                let has_rise = coulomb.max(*r#static) > T::ZERO;
-                let motion = CoordinateMotion::new(scene, model, &scene.joints[*joint]);
+                let has_rise = coulomb.max(r#static) > T::ZERO;
+                let motion = CoordinateMotion::new(scene, model, &scene.joints[joint]);
                 let regularisation = regularisation.to_f64();
                 let motion = motion.filter(|_| has_rise)?;
                 Some(Friction { effect, motion, regularisation })

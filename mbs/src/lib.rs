@@ -56,7 +56,16 @@ pub use choice::{
 };
 pub use document::{run_document, run_document_kept};
 pub use engine::{Engine, Index};
+pub use front::{
+    Body, Effect, Error, Guide, Id, InitialCondition, Joint, Mechanism, Output, Part, PathError,
+    SceneError, UnknownName,
+};
 pub use interrupt::Interrupt;
+pub use mbs_core::scene::{
+    BodyId, EffectId, GROUND, GuideId, InitialId, JointId, Motion, Number, OutputId, Signal,
+    Vector3,
+};
+pub use mbs_scene::{ReadError, WriteError};
 pub use modes::{Mode, Modes, Place};
 pub use names::Names;
 pub use precision::PrecisionError;

@@ -2,7 +2,7 @@
 
 use mbs_core::Real;
 use mbs_core::inputs::GuideInput;
-use mbs_core::scene::{EffectKind, InitialTarget, Motion, Scene};
+use mbs_core::scene::{InitialTarget, Motion, Scene};
 
 /// What an analysis at rest leaves out of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,17 +19,7 @@ pub struct LeftOut {
 pub(crate) fn at_rest<T: Real>(scene: &Scene<T>) -> Scene<T> {
     let mut still = scene.clone();
     for effect in &mut still.effects {
-        match &mut effect.kind {
-            EffectKind::SpeedHold { .. } | EffectKind::AeroDrag { .. } => effect.enabled = false,
-            EffectKind::Friction { coulomb, r#static, viscous, .. } => {
-                (*coulomb, *r#static) = (T::ZERO, T::ZERO);
-                effect.enabled &= *viscous > T::ZERO;
-            }
-            EffectKind::Tire { side, rolling_resistance, .. } => {
-                (*side, *rolling_resistance) = (None, T::ZERO);
-            }
-            _ => {}
-        }
+        effect.enabled &= effect.kind.rest(&mut |_| {});
     }
     for guide in &mut still.guides {
         let [value, ..] = GuideInput::new(&guide.law).at(T::ZERO);
@@ -56,23 +46,7 @@ pub(crate) fn left_out<T: Real>(scene: &Scene<T>) -> Vec<LeftOut> {
     let mut all = Vec::new();
     for effect in scene.effects.iter().filter(|effect| effect.enabled) {
         let mut leave = |part| all.push(LeftOut { effect: effect.name.clone(), part });
-        match &effect.kind {
-            EffectKind::SpeedHold { .. } => leave("drive"),
-            EffectKind::Friction { coulomb, r#static, .. }
-                if *coulomb > T::ZERO || *r#static > T::ZERO =>
-            {
-                leave("dry friction");
-            }
-            EffectKind::Tire { side, rolling_resistance, .. } => {
-                if side.is_some() {
-                    leave("side force");
-                }
-                if *rolling_resistance > T::ZERO {
-                    leave("rolling resistance");
-                }
-            }
-            _ => {}
-        }
+        effect.kind.clone().rest(&mut leave);
     }
     all
 }

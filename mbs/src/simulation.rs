@@ -8,13 +8,13 @@ use crate::checkpoint::{Kept, inputs};
 use crate::choice::FormulationKind;
 use crate::control::Control;
 use crate::engine::Engine;
-use crate::explain::kinds::damps;
 use crate::ready::AssembledScene;
 use crate::settings::Settings;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::control::{Accepted, Invariant, Limit, TrialStep};
+use mbs_core::effects::{Field, Value};
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{EffectKind, Scene, Signal};
@@ -67,7 +67,8 @@ where
         let control = Control::new(scene, settings, &model, &state);
         let control = control.map_err(|e| StopError::Start(e.into()))?.map(Box::new);
         let [kinetic, potential] = initial_energy;
-        let is_damped = scene.effects.iter().any(|effect| effect.enabled && damps(&effect.kind));
+        let is_damped =
+            scene.effects.iter().any(|effect| effect.enabled && effect.kind.dissipates());
         let (ground, epsilon) = (ground(scene, settings, &model), T::EPSILON.to_f64());
         let invariant = Invariant::new([kinetic, potential, 0.0], ground, epsilon);
         let invariant = invariant.with_dampers(is_damped);
@@ -296,18 +297,16 @@ fn ground<T: Real, const D: usize>(
 
 /// Largest force or torque that an effect is given, as work over the scene's length or a radian [J].
 fn given<T: Real>(kind: &EffectKind<T>, length: f64) -> f64 {
-    let (course, arm) = match kind {
-        EffectKind::Force { course, .. } | EffectKind::Actuator { course, .. } => (course, length),
-        EffectKind::BodyTorque { course, .. } | EffectKind::JointTorque { course, .. } => {
-            (course, 1.0)
-        }
-        _ => return 0.0,
-    };
-    let largest = match course {
+    let largest = |signal: &Signal<T>| match signal {
         Signal::Constant(value) | Signal::Input(value) => size(*value),
         Signal::Table(rows) => rows.iter().map(|(_, value)| size(*value)).fold(0.0, f64::max),
     };
-    largest * arm
+    let given = |(field, value): (&Field, Value<T>)| match value {
+        Value::Signal(signal) if field.unit == "N" => largest(&signal) * length,
+        Value::Signal(signal) => largest(&signal),
+        _ => 0.0,
+    };
+    kind.row().fields.iter().zip(kind.values()).map(given).sum()
 }
 
 /// Length of a vector.

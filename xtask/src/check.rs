@@ -28,8 +28,18 @@ const FEATURES: [(&str, &[&str]); 5] = [
             "effects",
         ],
     ),
-    ("mbs-recursive", &["", "alloc", "alloc,tire", "alloc,effects"]),
-    ("mbs-nostd", &["", "tire", "polynomial,speed-hold", "effects", "export", "export,effects"]),
+    ("mbs-recursive", &["", "alloc", "alloc,mbs-core/tire", "alloc,mbs-core/effects"]),
+    (
+        "mbs-nostd",
+        &[
+            "",
+            "mbs-core/tire",
+            "mbs-core/polynomial,mbs-core/speed-hold",
+            "mbs-core/effects",
+            "export",
+            "export,mbs-core/effects",
+        ],
+    ),
     ("mbs", &["", "f32", "dd"]),
     ("mbs-cli", &["", "f32", "dd"]),
 ];

@@ -5,6 +5,7 @@ pub mod command;
 pub mod counts;
 mod debian;
 mod documentation;
+mod effects;
 pub mod fuzz;
 pub mod jobs;
 pub mod nostd;

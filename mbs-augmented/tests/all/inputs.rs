@@ -3,7 +3,7 @@
 use mbs_augmented::{Options, Workspace, index3};
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{Effect, EffectKind, JointId, Motion, Scene, Signal};
+use mbs_core::scene::{Effect, JointId, JointTorque, Motion, Scene, Signal};
 use mbs_core::step::InputError;
 use mbs_testkit::{file, solver, start};
 
@@ -12,7 +12,7 @@ fn scene() -> Scene<f64> {
     let mut scene = file("guided-four-bar");
     scene.guides[0].law = Motion::Input([0.0, 0.0, 2.0]);
     scene.initials.clear();
-    let kind = EffectKind::JointTorque { joint: JointId::new(1), course: Signal::Input([0.0; 3]) };
+    let kind = JointTorque { joint: JointId::new(1), course: Signal::Input([0.0; 3]) }.into();
     scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
     scene
 }

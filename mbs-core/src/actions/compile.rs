@@ -1,10 +1,13 @@
-//! From the effects of a scene to actions: springs, dampers and given forces, which every build has.
+//! From the effects of a scene to actions: each kind says what it does by these means.
 
 use super::{Action, ActionError, Actions, Seat, Tables};
 use crate::Real;
+use crate::algebra::{Vector, norm};
 use crate::inputs::{Prescribed, SignalInput};
+use crate::laws::Part;
+use crate::laws::body::BodyLaw;
 use crate::laws::scalar::Law;
-use crate::scene::{AxisFrame, BodyId, EffectKind, JointId, Scene, Signal};
+use crate::scene::{BodyId, Dimension, Freedom, JointId, Scene, Signal};
 use alloc::vec::Vec;
 
 impl<T: Real> Actions<T> {
@@ -16,7 +19,6 @@ impl<T: Real> Actions<T> {
         let mut compiler = Compiler {
             scene,
             effect: 0,
-            #[cfg(feature = "tire")]
             roads: None,
             actions: Self {
                 list: Vec::new(),
@@ -25,125 +27,127 @@ impl<T: Real> Actions<T> {
             },
         };
         for (effect, e) in scene.effects.iter().enumerate().filter(|(_, e)| e.enabled) {
-            if let Some((feature, false)) = feature(&e.kind) {
+            if let Some((feature, false)) = e.kind.row().feature {
                 return Err(ActionError::LeftOut { effect, feature });
             }
             compiler.effect = effect;
-            compiler.add(&e.kind);
+            e.kind.actions(&mut compiler);
         }
         Ok(compiler.actions)
     }
 }
 
-/// The Cargo feature that brings an effect, and whether it is on; `None`: every build has the effect.
-fn feature<T>(kind: &EffectKind<T>) -> Option<(&'static str, bool)> {
-    macro_rules! named {
-        ($name:literal) => {
-            Some(($name, cfg!(feature = $name)))
-        };
-    }
-    match kind {
-        EffectKind::Polynomial { .. } => named!("polynomial"),
-        EffectKind::Bumper { .. } => named!("bumper"),
-        EffectKind::Limit { .. } => named!("limit"),
-        EffectKind::Friction { .. } => named!("friction"),
-        EffectKind::Bushing { .. } => named!("bushing"),
-        EffectKind::AeroDrag { .. } => named!("drag"),
-        EffectKind::SpeedHold { .. } => named!("speed-hold"),
-        EffectKind::Tire { .. } => named!("tire"),
-        EffectKind::Own { .. } => named!("own-laws"),
-        EffectKind::SpringDamper { .. }
-        | EffectKind::TorsionSpring { .. }
-        | EffectKind::Force { .. }
-        | EffectKind::BodyTorque { .. }
-        | EffectKind::JointTorque { .. }
-        | EffectKind::Actuator { .. } => None,
-    }
-}
-
-pub(super) struct Compiler<'a, T> {
-    pub(super) scene: &'a Scene<T>,
+/// What the kinds of effect add their actions to.
+pub(crate) struct Compiler<'a, T> {
+    pub(crate) scene: &'a Scene<T>,
     effect: usize,
     /// Features of the left and the right track, and the course of a moving road, once a tire asks.
-    #[cfg(feature = "tire")]
-    pub(super) roads: Option<([crate::laws::Part; 2], Option<u32>)>,
-    pub(super) actions: Actions<T>,
+    pub(super) roads: Option<([Part; 2], Option<u32>)>,
+    pub(crate) actions: Actions<T>,
 }
 
 impl<T: Real> Compiler<'_, T> {
-    pub(super) fn push(&mut self, action: Action<T>) {
+    pub(crate) fn is_planar(&self) -> bool {
+        self.scene.dimension == Dimension::Planar
+    }
+
+    pub(crate) fn push(&mut self, action: Action<T>) {
         self.actions.list.push((self.effect, action));
     }
 
-    pub(super) fn course(&mut self, course: SignalInput<T>) -> u32 {
-        number(self.actions.prescribed.add(self.effect, course))
+    /// The number of a signal, which is added to those of the scene.
+    pub(crate) fn course(&mut self, signal: &Signal<T>) -> u32 {
+        self.input(SignalInput::new(signal))
     }
 
-    fn add(&mut self, kind: &EffectKind<T>) {
-        match kind {
-            EffectKind::SpringDamper { bodies, points, stiffness, damping, free_length } => {
-                let (stiffness, damping, free) = (*stiffness, *damping, *free_length);
-                let law = Law::SpringDamper { stiffness, damping, free };
-                self.push(Action::Length { ends: ends(bodies, points), law });
-            }
-            EffectKind::Actuator { bodies, points, course } => {
-                let law = Law::Torque { course: self.course(SignalInput::new(course)) };
-                self.push(Action::Length { ends: ends(bodies, points), law });
-            }
-            EffectKind::TorsionSpring { joint, stiffness, damping, free_value } => {
-                let (stiffness, damping, free) = (*stiffness, *damping, *free_value);
-                let law = Law::SpringDamper { stiffness, damping, free };
-                self.about_axis(*joint, law);
-            }
-            EffectKind::JointTorque { joint, course } => {
-                let law = Law::Torque { course: self.course(SignalInput::new(course)) };
-                self.about_axis(*joint, law);
-            }
-            EffectKind::Force { body, at, course, frame } => {
-                let Some(body) = body.index() else { return };
-                let at = (body, *at);
-                let action = match (course, frame) {
-                    (Signal::Constant(force), AxisFrame::Global) => {
-                        Action::Constant { at, force: *force }
-                    }
-                    _ => {
-                        let course = self.course(SignalInput::new(course));
-                        Action::Force { at, course, turns: *frame == AxisFrame::Body }
-                    }
-                };
-                self.push(action);
-            }
-            EffectKind::BodyTorque { body, course } => {
-                let Some(body) = body.index() else { return };
-                let course = self.course(SignalInput::new(course));
-                self.push(Action::Torque { body, course });
-            }
-            _ => {
-                self.add_law(kind);
-                self.add_law_on_body(kind);
-            }
+    pub(super) fn input(&mut self, input: SignalInput<T>) -> u32 {
+        number(self.actions.prescribed.add(self.effect, input))
+    }
+
+    /// Adds an action by a law. One whose feature is off has none: its effect is refused before.
+    pub(crate) fn act(
+        &mut self,
+        law: impl Into<Option<Law<T>>>,
+        action: impl FnOnce(Law<T>) -> Action<T>,
+    ) {
+        if let Some(law) = law.into() {
+            self.push(action(law));
         }
     }
 
+    /// A law along the line of two points.
+    pub(crate) fn length(
+        &mut self,
+        bodies: [BodyId; 2],
+        points: [[T; 3]; 2],
+        law: impl Into<Option<Law<T>>>,
+    ) {
+        self.act(law, |law| Action::Length { ends: ends(bodies, points), law });
+    }
+
+    /// A law of the distance of two points along a direction that is fixed in the first body, a unit vector.
+    pub(crate) fn along(
+        &mut self,
+        bodies: [BodyId; 2],
+        points: [[T; 3]; 2],
+        direction: [T; 3],
+        law: impl Into<Option<Law<T>>>,
+    ) {
+        let ends = ends(bodies, points);
+        self.act(law, |law| Action::Along { ends, direction, offset: T::ZERO, law });
+    }
+
     /// A law about the one axis that a joint turns about: the scene's check refuses others.
-    fn about_axis(&mut self, id: JointId, law: Law<T>) {
+    pub(crate) fn angle(&mut self, id: JointId, law: impl Into<Option<Law<T>>>) {
         if let Some((_, axis)) = self.scene.joints[id].kind.turn(self.scene.dimension) {
-            self.push(Action::Angle { joint: id.index(), axis, law });
+            self.act(law, |law| Action::Angle { joint: id.index(), axis, law });
+        }
+    }
+
+    /// A law of a joint's one coordinate: the scene's check refuses joints with none or several.
+    pub(crate) fn on_joint(&mut self, id: JointId, law: impl Into<Option<Law<T>>>) {
+        let joint = &self.scene.joints[id];
+        match joint.kind.single(self.scene.dimension) {
+            Some(Freedom::Slide(axis)) => {
+                let direction = direction_of(joint.direction(axis).into());
+                self.along(joint.bodies, joint.points, direction, law);
+            }
+            Some(Freedom::Turn(axis)) => {
+                self.act(law, |law| Action::Angle { joint: id.index(), axis, law });
+            }
+            Some(Freedom::Ball) | None => {}
+        }
+    }
+
+    /// A law on a body at a point, with a direction, a unit vector.
+    pub(crate) fn on_body(
+        &mut self,
+        (body, at): Seat<T>,
+        axis: [T; 3],
+        law: impl Into<Option<BodyLaw<T>>>,
+    ) {
+        if let (Some(body), Some(law)) = (body.index(), law.into()) {
+            self.push(Action::OnBody { at: (body, at), axis, law });
         }
     }
 }
 
 /// The places of two points.
-pub(super) fn ends<T: Copy>(bodies: &[BodyId; 2], points: &[[T; 3]; 2]) -> [Seat<T>; 2] {
+fn ends<T: Copy>(bodies: [BodyId; 2], points: [[T; 3]; 2]) -> [Seat<T>; 2] {
     [(bodies[0], points[0]), (bodies[1], points[1])]
 }
 
-pub(super) fn number(i: usize) -> u32 {
+fn number(i: usize) -> u32 {
     u32::try_from(i).unwrap_or(u32::MAX)
 }
 
 /// The entries from `first` up to `end`.
-#[cfg(any(feature = "polynomial", feature = "tire"))]
-pub(super) fn part(first: usize, end: usize) -> crate::laws::Part {
-    crate::laws::Part { first: number(first), n: number(end - first) }
+pub(crate) fn part(first: usize, end: usize) -> Part {
+    Part { first: number(first), n: number(end - first) }
+}
+
+/// The direction of length one, each component divided by the length.
+pub(crate) fn direction_of<T: Real>(d: [T; 3]) -> [T; 3] {
+    let size = norm(&Vector::from(d));
+    d.map(|x| x / size)
 }

@@ -4,12 +4,11 @@
 //! are switched off are not among them, and effects whose Cargo feature is off are an error.
 
 mod compile;
-mod effects;
 mod error;
-#[cfg(feature = "tire")]
 mod road;
 mod tables;
 
+pub(crate) use compile::{Compiler, direction_of, part};
 pub use error::ActionError;
 pub use tables::Tables;
 

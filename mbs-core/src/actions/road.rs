@@ -10,14 +10,14 @@ use alloc::vec;
 
 impl<T: Real> Compiler<'_, T> {
     /// The tracks of the left and the right wheels, and the course of a road that moves.
-    pub(super) fn roads(&mut self) -> ([Part; 2], Option<u32>) {
+    pub(crate) fn roads(&mut self) -> ([Part; 2], Option<u32>) {
         if let Some(roads) = self.roads {
             return roads;
         }
         let road = &self.scene.road;
         let left = self.features(&road.left);
         let right = if road.left == road.right { left } else { self.features(&road.right) };
-        let travel = (!road.speed.is_zero()).then(|| self.course(SignalInput::travel(road.speed)));
+        let travel = (!road.speed.is_zero()).then(|| self.input(SignalInput::travel(road.speed)));
         *self.roads.insert(([left, right], travel))
     }
 
@@ -32,6 +32,16 @@ impl<T: Real> Compiler<'_, T> {
                     height: *height,
                     rounding: *rounding,
                 },
+                RoadFeature::Stairs { start, tread, riser, height, count } => {
+                    let rise = |i: u32| Feature::Rise {
+                        start: *start + T::from_f64(f64::from(i)) * (*tread + *riser),
+                        length: *riser,
+                        height: *height,
+                        rounding: *riser * T::HALF,
+                    };
+                    self.actions.tables.features.extend((0..*count).map(rise));
+                    continue;
+                }
                 RoadFeature::Bump { start, length, amplitude } => {
                     Feature::Bump { start: *start, length: *length, amplitude: *amplitude }
                 }

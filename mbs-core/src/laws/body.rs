@@ -5,7 +5,12 @@
 //! action   force -f d at the point, moment -f m;   rate d.v + m.w
 //! ```
 
+pub use crate::effects::BodyLaw;
+
 use super::Supplies;
+use super::entry::{Entry, EntryReader, EntryWriter};
+use super::kink::Kink;
+use super::operations::Operations;
 use super::scalar::Measure;
 use crate::Real;
 use core::convert::Infallible;
@@ -35,40 +40,9 @@ pub struct Action<T> {
     pub measure: Measure<T>,
 }
 
-/// A law on one body. Where no feature brings one there is no value of this type, and the compiler drops what would act on one.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum BodyLaw<T> {
-    /// Nothing: cannot be made.
-    #[doc(hidden)]
-    Never(Infallible, PhantomData<T>),
-    /// Drag of still air: C_d A [m^2] and density [kg/m^3].
-    #[cfg(feature = "drag")]
-    Drag {
-        /// C_d A [m^2].
-        area_coefficient: T,
-        /// [kg/m^3].
-        density: T,
-    },
-    /// A drive along the law's direction.
-    #[cfg(feature = "speed-hold")]
-    SpeedHold(super::speed_hold::SpeedHold<T>),
-    /// A wheel about the law's direction.
-    #[cfg(feature = "tire")]
-    Tire(super::tire::Tire<T>),
-    /// A user's own law.
-    #[cfg(feature = "own-laws")]
-    Own {
-        /// The law.
-        law: super::own::UserBodyLaw<T>,
-        /// Number of the course that is its input.
-        course: u32,
-    },
-}
-
 /// Writes an action to its place, where there is one.
 #[inline(always)]
-#[cfg(any(feature = "drag", feature = "speed-hold", feature = "tire", feature = "own-laws"))]
-pub(super) fn put<T>(out: &mut [Action<T>], place: usize, action: Action<T>) {
+pub(crate) fn put<T>(out: &mut [Action<T>], place: usize, action: Action<T>) {
     if let Some(to) = out.get_mut(place) {
         *to = action;
     }
@@ -77,86 +51,90 @@ pub(super) fn put<T>(out: &mut [Action<T>], place: usize, action: Action<T>) {
 /// Actions that one law has at most.
 pub const MOST: usize = 4;
 
-#[cfg_attr(
-    not(feature = "effects"),
-    allow(unused_variables, reason = "not every law asks for everything")
-)]
-impl<T: Real> BodyLaw<T> {
+/// A law on one body. [`BodyLaw`] is one of all that there are.
+pub trait WrenchesLaw<T: Real>: Entry<T> + Copy {
+    /// Writes the actions at a motion into `out`, [`n_actions`](Self::n_actions) long.
+    fn evaluate(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>, out: &mut [Action<T>]);
+
+    /// A bound of the operations of [`evaluate`](Self::evaluate): of the branch that costs most.
+    fn operations(&self, supplies: &Supplies<'_, T>) -> Operations;
+
     /// Number of actions.
-    pub fn n_actions(&self) -> usize {
-        match self {
-            Self::Never(never, _) => match *never {},
-            #[cfg(feature = "tire")]
-            Self::Tire(tire) => tire.n_actions(),
-            #[cfg(any(feature = "drag", feature = "speed-hold", feature = "own-laws"))]
-            _ => 1,
-        }
+    fn n_actions(&self) -> usize {
+        1
     }
 
     /// Does the law ask for the body's direction and spin, or give moments?
-    pub fn needs_rotation(&self) -> bool {
-        match self {
-            Self::Never(never, _) => match *never {},
-            #[cfg(feature = "drag")]
-            Self::Drag { .. } => false,
-            #[cfg(feature = "tire")]
-            Self::Tire(tire) => tire.leans || tire.n_actions() > 1,
-            #[cfg(any(feature = "speed-hold", feature = "own-laws"))]
-            _ => true,
-        }
-    }
-
-    /// Writes the actions at a motion into `out`, [`n_actions`](Self::n_actions) long.
-    pub fn evaluate(
-        &self,
-        motion: &BodyMotion<T>,
-        supplies: &Supplies<'_, T>,
-        out: &mut [Action<T>],
-    ) {
-        match self {
-            Self::Never(never, _) => match *never {},
-            #[cfg(feature = "drag")]
-            Self::Drag { area_coefficient, density } => {
-                put(out, 0, super::drag::action(*area_coefficient, *density, motion));
-            }
-            #[cfg(feature = "speed-hold")]
-            Self::SpeedHold(hold) => put(out, 0, hold.action(motion)),
-            #[cfg(feature = "tire")]
-            Self::Tire(tire) => tire.evaluate(motion, supplies, out),
-            #[cfg(feature = "own-laws")]
-            Self::Own { law, course } => {
-                put(out, 0, law.action(motion, supplies.course(*course)));
-            }
-        }
+    fn needs_rotation(&self) -> bool {
+        true
     }
 
     /// The slope of an action by the iterate `before`; the first one of a step has no rate.
     #[inline]
-    pub fn look_back(&self, action: usize, measure: &mut Measure<T>, before: &Measure<T>) {
-        match self {
-            #[cfg(feature = "tire")]
-            Self::Tire(_) if before.rate != T::ZERO => {
-                super::tire::look_back(action, measure, before);
-            }
-            _ => {}
-        }
-    }
+    fn look_back(&self, _action: usize, _measure: &mut Measure<T>, _before: &Measure<T>) {}
 
     /// Stored energy of an action [J].
-    pub fn energy(&self, action: usize, measure: &Measure<T>) -> T {
-        match self {
-            #[cfg(feature = "tire")]
-            Self::Tire(tire) => tire.energy(action, measure),
-            _ => T::ZERO,
-        }
+    fn energy(&self, _action: usize, _measure: &Measure<T>) -> T {
+        T::ZERO
     }
 
     /// Power of an action that is not stored [W].
-    pub fn power(&self, action: usize, measure: &Measure<T>) -> T {
-        match self {
-            #[cfg(feature = "tire")]
-            Self::Tire(tire) => tire.power(action, measure),
-            _ => -measure.tension * measure.rate,
-        }
+    fn power(&self, _action: usize, measure: &Measure<T>) -> T {
+        -measure.tension * measure.rate
+    }
+
+    /// How many gaps it has; none where it acts always.
+    fn n_gaps(&self) -> usize {
+        0
+    }
+
+    /// Does the damper of its contact fade in over [`FADE`](super::bumper::FADE)?
+    fn has_fade(&self) -> bool {
+        false
+    }
+
+    /// Its gap with the rate, then where it is over its road and how fast, along and up.
+    fn watch(&self, _motion: &BodyMotion<T>, _supplies: &Supplies<'_, T>) -> [[T; 2]; 3] {
+        [[T::ZERO; 2]; 3]
+    }
+
+    /// Can it have kinks besides those of its gaps?
+    fn may_have_kinks(&self) -> bool {
+        false
+    }
+
+    /// Hands out its kinks, in no order.
+    fn kinks(&self, _supplies: &Supplies<'_, T>, _take: &mut dyn FnMut(Kink<T>)) {}
+
+    /// How far from its place a kink may be passed [m].
+    fn reach(&self) -> T {
+        T::ZERO
+    }
+
+    /// Is all that it refers to by number there?
+    fn fits(&self, _supplies: &Supplies<'_, T>, _n_courses: usize) -> bool {
+        true
+    }
+}
+
+/// A law that there is none of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NeverLaw<T>(Infallible, PhantomData<T>);
+
+impl<T> Entry<T> for NeverLaw<T> {
+    fn of<R: EntryReader<T>>(from: &mut R) -> Result<Self, R::Error> {
+        Err(from.fault())
+    }
+    fn numbers<W: EntryWriter<T>>(&self, _: &mut W) -> bool {
+        match self.0 {}
+    }
+}
+
+impl<T: Real> WrenchesLaw<T> for NeverLaw<T> {
+    fn evaluate(&self, _: &BodyMotion<T>, _: &Supplies<'_, T>, _: &mut [Action<T>]) {
+        match self.0 {}
+    }
+    fn operations(&self, _: &Supplies<'_, T>) -> Operations {
+        match self.0 {}
     }
 }

@@ -9,10 +9,14 @@
 //! Kelvin-Voigt model of Hunt and Crossley's discussion (1975), with a fade in place of their product. Range: rates for which
 //! c |x'| is not much above k x_s need steps that resolve the time x_s / |x'|.
 
+use super::operations::Operations;
 use crate::Real;
 
 /// Depth over which the damper fades in [m or rad].
 pub const FADE: f64 = 1e-3;
+
+/// Operations of [`contact`], with the fade.
+pub const OPERATIONS: Operations = Operations::new(14, 6);
 
 /// Force, and its derivatives by depth and by rate; all zero without contact.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -13,6 +13,7 @@
 //! sixteen times below its peak for the Iltis: a feature of the formula. Mz changes its sign where |Fy| > F. Friction mu falls with
 //! the load and would be negative above 26.5 kN for the Iltis: it is held at 0.2 from 22.2 kN on, where the model says nothing.
 
+use super::entry::entry;
 use crate::Real;
 
 /// Friction below which the polynomial, which falls to zero and below at loads it was never fitted for, is not followed [-].
@@ -33,18 +34,26 @@ pub struct Coefficients<T> {
     pub trail: [T; 2],
 }
 
-impl<T: Real> Coefficients<T> {
-    /// The tire of the Bombardier Iltis.
-    #[must_use]
-    pub fn iltis() -> Self {
-        let n = T::from_f64;
+entry!(Coefficients<T> { a, omega, b, skid, trail });
+
+impl<T> Coefficients<T> {
+    /// The tire of the Bombardier Iltis, in numbers made from doubles.
+    pub(crate) fn iltis_by(n: impl Fn(f64) -> T) -> Self {
         Self {
             a: [n(2625.0), n(14.47), n(12930.0), n(2.29), n(18175.0)],
-            omega: T::ONE,
+            omega: n(1.0),
             b: [n(-0.464e-4), n(1.216), n(2.18e-11)],
             skid: n(1.0274),
             trail: [n(-0.171e-4), n(0.171e-4)],
         }
+    }
+}
+
+impl<T: Real> Coefficients<T> {
+    /// The tire of the Bombardier Iltis.
+    #[must_use]
+    pub fn iltis() -> Self {
+        Self::iltis_by(T::from_f64)
     }
 }
 

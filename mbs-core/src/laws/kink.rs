@@ -14,7 +14,6 @@
 //! passes between the two normals: two kinks. In a hollow it jumps from one side to the other where both are equally near: one
 //! kink, on the line that halves the angle (the road beside it taken as straight, which an end of a spline is but for h''').
 
-#[cfg(feature = "tire")]
 use super::{Part, Supplies, road};
 use crate::Real;
 
@@ -44,22 +43,19 @@ impl<T: Real> Kink<T> {
 }
 
 /// Jumps below this are none: of the slope [-] and the curvature [1/m].
-#[cfg(feature = "tire")]
 const LEVEL: f64 = 1e-6;
 
 /// Hands out the places where slope or curvature of a road jump, feature by feature.
 ///
 /// Cost: three heights of the road for each end of a feature; once for a run.
-#[cfg(feature = "tire")]
 pub fn of_road<T: Real>(road: Part, supplies: &Supplies<'_, T>, mut take: impl FnMut(Kink<T>)) {
-    for feature in road.of(supplies.features) {
-        for place in feature.ends(supplies.knots).into_iter().flatten() {
+    for feature in road.of(supplies.features()) {
+        for place in feature.ends(supplies.knots()).into_iter().flatten() {
             of_place(road, supplies, place, &mut take);
         }
     }
 }
 
-#[cfg(feature = "tire")]
 fn of_place<T: Real>(
     road: Part,
     supplies: &Supplies<'_, T>,
@@ -148,7 +144,7 @@ mod tests {
             ..Supplies::courses(&[])
         };
         let road = Part { first: 0, n: 3 };
-        let all = kinks(&features, supplies.knots);
+        let all = kinks(&features, supplies.knots());
         // Six of one slope, a crest where the table begins, a hollow where it ends.
         assert_eq!(all.len(), 9);
         let mut passed = 0;

@@ -5,29 +5,19 @@
 //! always are.
 
 pub mod body;
-#[cfg(any(feature = "bumper", feature = "limit", feature = "tire"))]
 pub mod bumper;
 pub mod calspan;
-#[cfg(feature = "drag")]
-pub mod drag;
-#[cfg(feature = "friction")]
-pub mod friction;
+pub mod entry;
 pub mod guide;
 pub mod kink;
-#[cfg(feature = "limit")]
-pub mod limit;
+pub mod operations;
 pub mod own;
-#[cfg(feature = "polynomial")]
-pub mod polynomial;
-#[cfg(feature = "tire")]
 pub mod road;
-#[cfg(feature = "tire")]
 pub mod road_contact;
 pub mod scalar;
-#[cfg(feature = "speed-hold")]
-pub mod speed_hold;
-#[cfg(feature = "tire")]
 pub mod tire;
+
+pub use crate::effects::polynomial;
 
 use crate::Real;
 
@@ -47,6 +37,52 @@ impl Part {
         let first = self.first as usize;
         table.get(first..first.saturating_add(self.n as usize)).unwrap_or(&[])
     }
+
+    /// Does it end by `end`?
+    #[must_use]
+    pub const fn is_within(self, end: usize) -> bool {
+        (self.first as usize).saturating_add(self.n as usize) <= end
+    }
+}
+
+/// An entry of a table that belongs to a Cargo feature: none can be made where it is off.
+macro_rules! table_entry {
+    ($(#[$doc:meta])* $Name:ident = $Entry:ty, $feature:literal) => {
+        $(#[$doc])*
+        #[cfg(feature = $feature)]
+        pub type $Name<T> = $Entry;
+        $(#[$doc])*
+        #[cfg(not(feature = $feature))]
+        pub type $Name<T> = <core::marker::PhantomData<T> as entry::NoEntry>::Entry;
+    };
+}
+
+table_entry! {
+    /// A piece of a polynomial.
+    PieceEntry = polynomial::Piece<T>, "polynomial"
+}
+table_entry! {
+    /// A part of a road.
+    FeatureEntry = road::Feature<T>, "tire"
+}
+table_entry! {
+    /// A point (x, z) of a road given by a table.
+    KnotEntry = [T; 2], "tire"
+}
+table_entry! {
+    /// The road's curvature there.
+    CurvatureEntry = T, "tire"
+}
+
+/// The tables of laws that never change.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LawTables<'a, T> {
+    /// Pieces of polynomials.
+    pub pieces: &'a [PieceEntry<T>],
+    /// Parts of roads.
+    pub features: &'a [FeatureEntry<T>],
+    /// Points of roads given by tables, and their curvatures.
+    pub knots: (&'a [KnotEntry<T>], &'a [CurvatureEntry<T>]),
 }
 
 /// What laws refer to by number: inputs at this instant, and tables that never change.
@@ -85,5 +121,67 @@ impl<'a, T: Real> Supplies<'a, T> {
             #[cfg(feature = "tire")]
             knots: (&[], &[]),
         }
+    }
+
+    /// The same courses, with these tables.
+    #[inline(always)]
+    #[must_use]
+    pub const fn with(self, tables: LawTables<'a, T>) -> Self {
+        let _ = tables;
+        Self {
+            courses: self.courses,
+            #[cfg(feature = "polynomial")]
+            pieces: tables.pieces,
+            #[cfg(feature = "tire")]
+            features: tables.features,
+            #[cfg(feature = "tire")]
+            knots: tables.knots,
+        }
+    }
+
+    /// The tables; empty ones of features that are off.
+    #[must_use]
+    pub const fn tables(&self) -> LawTables<'a, T> {
+        LawTables {
+            #[cfg(feature = "polynomial")]
+            pieces: self.pieces,
+            #[cfg(not(feature = "polynomial"))]
+            pieces: &[],
+            #[cfg(feature = "tire")]
+            features: self.features,
+            #[cfg(not(feature = "tire"))]
+            features: &[],
+            #[cfg(feature = "tire")]
+            knots: self.knots,
+            #[cfg(not(feature = "tire"))]
+            knots: (&[], &[]),
+        }
+    }
+
+    /// Pieces of polynomials; none without the feature.
+    #[inline(always)]
+    pub(crate) const fn pieces(&self) -> &'a [polynomial::Piece<T>] {
+        #[cfg(feature = "polynomial")]
+        return self.pieces;
+        #[cfg(not(feature = "polynomial"))]
+        &[]
+    }
+
+    /// Parts of roads; none without the feature.
+    #[inline(always)]
+    pub(crate) const fn features(&self) -> &'a [road::Feature<T>] {
+        #[cfg(feature = "tire")]
+        return self.features;
+        #[cfg(not(feature = "tire"))]
+        &[]
+    }
+
+    /// Points of roads and their curvatures; none without the feature.
+    #[inline(always)]
+    pub(crate) const fn knots(&self) -> (&'a [[T; 2]], &'a [T]) {
+        #[cfg(feature = "tire")]
+        return self.knots;
+        #[cfg(not(feature = "tire"))]
+        (&[], &[])
     }
 }

@@ -10,8 +10,6 @@
 
 use super::body::{Action, BodyMotion};
 use super::scalar::Measure;
-#[cfg(feature = "own-laws")]
-use crate::algebra::Vector;
 
 /// A law along a length or about an angle.
 pub trait ScalarLaw<T> {
@@ -73,18 +71,6 @@ impl<T> UserBodyLaw<T> {
     #[must_use]
     pub fn of<L: WrenchLaw<T>>() -> Self {
         Self { evaluate: L::evaluate }
-    }
-}
-
-#[cfg(feature = "own-laws")]
-impl<T: crate::Real> UserBodyLaw<T> {
-    /// The law at a motion, with the rate of its wrench.
-    pub(crate) fn action(&self, motion: &BodyMotion<T>, input: [T; 3]) -> Action<T> {
-        let mut action = (self.evaluate)(motion, input);
-        let [force, moment] = [action.force, action.moment].map(Vector::<T, 3>::from);
-        action.measure.rate =
-            force.dot(&Vector::from(motion.velocity)) + moment.dot(&Vector::from(motion.spin));
-        action
     }
 }
 

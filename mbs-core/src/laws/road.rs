@@ -5,6 +5,7 @@
 //! bump    A (1 - cos(2 pi (x - x0) / L))
 //! ```
 
+use super::entry::entry;
 use super::{Part, Supplies, guide};
 use crate::Real;
 
@@ -36,6 +37,13 @@ pub enum Feature<T> {
     /// Natural cubic spline through a part of the knots, level outside.
     Spline(Part),
 }
+
+entry!(Feature enum {
+    0 Flat { 0 height },
+    1 Rise { start start, length length, height height, rounding rounding },
+    2 Bump { start start, length length, amplitude amplitude },
+    3 Spline { 0 part },
+});
 
 /// A height and its first two derivatives by x.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -158,8 +166,8 @@ fn rise<T: Real>([length, height, rounding]: [T; 3], u: T) -> Height<T> {
 /// Height of a road at `x`.
 pub fn height<T: Real>(road: Part, supplies: &Supplies<'_, T>, x: T) -> Height<T> {
     let mut sum = Height::default();
-    for feature in road.of(supplies.features) {
-        let h = feature.at(x, supplies.knots);
+    for feature in road.of(supplies.features()) {
+        let h = feature.at(x, supplies.knots());
         sum.value += h.value;
         sum.slope += h.slope;
         sum.curvature += h.curvature;
@@ -176,15 +184,15 @@ pub fn hollow<T: Real>(
     [lower, upper]: [T; 2],
 ) -> Option<T> {
     let mut sum = None;
-    for feature in road.of(supplies.features) {
-        if let Some(hollow) = feature.hollow([lower, upper], supplies.knots) {
+    for feature in road.of(supplies.features()) {
+        if let Some(hollow) = feature.hollow([lower, upper], supplies.knots()) {
             sum = Some(sum.unwrap_or(T::ZERO) + hollow);
         }
     }
     sum
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "tire"))]
 mod tests {
     use super::*;
 

@@ -208,7 +208,7 @@ impl<T: Real> Search<'_, T> {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "tire"))]
 mod tests {
     extern crate std;
 

@@ -27,10 +27,15 @@
 //! camber out of the deflection, so that its radial force has no potential, and takes v_y at the centre; with either, its ramp
 //! steers at 10, 20 and 30 m/s end within 0.04 % of the way across.
 
-use super::body::{Action, BodyMotion, put};
+use super::body::{Action, BodyMotion, WrenchesLaw, put};
+
 use super::bumper;
 use super::calspan::{self, Coefficients};
-use super::road_contact::{RoadContact, road_contact};
+use super::entry::entry;
+use super::kink::{self, Kink};
+use super::operations::{Operations, count};
+use super::road::Feature;
+use super::road_contact::{CELLS, RoadContact, most_heights, road_contact};
 use super::scalar::Measure;
 use super::{Part, Supplies};
 use crate::Real;
@@ -41,7 +46,7 @@ pub const STANDSTILL: f64 = 0.1;
 
 /// A wheel.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tire<T> {
+pub struct TireLaw<T> {
     /// Radius without load [m].
     pub radius: T,
     /// Radial stiffness [N/m] and damping [N s/m].
@@ -108,56 +113,16 @@ const ALIGNING: usize = 3;
 /// What slides has at least the slope of the secant where an iteration went across rest: by the tangents alone, which fall to nothing where
 /// the slide is fast, it would go to and fro.
 #[inline]
-pub(super) fn look_back<T: Real>(action: usize, measure: &mut Measure<T>, before: &Measure<T>) {
+fn look_back<T: Real>(action: usize, measure: &mut Measure<T>, before: &Measure<T>) {
     if (action == ROLLING || action == SIDE) && measure.rate * before.rate < T::ZERO {
         let secant = (measure.tension - before.tension) / (measure.rate - before.rate);
         measure.damping = measure.damping.max(secant);
     }
 }
 
-impl<T: Real> Tire<T> {
-    /// Radial force; rolling resistance; side force and aligning torque.
-    pub fn n_actions(&self) -> usize {
-        if self.side.is_some() {
-            4
-        } else if self.rolling > T::ZERO {
-            2
-        } else {
-            1
-        }
-    }
+entry!(TireLaw<T> { radius, radial, rolling, side, road, travel, up, leans });
 
-    /// Writes the actions, [`n_actions`](Self::n_actions) of them.
-    pub fn evaluate(
-        &self,
-        motion: &BodyMotion<T>,
-        supplies: &Supplies<'_, T>,
-        out: &mut [Action<T>],
-    ) {
-        out.fill(Action::default());
-        let Stand { stance, velocity, ground, depth, rate, .. } = self.stand(motion, supplies);
-        let [force, moment] = &stance.row;
-        let contact = bumper::contact(self.radial, depth, -rate);
-        let radial = Action {
-            force: (*force).into(),
-            moment: (*moment).into(),
-            measure: Measure {
-                value: depth,
-                rate,
-                tension: -contact.force,
-                stiffness: contact.stiffness,
-                damping: contact.damping,
-                drift: force.dot(&ground),
-                ..Measure::default()
-            },
-        };
-        put(out, RADIAL, radial);
-        let load = contact.force * stance.stretch;
-        if load > T::ZERO && out.len() > 1 {
-            self.roll((load, &stance), (motion, &velocity, &ground), out);
-        }
-    }
-
+impl<T: Real> TireLaw<T> {
     /// How far it is pressed in, and where it is over its road. Cost: that of the nearest point, and no force.
     pub fn contact(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>) -> TireContact<T> {
         let Stand { place, velocity, depth, rate, .. } = self.stand(motion, supplies);
@@ -285,14 +250,72 @@ impl<T: Real> Tire<T> {
     fn along_up(&self, v: &Vector<T, 3>) -> T {
         if self.up == 1 { v[1] } else { v[2] }
     }
+}
+
+impl<T: Real> WrenchesLaw<T> for TireLaw<T> {
+    /// Radial force; rolling resistance; side force and aligning torque.
+    fn n_actions(&self) -> usize {
+        if self.side.is_some() {
+            4
+        } else if self.rolling > T::ZERO {
+            2
+        } else {
+            1
+        }
+    }
+
+    /// Writes the actions, [`n_actions`](Self::n_actions) of them.
+    fn evaluate(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>, out: &mut [Action<T>]) {
+        out.fill(Action::default());
+        let Stand { stance, velocity, ground, depth, rate, .. } = self.stand(motion, supplies);
+        let [force, moment] = &stance.row;
+        let contact = bumper::contact(self.radial, depth, -rate);
+        let radial = Action {
+            force: (*force).into(),
+            moment: (*moment).into(),
+            measure: Measure {
+                value: depth,
+                rate,
+                tension: -contact.force,
+                stiffness: contact.stiffness,
+                damping: contact.damping,
+                drift: force.dot(&ground),
+                ..Measure::default()
+            },
+        };
+        put(out, RADIAL, radial);
+        let load = contact.force * stance.stretch;
+        if load > T::ZERO && out.len() > 1 {
+            self.roll((load, &stance), (motion, &velocity, &ground), out);
+        }
+    }
+
+    fn operations(&self, supplies: &Supplies<'_, T>) -> Operations {
+        let stance = Operations::new(43, 25).and(2, 1, 0);
+        let radial = bumper::OPERATIONS + Operations::new(4, 2);
+        let rolling = Operations::new(71, 37).and(6, 3, 2);
+        let side = Operations::new(33, 11).and(5, 0, 0);
+        stance + radial + rolling + side + nearest(self.road.of(supplies.features()))
+    }
+
+    fn needs_rotation(&self) -> bool {
+        self.leans || self.n_actions() > 1
+    }
+
+    #[inline]
+    fn look_back(&self, action: usize, measure: &mut Measure<T>, before: &Measure<T>) {
+        if before.rate != T::ZERO {
+            look_back(action, measure, before);
+        }
+    }
 
     /// Stored energy of an action [J].
-    pub fn energy(&self, action: usize, measure: &Measure<T>) -> T {
+    fn energy(&self, action: usize, measure: &Measure<T>) -> T {
         if action == RADIAL { bumper::energy(self.radial[0], measure.value) } else { T::ZERO }
     }
 
     /// Power of an action that is not stored [W].
-    pub fn power(&self, action: usize, measure: &Measure<T>) -> T {
+    fn power(&self, action: usize, measure: &Measure<T>) -> T {
         let given = -measure.tension * (measure.rate + measure.drift);
         if action == RADIAL && measure.value > T::ZERO {
             // d(k x^2 / 2)/dt = -k x rate
@@ -300,7 +323,76 @@ impl<T: Real> Tire<T> {
         }
         given
     }
+
+    fn n_gaps(&self) -> usize {
+        1
+    }
+
+    fn has_fade(&self) -> bool {
+        self.radial[1] > T::ZERO
+    }
+
+    fn watch(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>) -> [[T; 2]; 3] {
+        let TireContact { deflection, place, speed } = self.contact(motion, supplies);
+        let [depth, rate] = deflection;
+        [[-depth, rate], [place[0], speed[0]], [place[1], speed[1]]]
+    }
+
+    fn may_have_kinks(&self) -> bool {
+        true
+    }
+
+    fn kinks(&self, supplies: &Supplies<'_, T>, take: &mut dyn FnMut(Kink<T>)) {
+        kink::of_road(self.road, supplies, take);
+    }
+
+    /// On a slope a wheel stands off its foot by less than its radius.
+    fn reach(&self) -> T {
+        self.radius
+    }
+
+    fn fits(&self, supplies: &Supplies<'_, T>, n_courses: usize) -> bool {
+        let (features, knots) = (supplies.features(), supplies.knots());
+        let are_splines = self.road.of(features).iter().all(|feature| match feature {
+            Feature::Spline(part) => part.is_within(knots.0.len()) && part.is_within(knots.1.len()),
+            _ => true,
+        });
+        self.road.is_within(features.len())
+            && are_splines
+            && self.travel.is_none_or(|course| (course as usize) < n_courses)
+            && self.up < 3
+    }
 }
 
-#[cfg(test)]
+/// The nearest point of a road: one height where it is level, elsewhere as many as the search may ask for.
+fn nearest<T: Real>(features: &[Feature<T>]) -> Operations {
+    let ops = Operations::new;
+    let (mut height, mut hollow) = (Operations::NONE, Operations::NONE);
+    for feature in features {
+        let (value, bend) = match feature {
+            Feature::Flat(_) => (Operations::NONE, Operations::NONE),
+            // In the rounded corner at the end.
+            Feature::Rise { .. } => (ops(4, 5).and(4, 0, 0), ops(1, 3).and(1, 0, 0)),
+            Feature::Bump { .. } => (ops(8, 2).and(1, 0, 1), ops(3, 2).and(1, 0, 0)),
+            // The slopes at both ends of a table tell whether it rises from them.
+            Feature::Spline(_) => (ops(21, 14).and(4, 0, 0), ops(42, 30).and(9, 0, 0)),
+        };
+        height += value + ops(0, 3);
+        hollow += bend;
+    }
+    if features.iter().all(|feature| matches!(feature, Feature::Flat(_))) {
+        return height + ops(0, 3);
+    }
+    // D and D' at a place, the step to the next, and whether it is taken.
+    let spot = height + ops(9, 12).and(1, 0, 0);
+    let (settled, cell) = (ops(5, 8).and(1, 0, 0), ops(0, 2));
+    let cells = u64::from(CELLS);
+    spot * count(most_heights::<T>())
+        + settled * (1 + cells)
+        + cell * cells
+        + hollow
+        + ops(12, 13).and(5, 4, 0)
+}
+
+#[cfg(all(test, feature = "tire"))]
 mod tests;

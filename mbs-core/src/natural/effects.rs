@@ -9,6 +9,7 @@ use super::finish::lifted;
 use crate::Real;
 use crate::actions::{Action, Seat};
 use crate::algebra::{Vector, unit};
+use crate::effects::joint_torque::TorqueLaw;
 use crate::laws::scalar::Law;
 use crate::model::Owner;
 use crate::scene::{BodyId, Dimension, Freedom};
@@ -108,7 +109,7 @@ impl<T: Real> Builder<'_, T> {
                             x1: self.direction(BodyId::Ground, x),
                             x2: self.direction(BodyId::Ground, y),
                             y: self.direction(me, x),
-                            law: Law::Torque { course: *course },
+                            law: Law::Torque(TorqueLaw { course: *course }),
                         }
                     }
                     Dimension::Spatial => {

@@ -3,25 +3,22 @@
 //! Order: names, numbers and references of each entry, then what entries say about one another. Comparisons
 //! are written so that a NaN fails them.
 
-mod between;
 mod body;
 mod course;
 mod effect;
 mod joint;
 mod motion;
 mod output;
-mod own;
-mod polynomial;
 mod road;
 #[cfg(test)]
 mod tests;
-mod tire;
 mod vector;
 
 use crate::Real;
 use crate::scene::{BodyId, Dimension, Entry, Scene, SceneError, SceneFault};
 use alloc::vec::Vec;
-use vector::Place;
+pub(crate) use effect::{known_body, single_coordinate};
+pub(crate) use vector::Place;
 
 impl<T: Real> Scene<T> {
     /// Refuses a scene that cannot be meant: the first fault found, with its entry and key.
@@ -165,7 +162,7 @@ fn unique<'a>(
 }
 
 /// The entry's two bodies exist and differ.
-fn check_pair<T: Real>(
+pub(crate) fn check_pair<T: Real>(
     scene: &Scene<T>,
     bodies: [BodyId; 2],
     place: Place,

@@ -1,5 +1,6 @@
 //! Opt-in effects, as data.
 
+use crate::effects::EffectKind;
 use crate::laws::own::{UserBodyLaw, UserScalarLaw};
 use crate::scene::{BodyId, JointId};
 use alloc::string::String;
@@ -34,184 +35,6 @@ pub enum AxisFrame {
     Global,
     /// Turning with the body (global axes of the reference configuration at the start).
     Body,
-}
-
-/// The kinds of effect.
-#[derive(Debug, Clone, PartialEq)]
-pub enum EffectKind<T> {
-    /// tension = stiffness (length - free_length) + damping d(length)/dt between two body points.
-    SpringDamper {
-        /// First and second body.
-        bodies: [BodyId; 2],
-        /// One point per body, reference configuration [m].
-        points: [[T; 3]; 2],
-        /// Stiffness [N/m].
-        stiffness: T,
-        /// Damping [N s/m].
-        damping: T,
-        /// Length without tension [m].
-        free_length: T,
-    },
-    /// torque on the second body = -(stiffness (angle - free_value) + damping rate) about a revolute joint's axis.
-    TorsionSpring {
-        /// The joint.
-        joint: JointId,
-        /// Stiffness [N m/rad].
-        stiffness: T,
-        /// Damping [N m s/rad].
-        damping: T,
-        /// Angle without torque [rad].
-        free_value: T,
-    },
-    /// A force at a point of a body.
-    Force {
-        /// The body.
-        body: BodyId,
-        /// Point of application, reference configuration [m].
-        at: [T; 3],
-        /// Force [N].
-        course: Signal<T>,
-        /// Axes of the force.
-        frame: AxisFrame,
-    },
-    /// A torque on a body, from the ground: planar counter-clockwise in the first component, spatial a vector in global axes [N m].
-    BodyTorque {
-        /// The body.
-        body: BodyId,
-        /// Torque [N m].
-        course: Signal<T>,
-    },
-    /// A torque of the first body on the second about the joint's axis (first component) [N m].
-    JointTorque {
-        /// The joint.
-        joint: JointId,
-        /// Torque [N m].
-        course: Signal<T>,
-    },
-    /// A force along the line of two body points that follows a course, positive when it pushes them apart [N].
-    Actuator {
-        /// First and second body.
-        bodies: [BodyId; 2],
-        /// One point per body, reference configuration [m].
-        points: [[T; 3]; 2],
-        /// Force, first component [N].
-        course: Signal<T>,
-    },
-    /// A piecewise polynomial between two body points: tension of the length (a spring) or of its rate (a damper).
-    Polynomial {
-        /// First and second body.
-        bodies: [BodyId; 2],
-        /// One point per body, reference configuration [m].
-        points: [[T; 3]; 2],
-        /// The length is measured along this direction, fixed in the first body, instead of between the points.
-        direction: Option<[T; 3]>,
-        /// Of the length's rate instead of the length.
-        of_rate: bool,
-        /// Pieces, in increasing order and without gaps.
-        pieces: Vec<PolynomialPiece<T>>,
-    },
-    /// Pushes two points apart once they have come closer than their reference distance less the clearance.
-    Bumper {
-        /// First and second body.
-        bodies: [BodyId; 2],
-        /// One point per body, reference configuration [m].
-        points: [[T; 3]; 2],
-        /// Stiffness [N/m].
-        stiffness: T,
-        /// Damping while in contact [N s/m].
-        damping: T,
-        /// Approach from the reference configuration before contact [m].
-        clearance: T,
-    },
-    /// Six springs and dampers between two bodies at a place, in body axes of the first.
-    Bushing {
-        /// First and second body.
-        bodies: [BodyId; 2],
-        /// Place, reference configuration [m].
-        at: [T; 3],
-        /// Stiffness along x, y, z [N/m] and about x, y, z [N m/rad]; in the plane x, y and the third rotation.
-        stiffness: [T; 6],
-        /// Damping, likewise.
-        damping: [T; 6],
-    },
-    /// Elastic stops of a joint with one coordinate.
-    Limit {
-        /// The joint.
-        joint: JointId,
-        /// Coordinate below which the lower stop pushes [rad or m].
-        lower: T,
-        /// Coordinate above which the upper stop pushes [rad or m].
-        upper: T,
-        /// Stiffness [N m/rad or N/m].
-        stiffness: T,
-        /// Damping while in contact [N m s/rad or N s/m].
-        damping: T,
-    },
-    /// Stribeck friction of a joint with one coordinate, regularised.
-    Friction {
-        /// The joint.
-        joint: JointId,
-        /// Friction of fast motion [N m or N].
-        coulomb: T,
-        /// Friction of slow motion [N m or N].
-        r#static: T,
-        /// Rate at which the one becomes the other [rad/s or m/s].
-        stribeck: T,
-        /// Viscous part [N m s/rad or N s/m].
-        viscous: T,
-        /// Rate below which friction falls to zero with the rate [rad/s or m/s].
-        regularisation: T,
-    },
-    /// Drag of still air, against the velocity of a point.
-    AeroDrag {
-        /// The body.
-        body: BodyId,
-        /// Point, reference configuration [m].
-        at: [T; 3],
-        /// Drag coefficient times area [m^2].
-        area_coefficient: T,
-        /// Density of air [kg/m^3].
-        density: T,
-    },
-    /// A force at the centre of mass along a direction of the body that holds its speed.
-    SpeedHold {
-        /// The body.
-        body: BodyId,
-        /// Direction, fixed in the body.
-        direction: [T; 3],
-        /// Speed to hold [m/s].
-        speed: T,
-        /// Force per speed [N s/m].
-        gain: T,
-        /// Largest force [N].
-        limit: T,
-    },
-    /// A wheel on the scene's road.
-    Tire {
-        /// The body that carries the wheel.
-        body: BodyId,
-        /// Centre of the wheel, reference configuration [m].
-        center: [T; 3],
-        /// Axis of the wheel, fixed in the body, pointing to the left of the direction of travel. Planar scenes: `None`.
-        axis: Option<[T; 3]>,
-        /// Radius without load [m].
-        radius: T,
-        /// Radial stiffness [N/m].
-        stiffness: T,
-        /// Radial damping while in contact [N s/m].
-        damping: T,
-        /// Force against rolling, as a share of the normal force [-].
-        rolling_resistance: T,
-        /// Side force and aligning torque; `None`: only the radial force.
-        side: Option<CalspanCoefficients<T>>,
-    },
-    /// A law of a user's own, in code only.
-    Own {
-        /// The law and where it acts.
-        law: UserLaw<T>,
-        /// Its input.
-        course: Signal<T>,
-    },
 }
 
 /// Where a law of a user's own acts.
@@ -293,6 +116,19 @@ pub enum RoadFeature<T> {
         height: T,
         /// Length of each rounded corner, at most half the length [m].
         rounding: T,
+    },
+    /// Risers, each with a tread behind it: rise i begins at start + i (tread + riser). A riser is all rounding, without a straight part.
+    Stairs {
+        /// Where the first riser begins [m].
+        start: T,
+        /// Length of a tread along x [m].
+        tread: T,
+        /// Length of a riser along x [m].
+        riser: T,
+        /// Height of a riser; negative: down [m].
+        height: T,
+        /// Number of risers.
+        count: u32,
     },
     /// amplitude (1 - cos(2 pi (x - start) / length)), once.
     Bump {

@@ -31,6 +31,8 @@ pub enum SceneFault {
     UnknownReference,
     /// The ground, where only a body can stand.
     NeedsMovingBody,
+    /// A law in code, where data is needed.
+    InCode,
     /// Both bodies are the same.
     SameBody,
     /// A principal moment of inertia is larger than the sum of the other two; the two sides [kg m^2]. Of welded bodies together.
@@ -139,6 +141,9 @@ impl SceneFault {
             }
             Self::UnknownReference => "use the index of something that is in the scene",
             Self::NeedsMovingBody => "name a body of the scene",
+            Self::InCode => {
+                "use a kind of effect that is data, or build the scene in the precision of the law"
+            }
             Self::SameBody => "name two different bodies",
             Self::TriangleInequality(_) => {
                 "check the moments and products; flat bodies need all the digits they are given in"
@@ -193,6 +198,7 @@ impl SceneFault {
             Self::ReservedName => write!(f, "is empty or reserved"),
             Self::UnknownReference => write!(f, "points to something that is not in the scene"),
             Self::NeedsMovingBody => write!(f, "is the ground, which does not move"),
+            Self::InCode => write!(f, "is a law in code, which has a precision of its own"),
             Self::SameBody => write!(f, "has the same body twice"),
             Self::TriangleInequality([largest, sum]) => write!(
                 f,

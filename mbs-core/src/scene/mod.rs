@@ -9,7 +9,9 @@ pub mod align;
 #[cfg(feature = "alloc")]
 mod axes;
 #[cfg(feature = "alloc")]
-mod check;
+mod build;
+#[cfg(feature = "alloc")]
+pub(crate) mod check;
 #[cfg(feature = "alloc")]
 mod data;
 mod dimension;
@@ -23,10 +25,21 @@ mod fault;
 mod id;
 mod joint;
 #[cfg(feature = "alloc")]
+mod number;
+#[cfg(feature = "alloc")]
 mod output;
+#[cfg(feature = "alloc")]
+mod resolve;
 
 #[cfg(feature = "alloc")]
+pub use crate::effects::{
+    Actuator, AeroDrag, BodyTorque, Bumper, Bushing, EffectKind, Force, Friction, JointTorque,
+    Limit, Own, Polynomial, SpeedHold, SpringDamper, Tire, TorsionSpring,
+};
+#[cfg(feature = "alloc")]
 pub use axes::transverse;
+#[cfg(feature = "alloc")]
+pub use build::StartedJoint;
 #[cfg(feature = "alloc")]
 pub use data::{
     Body, Guide, Inertia, InitialCondition, InitialTarget, Joint, Motion, Scene, Start, TableEnds,
@@ -34,8 +47,7 @@ pub use data::{
 pub use dimension::Dimension;
 #[cfg(feature = "alloc")]
 pub use effect::{
-    AxisFrame, CalspanCoefficients, Effect, EffectKind, PolynomialPiece, Road, RoadFeature, Signal,
-    UserLaw,
+    AxisFrame, CalspanCoefficients, Effect, PolynomialPiece, Road, RoadFeature, Signal, UserLaw,
 };
 #[cfg(feature = "alloc")]
 pub use error::{Entry, SceneError};
@@ -44,5 +56,7 @@ pub use fault::SceneFault;
 #[cfg(feature = "alloc")]
 pub use id::{BodyId, EffectId, GROUND, GuideId, InitialId, JointId, OutputId};
 pub use joint::{Axis, Freedom, JOINTS, JointForm, JointKind, Rotation, Translation};
+#[cfg(feature = "alloc")]
+pub use number::{Number, Vector3};
 #[cfg(feature = "alloc")]
 pub use output::{Output, Quantity, SolverTable};

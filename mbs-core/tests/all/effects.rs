@@ -5,7 +5,7 @@ use mbs_core::algebra::{Vector, cross, rotation};
 use mbs_core::model::{Load, Measure, Model, State, Tangent, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{Dimension, EffectKind, RoadFeature, Scene};
+use mbs_core::scene::{Dimension, EffectKind, Friction, Limit, RoadFeature, Scene, Tire};
 use mbs_testkit::effects::{bushing, every, tire, with};
 use mbs_testkit::{Random, close, dot, matrix, model, plus, residual};
 
@@ -155,8 +155,10 @@ fn tangents_of_laws_are_the_derivatives_of_their_tensions() {
     fn check<const D: usize>(what: &str, kind: &EffectKind<f64>, scene: &Scene<f64>) {
         // A wheel's load acts on its other forces, which the tangent leaves out; its value is the depth, against the distance.
         let sign = match kind {
-            EffectKind::Tire { rolling_resistance, .. } if *rolling_resistance > 0.0 => return,
-            EffectKind::Tire { .. } => -1.0,
+            EffectKind::Tire(Tire { rolling_resistance, .. }) if *rolling_resistance > 0.0 => {
+                return;
+            }
+            EffectKind::Tire(_) => -1.0,
             _ => 1.0,
         };
         for seed in 1..5 {
@@ -193,13 +195,13 @@ fn damping_is_the_derivative_of_forces_by_velocity() {
         let v = at.state.v.clone();
         match kind {
             // Drag has its tangent along the velocity alone.
-            EffectKind::AeroDrag { .. } => {
+            EffectKind::AeroDrag(_) => {
                 let by_size = |state: &mut State<f64>, h| state.v = plus(&v, h, &v);
                 let difference = at.difference(by_size, At::minus_force);
                 let told: Vec<f64> = damping.iter().map(|row| dot(row, &v[..row.len()])).collect();
                 close(what, &told, &difference, DIFFERENCE);
             }
-            EffectKind::Tire { rolling_resistance, .. } if *rolling_resistance > 0.0 => {}
+            EffectKind::Tire(Tire { rolling_resistance, .. }) if *rolling_resistance > 0.0 => {}
             _ => {
                 for (i, told) in damping.iter().enumerate() {
                     let difference = at.difference(|s, h| s.v[i] += h, At::minus_force);
@@ -265,7 +267,7 @@ fn stiffness_is_the_derivative_of_forces_by_position() {
         // A wheel on level ground, where the normal does not turn, and which does not lean: what the turning of a leaning
         // axis adds to its arm is left out, as that of the bushing's axes is.
         let mut wheel = tire(dimension, false);
-        if let EffectKind::Tire { axis, .. } = &mut wheel {
+        if let EffectKind::Tire(Tire { axis, .. }) = &mut wheel {
             *axis = None;
         }
         let mut scene = with(dimension, wheel);
@@ -286,16 +288,17 @@ fn what_acts_between_two_bodies_does_no_work_when_they_move_as_one() {
             let at = At::<D>::new(&scene, seed, [0.2, 1.0]);
             let random = &mut Random(seed + 200);
             let (velocity, omega) = match kind {
-                EffectKind::AeroDrag { .. }
-                | EffectKind::SpeedHold { .. }
-                | EffectKind::Tire { .. } => continue,
-                EffectKind::Limit { joint, .. } | EffectKind::Friction { joint, .. }
+                EffectKind::AeroDrag(_) | EffectKind::SpeedHold(_) | EffectKind::Tire(_) => {
+                    continue;
+                }
+                EffectKind::Limit(Limit { joint, .. })
+                | EffectKind::Friction(Friction { joint, .. })
                     if joint.index() == 0 =>
                 {
                     continue;
                 }
                 // The arm turns about its hinge alone.
-                EffectKind::Limit { .. } | EffectKind::Friction { .. } => {
+                EffectKind::Limit(_) | EffectKind::Friction(_) => {
                     let hinge = &scene.joints[0];
                     let omega = V::from(hinge.axes[0].unwrap_or([0.0, 0.0, 1.0]));
                     (-cross(&omega, &V::from(hinge.points[0])), omega)

@@ -3,6 +3,7 @@
 mod small;
 
 mod double_double;
+mod effect_table;
 mod effects;
 mod eighth;
 mod elements;

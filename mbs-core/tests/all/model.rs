@@ -3,7 +3,10 @@
 use mbs_core::Cliques;
 use mbs_core::model::{Load, Model, State};
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{BodyId, EffectKind, Inertia, Scene, Signal};
+use mbs_core::scene::{
+    BodyId, BodyTorque, EffectKind, Force, Inertia, JointTorque, Scene, Signal, SpringDamper,
+    TorsionSpring,
+};
 use mbs_core::start::constraint_rank;
 use mbs_testkit::{
     PLANAR, Random, SPATIAL, close, dot, in_null_space, jacobian, model, plus, reference, residual,
@@ -179,7 +182,13 @@ fn power<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>) -> f64 {
     }
     for effect in &scene.effects {
         power += match &effect.kind {
-            EffectKind::SpringDamper { bodies, points, stiffness, damping, free_length } => {
+            EffectKind::SpringDamper(SpringDamper {
+                bodies,
+                points,
+                stiffness,
+                damping,
+                free_length,
+            }) => {
                 let d = plus(
                     &field.place(bodies[1], points[1]),
                     -1.0,
@@ -194,17 +203,17 @@ fn power<const D: usize>(scene: &Scene<f64>, field: &Field<'_, D>) -> f64 {
                 let rate = dot(&d, &w) / length;
                 -(stiffness * (length - free_length) + damping * rate) * rate
             }
-            EffectKind::TorsionSpring { joint, damping, free_value, stiffness } => {
+            EffectKind::TorsionSpring(TorsionSpring { joint, damping, free_value, stiffness }) => {
                 let rate = joint_rate(scene, field, joint.index());
                 -(stiffness * (0.0 - free_value) + damping * rate) * rate
             }
-            EffectKind::JointTorque { joint, course } => {
+            EffectKind::JointTorque(JointTorque { joint, course }) => {
                 at_start(course)[0] * joint_rate(scene, field, joint.index())
             }
-            EffectKind::Force { body, at, course, .. } => {
+            EffectKind::Force(Force { body, at, course, .. }) => {
                 dot(&at_start(course), &field.point(*body, *at))
             }
-            EffectKind::BodyTorque { body, course } => {
+            EffectKind::BodyTorque(BodyTorque { body, course }) => {
                 let (tau, w) = (at_start(course), field.spin(*body));
                 if D == 2 { tau[0] * w[2] } else { dot(&tau, &w) }
             }

@@ -4,8 +4,8 @@ use crate::small::{GROUND, add_body, add_joint, add_rod, guide, hold, scene, sta
 use mbs_core::algebra::{Vector, rotation};
 use mbs_core::outputs::{LARGEST_BLOCK, ReactionError, Reactions};
 use mbs_core::scene::{
-    AxisFrame, BodyId, Dimension, Effect, EffectKind, Inertia, Joint, JointId, JointKind, Motion,
-    Scene, Signal,
+    AxisFrame, BodyId, BodyTorque, Dimension, Effect, EffectKind, Force, Inertia, Joint, JointId,
+    JointKind, JointTorque, Motion, Scene, Signal, SpringDamper, TorsionSpring,
 };
 
 const G: f64 = 9.81;
@@ -292,36 +292,39 @@ fn every_joint() -> Scene<f64> {
 fn add_effects(s: &mut Scene<f64>) {
     let rising = |end: [f64; 3]| Signal::Table(vec![(-1.0, [1.0, 2.0, -1.0]), (1.0, end)]);
     let kinds = [
-        EffectKind::SpringDamper {
+        EffectKind::SpringDamper(SpringDamper {
             bodies: [BodyId::Body(1), BodyId::Body(6)],
             points: [[0.5, 0.4, 0.3], [3.9, -0.5, 0.2]],
             stiffness: 120.0,
             damping: 15.0,
             free_length: 2.0,
-        },
-        EffectKind::TorsionSpring {
+        }),
+        EffectKind::TorsionSpring(TorsionSpring {
             joint: JointId::new(2),
             stiffness: 40.0,
             damping: 3.0,
             free_value: 0.4,
-        },
-        EffectKind::JointTorque {
+        }),
+        EffectKind::JointTorque(JointTorque {
             joint: JointId::new(0),
             course: Signal::Constant([7.0, 0.0, 0.0]),
-        },
-        EffectKind::Force {
+        }),
+        EffectKind::Force(Force {
             body: BodyId::Body(4),
             at: [2.5, 0.3, -0.2],
             course: rising([5.0, -3.0, 8.0]),
             frame: AxisFrame::Global,
-        },
-        EffectKind::Force {
+        }),
+        EffectKind::Force(Force {
             body: BodyId::Body(5),
             at: [3.5, 0.3, 0.2],
             course: Signal::Constant([2.0, 5.0, -4.0]),
             frame: AxisFrame::Body,
-        },
-        EffectKind::BodyTorque { body: BodyId::Body(3), course: rising([0.0, 4.0, -2.0]) },
+        }),
+        EffectKind::BodyTorque(BodyTorque {
+            body: BodyId::Body(3),
+            course: rising([0.0, 4.0, -2.0]),
+        }),
     ];
     for kind in kinds {
         s.effects.push(Effect { name: format!("effect {}", s.effects.len()), enabled: true, kind });

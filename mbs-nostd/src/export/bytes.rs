@@ -5,6 +5,7 @@ use crate::record::{Axes, Record};
 use crate::tables::HEAD;
 use alloc::vec::Vec;
 use mbs_core::Real;
+use mbs_core::laws::entry::{Entry, EntryWriter};
 
 /// Bytes being written.
 #[derive(Debug, Clone, Default)]
@@ -29,6 +30,11 @@ impl Bytes {
         }
     }
 
+    /// A list of what laws refer to.
+    fn entries<T: Real + Record, X: Entry<T>>(&mut self, list: &[X]) -> bool {
+        list.len().write(self) && list.iter().all(|entry| entry.numbers(self))
+    }
+
     /// A list with its length first; false if an entry cannot be written.
     fn list<X: Record>(&mut self, list: &[X]) -> bool {
         list.len().write(self) && list.iter().all(|entry| entry.write(self))
@@ -43,6 +49,7 @@ pub fn bytes<T: Real + Record, S: Axes<T>>(
 ) -> Option<Vec<u8>> {
     let m = &model.mechanism;
     let (plan, laws, begin) = (&m.loops.plan, &model.prescriptions, &model.beginning);
+    let tables = m.tables.tables();
     let to = &mut Bytes { bytes: Vec::new(), is_single };
     let width = if is_single { 4 } else { 8 };
     let done = HEAD.write(to)
@@ -57,7 +64,10 @@ pub fn bytes<T: Real + Record, S: Axes<T>>(
         && to.list(plan.couplings)
         && to.list(plan.updates)
         && to.list(m.loads)
-        && law_tables(m.tables, to)
+        && to.entries::<T, _>(tables.pieces)
+        && to.entries::<T, _>(tables.features)
+        && to.entries::<T, _>(tables.knots.0)
+        && to.entries::<T, _>(tables.knots.1)
         && to.list(laws.guides)
         && to.list(laws.courses)
         && to.list(laws.knots.0)
@@ -76,17 +86,23 @@ pub fn bytes<T: Real + Record, S: Axes<T>>(
     done.then(|| core::mem::take(&mut to.bytes))
 }
 
-/// The tables of laws; empty lists where an effect is left out.
-fn law_tables<T: Real + Record>(tables: mbs_core::laws::Supplies<'_, T>, to: &mut Bytes) -> bool {
-    #[cfg(not(any(feature = "polynomial", feature = "tire")))]
-    let _ = tables;
-    #[cfg(feature = "polynomial")]
-    let pieces = to.list(tables.pieces);
-    #[cfg(not(feature = "polynomial"))]
-    let pieces = to.list::<u32>(&[]);
-    #[cfg(feature = "tire")]
-    let roads = to.list(tables.features) && to.list(tables.knots.0) && to.list(tables.knots.1);
-    #[cfg(not(feature = "tire"))]
-    let roads = (0..3).all(|_| to.list::<u32>(&[]));
-    pieces && roads
+impl<T: Real + Record> EntryWriter<T> for Bytes {
+    fn real(&mut self, x: T) {
+        self.put_real(x.to_f64());
+    }
+    fn word(&mut self, x: u32) {
+        self.put(&x.to_le_bytes());
+    }
+    fn flag(&mut self, x: bool) {
+        self.put(&u32::from(x).to_le_bytes());
+    }
+    fn tag(&mut self, tag: u32) {
+        self.put(&tag.to_le_bytes());
+    }
+    fn none(&mut self) {
+        self.put(&0_u32.to_le_bytes());
+    }
+    fn some(&mut self) {
+        self.put(&1_u32.to_le_bytes());
+    }
 }

@@ -6,8 +6,6 @@ use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::inputs::Prescribed;
 use mbs_core::laws::Part;
-use mbs_core::laws::body::BodyLaw;
-use mbs_core::laws::scalar::Law;
 use mbs_core::scene::{Motion as SceneLaw, Signal};
 use mbs_recursive::loads::Load;
 use mbs_recursive::mechanism::Mechanism;
@@ -129,8 +127,8 @@ pub fn needs<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> Vec<&'static str>
     let mut needed = Vec::new();
     for load in model.mechanism.loads {
         let feature = match load {
-            Load::Between { law, .. } | Load::Angle { law, .. } => of_law(law),
-            Load::OnBody(load) => of_body_law(&load.law),
+            Load::Between { law, .. } | Load::Angle { law, .. } => law.feature(),
+            Load::OnBody(load) => load.law.feature(),
             _ => None,
         };
         needed.extend(feature);
@@ -138,32 +136,4 @@ pub fn needs<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> Vec<&'static str>
     needed.sort_unstable();
     needed.dedup();
     needed
-}
-
-#[allow(unreachable_patterns, reason = "some effects may be left out")]
-fn of_law<T: Real>(law: &Law<T>) -> Option<&'static str> {
-    match law {
-        #[cfg(feature = "polynomial")]
-        Law::Polynomial { .. } => Some("polynomial"),
-        #[cfg(feature = "bumper")]
-        Law::Bumper { .. } => Some("bumper"),
-        #[cfg(feature = "limit")]
-        Law::Limit(_) => Some("limit"),
-        #[cfg(feature = "friction")]
-        Law::Friction(_) => Some("friction"),
-        _ => None,
-    }
-}
-
-#[allow(unreachable_patterns, reason = "some effects may be left out")]
-fn of_body_law<T: Real>(law: &BodyLaw<T>) -> Option<&'static str> {
-    match law {
-        #[cfg(feature = "drag")]
-        BodyLaw::Drag { .. } => Some("drag"),
-        #[cfg(feature = "speed-hold")]
-        BodyLaw::SpeedHold(_) => Some("speed-hold"),
-        #[cfg(feature = "tire")]
-        BodyLaw::Tire(_) => Some("tire"),
-        _ => None,
-    }
 }

@@ -7,4 +7,4 @@ mod source;
 pub use bytes::{Bytes, bytes};
 pub use gather::{Gathered, needs};
 pub use source::source;
-pub(crate) use source::{close, name, open};
+pub(crate) use source::{Source, close, name, open};

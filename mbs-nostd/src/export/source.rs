@@ -7,6 +7,7 @@ use crate::record::{Axes, Record};
 use alloc::format;
 use alloc::string::String;
 use mbs_core::Real;
+use mbs_core::laws::entry::{Entry, EntryWriter};
 
 /// Begins an expression of a struct.
 pub(crate) fn open(name: &str, to: &mut String) {
@@ -50,10 +51,20 @@ pub(crate) fn close(to: &mut String) {
 
 /// A constant table.
 fn table<X: Record>(name: &str, of: &str, list: &[X], to: &mut String) {
+    constants((name, of), list, X::source, to);
+}
+
+/// A constant table whose entries are written by `write`.
+fn constants<X>(
+    (name, of): (&str, &str),
+    list: &[X],
+    write: impl Fn(&X, &mut String),
+    to: &mut String,
+) {
     to.push_str(&format!("static {name}: [{of}; {}] = [", list.len()));
     for entry in list {
         to.push_str("\n    ");
-        entry.source(to);
+        write(entry, to);
         to.push(',');
     }
     to.push_str(if list.is_empty() { "];\n" } else { "\n];\n" });
@@ -83,7 +94,7 @@ pub fn source<T: Real + Record, S: Axes<T>>(
     let features = if features.is_empty() { "none".into() } else { features };
     let mut to = format!(
         "// {title}, as constant tables for mbs-nostd; written by `mbs export`, not by hand.\n\
-         // Features of mbs-nostd that its effects need: {features}.\n\
+         // Features of mbs-core that its effects need: {features}.\n\
          \n\
          use mbs_nostd::table::*;\n\
          \n\
@@ -191,26 +202,66 @@ fn lists<T: Real + Record, S: Axes<T>>(model: &Model<'_, T, S>, to: &mut String)
 
 /// The tables of laws that are not empty, and the expression that holds them.
 fn supplies<T: Real + Record>(tables: mbs_core::laws::Supplies<'_, T>, to: &mut String) -> String {
-    #[allow(unused_mut, reason = "some effects have tables")]
+    let tables = tables.tables();
     let mut sets = String::new();
-    #[cfg(feature = "polynomial")]
     if !tables.pieces.is_empty() {
-        table("PIECES", "Piece<Scalar>", tables.pieces, to);
+        entries::<T, _>("PIECES", "Piece<Scalar>", tables.pieces, to);
         sets.push_str("tables.pieces = &PIECES; ");
     }
-    #[cfg(feature = "tire")]
     if !tables.features.is_empty() {
-        table("FEATURES", "Feature<Scalar>", tables.features, to);
-        table("ROAD_KNOTS", "[Scalar; 2]", tables.knots.0, to);
-        table("ROAD_CURVATURES", "Scalar", tables.knots.1, to);
+        entries::<T, _>("FEATURES", "Feature<Scalar>", tables.features, to);
+        entries::<T, _>("ROAD_KNOTS", "[Scalar; 2]", tables.knots.0, to);
+        entries::<T, _>("ROAD_CURVATURES", "Scalar", tables.knots.1, to);
         sets.push_str(
             "tables.features = &FEATURES; tables.knots = (&ROAD_KNOTS, &ROAD_CURVATURES); ",
         );
     }
-    let _ = (tables, to);
     if sets.is_empty() {
         "Supplies::courses(&[])".into()
     } else {
         format!("{{ let mut tables = Supplies::courses(&[]); {sets}tables }}")
+    }
+}
+
+/// A constant table of what laws refer to.
+fn entries<T: Real + Record, X: Entry<T>>(name: &str, of: &str, list: &[X], to: &mut String) {
+    let write = |entry: &X, to: &mut String| {
+        entry.numbers(&mut Source(to));
+    };
+    constants((name, of), list, write, to);
+}
+
+/// An expression of Rust being written.
+#[derive(Debug)]
+pub(crate) struct Source<'a>(pub(crate) &'a mut String);
+
+impl<T: Real + Record> EntryWriter<T> for Source<'_> {
+    fn real(&mut self, x: T) {
+        x.source(self.0);
+    }
+    fn word(&mut self, x: u32) {
+        x.source(self.0);
+    }
+    fn flag(&mut self, x: bool) {
+        x.source(self.0);
+    }
+    fn tag(&mut self, _: u32) {}
+    fn none(&mut self) {
+        self.0.push_str("None");
+    }
+    fn some(&mut self) {
+        self.0.push_str("Some(");
+    }
+    fn open(&mut self, of: &'static str) {
+        open(of, self.0);
+    }
+    fn field(&mut self, of: &'static str) {
+        name(of, self.0);
+    }
+    fn close(&mut self) {
+        close(self.0);
+    }
+    fn text(&mut self, text: &'static str) {
+        self.0.push_str(text);
     }
 }

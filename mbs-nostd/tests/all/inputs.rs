@@ -1,7 +1,7 @@
 //! What is written between steps: in the step of fixed capacity, and in the bound of its work.
 
 use crate::support::start;
-use mbs_core::scene::{Effect, EffectKind, JointId, Motion, Scene, Signal, TableEnds};
+use mbs_core::scene::{Effect, EffectKind, JointId, JointTorque, Motion, Scene, Signal, TableEnds};
 use mbs_nostd::export::{Gathered, bytes};
 use mbs_nostd::{Bounds, Checked, InputError, Options, Planar, Solver, Tables, Unwatched};
 use mbs_recursive::{Workspace, bounded_step};
@@ -15,7 +15,7 @@ fn with_torques(name: &str) -> Scene<f64> {
     for (name, course) in
         [("set", Signal::Input([0.0; 3])), ("constant", Signal::Constant([0.1, 0.0, 0.0]))]
     {
-        let kind = EffectKind::JointTorque { joint: JointId::new(0), course };
+        let kind = EffectKind::JointTorque(JointTorque { joint: JointId::new(0), course });
         scene.effects.push(Effect { name: name.into(), enabled: true, kind });
     }
     scene

@@ -1,10 +1,11 @@
 //! Copies of a vehicle behind each other on one road.
 
 use super::GenerateError;
-use super::text::{Text, number, quoted};
+use super::text::{Text, number};
 use crate::read::SceneFile;
 use crate::read::tree::{Item, Member, Node};
-use mbs_core::scene::{EffectKind, Scene};
+use crate::write::toml::{quoted, value};
+use mbs_core::scene::Scene;
 
 const COMMENT: &str = "\
 Convoy: one vehicle many times over, behind each other on one road and driving in x.
@@ -29,7 +30,7 @@ pub(super) fn text(
         return Err(GenerateError::Spacing(spacing));
     }
     let scene = vehicle.scene::<f64>().map_err(|_| GenerateError::NoScene)?;
-    if !scene.effects.iter().any(|effect| matches!(effect.kind, EffectKind::Tire { .. })) {
+    if !scene.effects.iter().any(|effect| effect.kind.row().needs_road) {
         return Err(GenerateError::NoTires);
     }
     let mut text = Text::new(COMMENT, command);
@@ -126,19 +127,6 @@ impl Copy {
             Node::Table(members) => table(members, |item| self.moved(item)),
             _ => value(item),
         }
-    }
-}
-
-/// A value as it was.
-fn value(item: &Item) -> String {
-    match &item.node {
-        Node::Text(text) => quoted(text),
-        Node::Number(text) => text.clone(),
-        Node::Bool(flag) => flag.to_string(),
-        // No key of a scene is a date.
-        Node::Date => quoted(""),
-        Node::List(items) => list(items, value),
-        Node::Table(members) => table(members, value),
     }
 }
 

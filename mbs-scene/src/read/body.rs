@@ -1,32 +1,31 @@
 //! `[[body]]`.
 
 use crate::read::fields::{Fields, Read};
-use mbs_core::Real;
-use mbs_core::scene::{Body, Inertia};
+use mbs_core::scene::{Body, Inertia, Number};
 
 const KEYS: [&str; 5] = ["name", "mass", "center", "inertia", "rod"];
 
-pub(crate) fn read<T: Real>(fields: &Fields<'_>) -> Read<Body<T>> {
+pub(crate) fn read(fields: &Fields<'_>) -> Read<Body<Number>> {
     fields.allow(&KEYS, &[])?;
     let context = fields.context;
-    let (name, mass) = (fields.name()?, fields.number::<T>("mass")?);
+    let (name, mass) = (fields.name()?, fields.number("mass")?);
     if let Some(item) = fields.get("rod") {
         fields.exclusive("rod", "center")?;
         fields.exclusive("rod", "inertia")?;
         let ends = context.table(item, "a table: { from = [..], to = [..] }")?;
         ends.allow(&["from", "to"], &[])?;
-        let (from, to) = (ends.vector::<T>("from")?, ends.vector::<T>("to")?);
-        let center = core::array::from_fn(|i| T::HALF * (from[i] + to[i]));
+        let (from, to) = (ends.vector("from")?, ends.vector("to")?);
+        let center = core::array::from_fn(|i| Number::HALF * (from[i].clone() + to[i].clone()));
         return Ok(Body { name, mass, center, inertia: Inertia::Rod { from, to } });
     }
     // a body without mass has neither a centre of mass nor inertia to speak of
     let center = match fields.get("center") {
-        None if mass.is_zero() => [T::ZERO; 3],
+        None if mass.is_zero() => [const { Number::ZERO }; 3],
         _ => fields.vector("center")?,
     };
     let inertia = match (fields.get("inertia"), context.is_planar()) {
-        (None, true) if mass.is_zero() => Inertia::Planar(T::ZERO),
-        (None, false) if mass.is_zero() => Inertia::Spatial([T::ZERO; 6]),
+        (None, true) if mass.is_zero() => Inertia::Planar(Number::ZERO),
+        (None, false) if mass.is_zero() => Inertia::Spatial([const { Number::ZERO }; 6]),
         (_, true) => Inertia::Planar(fields.number("inertia")?),
         (_, false) => {
             let form = "a list of six numbers: [Ixx, Iyy, Izz, Ixy, Iyz, Izx]";

@@ -5,11 +5,11 @@ use crate::read::names::Names;
 use crate::read::tree::{self, Item, Member, Node, Span};
 use crate::read::{Place, ReadError, ReadFault, body, effect, joint, motion, output, road};
 use mbs_core::Real;
-use mbs_core::scene::{Dimension, Entry, Scene, SceneError, SceneFault, Start};
+use mbs_core::scene::{Dimension, Entry, Number, Scene, SceneError, SceneFault, Start};
 use std::collections::BTreeMap;
 
 /// A scene file: syntax tree, text and name. Numbers are still decimal text.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct SceneFile {
     file: String,
     text: String,
@@ -57,6 +57,14 @@ impl SceneFile {
     /// # Errors
     /// The first thing in the file that is unknown, missing, or cannot be meant, with its place.
     pub fn scene<T: Real>(&self) -> Result<Scene<T>, ReadError> {
+        self.numbers()?.resolve().map_err(|error| self.meaning(error))
+    }
+
+    /// The scene with its numbers as they are written; [`Scene::resolve`] checks it in a precision.
+    ///
+    /// # Errors
+    /// The first thing in the file that is unknown, missing, or of another form, with its place.
+    pub fn numbers(&self) -> Result<Scene<Number>, ReadError> {
         let (bodies, joints) = (self.names("body"), self.names("joint"));
         // the dimension is not known yet; nothing dimensional is read before it is
         let dimension = Dimension::Planar;
@@ -72,8 +80,8 @@ impl SceneFile {
         let header = context.table(item, "a table: [scene]")?;
         header.allow(&SCENE_KEYS, &[])?;
         let body_data = self.entries(&context, "body", |_, fields| body::read(fields))?;
-        let centers: Vec<[T; 3]> = body_data.iter().map(|body| body.center).collect();
-        let scene = Scene {
+        let centers: Vec<[Number; 3]> = body_data.iter().map(|body| body.center.clone()).collect();
+        Ok(Scene {
             name: self.scene_name(&header)?,
             dimension,
             gravity: header.get("gravity").map(|item| context.vector(item)).transpose()?,
@@ -94,11 +102,7 @@ impl SceneFile {
                 Some(item) => output::read_solver(&context.table(item, "a table: [solver]")?)?,
                 None => Default::default(),
             },
-        };
-        match scene.check() {
-            Ok(()) => Ok(scene),
-            Err(error) => Err(self.meaning(error)),
-        }
+        })
     }
 
     /// The place of a key's value, of the entry's header when the key is not written, or of the file's start.
@@ -246,7 +250,7 @@ fn read_dimension(header: &Fields<'_>) -> Read<Dimension> {
         Node::Number(text) if text == "2" => Ok(Dimension::Planar),
         Node::Number(text) if text == "3" => Ok(Dimension::Spatial),
         Node::Number(text) => header.unknown_word("dimension", (text, &item.span), &["2", "3"]),
-        _ => header.number::<f64>("dimension").map(|_| Dimension::Planar),
+        _ => header.number("dimension").map(|_| Dimension::Planar),
     }
 }
 

@@ -1,78 +1,106 @@
-//! `[[effect]]`: the kinds, their keys, and who reads them.
+//! `[[effect]]`: any kind, by the table of mbs-core.
 
-mod course;
-mod joint;
-mod line;
-mod load;
-mod tire;
+mod value;
 
+use crate::read::ReadFault;
+use crate::read::error::OWNER;
 use crate::read::fields::{Fields, Read};
-use mbs_core::Real;
-use mbs_core::scene::{Effect, EffectKind};
-
-/// A kind: its name, its keys, its reader.
-type Kind<T> = (&'static str, &'static [&'static str], fn(&Fields<'_>) -> Read<EffectKind<T>>);
-
-/// Every kind, in the order of the format.
-fn kinds<T: Real>() -> [Kind<T>; 14] {
-    [
-        (
-            "spring-damper",
-            &["bodies", "points", "stiffness", "damping", "free_length"],
-            line::spring_damper,
-        ),
-        ("torque", &["body", "joint", "value", "table"], load::torque),
-        ("force", &["body", "at", "value", "table", "frame"], load::force),
-        ("torsion-spring", &["joint", "stiffness", "damping", "free_value"], joint::torsion_spring),
-        ("bumper", &["bodies", "points", "stiffness", "damping", "clearance"], line::bumper),
-        ("polynomial-spring", &["bodies", "points", "coefficients", "direction"], |fields| {
-            line::polynomial(fields, false)
-        }),
-        ("polynomial-damper", &["bodies", "points", "coefficients", "direction"], |fields| {
-            line::polynomial(fields, true)
-        }),
-        ("actuator", &["bodies", "points", "value", "table"], line::actuator),
-        ("limit", &["joint", "lower", "upper", "stiffness", "damping"], joint::limit),
-        (
-            "friction",
-            &["joint", "coulomb", "static", "stribeck", "viscous", "regularisation"],
-            joint::friction,
-        ),
-        ("bushing", &["bodies", "at", "stiffness", "damping"], line::bushing),
-        ("aero-drag", &["body", "at", "area_coefficient", "density"], load::aero_drag),
-        ("speed-hold", &["body", "direction", "speed", "gain", "limit"], load::speed_hold),
-        (
-            "tire",
-            &[
-                "body",
-                "center",
-                "axis",
-                "radius",
-                "stiffness",
-                "damping",
-                "rolling_resistance",
-                "side",
-                "coefficients",
-            ],
-            tire::tire,
-        ),
-    ]
-}
+use mbs_core::effects::{Default, EFFECTS, Field, Form, Row, Value};
+use mbs_core::scene::{AxisFrame, Effect, EffectKind, Number};
 
 const COMMON: [&str; 3] = ["name", "kind", "enabled"];
 
 /// Reads an effect; without a name it is called `effect-N`, counted from 1.
-pub(crate) fn read<T: Real>(index: usize, fields: &Fields<'_>) -> Read<Effect<T>> {
-    let kinds = kinds::<T>();
+pub(crate) fn read(index: usize, fields: &Fields<'_>) -> Read<Effect<Number>> {
     let word = fields.word("kind")?;
-    let Some((_, keys, read)) = kinds.iter().find(|(name, ..)| *name == word.0) else {
-        return fields.unknown_word("kind", word, &kinds.map(|(name, ..)| name));
-    };
-    let elsewhere: Vec<&str> = kinds.iter().flat_map(|(_, keys, _)| *keys).copied().collect();
-    fields.allow(&[&COMMON, *keys].concat(), &elsewhere)?;
+    let named: Vec<usize> =
+        (0..EFFECTS.len()).filter(|&row| EFFECTS[row].names.contains(&word.0)).collect();
+    if named.is_empty() {
+        let names: Vec<_> = EFFECTS.iter().flat_map(|row| row.names).copied().collect();
+        return fields.unknown_word("kind", word, &names);
+    }
+    let keys = |row: &'static Row| row.fields.iter().flat_map(Field::keys);
+    let mut known = COMMON.to_vec();
+    for key in named.iter().flat_map(|&row| keys(&EFFECTS[row])) {
+        if !known.contains(&key) {
+            known.push(key);
+        }
+    }
+    let elsewhere: Vec<&str> = EFFECTS.iter().flat_map(keys).collect();
+    fields.allow(&known, &elsewhere)?;
     let name = match fields.get("name") {
         Some(_) => fields.name()?,
         None => format!("effect-{}", index + 1),
     };
-    Ok(Effect { name, enabled: fields.flag("enabled", true)?, kind: read(fields)? })
+    let enabled = fields.flag("enabled", true)?;
+    let row = choose(fields, &named)?;
+    let all = EFFECTS[row].fields;
+    let written = all.iter().map(|field| value::read(fields, field, word.0));
+    let written: Vec<Option<Value<Number>>> = written.collect::<Read<_>>()?;
+    let value = |i: usize| match &written[i] {
+        Some(value) => Ok(value.clone()),
+        None => default(fields, (all, &written), i),
+    };
+    let values: Vec<_> = (0..all.len()).map(value).collect::<Read<_>>()?;
+    match EffectKind::of(row, values) {
+        Some(kind) => Ok(Effect { name, enabled, kind }),
+        None => fields.context.fault(fields.header, ReadFault::Missing { key: "kind" }),
+    }
+}
+
+/// Kinds that share a name differ by their first key.
+fn choose(fields: &Fields<'_>, named: &[usize]) -> Read<usize> {
+    let first = |row: usize| EFFECTS[row].fields.first().map_or("", |field| field.key);
+    match *named {
+        [one, other] => {
+            fields.exclusive(first(one), first(other))?;
+            let is_there = |row: &usize| fields.get(first(*row)).is_some();
+            match [one, other].into_iter().find(is_there) {
+                Some(row) => Ok(row),
+                None => fields.context.fault(fields.header, ReadFault::Missing { key: OWNER }),
+            }
+        }
+        _ => Ok(named[0]),
+    }
+}
+
+/// What holds where the key of field `i` is left out.
+fn default(
+    fields: &Fields<'_>,
+    (all, written): (&'static [Field], &[Option<Value<Number>>]),
+    i: usize,
+) -> Read<Value<Number>> {
+    let field = &all[i];
+    let other = |key: &str| {
+        let at = all.iter().position(|field| field.key == key).filter(|at| *at != i);
+        let Some(at) = at else { return Ok(Number::ZERO) };
+        let value = match written.get(at) {
+            Some(Some(value)) => value.clone(),
+            _ => default(fields, (all, written), at)?,
+        };
+        Ok(if let Value::Number(x) = value { x } else { Number::ZERO })
+    };
+    let decimal = |text: &str| Number::from_decimal(text).unwrap_or_default();
+    match (field.form, field.default) {
+        (Form::Six, Default::Number(text)) => {
+            return Ok(Value::Six(core::array::from_fn(|_| decimal(text))));
+        }
+        (_, Default::Number(text)) => return Ok(Value::Number(decimal(text))),
+        (_, Default::As(key)) => return other(key).map(Value::Number),
+        (_, Default::Times(text, key)) => {
+            return other(key).map(|x| Value::Number(x * decimal(text)));
+        }
+        (_, Default::NeededWith(key)) if other(key)?.is_zero() => {
+            return Ok(Value::Number(Number::ZERO));
+        }
+        (Form::MaybeAxis, Default::Nothing) => return Ok(Value::MaybeAxis(None)),
+        (Form::Frame, Default::Nothing) => return Ok(Value::Frame(AxisFrame::Global)),
+        (Form::Side, Default::Nothing) => return Ok(Value::Side(None)),
+        _ => {}
+    }
+    let key = match field.form {
+        Form::Signal(_) => "value or table",
+        _ => field.key,
+    };
+    fields.context.fault(fields.header, ReadFault::Missing { key })
 }

@@ -20,6 +20,11 @@ struct Parts {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum ReadFault {
+    /// The file cannot be read.
+    Unreadable {
+        /// What the system says.
+        problem: String,
+    },
     /// The file is not UTF-8 text.
     NotUtf8,
     /// The file is not TOML.
@@ -163,6 +168,7 @@ impl core::error::Error for ReadError {}
 impl Display for ReadFault {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Unreadable { problem } => write!(f, "the file cannot be read: {problem}"),
             Self::NotUtf8 => write!(f, "the file is not UTF-8 text"),
             Self::Syntax { message, .. } => write!(f, "not TOML: {message}"),
             Self::UnknownKey { key, .. } => write!(f, "unknown key `{key}`"),
@@ -208,6 +214,7 @@ const INERTIA: &str = "add `inertia`, about the centre of mass [kg m^2]: one num
 impl ReadFault {
     fn hint(&self) -> String {
         match self {
+            Self::Unreadable { .. } => "name a file that exists and that may be read".to_owned(),
             Self::NotUtf8 => "save the file as UTF-8".to_owned(),
             Self::Syntax { line, .. } => units::of_line(line)
                 .unwrap_or_else(|| "see https://toml.io for the syntax of the file".to_owned()),

@@ -3,8 +3,7 @@
 use crate::read::names::Names;
 use crate::read::tree::{Item, Member, Node, Span};
 use crate::read::{ReadError, ReadFault, SceneFile};
-use mbs_core::Real;
-use mbs_core::scene::{BodyId, Dimension, JointId};
+use mbs_core::scene::{BodyId, Dimension, JointId, Number};
 
 /// What the readers of all entries share.
 #[derive(Debug, Clone, Copy)]
@@ -76,7 +75,7 @@ impl<'a> Context<'a> {
     }
 
     /// The nearest number to the decimal text; finite.
-    pub(crate) fn number<T: Real>(&self, item: &Item) -> Read<T> {
+    pub(crate) fn number(&self, item: &Item) -> Read<Number> {
         let text = match &item.node {
             Node::Number(text) => text,
             Node::Text(text) => {
@@ -84,14 +83,14 @@ impl<'a> Context<'a> {
             }
             _ => return self.wrong_type(item, "a number"),
         };
-        match T::from_decimal(text) {
-            Some(number) if number.is_finite() => Ok(number),
+        match Number::from_decimal(text) {
+            Some(number) if number.to_f64().is_finite() => Ok(number),
             _ => self.fault(&item.span, ReadFault::NotFinite { text: text.clone() }),
         }
     }
 
     /// One number or a list of numbers.
-    pub(crate) fn numbers<T: Real>(&self, item: &'a Item) -> Read<Vec<T>> {
+    pub(crate) fn numbers(&self, item: &'a Item) -> Read<Vec<Number>> {
         match &item.node {
             Node::Number(_) | Node::Text(_) => Ok(vec![self.number(item)?]),
             Node::List(items) => items.iter().map(|entry| self.number(entry)).collect(),
@@ -100,12 +99,12 @@ impl<'a> Context<'a> {
     }
 
     /// Exactly `N` numbers.
-    pub(crate) fn numbers_of<T: Real, const N: usize>(
+    pub(crate) fn numbers_of<const N: usize>(
         &self,
         item: &'a Item,
         expected: &'static str,
-    ) -> Read<[T; N]> {
-        let mut numbers = [T::ZERO; N];
+    ) -> Read<[Number; N]> {
+        let mut numbers = [const { Number::ZERO }; N];
         for (number, item) in numbers.iter_mut().zip(self.exactly::<N>(item, expected)?) {
             *number = self.number(item)?;
         }
@@ -113,18 +112,18 @@ impl<'a> Context<'a> {
     }
 
     /// A vector of the scene's dimension; a third component in a planar scene is left to the check.
-    pub(crate) fn vector<T: Real>(&self, item: &'a Item) -> Read<[T; 3]> {
+    pub(crate) fn vector(&self, item: &'a Item) -> Read<[Number; 3]> {
         let items = self.list(item, "a list of numbers")?;
         self.components(item, items)
     }
 
     /// The components of a vector that stand in `items`, a part of `whole`.
-    pub(crate) fn components<T: Real>(&self, whole: &Item, items: &[Item]) -> Read<[T; 3]> {
+    pub(crate) fn components(&self, whole: &Item, items: &[Item]) -> Read<[Number; 3]> {
         let needed = self.dimension.count();
         if items.len() != needed && items.len() != 3 {
             return self.fault(&whole.span, ReadFault::WrongCount { needed, found: items.len() });
         }
-        let mut vector = [T::ZERO; 3];
+        let mut vector = [const { Number::ZERO }; 3];
         for (component, item) in vector.iter_mut().zip(items) {
             *component = self.number(item)?;
         }
@@ -205,21 +204,21 @@ impl<'a> Fields<'a> {
         Ok(self.context.text(self.need("name")?)?.to_owned())
     }
 
-    pub(crate) fn number<T: Real>(&self, key: &'static str) -> Read<T> {
+    pub(crate) fn number(&self, key: &'static str) -> Read<Number> {
         self.context.number(self.need(key)?)
     }
 
-    pub(crate) fn optional<T: Real>(&self, key: &str) -> Read<Option<T>> {
+    pub(crate) fn optional(&self, key: &str) -> Read<Option<Number>> {
         self.get(key).map(|item| self.context.number(item)).transpose()
     }
 
-    pub(crate) fn number_or_zero<T: Real>(&self, key: &str) -> Read<T> {
-        Ok(self.optional(key)?.unwrap_or(T::ZERO))
+    pub(crate) fn number_or_zero(&self, key: &str) -> Read<Number> {
+        Ok(self.optional(key)?.unwrap_or(Number::ZERO))
     }
 
     /// The number of a key, or the nearest one to a decimal text.
-    pub(crate) fn number_or<T: Real>(&self, key: &str, default: &str) -> Read<T> {
-        Ok(self.optional(key)?.or_else(|| T::from_decimal(default)).unwrap_or(T::ZERO))
+    pub(crate) fn number_or(&self, key: &str, default: &str) -> Read<Number> {
+        Ok(self.optional(key)?.or_else(|| Number::from_decimal(default)).unwrap_or(Number::ZERO))
     }
 
     /// A whole number from 1 to `most`.
@@ -237,7 +236,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    pub(crate) fn vector<T: Real>(&self, key: &'static str) -> Read<[T; 3]> {
+    pub(crate) fn vector(&self, key: &'static str) -> Read<[Number; 3]> {
         self.context.vector(self.need(key)?)
     }
 
@@ -262,7 +261,7 @@ impl<'a> Fields<'a> {
     }
 
     /// Two vectors, one per body.
-    pub(crate) fn two_vectors<T: Real>(&self, key: &'static str) -> Read<[[T; 3]; 2]> {
+    pub(crate) fn two_vectors(&self, key: &'static str) -> Read<[[Number; 3]; 2]> {
         let [first, second] = self.context.exactly(self.need(key)?, "a list of two vectors")?;
         Ok([self.context.vector(first)?, self.context.vector(second)?])
     }

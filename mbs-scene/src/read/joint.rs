@@ -1,13 +1,12 @@
 //! `[[joint]]`.
 
 use crate::read::fields::{Fields, Read};
-use mbs_core::Real;
-use mbs_core::scene::{BodyId, Dimension, Joint, JointKind};
+use mbs_core::scene::{BodyId, Dimension, Joint, JointKind, Number};
 
 const KEYS: [&str; 8] = ["name", "kind", "bodies", "at", "axis", "axes", "points", "direction"];
 
 /// Reads a joint; `centers` are the bodies' centres of mass, where a free joint is placed by default.
-pub(crate) fn read<T: Real>(fields: &Fields<'_>, centers: &[[T; 3]]) -> Read<Joint<T>> {
+pub(crate) fn read(fields: &Fields<'_>, centers: &[[Number; 3]]) -> Read<Joint<Number>> {
     let kind = read_kind(fields)?;
     let is_planar = fields.context.is_planar();
     let dimension = if is_planar { Dimension::Planar } else { Dimension::Spatial };
@@ -28,7 +27,7 @@ pub(crate) fn read<T: Real>(fields: &Fields<'_>, centers: &[[T; 3]]) -> Read<Joi
             Some(center) if fields.get("at").is_none() => center,
             _ => fields.vector("at")?,
         };
-        [at, at]
+        [at.clone(), at]
     };
     let axes = if axis_keys == ["axes"; 2] {
         fields.two_vectors("axes")?.map(Some)
@@ -52,14 +51,14 @@ fn read_kind(fields: &Fields<'_>) -> Read<JointKind> {
 }
 
 /// A free joint speaks about the centre of mass of the second body, or of the first when that is the ground.
-fn default_place<T: Real>(
+fn default_place(
     kind: JointKind,
     bodies: [BodyId; 2],
-    centers: &[[T; 3]],
-) -> Option<[T; 3]> {
+    centers: &[[Number; 3]],
+) -> Option<[Number; 3]> {
     match bodies {
         [_, BodyId::Body(i)] | [BodyId::Body(i), BodyId::Ground] if kind.is_free() => {
-            centers.get(i).copied()
+            centers.get(i).cloned()
         }
         _ => None,
     }

@@ -2,6 +2,7 @@
 
 mod body;
 mod document;
+mod edit;
 mod effect;
 mod error;
 mod fields;

@@ -2,13 +2,12 @@
 
 use crate::read::ReadFault;
 use crate::read::fields::{Fields, Read};
-use mbs_core::Real;
-use mbs_core::scene::{Guide, InitialCondition, InitialTarget, Motion, TableEnds};
+use mbs_core::scene::{Guide, InitialCondition, InitialTarget, Motion, Number, TableEnds};
 
 const INITIAL_KEYS: [&str; 7] =
     ["joint", "value", "rate", "body", "at", "velocity", "angular_velocity"];
 
-pub(crate) fn read_initial<T: Real>(fields: &Fields<'_>) -> Read<InitialCondition<T>> {
+pub(crate) fn read_initial(fields: &Fields<'_>) -> Read<InitialCondition<Number>> {
     let context = fields.context;
     fields.exclusive("joint", "body")?;
     let target = match fields.get("body") {
@@ -31,7 +30,7 @@ pub(crate) fn read_initial<T: Real>(fields: &Fields<'_>) -> Read<InitialConditio
 }
 
 /// `at` and `velocity` come together.
-fn point_velocity<T: Real>(fields: &Fields<'_>) -> Read<Option<([T; 3], [T; 3])>> {
+fn point_velocity(fields: &Fields<'_>) -> Read<Option<([Number; 3], [Number; 3])>> {
     if fields.get("at").is_none() && fields.get("velocity").is_none() {
         return Ok(None);
     }
@@ -39,22 +38,23 @@ fn point_velocity<T: Real>(fields: &Fields<'_>) -> Read<Option<([T; 3], [T; 3])>
 }
 
 /// Planar: one number, about z. Spatial: a vector in global axes.
-fn angular_velocity<T: Real>(fields: &Fields<'_>) -> Read<Option<[T; 3]>> {
+fn angular_velocity(fields: &Fields<'_>) -> Read<Option<[Number; 3]>> {
     let Some(item) = fields.get("angular_velocity") else { return Ok(None) };
     if fields.context.is_planar() {
-        return Ok(Some([T::ZERO, T::ZERO, fields.context.number(item)?]));
+        return Ok(Some([Number::ZERO, Number::ZERO, fields.context.number(item)?]));
     }
     fields.context.vector(item).map(Some)
 }
 
-pub(crate) fn read_guide<T: Real>(fields: &Fields<'_>) -> Read<Guide<T>> {
+pub(crate) fn read_guide(fields: &Fields<'_>) -> Read<Guide<Number>> {
     let known: &[_] = match fields.get("table") {
-        Some(_) => &["joint", "table", "ends", "sine", "ramp"],
-        None => &["joint", "table", "sine", "ramp"],
+        Some(_) => &["joint", "table", "ends", "sine", "ramp", "input"],
+        None => &["joint", "table", "sine", "ramp", "input"],
     };
     fields.allow(known, &["ends"])?;
-    for (one, other) in [("table", "sine"), ("table", "ramp"), ("sine", "ramp")] {
-        fields.exclusive(one, other)?;
+    let laws = ["table", "sine", "ramp", "input"];
+    for (i, one) in laws.iter().enumerate() {
+        laws[i + 1..].iter().try_for_each(|other| fields.exclusive(one, other))?;
     }
     let context = fields.context;
     let joint = context.joint(fields.need("joint")?)?;
@@ -71,10 +71,17 @@ pub(crate) fn read_guide<T: Real>(fields: &Fields<'_>) -> Read<Guide<T>> {
         let ramp = context.table(item, "a table: { rate = .. }")?;
         ramp.allow(&["rate"], &[])?;
         Motion::Ramp { rate: ramp.number("rate")? }
+    } else if let Some(item) = fields.get("input") {
+        let form = "a table: { value = .., rate = .., acceleration = .. }";
+        let input = context.table(item, form)?;
+        input.allow(&["value", "rate", "acceleration"], &[])?;
+        let number = |key| input.number_or_zero(key);
+        Motion::Input([number("value")?, number("rate")?, number("acceleration")?])
     } else if fields.get("table").is_some() {
         Motion::Table { rows: read_table(fields)?, ends: read_ends(fields)? }
     } else {
-        return context.fault(fields.header, ReadFault::Missing { key: "table, sine or ramp" });
+        return context
+            .fault(fields.header, ReadFault::Missing { key: "table, sine, ramp or input" });
     };
     Ok(Guide { joint, law })
 }
@@ -90,7 +97,7 @@ fn read_ends(fields: &Fields<'_>) -> Read<TableEnds> {
     }
 }
 
-fn read_table<T: Real>(fields: &Fields<'_>) -> Read<Vec<[T; 2]>> {
+fn read_table(fields: &Fields<'_>) -> Read<Vec<[Number; 2]>> {
     let context = fields.context;
     context
         .list(fields.need("table")?, "a list of rows [time, value]")?

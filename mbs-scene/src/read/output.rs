@@ -3,14 +3,13 @@
 use crate::read::ReadFault;
 use crate::read::error::OWNER;
 use crate::read::fields::{Fields, Read};
-use mbs_core::Real;
-use mbs_core::scene::{Output, Quantity, SolverTable};
+use mbs_core::scene::{Number, Output, Quantity, SolverTable};
 
 const KEYS: [&str; 5] = ["name", "body", "at", "joint", "quantity"];
 const BODY_WORDS: [&str; 3] = ["position", "velocity", "acceleration"];
 const JOINT_WORDS: [&str; 3] = ["value", "rate", "reaction"];
 
-pub(crate) fn read<T: Real>(fields: &Fields<'_>) -> Read<Output<T>> {
+pub(crate) fn read(fields: &Fields<'_>) -> Read<Output<Number>> {
     fields.exclusive("joint", "body")?;
     let quantity = if let Some(joint) = fields.get("joint") {
         fields.allow(&["name", "joint", "quantity"], &KEYS)?;
@@ -45,7 +44,7 @@ fn quantity_word<'a>(fields: &Fields<'a>, default: &'static str) -> Read<&'a str
     Ok(fields.word("quantity")?.0)
 }
 
-pub(crate) fn read_solver<T: Real>(fields: &Fields<'_>) -> Read<SolverTable<T>> {
+pub(crate) fn read_solver(fields: &Fields<'_>) -> Read<SolverTable<Number>> {
     fields.allow(
         &[
             "formulation",

@@ -1,10 +1,8 @@
 //! `[road]`: features under all wheels, or different ones on the left and on the right.
 
-use crate::read::ReadFault;
 use crate::read::fields::{Context, Fields, Read};
-use crate::read::tree::{Item, Member, Node};
-use mbs_core::Real;
-use mbs_core::scene::{Entry, Road, RoadFeature, SceneError, SceneFault};
+use crate::read::tree::{Item, Node};
+use mbs_core::scene::{Number, Road, RoadFeature};
 
 /// A kind of feature and its keys.
 const KINDS: [(&str, &[&str]); 5] = [
@@ -21,14 +19,15 @@ const MOST_STEPS: u32 = 10_000;
 const ROUNDING: &str = "0.1";
 
 /// Reads the road. One feature may stand in `[road]` itself.
-pub(crate) fn read<T: Real>(fields: &Fields<'_>) -> Read<Road<T>> {
+pub(crate) fn read(fields: &Fields<'_>) -> Read<Road<Number>> {
     let speed = fields.number_or_zero("speed")?;
-    let both = |features: Vec<_>| Road { left: features.clone(), right: features, speed };
+    let both =
+        |features: Vec<_>| Road { left: features.clone(), right: features, speed: speed.clone() };
     if fields.get("kind").is_some() {
         for key in ["features", "left", "right"] {
             fields.exclusive("kind", key)?;
         }
-        return Ok(both(feature(fields, &["speed"])?));
+        return Ok(both(vec![feature(fields, &["speed"])?]));
     }
     fields.allow(&TRACKS, &elsewhere())?;
     if let Some(item) = fields.get("features") {
@@ -48,70 +47,52 @@ fn elsewhere() -> Vec<&'static str> {
 }
 
 /// A list of features, or one.
-fn features<T: Real>(context: &Context<'_>, item: &Item) -> Read<Vec<RoadFeature<T>>> {
+fn features(context: &Context<'_>, item: &Item) -> Read<Vec<RoadFeature<Number>>> {
     let form = "a feature { kind = .. }, or a list of them";
     if let Node::Table(_) = item.node {
-        return feature(&context.table(item, form)?, &[]);
+        return Ok(vec![feature(&context.table(item, form)?, &[])?]);
     }
-    let lists =
-        context.list(item, form)?.iter().map(|item| feature(&context.table(item, form)?, &[]));
-    Ok(lists.collect::<Read<Vec<_>>>()?.concat())
+    context.list(item, form)?.iter().map(|item| feature(&context.table(item, form)?, &[])).collect()
 }
 
-/// One feature of the file; stairs become several of the scene.
-fn feature<T: Real>(fields: &Fields<'_>, beside: &[&'static str]) -> Read<Vec<RoadFeature<T>>> {
+/// One feature.
+fn feature(fields: &Fields<'_>, beside: &[&'static str]) -> Read<RoadFeature<Number>> {
     let word = fields.word("kind")?;
     let Some((kind, keys)) = KINDS.iter().find(|(name, _)| *name == word.0) else {
         return fields.unknown_word("kind", word, &KINDS.map(|(name, _)| name));
     };
     fields.allow(&[&["kind"], beside, *keys].concat(), &elsewhere())?;
     Ok(match *kind {
-        "flat" => vec![RoadFeature::Flat { height: fields.number_or_zero("height")? }],
-        "ramp" => vec![ramp(fields)?],
+        "flat" => RoadFeature::Flat { height: fields.number_or_zero("height")? },
+        "ramp" => ramp(fields)?,
         "stairs" => stairs(fields)?,
-        "bump" => vec![bump(fields)?],
-        _ => vec![RoadFeature::Table(points(fields)?)],
+        "bump" => bump(fields)?,
+        _ => RoadFeature::Table(points(fields)?),
     })
 }
 
-fn ramp<T: Real>(fields: &Fields<'_>) -> Read<RoadFeature<T>> {
-    let length: T = fields.number("length")?;
+fn ramp(fields: &Fields<'_>) -> Read<RoadFeature<Number>> {
+    let length: Number = fields.number("length")?;
     let rounding = match fields.optional("rounding")? {
         Some(rounding) => rounding,
-        None => length * fields.number_or::<T>("rounding", ROUNDING)?,
+        None => length.clone() * fields.number_or("rounding", ROUNDING)?,
     };
     let (start, height) = (fields.number("start")?, fields.number("height")?);
     Ok(RoadFeature::Rise { start, length, height, rounding })
 }
 
-/// Risers, each with a tread behind it: rise i begins at start + i (tread + riser). A riser is all rounding, without a
-/// straight part.
-fn stairs<T: Real>(fields: &Fields<'_>) -> Read<Vec<RoadFeature<T>>> {
-    let (start, height): (T, T) = (fields.number("start")?, fields.number("height")?);
-    let (riser, tread): (T, T) = (fields.number("riser")?, fields.number("tread")?);
-    if !(riser > T::ZERO) {
-        return refuse(fields, "riser", SceneFault::NotPositive(riser.to_f64()));
-    }
-    if !(tread >= T::ZERO) {
-        return refuse(fields, "tread", SceneFault::Negative(tread.to_f64()));
-    }
-    let rise = |i: u32| RoadFeature::Rise {
-        start: start + T::from_f64(f64::from(i)) * (tread + riser),
-        length: riser,
-        height,
-        rounding: riser * T::HALF,
-    };
-    Ok((0..fields.count("count", MOST_STEPS)?).map(rise).collect())
-}
-
-/// A fault that the scene's check would tell of another key.
-fn refuse<R>(fields: &Fields<'_>, field: &'static str, fault: SceneFault) -> Read<R> {
-    let error = SceneError { entry: Entry::Road, field, fault };
-    fields.context.fault(&fields.need(field)?.span, ReadFault::Scene(error))
+fn stairs(fields: &Fields<'_>) -> Read<RoadFeature<Number>> {
+    Ok(RoadFeature::Stairs {
+        start: fields.number("start")?,
+        height: fields.number("height")?,
+        riser: fields.number("riser")?,
+        tread: fields.number("tread")?,
+        count: fields.count("count", MOST_STEPS)?,
+    })
 }
 
 /// `amplitude` is half the height; `1-cos` and `cosine` are two names of one shape.
-fn bump<T: Real>(fields: &Fields<'_>) -> Read<RoadFeature<T>> {
+fn bump(fields: &Fields<'_>) -> Read<RoadFeature<Number>> {
     if fields.get("shape").is_some() {
         match fields.word("shape")? {
             ("1-cos" | "cosine", _) => {}
@@ -119,15 +100,15 @@ fn bump<T: Real>(fields: &Fields<'_>) -> Read<RoadFeature<T>> {
         }
     }
     fields.exclusive("amplitude", "height")?;
-    let amplitude = match fields.optional::<T>("height")? {
-        Some(height) => height * T::HALF,
+    let amplitude = match fields.optional("height")? {
+        Some(height) => height * Number::HALF,
         None => fields.number("amplitude")?,
     };
     let (start, length) = (fields.number("start")?, fields.number("length")?);
     Ok(RoadFeature::Bump { start, length, amplitude })
 }
 
-fn points<T: Real>(fields: &Fields<'_>) -> Read<Vec<[T; 2]>> {
+fn points(fields: &Fields<'_>) -> Read<Vec<[Number; 2]>> {
     let context = fields.context;
     let items = context.list(fields.need("points")?, "a list of points [x, z]")?;
     items.iter().map(|item| context.numbers_of(item, "a point [x, z]")).collect()
@@ -143,19 +124,5 @@ pub(crate) fn item_of<'a>(road: &'a Item, track: &str, index: usize) -> Option<&
         Some(Item { node: Node::List(items), .. }) => items,
         Some(item) => core::slice::from_ref(item),
     };
-    let mut end = 0;
-    items.iter().find(|item| {
-        end += n_features(item);
-        index < end
-    })
-}
-
-/// How many features of the scene one of the file becomes.
-fn n_features(item: &Item) -> usize {
-    let Node::Table(members) = &item.node else { return 1 };
-    let count = |m: &Member| match &m.item.node {
-        Node::Number(text) if m.key == "count" => text.parse().ok(),
-        _ => None,
-    };
-    members.iter().find_map(count).unwrap_or(1)
+    items.get(index)
 }

@@ -170,7 +170,7 @@ fn the_spatial_kinds_are_read() {
     assert_eq!(scene.joints[1].axes, [Some([0.0, 0.0, 1.0]), Some([1.0, 0.0, 0.0])]);
     assert_eq!(scene.joints[2].points, [[0.0, 0.0, 1.0]; 2]);
     assert_eq!(scene.joints[3].points, [[0.0; 3], [1.0, 0.0, 0.0]]);
-    let EffectKind::Force { course, frame, .. } = &scene.effects[0].kind else { panic!() };
+    let EffectKind::Force(Force { course, frame, .. }) = &scene.effects[0].kind else { panic!() };
     let rows = vec![(0.0, [1.0, 2.0, 3.0]), (1.0, [4.0, 5.0, 6.0])];
     assert_eq!((course, *frame), (&Signal::Table(rows), AxisFrame::Body));
 }

@@ -6,8 +6,11 @@ mod estimate;
 mod explanation;
 mod json;
 mod realtime;
+mod scene;
+mod serde;
 #[cfg(test)]
 mod tests;
+pub(crate) mod toml;
 
 pub use choice::{
     Candidate, Fallback, PilotReference, PilotReport, SecondLook, TrialEntry, write_choice,
@@ -23,3 +26,4 @@ pub use json::{
     ViolationSummary,
 };
 pub use realtime::{Degraded, MarginSummary, Overrun, RealtimeSummary, Times, write_overruns};
+pub use scene::{WriteError, to_toml};

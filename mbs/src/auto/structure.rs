@@ -7,7 +7,8 @@ use crate::ready::AssembledScene;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
-use mbs_core::scene::{BodyId, Effect, EffectKind, Scene};
+use mbs_core::effects::Value;
+use mbs_core::scene::{BodyId, Effect, Scene};
 use mbs_recursive::TreeModel;
 
 /// Steps of an explicit method in each period of the stiffest spring, roughly.
@@ -46,12 +47,7 @@ where
     let tree = TreeModel::<T, <Plane<D> as InSpace<T>>::Space>::new(scene);
     let loops = tree.map(|tree| tree.cut_joints().count());
     let enabled = || scene.effects.iter().filter(|effect| effect.enabled);
-    let is_contact = |effect: &&Effect<T>| {
-        matches!(
-            effect.kind,
-            EffectKind::Bumper { .. } | EffectKind::Limit { .. } | EffectKind::Tire { .. }
-        )
-    };
+    let is_contact = |effect: &&Effect<T>| effect.kind.row().is_one_sided;
     Structure {
         dimension: D,
         bodies: scene.bodies.len(),
@@ -70,15 +66,18 @@ fn frequency<T: Real>(scene: &Scene<T>, effect: &Effect<T>) -> f64 {
         BodyId::Body(i) => scene.bodies.get(*i).map_or(0.0, |body| 1.0 / body.mass.to_f64()),
         BodyId::Ground => 0.0,
     };
-    let (bodies, stiffness) = match &effect.kind {
-        EffectKind::SpringDamper { bodies, stiffness, .. }
-        | EffectKind::Bumper { bodies, stiffness, .. } => (bodies, stiffness.to_f64()),
-        EffectKind::Bushing { bodies, stiffness, .. } => {
-            (bodies, stiffness[..3].iter().map(|k| k.to_f64()).fold(0.0, f64::max))
+    let (mut mobility, mut stiffness) = (0.0, 0.0_f64);
+    for (field, value) in effect.kind.row().fields.iter().zip(effect.kind.values()) {
+        match value {
+            Value::Bodies(bodies) => mobility = bodies.iter().map(of).sum::<f64>(),
+            Value::Number(k) if field.key == "stiffness" => stiffness = k.to_f64(),
+            Value::Six(k) if field.key == "stiffness" => {
+                stiffness = k[..3].iter().map(|k| k.to_f64()).fold(0.0, f64::max);
+            }
+            _ => {}
         }
-        _ => return 0.0,
-    };
-    let square = stiffness * bodies.iter().map(of).sum::<f64>();
+    }
+    let square = stiffness * mobility;
     if square.is_finite() { square.max(0.0).sqrt() } else { 0.0 }
 }
 

@@ -4,7 +4,8 @@ use super::finding::{Finding, Severity, Topic};
 use crate::words::few;
 use mbs_core::algebra::Vector;
 use mbs_core::cluster::{mass_properties, scene_length};
-use mbs_core::scene::{BodyId, Dimension, EffectKind, Entry, Inertia, JointKind, Scene};
+use mbs_core::effects::Value;
+use mbs_core::scene::{BodyId, Dimension, Entry, Inertia, JointKind, Scene};
 
 /// Distance between an end of an effect and another place of its body that is told, beside the length of the scene.
 const NEAR: f64 = 0.02;
@@ -62,24 +63,8 @@ fn places(scene: &Scene<f64>) -> Vec<Vec<Place>> {
         joint.bodies.into_iter().zip(joint.points).for_each(|(b, p)| add(Owner::Joint(j), b, p));
     }
     for (e, effect) in scene.effects.iter().enumerate().filter(|(_, effect)| effect.enabled) {
-        match effect.kind {
-            EffectKind::SpringDamper { bodies, points, .. }
-            | EffectKind::Actuator { bodies, points, .. }
-            | EffectKind::Polynomial { bodies, points, .. }
-            | EffectKind::Bumper { bodies, points, .. } => {
-                let owner = Owner::Effect(e, "points");
-                bodies.into_iter().zip(points).for_each(|(b, p)| add(owner, b, p));
-            }
-            EffectKind::Bushing { bodies, at, .. } => {
-                bodies.into_iter().for_each(|b| add(Owner::Effect(e, "at"), b, at));
-            }
-            EffectKind::Force { body, at, .. } | EffectKind::AeroDrag { body, at, .. } => {
-                add(Owner::Effect(e, "at"), body, at);
-            }
-            EffectKind::Tire { body, center, .. } => {
-                add(Owner::Effect(e, "center"), body, center);
-            }
-            _ => {}
+        for (key, body, point) in effect.kind.places() {
+            add(Owner::Effect(e, key), body, point);
         }
     }
     places
@@ -132,11 +117,8 @@ fn limit(scene: &Scene<f64>, place: &Place, (near, is_shared): (f64, bool)) -> f
 /// Do two effects act between the same bodies?
 fn is_same_pair(scene: &Scene<f64>, a: &Place, b: &Place) -> bool {
     let (Owner::Effect(i, _), Owner::Effect(j, _)) = (a.owner, b.owner) else { return false };
-    let pair = |e: usize| match scene.effects[e].kind {
-        EffectKind::SpringDamper { bodies, .. }
-        | EffectKind::Actuator { bodies, .. }
-        | EffectKind::Polynomial { bodies, .. }
-        | EffectKind::Bumper { bodies, .. } => Some(bodies),
+    let pair = |e: usize| match scene.effects[e].kind.values()[..] {
+        [Value::Bodies(bodies), Value::Points(_), ..] => Some(bodies),
         _ => None,
     };
     let (Some([a, b]), Some(other)) = (pair(i), pair(j)) else { return false };

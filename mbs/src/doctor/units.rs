@@ -3,7 +3,9 @@
 use super::finding::{Finding, Severity, Topic, body_names};
 use crate::words::few;
 use mbs_core::cluster::{mass_properties, scene_length};
-use mbs_core::scene::{BodyId, EffectKind, Entry, Freedom, InitialTarget, JointId, Motion, Scene};
+use mbs_core::scene::{
+    BodyId, EffectKind, Entry, Freedom, InitialTarget, JointId, Motion, Scene, SpringDamper,
+};
 
 /// Mass over the cube of the size [kg/m^3]: a slender rod of a metre and a kilogram has 1, a block of steel 8000.
 const DENSITIES: [f64; 2] = [1e-6, 1e8];
@@ -134,12 +136,12 @@ fn angles(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
         }
     }
     for (i, effect) in scene.effects.iter().enumerate().filter(|(_, e)| e.enabled) {
-        match effect.kind {
-            EffectKind::TorsionSpring { free_value, .. } if like_degrees(free_value) => {
-                tell(free_value, Entry::Effect(i), "free_value");
+        match &effect.kind {
+            EffectKind::TorsionSpring(spring) if like_degrees(spring.free_value) => {
+                tell(spring.free_value, Entry::Effect(i), "free_value");
             }
-            EffectKind::Limit { joint, upper, .. } if turns(joint) && like_degrees(upper) => {
-                tell(upper, Entry::Effect(i), "upper");
+            EffectKind::Limit(stop) if turns(stop.joint) && like_degrees(stop.upper) => {
+                tell(stop.upper, Entry::Effect(i), "upper");
             }
             _ => {}
         }
@@ -149,10 +151,8 @@ fn angles(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
 /// A spring whose length at rest is far from its length in place, or whose frequency no machine has.
 fn spring(scene: &Scene<f64>, index: usize) -> Option<Finding> {
     let effect = &scene.effects[index];
-    let EffectKind::SpringDamper { bodies, points, stiffness, free_length, .. } = effect.kind
-    else {
-        return None;
-    };
+    let EffectKind::SpringDamper(spring) = &effect.kind else { return None };
+    let &SpringDamper { bodies, points, stiffness, free_length, .. } = spring;
     if !effect.enabled {
         return None;
     }

@@ -6,7 +6,6 @@
 
 mod absent;
 pub(crate) mod changes;
-pub(crate) mod kinds;
 mod price;
 mod reach;
 mod report;
@@ -124,10 +123,10 @@ where
     crate::channels::Channels::new(scene, simulation.model()).map(drop)
 }
 
-fn effects<T>(scene: &Scene<T>) -> Vec<EffectEntry> {
+fn effects<T: Real>(scene: &Scene<T>) -> Vec<EffectEntry> {
     let entry = |effect: &mbs_core::scene::Effect<T>| EffectEntry {
         name: effect.name.clone(),
-        kind: kinds::name(&effect.kind).to_owned(),
+        kind: effect.kind.name().to_owned(),
         enabled: effect.enabled,
     };
     scene.effects.iter().map(entry).collect()

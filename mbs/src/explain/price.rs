@@ -3,7 +3,7 @@
 use super::changes::Outputs;
 use super::reach::largest_step;
 use super::timing::{Times, count, interleaved, monitor, trial};
-use super::{Effort, kinds, outcome, without};
+use super::{Effort, outcome, without};
 use crate::run::Outcome;
 use crate::settings::Settings;
 use crate::tree::{InSpace, Plane};
@@ -78,18 +78,18 @@ where
 }
 
 /// Each enabled effect alone, then each kind that has several.
-fn leaves<T>(scene: &Scene<T>) -> Vec<Leave> {
+fn leaves<T: Real>(scene: &Scene<T>) -> Vec<Leave> {
     let enabled = || scene.effects.iter().enumerate().filter(|(_, effect)| effect.enabled);
     let alone = |(i, effect): (usize, &mbs_core::scene::Effect<T>)| Leave {
         effects: vec![i],
-        kind: kinds::name(&effect.kind),
+        kind: effect.kind.name(),
         is_kind: false,
     };
     let mut leaves: Vec<Leave> = enabled().map(alone).collect();
     let mut seen: Vec<&str> = Vec::new();
     for (_, effect) in enabled() {
-        let kind = kinds::name(&effect.kind);
-        let of_kind = enabled().filter(|(_, other)| kinds::name(&other.kind) == kind);
+        let kind = effect.kind.name();
+        let of_kind = enabled().filter(|(_, other)| other.kind.name() == kind);
         let effects: Vec<usize> = of_kind.map(|(i, _)| i).collect();
         if effects.len() > 1 && !seen.contains(&kind) {
             seen.push(kind);

@@ -13,7 +13,6 @@ use super::error::PacingError;
 use super::ladder::Sought;
 use super::{Pace, Pacer};
 use crate::explain::changes::Outputs;
-use crate::explain::kinds;
 use crate::run::{Outcome, Rung, Track, paced};
 use crate::settings::Settings;
 use crate::tree::{InSpace, Plane};
@@ -127,7 +126,7 @@ where
     if groups.len() > MOST {
         let mut kinds: Vec<(&str, Vec<usize>)> = Vec::new();
         for effect in groups.into_iter().flatten() {
-            let kind = kinds::name(&sought.scene.effects[effect].kind);
+            let kind = sought.scene.effects[effect].kind.name();
             match kinds.iter_mut().find(|(name, _)| *name == kind) {
                 Some((_, of_kind)) => of_kind.push(effect),
                 None => kinds.push((kind, vec![effect])),

@@ -9,7 +9,7 @@
 //!
 //! ```
 //! use core::{cell::Cell, ops::ControlFlow, time::Duration};
-//! use mbs::core::scene::{BodyId, Signal, Effect, EffectKind, JointId};
+//! use mbs::core::scene::{BodyId, Signal, Effect, EffectKind, JointId, JointTorque};
 //! use mbs::realtime::{Clock, Overrun, Pace, Pacer, Task, Work};
 //! use mbs::{Overrides, Settings, Simulation, StopError, scene_file::SceneFile};
 //!
@@ -62,7 +62,7 @@
 //! "#;
 //! let mut scene = SceneFile::parse(text, "arm.toml")?.scene::<f64>()?;
 //! // what the input is at the start, before the first `set_input`: 9.81 N m hold 1 kg at 1 m
-//! let kind = EffectKind::JointTorque { joint: JointId::new(0), course: Signal::Input([9.81, 0.0, 0.0]) };
+//! let kind = EffectKind::JointTorque(JointTorque { joint: JointId::new(0), course: Signal::Input([9.81, 0.0, 0.0]) });
 //! scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
 //! let settings = Settings::new(&scene, &Overrides { step: Some(1e-3), ..Overrides::default() })?;
 //! let simulation = Simulation::new(&scene, &settings).expect("the scene starts");

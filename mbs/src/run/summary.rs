@@ -8,17 +8,16 @@ use crate::words::{stop_text, summary_rows};
 use mbs_core::Real;
 use mbs_core::control::Invariant;
 use mbs_core::outputs;
-use mbs_core::scene::{EffectKind, Scene};
+use mbs_core::scene::Scene;
 use mbs_scene::{Channel, Contact, EnergySummary, RunRecord, RunSummary, StepSeries};
 
 /// An instant with the effect's name.
 pub(super) fn contact<T: Real>(scene: &Scene<T>, instant: &outputs::Instant) -> Contact {
     let effect = &scene.effects[instant.effect];
-    let is_limit = matches!(effect.kind, EffectKind::Limit { .. });
     Contact {
         time: instant.t,
         effect: effect.name.clone(),
-        end: is_limit.then_some(["lower", "upper"][instant.end]),
+        end: effect.kind.row().ends.get(instant.end).copied(),
         event: if instant.makes { "made" } else { "broken" },
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::common::files::{scratch, without_clocks};
 use crate::common::{path, scene};
-use mbs::core::scene::{BodyId, Dimension, Effect, EffectKind, Motion, Scene, Signal};
+use mbs::core::scene::{BodyId, BodyTorque, Dimension, Effect, EffectKind, Motion, Scene, Signal};
 use mbs::scene_file::{Provenance, SceneFile};
 use mbs::{
     CHECKPOINT, Checkpoint, FormulationKind, InSpace, Keeping, Outcome, Overrides, Plane, Settings,
@@ -204,7 +204,7 @@ fn driven() -> Scene<f64> {
     let mut scene = scene("guided-four-bar");
     scene.guides[0].law = Motion::Input([0.0, 0.0, 0.0]);
     let course = Signal::Input([0.0; 3]);
-    let kind = EffectKind::BodyTorque { body: BodyId::Body(1), course };
+    let kind = EffectKind::BodyTorque(BodyTorque { body: BodyId::Body(1), course });
     scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
     scene
 }

@@ -10,7 +10,7 @@ use crate::common::allocations;
 
 use crate::common::Bench;
 use mbs::core::outputs::Contacts;
-use mbs::core::scene::{Dimension, EffectKind, JointId, Scene};
+use mbs::core::scene::{Dimension, EffectKind, JointId, Limit, Scene};
 use mbs::scene_file::SceneFile;
 use mbs::{Outcome, Overrides, Settings};
 
@@ -407,8 +407,13 @@ fn a_run_lists_a_thousand_contacts_and_counts_the_others() {
 fn a_limit_tells_which_end_was_touched_and_watching_allocates_nothing() {
     let mut bounce = bumper(0.0, [0.2, 1.3], 0.0);
     let (stiffness, damping) = (5000.0, 0.0);
-    bounce.scene.effects[0].kind =
-        EffectKind::Limit { joint: JointId::new(0), lower: -0.05, upper: 0.1, stiffness, damping };
+    bounce.scene.effects[0].kind = EffectKind::Limit(Limit {
+        joint: JointId::new(0),
+        lower: -0.05,
+        upper: 0.1,
+        stiffness,
+        damping,
+    });
     let outcome = bounce.run("index-3", 1e-4);
     let told = &outcome.summary.contacts;
     assert!(told.len() > 8, "{told:?}");

@@ -5,7 +5,10 @@ use crate::common;
 use mbs::core::laws::body::{Action, BodyMotion};
 use mbs::core::laws::own::{ScalarLaw, UserBodyLaw, UserScalarLaw, WrenchLaw};
 use mbs::core::laws::scalar::Measure;
-use mbs::core::scene::{BodyId, Effect, EffectKind, JointId, Motion, Scene, Signal, UserLaw};
+use mbs::core::scene::{
+    BodyId, Effect, EffectKind, JointId, JointTorque, Motion, Own, Scene, Signal, SpringDamper,
+    UserLaw,
+};
 use mbs::core::step::InputError;
 use mbs::scene_file::SceneFile;
 use mbs::{FormulationKind, Overrides, Settings, Simulation};
@@ -70,7 +73,10 @@ fn wheel() -> Scene<f64> {
     "#;
     let document = SceneFile::parse(TEXT, "wheel").unwrap_or_else(|e| panic!("{}", e.render()));
     let mut scene = document.scene().unwrap_or_else(|e| panic!("{}", e.render()));
-    let kind = EffectKind::JointTorque { joint: JointId::new(0), course: Signal::Input([0.0; 3]) };
+    let kind = EffectKind::JointTorque(JointTorque {
+        joint: JointId::new(0),
+        course: Signal::Input([0.0; 3]),
+    });
     scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
     scene
 }
@@ -128,8 +134,10 @@ fn a_torque_that_is_set_every_ten_milliseconds_leaves_every_rule_its_order_in_a_
     let scene = {
         let mut scene = common::scene("four-bar");
         scene.outputs.clear();
-        let kind =
-            EffectKind::JointTorque { joint: JointId::new(0), course: Signal::Input([0.0; 3]) };
+        let kind = EffectKind::JointTorque(JointTorque {
+            joint: JointId::new(0),
+            course: Signal::Input([0.0; 3]),
+        });
         scene.effects.push(Effect { name: "motor".into(), enabled: true, kind });
         scene
     };
@@ -195,7 +203,7 @@ fn what_is_not_finite_is_refused_and_changes_nothing() {
 fn what_a_spring_stores_when_its_input_is_set_is_booked_as_work() {
     let (bodies, points) = ([BodyId::Ground, BodyId::Body(1)], [[2.0, 1.0, 0.0], [2.0, 0.0, 0.0]]);
     let law = UserLaw::Length { bodies, points, law: UserScalarLaw::of::<Towards>() };
-    let scene = with(EffectKind::Own { law, course: Signal::Input([0.7, 0.0, 0.0]) });
+    let scene = with(EffectKind::Own(Own { law, course: Signal::Input([0.7, 0.0, 0.0]) }));
     for method in methods() {
         let mut simulation = with_integrator(&scene, method, 1e-3);
         for k in 0..200_u32 {
@@ -235,7 +243,8 @@ fn an_input_that_is_set_to_a_constant_is_that_constant() {
     for formulation in
         FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
     {
-        let torque = |course| EffectKind::JointTorque { joint: JointId::new(0), course };
+        let torque =
+            |course| EffectKind::JointTorque(JointTorque { joint: JointId::new(0), course });
         let mut plain = simulation(&with(torque(Signal::Constant([3.0, 0.0, 0.0]))), formulation);
         let mut driven = simulation(&with(torque(Signal::Input([3.0, 0.0, 0.0]))), formulation);
         let effect = 0;
@@ -259,10 +268,10 @@ fn an_input_changes_the_motion_from_the_next_step_on() {
     for formulation in
         FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
     {
-        let scene = with(EffectKind::JointTorque {
+        let scene = with(EffectKind::JointTorque(JointTorque {
             joint: JointId::new(0),
             course: Signal::Input([0.0; 3]),
-        });
+        }));
         let (mut still, mut driven) =
             (simulation(&scene, formulation), simulation(&scene, formulation));
         for k in 0..100 {
@@ -310,9 +319,10 @@ impl WrenchLaw<f64> for Honey {
 fn a_spring_of_one_s_own_is_the_spring_of_the_library() {
     let (bodies, points) = ([BodyId::Ground, BodyId::Body(1)], [[2.0, 1.0, 0.0], [2.0, 0.0, 0.0]]);
     let (stiffness, damping, free_length) = (200.0, 3.0, 0.7);
-    let kind = EffectKind::SpringDamper { bodies, points, stiffness, damping, free_length };
+    let kind =
+        EffectKind::SpringDamper(SpringDamper { bodies, points, stiffness, damping, free_length });
     let law = UserLaw::Length { bodies, points, law: UserScalarLaw::of::<Towards>() };
-    let own = EffectKind::Own { law, course: Signal::Constant([0.7, 3.0, 0.0]) };
+    let own = EffectKind::Own(Own { law, course: Signal::Constant([0.7, 3.0, 0.0]) });
     for formulation in
         FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
     {
@@ -340,7 +350,7 @@ fn a_wrench_of_one_s_own_takes_what_the_ledger_says() {
         axis: [1.0, 0.0, 0.0],
         law: UserBodyLaw::of::<Honey>(),
     };
-    let scene = with(EffectKind::Own { law, course: Signal::Input([0.5, 0.0, 0.0]) });
+    let scene = with(EffectKind::Own(Own { law, course: Signal::Input([0.5, 0.0, 0.0]) }));
     for formulation in
         FormulationKind::ALL.map(FormulationKind::name).into_iter().filter(|f| *f != "multi-index")
     {

@@ -3,7 +3,7 @@
 use crate::common;
 
 use mbs::core::actions::{Action, Actions};
-use mbs::core::laws::body::{BodyLaw, BodyMotion};
+use mbs::core::laws::body::{BodyLaw, BodyMotion, WrenchesLaw};
 use mbs::core::laws::{road::height, road_contact::road_contact};
 use mbs::core::model::State;
 use mbs::core::natural::NaturalModel;

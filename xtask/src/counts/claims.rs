@@ -1,6 +1,5 @@
 //! What is claimed of the counts, each with what would contradict it.
 
-use super::WITH_FEATURE;
 use super::callgrind::Case;
 
 /// Most that a build with all effects may take beyond one without any, in a scene without effects [-].
@@ -41,7 +40,7 @@ pub(crate) struct Runs {
     pub(crate) full: Vec<Case>,
     pub(crate) lean: Vec<Case>,
     /// What the build without effects says: effect, message.
-    pub(crate) refusals: Vec<(&'static str, String)>,
+    pub(crate) refusals: Vec<[String; 3]>,
     pub(crate) plain: Vec<Case>,
 }
 
@@ -98,8 +97,7 @@ fn left_out(runs: &Runs) -> Claim {
 fn refused(runs: &Runs) -> Claim {
     let mut claim =
         Claim::new("an effect that is not compiled is refused, with the feature's name");
-    for (effect, message) in &runs.refusals {
-        let feature = WITH_FEATURE.iter().find(|(name, _)| name == effect).map_or("?", |(_, f)| f);
+    for [effect, feature, message] in &runs.refusals {
         claim.check(message.contains(&format!("`{feature}`")), || format!("{effect}: {message:?}"));
     }
     claim
@@ -164,13 +162,13 @@ enum Kind {
 }
 
 impl Kind {
-    /// Is the function one of this kind? `<mbs_core::laws::...>::f` belongs to laws, `<Vec<mbs_core::laws::...>>::len` does not.
+    /// Is the function one of this kind? `<mbs_core::effects::...>::f` belongs to effects, `<Vec<mbs_core::effects::...>>::len` does not.
     fn has(self, function: &str) -> bool {
         let (places, names): (&[&str], &[&str]) = match self {
             Self::Effect => (
                 &[
-                    "mbs_core::laws::scalar",
-                    "mbs_core::laws::body",
+                    "mbs_core::effects",
+                    "mbs_core::laws::tire",
                     "mbs_core::natural::forces",
                     "mbs_core::natural::on_body",
                     "mbs_recursive::loads",
@@ -225,8 +223,8 @@ mod tests {
 
     #[test]
     fn functions_are_told_apart_by_their_paths() {
-        assert!(Kind::Effect.has("<mbs_core::laws::scalar::Law<f64>>::evaluate"));
-        assert!(!Kind::Effect.has("<alloc::vec::Vec<mbs_core::laws::scalar::Law<f64>>>::len"));
+        assert!(Kind::Effect.has("<mbs_core::effects::Law<f64>>::evaluate"));
+        assert!(!Kind::Effect.has("<alloc::vec::Vec<mbs_core::effects::Law<f64>>>::len"));
         assert!(Kind::Guide.has("<NaturalModel<f64, 2> as Model<f64>>::evaluate_phi_t"));
         assert!(is_spatial("index-3", "mbs_core::natural::forces::product::<f64, 3>"));
         assert!(!is_spatial("index-3", "<alloc::vec::Vec<[f64; 3]>>::len"));

@@ -8,6 +8,7 @@ mod callgrind;
 mod claims;
 mod json;
 
+use crate::effects::{self, Listed};
 use crate::process::{self, cargo};
 use crate::summary::Outcome;
 use callgrind::Case;
@@ -19,40 +20,13 @@ use std::process::{Command, ExitCode};
 
 /// Steps counted in each case.
 const STEPS: u64 = 10;
-/// The effects, and a guide.
-const EFFECTS: [&str; 17] = [
-    "spring-damper",
-    "torsion-spring",
-    "force",
-    "body-torque",
-    "joint-torque",
-    "actuator",
-    "polynomial",
-    "bumper",
-    "limit",
-    "friction",
-    "bushing",
-    "own-length",
-    "drag",
-    "speed-hold",
-    "tire",
-    "own-body",
-    "guide",
-];
+/// Cases of a guide, which is there or not.
+const GUIDE: &str = "guide";
 
-/// Effects, and the features of mbs-core that bring them.
-const WITH_FEATURE: [(&str, &str); 10] = [
-    ("polynomial", "polynomial"),
-    ("bumper", "bumper"),
-    ("limit", "limit"),
-    ("friction", "friction"),
-    ("bushing", "bushing"),
-    ("own-length", "own-laws"),
-    ("drag", "drag"),
-    ("speed-hold", "speed-hold"),
-    ("tire", "tire"),
-    ("own-body", "own-laws"),
-];
+/// The effects, and a guide.
+fn cases() -> Vec<String> {
+    effects::all().flat_map(Listed::cases).chain([GUIDE.to_owned()]).collect()
+}
 
 /// Runs the job by itself: prints the table, writes it as JSON.
 #[allow(clippy::print_stdout, reason = "the table is what this job is for")]
@@ -97,33 +71,32 @@ pub(crate) fn check() -> Result<Outcome, String> {
 
 /// Builds and runs.
 fn count() -> Result<(Runs, Vec<Claim>), String> {
-    let counted = |profile, features: &[&str], steps, effects: &[&str]| {
-        let steps: u64 = steps;
-        let args: Vec<_> = [steps.to_string()]
-            .into_iter()
-            .chain(effects.iter().map(|e| (*e).to_owned()))
-            .collect();
+    let counted = |profile, features: &[&str], steps: u64, effects: &[String]| {
+        let args: Vec<_> = [steps.to_string()].into_iter().chain(effects.to_vec()).collect();
         callgrind::run(&build(profile, features)?, &args, &folder().join("callgrind"))
     };
     let runs = Runs {
-        full: counted("dist", &[], STEPS, &EFFECTS)?,
-        lean: counted("dist", &["--no-default-features"], STEPS, &["spring-damper"])?,
+        full: counted("dist", &[], STEPS, &cases())?,
+        lean: counted("dist", &["--no-default-features"], STEPS, &["spring-damper".to_owned()])?,
         refusals: refusals()?,
-        plain: counted("plain", &[], 1, &["bumper", "guide"])?,
+        plain: counted("plain", &[], 1, &["bumper".to_owned(), GUIDE.to_owned()])?,
     };
     let claims = claims::all(&runs);
     Ok((runs, claims))
 }
 
-/// What the build without effects says to each: effect, message.
-fn refusals() -> Result<Vec<(&'static str, String)>, String> {
+/// What the build without effects says to each that has a feature: effect, feature, message.
+fn refusals() -> Result<Vec<[String; 3]>, String> {
     let program = build("dist", &["--no-default-features"])?;
-    let refusal = |effect| {
-        let out = Command::new(&program).args(["1", effect]).output();
+    let refusal = |(effect, feature): (String, &str)| {
+        let out = Command::new(&program).args(["1", &effect]).output();
         let out = out.map_err(|e| format!("cannot start {}: {e}", program.display()))?;
-        Ok((effect, String::from_utf8_lossy(&out.stderr).into_owned()))
+        Ok([effect, feature.to_owned(), String::from_utf8_lossy(&out.stderr).into_owned()])
     };
-    WITH_FEATURE.iter().map(|(effect, _)| refusal(*effect)).collect()
+    let with_feature = effects::all().filter_map(|listed| Some((listed, listed.feature?)));
+    let cases = with_feature
+        .flat_map(|(listed, feature)| listed.cases().into_iter().map(move |case| (case, feature)));
+    cases.map(refusal).collect()
 }
 
 /// Builds the program; each build takes the place of the one before it.
@@ -167,9 +140,9 @@ fn table(runs: &Runs) -> String {
         text.push_str(&format!("| {name} | {} |\n", cells.join(" | ")));
     };
     push(&runs.lean, "none compiled", "spring-damper", &["out"]);
-    for effect in EFFECTS {
-        let switches: &[&str] = if effect == "guide" { &["on"] } else { &["out", "off", "on"] };
-        push(&runs.full, effect, effect, switches);
+    for effect in cases() {
+        let switches: &[&str] = if effect == GUIDE { &["on"] } else { &["out", "off", "on"] };
+        push(&runs.full, &effect, &effect, switches);
     }
     text
 }

@@ -172,7 +172,7 @@ pub(super) fn build(
     let folder = process::target_dir().join("firmware").join(board.cpu);
     let mut command = toolchain.cargo(false);
     command.args(["build", "--release", "--quiet", "--locked", "--target", TARGET]);
-    command.args(["--features", features]).arg("--target-dir").arg(&folder);
+    command.args(["--features", &of_core(features)]).arg("--target-dir").arg(&folder);
     let mut flags = format!("-C target-cpu={} -C link-arg=-Tlink.x", board.cpu);
     if let Some(lld) = lld {
         flags.push_str(&format!(" -C linker={}", lld.display()));
@@ -213,11 +213,17 @@ pub(super) fn emulate(board: &Board, elf: &Path) -> Result<String, String> {
 pub(super) fn on_host(model: &Path, features: &str) -> Result<String, String> {
     let folder = process::target_dir().join("firmware/host");
     let mut command = cargo();
-    command.args(["build", "--release", "--quiet", "--locked", "--features", features]);
+    command.args(["build", "--release", "--quiet", "--locked", "--features", &of_core(features)]);
     command.arg("--target-dir").arg(&folder).env("MBS_MODEL", model);
     run(command.current_dir(process::root().join("mbs-nostd/firmware/host")))?;
     let program = folder.join("release/mbs-firmware-host");
     output(&mut Command::new(&program)).ok_or_else(|| format!("{} failed", program.display()))
+}
+
+/// Features of mbs-core, which the firmware names.
+fn of_core(features: &str) -> String {
+    let named = features.split(',').filter(|feature| !feature.is_empty());
+    named.map(|feature| format!("mbs-core/{feature}")).collect::<Vec<_>>().join(",")
 }
 
 /// Nothing that panics, and nothing of a heap, can be reached from the step.

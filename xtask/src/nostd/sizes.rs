@@ -4,18 +4,24 @@ use super::firmware::{M7, build, emulate, export};
 use super::image::Image;
 use super::told::Told;
 use super::toolchain::Toolchain;
+use crate::effects::{self, Listed};
 use std::path::Path;
 
-/// The features of effects, and modules of mbs-core that must not be in an image without them.
-const FEATURES: &[(&str, &[&str])] = &[
-    ("polynomial", &["4laws10polynomial"]),
-    ("bumper", &[]),
-    ("limit", &["4laws5limit"]),
-    ("friction", &["4laws8friction"]),
-    ("drag", &["4laws4drag"]),
-    ("speed-hold", &["4laws10speed_hold"]),
-    ("tire", &["4laws4tire", "4laws4foot", "4laws7calspan", "4laws4road"]),
-];
+/// Modules of the law of tires, which no other effect shares.
+const OF_TIRES: [&str; 4] = ["4laws4tire", "4laws12road_contact", "4laws7calspan", "4laws4road"];
+
+/// The features of effects that bring laws, and mangled modules of mbs-core that must not be in an image without them.
+fn features() -> Vec<(&'static str, Vec<String>)> {
+    let with_law = effects::all().filter(|listed| listed.is_exported());
+    let named = with_law.filter_map(|Listed { module, feature, .. }| {
+        let mut modules = vec![format!("7effects{}{module}", module.len())];
+        if module == "tire" {
+            modules.extend(OF_TIRES.map(str::to_owned));
+        }
+        Some((feature?, modules))
+    });
+    named.collect()
+}
 
 /// Builds one scene, which has no effects, with none of the features, with each, and with all; a line for each.
 ///
@@ -28,7 +34,7 @@ pub(super) fn check(
     models: &Path,
 ) -> Result<Vec<String>, String> {
     let model = export("six-joint-arm", "f32", models)?;
-    let all: Vec<&str> = FEATURES.iter().map(|(feature, _)| *feature).collect();
+    let all: Vec<&str> = features().into_iter().map(|(feature, _)| feature).collect();
     let mut sets = vec![String::new()];
     sets.extend(all.iter().map(|&feature| feature.to_owned()));
     sets.push(all.join(","));
@@ -59,14 +65,14 @@ pub(super) fn check(
 
 /// What features that are off stand for is not in an image.
 fn without_others(names: &str, set: &str) -> Result<(), String> {
-    for (feature, modules) in FEATURES {
-        let is_on = set.split(',').any(|on| on == *feature);
-        let found = modules.iter().find(|module| names.contains(**module));
+    for (feature, modules) in features() {
+        let is_on = set.split(',').any(|on| on == feature);
+        let found = modules.iter().find(|module| names.contains(module.as_str()));
         if let (false, Some(module)) = (is_on, found) {
             return Err(format!("an image without the feature `{feature}` has code of `{module}`"));
         }
     }
-    if set.contains("tire") && !names.contains("4laws4tire") && !names.contains("4laws4foot") {
+    if set.contains("tire") && !OF_TIRES.iter().any(|module| names.contains(module)) {
         return Err(
             "no function of tires is found where they are: the search finds nothing".to_owned()
         );

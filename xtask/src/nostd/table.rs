@@ -26,10 +26,10 @@ const BUILDS: &[Build] = &[
     Build { package: "mbs-nostd", features: &[], is_alloc: false },
     Build {
         package: "mbs-nostd",
-        features: &["polynomial", "speed-hold", "tire"],
+        features: &["mbs-core/polynomial", "mbs-core/speed-hold", "mbs-core/tire"],
         is_alloc: false,
     },
-    Build { package: "mbs-nostd", features: &["effects"], is_alloc: false },
+    Build { package: "mbs-nostd", features: &["mbs-core/effects"], is_alloc: false },
 ];
 
 /// The targets: Cortex-M4F and Cortex-M7 with hardware floating point; Cortex-M0 without; RISC-V without.
@@ -58,6 +58,6 @@ mod tests {
         let ends: Vec<_> = of(TARGETS[1]).map(|b| (b.package, b.features)).collect();
         assert_eq!(ends[..2], [("mbs-core", &[][..]), ("mbs-core", &["alloc", "effects"][..])]);
         assert!(ends.contains(&("mbs-linear", &[])));
-        assert_eq!(ends.last(), Some(&("mbs-nostd", &["effects"][..])));
+        assert_eq!(ends.last(), Some(&("mbs-nostd", &["mbs-core/effects"][..])));
     }
 }

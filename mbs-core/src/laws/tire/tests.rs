@@ -18,8 +18,8 @@ const ROAD: [Feature<f64>; 2] = [
 /// Where the road is level, bends up, is straight, and is on the bump.
 const PLACES: [f64; 4] = [0.3, 1.4, 3.0, 5.1];
 
-fn wheel(leans: bool) -> Tire<f64> {
-    Tire {
+fn wheel(leans: bool) -> TireLaw<f64> {
+    TireLaw {
         radius: 0.36,
         radial: [4.6e5, 800.0],
         rolling: 0.01,
@@ -54,13 +54,13 @@ fn motion(x: f64, depth: f64, [camber, steer]: [f64; 2]) -> BodyMotion<f64> {
     motion
 }
 
-fn actions(tire: &Tire<f64>, motion: &BodyMotion<f64>) -> [Action<f64>; MOST] {
+fn actions(tire: &TireLaw<f64>, motion: &BodyMotion<f64>) -> [Action<f64>; MOST] {
     let mut out = [Action::default(); MOST];
     tire.evaluate(motion, &supplies(), &mut out[..tire.n_actions()]);
     out
 }
 
-fn radial(tire: &Tire<f64>, motion: &BodyMotion<f64>) -> Action<f64> {
+fn radial(tire: &TireLaw<f64>, motion: &BodyMotion<f64>) -> Action<f64> {
     actions(tire, motion)[RADIAL]
 }
 
@@ -72,7 +72,7 @@ fn moved(motion: &BodyMotion<f64>, by: [V; 2]) -> BodyMotion<f64> {
 }
 
 /// Force and moment about the centre of all actions.
-fn wrench(tire: &Tire<f64>, motion: &BodyMotion<f64>) -> [V; 2] {
+fn wrench(tire: &TireLaw<f64>, motion: &BodyMotion<f64>) -> [V; 2] {
     actions(tire, motion).iter().fold([V::zeros(); 2], |[force, moment], action| {
         let f = -action.measure.tension;
         [force + V::from(action.force) * f, moment + V::from(action.moment) * f]
@@ -109,7 +109,7 @@ fn the_row_of_the_deflection_is_its_gradient_in_every_position() {
 
 #[test]
 fn a_spring_carries_a_wheel_round_a_closed_way_without_work() {
-    let tire = Tire { radial: [4.6e5, 0.0], rolling: 0.0, side: None, ..wheel(true) };
+    let tire = TireLaw { radial: [4.6e5, 0.0], rolling: 0.0, side: None, ..wheel(true) };
     // Round a circle in the space of a place and two angles, on the bend of the road; the mean of many chords' works errs
     // by the square of a chord.
     let place = |phase: f64| {
@@ -142,7 +142,7 @@ fn a_spring_carries_a_wheel_round_a_closed_way_without_work() {
 
 #[test]
 fn an_upright_wheel_and_one_without_an_axis_are_the_same() {
-    let disc = Tire { side: None, ..wheel(true) };
+    let disc = TireLaw { side: None, ..wheel(true) };
     for x in PLACES {
         let motion = motion(x, 0.01, [0.0, 0.0]);
         let (a, b) = (radial(&disc, &motion), radial(&wheel(false), &motion));
@@ -196,7 +196,7 @@ const CORNERING: f64 = 2625.0 + 14.47 * 12930.0 / 4.0;
 
 #[test]
 fn forces_do_not_jump_at_standstill_and_without_slip() {
-    let tire = Tire { radial: [4.6e5, 0.0], ..wheel(true) };
+    let tire = TireLaw { radial: [4.6e5, 0.0], ..wheel(true) };
     let step = 1e-4;
     // Slip changes by 1 / v_s per m/s at most; so does the direction of what resists rolling; trail times load is 0.08 m.
     let force = (CORNERING + 0.01 * LOAD) / STANDSTILL * step;

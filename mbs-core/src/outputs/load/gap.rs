@@ -7,20 +7,12 @@
 //! spring   by pieces: kinks between them by m
 //! ```
 
-#![cfg_attr(
-    not(feature = "effects"),
-    allow(unused_imports, unused_mut, unused_variables, reason = "not every law has a kink")
-)]
-
 use super::apply::motion;
 use super::{Gauge, Load};
 use crate::Real;
 use crate::laws::Supplies;
-use crate::laws::body::BodyLaw;
-use crate::laws::kink::{self, Kink};
-#[cfg(feature = "polynomial")]
-use crate::laws::polynomial;
-use crate::laws::scalar::Law;
+use crate::laws::bumper::FADE;
+use crate::laws::kink::Kink;
 use crate::model::State;
 
 /// A gap [m or rad] and its rate.
@@ -63,41 +55,27 @@ impl<T: Real, const D: usize> Load<T, D> {
     /// How many gaps it has; none where it acts always.
     pub(in crate::outputs) fn n_gaps(&self) -> usize {
         match self {
-            #[cfg(feature = "bumper")]
-            Self::Between { law: Law::Bumper { .. }, .. } => 1,
-            #[cfg(feature = "limit")]
-            Self::Between { law: Law::Limit(_), .. } => 2,
-            #[cfg(feature = "tire")]
-            Self::OnBody { law: BodyLaw::Tire(_), .. } => 1,
+            Self::Between { law, .. } => law.n_gaps(),
+            Self::OnBody { law, .. } => law.n_gaps(),
             _ => 0,
         }
     }
 
     /// The depth over which the damper of its contact fades in [m or rad], if it has one.
     pub(in crate::outputs) fn fade(&self) -> Option<f64> {
-        let has_damper = match self {
-            #[cfg(feature = "bumper")]
-            Self::Between { law: Law::Bumper { law, .. }, .. } => law[1] > T::ZERO,
-            #[cfg(feature = "limit")]
-            Self::Between { law: Law::Limit(limit), .. } => limit.damping > T::ZERO,
-            #[cfg(feature = "tire")]
-            Self::OnBody { law: BodyLaw::Tire(tire), .. } => tire.radial[1] > T::ZERO,
+        let has_fade = match self {
+            Self::Between { law, .. } => law.has_fade(),
+            Self::OnBody { law, .. } => law.has_fade(),
             _ => false,
         };
-        #[cfg(any(feature = "bumper", feature = "limit", feature = "tire"))]
-        if has_damper {
-            return Some(crate::laws::bumper::FADE);
-        }
-        None
+        has_fade.then_some(FADE)
     }
 
     /// Can its law have kinks besides those of its gaps?
     pub(in crate::outputs) fn may_have_kinks(&self) -> bool {
         match self {
-            #[cfg(feature = "polynomial")]
-            Self::Between { law: Law::Polynomial { pieces, of_rate: false }, .. } => pieces.n > 1,
-            #[cfg(feature = "tire")]
-            Self::OnBody { law: BodyLaw::Tire(_), .. } => true,
+            Self::Between { law, .. } => law.may_have_kinks(),
+            Self::OnBody { law, .. } => law.may_have_kinks(),
             _ => false,
         }
     }
@@ -109,16 +87,8 @@ impl<T: Real, const D: usize> Load<T, D> {
         mut take: impl FnMut(Kink<T>),
     ) {
         match self {
-            #[cfg(feature = "polynomial")]
-            Self::Between { law: Law::Polynomial { pieces, of_rate: false }, .. } => {
-                polynomial::kinks(pieces.of(supplies.pieces), |place| {
-                    take(Kink { place, height: T::ZERO, slope: T::ZERO });
-                });
-            }
-            #[cfg(feature = "tire")]
-            Self::OnBody { law: BodyLaw::Tire(tire), .. } => {
-                kink::of_road(tire.road, supplies, take);
-            }
+            Self::Between { law, .. } => law.kinks(supplies, &mut take),
+            Self::OnBody { law, .. } => law.kinks(supplies, &mut take),
             _ => {}
         }
     }
@@ -126,8 +96,7 @@ impl<T: Real, const D: usize> Load<T, D> {
     /// How far from its place a kink may be passed [m]: on a slope, a wheel stands off its foot by less than its radius.
     pub(in crate::outputs) fn reach(&self) -> T {
         match self {
-            #[cfg(feature = "tire")]
-            Self::OnBody { law: BodyLaw::Tire(tire), .. } => tire.radius,
+            Self::OnBody { law, .. } => law.reach(),
             _ => T::ZERO,
         }
     }
@@ -143,32 +112,22 @@ impl<T: Real, const D: usize> Load<T, D> {
         state: &State<T>,
         supplies: &Supplies<'_, T>,
     ) -> Reading<T> {
+        let of = |[value, rate]: [T; 2]| Gap { value, rate };
         let mut reading = Reading::default();
-        let Reading { gaps, place } = &mut reading;
         match self {
-            #[cfg(feature = "bumper")]
-            Self::Between { gauge, law: Law::Bumper { touch, .. }, .. } => {
+            Self::Between { gauge, law, .. } if self.n_gaps() > 0 || self.may_have_kinks() => {
                 let [value, rate] = gauge.measure(state);
-                gaps[0] = Gap { value: value - *touch, rate };
+                reading.gaps = law.gaps(value, rate).map(of);
+                reading.place[0] = Gap { value, rate };
             }
-            #[cfg(feature = "limit")]
-            Self::Between { gauge, law: Law::Limit(limit), .. } => {
-                let [value, rate] = gauge.measure(state);
-                gaps[0] = Gap { value: value - limit.lower, rate };
-                gaps[1] = Gap { value: limit.upper - value, rate: -rate };
-            }
-            #[cfg(feature = "polynomial")]
-            Self::Between { gauge, law: Law::Polynomial { of_rate: false, .. }, .. } => {
-                let [value, rate] = gauge.measure(state);
-                place[0] = Gap { value, rate };
-            }
-            #[cfg(feature = "tire")]
-            Self::OnBody { point, frame, axis, law: BodyLaw::Tire(tire), .. } => {
+            Self::OnBody { point, frame, axis, law, .. }
+                if self.n_gaps() > 0 || self.may_have_kinks() =>
+            {
                 let axis = frame.rotation(&state.q) * axis;
-                let touch = tire.contact(&motion((point, frame), &axis, state), supplies);
-                let [depth, rate] = touch.deflection;
-                gaps[0] = Gap { value: -depth, rate };
-                *place = [0, 1].map(|i| Gap { value: touch.place[i], rate: touch.speed[i] });
+                let [gap, along, up] =
+                    law.watch(&motion((point, frame), &axis, state), supplies).map(of);
+                reading.gaps[0] = gap;
+                reading.place = [along, up];
             }
             _ => {}
         }

@@ -1,8 +1,9 @@
-//! Effects: references and numbers.
+//! Effects: references and numbers, field by field, then what the kind itself refuses.
 
 use super::vector::Place;
-use super::{between, course, own, tire};
+use super::{check_pair, course, is_planar};
 use crate::Real;
+use crate::effects::{Form, JointNeed, Sign, SignalForm, Value};
 use crate::scene::{BodyId, EffectKind, JointId, Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(
@@ -10,87 +11,59 @@ pub(super) fn check<T: Real>(
     effect: &EffectKind<T>,
     place: Place,
 ) -> Result<(), SceneError> {
-    match effect {
-        EffectKind::TorsionSpring { joint, stiffness, damping, free_value } => {
-            single_rotation(scene, *joint, place)?;
-            place.finite("stiffness", *stiffness)?;
-            place.finite("damping", *damping)?;
-            place.finite("free_value", *free_value)
+    for (field, value) in effect.row().fields.iter().zip(effect.values()) {
+        let key = field.key;
+        match value {
+            Value::Bodies(bodies) => check_pair(scene, bodies, place)?,
+            Value::Body(body) => {
+                known_body(scene, body, place)?;
+            }
+            Value::Joint(joint) if field.form == Form::Joint(JointNeed::Rotation) => {
+                single_rotation(scene, joint, place)?;
+            }
+            Value::Joint(joint) => single_coordinate(scene, joint, place)?,
+            Value::Point(x) => place.vector(key, x)?,
+            Value::Points(x) if field.form == Form::Points(true) => place.apart(key, x)?,
+            Value::Points(x) => x.iter().try_for_each(|x| place.vector(key, *x))?,
+            Value::Axis(x) => place.axis(key, x)?,
+            Value::Number(x) => match field.form {
+                Form::Number(Sign::Positive) => place.positive(key, x)?,
+                Form::Number(Sign::NotNegative) => place.not_negative(key, x)?,
+                _ => place.finite(key, x)?,
+            },
+            Value::Six(six) => check_six(key, &six, place)?,
+            Value::Signal(signal) => {
+                place.signal(&signal, field.form == Form::Signal(SignalForm::Vector))?;
+            }
+            // left to the kind
+            Value::MaybeAxis(_) | Value::Pieces(_) | Value::Side(_) => {}
+            Value::Frame(_) | Value::Name(_) => {}
         }
-        EffectKind::Force { body, at, course, .. } => {
-            known_body(scene, *body, place)?;
-            place.vector("at", *at)?;
-            course::check(course, true, place)
-        }
-        EffectKind::BodyTorque { body, course } => {
-            known_body(scene, *body, place)?;
-            course::check(course, false, place)
-        }
-        EffectKind::JointTorque { joint, course } => {
-            single_rotation(scene, *joint, place)?;
-            course::check(course, false, place)
-        }
-        EffectKind::SpringDamper { .. }
-        | EffectKind::Actuator { .. }
-        | EffectKind::Polynomial { .. }
-        | EffectKind::Bumper { .. }
-        | EffectKind::Bushing { .. } => between::check(scene, effect, place),
-        EffectKind::Limit { .. } | EffectKind::Friction { .. } => on_joint(scene, effect, place),
-        EffectKind::AeroDrag { body, at, area_coefficient, density } => {
-            known_body(scene, *body, place)?;
-            place.vector("at", *at)?;
-            place.not_negative("area_coefficient", *area_coefficient)?;
-            place.not_negative("density", *density)
-        }
-        EffectKind::SpeedHold { body, direction, speed, gain, limit } => {
-            known_body(scene, *body, place)?;
-            place.axis("direction", *direction)?;
-            place.finite("speed", *speed)?;
-            place.not_negative("gain", *gain)?;
-            place.positive("limit", *limit)
-        }
-        EffectKind::Tire { .. } => tire::check(scene, effect, place),
-        EffectKind::Own { law, course } => own::check(scene, (law, course), place),
+    }
+    effect.check(scene, place)
+}
+
+impl Place {
+    /// A signal, in the plane where a vector is meant.
+    pub(crate) fn signal<T: Real>(
+        self,
+        signal: &crate::scene::Signal<T>,
+        is_vector: bool,
+    ) -> Result<(), SceneError> {
+        course::check(signal, is_vector, self)
     }
 }
 
-/// Effects on the one coordinate of a joint.
-fn on_joint<T: Real>(
-    scene: &Scene<T>,
-    effect: &EffectKind<T>,
-    place: Place,
-) -> Result<(), SceneError> {
-    match effect {
-        EffectKind::Limit { joint, lower, upper, stiffness, damping } => {
-            single_coordinate(scene, *joint, place)?;
-            place.finite("lower", *lower)?;
-            place.finite("upper", *upper)?;
-            place.not_negative("stiffness", *stiffness)?;
-            place.not_negative("damping", *damping)?;
-            if lower < upper {
-                return Ok(());
-            }
-            let range = [lower.to_f64(), upper.to_f64()];
-            place.fault("lower", SceneFault::RangeOrder(range))
-        }
-        EffectKind::Friction { joint, coulomb, r#static, stribeck, viscous, regularisation } => {
-            single_coordinate(scene, *joint, place)?;
-            place.not_negative("coulomb", *coulomb)?;
-            place.not_negative("static", *r#static)?;
-            place.positive("stribeck", *stribeck)?;
-            place.not_negative("viscous", *viscous)?;
-            place.positive("regularisation", *regularisation)?;
-            if r#static >= coulomb {
-                return Ok(());
-            }
-            let levels = [r#static.to_f64(), coulomb.to_f64()];
-            place.fault("static", SceneFault::StaticBelowCoulomb(levels))
-        }
-        _ => Ok(()),
+/// Six numbers that are not negative; in the plane only along x, y and about z.
+fn check_six<T: Real>(field: &'static str, six: &[T; 6], place: Place) -> Result<(), SceneError> {
+    six.iter().try_for_each(|x| place.not_negative(field, *x))?;
+    match six[2..5].iter().find(|x| is_planar(place.dimension) && !x.is_zero()) {
+        Some(x) => place.fault(field, SceneFault::OutOfPlane(x.to_f64())),
+        None => Ok(()),
     }
 }
 
-pub(super) fn known_body<T>(
+pub(crate) fn known_body<T>(
     scene: &Scene<T>,
     body: BodyId,
     place: Place,
@@ -113,7 +86,7 @@ fn single_rotation<T>(scene: &Scene<T>, joint: JointId, place: Place) -> Result<
     }
 }
 
-pub(super) fn single_coordinate<T>(
+pub(crate) fn single_coordinate<T>(
     scene: &Scene<T>,
     joint: JointId,
     place: Place,

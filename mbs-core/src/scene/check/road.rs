@@ -40,6 +40,16 @@ fn numbers<T: Real>(feature: &RoadFeature<T>, place: Place) -> Result<(), SceneE
             }
             Ok(())
         }
+        RoadFeature::Stairs { start, tread, riser, height, count } => {
+            place.finite("start", *start)?;
+            place.not_negative("tread", *tread)?;
+            place.positive("riser", *riser)?;
+            place.finite("height", *height)?;
+            if *count == 0 {
+                return place.fault("count", SceneFault::WrongCount { needed: 1, found: 0 });
+            }
+            Ok(())
+        }
         RoadFeature::Bump { start, length, amplitude } => {
             place.finite("start", *start)?;
             place.positive("length", *length)?;
@@ -63,7 +73,7 @@ fn numbers<T: Real>(feature: &RoadFeature<T>, place: Place) -> Result<(), SceneE
 /// The radius of the largest wheel: what it can roll through, all can.
 fn largest_wheel<T: Real>(scene: &Scene<T>) -> T {
     let radius = |kind: &EffectKind<T>| match kind {
-        EffectKind::Tire { radius, .. } => *radius,
+        EffectKind::Tire(tire) => tire.radius,
         _ => T::ZERO,
     };
     scene.effects.iter().map(|effect| radius(&effect.kind)).fold(T::ZERO, T::max)
@@ -76,6 +86,10 @@ fn hollow<T: Real>(feature: &RoadFeature<T>, wheel: T, place: Place) -> Result<(
         RoadFeature::Rise { length, height, rounding, .. } => {
             // one of the two corners is hollow, whether the rise goes up or down
             ("height", height.abs() / ((*length - *rounding) * *rounding))
+        }
+        RoadFeature::Stairs { riser, height, .. } => {
+            let rounding = *riser * T::HALF;
+            ("height", height.abs() / ((*riser - rounding) * rounding))
         }
         RoadFeature::Bump { length, amplitude, .. } => {
             // both ends of a bump, the middle of a hole

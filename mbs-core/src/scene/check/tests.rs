@@ -50,8 +50,13 @@ fn spatial() -> Scene<f64> {
 }
 
 fn spring(points: [[f64; 3]; 2], bodies: [BodyId; 2]) -> Effect<f64> {
-    let kind =
-        EffectKind::SpringDamper { bodies, points, stiffness: 1.0, damping: 0.0, free_length: 0.5 };
+    let kind = EffectKind::SpringDamper(SpringDamper {
+        bodies,
+        points,
+        stiffness: 1.0,
+        damping: 0.0,
+        free_length: 0.5,
+    });
     Effect { name: "strut".into(), enabled: true, kind }
 }
 
@@ -304,7 +309,7 @@ fn effects_act_between_different_points_and_on_rotations() {
     let found = refused(spatial(), |s| {
         s.joints[1].kind = JointKind::Prismatic;
         let course = Signal::Constant([1.0, 0.0, 0.0]);
-        let kind = EffectKind::JointTorque { joint: JointId::new(1), course };
+        let kind = EffectKind::JointTorque(JointTorque { joint: JointId::new(1), course });
         s.effects = vec![Effect { name: "motor".into(), enabled: true, kind }];
     });
     assert_eq!(found, (Entry::Effect(0), "joint", SceneFault::NoSingleRotation(0)));
@@ -381,13 +386,13 @@ proptest! {
             upper: numbers[i + 1],
             coefficients: numbers[..references[1] * 3].to_vec(),
         };
-        let kind = EffectKind::Polynomial {
+        let kind = EffectKind::Polynomial(Polynomial {
             bodies: [BodyId::Body(references[0]), BodyId::Ground],
             points: [vector(3), vector(6)],
             direction: is_planar.then(|| vector(9)),
             of_rate: false,
             pieces: vec![piece(0), piece(1)],
-        };
+        });
         scene.effects = effects::effect(kind);
         let _ = scene.check();
         scene.bodies.pop();

@@ -6,32 +6,32 @@ use crate::scene::{Dimension, Entry, SceneError, SceneFault};
 
 /// Where a check speaks, and in which dimension.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
-    pub(super) entry: Entry,
-    pub(super) dimension: Dimension,
+pub(crate) struct Place {
+    pub(crate) entry: Entry,
+    pub(crate) dimension: Dimension,
 }
 
 impl Place {
-    pub(super) fn fault(self, field: &'static str, fault: SceneFault) -> Result<(), SceneError> {
+    pub(crate) fn fault(self, field: &'static str, fault: SceneFault) -> Result<(), SceneError> {
         Err(SceneError { entry: self.entry, field, fault })
     }
 
-    pub(super) fn finite<T: Real>(self, field: &'static str, x: T) -> Result<(), SceneError> {
+    pub(crate) fn finite<T: Real>(self, field: &'static str, x: T) -> Result<(), SceneError> {
         if x.is_finite() { Ok(()) } else { self.fault(field, SceneFault::NotFinite) }
     }
 
-    pub(super) fn positive<T: Real>(self, field: &'static str, x: T) -> Result<(), SceneError> {
+    pub(crate) fn positive<T: Real>(self, field: &'static str, x: T) -> Result<(), SceneError> {
         self.finite(field, x)?;
         if x > T::ZERO { Ok(()) } else { self.fault(field, SceneFault::NotPositive(x.to_f64())) }
     }
 
-    pub(super) fn not_negative<T: Real>(self, field: &'static str, x: T) -> Result<(), SceneError> {
+    pub(crate) fn not_negative<T: Real>(self, field: &'static str, x: T) -> Result<(), SceneError> {
         self.finite(field, x)?;
         if x >= T::ZERO { Ok(()) } else { self.fault(field, SceneFault::Negative(x.to_f64())) }
     }
 
     /// Finite components; in planar scenes the third is zero.
-    pub(super) fn vector<T: Real>(self, field: &'static str, v: [T; 3]) -> Result<(), SceneError> {
+    pub(crate) fn vector<T: Real>(self, field: &'static str, v: [T; 3]) -> Result<(), SceneError> {
         for x in v {
             self.finite(field, x)?;
         }
@@ -42,13 +42,13 @@ impl Place {
     }
 
     /// A vector with a direction.
-    pub(super) fn axis<T: Real>(self, field: &'static str, v: [T; 3]) -> Result<(), SceneError> {
+    pub(crate) fn axis<T: Real>(self, field: &'static str, v: [T; 3]) -> Result<(), SceneError> {
         self.vector(field, v)?;
         if largest(v).is_zero() { self.fault(field, SceneFault::ZeroAxis) } else { Ok(()) }
     }
 
     /// Two vectors in two places.
-    pub(super) fn apart<T: Real>(
+    pub(crate) fn apart<T: Real>(
         self,
         field: &'static str,
         [p, q]: [[T; 3]; 2],

@@ -151,7 +151,8 @@ impl Display for SweepFault {
 
 impl SweepFault {
     /// What to do about it.
-    pub(crate) fn hint(&self) -> String {
+    #[must_use]
+    pub fn hint(&self) -> String {
         match self {
             Self::PathSyntax(_) => {
                 "write table, name, key and index, such as body.crank.mass, joint.\"front left\".at[0]"

@@ -1,7 +1,7 @@
 //! Sweep files: which numbers of a scene are varied, and how.
 
 mod fault;
-mod path;
+pub(in crate::read) mod path;
 mod reader;
 #[cfg(test)]
 mod tests;

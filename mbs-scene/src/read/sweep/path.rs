@@ -6,13 +6,14 @@
 //! effect."front left spring".stiffness      in quotes where a name has other characters than letters, digits, - and _
 //! initial.pivot.rate                        [[initial]] and [[guide]] by the name of their joint or body
 //! effect[2].points[0][1]                    an entry by its place in the file, from 0
+//! joint.tie-rod.points.0.2                  indices with dots
 //! ```
 
 use super::SweepFault;
-use crate::read::tree::{Item, Member, Node};
+use crate::read::tree::{Item, Member, Node, Span};
 
 /// Where a number stands in the tree: child by child.
-pub(super) type Address = Vec<usize>;
+pub(in crate::read) type Address = Vec<usize>;
 
 /// A part of a path.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,8 +22,18 @@ enum Part {
     Index(usize),
 }
 
+impl Part {
+    /// The place in a list: `[2]` or `.2`.
+    fn index(&self) -> Option<usize> {
+        match self {
+            Self::Index(i) => Some(*i),
+            Self::Key(key) => key.parse().ok(),
+        }
+    }
+}
+
 /// The address of the number that a path names.
-pub(super) fn address(root: &[Member], path: &str) -> Result<Address, SweepFault> {
+pub(in crate::read) fn address(root: &[Member], path: &str) -> Result<Address, SweepFault> {
     let parts = parse(path).map_err(SweepFault::PathSyntax)?;
     let mut walk = Walk { address: Vec::new(), at: String::new() };
     let mut parts = parts.iter();
@@ -34,7 +45,9 @@ pub(super) fn address(root: &[Member], path: &str) -> Result<Address, SweepFault
     for part in parts {
         item = match (&item.node, part) {
             (Node::List(items), Part::Key(name)) if is_entry => walk.entry(items, table, name)?,
-            (Node::List(items), Part::Index(i)) => walk.index(items, *i)?,
+            (Node::List(items), part) if part.index().is_some() => {
+                walk.index(items, part.index().unwrap_or_default())?
+            }
             (Node::Table(members), Part::Key(key)) => walk.key(members, key)?,
             _ => return Err(walk.not_a_number(item)),
         };
@@ -48,7 +61,16 @@ pub(super) fn address(root: &[Member], path: &str) -> Result<Address, SweepFault
 }
 
 /// The text of the number at an address.
-pub(super) fn number<'a>(root: &'a [Member], address: &[usize]) -> Option<&'a str> {
+pub(in crate::read) fn number<'a>(root: &'a [Member], address: &[usize]) -> Option<&'a str> {
+    if let Node::Number(text) = &item(root, address)?.node { Some(text) } else { None }
+}
+
+/// The bytes of the value at an address.
+pub(in crate::read) fn span(root: &[Member], address: &[usize]) -> Option<Span> {
+    Some(item(root, address)?.span.clone())
+}
+
+fn item<'a>(root: &'a [Member], address: &[usize]) -> Option<&'a Item> {
     let (first, rest) = address.split_first()?;
     let mut item = &root.get(*first)?.item;
     for &i in rest {
@@ -58,11 +80,11 @@ pub(super) fn number<'a>(root: &'a [Member], address: &[usize]) -> Option<&'a st
             _ => return None,
         };
     }
-    if let Node::Number(text) = &item.node { Some(text) } else { None }
+    Some(item)
 }
 
 /// Replaces the text of the number at an address.
-pub(super) fn replace(root: &mut [Member], address: &[usize], number: String) {
+pub(in crate::read) fn replace(root: &mut [Member], address: &[usize], number: String) {
     let Some((first, rest)) = address.split_first() else { return };
     let Some(mut item) = root.get_mut(*first).map(|member| &mut member.item) else { return };
     for &i in rest {

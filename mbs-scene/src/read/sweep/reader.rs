@@ -62,7 +62,7 @@ fn read_header(header: &Fields<'_>) -> Read<(Combine, u64)> {
 fn read_seed(header: &Fields<'_>) -> Read<u64> {
     let item = header.need("seed")?;
     let Node::Number(text) = &item.node else {
-        return header.context.number::<f64>(item).map(|_| 0);
+        return header.context.number(item).map(|_| 0);
     };
     match text.parse() {
         Ok(seed) => Ok(seed),
@@ -136,7 +136,7 @@ fn read_values(fields: &Fields<'_>, combine: Combine, parameter: &mut Parameter)
         return context.fault(&item.span, ReadFault::UnusedKey { key: "values".to_owned(), known });
     }
     for item in context.list(item, "a list of numbers")? {
-        context.number::<f64>(item)?;
+        context.number(item)?;
         let Node::Number(text) = &item.node else { continue };
         parameter.texts.push(text.clone());
         parameter.value_spans.push(item.span.clone());
@@ -157,7 +157,7 @@ fn read_range(
     if fields.get("from").is_none() && fields.get("to").is_none() {
         return fault(&context, fields.header, SweepFault::NoValues);
     }
-    let (from, to) = (fields.number::<f64>("from")?, fields.number::<f64>("to")?);
+    let (from, to) = (fields.number("from")?.to_f64(), fields.number("to")?.to_f64());
     let ends = [fields.need("from")?, fields.need("to")?];
     let is_log = match fields.get("scale") {
         None => false,
@@ -212,14 +212,14 @@ fn range_values(fields: &Fields<'_>, range: &Range) -> Read<Vec<f64>> {
         let known = vec!["count"];
         return context.fault(&item.span, ReadFault::UnusedKey { key: "step".to_owned(), known });
     }
-    let step = context.number::<f64>(item)?;
+    let step = context.number(item)?;
     let (from, to) = (range.from, range.to);
-    match range.steps(step) {
+    match range.steps(step.to_f64()) {
         None => fault(&context, &item.span, SweepFault::Step { from, to }),
         Some(n) if n > f64::from(MOST_MEMBERS) => {
             fault(&context, &item.span, SweepFault::TooMany(n))
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
-        Some(n) => Ok(range.stepped(step, n as u32)),
+        Some(n) => Ok(range.stepped(step.to_f64(), n as u32)),
     }
 }

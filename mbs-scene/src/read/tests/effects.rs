@@ -144,24 +144,24 @@ fn effects_of_joints_have_their_defaults() {
     assert_eq!(scene.start, Start::Equilibrium);
     assert_eq!(scene.road, Road::default());
     let kinds = kinds(CART);
-    let limit = EffectKind::Limit {
+    let limit = EffectKind::Limit(Limit {
         joint: JointId::new(0),
         lower: -0.2,
         upper: 0.3,
         stiffness: 1e5,
         damping: 0.0,
-    };
+    });
     assert_eq!(kinds[0], limit);
     let friction = |numbers: [f64; 5]| {
         let [coulomb, r#static, stribeck, viscous, regularisation] = numbers;
-        EffectKind::Friction {
+        EffectKind::Friction(Friction {
             joint: JointId::new(0),
             coulomb,
             r#static,
             stribeck,
             viscous,
             regularisation,
-        }
+        })
     };
     assert_eq!(kinds[1], friction([2.0, 2.0, 0.01, 0.0, 1e-3]));
     assert_eq!(kinds[2], friction([2.0, 3.0, 0.1, 0.5, 0.01]));
@@ -173,15 +173,15 @@ fn effects_in_the_plane_have_three_directions_and_no_axis() {
     let bodies = [BodyId::Ground, BodyId::Body(0)];
     let points = [[0.0; 3], [1.0, 0.0, 0.0]];
     let course = Signal::Table(vec![(0.0, [0.0; 3]), (1.0, [50.0, 0.0, 0.0])]);
-    assert_eq!(kinds[3], EffectKind::Actuator { bodies, points, course });
-    let bushing = EffectKind::Bushing {
+    assert_eq!(kinds[3], EffectKind::Actuator(Actuator { bodies, points, course }));
+    let bushing = EffectKind::Bushing(Bushing {
         bodies,
         at: [1.0, 0.0, 0.0],
         stiffness: [1e4, 2e4, 0.0, 0.0, 0.0, 30.0],
         damping: [1.0, 2.0, 0.0, 0.0, 0.0, 3.0],
-    };
+    });
     assert_eq!(kinds[4], bushing);
-    let tire = EffectKind::Tire {
+    let tire = EffectKind::Tire(Tire {
         body: BodyId::Body(0),
         center: [1.0, 0.0, 0.0],
         axis: None,
@@ -190,7 +190,7 @@ fn effects_in_the_plane_have_three_directions_and_no_axis() {
         damping: 0.0,
         rolling_resistance: 0.01,
         side: None,
-    };
+    });
     assert_eq!(kinds[5], tire);
 }
 
@@ -199,23 +199,28 @@ fn effects_along_a_line_read_points_and_pieces() {
     let kinds = kinds(CAR);
     let bodies = [BodyId::Ground, BodyId::Body(0)];
     let points = [[0.0; 3], [0.0, 0.0, 0.6]];
-    let bumper =
-        EffectKind::Bumper { bodies, points, stiffness: 1e7, damping: 0.0, clearance: 0.07 };
+    let bumper = EffectKind::Bumper(Bumper {
+        bodies,
+        points,
+        stiffness: 1e7,
+        damping: 0.0,
+        clearance: 0.07,
+    });
     assert_eq!(kinds[0], bumper);
     let piece = |lower, upper, coefficients: &[f64]| PolynomialPiece {
         lower,
         upper,
         coefficients: coefficients.to_vec(),
     };
-    let spring = EffectKind::Polynomial {
+    let spring = EffectKind::Polynomial(Polynomial {
         bodies: [bodies[1], bodies[0]],
         points: [points[1]; 2],
         direction: Some([0.0, 0.0, 2.0]),
         of_rate: false,
         pieces: vec![piece(0.0, 0.1, &[-5457.712, 35906.0])],
-    };
+    });
     assert_eq!(kinds[1], spring);
-    let damper = EffectKind::Polynomial {
+    let damper = EffectKind::Polynomial(Polynomial {
         bodies,
         points,
         direction: None,
@@ -225,34 +230,34 @@ fn effects_along_a_line_read_points_and_pieces() {
             piece(-0.2, 0.21, &[0.0, 9945.627, 33955.72, -59832.25, -395_651.0]),
             piece(0.21, 2.0, &[1919.1638, 1634.727]),
         ],
-    };
+    });
     assert_eq!(kinds[2], damper);
 }
 
 #[test]
 fn effects_of_a_car_read_with_their_defaults() {
     let kinds = kinds(CAR);
-    let EffectKind::Bushing { stiffness, damping, .. } = kinds[3] else { panic!() };
+    let EffectKind::Bushing(Bushing { stiffness, damping, .. }) = kinds[3] else { panic!() };
     assert_eq!((stiffness, damping), ([1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [0.0; 6]));
-    let drag = EffectKind::AeroDrag {
+    let drag = EffectKind::AeroDrag(AeroDrag {
         body: BodyId::Body(0),
         at: [0.0, 0.0, 0.8],
         area_coefficient: 1.1,
         density: 1.2,
-    };
+    });
     assert_eq!(kinds[4], drag);
-    let hold = EffectKind::SpeedHold {
+    let hold = EffectKind::SpeedHold(SpeedHold {
         body: BodyId::Body(0),
         direction: [1.0, 0.0, 0.0],
         speed: 5.0,
         gain: 1e4,
         limit: 8e3,
-    };
+    });
     assert_eq!(kinds[5], hold);
-    let EffectKind::Tire { damping, axis, side, .. } = &kinds[6] else { panic!() };
+    let EffectKind::Tire(Tire { damping, axis, side, .. }) = &kinds[6] else { panic!() };
     let iltis = CalspanCoefficients::iltis();
     assert_eq!((*damping, *axis, *side), (100.0, Some([0.0, 1.0, 0.0]), Some(iltis)));
-    let EffectKind::Tire { side, .. } = &kinds[7] else { panic!() };
+    let EffectKind::Tire(Tire { side, .. }) = &kinds[7] else { panic!() };
     let given = CalspanCoefficients {
         a: [1.0, 2.0, 3.0, 4.0, 5.0],
         omega: 0.9,

@@ -19,9 +19,7 @@ fn features_add_up_under_all_wheels() {
     let expected = vec![
         RoadFeature::Flat { height: -0.1 },
         rise(10.0, 5.0, 1.0, 0.5),
-        rise(30.0, 0.5, -0.125, 0.25),
-        rise(32.0, 0.5, -0.125, 0.25),
-        rise(34.0, 0.5, -0.125, 0.25),
+        RoadFeature::Stairs { start: 30.0, tread: 1.5, riser: 0.5, height: -0.125, count: 3 },
         RoadFeature::Bump { start: 50.0, length: 1.0, amplitude: 0.05 },
         RoadFeature::Bump { start: 60.0, length: 5.0, amplitude: -0.1 },
         RoadFeature::Table(vec![[70.0, 0.0], [75.0, 0.1], [80.0, 0.0]]),

@@ -2,7 +2,9 @@
 
 use super::layout::Parts;
 use crate::common::scene;
-use mbs::core::scene::{BodyId, Effect, EffectKind, JointId, Scene, Signal};
+use mbs::core::scene::{
+    BodyId, BodyTorque, Effect, EffectKind, JointId, Scene, Signal, TorsionSpring,
+};
 use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
 
 /// How a simulation is made and stepped.
@@ -34,16 +36,16 @@ impl Case {
     pub(super) fn scene(&self) -> Scene<f64> {
         let mut scene = scene(self.scene);
         let course = Signal::Input([0.0; 3]);
-        let kind = EffectKind::BodyTorque { body: BodyId::Body(0), course };
+        let kind = EffectKind::BodyTorque(BodyTorque { body: BodyId::Body(0), course });
         let motor = Effect { name: "motor".into(), enabled: true, kind };
         if self.scene == "guided-four-bar" {
             let (stiffness, damping, free_value) = (2.0, 0.0, 0.0);
-            let kind = EffectKind::TorsionSpring {
+            let kind = EffectKind::TorsionSpring(TorsionSpring {
                 joint: JointId::new(0),
                 stiffness,
                 damping,
                 free_value,
-            };
+            });
             scene.effects.push(Effect { name: "spring".into(), enabled: true, kind });
         }
         scene.effects.push(motor);

@@ -3,7 +3,7 @@
 use super::{field, read, text};
 use crate::common::random::tree;
 use crate::common::{Bench, settings};
-use mbs::core::scene::{BodyId, Dimension, Effect, EffectKind, Inertia, JointId, Scene};
+use mbs::core::scene::{BodyId, Dimension, Effect, EffectKind, Friction, Inertia, JointId, Scene};
 use mbs::core::step::StepError;
 use mbs::doctor::{Effort, Severity, examine};
 use mbs::{InSpace, Overrides, Plane, Settings, StopError};
@@ -135,14 +135,14 @@ fn several_frictions_are_followed_in_natural_coordinates() {
         for joint in 0..scene.joints.len() {
             let coulomb = 10.0 / (1 + joint) as f64;
             let r#static = coulomb * (1.0 + 0.5 * (joint % 2) as f64);
-            let kind = EffectKind::Friction {
+            let kind = EffectKind::Friction(Friction {
                 joint: JointId::new(joint),
                 coulomb,
                 r#static,
                 stribeck: 1e-2,
                 viscous: 0.0,
                 regularisation: 1e-3,
-            };
+            });
             scene.effects.push(Effect { name: format!("f{joint}"), enabled: true, kind });
         }
         for formulation in NATURAL {

@@ -25,17 +25,17 @@ fn pieces(rows: &[(f64, f64, &[f64])]) -> EffectKind<f64> {
         upper: row.1,
         coefficients: row.2.to_vec(),
     };
-    EffectKind::Polynomial {
+    EffectKind::Polynomial(Polynomial {
         bodies: PAIR,
         points: APART,
         direction: None,
         of_rate: true,
         pieces: rows.iter().map(piece).collect(),
-    }
+    })
 }
 
 fn tire(radius: f64, axis: Option<[f64; 3]>, rolling_resistance: f64) -> EffectKind<f64> {
-    EffectKind::Tire {
+    EffectKind::Tire(Tire {
         body: BodyId::Body(0),
         center: [0.0; 3],
         axis,
@@ -44,7 +44,7 @@ fn tire(radius: f64, axis: Option<[f64; 3]>, rolling_resistance: f64) -> EffectK
         damping: 0.0,
         rolling_resistance,
         side: None,
-    }
+    })
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn a_distance_along_a_line_may_be_zero_but_the_line_has_a_direction() {
     let along = |direction| {
         let pieces = vec![PolynomialPiece { lower: 0.0, upper: 1.0, coefficients: vec![1.0] }];
         let (points, of_rate) = ([[0.0; 3]; 2], false);
-        EffectKind::Polynomial { bodies: PAIR, points, direction, of_rate, pieces }
+        EffectKind::Polynomial(Polynomial { bodies: PAIR, points, direction, of_rate, pieces })
     };
     assert_eq!(fault(planar(), along(None)), ("points", SceneFault::CoincidentPoints));
     assert_eq!(fault(planar(), along(Some([0.0; 3]))), ("direction", SceneFault::ZeroAxis));
@@ -79,8 +79,9 @@ fn a_distance_along_a_line_may_be_zero_but_the_line_has_a_direction() {
 
 #[test]
 fn limits_and_friction_need_one_coordinate_and_ordered_levels() {
-    let limit =
-        |joint, lower| EffectKind::Limit { joint, lower, upper: 1.0, stiffness: 1.0, damping: 0.0 };
+    let limit = |joint, lower| {
+        EffectKind::Limit(Limit { joint, lower, upper: 1.0, stiffness: 1.0, damping: 0.0 })
+    };
     assert_eq!(
         fault(planar(), limit(JointId::new(7), 0.0)),
         ("joint", SceneFault::UnknownReference)
@@ -98,14 +99,14 @@ fn limits_and_friction_need_one_coordinate_and_ordered_levels() {
     );
     let friction = |coulomb, regularisation| {
         let (r#static, stribeck, viscous) = (2.0, 0.1, 0.0);
-        EffectKind::Friction {
+        EffectKind::Friction(Friction {
             joint: JointId::new(0),
             coulomb,
             r#static,
             stribeck,
             viscous,
             regularisation,
-        }
+        })
     };
     let low = SceneFault::StaticBelowCoulomb([2.0, 3.0]);
     assert_eq!(fault(planar(), friction(3.0, 1e-3)), ("static", low));
@@ -117,7 +118,7 @@ fn limits_and_friction_need_one_coordinate_and_ordered_levels() {
 fn a_bushing_in_the_plane_has_three_directions() {
     let bushing = |stiffness| {
         let (bodies, at, damping) = (PAIR, [0.0; 3], [0.0; 6]);
-        EffectKind::Bushing { bodies, at, stiffness, damping }
+        EffectKind::Bushing(Bushing { bodies, at, stiffness, damping })
     };
     let found = fault(planar(), bushing([1.0, 1.0, 5.0, 0.0, 0.0, 1.0]));
     assert_eq!(found, ("stiffness", SceneFault::OutOfPlane(5.0)));
@@ -132,12 +133,13 @@ fn a_tire_has_an_axis_where_it_needs_one() {
     assert_eq!(fault(spatial(), tire(0.4, None, 0.1)), ("axis", SceneFault::Missing));
     assert_eq!(fault(planar(), tire(0.4, y, 0.0)), ("axis", SceneFault::NotUsed));
     let calspan = |c: CalspanCoefficients<f64>| {
-        let EffectKind::Tire { body, center, radius, stiffness, damping, .. } = tire(0.4, y, 0.0)
+        let EffectKind::Tire(Tire { body, center, radius, stiffness, damping, .. }) =
+            tire(0.4, y, 0.0)
         else {
             unreachable!()
         };
         let (axis, rolling_resistance, side) = (y, 0.0, Some(c));
-        EffectKind::Tire {
+        EffectKind::Tire(Tire {
             body,
             center,
             axis,
@@ -146,7 +148,7 @@ fn a_tire_has_an_axis_where_it_needs_one() {
             damping,
             rolling_resistance,
             side,
-        }
+        })
     };
     let iltis = CalspanCoefficients::iltis();
     let swapped = CalspanCoefficients { b: [1.216, -0.464e-4, 2.18e-11], ..iltis };

@@ -9,10 +9,14 @@
 //! rest is zero: what hangs on friction creeps at a rate of about e times load over S. All power is dissipated.
 
 use crate::Real;
+use crate::laws::Supplies;
+use crate::laws::entry::entry;
+use crate::laws::operations::Operations;
+use crate::laws::scalar::{Measure, TensionLaw};
 
 /// A friction law.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Friction<T> {
+pub struct FrictionLaw<T> {
     /// Friction of fast motion [N m or N].
     pub coulomb: T,
     /// Friction of slow motion [N m or N].
@@ -25,7 +29,9 @@ pub struct Friction<T> {
     pub regularisation: T,
 }
 
-impl<T: Real> Friction<T> {
+entry!(FrictionLaw<T> { coulomb, r#static, stribeck, viscous, regularisation });
+
+impl<T: Real> FrictionLaw<T> {
     /// Force against the rate, and a derivative by it that does not fall below zero (where friction falls with the rate, a
     /// tangent with its negative slope could lose definiteness).
     #[inline]
@@ -71,11 +77,90 @@ impl<T: Real> Friction<T> {
     }
 }
 
+impl<T: Real> TensionLaw<T> for FrictionLaw<T> {
+    #[inline]
+    fn evaluate(&self, value: T, rate: T, _: &Supplies<'_, T>) -> Measure<T> {
+        let (tension, damping) = self.force(rate);
+        Measure { value, rate, tension, damping, ..Measure::default() }
+    }
+
+    fn operations(&self) -> Operations {
+        Operations::new(15, 7).and(5, 1, 0)
+    }
+
+    /// The slope by what the iterate `before` foresaw of its force: see [`slope`](FrictionLaw::slope). By the tangents at the ends
+    /// alone, which know nothing of the rise between them, an iteration across rest goes to and fro. An iterate without a rate is
+    /// none: the first one of a step has the tangent.
+    #[inline]
+    fn look_back(&self, measure: &mut Measure<T>, before: &Measure<T>) {
+        if before.rate != T::ZERO {
+            let last = (before.rate, before.tension, before.damping);
+            let foreseen = self.foreseen(measure.rate, last);
+            measure.damping = self.slope(measure.rate, foreseen);
+        }
+    }
+}
+
+#[cfg(feature = "alloc")]
+pub use data::Friction;
+
+#[cfg(feature = "alloc")]
+mod data {
+    use super::FrictionLaw;
+    use crate::effects::data::*;
+
+    effect! {
+        /// Stribeck friction of a joint with one coordinate, regularised.
+        pub struct Friction<T> = ["friction"] {
+            /// The joint.
+            joint: JointId = Joint(Coordinate), "", Needed;
+            /// Friction of fast motion.
+            coulomb: T = Number(NotNegative), "N m or N", Needed;
+            /// Friction of slow motion.
+            r#static as "static": T = Number(NotNegative), "N m or N", As("coulomb");
+            /// Rate at which the one becomes the other.
+            stribeck: T = Number(Positive), "rad/s or m/s", Times("10", "regularisation");
+            /// Viscous part.
+            viscous: T = Number(NotNegative), "N m s/rad or N s/m", ZERO;
+            /// Rate below which friction falls to zero with the rate.
+            regularisation: T = Number(Positive), "rad/s or m/s", Number("1e-3");
+        }
+    }
+
+    impl<T: Real> EffectModel<T> for Friction<T> {
+        const LAW: &'static str = "g(q̇) q̇/√(q̇² + e²) + v q̇, g = C + (S - C)/(1 + (q̇/s)²)";
+        const ABSENT: Option<[&'static str; 2]> = Some(["friction", "no friction in joints"]);
+
+        fn check(&self, _: &Scene<T>, place: Place) -> Result<(), SceneError> {
+            if self.r#static >= self.coulomb {
+                return Ok(());
+            }
+            let levels = [self.r#static.to_f64(), self.coulomb.to_f64()];
+            place.fault("static", SceneFault::StaticBelowCoulomb(levels))
+        }
+        fn actions(&self, to: &mut Compiler<'_, T>) {
+            let &Self { joint, coulomb, r#static, regularisation, stribeck, viscous } = self;
+            let law = FrictionLaw { coulomb, r#static, stribeck, viscous, regularisation };
+            to.on_joint(joint, law);
+        }
+        fn dissipates(&self) -> bool {
+            true
+        }
+        fn rest(&mut self, leave: &mut dyn FnMut(&'static str)) -> bool {
+            if self.coulomb > T::ZERO || self.r#static > T::ZERO {
+                leave("dry friction");
+            }
+            (self.coulomb, self.r#static) = (T::ZERO, T::ZERO);
+            self.viscous > T::ZERO
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const LAW: Friction<f64> = Friction {
+    const LAW: FrictionLaw<f64> = FrictionLaw {
         coulomb: 2.0,
         r#static: 3.0,
         stribeck: 0.1,
@@ -104,7 +189,7 @@ mod tests {
     #[test]
     fn newtons_method_by_the_foreseen_share_converges_from_anywhere() {
         // r + c f(r) = b: c a step over an inertia, b what the rate would be without friction.
-        let law = Friction { r#static: 2.0, ..LAW };
+        let law = FrictionLaw { r#static: 2.0, ..LAW };
         for (c, b) in [(1e-3, 1e-2), (1e-2, 0.019), (1e-2, 0.021), (0.1, 0.12), (10.0, 19.0)] {
             for start in [-5.0, -0.01, 0.0, 0.02, 3.0] {
                 let (mut rate, mut last, mut n) = (start, None, 0);

@@ -8,6 +8,11 @@
 //! Outside of all pieces the nearest piece is continued by its tangent.
 
 use crate::Real;
+use crate::laws::entry::entry;
+use crate::laws::kink::Kink;
+use crate::laws::operations::Operations;
+use crate::laws::scalar::{Measure, TensionLaw};
+use crate::laws::{Part, Supplies};
 
 /// Coefficients that a piece may have.
 pub const MOST: usize = 8;
@@ -26,6 +31,8 @@ pub struct Piece<T> {
     /// The integral of all pieces from the first one's lower end to m.
     pub energy: T,
 }
+
+entry!(Piece<T> { lower, upper, middle, coefficients, energy });
 
 impl<T: Real> Piece<T> {
     /// Re-centres coefficients about the middle of their range; what exceeds [`MOST`] is refused with `None`, and so is
@@ -116,6 +123,157 @@ pub fn kinks<T: Real>(pieces: &[Piece<T>], mut take: impl FnMut(T)) {
 /// The integral from the first piece's lower end to `x` [J for a spring].
 pub fn energy<T: Real>(pieces: &[Piece<T>], x: T) -> T {
     find(pieces, x).map_or(T::ZERO, |piece| piece.energy + piece.integral(x))
+}
+
+/// A piecewise polynomial of the value or of the rate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PolynomialLaw {
+    /// Its pieces.
+    pub pieces: Part,
+    /// Of the rate: a damper.
+    pub of_rate: bool,
+}
+
+entry!(PolynomialLaw { pieces, of_rate });
+
+impl<T: Real> TensionLaw<T> for PolynomialLaw {
+    #[inline]
+    fn evaluate(&self, at: T, rate: T, supplies: &Supplies<'_, T>) -> Measure<T> {
+        let pieces = self.pieces.of(supplies.pieces());
+        let plain = Measure { value: at, rate, ..Measure::default() };
+        if self.of_rate {
+            let (tension, slope) = value(pieces, rate);
+            Measure { tension, damping: slope.max(T::ZERO), ..plain }
+        } else {
+            let (tension, slope) = value(pieces, at);
+            Measure { tension, stiffness: slope.max(T::ZERO), ..plain }
+        }
+    }
+
+    fn operations(&self) -> Operations {
+        Operations::new(17, 19)
+    }
+
+    #[inline]
+    fn energy(&self, value: T, supplies: &Supplies<'_, T>) -> T {
+        if self.of_rate { T::ZERO } else { energy(self.pieces.of(supplies.pieces()), value) }
+    }
+
+    #[inline]
+    fn power(&self, measure: &Measure<T>, _: &Supplies<'_, T>) -> T {
+        if self.of_rate { (T::ZERO - measure.tension) * measure.rate } else { T::ZERO }
+    }
+
+    fn may_push(&self) -> bool {
+        !self.of_rate
+    }
+
+    fn may_have_kinks(&self) -> bool {
+        !self.of_rate && self.pieces.n > 1
+    }
+
+    fn kinks(&self, supplies: &Supplies<'_, T>, take: &mut dyn FnMut(Kink<T>)) {
+        if !self.of_rate {
+            kinks(self.pieces.of(supplies.pieces()), |place| {
+                take(Kink { place, height: T::ZERO, slope: T::ZERO });
+            });
+        }
+    }
+
+    fn fits(&self, supplies: &Supplies<'_, T>, _: usize) -> bool {
+        self.pieces.is_within(supplies.pieces().len())
+    }
+}
+
+#[cfg(feature = "alloc")]
+pub use data::Polynomial;
+
+#[cfg(feature = "alloc")]
+mod data {
+    use super::{MOST, Piece, PolynomialLaw, link};
+    use crate::effects::data::*;
+    use crate::scene::PolynomialPiece;
+    use alloc::vec::Vec;
+
+    const KEY: &str = "coefficients";
+    const DAMPER: &str = "polynomial-damper";
+
+    effect! {
+        /// A piecewise polynomial between two body points: tension of the length (a spring) or of its rate (a damper).
+        pub struct Polynomial<T> = ["polynomial-spring", DAMPER] {
+            /// First and second body.
+            bodies: [BodyId; 2] = Bodies, "", Needed;
+            /// One point per body, reference configuration.
+            points: [[T; 3]; 2] = Points(false), "m", Needed;
+            /// Pieces, in increasing order and without gaps, of the powers of L or L̇.
+            pieces as "coefficients": Vec<PolynomialPiece<T>> = Pieces, "N, m or m/s", Needed;
+            /// The length is measured along this direction, fixed in the first body, instead of between the points.
+            direction: Option<[T; 3]> = MaybeAxis, "", Nothing;
+            /// Of the length's rate instead of the length.
+            of_rate as "kind": bool = Name(DAMPER), "", Nothing;
+        }
+    }
+
+    impl<T: Real> EffectModel<T> for Polynomial<T> {
+        const LAW: &'static str = "tension Σ cₖ Lᵏ of a spring, Σ cₖ L̇ᵏ of a damper, positive pulls; one to eight coefficients a piece";
+
+        fn name(&self) -> &'static str {
+            if self.of_rate { DAMPER } else { "polynomial-spring" }
+        }
+        /// At least one piece; each has coefficients, a range, and begins where the one before ends. Small jumps of the value between
+        /// pieces are as published data have them: they pass.
+        fn check(&self, _: &Scene<T>, place: Place) -> Result<(), SceneError> {
+            match self.direction {
+                // a distance along a line may be zero
+                Some(direction) => place.axis("direction", direction)?,
+                None => place.apart("points", self.points)?,
+            }
+            if self.pieces.is_empty() {
+                return place.fault(KEY, SceneFault::WrongCount { needed: 1, found: 0 });
+            }
+            let mut end = None;
+            for (i, piece) in self.pieces.iter().enumerate() {
+                let PolynomialPiece { lower, upper, coefficients } = piece;
+                for x in [lower, upper].into_iter().chain(coefficients) {
+                    place.finite(KEY, *x)?;
+                }
+                if coefficients.is_empty() || coefficients.len() > MOST {
+                    let found = coefficients.len();
+                    return place.fault(KEY, SceneFault::PieceCoefficients { piece: i, found });
+                }
+                if !(lower < upper) {
+                    return place.fault(KEY, SceneFault::PieceRange(i));
+                }
+                if end.is_some_and(|end| end != *lower) {
+                    return place.fault(KEY, SceneFault::PieceGap(i));
+                }
+                end = Some(*upper);
+            }
+            Ok(())
+        }
+        fn actions(&self, to: &mut Compiler<'_, T>) {
+            let all = &mut to.actions.tables.pieces;
+            let first = all.len();
+            let piece = |p: &PolynomialPiece<T>| Piece::new([p.lower, p.upper], &p.coefficients);
+            all.extend(self.pieces.iter().filter_map(piece));
+            link(&mut all[first..]);
+            let pieces = crate::actions::part(first, all.len());
+            let law = PolynomialLaw { pieces, of_rate: self.of_rate };
+            match self.direction {
+                None => to.length(self.bodies, self.points, law),
+                Some(d) => {
+                    let direction = crate::actions::direction_of(d);
+                    to.along(self.bodies, self.points, direction, law);
+                }
+            }
+        }
+        fn stores_energy(&self) -> bool {
+            !self.of_rate
+        }
+        fn dissipates(&self) -> bool {
+            self.of_rate
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,270 @@
+//! What effects are described by: fields with a key, a form, a unit and a default, and values in these forms.
+//!
+//! Reader, writer, checks, documents and tests go through fields and values; none of them has a list of kinds.
+
+use crate::scene::{AxisFrame, BodyId, CalspanCoefficients, JointId, PolynomialPiece, Signal};
+use alloc::vec::Vec;
+
+/// One key of an effect in scene files.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Field {
+    /// The key; of a [`Form::Signal`] the first of its three.
+    pub key: &'static str,
+    /// What stands there.
+    pub form: Form,
+    /// SI unit; empty: none.
+    pub unit: &'static str,
+    /// What holds where the key is left out.
+    pub default: Default,
+    /// One sentence.
+    pub meaning: &'static str,
+}
+
+impl Field {
+    /// Its keys in scene files.
+    pub fn keys(&self) -> impl Iterator<Item = &'static str> {
+        let keys = match self.form {
+            Form::Signal(_) => [Some(self.key), Some("table"), Some("input")],
+            Form::Side => [Some(self.key), Some("coefficients"), None],
+            Form::Name(_) => [None; 3],
+            _ => [Some(self.key), None, None],
+        };
+        keys.into_iter().flatten()
+    }
+}
+
+/// What stands at a key, and what is refused there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Form {
+    /// Two different bodies, or a body and the ground.
+    Bodies,
+    /// A body that moves.
+    Body,
+    /// A joint.
+    Joint(JointNeed),
+    /// A place in the reference configuration.
+    Point,
+    /// Two places, one per body; with the flag they must differ.
+    Points(bool),
+    /// A direction.
+    Axis,
+    /// A direction, or none.
+    MaybeAxis,
+    /// A number.
+    Number(Sign),
+    /// Along and about x, y, z; in the plane along x, y and about z. Not negative.
+    Six,
+    /// Pieces of a polynomial, `[lower, upper, c0, c1, ...]`.
+    Pieces,
+    /// `value`, with `input = true` one that is set between steps, or `table` over time.
+    Signal(SignalForm),
+    /// `"global"` or `"body"`.
+    Frame,
+    /// `"none"` or `"calspan"`, with its `coefficients`.
+    Side,
+    /// Whether the effect has this one of the names of its kind.
+    Name(&'static str),
+}
+
+/// What an effect asks of its joint.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointNeed {
+    /// One rotation.
+    Rotation,
+    /// One coordinate.
+    Coordinate,
+}
+
+/// Which numbers are refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sign {
+    /// Any finite number passes.
+    Any,
+    /// Numbers below zero are refused.
+    NotNegative,
+    /// Zero is refused too.
+    Positive,
+}
+
+/// The components of a signal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SignalForm {
+    /// One number.
+    Scalar,
+    /// A vector of the scene's dimension.
+    Vector,
+    /// About an axis: one number in the plane, a vector in space.
+    Moment,
+}
+
+/// What holds where a key is left out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Default {
+    /// It must be written.
+    Needed,
+    /// This decimal number; of six all.
+    Number(&'static str),
+    /// The value of an earlier key.
+    As(&'static str),
+    /// The decimal number times the value of an earlier key.
+    Times(&'static str, &'static str),
+    /// Zero where the value of an earlier key is zero, else it must be written.
+    NeededWith(&'static str),
+    /// Nothing, or the first of the words.
+    Nothing,
+}
+
+/// The value of a field.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Value<T> {
+    /// Of [`Form::Bodies`].
+    Bodies([BodyId; 2]),
+    /// Of [`Form::Body`].
+    Body(BodyId),
+    /// Of [`Form::Joint`].
+    Joint(JointId),
+    /// Of [`Form::Point`].
+    Point([T; 3]),
+    /// Of [`Form::Points`].
+    Points([[T; 3]; 2]),
+    /// Of [`Form::Axis`].
+    Axis([T; 3]),
+    /// Of [`Form::MaybeAxis`].
+    MaybeAxis(Option<[T; 3]>),
+    /// Of [`Form::Number`].
+    Number(T),
+    /// Of [`Form::Six`].
+    Six([T; 6]),
+    /// Of [`Form::Pieces`].
+    Pieces(Vec<PolynomialPiece<T>>),
+    /// Of [`Form::Signal`].
+    Signal(Signal<T>),
+    /// Of [`Form::Frame`].
+    Frame(AxisFrame),
+    /// Of [`Form::Side`].
+    Side(Option<CalspanCoefficients<T>>),
+    /// Of [`Form::Name`].
+    Name(bool),
+}
+
+impl<T> Value<T> {
+    /// The same with every number as `f` gives it.
+    pub fn map<U>(self, f: &mut impl FnMut(T) -> U) -> Value<U> {
+        match self {
+            Self::Bodies(bodies) => Value::Bodies(bodies),
+            Self::Body(body) => Value::Body(body),
+            Self::Joint(joint) => Value::Joint(joint),
+            Self::Point(x) => Value::Point(x.map(f)),
+            Self::Points(x) => Value::Points(x.map(|x| x.map(&mut *f))),
+            Self::Axis(x) => Value::Axis(x.map(f)),
+            Self::MaybeAxis(x) => Value::MaybeAxis(x.map(|x| x.map(f))),
+            Self::Number(x) => Value::Number(f(x)),
+            Self::Six(x) => Value::Six(x.map(f)),
+            Self::Pieces(pieces) => {
+                let piece = |p: PolynomialPiece<T>| PolynomialPiece {
+                    lower: f(p.lower),
+                    upper: f(p.upper),
+                    coefficients: p.coefficients.into_iter().map(&mut *f).collect(),
+                };
+                Value::Pieces(pieces.into_iter().map(piece).collect())
+            }
+            Self::Signal(signal) => Value::Signal(signal.map(f)),
+            Self::Frame(frame) => Value::Frame(frame),
+            Self::Side(side) => Value::Side(side.map(|c| CalspanCoefficients {
+                a: c.a.map(&mut *f),
+                omega: f(c.omega),
+                b: c.b.map(&mut *f),
+                skid: f(c.skid),
+                trail: c.trail.map(&mut *f),
+            })),
+            Self::Name(is) => Value::Name(is),
+        }
+    }
+}
+
+impl<T> Signal<T> {
+    /// The same with every number as `f` gives it.
+    pub fn map<U>(self, f: &mut impl FnMut(T) -> U) -> Signal<U> {
+        match self {
+            Self::Constant(x) => Signal::Constant(x.map(f)),
+            Self::Input(x) => Signal::Input(x.map(f)),
+            Self::Table(rows) => {
+                Signal::Table(rows.into_iter().map(|(t, x)| (f(t), x.map(&mut *f))).collect())
+            }
+        }
+    }
+}
+
+/// The data of a kind of effect: made by [`effect!`](super::effect).
+pub(crate) trait EffectData<T>: Sized {
+    /// Its names in scene files; an effect has the first, unless its model says otherwise.
+    const NAMES: &'static [&'static str];
+    /// Its fields, in order.
+    const FIELDS: &'static [Field];
+
+    /// The values of its fields.
+    fn values(&self) -> Vec<Value<T>>
+    where
+        T: Clone;
+
+    /// The effect with these values; `None` if one has another form, or the kind is not made of values.
+    fn of(values: &mut dyn Iterator<Item = Value<T>>) -> Option<Self>;
+}
+
+/// Declares the data of a kind: its names, and each field with key, form, unit and default.
+macro_rules! effect {
+    (@key $field:ident) => { stringify!($field) };
+    (@key $field:ident $key:literal) => { $key };
+    (
+        $(#[$doc:meta])*
+        pub struct $Kind:ident<T> = [$($name:expr),+] {
+            $(
+                $(#[doc = $meaning:literal])+
+                $field:ident $(as $key:literal)?: $Type:ty =
+                    $Form:ident $(($need:expr))?, $unit:literal, $default:expr;
+            )*
+        }
+    ) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, PartialEq)]
+        pub struct $Kind<T> {
+            $(
+                $(#[doc = $meaning])+
+                #[doc = concat!("[", $unit, "]")]
+                pub $field: $Type,
+            )*
+        }
+
+        impl<T> $crate::effects::EffectData<T> for $Kind<T> {
+            const NAMES: &'static [&'static str] = &[$($name),+];
+            const FIELDS: &'static [$crate::effects::Field] = &[$(
+                $crate::effects::Field {
+                    key: $crate::effects::field::effect!(@key $field $($key)?),
+                    form: $crate::effects::Form::$Form $(($need))?,
+                    unit: $unit,
+                    default: $default,
+                    meaning: concat!($($meaning),+),
+                },
+            )*];
+
+            fn values(&self) -> alloc::vec::Vec<$crate::effects::Value<T>>
+            where
+                T: Clone,
+            {
+                alloc::vec![$($crate::effects::Value::$Form(self.$field.clone())),*]
+            }
+
+            fn of(values: &mut dyn Iterator<Item = $crate::effects::Value<T>>) -> Option<Self> {
+                $(
+                    let Some($crate::effects::Value::$Form($field)) = values.next() else {
+                        return None;
+                    };
+                )*
+                Some(Self { $($field),* })
+            }
+        }
+    };
+}
+pub(crate) use effect;

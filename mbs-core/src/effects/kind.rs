@@ -1,0 +1,266 @@
+//! The enum of kinds, what each kind says of itself, and the table of all.
+
+use super::{EffectData, EffectKind, Field, Value};
+use crate::Real;
+use crate::actions::Compiler;
+use crate::scene::check::Place;
+use crate::scene::{BodyId, Scene, SceneError};
+use alloc::vec::Vec;
+
+/// What a kind of effect does, and what it says of itself.
+pub(crate) trait EffectModel<T: Real>: EffectData<T> {
+    /// Law and range, in one line of Markdown.
+    const LAW: &'static str;
+    /// A word, and a sentence, for a scene that has none; where that is worth one.
+    const ABSENT: Option<[&'static str; 2]> = None;
+    /// Does it act on one side only, with gaps that open and close?
+    const IS_ONE_SIDED: bool = false;
+    /// Names of its gaps, where it has more than one.
+    const ENDS: &'static [&'static str] = &[];
+    /// Does it stand on the scene's road?
+    const NEEDS_ROAD: bool = false;
+    /// May its law take different ways by its numbers? Then several states are not computed at once.
+    const HAS_BRANCHES: bool = true;
+
+    /// Its name in scene files.
+    fn name(&self) -> &'static str {
+        Self::NAMES.first().copied().unwrap_or_default()
+    }
+
+    /// Refuses what single fields do not show.
+    ///
+    /// # Errors
+    /// [`SceneError`] with the key.
+    fn check(&self, _scene: &Scene<T>, _place: Place) -> Result<(), SceneError> {
+        Ok(())
+    }
+
+    /// Adds what it does.
+    fn actions(&self, to: &mut Compiler<'_, T>);
+
+    /// Can it store energy?
+    fn stores_energy(&self) -> bool {
+        false
+    }
+
+    /// Can it take energy out by a rate?
+    fn dissipates(&self) -> bool {
+        false
+    }
+
+    /// Does it follow time or an input?
+    fn follows_time(&self) -> bool {
+        use super::Value::Signal;
+        let is_constant =
+            |s: &crate::scene::Signal<T>| matches!(s, crate::scene::Signal::Constant(_));
+        self.values().iter().any(|value| matches!(value, Signal(s) if !is_constant(s)))
+    }
+
+    /// Takes out what only motion makes, and names parts that could act at rest or on small motions about it; false: nothing stays.
+    fn rest(&mut self, _leave: &mut dyn FnMut(&'static str)) -> bool {
+        true
+    }
+}
+
+/// A kind of effect, without its numbers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Row {
+    /// Its module, the name of its kind in small letters.
+    pub module: &'static str,
+    /// Its names in scene files; none for a law in code.
+    pub names: &'static [&'static str],
+    /// Its fields.
+    pub fields: &'static [Field],
+    /// Law and range, in one line of Markdown.
+    pub law: &'static str,
+    /// The Cargo feature that brings its law, and whether it is on; `None`: every build has it.
+    pub feature: Option<(&'static str, bool)>,
+    /// A word and a sentence for a scene that has none.
+    pub absent: Option<[&'static str; 2]>,
+    /// Does it act on one side only?
+    pub is_one_sided: bool,
+    /// Names of its gaps.
+    pub ends: &'static [&'static str],
+    /// Does it stand on the scene's road?
+    pub needs_road: bool,
+    /// May its law take different ways by its numbers?
+    pub has_branches: bool,
+}
+
+impl Row {
+    /// The row of a kind.
+    pub(super) const fn of<K: EffectModel<f64>>(
+        module: &'static str,
+        feature: Option<(&'static str, bool)>,
+    ) -> Self {
+        Self {
+            module,
+            names: K::NAMES,
+            fields: K::FIELDS,
+            law: K::LAW,
+            feature,
+            absent: K::ABSENT,
+            is_one_sided: K::IS_ONE_SIDED,
+            ends: K::ENDS,
+            needs_road: K::NEEDS_ROAD,
+            has_branches: K::HAS_BRANCHES,
+        }
+    }
+}
+
+impl<T: Clone> EffectKind<T> {
+    /// The places on bodies where it acts, reference configuration [m], with their keys.
+    #[must_use]
+    pub fn places(&self) -> Vec<(&'static str, BodyId, [T; 3])> {
+        let mut bodies = Vec::new();
+        let mut places = Vec::new();
+        for (field, value) in self.row().fields.iter().zip(self.values()) {
+            match value {
+                Value::Bodies(both) => bodies.extend(both),
+                Value::Body(body) => bodies.push(body),
+                Value::Points(points) => {
+                    places.extend(bodies.iter().zip(points).map(|(b, x)| (field.key, *b, x)));
+                }
+                Value::Point(x) => {
+                    places.extend(bodies.iter().map(|b| (field.key, *b, x.clone())));
+                }
+                _ => {}
+            }
+        }
+        places
+    }
+}
+
+/// Makes the enum of kinds.
+macro_rules! kinds {
+    ($($Kind:ident $module:ident $gate:tt),*) => {
+        /// The kinds of effect.
+        #[derive(Debug, Clone, PartialEq)]
+        #[non_exhaustive]
+        pub enum EffectKind<T> {
+            $(
+                #[doc = concat!("[`", stringify!($Kind), "`].")]
+                $Kind($Kind<T>),
+            )*
+        }
+
+        $(impl<T> From<$Kind<T>> for EffectKind<T> {
+            fn from(kind: $Kind<T>) -> Self {
+                Self::$Kind(kind)
+            }
+        })*
+
+        /// Every kind of effect, in the order of the format.
+        pub const EFFECTS: &[Row] = &[$(Row::of::<$Kind<f64>>(stringify!($module), kind::feature_of! $gate)),*];
+
+        impl<T> EffectKind<T> {
+            /// What is known of its kind.
+            #[must_use]
+            pub const fn row(&self) -> &'static Row {
+                match self {
+                    $(Self::$Kind(_) => const { &Row::of::<$Kind<f64>>(stringify!($module), kind::feature_of! $gate) },)*
+                }
+            }
+
+            /// The effect of the kind `EFFECTS[row]` with these values; `None` if they are not those of its fields.
+            pub fn of(row: usize, values: impl IntoIterator<Item = Value<T>>) -> Option<Self> {
+                type Make<T> = fn(&mut dyn Iterator<Item = Value<T>>) -> Option<EffectKind<T>>;
+                let make: [Make<T>; EFFECTS.len()] =
+                    [$(|values| $Kind::of(values).map(Self::$Kind)),*];
+                make.get(row)?(&mut values.into_iter())
+            }
+
+            /// The same kind with other values; `None` if they are not those of its fields.
+            pub fn with<U>(&self, values: impl IntoIterator<Item = Value<U>>) -> Option<EffectKind<U>> {
+                let values = &mut values.into_iter();
+                match self {
+                    $(Self::$Kind(_) => $Kind::of(values).map(EffectKind::$Kind),)*
+                }
+            }
+
+            /// The values of its fields, in their order; a user's own law has none.
+            pub fn values(&self) -> Vec<Value<T>>
+            where
+                T: Clone,
+            {
+                match self {
+                    $(Self::$Kind(kind) => kind.values(),)*
+                }
+            }
+
+            /// The same with every number as `f` gives it; `None` for a user's own law, which is code for one scalar type.
+            pub fn map<U>(self, f: &mut impl FnMut(T) -> U) -> Option<EffectKind<U>>
+            where
+                T: Clone,
+            {
+                self.with(self.values().into_iter().map(|value| value.map(f)))
+            }
+        }
+
+        impl<T: Real> EffectKind<T> {
+            /// Its name in scene files; `own` for a law in code.
+            #[must_use]
+            pub fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$Kind(kind) => kind.name(),)*
+                }
+            }
+
+            pub(crate) fn check(&self, scene: &Scene<T>, place: Place) -> Result<(), SceneError> {
+                match self {
+                    $(Self::$Kind(kind) => kind.check(scene, place),)*
+                }
+            }
+
+            pub(crate) fn actions(&self, to: &mut Compiler<'_, T>) {
+                match self {
+                    $(Self::$Kind(kind) => kind.actions(to),)*
+                }
+            }
+
+            /// Can it store energy?
+            #[must_use]
+            pub fn stores_energy(&self) -> bool {
+                match self {
+                    $(Self::$Kind(kind) => kind.stores_energy(),)*
+                }
+            }
+
+            /// Can it take energy out by a rate?
+            #[must_use]
+            pub fn dissipates(&self) -> bool {
+                match self {
+                    $(Self::$Kind(kind) => kind.dissipates(),)*
+                }
+            }
+
+            /// Does it follow time or an input?
+            #[must_use]
+            pub fn follows_time(&self) -> bool {
+                match self {
+                    $(Self::$Kind(kind) => kind.follows_time(),)*
+                }
+            }
+
+            /// Takes out what only motion makes, and names parts that could act at rest or on small motions about it; false: nothing stays.
+            pub fn rest(&mut self, leave: &mut dyn FnMut(&'static str)) -> bool {
+                match self {
+                    $(Self::$Kind(kind) => kind.rest(leave),)*
+                }
+            }
+        }
+    };
+}
+
+/// The Cargo feature of a gate, and whether it is on.
+macro_rules! feature_of {
+    (all()) => {
+        None
+    };
+    (feature = $name:literal) => {
+        Some(($name, cfg!(feature = $name)))
+    };
+}
+
+pub(super) use {feature_of, kinds};

@@ -1,0 +1,150 @@
+//! Elastic stops of a joint at both ends of a range: two [`bumper`]s.
+//!
+//! ```text
+//! tension = F(m - upper, m') above the range,   -F(lower - m, -m') below it,   0 within
+//! ```
+
+use crate::Real;
+use crate::laws::Supplies;
+use crate::laws::bumper::{self, Contact};
+use crate::laws::entry::entry;
+use crate::laws::operations::Operations;
+use crate::laws::scalar::{Measure, TensionLaw};
+
+/// A range with stops.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LimitLaw<T> {
+    /// Lower end [rad or m].
+    pub lower: T,
+    /// Upper end [rad or m].
+    pub upper: T,
+    /// Stiffness of the stops [N m/rad or N/m].
+    pub stiffness: T,
+    /// Damping of the stops [N m s/rad or N s/m].
+    pub damping: T,
+}
+
+entry!(LimitLaw<T> { lower, upper, stiffness, damping });
+
+impl<T: Real> LimitLaw<T> {
+    /// Tension at a coordinate and its rate, with derivatives by both.
+    #[inline]
+    pub fn tension(&self, value: T, rate: T) -> Contact<T> {
+        let law = [self.stiffness, self.damping];
+        if value > self.upper {
+            return bumper::contact(law, value - self.upper, rate);
+        }
+        let below = bumper::contact(law, self.lower - value, -rate);
+        Contact { force: -below.force, ..below }
+    }
+}
+
+impl<T: Real> TensionLaw<T> for LimitLaw<T> {
+    #[inline]
+    fn evaluate(&self, value: T, rate: T, _: &Supplies<'_, T>) -> Measure<T> {
+        let contact = self.tension(value, rate);
+        Measure {
+            value,
+            rate,
+            tension: contact.force,
+            stiffness: contact.stiffness,
+            damping: contact.damping,
+            ..Measure::default()
+        }
+    }
+
+    fn operations(&self) -> Operations {
+        bumper::OPERATIONS + Operations::new(0, 2)
+    }
+
+    #[inline]
+    fn energy(&self, value: T, _: &Supplies<'_, T>) -> T {
+        bumper::energy(self.stiffness, (value - self.upper).max(self.lower - value))
+    }
+
+    #[inline]
+    fn elastic(&self, value: T, _: &Supplies<'_, T>) -> T {
+        let above = (value - self.upper).max(T::ZERO);
+        self.stiffness * (above - (self.lower - value).max(T::ZERO))
+    }
+
+    fn n_gaps(&self) -> usize {
+        2
+    }
+
+    fn has_fade(&self) -> bool {
+        self.damping > T::ZERO
+    }
+
+    fn gaps(&self, value: T, rate: T) -> [[T; 2]; 2] {
+        [[value - self.lower, rate], [self.upper - value, -rate]]
+    }
+}
+
+#[cfg(feature = "alloc")]
+pub use data::Limit;
+
+#[cfg(feature = "alloc")]
+mod data {
+    use super::LimitLaw;
+    use crate::effects::data::*;
+
+    effect! {
+        /// Elastic stops of a joint with one coordinate.
+        pub struct Limit<T> = ["limit"] {
+            /// The joint.
+            joint: JointId = Joint(Coordinate), "", Needed;
+            /// Coordinate below which the lower stop pushes.
+            lower: T = Number(Any), "rad or m", Needed;
+            /// Coordinate above which the upper stop pushes.
+            upper: T = Number(Any), "rad or m", Needed;
+            /// Stiffness.
+            stiffness: T = Number(NotNegative), "N m/rad or N/m", Needed;
+            /// Damping while in contact.
+            damping: T = Number(NotNegative), "N m s/rad or N s/m", ZERO;
+        }
+    }
+
+    impl<T: Real> EffectModel<T> for Limit<T> {
+        const LAW: &'static str = "a bumper at each end";
+        const ABSENT: Option<[&'static str; 2]> =
+            Some(["limits", "no limits: joints turn and slide without stops"]);
+        const IS_ONE_SIDED: bool = true;
+        const ENDS: &'static [&'static str] = &["lower", "upper"];
+
+        fn check(&self, _: &Scene<T>, place: Place) -> Result<(), SceneError> {
+            if self.lower < self.upper {
+                return Ok(());
+            }
+            let range = [self.lower.to_f64(), self.upper.to_f64()];
+            place.fault("lower", SceneFault::RangeOrder(range))
+        }
+        fn actions(&self, to: &mut Compiler<'_, T>) {
+            let &Self { joint, lower, upper, stiffness, damping } = self;
+            to.on_joint(joint, LimitLaw { lower, upper, stiffness, damping });
+        }
+        fn stores_energy(&self) -> bool {
+            !self.stiffness.is_zero()
+        }
+        fn dissipates(&self) -> bool {
+            !self.damping.is_zero()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NONE: Supplies<'_, f64> = Supplies::courses(&[]);
+
+    #[test]
+    fn stops_push_back_into_the_range() {
+        let limit = LimitLaw { lower: -0.2, upper: 0.3, stiffness: 1e3, damping: 0.0 };
+        assert_eq!(limit.tension(0.0, 5.0), Contact::default());
+        assert!((limit.tension(0.35, 0.0).force - 50.0).abs() < 1e-12);
+        assert!((limit.tension(-0.25, 0.0).force + 50.0).abs() < 1e-12);
+        assert!((limit.energy(0.35, &NONE) - 1.25).abs() < 1e-13);
+        assert!((limit.energy(-0.25, &NONE) - 1.25).abs() < 1e-13);
+    }
+}

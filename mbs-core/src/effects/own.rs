@@ -1,0 +1,169 @@
+//! A law of a user's own: see [`own`](crate::laws::own).
+
+use crate::Real;
+use crate::algebra::Vector;
+use crate::laws::Supplies;
+use crate::laws::body::{Action, BodyMotion, WrenchesLaw, put};
+use crate::laws::entry::{Entry, EntryReader, EntryWriter};
+use crate::laws::operations::Operations;
+use crate::laws::own::{UserBodyLaw, UserScalarLaw};
+use crate::laws::scalar::{Measure, TensionLaw};
+
+/// A user's own law of a value and its rate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OwnLaw<T> {
+    /// The law.
+    pub law: UserScalarLaw<T>,
+    /// Number of the signal that is its input.
+    pub course: u32,
+}
+
+/// A user's own law on a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OwnBodyLaw<T> {
+    /// The law.
+    pub law: UserBodyLaw<T>,
+    /// Number of the signal that is its input.
+    pub course: u32,
+}
+
+/// Code is not made of numbers.
+macro_rules! code {
+    ($Law:ident) => {
+        impl<T> Entry<T> for $Law<T> {
+            fn of<R: EntryReader<T>>(from: &mut R) -> Result<Self, R::Error> {
+                Err(from.fault())
+            }
+            fn numbers<W: EntryWriter<T>>(&self, to: &mut W) -> bool {
+                to.text("NotExported");
+                false
+            }
+        }
+    };
+}
+code!(OwnLaw);
+code!(OwnBodyLaw);
+
+impl<T: Real> TensionLaw<T> for OwnLaw<T> {
+    #[inline]
+    fn evaluate(&self, value: T, rate: T, supplies: &Supplies<'_, T>) -> Measure<T> {
+        let given = (self.law.evaluate)(value, rate, supplies.course(self.course));
+        Measure { value, rate, transverse: T::ZERO, drift: T::ZERO, ..given }
+    }
+
+    fn operations(&self) -> Operations {
+        Operations::NONE
+    }
+
+    #[inline]
+    fn energy(&self, value: T, supplies: &Supplies<'_, T>) -> T {
+        (self.law.energy)(value, supplies.course(self.course))
+    }
+
+    #[inline]
+    fn elastic(&self, value: T, supplies: &Supplies<'_, T>) -> T {
+        (self.law.elastic)(value, supplies.course(self.course))
+    }
+
+    fn may_push(&self) -> bool {
+        true
+    }
+}
+
+impl<T: Real> WrenchesLaw<T> for OwnBodyLaw<T> {
+    /// The law at a motion, with the rate of its wrench.
+    fn evaluate(&self, motion: &BodyMotion<T>, supplies: &Supplies<'_, T>, out: &mut [Action<T>]) {
+        let mut action = (self.law.evaluate)(motion, supplies.course(self.course));
+        let [force, moment] = [action.force, action.moment].map(Vector::<T, 3>::from);
+        action.measure.rate =
+            force.dot(&Vector::from(motion.velocity)) + moment.dot(&Vector::from(motion.spin));
+        put(out, 0, action);
+    }
+
+    fn operations(&self, _: &Supplies<'_, T>) -> Operations {
+        Operations::NONE
+    }
+}
+
+#[cfg(feature = "alloc")]
+pub use data::Own;
+
+#[cfg(feature = "alloc")]
+mod data {
+    use super::{OwnBodyLaw, OwnLaw};
+    use crate::effects::data::*;
+    use crate::effects::{EffectData, Field, Value};
+    use crate::scene::UserLaw;
+    use crate::scene::check::{check_pair, known_body, single_coordinate};
+    use alloc::vec::Vec;
+
+    /// A law of a user's own, in code only.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct Own<T> {
+        /// The law and where it acts.
+        pub law: UserLaw<T>,
+        /// Its input.
+        pub course: Signal<T>,
+    }
+
+    /// It is code: no scene file has it, and it has no values.
+    impl<T> EffectData<T> for Own<T> {
+        const NAMES: &'static [&'static str] = &[];
+        const FIELDS: &'static [Field] = &[];
+
+        fn values(&self) -> Vec<Value<T>>
+        where
+            T: Clone,
+        {
+            Vec::new()
+        }
+        fn of(_: &mut dyn Iterator<Item = Value<T>>) -> Option<Self> {
+            None
+        }
+    }
+
+    impl<T: Real> EffectModel<T> for Own<T> {
+        const LAW: &'static str = "";
+
+        fn name(&self) -> &'static str {
+            "own"
+        }
+        fn check(&self, scene: &Scene<T>, place: Place) -> Result<(), SceneError> {
+            place.signal(&self.course, false)?;
+            match self.law {
+                UserLaw::Length { bodies, points, .. } => {
+                    check_pair(scene, bodies, place)?;
+                    place.apart("points", points)
+                }
+                UserLaw::Joint { joint, .. } => single_coordinate(scene, joint, place),
+                UserLaw::Body { body, at, axis, .. } => {
+                    known_body(scene, body, place)?;
+                    place.vector("at", at)?;
+                    place.axis("axis", axis)
+                }
+            }
+        }
+        fn actions(&self, to: &mut Compiler<'_, T>) {
+            let course = to.course(&self.course);
+            match self.law {
+                UserLaw::Length { bodies, points, law } => {
+                    to.length(bodies, points, OwnLaw { law, course });
+                }
+                UserLaw::Joint { joint, law } => to.on_joint(joint, OwnLaw { law, course }),
+                UserLaw::Body { body, at, axis, law } => {
+                    let axis = crate::actions::direction_of(axis);
+                    to.on_body((body, at), axis, OwnBodyLaw { law, course });
+                }
+            }
+        }
+        fn stores_energy(&self) -> bool {
+            true
+        }
+        fn dissipates(&self) -> bool {
+            true
+        }
+        fn follows_time(&self) -> bool {
+            !matches!(self.course, Signal::Constant(_))
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! A drive that holds a speed: proportional, with a largest force.
+//!
+//! ```text
+//! F = L s(g (v0 - v) / L),   s(x) = x / sqrt(1 + x^2)
+//! ```
+//!
+//! The saturation is smooth, so that the force has a derivative everywhere; below a third of the limit it is the gain to
+//! within 5 %.
+
+use crate::Real;
+use crate::algebra::Vector;
+use crate::laws::Supplies;
+use crate::laws::body::{Action, BodyMotion, WrenchesLaw, put};
+use crate::laws::entry::entry;
+use crate::laws::operations::Operations;
+use crate::laws::scalar::Measure;
+
+/// A speed hold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpeedHoldLaw<T> {
+    /// Speed to hold [m/s].
+    pub speed: T,
+    /// Force per speed [N s/m].
+    pub gain: T,
+    /// Largest force [N].
+    pub limit: T,
+}
+
+entry!(SpeedHoldLaw<T> { speed, gain, limit });
+
+impl<T: Real> SpeedHoldLaw<T> {
+    /// Force along the direction at a speed, and its negative derivative by the speed.
+    #[inline]
+    pub fn force(&self, speed: T) -> (T, T) {
+        let x = self.gain * (self.speed - speed) / self.limit;
+        let root = (T::ONE + x * x).sqrt();
+        (self.limit * x / root, self.gain / (root * root * root))
+    }
+}
+
+impl<T: Real> WrenchesLaw<T> for SpeedHoldLaw<T> {
+    /// The force on a body along the law's direction.
+    fn evaluate(&self, motion: &BodyMotion<T>, _: &Supplies<'_, T>, out: &mut [Action<T>]) {
+        let axis = Vector::<T, 3>::from(motion.axis);
+        let rate = axis.dot(&Vector::from(motion.velocity));
+        let (force, damping) = self.force(rate);
+        let measure = Measure { rate, tension: -force, damping, ..Measure::default() };
+        put(out, 0, Action { force: motion.axis, moment: [T::ZERO; 3], measure });
+    }
+
+    fn operations(&self, _: &Supplies<'_, T>) -> Operations {
+        Operations::new(9, 5).and(3, 1, 0)
+    }
+}
+
+#[cfg(feature = "alloc")]
+pub use data::SpeedHold;
+
+#[cfg(feature = "alloc")]
+mod data {
+    use super::SpeedHoldLaw;
+    use crate::cluster::mass_properties;
+    use crate::effects::data::*;
+
+    effect! {
+        /// A force at the centre of mass along a direction of the body that holds its speed.
+        pub struct SpeedHold<T> = ["speed-hold"] {
+            /// The body.
+            body: BodyId = Body, "", Needed;
+            /// Direction, fixed in the body.
+            direction: [T; 3] = Axis, "", Needed;
+            /// Speed to hold.
+            speed: T = Number(Any), "m/s", Needed;
+            /// Force per speed.
+            gain: T = Number(NotNegative), "N s/m", Needed;
+            /// Largest force.
+            limit: T = Number(Positive), "N", Needed;
+        }
+    }
+
+    impl<T: Real> EffectModel<T> for SpeedHold<T> {
+        const LAW: &'static str = "along the direction at the centre of mass: x/√(1 + (x/limit)²), x = gain (speed - v); within 5 % of the gain below a third of the limit";
+
+        fn actions(&self, to: &mut Compiler<'_, T>) {
+            let &Self { body, direction, speed, gain, limit } = self;
+            let Some(index) = body.index() else { return };
+            let at = mass_properties(to.scene, index).1.into();
+            let axis = crate::actions::direction_of(direction);
+            to.on_body((body, at), axis, SpeedHoldLaw { speed, gain, limit });
+        }
+        fn rest(&mut self, leave: &mut dyn FnMut(&'static str)) -> bool {
+            leave("drive");
+            false
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn force_is_proportional_near_the_speed_and_never_above_the_limit() {
+        let hold = SpeedHoldLaw { speed: 5.0, gain: 1e4, limit: 1e4 };
+        let (force, slope) = hold.force(4.99);
+        assert!((force - 100.0).abs() < 0.01 && (slope - 1e4).abs() < 10.0);
+        assert!(hold.force(-100.0).0 <= 1e4 && hold.force(200.0).0 >= -1e4);
+        let h = 1e-6;
+        for v in [0.0, 4.0, 5.0, 6.5] {
+            let slope = (hold.force(v + h).0 - hold.force(v - h).0) / (2.0 * h);
+            assert!((slope + hold.force(v).1).abs() < 1e-4, "{v}");
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! Numbers of a scene: decimal text until a run names its precision.
+//!
+//! A scene is read and built once, as [`Scene<Number>`](crate::scene::Scene), and
+//! [`resolve`](crate::scene::Scene::resolve) gives it the scalar of a run. A default that follows from other numbers, such as the
+//! middle of a rod, is kept as the sum or product that it is, and computed in that scalar.
+
+use crate::Real;
+use crate::real::DoubleDouble;
+use alloc::boxed::Box;
+use alloc::format;
+use alloc::string::String;
+use core::fmt::{self, Display, Formatter};
+use core::ops::{Add, Mul};
+
+/// Digits that every `f64` keeps: with these or fewer its shortest text is the text that it was read from.
+const KEPT_DIGITS: usize = 15;
+/// Digits of a computed number's text after the first: they read back as the same pair of doubles.
+const COMPUTED_DIGITS: usize = 40;
+
+/// A number of a scene: its decimal text, and the nearest `f64`.
+///
+/// A number given in code stands for its shortest decimal text: 9.81 in a run of 32 digits is 9.81, not the double next to it.
+/// Two are equal if their 32 digits are.
+#[derive(Debug, Clone, Default)]
+pub struct Number {
+    near: f64,
+    /// `None`: the shortest text of `near`.
+    source: Option<Box<Source>>,
+}
+
+/// Where a number comes from.
+#[derive(Debug, Clone)]
+enum Source {
+    /// A text of more digits than `f64` keeps.
+    Text(Box<str>),
+    /// The sum of two.
+    Sum(Number, Number),
+    /// The product of two.
+    Product(Number, Number),
+    /// This double in every precision, whatever its decimal text.
+    Double,
+    /// Not given, but assumed: the third component of a vector of two numbers.
+    Absent,
+}
+
+impl Number {
+    /// Zero.
+    pub const ZERO: Self = Self { near: 0.0, source: None };
+    /// One half.
+    pub const HALF: Self = Self { near: 0.5, source: None };
+
+    /// The number of a decimal text such as `9.81` or `1.0e-3`; `None` when it is not one, or not one that a scene file may have.
+    #[must_use]
+    pub fn from_decimal(text: &str) -> Option<Self> {
+        let is_digit = |c: Option<u8>| c.is_some_and(|c| c.is_ascii_digit());
+        let digits = text.trim_start_matches(['+', '-']).as_bytes();
+        let has_bare_point = digits.iter().enumerate().any(|(i, &c)| {
+            c == b'.'
+                && !(i > 0
+                    && is_digit(digits.get(i - 1).copied())
+                    && is_digit(digits.get(i + 1).copied()))
+        });
+        if has_bare_point || !is_digit(digits.first().copied()) {
+            return None;
+        }
+        let near = text.parse().ok()?;
+        let mantissa = digits.split(|c| matches!(c, b'e' | b'E')).next().unwrap_or(digits);
+        let n = mantissa.iter().filter(|c| c.is_ascii_digit()).count();
+        let source = (n > KEPT_DIGITS).then(|| Box::new(Source::Text(text.into())));
+        Some(Self { near, source })
+    }
+
+    /// This double in every precision: data that was always computed from it.
+    #[must_use]
+    pub(crate) fn double(near: f64) -> Self {
+        Self { near, source: Some(Box::new(Source::Double)) }
+    }
+
+    /// A number that was not given: zero for the third component of a vector of two numbers.
+    #[must_use]
+    pub fn assumed(near: f64) -> Self {
+        Self { near, source: Some(Box::new(Source::Absent)) }
+    }
+
+    /// Whether it was assumed, not given.
+    #[must_use]
+    pub fn is_absent(&self) -> bool {
+        matches!(self.source.as_deref(), Some(Source::Absent))
+    }
+
+    /// Whether it follows from other numbers, as the default of a key may.
+    #[must_use]
+    pub fn is_computed(&self) -> bool {
+        matches!(self.source.as_deref(), Some(Source::Sum(..) | Source::Product(..)))
+    }
+
+    /// The nearest `f64`.
+    #[must_use]
+    pub fn to_f64(&self) -> f64 {
+        self.near
+    }
+
+    /// Is it zero?
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        self.near == 0.0
+    }
+
+    /// The number in the precision `T`: the nearest one to its decimal text; computed ones by the arithmetic of `T`.
+    ///
+    /// Cost: nothing in `f64`; in other precisions that of reading its text.
+    #[must_use]
+    pub fn value<T: Real>(&self) -> T {
+        let read = |text: &str| T::from_decimal(text).unwrap_or(T::from_f64(self.near));
+        match self.source.as_deref() {
+            None if T::EPSILON == T::from_f64(f64::EPSILON) => T::from_f64(self.near),
+            None => read(&format!("{:e}", self.near)),
+            Some(Source::Text(text)) => read(text),
+            Some(Source::Sum(a, b)) => a.value::<T>() + b.value::<T>(),
+            Some(Source::Product(a, b)) => a.value::<T>() * b.value::<T>(),
+            Some(Source::Double | Source::Absent) => T::from_f64(self.near),
+        }
+    }
+
+    /// Its decimal text, as scene files have it.
+    #[must_use]
+    pub fn text(&self) -> String {
+        match self.source.as_deref() {
+            None | Some(Source::Double | Source::Absent) => format!("{:?}", self.near),
+            Some(Source::Text(text)) => String::from(&**text),
+            Some(Source::Sum(..) | Source::Product(..)) => {
+                let text = format!("{:.COMPUTED_DIGITS$e}", self.value::<DoubleDouble>());
+                let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+                format!("{}0e{exponent}", mantissa.trim_end_matches('0'))
+            }
+        }
+    }
+}
+
+impl Display for Number {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.pad(&self.text())
+    }
+}
+
+impl PartialEq for Number {
+    fn eq(&self, other: &Self) -> bool {
+        let is_short = self.source.is_none() && other.source.is_none();
+        self.near == other.near
+            && (is_short || self.value::<DoubleDouble>() == other.value::<DoubleDouble>())
+    }
+}
+
+impl From<f64> for Number {
+    fn from(near: f64) -> Self {
+        Self { near, source: None }
+    }
+}
+
+impl From<i32> for Number {
+    fn from(near: i32) -> Self {
+        f64::from(near).into()
+    }
+}
+
+impl Add for Number {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { near: self.near + other.near, source: Some(Box::new(Source::Sum(self, other))) }
+    }
+}
+
+impl Mul for Number {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        Self { near: self.near * other.near, source: Some(Box::new(Source::Product(self, other))) }
+    }
+}
+
+/// A point or vector of a scene, global axes: two numbers in the plane, three in space.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Vector3(pub [Number; 3]);
+
+impl From<[f64; 3]> for Vector3 {
+    fn from(x: [f64; 3]) -> Self {
+        Self(x.map(Number::from))
+    }
+}
+
+impl From<[f64; 2]> for Vector3 {
+    fn from(x: [f64; 2]) -> Self {
+        x.map(Number::from).into()
+    }
+}
+
+impl From<[Number; 3]> for Vector3 {
+    fn from(x: [Number; 3]) -> Self {
+        Self(x)
+    }
+}
+
+impl From<[Number; 2]> for Vector3 {
+    fn from([x, y]: [Number; 2]) -> Self {
+        Self([x, y, Number::assumed(0.0)])
+    }
+}

@@ -1,0 +1,232 @@
+//! From a scene of decimal numbers to one in the scalar of a run.
+
+use crate::Real;
+use crate::scene::{
+    Body, CalspanCoefficients, Dimension, Effect, Entry, Guide, Inertia, InitialCondition,
+    InitialTarget, Joint, Motion, Number, Output, Quantity, Road, RoadFeature, Scene, SceneError,
+    SceneFault, SolverTable,
+};
+use alloc::vec::Vec;
+
+impl Scene<Number> {
+    /// The scene in the precision `T`, checked: every number is the one of `T` nearest to its decimal text.
+    ///
+    /// Cost: a copy of the scene; beyond `f64` and below it that of reading each number.
+    ///
+    /// # Errors
+    /// What [`Scene::check`] refuses; [`SceneFault::InCode`] for an effect that is a law in code, which has a precision of its own; in
+    /// space [`SceneFault::WrongCount`] for a vector that was given by two numbers.
+    pub fn resolve<T: Real>(&self) -> Result<Scene<T>, SceneError> {
+        let is_spatial = self.dimension == Dimension::Spatial;
+        let (mut has_two, not_a_number) = (false, T::from_f64(f64::NAN));
+        let mut scene = self.map(&mut |x: &Number| {
+            let is_missing = is_spatial && x.is_absent();
+            has_two |= is_missing;
+            // the check then finds its place
+            if is_missing { not_a_number } else { x.value() }
+        })?;
+        // may be assumed
+        scene.duration = self.duration.value();
+        match scene.check() {
+            Ok(()) => Ok(scene),
+            Err(SceneError { fault: SceneFault::NotFinite, entry, field }) if has_two => {
+                let fault = SceneFault::WrongCount { needed: 3, found: 2 };
+                Err(SceneError { entry, field, fault })
+            }
+            Err(error) => Err(error),
+        }
+    }
+}
+
+/// A function of numbers, on all of a list.
+fn all<T, U, const N: usize>(x: &[T; N], f: &mut impl FnMut(&T) -> U) -> [U; N] {
+    core::array::from_fn(|i| f(&x[i]))
+}
+
+fn pair<T, U>([a, b]: &[[T; 3]; 2], f: &mut impl FnMut(&T) -> U) -> [[U; 3]; 2] {
+    [all(a, f), all(b, f)]
+}
+
+fn rows<T, U, const N: usize>(x: &[[T; N]], f: &mut impl FnMut(&T) -> U) -> Vec<[U; N]> {
+    x.iter().map(|row| all(row, f)).collect()
+}
+
+impl<T: Clone> Scene<T> {
+    /// The scene with other numbers; refused where an effect is a law in code.
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Result<Scene<U>, SceneError> {
+        let effect = |(i, effect): (usize, &Effect<T>), f: &mut dyn FnMut(&T) -> U| {
+            let refused =
+                SceneError { entry: Entry::Effect(i), field: "kind", fault: SceneFault::InCode };
+            let kind = effect.kind.clone().map(&mut |x: T| f(&x)).ok_or(refused)?;
+            Ok(Effect { name: effect.name.clone(), enabled: effect.enabled, kind })
+        };
+        Ok(Scene {
+            name: self.name.clone(),
+            dimension: self.dimension,
+            gravity: self.gravity.as_ref().map(|gravity| all(gravity, f)),
+            duration: f(&self.duration),
+            bodies: self.bodies.iter().map(|body| body.map(f)).collect(),
+            joints: self.joints.iter().map(|joint| joint.map(f)).collect(),
+            initials: self.initials.iter().map(|initial| initial.map(f)).collect(),
+            guides: self
+                .guides
+                .iter()
+                .map(|guide| Guide { joint: guide.joint, law: guide.law.map(f) })
+                .collect(),
+            road: self.road.map(f),
+            start: self.start,
+            effects: self
+                .effects
+                .iter()
+                .enumerate()
+                .map(|entry| effect(entry, f))
+                .collect::<Result<_, _>>()?,
+            outputs: self.outputs.iter().map(|output| output.map(f)).collect(),
+            solver: self.solver.map(f),
+        })
+    }
+}
+
+impl<T> Body<T> {
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Body<U> {
+        let inertia = match &self.inertia {
+            Inertia::Rod { from, to } => Inertia::Rod { from: all(from, f), to: all(to, f) },
+            Inertia::Planar(moment) => Inertia::Planar(f(moment)),
+            Inertia::Spatial(moments) => Inertia::Spatial(all(moments, f)),
+        };
+        let (mass, center) = (f(&self.mass), all(&self.center, f));
+        Body { name: self.name.clone(), mass, center, inertia }
+    }
+}
+
+impl<T> Joint<T> {
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Joint<U> {
+        Joint {
+            name: self.name.clone(),
+            kind: self.kind,
+            bodies: self.bodies,
+            points: pair(&self.points, f),
+            axes: self.axes.each_ref().map(|axis| axis.as_ref().map(|axis| all(axis, f))),
+        }
+    }
+}
+
+impl<T> InitialCondition<T> {
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> InitialCondition<U> {
+        let target = match &self.target {
+            InitialTarget::Joint { joint, value, rate } => InitialTarget::Joint {
+                joint: *joint,
+                value: value.as_ref().map(|list| list.iter().map(&mut *f).collect()),
+                rate: rate.as_ref().map(|list| list.iter().map(&mut *f).collect()),
+            },
+            InitialTarget::Body { body, velocity, angular_velocity } => InitialTarget::Body {
+                body: *body,
+                velocity: velocity.as_ref().map(|(at, v)| (all(at, f), all(v, f))),
+                angular_velocity: angular_velocity.as_ref().map(|w| all(w, f)),
+            },
+        };
+        InitialCondition { target }
+    }
+}
+
+impl<T> Motion<T> {
+    pub(super) fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Motion<U> {
+        match self {
+            Self::Table { rows: table, ends } => {
+                Motion::Table { rows: rows(table, f), ends: *ends }
+            }
+            Self::Sine { amplitude, frequency, phase } => {
+                Motion::Sine { amplitude: f(amplitude), frequency: f(frequency), phase: f(phase) }
+            }
+            Self::Input(motion) => Motion::Input(all(motion, f)),
+            Self::Ramp { rate } => Motion::Ramp { rate: f(rate) },
+        }
+    }
+}
+
+impl CalspanCoefficients<Number> {
+    /// The tire of the Bombardier Iltis, as decimal numbers.
+    #[must_use]
+    pub fn of_iltis() -> Self {
+        Self::iltis_by(Number::double)
+    }
+}
+
+impl<T> Road<T> {
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Road<U> {
+        let mut track = |features: &[RoadFeature<T>]| -> Vec<RoadFeature<U>> {
+            features.iter().map(|feature| feature.map(f)).collect()
+        };
+        let (left, right) = (track(&self.left), track(&self.right));
+        Road { left, right, speed: f(&self.speed) }
+    }
+}
+
+impl<T> RoadFeature<T> {
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> RoadFeature<U> {
+        match self {
+            Self::Flat { height } => RoadFeature::Flat { height: f(height) },
+            Self::Rise { start, length, height, rounding } => RoadFeature::Rise {
+                start: f(start),
+                length: f(length),
+                height: f(height),
+                rounding: f(rounding),
+            },
+            Self::Stairs { start, tread, riser, height, count } => RoadFeature::Stairs {
+                start: f(start),
+                tread: f(tread),
+                riser: f(riser),
+                height: f(height),
+                count: *count,
+            },
+            Self::Bump { start, length, amplitude } => {
+                RoadFeature::Bump { start: f(start), length: f(length), amplitude: f(amplitude) }
+            }
+            Self::Table(points) => RoadFeature::Table(rows(points, f)),
+        }
+    }
+}
+
+impl<T> Output<T> {
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Output<U> {
+        let quantity = match &self.quantity {
+            Quantity::Position { body, at } => Quantity::Position { body: *body, at: all(at, f) },
+            Quantity::Velocity { body, at } => Quantity::Velocity { body: *body, at: all(at, f) },
+            Quantity::Acceleration { body, at } => {
+                Quantity::Acceleration { body: *body, at: all(at, f) }
+            }
+            Quantity::JointValue { joint } => Quantity::JointValue { joint: *joint },
+            Quantity::JointRate { joint } => Quantity::JointRate { joint: *joint },
+            Quantity::Reaction { joint } => Quantity::Reaction { joint: *joint },
+        };
+        Output { name: self.name.clone(), quantity }
+    }
+}
+
+impl<T> SolverTable<T> {
+    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> SolverTable<U> {
+        let [step, step_max, tolerance, penalty, error_tolerance, energy_alarm] = [
+            &self.step,
+            &self.step_max,
+            &self.tolerance,
+            &self.penalty,
+            &self.error_tolerance,
+            &self.energy_alarm,
+        ]
+        .map(|x| x.as_ref().map(&mut *f));
+        SolverTable {
+            formulation: self.formulation.clone(),
+            integrator: self.integrator.clone(),
+            step,
+            step_max,
+            tolerance,
+            penalty,
+            step_control: self.step_control.clone(),
+            energy_tolerance: self.energy_tolerance.as_ref().map(|limits| all(limits, f)),
+            error_tolerance,
+            locate_events: self.locate_events,
+            energy_alarm,
+            unused: self.unused.clone(),
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! The table of effects: what its fields say of each other, that values make the effect that they came from, and that
+//! docs/EFFECTS.md is written from it.
+
+use mbs_core::effects::{Default, EFFECTS, Field, Form, JointNeed, Row, Value};
+use mbs_core::scene::{Dimension, EffectKind};
+use mbs_testkit::effects;
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+const DOCUMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/EFFECTS.md");
+
+#[test]
+fn fields_have_keys_of_their_own_and_defaults_name_other_ones() {
+    for row in EFFECTS {
+        let keys: Vec<_> = row.fields.iter().flat_map(Field::keys).collect();
+        assert_eq!(keys.iter().collect::<BTreeSet<_>>().len(), keys.len(), "{}", row.module);
+        for field in row.fields {
+            assert!(field.meaning.trim().ends_with('.'), "{}: {}", row.module, field.key);
+            if let Default::As(key) | Default::Times(_, key) | Default::NeededWith(key) =
+                field.default
+            {
+                let other = row.fields.iter().find(|other| other.key == key);
+                let other = other.unwrap_or_else(|| panic!("{}: no key {key}", row.module));
+                assert!(matches!(other.default, Default::Needed | Default::Number(_)), "{key}");
+            }
+        }
+        assert!(row.names.is_empty() || !row.law.is_empty(), "{}: no law", row.module);
+    }
+}
+
+#[test]
+fn values_make_the_effect_that_they_came_from() {
+    for dimension in [Dimension::Planar, Dimension::Spatial] {
+        for (what, kind) in effects::every(dimension) {
+            let row = EFFECTS.iter().position(|row| row == kind.row()).expect("a row");
+            assert_eq!(EffectKind::of(row, kind.values()).as_ref(), Some(&kind), "{what}");
+            assert!(kind.row().names.contains(&kind.name()), "{what}");
+            // There and back through another type of number.
+            let there = kind.clone().map(&mut |x: f64| x.to_bits()).expect("not a law in code");
+            assert_eq!(there.map(&mut f64::from_bits).as_ref(), Some(&kind), "{what}");
+            // A value of another form, or one too few, makes none.
+            let mut values = kind.values();
+            values.pop();
+            assert_eq!(EffectKind::of(row, values.clone()), None, "{what}");
+            values.insert(0, Value::Name(true));
+            assert_eq!(EffectKind::of(row, values), None, "{what}");
+        }
+    }
+}
+
+#[test]
+fn every_kind_is_tried_by_the_tests_of_effects() {
+    let tried = effects::every(Dimension::Spatial);
+    for row in EFFECTS.iter().filter(|row| row.feature.is_some() && !row.names.is_empty()) {
+        assert!(tried.iter().any(|(_, kind)| kind.row() == row), "{}", row.module);
+    }
+}
+
+/// Writes the tables of docs/EFFECTS.md where MBS_WRITE_DOCS is set.
+#[test]
+fn the_document_has_the_fields_of_the_table() {
+    let text = std::fs::read_to_string(DOCUMENT).expect("the document");
+    let mut expected = text.clone();
+    for (heading, group) in [("Between two bodies", 0), ("On a joint", 1), ("On one body", 2)] {
+        let section = expected.find(&format!("## {heading}\n")).expect("a section");
+        let start = section + expected[section..].find("| kind |").expect("a table");
+        let end = start + expected[start..].find("\n\n").expect("an end") + 1;
+        expected.replace_range(start..end, &table(group));
+    }
+    if std::env::var_os("MBS_WRITE_DOCS").is_some() {
+        std::fs::write(DOCUMENT, &expected).expect("the document");
+    } else {
+        assert!(
+            text == expected,
+            "run this test with MBS_WRITE_DOCS=1, and look at the difference"
+        );
+    }
+}
+
+/// The kinds between two bodies, on a joint, on one body.
+fn table(group: usize) -> String {
+    let mut text = "| kind | keys: unit, default | law and range |\n|---|---|---|\n".to_owned();
+    let group_of = |row: &&Row| match row.fields.first().map(|field| field.form) {
+        Some(Form::Bodies) => 0,
+        Some(Form::Joint(_)) => 1,
+        _ => 2,
+    };
+    for row in EFFECTS.iter().filter(|row| group_of(row) == group) {
+        let keys: Vec<_> = row.fields.iter().filter_map(key).collect();
+        for name in row.names {
+            writeln!(text, "| `{name}` | {} | {} |", keys.join("; "), row.law).expect("a text");
+        }
+    }
+    text
+}
+
+/// A field's key, unit and default.
+fn key(field: &Field) -> Option<String> {
+    let key = field.key;
+    let named = match field.form {
+        Form::Bodies | Form::Points(_) | Form::Name(_) => return None,
+        Form::Joint(JointNeed::Rotation) => format!("`{key}` with one rotation"),
+        Form::Joint(JointNeed::Coordinate) => format!("`{key}` with one coordinate"),
+        Form::Pieces => format!("`{key} = [[lower, upper, c0, c1, ...], ...]`"),
+        Form::Frame => format!("`{key}`, `\"global\"` or `\"body\"`"),
+        Form::Side => {
+            format!("`{key}`, `\"none\"` or `\"calspan\"`; `coefficients`, those of the Iltis")
+        }
+        Form::MaybeAxis => format!("`{key}`, none"),
+        _ => format!("`{key}`"),
+    };
+    let mut text = named;
+    if !field.unit.is_empty() && field.form != Form::Point {
+        text += &format!(" {}", field.unit);
+    }
+    if let Form::Signal(_) = field.form {
+        text += ", or `table = [[time, value], ...]`";
+    }
+    text += &match field.default {
+        Default::Number(number) => format!(", {number}"),
+        Default::As(other) => format!(", as `{other}`"),
+        Default::Times(number, other) => format!(", {number} `{other}`"),
+        Default::NeededWith(other) => format!(", needed with `{other}`"),
+        Default::Needed | Default::Nothing => String::new(),
+    };
+    Some(text)
+}

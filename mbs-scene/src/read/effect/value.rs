@@ -1,0 +1,136 @@
+//! The value of a field, by its form.
+
+use crate::read::ReadFault;
+use crate::read::fields::{Fields, Read};
+use crate::read::tree::{Item, Node};
+use mbs_core::effects::{Field, Form, SignalForm, Value};
+use mbs_core::scene::{AxisFrame, CalspanCoefficients, Number, PolynomialPiece, Signal};
+
+/// The value of a field of an effect of the kind `name`; `None` where its key is left out.
+pub(super) fn read(
+    fields: &Fields<'_>,
+    field: &'static Field,
+    name: &str,
+) -> Read<Option<Value<Number>>> {
+    let (key, context) = (field.key, fields.context);
+    match field.form {
+        Form::Signal(form) => return Ok(signal(fields, form)?.map(Value::Signal)),
+        Form::Side => return side(fields).map(Value::Side).map(Some),
+        Form::Name(own) => return Ok(Some(Value::Name(own == name))),
+        _ => {}
+    }
+    let Some(item) = fields.get(key) else { return Ok(None) };
+    Ok(Some(match field.form {
+        Form::Bodies => Value::Bodies(fields.pair()?),
+        Form::Body => Value::Body(context.moving_body(item)?),
+        Form::Joint(_) => Value::Joint(context.joint(item)?),
+        Form::Point => Value::Point(context.vector(item)?),
+        Form::Points(_) => Value::Points(fields.two_vectors(key)?),
+        Form::Axis => Value::Axis(context.vector(item)?),
+        Form::MaybeAxis => Value::MaybeAxis(Some(context.vector(item)?)),
+        Form::Number(_) => Value::Number(context.number(item)?),
+        Form::Six => Value::Six(six(fields, item)?),
+        Form::Pieces => {
+            let pieces = context.list(item, "a list of pieces [lower, upper, c0, c1, ...]")?;
+            Value::Pieces(pieces.iter().map(|item| piece(fields, item)).collect::<Read<_>>()?)
+        }
+        Form::Frame => Value::Frame(match fields.word(key)? {
+            ("global", _) => AxisFrame::Global,
+            ("body", _) => AxisFrame::Body,
+            word => return fields.unknown_word(key, word, &["global", "body"]),
+        }),
+        _ => return Ok(None),
+    }))
+}
+
+/// `value`, with `input = true` one that is set between steps, or `table` with rows `[time, value]`; a vector may also stand flat: `[time, x, y, z]`.
+fn signal(fields: &Fields<'_>, form: SignalForm) -> Read<Option<Signal<Number>>> {
+    fields.exclusive("value", "table")?;
+    fields.exclusive("table", "input")?;
+    let context = fields.context;
+    let is_scalar = match form {
+        SignalForm::Scalar => true,
+        SignalForm::Vector => false,
+        SignalForm::Moment => context.is_planar(),
+    };
+    let value = |item| {
+        if is_scalar {
+            return Ok([context.number(item)?, Number::ZERO, Number::ZERO]);
+        }
+        context.vector(item)
+    };
+    let Some(table) = fields.get("table") else {
+        let is_input = fields.flag("input", false)?;
+        let signal = if is_input { Signal::Input } else { Signal::Constant };
+        return fields.get("value").map(|item| Ok(signal(value(item)?))).transpose();
+    };
+    let rows = context.list(table, "a list of rows [time, value]")?;
+    let read_row = |row| match context.list(row, "a row [time, value]")? {
+        [time, flat @ ..]
+            if !is_scalar && matches!(flat, [Item { node: Node::Number(_), .. }, ..]) =>
+        {
+            Ok((context.number(time)?, context.components(row, flat)?))
+        }
+        _ => {
+            let [time, item] = context.exactly(row, "a row [time, value]")?;
+            Ok((context.number(time)?, value(item)?))
+        }
+    };
+    rows.iter().map(read_row).collect::<Read<Vec<_>>>().map(|rows| Some(Signal::Table(rows)))
+}
+
+/// `[lower, upper, c0, c1, ...]`.
+fn piece(fields: &Fields<'_>, item: &Item) -> Read<PolynomialPiece<Number>> {
+    let context = fields.context;
+    let numbers = context.list(item, "a piece [lower, upper, c0, c1, ...]")?;
+    let [lower, upper, rest @ ..] = numbers else {
+        let fault = ReadFault::WrongCount { needed: 3, found: numbers.len() };
+        return context.fault(&item.span, fault);
+    };
+    Ok(PolynomialPiece {
+        lower: context.number(lower)?,
+        upper: context.number(upper)?,
+        coefficients: rest.iter().map(|item| context.number(item)).collect::<Read<_>>()?,
+    })
+}
+
+/// Along and about x, y, z; in the plane along x, y and about z.
+fn six(fields: &Fields<'_>, item: &Item) -> Read<[Number; 6]> {
+    let context = fields.context;
+    if context.is_planar() {
+        let [x, y, about] = context.numbers_of(item, "a list of three numbers: [x, y, theta]")?;
+        const ZERO: Number = Number::ZERO;
+        return Ok([x, y, ZERO, ZERO, ZERO, about]);
+    }
+    context.numbers_of(item, "a list of six numbers: along x, y, z, then about x, y, z")
+}
+
+/// `side = "calspan"` with `coefficients`, where they are left out those of the Iltis.
+fn side(fields: &Fields<'_>) -> Read<Option<CalspanCoefficients<Number>>> {
+    let model = fields.get("side").map(|_| fields.word("side")).transpose()?;
+    match model {
+        Some(("calspan", _)) => {}
+        None | Some(("none", _)) => {
+            if fields.get("coefficients").is_some() {
+                let fault = ReadFault::Missing { key: "side = \"calspan\"" };
+                return fields.context.fault(fields.header, fault);
+            }
+            return Ok(None);
+        }
+        Some(word) => return fields.unknown_word("side", word, &["none", "calspan"]),
+    }
+    let Some(item) = fields.get("coefficients") else {
+        return Ok(Some(CalspanCoefficients::of_iltis()));
+    };
+    let form = "a table: { a = [..], omega = .., b = [..], skid = .., trail = [..] }";
+    let table = fields.context.table(item, form)?;
+    table.allow(&["a", "omega", "b", "skid", "trail"], &[])?;
+    let context = table.context;
+    Ok(Some(CalspanCoefficients {
+        a: context.numbers_of(table.need("a")?, "five numbers: [A0, A1, A2, A3, A4]")?,
+        omega: table.number("omega")?,
+        b: context.numbers_of(table.need("b")?, "three numbers: [B1, B3, B4]")?,
+        skid: table.number("skid")?,
+        trail: context.numbers_of(table.need("trail")?, "two numbers: [AF1, AF2]")?,
+    }))
+}

@@ -1,0 +1,371 @@
+//! From a scene to its syntax tree: the one writer of scene files.
+//!
+//! Every number is written, zeros too, so that each has a path; a default that the reader computes from other keys is left out.
+
+mod effect;
+mod road;
+#[cfg(test)]
+mod tests;
+
+use super::toml;
+use crate::read::SceneFile;
+use crate::read::tree::{Item, Member, Node};
+use core::fmt::{self, Display, Formatter};
+use mbs_core::scene::{
+    Body, BodyId, Dimension, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointId,
+    JointKind, Motion, Number, Output, Quantity, Scene, SolverTable, Start, TableEnds,
+};
+
+/// A scene that has no text.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// An effect that is a law in code; its name.
+    InCode(String),
+    /// A body or joint that an entry refers to is not there (scenes built in code); the entry's key.
+    UnknownReference(&'static str),
+    /// The system does not take the file; what it says.
+    NotWritten(String),
+}
+
+impl Display for WriteError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::InCode(name) => write!(f, "effect `{name}` is a law in code, which has no text"),
+            Self::NotWritten(problem) => write!(f, "the file cannot be written: {problem}"),
+            Self::UnknownReference(key) => {
+                write!(f, "`{key}` points to something that is not in the scene")
+            }
+        }
+    }
+}
+
+impl core::error::Error for WriteError {}
+
+/// The text of a scene file. Numbers keep their digits: read again, it gives an equal scene.
+///
+/// # Errors
+/// [`WriteError`] for an effect in code or a reference to nothing.
+///
+/// # Examples
+/// ```
+/// # let text = "[scene]\ndimension = 2\nduration = 0.1000000000000000000001\n";
+/// let scene = mbs_scene::SceneFile::parse(text, "empty.toml")?.numbers()?;
+/// let again = mbs_scene::to_toml(&scene).expect("no code in it");
+/// assert!(again.contains("duration = 0.1000000000000000000001"));
+/// assert_eq!(mbs_scene::SceneFile::parse(&again, "empty.toml")?.numbers()?, scene);
+/// # Ok::<(), mbs_scene::ReadError>(())
+/// ```
+pub fn to_toml(scene: &Scene<Number>) -> Result<String, WriteError> {
+    Ok(toml::text(&tree(scene)?))
+}
+
+impl SceneFile {
+    /// A scene as a file without comments.
+    ///
+    /// # Errors
+    /// As [`to_toml`].
+    pub fn of(scene: &Scene<Number>) -> Result<Self, WriteError> {
+        // What the writer writes is TOML.
+        Ok(Self::parse(&to_toml(scene)?, &scene.name).unwrap_or_default())
+    }
+
+    /// The file of a scene that was read from this one and changed: values that changed and parts that are new are written, all else
+    /// keeps its text, comments too; a file without comments where the change is of another kind.
+    ///
+    /// # Errors
+    /// As [`to_toml`].
+    pub fn updated(&self, scene: &Scene<Number>) -> Result<Self, WriteError> {
+        let new = tree(scene)?;
+        let old = self.numbers().ok().map(|scene| tree(&scene)).transpose()?;
+        let edited = old.and_then(|old| self.edited(&old, &new));
+        let file = edited.and_then(|text| Self::parse(&text, self.file()).ok());
+        match file {
+            Some(file) if file.numbers().is_ok_and(|written| written == *scene) => Ok(file),
+            _ => Self::of(scene),
+        }
+    }
+}
+
+/// The tables of a scene, in the order of the format.
+pub(crate) fn tree(scene: &Scene<Number>) -> Result<Vec<Member>, WriteError> {
+    let w = Writer { scene };
+    let mut root = Keys::default();
+    root.push("scene", w.header());
+    w.list(&mut root, "body", &scene.bodies, |w, body| Ok(w.body(body)))?;
+    w.list(&mut root, "joint", &scene.joints, Writer::joint)?;
+    w.list(&mut root, "initial", &scene.initials, Writer::initial)?;
+    w.list(&mut root, "guide", &scene.guides, Writer::guide)?;
+    w.list(&mut root, "effect", &scene.effects, Writer::effect)?;
+    if let Some(road) = w.road() {
+        root.push("road", road);
+    }
+    w.list(&mut root, "output", &scene.outputs, Writer::output)?;
+    let solver = solver(&scene.solver);
+    if !solver.0.is_empty() {
+        root.push("solver", solver);
+    }
+    Ok(root.0)
+}
+
+/// The keys of a table that is written.
+#[derive(Debug, Default)]
+struct Keys(Vec<Member>);
+
+impl Keys {
+    fn push(&mut self, key: &str, node: impl Into<Node>) {
+        let item = item(node.into());
+        self.0.push(Member { key: key.to_owned(), key_span: 0..0, item });
+    }
+
+    /// A key, where it has a value.
+    fn push_some(&mut self, key: &str, node: Option<impl Into<Node>>) {
+        if let Some(node) = node {
+            self.push(key, node);
+        }
+    }
+}
+
+impl From<Keys> for Node {
+    fn from(keys: Keys) -> Self {
+        Self::Table(keys.0)
+    }
+}
+
+impl From<&str> for Node {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<&Number> for Node {
+    fn from(number: &Number) -> Self {
+        Self::Number(number.text())
+    }
+}
+
+impl<const N: usize> From<&[Number; N]> for Node {
+    fn from(numbers: &[Number; N]) -> Self {
+        list(numbers.iter().map(Self::from))
+    }
+}
+
+fn item(node: Node) -> Item {
+    Item { span: 0..0, node }
+}
+
+fn list(nodes: impl IntoIterator<Item = Node>) -> Node {
+    Node::List(nodes.into_iter().map(item).collect())
+}
+
+/// What the entries refer to.
+#[derive(Clone, Copy)]
+struct Writer<'a> {
+    scene: &'a Scene<Number>,
+}
+
+impl Writer<'_> {
+    fn list<E>(
+        self,
+        root: &mut Keys,
+        key: &str,
+        entries: &[E],
+        keys: impl Fn(Self, &E) -> Result<Keys, WriteError>,
+    ) -> Result<(), WriteError> {
+        if entries.is_empty() {
+            return Ok(());
+        }
+        let tables = entries.iter().map(|entry| Ok(keys(self, entry)?.into()));
+        root.push(key, list(tables.collect::<Result<Vec<Node>, WriteError>>()?));
+        Ok(())
+    }
+
+    fn is_planar(self) -> bool {
+        self.scene.dimension == Dimension::Planar
+    }
+
+    /// A vector of the scene's dimension; one that leaves the plane keeps its third number, for the check.
+    fn vector(self, [x, y, z]: &[Number; 3]) -> Node {
+        let n = if z.is_absent() || (self.is_planar() && z.is_zero()) { 2 } else { 3 };
+        list([x, y, z].into_iter().take(n).map(Node::from))
+    }
+
+    fn two(self, [first, second]: &[[Number; 3]; 2]) -> Node {
+        list([self.vector(first), self.vector(second)])
+    }
+
+    fn body_name(self, id: BodyId) -> Result<Node, WriteError> {
+        let Some(index) = id.index() else { return Ok("ground".into()) };
+        let body = self.scene.bodies.get(index).ok_or(WriteError::UnknownReference("body"))?;
+        Ok(body.name.as_str().into())
+    }
+
+    fn pair(self, bodies: [BodyId; 2]) -> Result<Node, WriteError> {
+        Ok(list([self.body_name(bodies[0])?, self.body_name(bodies[1])?]))
+    }
+
+    fn joint_name(self, id: JointId) -> Result<Node, WriteError> {
+        let joint = self.scene.joints.get(id.index());
+        Ok(joint.ok_or(WriteError::UnknownReference("joint"))?.name.as_str().into())
+    }
+
+    fn header(self) -> Keys {
+        let (scene, mut keys) = (self.scene, Keys::default());
+        keys.push("name", scene.name.as_str());
+        keys.push("dimension", Node::Number(scene.dimension.count().to_string()));
+        keys.push_some("gravity", scene.gravity.as_ref().map(|g| self.vector(g)));
+        keys.push("duration", &scene.duration);
+        if scene.start == Start::Equilibrium {
+            keys.push("start", "equilibrium");
+        }
+        keys
+    }
+
+    fn body(self, body: &Body<Number>) -> Keys {
+        let mut keys = Keys::default();
+        keys.push("name", body.name.as_str());
+        keys.push("mass", &body.mass);
+        match &body.inertia {
+            Inertia::Rod { from, to } => {
+                let mut ends = Keys::default();
+                ends.push("from", self.vector(from));
+                ends.push("to", self.vector(to));
+                keys.push("rod", ends);
+            }
+            Inertia::Planar(moment) => {
+                keys.push("center", self.vector(&body.center));
+                keys.push("inertia", moment);
+            }
+            Inertia::Spatial(moments) => {
+                keys.push("center", self.vector(&body.center));
+                keys.push("inertia", moments);
+            }
+        }
+        keys
+    }
+
+    fn joint(self, joint: &Joint<Number>) -> Result<Keys, WriteError> {
+        let mut keys = Keys::default();
+        keys.push("name", joint.name.as_str());
+        keys.push("kind", joint.kind.name());
+        keys.push("bodies", self.pair(joint.bodies)?);
+        if joint.kind == JointKind::Distance {
+            keys.push("points", self.two(&joint.points));
+        } else if !self.is_in_the_centre(joint) {
+            keys.push("at", self.vector(&joint.points[0]));
+        }
+        match &joint.axes {
+            [Some(first), Some(second)] if joint.kind == JointKind::Universal => {
+                keys.push("axes", list([self.vector(first), self.vector(second)]));
+            }
+            [axis, direction] => {
+                keys.push_some("axis", axis.as_ref().map(|axis| self.vector(axis)));
+                keys.push_some("direction", direction.as_ref().map(|d| self.vector(d)));
+            }
+        }
+        Ok(keys)
+    }
+
+    /// Whether a free joint lies where the reader puts it when no place is written.
+    fn is_in_the_centre(self, joint: &Joint<Number>) -> bool {
+        let body = match joint.bodies {
+            [_, BodyId::Body(i)] | [BodyId::Body(i), BodyId::Ground] => self.scene.bodies.get(i),
+            _ => None,
+        };
+        let is_same = |(a, b): (&Number, &Number)| a == b && a.is_computed() == b.is_computed();
+        joint.kind == JointKind::Free
+            && body.is_some_and(|body| joint.points[0].iter().zip(&body.center).all(is_same))
+    }
+
+    fn initial(self, initial: &InitialCondition<Number>) -> Result<Keys, WriteError> {
+        let mut keys = Keys::default();
+        match &initial.target {
+            InitialTarget::Joint { joint, value, rate } => {
+                keys.push("joint", self.joint_name(*joint)?);
+                let numbers = |x: &Vec<Number>| list(x.iter().map(Node::from));
+                keys.push_some("value", value.as_ref().map(numbers));
+                keys.push_some("rate", rate.as_ref().map(numbers));
+            }
+            InitialTarget::Body { body, velocity, angular_velocity } => {
+                keys.push("body", self.body_name(*body)?);
+                if let Some((at, velocity)) = velocity {
+                    keys.push("at", self.vector(at));
+                    keys.push("velocity", self.vector(velocity));
+                }
+                match angular_velocity {
+                    Some([_, _, z]) if self.is_planar() => keys.push("angular_velocity", z),
+                    spin => keys.push_some("angular_velocity", spin.as_ref()),
+                }
+            }
+        }
+        Ok(keys)
+    }
+
+    fn guide(self, guide: &Guide<Number>) -> Result<Keys, WriteError> {
+        let (mut keys, mut law) = (Keys::default(), Keys::default());
+        keys.push("joint", self.joint_name(guide.joint)?);
+        match &guide.law {
+            Motion::Table { rows, ends } => {
+                keys.push("table", list(rows.iter().map(Node::from)));
+                if *ends == TableEnds::Level {
+                    keys.push("ends", "level");
+                }
+            }
+            Motion::Sine { amplitude, frequency, phase } => {
+                law.push("amplitude", amplitude);
+                law.push("frequency", frequency);
+                law.push("phase", phase);
+                keys.push("sine", law);
+            }
+            Motion::Ramp { rate } => {
+                law.push("rate", rate);
+                keys.push("ramp", law);
+            }
+            Motion::Input([value, rate, acceleration]) => {
+                law.push("value", value);
+                law.push("rate", rate);
+                law.push("acceleration", acceleration);
+                keys.push("input", law);
+            }
+        }
+        Ok(keys)
+    }
+
+    fn output(self, output: &Output<Number>) -> Result<Keys, WriteError> {
+        let mut keys = Keys::default();
+        keys.push("name", output.name.as_str());
+        let (word, body, joint) = match &output.quantity {
+            Quantity::Position { body, at } => ("position", Some((body, at)), None),
+            Quantity::Velocity { body, at } => ("velocity", Some((body, at)), None),
+            Quantity::Acceleration { body, at } => ("acceleration", Some((body, at)), None),
+            Quantity::JointValue { joint } => ("value", None, Some(joint)),
+            Quantity::JointRate { joint } => ("rate", None, Some(joint)),
+            Quantity::Reaction { joint } => ("reaction", None, Some(joint)),
+        };
+        if let Some((body, at)) = body {
+            keys.push("body", self.body_name(*body)?);
+            keys.push("at", self.vector(at));
+        }
+        if let Some(joint) = joint {
+            keys.push("joint", self.joint_name(*joint)?);
+        }
+        keys.push("quantity", word);
+        Ok(keys)
+    }
+}
+
+fn solver(solver: &SolverTable<Number>) -> Keys {
+    let mut keys = Keys::default();
+    keys.push_some("formulation", solver.formulation.as_deref());
+    keys.push_some("integrator", solver.integrator.as_deref());
+    keys.push_some("step", solver.step.as_ref());
+    keys.push_some("step_max", solver.step_max.as_ref());
+    keys.push_some("tolerance", solver.tolerance.as_ref());
+    keys.push_some("penalty", solver.penalty.as_ref());
+    keys.push_some("step_control", solver.step_control.as_deref());
+    keys.push_some("energy_tolerance", solver.energy_tolerance.as_ref());
+    keys.push_some("error_tolerance", solver.error_tolerance.as_ref());
+    keys.push_some("locate_events", solver.locate_events.map(Node::Bool));
+    keys.push_some("energy_alarm", solver.energy_alarm.as_ref());
+    keys
+}

@@ -1,0 +1,104 @@
+//! `[[effect]]`: any kind with its keys, by the table of mbs-core.
+
+use super::{Keys, Node, WriteError, Writer, list};
+use mbs_core::effects::{Field, Form, SignalForm, Value};
+use mbs_core::scene::{AxisFrame, CalspanCoefficients, Effect, Number, PolynomialPiece, Signal};
+
+impl Writer<'_> {
+    pub(super) fn effect(self, effect: &Effect<Number>) -> Result<Keys, WriteError> {
+        let row = effect.kind.row();
+        let Some(first) = row.names.first() else {
+            return Err(WriteError::InCode(effect.name.clone()));
+        };
+        let values = effect.kind.values();
+        let entries = || row.fields.iter().zip(&values);
+        let named = entries().find_map(|(field, value)| match (field.form, value) {
+            (Form::Name(name), Value::Name(true)) => Some(name),
+            _ => None,
+        });
+        let mut keys = Keys::default();
+        keys.push("name", effect.name.as_str());
+        if !effect.enabled {
+            keys.push("enabled", Node::Bool(false));
+        }
+        keys.push("kind", named.unwrap_or(first));
+        entries().try_for_each(|(field, value)| self.field(&mut keys, field, value))?;
+        Ok(keys)
+    }
+
+    /// A key, or none where its value is the default that follows from others.
+    fn field(
+        self,
+        keys: &mut Keys,
+        field: &Field,
+        value: &Value<Number>,
+    ) -> Result<(), WriteError> {
+        let key = field.key;
+        match value {
+            Value::Bodies(bodies) => keys.push(key, self.pair(*bodies)?),
+            Value::Body(body) => keys.push(key, self.body_name(*body)?),
+            Value::Joint(joint) => keys.push(key, self.joint_name(*joint)?),
+            Value::Point(x) | Value::Axis(x) => keys.push(key, self.vector(x)),
+            Value::Points(x) => keys.push(key, self.two(x)),
+            Value::MaybeAxis(x) => keys.push_some(key, x.as_ref().map(|x| self.vector(x))),
+            Value::Number(x) => keys.push_some(key, (!x.is_computed()).then_some(x)),
+            Value::Six(x) => keys.push(key, self.six(x)),
+            Value::Pieces(pieces) => {
+                let piece = |PolynomialPiece { lower, upper, coefficients }: &_| {
+                    list([lower, upper].into_iter().chain(coefficients).map(Node::from))
+                };
+                keys.push(key, list(pieces.iter().map(piece)));
+            }
+            Value::Signal(signal) => {
+                let is_scalar = match field.form {
+                    Form::Signal(SignalForm::Vector) => false,
+                    Form::Signal(SignalForm::Moment) => self.is_planar(),
+                    _ => true,
+                };
+                self.signal(keys, signal, is_scalar);
+            }
+            Value::Frame(frame) => {
+                keys.push_some(key, (*frame == AxisFrame::Body).then_some("body"))
+            }
+            Value::Side(side) => {
+                keys.push_some(key, side.as_ref().map(|_| "calspan"));
+                let given = side.as_ref().filter(|side| **side != CalspanCoefficients::of_iltis());
+                keys.push_some("coefficients", given.map(coefficients));
+            }
+            // the kind's name says it
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Along and about x, y, z; in the plane along x, y and about z.
+    fn six(self, numbers: &[Number; 6]) -> Node {
+        let [x, y, .., about] = numbers;
+        if self.is_planar() { list([x, y, about].map(Node::from)) } else { numbers.into() }
+    }
+
+    /// `value`, or `table` over time; an input by its value at the start.
+    fn signal(self, keys: &mut Keys, signal: &Signal<Number>, is_scalar: bool) {
+        let value = |x: &[Number; 3]| if is_scalar { Node::from(&x[0]) } else { self.vector(x) };
+        match signal {
+            Signal::Constant(x) => keys.push("value", value(x)),
+            Signal::Table(rows) => {
+                keys.push("table", list(rows.iter().map(|(t, x)| list([t.into(), value(x)]))));
+            }
+            Signal::Input(x) => {
+                keys.push("value", value(x));
+                keys.push("input", Node::Bool(true));
+            }
+        }
+    }
+}
+
+fn coefficients(side: &CalspanCoefficients<Number>) -> Keys {
+    let mut keys = Keys::default();
+    keys.push("a", &side.a);
+    keys.push("omega", &side.omega);
+    keys.push("b", &side.b);
+    keys.push("skid", &side.skid);
+    keys.push("trail", &side.trail);
+    keys
+}

@@ -1,0 +1,57 @@
+//! What is written reads back as the same scene, to all digits of every precision.
+
+use crate::read::SceneFile;
+use crate::to_toml;
+use mbs_core::Real;
+use mbs_core::real::DoubleDouble;
+use mbs_core::scene::{Number, Scene};
+use std::path::PathBuf;
+
+/// Every scene of the workspace that reads, with its name.
+fn scenes() -> Vec<(String, Scene<Number>)> {
+    let folders = ["../scenes", "../mbs/tests/field"].map(PathBuf::from);
+    let files = folders.iter().flat_map(|folder| std::fs::read_dir(folder).expect("a folder"));
+    let read = |path: PathBuf| {
+        let text = std::fs::read_to_string(&path).ok()?;
+        let scene = SceneFile::parse(&text, "x.toml").ok()?.numbers().ok()?;
+        Some((path.display().to_string(), scene))
+    };
+    let toml = files.map(|file| file.expect("a file").path());
+    toml.filter(|path| path.extension().is_some_and(|e| e == "toml")).filter_map(read).collect()
+}
+
+fn again(scene: &Scene<Number>) -> Scene<Number> {
+    let text = to_toml(scene).expect("no code in it");
+    match SceneFile::parse(&text, "again.toml").and_then(|file| file.numbers()) {
+        Ok(scene) => scene,
+        Err(error) => panic!("{}", error.render()),
+    }
+}
+
+/// All bits of a scene in a precision.
+fn bits<T: Real>(scene: &Scene<Number>) -> String {
+    format!("{:?}", scene.resolve::<T>())
+}
+
+#[test]
+fn every_scene_reads_back_as_it_was_written_in_all_precisions() {
+    let scenes = scenes();
+    assert!(scenes.len() > 60, "{} scenes", scenes.len());
+    for (name, scene) in &scenes {
+        let again = again(scene);
+        assert_eq!(&again, scene, "{name}");
+        assert_eq!(bits::<f32>(&again), bits::<f32>(scene), "{name}");
+        assert_eq!(bits::<f64>(&again), bits::<f64>(scene), "{name}");
+        assert_eq!(bits::<DoubleDouble>(&again), bits::<DoubleDouble>(scene), "{name}");
+    }
+}
+
+#[test]
+fn thirty_two_digits_are_kept() {
+    let text = "[scene]\ndimension = 2\nduration = 0.33333333333333333333333333333333\n\
+                gravity = [1e-3, -9.80665000000000000000000001]\n";
+    let scene = SceneFile::parse(text, "x").and_then(|file| file.numbers()).expect("a scene");
+    let third = again(&scene).resolve::<DoubleDouble>().expect("a scene").duration;
+    assert_eq!(third, DoubleDouble::from_decimal("0.33333333333333333333333333333333").unwrap());
+    assert_ne!(Number::from(1.0 / 3.0), scene.duration);
+}

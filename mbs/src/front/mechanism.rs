@@ -1,0 +1,273 @@
+//! A mechanism: its scene in decimal numbers, and the file that it came from.
+
+use super::part::sealed::Id as _;
+use super::{Id, Part, PathError, SceneError, UnknownName};
+use mbs_core::Real;
+use mbs_core::scene::{Dimension, Number, Road, Scene, SolverTable, Start, Vector3};
+use mbs_scene::{ReadError, SceneFile, WriteError};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::path::Path;
+
+/// A mechanism: bodies, joints and what acts on them, by name. Start with [`planar`](Self::planar) or [`spatial`](Self::spatial), or
+/// [`read`](Self::read) a scene file.
+///
+/// Adding parts does not fail; [`check`](Self::check) and whatever builds a model say what is wrong, with the part's name.
+///
+/// # Examples
+/// ```
+/// use mbs::{Body, GROUND, Joint, Mechanism};
+/// let mut m = Mechanism::planar("pendulum");
+/// m.set_gravity([0.0, -9.81]);
+/// let arm = m.add(Body::rod([0.0, 0.0], [1.0, 0.0], 1.0).named("arm"));
+/// let pivot = m.add(Joint::revolute([GROUND, arm], [0.0, 0.0]));
+/// m.check()?;
+/// assert_eq!(m.name(pivot), "joint-1");
+/// m.set("body.arm.mass", 2.5)?;
+/// assert_eq!(m.part(arm).mass.to_f64(), 2.5);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Mechanism {
+    scene: Scene<Number>,
+    /// The file that says the same, or said so before the last change by handle.
+    file: Option<SceneFile>,
+    is_changed: bool,
+}
+
+impl PartialEq for Mechanism {
+    fn eq(&self, other: &Self) -> bool {
+        self.scene == other.scene
+    }
+}
+
+impl Mechanism {
+    /// An empty planar mechanism (x, y; rotation about z).
+    #[must_use]
+    pub fn planar(name: &str) -> Self {
+        Self::empty(name, Dimension::Planar)
+    }
+
+    /// An empty mechanism in space.
+    #[must_use]
+    pub fn spatial(name: &str) -> Self {
+        Self::empty(name, Dimension::Spatial)
+    }
+
+    fn empty(name: &str, dimension: Dimension) -> Self {
+        let scene = Scene {
+            name: name.to_owned(),
+            dimension,
+            gravity: None,
+            duration: Number::assumed(1.0),
+            bodies: Vec::new(),
+            joints: Vec::new(),
+            initials: Vec::new(),
+            guides: Vec::new(),
+            road: Road::default(),
+            start: Start::default(),
+            effects: Vec::new(),
+            outputs: Vec::new(),
+            solver: SolverTable::default(),
+        };
+        Self { scene, file: None, is_changed: true }
+    }
+
+    /// Reads a scene file.
+    ///
+    /// # Errors
+    /// [`ReadError`] with file, line, column and a hint.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, ReadError> {
+        Self::of_file(SceneFile::read(path)?)
+    }
+
+    /// Reads the text of a scene file.
+    ///
+    /// # Errors
+    /// [`ReadError`] with line, column and a hint.
+    pub fn parse(text: &str) -> Result<Self, ReadError> {
+        Self::of_file(SceneFile::parse(text, "scene")?)
+    }
+
+    fn of_file(file: SceneFile) -> Result<Self, ReadError> {
+        Ok(Self { scene: file.numbers()?, file: Some(file), is_changed: false })
+    }
+
+    /// The scene file of this mechanism. Numbers keep their digits: `parse` of it is equal to this. What came from a file keeps its text and
+    /// comments but for what changed.
+    ///
+    /// # Errors
+    /// [`WriteError`] where a part is code, or refers to a part that is not there.
+    pub fn to_toml(&self) -> Result<String, WriteError> {
+        Ok(self.current()?.text().to_owned())
+    }
+
+    /// Writes the scene file of this mechanism.
+    ///
+    /// # Errors
+    /// As [`to_toml`](Self::to_toml), and [`WriteError::NotWritten`] where the system refuses.
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), WriteError> {
+        std::fs::write(path, self.to_toml()?).map_err(|e| WriteError::NotWritten(e.to_string()))
+    }
+
+    /// Gravity [m/s^2]; without it there is none, and no code for it.
+    pub fn set_gravity(&mut self, gravity: impl Into<Vector3>) -> &mut Self {
+        self.scene_mut().gravity = Some(gravity.into().0);
+        self
+    }
+
+    /// Length of a run [s].
+    pub fn set_duration(&mut self, duration: impl Into<Number>) -> &mut Self {
+        self.scene_mut().duration = duration.into();
+        self
+    }
+
+    /// The road under the tires; without it there is level ground at height zero.
+    pub fn set_road(&mut self, road: Road<Number>) -> &mut Self {
+        self.scene_mut().road = road;
+        self
+    }
+
+    /// Length of a run that the mechanism's file or code asks for [s].
+    #[must_use]
+    pub fn duration(&self) -> Option<f64> {
+        let duration = &self.scene.duration;
+        (!duration.is_absent()).then(|| duration.to_f64())
+    }
+
+    /// Adds a body, joint, initial condition, guide, effect or output and returns its handle. A part without a name is `body-1`, ...
+    pub fn add<P: Part>(&mut self, part: P) -> P::Id {
+        P::Id::new(part.add_to(self))
+    }
+
+    /// The handle of a name: `m.find::<JointId>("elbow")`. Guides and initial conditions go by the name of their joint or body.
+    ///
+    /// # Errors
+    /// [`UnknownName`], which proposes the nearest name.
+    pub fn find<I: Id>(&self, name: &str) -> Result<I, UnknownName> {
+        let names = I::parts(&self.scene).iter().map(|part| I::name(part, &self.scene));
+        if let Some(index) = names.clone().position(|n| n == name) {
+            return Ok(I::new(index));
+        }
+        let known = names.map(str::to_owned).collect();
+        Err(UnknownName { word: I::WORD, name: name.to_owned(), known })
+    }
+
+    /// The name of a part; the ground's is `ground`.
+    ///
+    /// # Panics
+    /// For a handle of another mechanism, as an index does.
+    pub fn name<I: Id>(&self, id: I) -> &str {
+        match id.place() {
+            Some(index) => I::name(&I::parts(&self.scene)[index], &self.scene),
+            None => "ground",
+        }
+    }
+
+    /// Handles of all parts of a kind: `m.ids::<BodyId>()`. The ground is no part.
+    pub fn ids<I: Id>(&self) -> impl ExactSizeIterator<Item = I> + use<I> {
+        (0..I::parts(&self.scene).len()).map(I::new)
+    }
+
+    /// The data of a part.
+    ///
+    /// # Panics
+    /// For a handle of another mechanism, as an index does, and for the ground.
+    pub fn part<I: Id>(&self, id: I) -> &I::Part {
+        &I::parts(&self.scene)[id.place().unwrap_or(usize::MAX)]
+    }
+
+    /// The data of a part, to change it.
+    ///
+    /// # Panics
+    /// As [`part`](Self::part).
+    pub fn part_mut<I: Id>(&mut self, id: I) -> &mut I::Part {
+        &mut I::parts_mut(self.scene_mut())[id.place().unwrap_or(usize::MAX)]
+    }
+
+    /// A number by its path, as sweeps write it: `body.upper.mass`, `joint.tie-rod.points.0.2`.
+    ///
+    /// # Errors
+    /// [`PathError`] for a path to nothing, or to something that is no number.
+    pub fn get(&self, path: &str) -> Result<f64, PathError> {
+        let file = self.current().map_err(PathError::NotWritten)?;
+        let fault = |fault| PathError::Path { path: path.to_owned(), fault };
+        Ok(file.number(path).map_err(fault)?.to_f64())
+    }
+
+    /// Sets a number by its path. A mechanism from a file keeps the rest of its text.
+    ///
+    /// Cost: the text is read again.
+    ///
+    /// # Errors
+    /// As [`get`](Self::get). A number that cannot be meant is refused by [`check`](Self::check).
+    pub fn set(&mut self, path: &str, value: impl Into<Number>) -> Result<&mut Self, PathError> {
+        let file = self.current().map_err(PathError::NotWritten)?;
+        let fault = |fault| PathError::Path { path: path.to_owned(), fault };
+        let file = file.with_number(path, &value.into()).map_err(fault)?;
+        *self = Self::of_file(file).map_err(PathError::Refused)?;
+        Ok(self)
+    }
+
+    /// Everything that can be wrong before a model is built.
+    ///
+    /// # Errors
+    /// [`SceneError`] with the part's name and key, and the place in the file that it came from.
+    pub fn check(&self) -> Result<(), SceneError> {
+        self.resolve_scene().map(|_| ())
+    }
+
+    /// The scene in `f64`, checked.
+    pub(crate) fn resolve_scene(&self) -> Result<Scene<f64>, SceneError> {
+        self.resolved()
+    }
+
+    /// The scene in a precision, checked.
+    pub(crate) fn resolved<T: Real>(&self) -> Result<Scene<T>, SceneError> {
+        self.scene.resolve().map_err(|error| {
+            let file = self.file.as_ref().filter(|_| !self.is_changed);
+            let place = file.map(|file| file.place(error.entry, error.field));
+            SceneError::new(error, &self.scene, place)
+        })
+    }
+
+    /// The scene in decimal numbers.
+    pub(crate) fn scene(&self) -> &Scene<Number> {
+        &self.scene
+    }
+
+    /// The scene, to change it.
+    pub(crate) fn scene_mut(&mut self) -> &mut Scene<Number> {
+        self.is_changed = true;
+        &mut self.scene
+    }
+
+    /// A name that no part of a kind has: its word and the next number.
+    pub(super) fn free_name<I: Id>(&self) -> String {
+        let parts = I::parts(&self.scene);
+        let is_free = |name: &String| !parts.iter().any(|p| I::name(p, &self.scene) == name);
+        let mut names = (parts.len() + 1..).map(|n| format!("{}-{n}", I::WORD));
+        names.find(is_free).unwrap_or_default()
+    }
+
+    /// The file that says what this mechanism is now.
+    fn current(&self) -> Result<SceneFile, WriteError> {
+        match &self.file {
+            Some(file) if !self.is_changed => Ok(file.clone()),
+            Some(file) => file.updated(&self.scene),
+            None => SceneFile::of(&self.scene),
+        }
+    }
+}
+
+impl Serialize for Mechanism {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.current().map_err(serde::ser::Error::custom)?.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Mechanism {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let file = SceneFile::deserialize(deserializer)?;
+        Self::of_file(file).map_err(|error| serde::de::Error::custom(error.render()))
+    }
+}

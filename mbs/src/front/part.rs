@@ -1,0 +1,135 @@
+//! Parts of a mechanism and their handles.
+
+use super::{Body, Effect, Guide, InitialCondition, Joint, Mechanism, Output};
+use mbs_core::scene::{
+    BodyId, EffectId, GuideId, InitialId, InitialTarget, JointId, Number, OutputId, Scene,
+    StartedJoint,
+};
+
+/// What [`Mechanism::add`] takes: a body, joint, initial condition, guide, effect or output.
+pub trait Part: sealed::Part {
+    /// The handle of such a part.
+    type Id: Id;
+}
+
+/// A handle of a part.
+pub trait Id: Copy + sealed::Id {}
+
+pub(super) mod sealed {
+    use super::super::Mechanism;
+    use mbs_core::scene::{Number, Scene};
+
+    pub trait Part: Sized {
+        fn add_to(self, mechanism: &mut Mechanism) -> usize;
+    }
+
+    pub trait Id: Sized {
+        /// What such a part is called in messages, and how it is named when it has no name.
+        const WORD: &'static str;
+        type Part: 'static;
+        fn new(index: usize) -> Self;
+        fn place(self) -> Option<usize>;
+        fn parts(scene: &Scene<Number>) -> &[Self::Part];
+        fn parts_mut(scene: &mut Scene<Number>) -> &mut Vec<Self::Part>;
+        fn name<'a>(part: &'a Self::Part, scene: &'a Scene<Number>) -> &'a str;
+    }
+}
+
+macro_rules! part {
+    ($part:ident, $id:ident, $word:literal, $list:ident, $name:expr, $set_name:expr, $place:expr) => {
+        impl Part for $part {
+            type Id = $id;
+        }
+
+        impl Id for $id {}
+
+        impl sealed::Part for $part {
+            fn add_to(mut self, mechanism: &mut Mechanism) -> usize {
+                let set_name: fn(&mut $part, String) = $set_name;
+                let name: fn(&$part, &Scene<Number>) -> bool =
+                    |part, scene| <$id as sealed::Id>::name(part, scene).is_empty();
+                let is_unnamed = name(&self, mechanism.scene());
+                if is_unnamed {
+                    let free = mechanism.free_name::<$id>();
+                    set_name(&mut self, free);
+                }
+                let list = &mut mechanism.scene_mut().$list;
+                list.push(self);
+                list.len() - 1
+            }
+        }
+
+        impl sealed::Id for $id {
+            const WORD: &'static str = $word;
+            type Part = $part;
+
+            fn new(index: usize) -> Self {
+                Self::new(index)
+            }
+            fn place(self) -> Option<usize> {
+                let place: fn($id) -> Option<usize> = $place;
+                place(self)
+            }
+            fn parts(scene: &Scene<Number>) -> &[$part] {
+                &scene.$list
+            }
+            fn parts_mut(scene: &mut Scene<Number>) -> &mut Vec<$part> {
+                &mut scene.$list
+            }
+            fn name<'a>(part: &'a $part, scene: &'a Scene<Number>) -> &'a str {
+                let name: for<'b> fn(&'b $part, &'b Scene<Number>) -> &'b str = $name;
+                name(part, scene)
+            }
+        }
+    };
+}
+
+part!(Body, BodyId, "body", bodies, |p, _| &p.name, |p, n| p.name = n, BodyId::index);
+part!(Joint, JointId, "joint", joints, |p, _| &p.name, |p, n| p.name = n, |id| Some(id.index()));
+part!(Effect, EffectId, "effect", effects, |p, _| &p.name, |p, n| p.name = n, |id| Some(
+    id.index()
+));
+part!(Output, OutputId, "output", outputs, |p, _| &p.name, |p, n| p.name = n, |id| Some(
+    id.index()
+));
+part!(Guide, GuideId, "guide", guides, |p, s| of_joint(p.joint, s), |_, _| {}, |id| Some(
+    id.index()
+));
+part!(
+    InitialCondition,
+    InitialId,
+    "initial",
+    initials,
+    |p, s| match p.target {
+        InitialTarget::Joint { joint, .. } => of_joint(joint, s),
+        InitialTarget::Body { body, .. } => of_body(body, s),
+    },
+    |_, _| {},
+    |id| Some(id.index())
+);
+
+fn of_joint(id: JointId, scene: &Scene<Number>) -> &str {
+    scene.joints.get(id.index()).map_or("", |joint| &joint.name)
+}
+
+pub(super) fn of_body(id: BodyId, scene: &Scene<Number>) -> &str {
+    match id.index() {
+        None => "ground",
+        Some(index) => scene.bodies.get(index).map_or("", |body| &body.name),
+    }
+}
+
+impl Part for StartedJoint {
+    type Id = JointId;
+}
+
+impl sealed::Part for StartedJoint {
+    fn add_to(self, mechanism: &mut Mechanism) -> usize {
+        let Self { joint, value, rate } = self;
+        let index = sealed::Part::add_to(joint, mechanism);
+        let (value, rate) = (Some(vec![value]), Some(vec![rate]));
+        let initial = InitialCondition::joint(JointId::new(index), value, rate);
+        sealed::Part::add_to(initial, mechanism);
+        index
+    }
+}

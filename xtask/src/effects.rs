@@ -1,0 +1,66 @@
+//! The effects that mbs-core has, as the list in its source says: names, Cargo features, modules of laws.
+
+/// The list.
+const LIST: &str = include_str!("../../mbs-core/src/effects/mod.rs");
+
+/// A line of the list.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Listed {
+    /// Its module in `mbs_core::effects`.
+    pub(crate) module: &'static str,
+    /// The Cargo feature that brings it; `None`: every build has it.
+    pub(crate) feature: Option<&'static str>,
+    /// Does its file bring a law?
+    pub(crate) has_law: bool,
+}
+
+impl Listed {
+    /// Its cases in `counts`: a user's own law may act in two ways.
+    pub(crate) fn cases(self) -> Vec<String> {
+        match self.module {
+            "own" => vec!["own-length".to_owned(), "own-body".to_owned()],
+            module => vec![module.replace('_', "-")],
+        }
+    }
+
+    /// Can tables of controllers have its law?
+    pub(crate) fn is_exported(self) -> bool {
+        self.has_law && self.module != "own"
+    }
+}
+
+/// Every effect.
+pub(crate) fn all() -> impl Iterator<Item = Listed> {
+    LIST.lines().filter_map(|line| {
+        let (_, rest) = line.trim().strip_suffix(';')?.split_once(" in ")?;
+        let (module, rest) = rest.split_once(" (")?;
+        let (gate, laws) = rest.split_once(')')?;
+        // `all(` is cut at its own bracket.
+        let feature = gate.strip_prefix("feature = \"").and_then(|name| name.strip_suffix('"'));
+        let has_law = laws.contains(" tension ") || laws.contains(" body ");
+        Some(Listed { module, feature, has_law })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_list_is_read() {
+        let all: Vec<_> = all().collect();
+        let find = |module: &str| all.iter().find(|listed| listed.module == module).copied();
+        assert_eq!(
+            find("speed_hold"),
+            Some(Listed { module: "speed_hold", feature: Some("speed-hold"), has_law: true })
+        );
+        assert_eq!(find("force"), Some(Listed { module: "force", feature: None, has_law: false }));
+        assert!(all.len() >= 15);
+        // Each feature of the list is a feature of mbs-core, and in `effects`.
+        let manifest = include_str!("../../mbs-core/Cargo.toml");
+        for feature in all.iter().filter_map(|listed| listed.feature) {
+            assert!(manifest.contains(&format!("\n{feature} = []")), "{feature}");
+            assert!(manifest.contains(&format!("    \"{feature}\",")), "{feature}");
+        }
+    }
+}
