@@ -5,7 +5,8 @@ use crate::lane::Sums;
 use crate::race::{Runner, Timing, race, timed};
 use crate::scenes::steps;
 use crate::{Request, say};
-use mbs::{FormulationKind, InSpace, Overrides, Plane, Settings, Simulation};
+use mbs::typed::Simulation;
+use mbs::{FormulationKind, InSpace, Method, Plane, Settings};
 use mbs_core::scene::Scene;
 use serde_json::{Value, json};
 
@@ -92,10 +93,10 @@ where
 {
     let (dt, _) = steps(scene);
     let simulated = |threads: usize| {
-        let asked = Overrides {
+        let asked = Method {
             formulation: Some(formulation.to_owned()),
             threads: Some(threads),
-            ..Overrides::default()
+            ..Method::default()
         };
         let settings = Settings::new(scene, &asked).map_err(|e| e.to_string())?;
         let simulation = Simulation::<f64, D>::new(scene, &settings).map_err(|e| e.to_string())?;

@@ -2,7 +2,7 @@
 //! read.
 
 use crate::{Dice, damage, mutated};
-use mbs::Overrides;
+use mbs::Method;
 use mbs::compare::check_table;
 use mbs::core::scene::Scene;
 use mbs::export::ladder;
@@ -22,7 +22,7 @@ pub fn tables(document: &SceneFile, scene: &Scene<f64>, dice: &mut Dice) -> Resu
     }
     let sweep = damaged(&sweep(scene), dice);
     let sweep = match SceneFile::parse(&sweep, "fuzzed-sweep.toml") {
-        Ok(sweep) => Study::new(document.clone(), &sweep, &Overrides::default()).map(drop),
+        Ok(sweep) => Study::new(document.clone(), &sweep, &Method::default()).map(drop),
         Err(error) => Err(StudyError::Read(error)),
     };
     match sweep {

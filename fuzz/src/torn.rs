@@ -2,7 +2,8 @@
 
 use crate::Dice;
 use mbs::core::scene::{Dimension, Scene};
-use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
+use mbs::typed::Simulation;
+use mbs::{InSpace, Method, Plane, Settings};
 
 /// Steps before a state is kept, and after it is taken up again.
 const STEPS: [usize; 2] = [3, 3];
@@ -18,10 +19,10 @@ pub fn torn(
     formulation: &str,
     dice: &mut Dice,
 ) -> Result<Option<bool>, String> {
-    let overrides = Overrides {
+    let overrides = Method {
         formulation: Some(formulation.to_owned()),
         step: Some(STEP.min(scene.duration)),
-        ..Overrides::default()
+        ..Method::default()
     };
     let Ok(settings) = Settings::new(scene, &overrides) else { return Ok(None) };
     match scene.dimension {

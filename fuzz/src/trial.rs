@@ -3,7 +3,7 @@
 use crate::{Dice, tables, torn};
 use mbs::core::scene::Scene;
 use mbs::scene_file::SceneFile;
-use mbs::{FormulationKind, Overrides, Settings};
+use mbs::{FormulationKind, Method, Settings};
 
 /// Steps of a run.
 const STEPS: f64 = 6.0;
@@ -115,7 +115,7 @@ fn run(
     (precision, share): (&str, f64),
 ) -> Result<Option<bool>, String> {
     let step = share * scene.solver.step.unwrap_or(STEP);
-    let overrides = Overrides {
+    let overrides = Method {
         formulation: Some(formulation.to_owned()),
         precision: Some(precision.to_owned()),
         integrator: Some(integrator.to_owned()),
@@ -123,7 +123,7 @@ fn run(
         step: Some(step),
         step_max: Some(step),
         duration: Some((STEPS * step).min(scene.duration)),
-        ..Overrides::default()
+        ..Method::default()
     };
     let Ok(settings) = Settings::new(scene, &overrides) else { return Ok(None) };
     let outcome = match mbs::run_document((document, scene), &settings, &mut |_| {}) {

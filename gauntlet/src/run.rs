@@ -2,7 +2,7 @@
 
 use crate::case::Options;
 use mbs::scene_file::SceneFile;
-use mbs::{FormulationKind, Overrides, Settings};
+use mbs::{FormulationKind, Method, Settings};
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -67,14 +67,14 @@ pub fn run(scene: &str, method: &str, step: f64, options: Options) -> Ran {
     let is_extrapolated = method == EXTRAPOLATED;
     let formulation = if is_extrapolated { FormulationKind::RELATIVE.name() } else { method };
     let takes_penalty = FormulationKind::of_name(formulation).and_then(|f| f.scene_penalty());
-    let overrides = Overrides {
+    let overrides = Method {
         formulation: Some(formulation.to_owned()),
         integrator: Some(integrator.to_owned()),
         precision: options.is_single.then(|| "f32".to_owned()),
         step: Some(step),
         tolerance: is_extrapolated.then_some(1e-13),
         penalty: options.penalty.filter(|_| takes_penalty.is_some()),
-        ..Overrides::default()
+        ..Method::default()
     };
     match catch_unwind(AssertUnwindSafe(|| go(scene, &overrides))) {
         Ok(ran) => ran,
@@ -87,7 +87,7 @@ pub fn run(scene: &str, method: &str, step: f64, options: Options) -> Ran {
 /// The method of extrapolated reference runs.
 pub const EXTRAPOLATED: &str = "extrapolated";
 
-fn go(scene: &str, overrides: &Overrides) -> Ran {
+fn go(scene: &str, overrides: &Method) -> Ran {
     let document = match SceneFile::from_bytes(scene.as_bytes(), "case.toml") {
         Ok(document) => document,
         Err(error) => return Ran::Broken(format!("refused: {}", error.render())),

@@ -2,7 +2,7 @@
 //! enumerated ones. `--scene` prints the scene of a seed or a case, `--look` what is off in it.
 
 use judge::random;
-use judge::trial::{self, Method};
+use judge::trial::{self, Way};
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::process::ExitCode;
@@ -24,7 +24,7 @@ fn main() -> ExitCode {
         return ExitCode::SUCCESS;
     }
     if let Some(name) = value("--look") {
-        let is_asked = |[f, i]: &Method| {
+        let is_asked = |[f, i]: &Way| {
             only.as_deref().unwrap_or("index-3") == *f
                 && integrator.as_deref().unwrap_or("trapezoidal") == *i
         };
@@ -92,7 +92,7 @@ fn drawn(name: &str) -> Option<random::Drawn> {
 }
 
 /// Channels of a scene that are off by more than `1e-7` of their size, by steps over `share`: as the crates and the judge have them.
-fn look(drawn: &random::Drawn, method: Method, share: u32) -> String {
+fn look(drawn: &random::Drawn, method: Way, share: u32) -> String {
     let mut out = random::kinds(&drawn.text).join(", ");
     let (judged, scene) =
         match (trial::judge(&drawn.text, drawn.step, drawn.steps), trial::document(&drawn.text)) {

@@ -6,7 +6,7 @@ use crate::{STOPPED, files, signals};
 use clap::Args;
 use mbs::core::scene::Entry;
 use mbs::doctor::{Checkup, Effort, Severity, examine, report, to_json};
-use mbs::{Overrides, Precision};
+use mbs::{Method, Precision};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -45,13 +45,13 @@ pub(crate) struct Arguments {
 
 /// Runs the command.
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
-    let overrides = Overrides {
+    let overrides = Method {
         formulation: arguments.formulation.clone(),
         step: arguments.step,
         duration: arguments.duration,
         precision: Some(Precision::F64.name().to_owned()),
         interrupt: signals::heeded(),
-        ..Overrides::default()
+        ..Method::default()
     };
     let place = (arguments.out.as_deref(), &["doctor.json", "doctor.html"][..]);
     let begun = match files::begin(&arguments.scene, &overrides, place) {

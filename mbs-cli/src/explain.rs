@@ -8,7 +8,7 @@ use clap::Args;
 use mbs::auto::{Goal, Processor, plan, time};
 use mbs::explain::{Effort, explain_document, report};
 use mbs::scene_file::Explanation;
-use mbs::{Overrides, words};
+use mbs::{Method, words};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -55,14 +55,14 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 }
 
 fn explain(arguments: &Arguments) -> Result<(files::Begun, Explanation), Refusal> {
-    let overrides = Overrides {
+    let overrides = Method {
         formulation: arguments.formulation.clone(),
         integrator: arguments.integrator.clone(),
         precision: arguments.precision.clone(),
         step: arguments.step,
         duration: arguments.duration,
         interrupt: signals::heeded(),
-        ..Overrides::default()
+        ..Method::default()
     };
     let place = (arguments.out.as_deref(), &["explain.json", "explain.html"][..]);
     let begun = files::begin(&arguments.scene, &overrides, place)?;

@@ -4,7 +4,7 @@ use crate::files;
 use crate::refusal::Refusal;
 use clap::Args;
 use mbs::export::{ExportError, export, ladder};
-use mbs::{Overrides, Precision, Settings};
+use mbs::{Method, Precision, Settings};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -37,11 +37,11 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 
 fn written(arguments: &Arguments) -> Result<(), Refusal> {
     let (document, scene) = files::scene(&arguments.scene)?;
-    let overrides = Overrides {
+    let overrides = Method {
         formulation: Some("recursive".to_owned()),
         integrator: Some("trapezoidal".to_owned()),
         precision: arguments.precision.clone(),
-        ..Overrides::default()
+        ..Method::default()
     };
     let settings = Settings::new(&scene, &overrides);
     let settings = settings.map_err(|error| files::refusal(&error, &document))?;

@@ -5,7 +5,7 @@ use crate::say::warn;
 use mbs::core::scene::{Entry, Scene};
 use mbs::folder::{Folder, WriteError, id, write_file};
 use mbs::scene_file::{PilotReport, Provenance, SceneFile, format::significant};
-use mbs::{Overrides, Settings, SettingsError};
+use mbs::{Method, Settings, SettingsError};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
@@ -44,7 +44,7 @@ pub(crate) fn scene(path: &Path) -> Result<(SceneFile, Scene<f64>), Refusal> {
 /// refusal.
 pub(crate) fn begin(
     path: &Path,
-    overrides: &Overrides,
+    overrides: &Method,
     (out, files): (Option<&Path>, &[&str]),
 ) -> Result<Begun, Refusal> {
     let (document, scene) = scene(path)?;

@@ -3,7 +3,7 @@
 use crate::refusal::Refusal;
 use crate::say::warn;
 use clap::Args;
-use mbs::{CHECKPOINT, Checkpoint, CheckpointError, Keeping, Overrides, Settings, words};
+use mbs::{CHECKPOINT, Checkpoint, CheckpointError, Keeping, Method, Settings, words};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -113,7 +113,7 @@ fn unfinished(out: &Path, hint: &str) -> Refusal {
 
 impl Kept {
     /// What is given, and the settings of the checkpoint where nothing is; else the refusal.
-    pub(crate) fn overrides(&self, given: Overrides) -> Result<Overrides, Refusal> {
+    pub(crate) fn overrides(&self, given: Method) -> Result<Method, Refusal> {
         let Some(from) = &self.from else { return Ok(given) };
         from.overrides(&given).map_err(|error| Refusal::checkpoint(&error))
     }

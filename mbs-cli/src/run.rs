@@ -12,9 +12,7 @@ use mbs::estimate::estimate;
 use mbs::folder::{Folder, WriteError};
 use mbs::realtime::Pacing;
 use mbs::scene_file::{Provenance, RunError, SceneFile, format::significant};
-use mbs::{
-    CHECKPOINT, Outcome, Overrides, Precision, Settings, StopError, run_document_kept, words,
-};
+use mbs::{CHECKPOINT, Method, Outcome, Precision, Settings, StopError, run_document_kept, words};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -124,8 +122,8 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    fn overrides(&self) -> Overrides {
-        Overrides {
+    fn overrides(&self) -> Method {
+        Method {
             formulation: self.formulation.clone(),
             integrator: self.integrator.clone(),
             precision: self.precision.clone(),
@@ -140,11 +138,11 @@ impl Arguments {
             penalty: self.penalty,
             tolerance: self.tolerance,
             threads: self.threads,
-            ..Overrides::default()
+            ..Method::default()
         }
     }
 
-    fn provenance(&self, o: &Overrides, settings: &Settings) -> Provenance {
+    fn provenance(&self, o: &Method, settings: &Settings) -> Provenance {
         let options = [
             ("formulation", o.formulation.clone()),
             ("step", o.step.map(|x| x.to_string())),
@@ -214,7 +212,7 @@ impl From<Refusal> for Stop {
 struct Run {
     begun: Begun,
     plan: Plan,
-    overrides: Overrides,
+    overrides: Method,
     pacing: Option<Pacing>,
     kept: keep::Kept,
 }

@@ -8,7 +8,7 @@ use clap::Args;
 use indicatif::ProgressBar;
 use mbs::scene_file::SceneFile;
 use mbs::sweep::{Report, Study, StudyError, SweepError, Watch};
-use mbs::{Overrides, words};
+use mbs::{Method, words};
 use serde_json::json;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -54,8 +54,8 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    fn overrides(&self) -> Overrides {
-        Overrides {
+    fn overrides(&self) -> Method {
+        Method {
             formulation: self.formulation.clone(),
             integrator: self.integrator.clone(),
             precision: self.precision.clone(),
@@ -63,7 +63,7 @@ impl Arguments {
             error_tolerance: self.error_tolerance,
             duration: self.duration,
             interrupt: signals::heeded(),
-            ..Overrides::default()
+            ..Method::default()
         }
     }
 

@@ -12,7 +12,7 @@ use mbs_core::scene::{Quantity, Scene};
 use mbs_scene::Channel;
 
 /// Measures and reactions of a scene.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Channels<T: Real, const D: usize> {
     measures: Measures<T, D>,
     reactions: Option<Reactions<T, D>>,
@@ -94,6 +94,11 @@ impl<T: Real, const D: usize> Channels<T, D> {
         let _ = self.measures.write(state, of, out);
         let Some(bad) = out.iter().position(|x| !x.to_f64().is_finite()) else { return Ok(()) };
         Err(StopError::Output { output: self.outputs.partition_point(|end| *end <= bad) })
+    }
+
+    /// Number of components of each channel.
+    pub(crate) fn lengths(&self) -> impl Iterator<Item = usize> + '_ {
+        self.measures.lengths()
     }
 
     /// Names of the joints whose reaction was not unique.

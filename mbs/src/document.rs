@@ -19,16 +19,16 @@ impl Progress for Listener<'_> {
 }
 
 /// A run.
-struct Plain<'a>(Listener<'a>, &'a Settings);
+pub(crate) struct Plain<'a>(pub(crate) &'a mut dyn FnMut(f64), pub(crate) &'a Settings);
 
 impl Work for Plain<'_> {
     type Done = Outcome;
 
-    fn done<T: Real, const D: usize>(mut self, scene: &Scene<T>) -> Outcome
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome
     where
         Plane<D>: InSpace<T>,
     {
-        run::<T, D>(scene, self.1, &mut self.0)
+        run::<T, D>(scene, self.1, &mut Listener(self.0))
     }
 }
 
@@ -59,7 +59,7 @@ pub fn run_document(
     reached: &mut dyn FnMut(f64),
 ) -> Result<Outcome, PrecisionError> {
     let read = ReadScene::new(document, settings.precision)?;
-    Ok(read.work(Plain(Listener(reached), settings)))
+    Ok(read.work(Plain(reached, settings)))
 }
 
 /// [`run_document`], from a checkpoint if there is one, and kept while it goes if it is to be: the same as [`run_kept`].

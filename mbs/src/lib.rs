@@ -17,7 +17,7 @@ mod figure;
 mod fingerprint;
 pub mod folder;
 mod friction;
-pub mod front;
+mod front;
 mod interrupt;
 mod journal;
 mod methods;
@@ -52,9 +52,12 @@ pub use mbs_statespace as statespace;
 pub use checkpoint::{Checkpoint, CheckpointError, FILE as CHECKPOINT, Keeping};
 pub use choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES, StepRule};
 pub use document::{run_document, run_document_kept};
+pub use front::tree::{Matrix, Tree, TreeError, TreeErrorKind, TreeRange};
 pub use front::{
-    Body, Effect, Error, Guide, Id, InitialCondition, Joint, Mechanism, Output, Part, PathError,
-    SceneError, UnknownName,
+    Body, BodyMotion, Components, Coordinates, Effect, Energies, EquilibriumOptions, Error, Guide,
+    Id, InitialCondition, InputId, InputInfo, InputOwner, Joint, Mechanism, Output, Part,
+    PathError, PointMotion, Pose, Run, RunResult, SceneError, Simulation, SimulationError, Sizes,
+    Snapshot, StepReport, Table, UnknownName, Wrench, equilibrium, modes, run,
 };
 pub use interrupt::Interrupt;
 pub use mbs_core::formulation::{Formulation, SwitchError};
@@ -68,10 +71,18 @@ pub use modes::{Mode, Modes, Place};
 pub use names::Names;
 pub use precision::PrecisionError;
 pub use rest::LeftOut;
-pub use run::{Outcome, Progress, run, run_kept};
-pub use settings::{Overrides, Settings, SettingsError};
-pub use simulation::Simulation;
+pub use run::Outcome;
+pub use settings::{Method, Settings, SettingsError};
 pub use statics::{Moved, Search, StaticEquilibrium, equilibrium_start, find_equilibrium};
 pub use stop::{INTERRUPTED, StopError};
 pub use tilt::AlmostDependent;
 pub use tree::{InSpace, Plane};
+
+/// A scene in one scalar and dimension: for those who write generic code.
+pub mod typed {
+    pub use crate::run::{Progress, run, run_kept};
+    pub use crate::simulation::Simulation;
+}
+
+#[doc = include_str!("../TASKS.md")]
+pub mod tasks {}

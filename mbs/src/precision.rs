@@ -55,6 +55,11 @@ impl<'a> ReadScene<'a> {
         }
     }
 
+    /// A scene in `f64`.
+    pub(crate) fn of_f64(scene: Scene<f64>) -> Self {
+        Self::F64(Box::new(Cow::Owned(scene)))
+    }
+
     /// The same for as long as one likes.
     pub(crate) fn into_owned(self) -> ReadScene<'static> {
         match self {

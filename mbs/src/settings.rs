@@ -1,5 +1,6 @@
 //! What is asked of a run: the scene's `[solver]` table, overridden by the command line, checked against what is built.
 
+mod method;
 pub(crate) mod way;
 
 use crate::choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES, StepRule};
@@ -24,7 +25,7 @@ const DEFAULT_ALARM: f64 = 0.1;
 
 /// What the command line (or a caller) says; `None` leaves it to the scene.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Overrides {
+pub struct Method {
     /// Formulation.
     pub formulation: Option<String>,
     /// Integrator.
@@ -230,7 +231,7 @@ impl Settings {
     ///
     /// # Errors
     /// [`SettingsError`] for what is not built or out of range.
-    pub fn new<T: Real>(scene: &Scene<T>, overrides: &Overrides) -> Result<Self, SettingsError> {
+    pub fn new<T: Real>(scene: &Scene<T>, overrides: &Method) -> Result<Self, SettingsError> {
         let solver = &scene.solver;
         let (asked, formulation, integrator) = method(solver, overrides)?;
         let (_, precision) =
@@ -333,7 +334,7 @@ impl Settings {
 /// The formulation as asked and as it runs, and the integrator.
 fn method<T>(
     solver: &SolverTable<T>,
-    overrides: &Overrides,
+    overrides: &Method,
 ) -> Result<(String, FormulationKind, IntegratorKind), SettingsError> {
     let (asked, formulation) = named(
         "formulation",
@@ -368,7 +369,7 @@ fn method<T>(
 /// it gives the other tolerance for. The energy limits of a scene are meant for multi-index, which has the energy rule anyway.
 fn step_rule<T>(
     solver: &SolverTable<T>,
-    overrides: &Overrides,
+    overrides: &Method,
     (formulation, integrator): (FormulationKind, IntegratorKind),
 ) -> Result<StepRule, SettingsError> {
     let of_formulation = formulation.row().energy_rule;
@@ -397,7 +398,7 @@ fn step_rule<T>(
 }
 
 /// U and L of the energy rule: the caller's, the scene's, or the usual ones.
-fn energy_limits<T: Real>(solver: &SolverTable<T>, overrides: &Overrides) -> [f64; 2] {
+fn energy_limits<T: Real>(solver: &SolverTable<T>, overrides: &Method) -> [f64; 2] {
     let of_scene = solver.energy_tolerance.map(|limits| limits.map(T::to_f64));
     let usual = EnergyRule::default();
     overrides.energy_tolerance.or(of_scene).unwrap_or([usual.upper, usual.lower])

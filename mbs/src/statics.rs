@@ -136,6 +136,8 @@ pub struct StaticEquilibrium {
     pub scene: String,
     /// Coordinates, constraints, their rank.
     pub sizes: [usize; 3],
+    /// How it was searched.
+    pub search: Search,
     /// What the search found.
     pub found: Equilibrium<f64>,
     /// How far centres of mass went from the start, and how far bodies turned; without bodies nothing.
@@ -199,6 +201,7 @@ impl StaticEquilibrium {
         Ok(Self {
             scene: scene.name.clone(),
             sizes,
+            search,
             found,
             moved,
             left_out,

@@ -7,7 +7,7 @@ use crate::scene::Quantity;
 use crate::{Mechanism, State};
 use mbs::core::scene::Scene;
 use mbs::scene_file::SceneFile;
-use mbs::{FormulationKind, Overrides, Settings};
+use mbs::{FormulationKind, Method, Settings};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Times its own error, by steps of h and h/2, that a rule may be off.
@@ -32,7 +32,7 @@ fn is_steered(formulation: &str) -> bool {
 }
 
 /// A formulation with an integrator.
-pub type Method = [&'static str; 2];
+pub type Way = [&'static str; 2];
 
 /// What became of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -142,11 +142,11 @@ pub fn document(text: &str) -> Result<Scene<f64>, String> {
 /// What became of a run that does not end well.
 pub fn rows(
     scene: &Scene<f64>,
-    [formulation, integrator]: Method,
+    [formulation, integrator]: Way,
     (step, steps): (f64, u32),
     share: u32,
 ) -> Result<Rows, Verdict> {
-    let overrides = Overrides {
+    let overrides = Method {
         formulation: Some(formulation.to_owned()),
         integrator: Some(integrator.to_owned()),
         step: Some(step / f64::from(share)),
@@ -157,7 +157,7 @@ pub fn rows(
         }),
         // these hold their error to a tolerance, whatever the step
         error_tolerance: ["gbs", "radau5"].contains(&integrator).then_some(1e-11),
-        ..Overrides::default()
+        ..Method::default()
     };
     let stops = |code: &str, time: f64, message: String| Verdict::Stops {
         code: code.to_owned(),
@@ -167,8 +167,10 @@ pub fn rows(
     let settings =
         Settings::new(scene, &overrides).map_err(|e| stops("refused", 0.0, e.to_string()))?;
     let outcome = catch_unwind(AssertUnwindSafe(|| match scene.dimension {
-        mbs::core::scene::Dimension::Planar => mbs::run::<f64, 2>(scene, &settings, &mut ()),
-        mbs::core::scene::Dimension::Spatial => mbs::run::<f64, 3>(scene, &settings, &mut ()),
+        mbs::core::scene::Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
+        mbs::core::scene::Dimension::Spatial => {
+            mbs::typed::run::<f64, 3>(scene, &settings, &mut ())
+        }
     }));
     let Ok(outcome) = outcome else { return Err(Verdict::Panics) };
     if let Some(error) = outcome.summary.error {
@@ -191,13 +193,7 @@ pub fn rows(
 /// Holds a method against the judge. A run that stops on its way is tried by quarter steps. What is off is looked at once more with short
 /// steps: the error of a rule across a kink of a law, which two steps may hide, goes with the step; what is wrong stays.
 #[must_use]
-pub fn trial(
-    judged: &Judged,
-    scene: &Scene<f64>,
-    method: Method,
-    step: f64,
-    steps: u32,
-) -> Verdict {
+pub fn trial(judged: &Judged, scene: &Scene<f64>, method: Way, step: f64, steps: u32) -> Verdict {
     let by = |share| by_two(judged, scene, method, (step, steps), share);
     let first = match by(1) {
         Verdict::Stops { code, .. } if code != "refused" => by(QUARTER),
@@ -219,7 +215,7 @@ pub fn trial(
 fn by_two(
     judged: &Judged,
     scene: &Scene<f64>,
-    method: Method,
+    method: Way,
     step: (f64, u32),
     share: u32,
 ) -> Verdict {

@@ -1,6 +1,6 @@
 //! The enumerated oracle: every case of joints and effects, by every formulation with every integrator.
 
-use super::{Judged, Method, Verdict, compare, document, judge, rows, trial};
+use super::{Judged, Verdict, Way, compare, document, judge, rows, trial};
 use crate::random::{Case, STEPS};
 use mbs::core::scene::Scene;
 use std::collections::BTreeMap;
@@ -44,7 +44,7 @@ pub fn case(case: &Case, tally: &mut Tally) {
 }
 
 /// By steps of h alone where these agree with the judge to rounding.
-fn briefly(judged: &Judged, scene: &Scene<f64>, method: Method, step: f64, steps: u32) -> Verdict {
+fn briefly(judged: &Judged, scene: &Scene<f64>, method: Way, step: f64, steps: u32) -> Verdict {
     if method[1] != "trapezoidal" {
         match rows(scene, method, (step, steps), 1) {
             Err(verdict) => return verdict,

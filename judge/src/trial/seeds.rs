@@ -1,13 +1,13 @@
 //! Random scenes by seed, by every formulation with its usual rule; what became of them, counted.
 
-use super::{Method, Verdict};
+use super::{Verdict, Way};
 use crate::{random, trial};
 use mbs::FormulationKind;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// The formulations, those that steer their steps last.
-pub fn methods() -> Vec<Method> {
+pub fn methods() -> Vec<Way> {
     let (steered, fixed): (Vec<_>, Vec<_>) =
         FormulationKind::listed().partition(|f| f.row().energy_rule);
     fixed.into_iter().chain(steered).map(|f| [f.name(), "trapezoidal"]).collect()
@@ -71,7 +71,7 @@ impl Tally {
     fn judge(
         &mut self,
         (seed, drawn, judged): (u64, &random::Drawn, &trial::Judged),
-        method: Method,
+        method: Way,
         verdict: &Verdict,
     ) -> (String, String) {
         let (of, pivot) = (format!("{seed:5} {:12}", method[0]), judged.least_pivot);

@@ -5,10 +5,10 @@ use crate::alarm::Alarm;
 use crate::channels::Channels;
 use crate::compare::drive::{Signal, Watcher, drive};
 use crate::compare::ladder::{Instants, count, work};
-use crate::compare::method::{Control, Method};
+use crate::compare::method::{Control, MethodCase};
 use crate::names::Names;
 use crate::ready::AssembledScene;
-use crate::settings::{DEFAULT_STEP, Overrides, Settings, SettingsError};
+use crate::settings::{DEFAULT_STEP, Method, Settings, SettingsError};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
@@ -44,7 +44,7 @@ pub trait Clock {
 /// A scene on the bench.
 pub(crate) struct SceneBench<'a, T: Real, const D: usize> {
     scene: &'a Scene<T>,
-    base: &'a Overrides,
+    base: &'a Method,
     instants: Instants,
     channels: Vec<Channel>,
     length: f64,
@@ -62,7 +62,7 @@ where
 {
     /// A bench on which so many seconds were spent before.
     pub(crate) fn new(
-        (scene, base): (&'a Scene<T>, &'a Overrides),
+        (scene, base): (&'a Scene<T>, &'a Method),
         ready: &'a Result<AssembledScene<T, D>, Box<RunError>>,
         instants: Instants,
         (clock, spent): (&'a mut dyn Clock, f64),
@@ -76,7 +76,7 @@ where
     /// A simulation ready to step, with its outputs and its alarm.
     fn start(
         &self,
-        method: &Method,
+        method: &MethodCase,
         setting: f64,
     ) -> Result<(Simulation<T, D>, Channels<T, D>, f64), Box<RunError>> {
         let settings = settings(self.scene, self.base, method, (setting, self.instants));
@@ -93,7 +93,7 @@ where
     /// Runs the span, with so many steps between two instants where they are counted.
     fn run(
         &mut self,
-        (method, between): (&Method, Option<u64>),
+        (method, between): (&MethodCase, Option<u64>),
         setting: f64,
         aim: Aim,
         time: Time,
@@ -151,7 +151,7 @@ impl<T: Real, const D: usize> Bench for SceneBench<'_, T, D>
 where
     Plane<D>: InSpace<T>,
 {
-    fn trial(&mut self, method: &Method, setting: f64, aim: Aim, time: Time) -> Trial {
+    fn trial(&mut self, method: &MethodCase, setting: f64, aim: Aim, time: Time) -> Trial {
         if method.control == Control::Own && aim == Aim::Rows {
             // one step of it may be a whole interval, which nothing interrupts
             let whole = self.instants;
@@ -213,8 +213,8 @@ fn refused(error: &SettingsError) -> RunError {
 /// Settings of a run with a method, beside what the caller asks for.
 pub(crate) fn settings<T: Real>(
     scene: &Scene<T>,
-    base: &Overrides,
-    method: &Method,
+    base: &Method,
+    method: &MethodCase,
     (setting, instants): (f64, Instants),
 ) -> Result<Settings, SettingsError> {
     let duration = base.duration.unwrap_or(scene.duration.to_f64());
@@ -224,7 +224,7 @@ pub(crate) fn settings<T: Real>(
     } else {
         of_scene
     };
-    let overrides = Overrides {
+    let overrides = Method {
         events: base.events,
         energy_alarm: base.energy_alarm,
         duration: base.duration,

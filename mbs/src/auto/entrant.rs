@@ -2,7 +2,7 @@
 
 use super::law::{HELD, Law, Point, Prediction, credited, predict};
 use super::trial::{End, Trial};
-use crate::compare::method::{Control, Method};
+use crate::compare::method::{Control, MethodCase};
 
 /// Errors above this share of the outputs' ranges have lost the motion: what they become at finer settings is not to be told.
 pub(super) const LOST: f64 = 0.1;
@@ -45,7 +45,7 @@ impl Try {
 /// A candidate.
 #[derive(Debug, Clone)]
 pub(crate) struct Entrant {
-    pub(crate) method: Method,
+    pub(crate) method: MethodCase,
     /// From the coarsest.
     pub(crate) tries: Vec<Try>,
     /// Why it is out.
@@ -63,7 +63,7 @@ pub(crate) struct Entrant {
 const ROUNDING: f64 = 1e-9;
 
 impl Entrant {
-    pub(crate) fn new(method: Method, first: f64, coarsest: f64) -> Self {
+    pub(crate) fn new(method: MethodCase, first: f64, coarsest: f64) -> Self {
         Self { method, tries: Vec::new(), out: None, first, coarsest, finest: 0.0, is_spent: false }
     }
 
@@ -227,9 +227,9 @@ impl Entrant {
 }
 
 /// The same rule in coordinates of the same kind: they need about the same steps.
-pub(super) fn is_twin(a: &Method, b: &Method) -> bool {
+pub(super) fn is_twin(a: &MethodCase, b: &MethodCase) -> bool {
     let is_same = a.formulation == b.formulation;
-    let is_controlled = |m: &Method| m.control != Control::Fixed;
+    let is_controlled = |m: &MethodCase| m.control != Control::Fixed;
     !is_same
         && a.integrator == b.integrator
         && is_controlled(a) == is_controlled(b)
@@ -237,7 +237,7 @@ pub(super) fn is_twin(a: &Method, b: &Method) -> bool {
         && is_relative(a) == is_relative(b)
 }
 
-pub(super) fn is_relative(method: &Method) -> bool {
+pub(super) fn is_relative(method: &MethodCase) -> bool {
     method.formulation.row().relative
 }
 

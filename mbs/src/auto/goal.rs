@@ -1,7 +1,7 @@
 //! What is wanted of a run: an error, a deadline, or both; and why that may be refused.
 
 use crate::choice::Precision;
-use crate::settings::Overrides;
+use crate::settings::Method;
 use core::fmt::{self, Display, Formatter};
 
 /// What `auto` is to reach.
@@ -36,7 +36,7 @@ pub enum GoalError {
 }
 
 /// Options that the choice decides.
-type Given = (&'static str, fn(&Overrides) -> bool);
+type Given = (&'static str, fn(&Method) -> bool);
 const DECIDED: [Given; 6] = [
     ("--step", |o| o.step.is_some()),
     ("--step-max", |o| o.step_max.is_some()),
@@ -59,7 +59,7 @@ impl Goal {
     /// [`GoalError`].
     pub fn check(
         &self,
-        overrides: &Overrides,
+        overrides: &Method,
         (duration, precision): (f64, Precision),
     ) -> Result<(), GoalError> {
         if let Some(error) = self.error.filter(|e| !(*e > 0.0 && *e < 1.0)) {
@@ -198,7 +198,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_meant_is_refused() {
-        let none = Overrides::default();
+        let none = Method::default();
         let error =
             |e: f64| Goal { error: Some(e), deadline: None }.check(&none, (10.0, Precision::F64));
         for e in [0.0, -1e-3, 1.0, 20.0, f64::NAN, f64::INFINITY] {
@@ -209,7 +209,7 @@ mod tests {
             |d: f64| Goal { error: None, deadline: Some(d) }.check(&none, (10.0, Precision::F64));
         assert!(matches!(deadline(-1.0), Err(GoalError::Deadline(_))));
         assert!(matches!(deadline(20.0), Err(GoalError::TooLong(..))));
-        let given = Overrides { step: Some(1e-3), ..Overrides::default() };
+        let given = Method { step: Some(1e-3), ..Method::default() };
         let both = Goal { error: Some(1e-3), deadline: Some(1e-3) };
         assert_eq!(both.check(&given, (10.0, Precision::F64)), Err(GoalError::Chosen("--step")));
     }

@@ -5,7 +5,7 @@
 //! ```
 
 use crate::choice::IntegratorKind;
-use crate::compare::method::{Control, Method};
+use crate::compare::method::{Control, MethodCase};
 
 /// Between runs whose counts of steps differ by no more than a fiftieth there is no law: the intervals of the results hold their
 /// steps, and the tolerance only changes the order.
@@ -30,7 +30,7 @@ pub(crate) struct Law {
 
 impl Law {
     /// Theory's.
-    pub(crate) fn of(method: &Method) -> Self {
+    pub(crate) fn of(method: &MethodCase) -> Self {
         let error = match (method.control, method.integrator) {
             (Control::Fixed, IntegratorKind::Rk4) => 4.0,
             (Control::Fixed, IntegratorKind::Newmark) => 1.0,
@@ -43,7 +43,7 @@ impl Law {
     }
 
     /// Order of the error in the mean step; lower than theory's where the order itself is chosen.
-    pub(crate) fn order(method: &Method) -> f64 {
+    pub(crate) fn order(method: &MethodCase) -> f64 {
         match (method.control, method.integrator) {
             (Control::Own, IntegratorKind::Extrapolation | IntegratorKind::Rk853) => 8.0,
             (Control::Own, _) => 5.0,

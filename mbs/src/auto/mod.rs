@@ -26,12 +26,12 @@ pub(crate) use report::reasons;
 
 use crate::choice::{IntegratorKind, Precision};
 use crate::compare::ladder::Instants;
-use crate::compare::method::{Control, Method};
+use crate::compare::method::{Control, MethodCase};
 use crate::methods::FormulationKind;
 use crate::names::Names;
 use crate::precision::Work;
 use crate::ready::AssembledScene;
-use crate::settings::{Overrides, Settings};
+use crate::settings::{Method, Settings};
 use crate::tree::{InSpace, Plane};
 use bench::SceneBench;
 use entrant::Entrant;
@@ -59,14 +59,14 @@ const CUTS: u32 = 3;
 /// A method and its setting, and what was expected of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pick {
-    pub(crate) method: Method,
+    pub(crate) method: MethodCase,
     pub(crate) setting: f64,
 }
 
 /// Where a choice is made.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Task<'a> {
-    pub(crate) base: &'a Overrides,
+    pub(crate) base: &'a Method,
     pub(crate) settings: &'a Settings,
     pub(crate) goal: Goal,
     pub(crate) instants: Instants,
@@ -75,14 +75,14 @@ pub(crate) struct Task<'a> {
 /// The methods that a caller leaves to choose from, in the order that decides where times are the same.
 pub(crate) fn methods<T>(
     scene: &Scene<T>,
-    base: &Overrides,
+    base: &Method,
     settings: &Settings,
     goal: &Goal,
-) -> Result<Vec<Method>, GoalError> {
+) -> Result<Vec<MethodCase>, GoalError> {
     let formulations = if settings.asked == "auto" { vec![] } else { vec![settings.formulation] };
     let asked = base.integrator.as_ref().or(scene.solver.integrator.as_ref());
     let integrator = asked.map(|_| settings.integrator);
-    let mut methods = Method::all(&formulations, &[settings.precision]);
+    let mut methods = MethodCase::all(&formulations, &[settings.precision]);
     if let Some(integrator) = integrator {
         methods.retain_mut(|m| {
             let is_other_rule =
@@ -100,7 +100,7 @@ pub(crate) fn methods<T>(
         if methods.iter().all(|m| m.control == Control::Own) && !methods.is_empty() {
             return Err(GoalError::OwnSteps);
         }
-        methods.retain(Method::is_fixed);
+        methods.retain(MethodCase::is_fixed);
     }
     if methods.is_empty() { Err(GoalError::NoCandidate) } else { Ok(methods) }
 }
@@ -120,7 +120,7 @@ pub(crate) fn instants(duration: f64, goal: &Goal) -> Instants {
 /// The choice for a scene: ranked picks, the first to run, and the evidence.
 pub(crate) struct Pilot<'a> {
     pub(crate) task: &'a Task<'a>,
-    pub(crate) methods: &'a [Method],
+    pub(crate) methods: &'a [MethodCase],
     pub(crate) clock: &'a mut dyn Clock,
 }
 
@@ -138,7 +138,7 @@ impl Work for Pilot<'_> {
 fn chosen<T: Real, const D: usize>(
     scene: &Scene<T>,
     task: &Task<'_>,
-    methods: &[Method],
+    methods: &[MethodCase],
     clock: &mut dyn Clock,
 ) -> (Vec<Pick>, PilotReport)
 where
@@ -186,18 +186,18 @@ where
 /// collocation methods, and error control, in relative coordinates, and index-3. The others take up the time that these need.
 fn few_methods(
     task: &Task<'_>,
-    methods: &[Method],
+    methods: &[MethodCase],
     structure: &structure::Structure,
-) -> Vec<Method> {
+) -> Vec<MethodCase> {
     let is_free = task.settings.asked == "auto" && task.goal.deadline.is_none();
-    let is_few = |m: &&Method| {
+    let is_few = |m: &&MethodCase| {
         let is_fixed = m.control == Control::Fixed;
         if m.formulation.row().relative {
             return !is_fixed || m.integrator.is_explicit();
         }
         m.formulation == FormulationKind::DEFAULT && is_fixed
     };
-    let few: Vec<Method> = methods.iter().filter(is_few).copied().collect();
+    let few: Vec<MethodCase> = methods.iter().filter(is_few).copied().collect();
     if !is_free || structure.loops.is_err() || few.is_empty() { methods.to_vec() } else { few }
 }
 
@@ -226,7 +226,7 @@ fn wanted(goal: &Goal) -> Wanted {
 
 /// A candidate with the setting that it is given first.
 fn entrant(
-    method: Method,
+    method: MethodCase,
     structure: &structure::Structure,
     (wanted, instants): (Wanted, Instants),
 ) -> Entrant {
@@ -262,10 +262,10 @@ pub(crate) fn candidates<T: Real, const D: usize>(
 where
     Plane<D>: InSpace<T>,
 {
-    let methods = methods(scene, &Overrides::default(), settings, &Goal::default()).ok()?;
+    let methods = methods(scene, &Method::default(), settings, &Goal::default()).ok()?;
     let mut ready = AssembledScene::<T, D>::new(scene).ok();
     let structure = structure::structure(scene, settings.duration, ready.as_mut());
-    let candidate = |method: &Method| Candidate {
+    let candidate = |method: &MethodCase| Candidate {
         out: structure.refuses(method),
         basis: "the pilot decides".to_owned(),
         ..report::candidate(&Entrant::new(*method, 1.0, 1.0))

@@ -1,10 +1,10 @@
 //! From a goal to a run: the ranked settings, and what happens where the first of them stops.
 
 use super::{Clock, Goal, GoalError, Pick, Pilot, Task, bench, instants, methods};
-use crate::compare::method::Method;
+use crate::compare::method::MethodCase;
 use crate::precision::{PrecisionError, ReadScene};
 use crate::run::Outcome;
-use crate::settings::{Overrides, Settings};
+use crate::settings::{Method, Settings};
 use crate::stop::StopError;
 use crate::{Names, run_document};
 use cpu_time::ThreadTime;
@@ -83,7 +83,7 @@ impl PlanError {
 /// A goal that cannot be meant beside these options; a scene that is none in the precision asked for.
 pub fn plan(
     (document, scene): (&SceneFile, &Scene<f64>),
-    (base, settings): (&Overrides, Settings),
+    (base, settings): (&Method, Settings),
     goal: Goal,
     clock: &mut dyn Clock,
 ) -> Result<Plan, PlanError> {
@@ -107,7 +107,7 @@ pub fn plan(
 fn ranked(
     scene: &Scene<f64>,
     task: &Task<'_>,
-    (picks, methods): (&[Pick], &[Method]),
+    (picks, methods): (&[Pick], &[MethodCase]),
     choice: &PilotReport,
 ) -> Vec<Settings> {
     let of = |pick: &Pick| {
@@ -131,15 +131,15 @@ fn ranked(
 
 /// Where the pilot has got nowhere: every method that starts, in the order of its candidates, with the step of the scene, or a
 /// tolerance of a hundredth of the wanted error.
-fn blind(task: &Task<'_>, choice: &PilotReport, methods: &[Method]) -> Vec<Pick> {
-    let starts = |m: &&Method| {
+fn blind(task: &Task<'_>, choice: &PilotReport, methods: &[MethodCase]) -> Vec<Pick> {
+    let starts = |m: &&MethodCase| {
         let same = choice.candidates.iter().find(|c| c.method == m.name());
         same.is_none_or(|c| c.trials.iter().all(|t| t.reached > 0.0))
     };
-    let place = |m: &Method| choice.candidates.iter().position(|c| c.method == m.name());
-    let mut left: Vec<&Method> = methods.iter().filter(starts).collect();
+    let place = |m: &MethodCase| choice.candidates.iter().position(|c| c.method == m.name());
+    let mut left: Vec<&MethodCase> = methods.iter().filter(starts).collect();
     left.sort_by_key(|m| place(m));
-    let setting = |m: &Method| match m.is_fixed() {
+    let setting = |m: &MethodCase| match m.is_fixed() {
         true => task.goal.deadline.unwrap_or(f64::INFINITY).min(task.settings.step),
         false => 0.01 * task.goal.error.unwrap_or(super::ACCURATE),
     };

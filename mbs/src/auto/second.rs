@@ -7,7 +7,7 @@ use super::race::{BUDGET, Race, SHARE};
 use super::trial::{Aim, End, Time, Trial};
 use crate::choice::IntegratorKind;
 use crate::compare::ladder::Instants;
-use crate::compare::method::{Control, Method};
+use crate::compare::method::{Control, MethodCase};
 use crate::methods::FormulationKind;
 use mbs_scene::SecondLook;
 
@@ -31,7 +31,7 @@ pub(super) fn look(
     }
     let best = chosen.done().rfind(|t| t.error.is_some())?;
     let (rows, error) = (best.trial.rows.clone(), best.error.unwrap_or_default());
-    let method = Method {
+    let method = MethodCase {
         formulation: FormulationKind::DEFAULT,
         integrator: IntegratorKind::Trapezoidal,
         control: Control::Fixed,

@@ -1,6 +1,6 @@
 //! What a scene's structure says before anything is run: who cannot run it, and what makes it dear.
 
-use crate::compare::method::Method;
+use crate::compare::method::MethodCase;
 use crate::methods::FormulationKind;
 use crate::names::Names;
 use crate::ready::AssembledScene;
@@ -83,7 +83,7 @@ fn frequency<T: Real>(scene: &Scene<T>, effect: &Effect<T>) -> f64 {
 
 impl Structure {
     /// Why a method cannot run the scene.
-    pub(crate) fn refuses(&self, method: &Method) -> Option<String> {
+    pub(crate) fn refuses(&self, method: &MethodCase) -> Option<String> {
         let formulation = method.formulation.row();
         match (&self.loops, self.natural) {
             (Err(why), _) if formulation.relative => Some(why.clone()),
@@ -97,7 +97,7 @@ impl Structure {
 
     /// Place in the order of trials: those of high order first, where no spring is too stiff for them; relative coordinates before
     /// others; what takes about the same steps as another, but more work in each, last.
-    pub(crate) fn promise(&self, method: &Method) -> usize {
+    pub(crate) fn promise(&self, method: &MethodCase) -> usize {
         let steps = STEPS_A_PERIOD * self.frequency * self.duration / core::f64::consts::TAU;
         let is_stiff = steps > STIFF;
         let is_controlled = !method.is_fixed();

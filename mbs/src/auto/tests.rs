@@ -8,9 +8,9 @@ use super::second;
 use super::trial::{Aim, Bench, End, Rows, Time, Trial};
 use crate::choice::Precision;
 use crate::compare::ladder::Instants;
-use crate::compare::method::{Control, Method};
+use crate::compare::method::{Control, MethodCase};
 use crate::methods::FormulationKind;
-use crate::settings::{Overrides, Settings};
+use crate::settings::{Method, Settings};
 use mbs_scene::RunError;
 
 /// Coarsest step [s], and tolerance.
@@ -32,36 +32,36 @@ const TAME: Nature =
     Nature { error: 1.0, seconds: 1.0, stops_above: f64::INFINITY, stops_below: 0.0, held: 0.0 };
 
 /// Runs nothing: tells what the natures say, and counts.
-struct Fake<F: Fn(&Method) -> Nature> {
+struct Fake<F: Fn(&MethodCase) -> Nature> {
     nature: F,
     spent: f64,
     trials: Vec<(String, f64)>,
 }
 
-impl<F: Fn(&Method) -> Nature> Fake<F> {
+impl<F: Fn(&MethodCase) -> Nature> Fake<F> {
     fn new(nature: F) -> Self {
         Self { nature, spent: 0.0, trials: Vec::new() }
     }
 
-    fn cost(&self, method: &Method, setting: f64) -> f64 {
+    fn cost(&self, method: &MethodCase, setting: f64) -> f64 {
         let nature = (self.nature)(method);
         nature.held.max(nature.seconds * (0.01 / setting).powf(Law::of(method).cost))
     }
 
-    fn error(&self, method: &Method, setting: f64) -> f64 {
+    fn error(&self, method: &MethodCase, setting: f64) -> f64 {
         (self.nature)(method).error * (setting / 0.01).powf(Law::of(method).error)
     }
 
     /// CPU time that a method takes for an error [s]: with a setting that can be had, none coarser than the coarsest.
-    fn needs(&self, method: &Method, error: f64) -> f64 {
+    fn needs(&self, method: &MethodCase, error: f64) -> f64 {
         let setting = 0.01 * Law::of(method).setting_for(error / (self.nature)(method).error);
         let coarsest = if method.is_fixed() { COARSEST } else { LOOSEST };
         self.cost(method, Entrant::new(*method, coarsest, coarsest).fit(setting.min(coarsest)))
     }
 }
 
-impl<F: Fn(&Method) -> Nature> Bench for Fake<F> {
-    fn trial(&mut self, method: &Method, setting: f64, aim: Aim, time: Time) -> Trial {
+impl<F: Fn(&MethodCase) -> Nature> Bench for Fake<F> {
+    fn trial(&mut self, method: &MethodCase, setting: f64, aim: Aim, time: Time) -> Trial {
         self.trials.push((method.name(), setting));
         let nature = (self.nature)(method);
         let whole = self.cost(method, setting);
@@ -112,11 +112,11 @@ fn extrapolation_is_a_candidate_where_it_is_asked_for_and_in_pairs() {
     let document = mbs_scene::SceneFile::parse(&text.expect("a scene"), "scene").expect("TOML");
     let scene = document.scene::<f64>().expect("a scene");
     let has = |integrator: Option<&str>, precision: &str| {
-        let base = Overrides {
+        let base = Method {
             formulation: Some("auto".to_owned()),
             integrator: integrator.map(str::to_owned),
             precision: Some(precision.to_owned()),
-            ..Overrides::default()
+            ..Method::default()
         };
         let settings = Settings::new(&scene, &base).expect("settings");
         let methods = super::methods(&scene, &base, &settings, &Goal::default());
@@ -125,12 +125,12 @@ fn extrapolation_is_a_candidate_where_it_is_asked_for_and_in_pairs() {
     assert_eq!([has(None, "f64"), has(None, "dd"), has(Some("gbs"), "f64")], [false, true, true]);
 }
 
-fn all() -> Vec<Method> {
-    Method::all(&[], &[Precision::F64])
+fn all() -> Vec<MethodCase> {
+    MethodCase::all(&[], &[Precision::F64])
 }
 
-fn entrants(methods: &[Method], wanted: f64) -> Vec<Entrant> {
-    let of = |m: &Method| {
+fn entrants(methods: &[MethodCase], wanted: f64) -> Vec<Entrant> {
+    let of = |m: &MethodCase| {
         let coarsest = if m.is_fixed() { COARSEST } else { LOOSEST };
         let first = if m.is_fixed() { COARSEST } else { wanted.max(1e-4) };
         Entrant::new(*m, first, coarsest)
@@ -139,13 +139,13 @@ fn entrants(methods: &[Method], wanted: f64) -> Vec<Entrant> {
 }
 
 /// The name that is chosen first, its setting, and the bench.
-fn chosen<F: Fn(&Method) -> Nature>(
+fn chosen<F: Fn(&MethodCase) -> Nature>(
     nature: F,
     error: f64,
     deadline: Option<f64>,
-) -> (Option<(Method, f64, bool)>, Fake<F>) {
+) -> (Option<(MethodCase, f64, bool)>, Fake<F>) {
     let mut fake = Fake::new(nature);
-    let methods: Vec<Method> =
+    let methods: Vec<MethodCase> =
         all().into_iter().filter(|m| deadline.is_none() || m.is_fixed()).collect();
     let mut entrants = entrants(&methods, error);
     if let Some(deadline) = deadline {
@@ -163,12 +163,12 @@ fn chosen<F: Fn(&Method) -> Nature>(
 
 /// A nature for each method, spread over some decades. The same rule in coordinates of the same kind takes about the same steps, and
 /// two and a half times the work of another at most: that is what the pilot relies on where it leaves such a candidate alone.
-fn spread(seed: usize) -> impl Fn(&Method) -> Nature {
-    let kind = |m: &Method| {
+fn spread(seed: usize) -> impl Fn(&MethodCase) -> Nature {
+    let kind = |m: &MethodCase| {
         (m.integrator, m.control, m.formulation == FormulationKind::Recursive, !m.is_fixed())
     };
-    move |m: &Method| {
-        let first = |is: &dyn Fn(&Method) -> bool| all().iter().position(is).unwrap_or(0);
+    move |m: &MethodCase| {
+        let first = |is: &dyn Fn(&MethodCase) -> bool| all().iter().position(is).unwrap_or(0);
         let (place, twins) = (first(&|other| other == m), first(&|other| kind(other) == kind(m)));
         let roll =
             |of: usize, k: usize| ((of * 7919 + seed * 104_729 + k * 1299) % 997) as f64 / 997.0;
@@ -186,8 +186,8 @@ fn the_cheapest_is_found_within_a_fifth_where_all_keep_their_laws_and_twins_take
             let (first, fake) = chosen(spread(seed), error, None);
             let (method, setting, reaches) = first.unwrap();
             // half of the wanted error is aimed at where that costs little, else 0.7 of it
-            let aim = |m: &Method| if m.control == Control::Own { 0.5 } else { 0.7 } * error;
-            let needs = |m: &Method| fake.needs(m, aim(m));
+            let aim = |m: &MethodCase| if m.control == Control::Own { 0.5 } else { 0.7 } * error;
+            let needs = |m: &MethodCase| fake.needs(m, aim(m));
             let best = all().iter().map(needs).fold(f64::INFINITY, f64::min);
             let takes = fake.cost(&method, setting);
             assert!(
@@ -202,7 +202,7 @@ fn the_cheapest_is_found_within_a_fifth_where_all_keep_their_laws_and_twins_take
 
 #[test]
 fn what_stops_in_the_pilot_is_not_chosen() {
-    let nature = |m: &Method| match m.formulation {
+    let nature = |m: &MethodCase| match m.formulation {
         FormulationKind::Recursive => Nature { seconds: 1e-4, stops_below: 1.0, ..TAME },
         FormulationKind::Index3 => Nature { seconds: 1e-3, error: 1e-4, ..TAME },
         _ => Nature { seconds: 4e-3, error: 1e-4, ..TAME },
@@ -213,7 +213,7 @@ fn what_stops_in_the_pilot_is_not_chosen() {
 
 #[test]
 fn a_method_that_stops_with_coarse_settings_is_tried_with_finer_ones() {
-    let nature = |m: &Method| match (m.formulation, m.is_fixed()) {
+    let nature = |m: &MethodCase| match (m.formulation, m.is_fixed()) {
         (FormulationKind::Index3, true) => {
             Nature { seconds: 1e-4, error: 1e-5, stops_above: 0.02, ..TAME }
         }
@@ -230,7 +230,7 @@ fn a_method_that_stops_with_coarse_settings_is_tried_with_finer_ones() {
 
 #[test]
 fn what_is_dearer_in_any_case_gets_one_look() {
-    let nature = |m: &Method| match m.name().as_str() {
+    let nature = |m: &MethodCase| match m.name().as_str() {
         "recursive rk54, f64" => Nature { seconds: 1e-3, error: 1e-3, ..TAME },
         _ => Nature { seconds: 50.0, error: 1e-3, ..TAME },
     };
@@ -246,7 +246,7 @@ fn what_is_dearer_in_any_case_gets_one_look() {
 fn a_method_whose_steps_are_held_by_the_rows_is_tried_with_what_may_cost_it_nothing() {
     // both make a step to each row, with errors that only a tolerance of 1e-7 brings down; by its law rk853 would take 3.5 times as
     // long for that as it does
-    let nature = |m: &Method| match m.integrator.name() {
+    let nature = |m: &MethodCase| match m.integrator.name() {
         "rk54" => Nature { seconds: 2e-4, error: 1.0, held: 2e-3, ..TAME },
         "rk853" => Nature { seconds: 1e-4, error: 10.0, held: 2.2e-3, ..TAME },
         _ => Nature { seconds: 50.0, error: 1e-3, ..TAME },
@@ -260,7 +260,7 @@ fn a_method_whose_steps_are_held_by_the_rows_is_tried_with_what_may_cost_it_noth
 #[test]
 fn where_the_rows_hold_all_steps_two_rules_that_agree_tell_the_error() {
     // whatever the tolerance, both make one step to each row: no neighbour has fewer
-    let nature = |m: &Method| match m.integrator.name() {
+    let nature = |m: &MethodCase| match m.integrator.name() {
         "rk54" => Nature { seconds: 1e-6, error: 1e-6, held: 1e-2, ..TAME },
         "rk853" => Nature { seconds: 1e-6, error: 1e-7, held: 1.2e-2, ..TAME },
         _ => Nature { seconds: 50.0, error: 1e-3, ..TAME },
@@ -281,7 +281,7 @@ fn where_the_rows_hold_all_steps_two_rules_that_agree_tell_the_error() {
 #[test]
 fn the_pilot_keeps_to_its_budget() {
     for seconds in [1e-3, 1e-2, 0.1, 1.0] {
-        let (_, fake) = chosen(|_: &Method| Nature { seconds, ..TAME }, 1e-6, None);
+        let (_, fake) = chosen(|_: &MethodCase| Nature { seconds, ..TAME }, 1e-6, None);
         let best = all().iter().map(|m| fake.needs(m, 1e-6)).fold(f64::INFINITY, f64::min);
         // the last trial may begin just before the end
         let most = BUDGET[0].max(1.5 * BUDGET[1] * best) * 1.5;
@@ -291,7 +291,7 @@ fn the_pilot_keeps_to_its_budget() {
 
 #[test]
 fn times_that_are_the_same_go_by_the_order_of_the_list() {
-    let nature = |m: &Method| match m.formulation {
+    let nature = |m: &MethodCase| match m.formulation {
         FormulationKind::Recursive => Nature { seconds: 1.0, ..TAME },
         _ if m.is_fixed() => Nature { seconds: 1e-3, error: 1e-4, ..TAME },
         _ => Nature { seconds: 1.0, ..TAME },
@@ -303,7 +303,7 @@ fn times_that_are_the_same_go_by_the_order_of_the_list() {
 #[test]
 fn a_deadline_gives_the_most_accurate_method_whose_slowest_step_leaves_time() {
     // frames of 10 ms: index-3 fits in with many steps, rk4 with 1, the others not at all
-    let nature = |m: &Method| match m.name().as_str() {
+    let nature = |m: &MethodCase| match m.name().as_str() {
         "index-3, f64" => Nature { seconds: 1e-2, error: 1e-2, ..TAME },
         "recursive rk4, f64" => Nature { seconds: 4e-1, error: 1e-1, ..TAME },
         _ => Nature { seconds: 1.0, error: 1e-6, ..TAME },
@@ -320,7 +320,7 @@ fn a_deadline_gives_the_most_accurate_method_whose_slowest_step_leaves_time() {
 #[test]
 fn an_error_that_nobody_reaches_gives_the_least_and_says_so() {
     // rounding at 1e-3: errors do not fall below
-    let nature = |m: &Method| Nature {
+    let nature = |m: &MethodCase| Nature {
         seconds: 1e-4,
         stops_below: 0.009,
         error: 1e-2,
@@ -335,10 +335,10 @@ fn an_error_that_nobody_reaches_gives_the_least_and_says_so() {
 }
 
 /// A bench whose index-3 is off by a constant: another model.
-struct Apart<F: Fn(&Method) -> Nature>(Fake<F>, f64);
+struct Apart<F: Fn(&MethodCase) -> Nature>(Fake<F>, f64);
 
-impl<F: Fn(&Method) -> Nature> Bench for Apart<F> {
-    fn trial(&mut self, method: &Method, setting: f64, aim: Aim, time: Time) -> Trial {
+impl<F: Fn(&MethodCase) -> Nature> Bench for Apart<F> {
+    fn trial(&mut self, method: &MethodCase, setting: f64, aim: Aim, time: Time) -> Trial {
         let mut trial = self.0.trial(method, setting, aim, time);
         if method.formulation == FormulationKind::Index3 {
             trial.rows.iter_mut().for_each(|row| row[0] += self.1);
@@ -357,9 +357,9 @@ impl<F: Fn(&Method) -> Nature> Bench for Apart<F> {
 
 #[test]
 fn a_look_from_the_other_coordinates_finds_two_models_that_differ() {
-    let nature = |_: &Method| Nature { seconds: 1e-4, error: 1e-5, ..TAME };
-    let relative = |m: &Method| m.formulation == FormulationKind::Recursive;
-    let methods: Vec<Method> = all().into_iter().filter(relative).collect();
+    let nature = |_: &MethodCase| Nature { seconds: 1e-4, error: 1e-5, ..TAME };
+    let relative = |m: &MethodCase| m.formulation == FormulationKind::Recursive;
+    let methods: Vec<MethodCase> = all().into_iter().filter(relative).collect();
     for (apart, differs) in [(0.0, false), (0.5, true)] {
         let mut bench = Apart(Fake::new(nature), apart);
         let wanted = Wanted { error: 1e-4, deadline: None };

@@ -1,6 +1,6 @@
 //! What the choice asks of a run, and what a run gives: the border between choosing, which is counted and compared, and running.
 
-use crate::compare::method::Method;
+use crate::compare::method::MethodCase;
 use mbs_scene::RunError;
 
 /// Outputs at the instants after the start.
@@ -77,7 +77,7 @@ pub(crate) enum End {
 /// Runs trials. Whoever chooses knows time by this only, so that a choice can be made on any clock.
 pub(crate) trait Bench {
     /// Runs the span with a setting, for no longer than is given.
-    fn trial(&mut self, method: &Method, setting: f64, aim: Aim, time: Time) -> Trial;
+    fn trial(&mut self, method: &MethodCase, setting: f64, aim: Aim, time: Time) -> Trial;
 
     /// Seconds since the pilot began, by the clock of the trials.
     fn spent(&mut self) -> f64;

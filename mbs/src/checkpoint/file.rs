@@ -4,7 +4,7 @@ use super::CheckpointError;
 use super::identity::Identity;
 use super::tape::{Eye, Pen, Tape, Told, holds};
 use crate::fingerprint::fingerprint;
-use crate::settings::{Overrides, Settings};
+use crate::settings::{Method, Settings};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use std::io::Read;
@@ -101,7 +101,7 @@ impl Checkpoint {
     pub fn settings<T: Real>(
         &self,
         scene: &Scene<T>,
-        given: &Overrides,
+        given: &Method,
     ) -> Result<Settings, CheckpointError> {
         let settings = Settings::new(scene, &self.overrides(given)?);
         self.settle(settings.map_err(CheckpointError::Settings)?)
@@ -112,7 +112,7 @@ impl Checkpoint {
     ///
     /// # Errors
     /// [`CheckpointError::Setting`] for what this run did not have.
-    pub fn overrides(&self, given: &Overrides) -> Result<Overrides, CheckpointError> {
+    pub fn overrides(&self, given: &Method) -> Result<Method, CheckpointError> {
         self.identity.overrides(given)
     }
 

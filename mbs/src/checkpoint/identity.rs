@@ -3,7 +3,7 @@
 use super::CheckpointError;
 use super::tape::{Tape, Told, holds};
 use crate::fingerprint::Fingerprint;
-use crate::settings::{Overrides, Settings};
+use crate::settings::{Method, Settings};
 use core::fmt::{Debug, Write};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
@@ -75,7 +75,7 @@ impl Identity {
     }
 
     /// The settings of a checkpoint where `given` says nothing else.
-    pub(super) fn overrides(&self, given: &Overrides) -> Result<Overrides, CheckpointError> {
+    pub(super) fn overrides(&self, given: &Method) -> Result<Method, CheckpointError> {
         let [formulation, integrator, precision, numbers @ ..] = &self.values;
         let [step, step_max, control, energy, error, events, alarm, rest @ ..] = numbers;
         let [duration, penalty, tolerance] = rest;
@@ -90,7 +90,7 @@ impl Identity {
             Some((u, l)) => [number(None, &u.to_owned())?, number(None, &l.to_owned())?],
             None => [None; 2],
         };
-        Ok(Overrides {
+        Ok(Method {
             formulation: if is_asked {
                 Some(formulation.clone())
             } else {

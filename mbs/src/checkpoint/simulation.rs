@@ -97,7 +97,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     ///
     /// # Examples
     /// ```
-    /// use mbs::{Overrides, Settings, Simulation, scene_file::SceneFile};
+    /// use mbs::{Method, Settings, scene_file::SceneFile};
+    /// use mbs::typed::Simulation;
     /// # let text = r#"
     /// # [scene]
     /// # dimension = 2
@@ -115,7 +116,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # at = [0.0, 0.0]
     /// # "#;
     /// let scene = SceneFile::parse(text, "pendulum.toml")?.scene::<f64>()?;
-    /// let settings = Settings::new(&scene, &Overrides::default())?;
+    /// let settings = Settings::new(&scene, &Method::default())?;
     /// let mut first = Simulation::<f64, 2>::new(&scene, &settings)?;
     /// first.step(1e-3)?;
     /// let mut bytes = Vec::new();

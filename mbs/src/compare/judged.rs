@@ -5,7 +5,7 @@ use super::store::Store;
 use super::{CompareError, Study, Watch};
 use crate::auto::{Goal, Pick, Pilot, Processor, Task, methods};
 use crate::precision::in_space;
-use crate::settings::{Overrides, Settings};
+use crate::settings::{Method, Settings};
 use mbs_scene::compare::{Comparison, JudgedChoice, MethodRuns, Status};
 
 /// A chosen run is timed so often.
@@ -45,11 +45,11 @@ impl Study<'_> {
         let scene = &self.scenes.double;
         let instants = super::Instants { count: known.rows.len(), ..self.instants };
         let duration = Some(instants.time(instants.count));
-        let base = Overrides {
+        let base = Method {
             formulation: Some("auto".into()),
             duration,
             interrupt: self.request.interrupt.clone(),
-            ..Overrides::default()
+            ..Method::default()
         };
         let Ok(settings) = Settings::new(scene, &base) else { return judged };
         let goal = Goal { error: Some(error), deadline: None };

@@ -6,7 +6,7 @@ use super::pass::Scenes;
 use super::reference::Known;
 use crate::choice::Precision;
 use crate::methods::FormulationKind;
-use crate::settings::{Overrides, Settings};
+use crate::settings::{Method, Settings};
 use mbs_scene::compare::{Cell, ConvergenceMap, Status};
 
 /// Penalties.
@@ -99,7 +99,7 @@ impl Plan {
         most: f64,
     ) -> Cell {
         let step = self.instants.interval / float(between);
-        let overrides = Overrides {
+        let overrides = Method {
             formulation: Some(formulation.name().to_owned()),
             integrator: Some("trapezoidal".to_owned()),
             precision: Some(precision.name().to_owned()),
@@ -107,7 +107,7 @@ impl Plan {
             step_max: Some(step),
             step_control: Some("fixed".to_owned()),
             penalty: Some(penalty),
-            ..Overrides::default()
+            ..Method::default()
         };
         let Ok(settings) = Settings::new(&scenes.double, &overrides) else {
             return Cell { failure: "settings-refused".to_owned(), ..Cell::default() };

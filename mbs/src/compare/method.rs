@@ -2,7 +2,7 @@
 
 use crate::choice::{IntegratorKind, Precision};
 use crate::methods::FormulationKind;
-use crate::settings::Overrides;
+use crate::settings::Method;
 
 /// What chooses the length of the steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,7 +19,7 @@ pub(crate) enum Control {
 
 /// A method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Method {
+pub(crate) struct MethodCase {
     pub(crate) formulation: FormulationKind,
     pub(crate) integrator: IntegratorKind,
     pub(crate) control: Control,
@@ -48,7 +48,7 @@ fn ways(formulation: FormulationKind) -> Vec<(IntegratorKind, Control)> {
     ways
 }
 
-impl Method {
+impl MethodCase {
     /// All that are wanted, by precision; none given means all of that kind.
     pub(crate) fn all(formulations: &[FormulationKind], precisions: &[Precision]) -> Vec<Self> {
         let mut methods = Vec::new();
@@ -122,14 +122,14 @@ impl Method {
     }
 
     /// What a run of it is asked for, between instants `interval` apart, and first (or all) steps of `step` [s].
-    pub(crate) fn overrides(&self, setting: f64, step: f64, interval: f64) -> Overrides {
+    pub(crate) fn overrides(&self, setting: f64, step: f64, interval: f64) -> Method {
         let control = match self.control {
             Control::Fixed | Control::Own => "fixed",
             Control::Error => "error",
             Control::Energy => "energy",
         };
         let longest = if self.is_fixed() { step } else { interval };
-        Overrides {
+        Method {
             formulation: Some(self.formulation.name().to_owned()),
             integrator: Some(self.integrator.name().to_owned()),
             precision: Some(self.precision.name().to_owned()),
@@ -140,7 +140,7 @@ impl Method {
             energy_tolerance: (self.control == Control::Energy)
                 .then_some([setting, setting / 100.0]),
             tolerance: (self.control == Control::Own).then_some(setting),
-            ..Overrides::default()
+            ..Method::default()
         }
     }
 }
@@ -151,14 +151,14 @@ mod tests {
 
     #[test]
     fn every_formulation_is_compared_and_names_are_unique() {
-        let methods = Method::all(&[], &[]);
+        let methods = MethodCase::all(&[], &[]);
         for formulation in FormulationKind::ALL {
             assert!(methods.iter().any(|m| m.formulation == formulation), "{formulation:?}");
         }
-        let mut names: Vec<String> = methods.iter().map(Method::name).collect();
+        let mut names: Vec<String> = methods.iter().map(MethodCase::name).collect();
         names.sort();
         names.dedup();
         assert_eq!(names.len(), methods.len());
-        assert_eq!(Method::all(&[FormulationKind::Classical], &[Precision::F64]).len(), 2);
+        assert_eq!(MethodCase::all(&[FormulationKind::Classical], &[Precision::F64]).len(), 2);
     }
 }

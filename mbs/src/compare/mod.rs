@@ -36,7 +36,7 @@ use mbs_core::cluster::scene_length;
 use mbs_core::scene::Scene;
 use mbs_scene::compare::{Cell, Comparison, ConvergenceMap};
 use mbs_scene::{Channel, SceneFile, format::significant};
-use method::Method;
+use method::MethodCase;
 use pass::Scenes;
 use reference::Known;
 use std::path::Path;
@@ -94,7 +94,7 @@ impl Request {
     /// Precisions that the comparison runs in: those of its methods, and pairs of doubles where runs are the reference.
     #[must_use]
     pub fn needed_precisions(&self, has_table: bool) -> Vec<Precision> {
-        let mut needed: Vec<_> = Method::all(&self.formulations, &self.precisions)
+        let mut needed: Vec<_> = MethodCase::all(&self.formulations, &self.precisions)
             .iter()
             .map(|method| method.precision)
             .chain([if has_table { Precision::F64 } else { Precision::DoubleDouble }])
@@ -154,7 +154,7 @@ struct Study<'a> {
     scenes: &'a Scenes,
     request: &'a Request,
     channels: Vec<Channel>,
-    methods: Vec<Method>,
+    methods: Vec<MethodCase>,
     steps: Vec<f64>,
     tolerances: Vec<f64>,
     /// The scene's own step [s].
@@ -256,7 +256,7 @@ impl<'a> Study<'a> {
         let scene = &scenes.double;
         let duration = request.duration.unwrap_or(scene.duration);
         let of_scene = scene.solver.step.unwrap_or(DEFAULT_STEP).min(duration);
-        let methods = Method::all(&request.formulations, &request.precisions);
+        let methods = MethodCase::all(&request.formulations, &request.precisions);
         let steps = ladder::steps(&request.steps, of_scene, duration);
         let instants = Instants::new(duration, &steps);
         // a recorded run, the repeats, and about as many where the ranking is decided; the settings before the last take about as

@@ -2,7 +2,7 @@
 
 use super::drive::Signal;
 use super::ladder::Instants;
-use super::method::Method;
+use super::method::MethodCase;
 use super::reference::Known;
 use super::store::Store;
 use super::{CompareError, Study, Watch};
@@ -65,7 +65,7 @@ impl Study<'_> {
     /// A run, or why it is not made.
     fn one(
         &self,
-        method: &Method,
+        method: &MethodCase,
         setting: f64,
         known: &Known,
         (refined, store): (&mut Refined, &mut Store),
@@ -93,7 +93,7 @@ impl Study<'_> {
     }
 
     /// Why a setting is not run: by the work of the one before, and in the last resort by its CPU time.
-    fn too_long(&self, method: &Method, setting: f64, refined: &Refined) -> Option<String> {
+    fn too_long(&self, method: &MethodCase, setting: f64, refined: &Refined) -> Option<String> {
         if refined.no_better >= NO_BETTER {
             return Some(format!("{NO_BETTER} finer settings in a row were no better"));
         }
@@ -110,7 +110,7 @@ impl Study<'_> {
         (is_long || is_much).then(|| would(seconds))
     }
 
-    fn recorded(&self, method: &Method, setting: f64, known: &Known) -> Value {
+    fn recorded(&self, method: &MethodCase, setting: f64, known: &Known) -> Value {
         let (settings, course) = match self.course(method, setting, known) {
             Ok(both) => both,
             Err(text) => {
@@ -140,7 +140,7 @@ impl Study<'_> {
     /// Settings and course of a run over what is compared.
     pub(super) fn course(
         &self,
-        method: &Method,
+        method: &MethodCase,
         setting: f64,
         known: &Known,
     ) -> Result<(crate::Settings, Signal), String> {

@@ -1,7 +1,7 @@
 //! Makes the reference: by candidates, the best first.
 
 use super::ladder::count;
-use super::method::{Control, Method};
+use super::method::{Control, MethodCase};
 use super::reference::{Known, Pair, Rows};
 use super::store::Store;
 use super::{CompareError, Study, drive::Signal, table};
@@ -88,7 +88,7 @@ impl Study<'_> {
         store: &mut Store,
         why: &mut String,
     ) -> Result<Option<Pair>, CompareError> {
-        let method = Method {
+        let method = MethodCase {
             formulation: FormulationKind::RELATIVE,
             integrator,
             control: Control::Own,
@@ -114,7 +114,7 @@ impl Study<'_> {
         store: &mut Store,
         why: &mut String,
     ) -> Result<Option<Pair>, CompareError> {
-        let method = Method {
+        let method = MethodCase {
             formulation,
             integrator: IntegratorKind::Trapezoidal,
             control: Control::Fixed,
@@ -148,7 +148,7 @@ impl Study<'_> {
     /// The rows of a run that goes to the end.
     fn reference_run(
         &self,
-        method: &Method,
+        method: &MethodCase,
         (setting, patience): (f64, f64),
         store: &mut Store,
         why: &mut String,
@@ -164,7 +164,7 @@ impl Study<'_> {
         Ok(serde_json::from_value::<Rows>(rows).ok())
     }
 
-    fn reference_value(&self, method: &Method, setting: f64, patience: f64) -> Value {
+    fn reference_value(&self, method: &MethodCase, setting: f64, patience: f64) -> Value {
         let step = if method.is_fixed() { setting } else { self.of_scene };
         let settings = match self.settings(method, setting, step) {
             Ok(settings) => settings,
@@ -185,7 +185,7 @@ impl Study<'_> {
     /// The settings of a run, over the whole duration.
     pub(super) fn settings(
         &self,
-        method: &Method,
+        method: &MethodCase,
         setting: f64,
         step: f64,
     ) -> Result<Settings, String> {

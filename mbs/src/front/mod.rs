@@ -1,15 +1,34 @@
 //! The front door: a mechanism as a list of named parts, in code or from a file.
 
+mod clock;
 mod error;
+mod failure;
+mod inner;
+mod inputs;
 mod mechanism;
 mod part;
+mod read;
+mod readings;
+mod simulate;
+mod simulation;
+mod study;
+mod table;
 #[cfg(test)]
 mod tests;
-pub mod tree;
+pub(crate) mod tree;
+mod values;
 
 pub use error::{Error, PathError, SceneError, UnknownName};
+pub use failure::SimulationError;
+pub use inputs::{InputId, InputInfo, InputOwner};
 pub use mechanism::Mechanism;
 pub use part::{Id, Part};
+pub use simulation::{Simulation, Snapshot};
+pub use study::{EquilibriumOptions, Run, RunResult, equilibrium, modes, run};
+pub use table::Table;
+pub use values::{
+    BodyMotion, Components, Coordinates, Energies, PointMotion, Pose, Sizes, StepReport, Wrench,
+};
 
 use mbs_core::scene;
 use mbs_core::scene::Number;

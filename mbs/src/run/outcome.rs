@@ -60,6 +60,11 @@ impl Outcome {
         &self.table
     }
 
+    /// The channels of the rows.
+    pub(crate) fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
     /// Takes an estimate of the errors; warnings become notes.
     pub(crate) fn take_estimate(&mut self, estimate: ErrorEstimate) {
         self.record.notes.extend(estimate.warnings.iter().cloned());

@@ -2,7 +2,7 @@
 
 use super::{Settings, SettingsError};
 use crate::choice::{IntegratorKind, StepRule};
-use crate::settings::Overrides;
+use crate::settings::Method;
 use mbs_core::scene::Scene;
 use mbs_scene::{MethodChoice, format::significant};
 
@@ -34,11 +34,7 @@ impl Settings {
     ///
     /// # Errors
     /// [`SettingsError::StepTooLong`].
-    pub fn check_step<T>(
-        &self,
-        scene: &Scene<T>,
-        overrides: &Overrides,
-    ) -> Result<(), SettingsError> {
+    pub fn check_step<T>(&self, scene: &Scene<T>, overrides: &Method) -> Result<(), SettingsError> {
         let is_asked = overrides.step.is_some() || scene.solver.step.is_some();
         let (step, duration) = (self.step, self.duration);
         if is_asked && !is_controlled(self.integrator, self.rule) && is_too_long(step, duration) {

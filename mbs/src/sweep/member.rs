@@ -3,7 +3,7 @@
 use crate::precision::{ReadScene, Work};
 use crate::recorder::Keep;
 use crate::run::{Outcome, run_keeping};
-use crate::settings::{Overrides, Settings};
+use crate::settings::{Method, Settings};
 use crate::tree::{InSpace, Plane};
 use core::time::Duration;
 use cpu_time::ThreadTime;
@@ -50,7 +50,7 @@ impl Row {
 }
 
 /// Runs a member.
-pub(super) fn run(scene: &SceneFile, sweep: &Sweep, overrides: &Overrides, member: usize) -> Row {
+pub(super) fn run(scene: &SceneFile, sweep: &Sweep, overrides: &Method, member: usize) -> Row {
     let cpu = ThreadTime::try_now();
     let document = sweep.member(scene, member);
     let values = sweep.values(member).map(str::to_owned).collect();
@@ -59,7 +59,7 @@ pub(super) fn run(scene: &SceneFile, sweep: &Sweep, overrides: &Overrides, membe
     Row { cpu_seconds: cpu.as_secs_f64(), ..row }
 }
 
-fn run_in(document: &SceneFile, overrides: &Overrides, member: usize, values: Vec<String>) -> Row {
+fn run_in(document: &SceneFile, overrides: &Method, member: usize, values: Vec<String>) -> Row {
     let refused = |values, code, error: &dyn core::fmt::Display| {
         Row::failed(member, values, code, &error.to_string())
     };

@@ -17,7 +17,7 @@ pub use table::{Columns, Failures};
 use crate::choice::Precision;
 use crate::folder::{PART, WriteError, write_whole};
 use crate::journal::{Head, Journal, Kind};
-use crate::settings::{Overrides, Settings, SettingsError};
+use crate::settings::{Method, Settings, SettingsError};
 use core::fmt::{self, Display, Formatter};
 use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
@@ -41,7 +41,7 @@ const KIND: Kind = Kind {
 pub struct Study {
     scene: SceneFile,
     sweep: Sweep,
-    overrides: Overrides,
+    overrides: Method,
     settings: Settings,
     columns: Columns,
     head: Head,
@@ -109,7 +109,7 @@ pub trait Watch {
 impl Watch for () {}
 
 /// Numbers that callers may override, with their paths in a scene.
-type Given = (&'static str, fn(&Overrides) -> bool);
+type Given = (&'static str, fn(&Method) -> bool);
 const GIVEN: [Given; 7] = [
     ("solver.step", |o| o.step.is_some()),
     ("solver.step_max", |o| o.step_max.is_some()),
@@ -130,7 +130,7 @@ impl Study {
     pub fn new(
         scene: SceneFile,
         sweep: &SceneFile,
-        overrides: &Overrides,
+        overrides: &Method,
     ) -> Result<Self, StudyError> {
         let data = scene.scene::<f64>().map_err(StudyError::Read)?;
         let settings = Settings::new(&data, overrides).map_err(StudyError::Settings)?;

@@ -27,7 +27,7 @@ const SWEEP: &str = "[[vary]]\npath = 'body.bob.mass'\nfrom = 1\nto = 6\ncount =
 fn study() -> Study {
     let scene = SceneFile::parse(SCENE, "scene.toml").expect("TOML");
     let sweep = SceneFile::parse(SWEEP, "sweep.toml").expect("TOML");
-    Study::new(scene, &sweep, &Overrides::default()).expect("a good sweep")
+    Study::new(scene, &sweep, &Method::default()).expect("a good sweep")
 }
 
 /// A member that was completed.

@@ -36,7 +36,8 @@ const END_F: [f64; 2] = [-0.006_963_039_427_046_851_51, -0.000_718_388_430_719_1
 /// Errors of the angles, then of the point F, at the end of a run.
 fn errors(formulation: &str, step: f64) -> [f64; 8] {
     let scene = scene("andrews");
-    let outcome = mbs::run::<f64, 2>(&scene, &settings(&scene, formulation, Some(step)), &mut ());
+    let outcome =
+        mbs::typed::run::<f64, 2>(&scene, &settings(&scene, formulation, Some(step)), &mut ());
     assert!(outcome.error.is_none(), "{formulation} {step}: {:?}", outcome.error);
     assert_eq!(scene.outputs.len(), 8, "seven angles and a point");
     for (output, name) in scene.outputs.iter().zip(ANGLES) {
@@ -83,7 +84,7 @@ fn andrews_keeps_its_energy_with_order_2_and_its_symmetry() {
     for formulation in FORMULATIONS {
         let energy = [1e-4, 1e-5, 1e-6].map(|step| {
             let settings = settings(&scene, formulation, Some(step));
-            let outcome = mbs::run::<f64, 2>(&scene, &settings, &mut ());
+            let outcome = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
             assert!(outcome.error.is_none(), "{formulation} {step}: {:?}", outcome.error);
             // omega = -phi: channels are changes from starts that have the same symmetry.
             let mut asymmetry = 0.0;
@@ -114,7 +115,7 @@ fn every_formulation_ends_at_the_reference_and_loses_energy_with_order_2() {
     {
         let energy = [1e-4, 1e-5, 1e-6].map(|step| {
             let settings = settings(&scene, formulation, Some(step));
-            let outcome = mbs::run::<f64, 2>(&scene, &settings, &mut ());
+            let outcome = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
             assert!(outcome.error.is_none(), "{formulation} {step}: {:?}", outcome.error);
             outcome.summary.energy.max_error
         });

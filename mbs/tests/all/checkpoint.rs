@@ -4,9 +4,10 @@ use crate::common::files::{scratch, without_clocks};
 use crate::common::{path, scene};
 use mbs::core::scene::{BodyId, BodyTorque, Dimension, Effect, EffectKind, Motion, Scene, Signal};
 use mbs::scene_file::{Provenance, SceneFile};
+use mbs::typed::Simulation;
 use mbs::{
-    CHECKPOINT, Checkpoint, FormulationKind, InSpace, Keeping, Outcome, Overrides, Plane, Settings,
-    Simulation, run_document, run_document_kept,
+    CHECKPOINT, Checkpoint, FormulationKind, InSpace, Keeping, Method, Outcome, Plane, Settings,
+    run_document, run_document_kept,
 };
 
 mod bytes;
@@ -38,7 +39,7 @@ fn same(a: &[String; 4], b: &[String; 4], what: &str) {
 }
 
 /// Runs a scene in one go, kept, and from each of its checkpoints; gives the outcome of the first.
-fn split(name: &str, overrides: &Overrides, every: f64) -> Outcome {
+fn split(name: &str, overrides: &Method, every: f64) -> Outcome {
     let document = std::fs::read(path(name)).expect("the scene is in the repository");
     let document = SceneFile::from_bytes(&document, name).expect("TOML");
     let scene = document.scene::<f64>().expect("a scene");
@@ -63,7 +64,7 @@ fn split(name: &str, overrides: &Overrides, every: f64) -> Outcome {
 
     for bytes in &kept {
         let checkpoint = Checkpoint::read(&bytes[..]).expect("it is whole");
-        let settings = checkpoint.settings(&scene, &Overrides::default()).expect("they agree");
+        let settings = checkpoint.settings(&scene, &Method::default()).expect("they agree");
         let parts = (Some(&checkpoint), None);
         let outcome = run_document_kept(both, &settings, &mut |_| {}, parts);
         let outcome = outcome.expect("a scene").unwrap_or_else(|e| panic!("{what}: {e}"));
@@ -73,9 +74,9 @@ fn split(name: &str, overrides: &Overrides, every: f64) -> Outcome {
     whole
 }
 
-fn with(formulation: &str, duration: f64) -> Overrides {
+fn with(formulation: &str, duration: f64) -> Method {
     let formulation = Some(formulation.to_owned());
-    Overrides { formulation, duration: Some(duration), ..Overrides::default() }
+    Method { formulation, duration: Some(duration), ..Method::default() }
 }
 
 #[test]
@@ -95,7 +96,7 @@ fn every_formulation_goes_on_to_the_same_bits() {
             let is_redundant =
                 formulation == FormulationKind::Classical && name == "spatial-four-bar";
             let penalty = is_redundant.then_some(1e10);
-            split(name, &Overrides { step: Some(step), penalty, ..overrides }, 0.21);
+            split(name, &Method { step: Some(step), penalty, ..overrides }, 0.21);
         }
     }
 }
@@ -109,7 +110,7 @@ fn every_integrator_goes_on_to_the_same_bits() {
         for name in ["double-pendulum", "spatial-four-bar", "iltis-suspension"] {
             let overrides = with(formulation, 0.5);
             let integrator = Some(integrator.to_owned());
-            split(name, &Overrides { integrator, step: Some(1e-3), ..overrides }, 0.12);
+            split(name, &Method { integrator, step: Some(1e-3), ..overrides }, 0.12);
         }
     }
 }
@@ -120,10 +121,10 @@ fn every_precision_goes_on_to_the_same_bits() {
         for formulation in FormulationKind::ALL {
             let overrides = with(formulation.name(), 0.2);
             let precision = Some(precision.to_owned());
-            split("double-pendulum", &Overrides { precision, ..overrides }, 0.05);
+            split("double-pendulum", &Method { precision, ..overrides }, 0.05);
         }
         let (precision, integrator) = (Some(precision.to_owned()), Some("gbs".to_owned()));
-        let overrides = Overrides { precision, integrator, ..with("recursive", 0.2) };
+        let overrides = Method { precision, integrator, ..with("recursive", 0.2) };
         split("double-pendulum", &overrides, 0.05);
     }
 }
@@ -132,7 +133,7 @@ fn every_precision_goes_on_to_the_same_bits() {
 fn steps_of_controlled_length_go_on_to_the_same_bits() {
     for formulation in FormulationKind::ALL {
         for rule in ["energy", "energy-printed", "error", "both"] {
-            let overrides = Overrides {
+            let overrides = Method {
                 step_control: Some(rule.to_owned()),
                 step: Some(1e-3),
                 step_max: Some(2e-2),
@@ -149,7 +150,7 @@ fn steps_of_controlled_length_go_on_to_the_same_bits() {
 fn contacts_go_on_to_the_same_bits() {
     for formulation in ["multi-index", "index-1", "recursive"] {
         for rule in ["fixed", "both"] {
-            let overrides = Overrides {
+            let overrides = Method {
                 step_control: Some(rule.to_owned()).filter(|_| formulation != "multi-index"),
                 step: Some(1e-3),
                 step_max: Some(5e-3),
@@ -163,7 +164,7 @@ fn contacts_go_on_to_the_same_bits() {
 
 #[test]
 fn changes_of_index_go_on_to_the_same_bits() {
-    let overrides = Overrides {
+    let overrides = Method {
         energy_tolerance: Some([1e-8, 1e-10]),
         step: Some(1e-4),
         step_max: Some(1e-2),
@@ -177,9 +178,9 @@ fn changes_of_index_go_on_to_the_same_bits() {
 #[test]
 fn what_is_thinned_goes_on_to_the_same_bits() {
     // 30,000 steps of which every third is a row; and some 30,000 steps of lengths that are not known before
-    let fixed = Overrides { step: Some(1e-4), ..with("index-3", 3.0) };
+    let fixed = Method { step: Some(1e-4), ..with("index-3", 3.0) };
     assert_eq!(split("double-pendulum", &fixed, 0.7501).summary.steps, 30_000);
-    let controlled = Overrides {
+    let controlled = Method {
         step_control: Some("error".to_owned()),
         error_tolerance: Some(1e-12),
         step_max: Some(1e-2),
@@ -193,7 +194,7 @@ fn what_is_thinned_goes_on_to_the_same_bits() {
 #[test]
 fn a_run_that_stops_goes_on_to_the_same_stop() {
     // long steps of the double pendulum: the invariant is off by too much of what was turned over, ten times in a row
-    let alarm = Overrides { energy_alarm: Some(1e-3), step: Some(1e-2), ..with("index-3", 10.0) };
+    let alarm = Method { energy_alarm: Some(1e-3), step: Some(1e-2), ..with("index-3", 10.0) };
     let outcome = split("double-pendulum", &alarm, 0.13);
     let stop = outcome.summary.error.expect("it stops");
     assert!(stop.time > 0.5 && stop.time < 9.0, "{stop:?}");

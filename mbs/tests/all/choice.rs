@@ -3,7 +3,7 @@
 use super::common::CountedClock;
 use mbs::auto::{Goal, Plan, plan, run_plan};
 use mbs::scene_file::SceneFile;
-use mbs::{Overrides, Settings};
+use mbs::{Method, Settings};
 use mbs_core::scene::Scene;
 
 fn file(name: &str) -> String {
@@ -17,7 +17,7 @@ fn read(name: &str) -> (SceneFile, Scene<f64>) {
     (document, scene)
 }
 
-fn planned(name: &str, base: &Overrides, goal: Goal) -> Plan {
+fn planned(name: &str, base: &Method, goal: Goal) -> Plan {
     let (document, scene) = read(name);
     let settings = Settings::new(&scene, base).expect("the settings go together");
     plan((&document, &scene), (base, settings), goal, &mut CountedClock::default())
@@ -31,7 +31,7 @@ fn error(e: f64) -> Goal {
 #[test]
 fn on_a_clock_that_counts_work_a_choice_is_the_same_every_time() {
     for name in ["double-pendulum", "slider-crank", "hammer-blow"] {
-        let base = Overrides { formulation: Some("auto".into()), ..Overrides::default() };
+        let base = Method { formulation: Some("auto".into()), ..Method::default() };
         let plans = [0, 1].map(|_| planned(name, &base, error(1e-3)));
         assert_eq!(plans[0], plans[1], "{name}");
         let choice = plans[0].first().choice.as_ref().unwrap();
@@ -47,7 +47,7 @@ fn the_wanted_error_is_kept_on_the_pendulum_against_its_closed_form() {
         table.lines().last().unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
     for wanted in [1e-2, 1e-4, 1e-6] {
         let (document, scene) = read("simple-pendulum");
-        let base = Overrides::default();
+        let base = Method::default();
         let settings = Settings::new(&scene, &base).unwrap();
         let clock = &mut CountedClock::default();
         let plan = plan((&document, &scene), (&base, settings), error(wanted), clock).unwrap();
@@ -67,7 +67,7 @@ fn the_wanted_error_is_kept_on_the_pendulum_against_its_closed_form() {
 
 #[test]
 fn structure_leaves_out_what_cannot_run_and_says_why() {
-    let plan = planned("spatial-four-bar", &Overrides::default(), error(1e-2));
+    let plan = planned("spatial-four-bar", &Method::default(), error(1e-2));
     let choice = plan.first().choice.clone().unwrap();
     let classical = choice.candidates.iter().filter(|c| c.formulation == "classical");
     for candidate in classical {
@@ -79,11 +79,11 @@ fn structure_leaves_out_what_cannot_run_and_says_why() {
 
 #[test]
 fn a_formulation_that_is_asked_for_is_kept_and_the_rest_is_chosen() {
-    let base = Overrides { formulation: Some("recursive".into()), ..Overrides::default() };
+    let base = Method { formulation: Some("recursive".into()), ..Method::default() };
     let plan = planned("double-pendulum", &base, error(1e-3));
     assert!(plan.ranked.iter().all(|s| s.formulation == mbs::FormulationKind::Recursive));
     assert_eq!(plan.first().asked, "recursive");
-    let base = Overrides { integrator: Some("hht".into()), ..Overrides::default() };
+    let base = Method { integrator: Some("hht".into()), ..Method::default() };
     let plan = planned("quarter-car", &base, error(1e-2));
     assert!(plan.ranked.iter().all(|s| s.integrator == mbs::IntegratorKind::Hht));
 }
@@ -92,11 +92,11 @@ fn a_formulation_that_is_asked_for_is_kept_and_the_rest_is_chosen() {
 fn where_the_first_stops_the_next_runs_and_the_choice_says_so() {
     // relative coordinates at small steps stop at the four-bar's singular position, index-3 passes it
     let (document, scene) = read("four-bar");
-    let base = Overrides::default();
+    let base = Method::default();
     let settings = Settings::new(&scene, &base).unwrap();
     let of = |formulation: &str| {
         let overrides =
-            Overrides { formulation: Some(formulation.into()), step: Some(1e-3), ..base.clone() };
+            Method { formulation: Some(formulation.into()), step: Some(1e-3), ..base.clone() };
         let choice = plan(
             (&document, &scene),
             (&base, settings.clone()),
@@ -121,7 +121,7 @@ fn where_the_first_stops_the_next_runs_and_the_choice_says_so() {
 #[test]
 fn with_a_deadline_a_frame_is_a_whole_number_of_steps() {
     let goal = Goal { error: None, deadline: Some(0.01) };
-    let plan = planned("quarter-car", &Overrides::default(), goal);
+    let plan = planned("quarter-car", &Method::default(), goal);
     for settings in &plan.ranked {
         let steps = 0.01 / settings.step;
         assert!((steps - steps.round()).abs() < 1e-9 && steps >= 1.0, "{steps}");
@@ -132,7 +132,7 @@ fn with_a_deadline_a_frame_is_a_whole_number_of_steps() {
 
 #[test]
 fn without_a_goal_nothing_is_measured_and_auto_is_index_3() {
-    let plan = planned("double-pendulum", &Overrides::default(), Goal::default());
+    let plan = planned("double-pendulum", &Method::default(), Goal::default());
     assert_eq!((plan.ranked.len(), plan.first().formulation), (1, mbs::FormulationKind::Index3));
     assert!(plan.first().choice.is_none());
     assert!(plan.first().chosen().unwrap().evidence.is_none());

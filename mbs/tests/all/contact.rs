@@ -12,7 +12,7 @@ use crate::common::Bench;
 use mbs::core::outputs::Contacts;
 use mbs::core::scene::{Dimension, EffectKind, JointId, Limit, Scene};
 use mbs::scene_file::SceneFile;
-use mbs::{Outcome, Overrides, Settings};
+use mbs::{Method, Outcome, Settings};
 
 /// Formulations whose rule is the trapezoidal one.
 const FORMULATIONS: [&str; 4] = ["index-3", "classical", "state-space", "recursive"];
@@ -174,20 +174,16 @@ impl Bounce {
 
     fn run(&self, formulation: &str, step: f64) -> Outcome {
         // Below the errors of the rule at the smallest step.
-        self.run_with(
-            formulation,
-            step,
-            Overrides { tolerance: Some(1e-13), ..Overrides::default() },
-        )
+        self.run_with(formulation, step, Method { tolerance: Some(1e-13), ..Method::default() })
     }
 
-    fn run_with(&self, formulation: &str, step: f64, overrides: Overrides) -> Outcome {
+    fn run_with(&self, formulation: &str, step: f64, overrides: Method) -> Outcome {
         let overrides =
-            Overrides { formulation: Some(formulation.to_owned()), step: Some(step), ..overrides };
+            Method { formulation: Some(formulation.to_owned()), step: Some(step), ..overrides };
         let settings = Settings::new(&self.scene, &overrides).expect("the settings are built");
         let outcome = match self.scene.dimension {
-            Dimension::Planar => mbs::run::<f64, 2>(&self.scene, &settings, &mut ()),
-            Dimension::Spatial => mbs::run::<f64, 3>(&self.scene, &settings, &mut ()),
+            Dimension::Planar => mbs::typed::run::<f64, 2>(&self.scene, &settings, &mut ()),
+            Dimension::Spatial => mbs::typed::run::<f64, 3>(&self.scene, &settings, &mut ()),
         };
         assert!(outcome.error.is_none(), "{formulation} {step}: {:?}", outcome.error);
         outcome
@@ -297,7 +293,7 @@ fn a_damper_that_fades_in_within_a_step_gives_its_impulse_where_steps_end_at_eve
     for rate in [-0.35, -0.7, -0.95, -1.3, -2.1, -5.0] {
         let bounce = bumper(0.0, [0.05, rate], damping);
         let right = bounce.run("index-3", 1e-5);
-        let landed = bounce.run_with("multi-index", step, Overrides::default());
+        let landed = bounce.run_with("multi-index", step, Method::default());
         let velocity = |outcome: &Outcome| outcome.rows().last().map(|(_, row)| row[3]);
         let error = (velocity(&landed).unwrap() - velocity(&right).unwrap()).abs();
         // A force that is there at once, and counted in one end of a step only, is off by half of its impulse in that step.
@@ -374,7 +370,7 @@ fn a_wheel_goes_through_standstill_on_a_path_that_does_not_depend_on_the_step() 
     for formulation in FORMULATIONS {
         let run = |step: f64| {
             let settings = common::settings(&scene, formulation, Some(step));
-            let outcome = mbs::run::<f64, 3>(&scene, &settings, &mut ());
+            let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
             assert!(outcome.error.is_none(), "{formulation} {step}: {:?}", outcome.error);
             let rows = outcome.rows();
             assert!(rows[0].1[6] > 0.5 && rows[rows.len() - 1].1[6] < -0.1, "it turns back");

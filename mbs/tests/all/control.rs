@@ -7,34 +7,34 @@ mod starts;
 
 use crate::common::scene;
 use mbs::core::scene::{Dimension, Quantity, Scene};
-use mbs::{Outcome, Overrides, Settings};
+use mbs::{Method, Outcome, Settings};
 
 /// Runs a scene; what is left out is the scene's.
-fn run(scene: &Scene<f64>, overrides: &Overrides) -> Outcome {
+fn run(scene: &Scene<f64>, overrides: &Method) -> Outcome {
     let settings = Settings::new(scene, overrides).expect("the settings are built");
     match scene.dimension {
-        Dimension::Planar => mbs::run::<f64, 2>(scene, &settings, &mut ()),
-        Dimension::Spatial => mbs::run::<f64, 3>(scene, &settings, &mut ()),
+        Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
+        Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, &settings, &mut ()),
     }
 }
 
-fn completed(scene: &Scene<f64>, overrides: &Overrides) -> Outcome {
+fn completed(scene: &Scene<f64>, overrides: &Method) -> Outcome {
     let outcome = run(scene, overrides);
     assert!(outcome.summary.completed, "{} {overrides:?}: {:?}", scene.name, outcome.summary.error);
     outcome
 }
 
-fn with(formulation: &str) -> Overrides {
-    Overrides { formulation: Some(formulation.to_owned()), ..Overrides::default() }
+fn with(formulation: &str) -> Method {
+    Method { formulation: Some(formulation.to_owned()), ..Method::default() }
 }
 
-fn fixed(formulation: &str, step: f64) -> Overrides {
+fn fixed(formulation: &str, step: f64) -> Method {
     let step_control = Some("fixed".to_owned());
-    Overrides { step: Some(step), step_control, ..with(formulation) }
+    Method { step: Some(step), step_control, ..with(formulation) }
 }
 
-fn multi_index(limits: [f64; 2], (step, step_max): (f64, f64)) -> Overrides {
-    Overrides {
+fn multi_index(limits: [f64; 2], (step, step_max): (f64, f64)) -> Method {
+    Method {
         step: Some(step),
         step_max: Some(step_max),
         energy_tolerance: Some(limits),
@@ -149,7 +149,7 @@ fn hammer(angle: f64) -> f64 {
 #[test]
 fn a_blow_in_a_calm_motion_costs_a_tenth_of_the_fixed_step_that_works_everywhere() {
     let scene = scene("hammer-blow");
-    let to = |overrides: Overrides| Overrides { duration: Some(7.5), ..overrides };
+    let to = |overrides: Method| Method { duration: Some(7.5), ..overrides };
     let exact = hammer(0.8);
     let error = |outcome: &Outcome| (output(outcome, "angle")[0] - exact).abs();
     let multi = completed(&scene, &to(with("multi-index")));
@@ -202,7 +202,7 @@ fn reference((name, end, names, digits): Reference) -> Vec<f64> {
     if let Some(digits) = digits {
         return digits.to_vec();
     }
-    let overrides = Overrides {
+    let overrides = Method {
         duration: Some(end),
         integrator: Some("rk54".to_owned()),
         tolerance: Some(1e-13),
@@ -218,7 +218,7 @@ fn true_errors_fall_with_the_tolerance_of_the_estimate_over_four_decades() {
         let (name, end, names, _) = of;
         let (scene, exact) = (scene(name), reference(of));
         let error = |k: i32| {
-            let overrides = Overrides {
+            let overrides = Method {
                 duration: Some(end),
                 step: Some(end / 1000.0),
                 step_max: Some(end / 50.0),
@@ -244,7 +244,7 @@ fn every_formulation_takes_controlled_steps_and_tighter_tolerances_give_better_a
     for formulation in &mbs::FORMULATIONS[1..] {
         for rule in &mbs::STEP_RULES[1..] {
             let error = |tolerance: f64| {
-                let overrides = Overrides {
+                let overrides = Method {
                     duration: Some(1.0),
                     step_max: Some(2e-2),
                     step_control: Some((*rule).to_owned()),
@@ -266,11 +266,11 @@ fn every_formulation_takes_controlled_steps_and_tighter_tolerances_give_better_a
 fn an_alarm_stops_the_run_with_a_typed_error_before_numbers_are_lost() {
     let scene = scene("double-pendulum");
     // At 0.02 s the whips are not resolved.
-    let outcome = run(&scene, &Overrides { energy_alarm: Some(1e-3), ..fixed("index-3", 2e-2) });
+    let outcome = run(&scene, &Method { energy_alarm: Some(1e-3), ..fixed("index-3", 2e-2) });
     let error = outcome.summary.error.as_ref().expect("it stops");
     assert_eq!(error.code, "energy-drift");
     assert!(outcome.rows().iter().all(|(_, row)| row.iter().all(|x| x.is_finite())));
-    let same = run(&scene, &Overrides { energy_alarm: Some(0.5), ..fixed("index-3", 2e-2) });
+    let same = run(&scene, &Method { energy_alarm: Some(0.5), ..fixed("index-3", 2e-2) });
     assert!(same.summary.completed, "{:?}", same.summary.error);
     let energy = same.summary.energy;
     assert!(energy.scatter > 0.0 && energy.scatter < energy.max_error);
@@ -286,38 +286,39 @@ fn settings_of_the_control_are_taken_from_the_scene_and_refused_where_they_canno
     assert_eq!((settings.step_max, settings.energy_tolerance), (1e-2, [1e-6, 1e-8]));
     let settings = Settings::new(&scene, &with("index-3")).expect("it is built");
     assert_eq!((settings.rule, settings.step_max), (mbs::StepRule::Fixed, settings.step));
-    let both = Overrides { error_tolerance: Some(1e-5), ..with("multi-index") };
+    let both = Method { error_tolerance: Some(1e-5), ..with("multi-index") };
     assert_eq!(Settings::new(&scene, &both).map(|s| s.rule), Ok(mbs::StepRule::Both));
-    let refused = |overrides: Overrides| {
+    let refused = |overrides: Method| {
         let error = Settings::new(&scene, &overrides).expect_err("it cannot be meant");
         format!("{error}; {}", error.hint())
     };
-    let reversed = Overrides { energy_tolerance: Some([1e-8, 1e-6]), ..with("multi-index") };
+    let reversed = Method { energy_tolerance: Some([1e-8, 1e-6]), ..with("multi-index") };
     assert!(refused(reversed).contains("U must be larger than L"));
-    let explicit = Overrides {
+    let explicit = Method {
         integrator: Some("rk4".to_owned()),
         step_control: Some("energy".to_owned()),
         ..with("recursive")
     };
     assert!(refused(explicit).contains("implicit"));
-    let unknown = Overrides { step_control: Some("enrgy".to_owned()), ..with("index-3") };
+    let unknown = Method { step_control: Some("enrgy".to_owned()), ..with("index-3") };
     assert!(refused(unknown).contains("energy"));
-    assert!(refused(Overrides { step_max: Some(0.0), ..with("multi-index") }).contains("step_max"));
+    assert!(refused(Method { step_max: Some(0.0), ..with("multi-index") }).contains("step_max"));
 }
 
 #[test]
 fn a_controlled_step_allocates_nothing_even_when_it_is_rejected_or_ends_at_an_event() {
     let scene = scene("iltis-suspension-stiff");
     for formulation in &mbs::FORMULATIONS[1..] {
-        let overrides = Overrides {
+        let overrides = Method {
             error_tolerance: Some(1e-4),
             energy_tolerance: Some([1e-5, 1e-7]),
             step_control: Some("both".to_owned()),
             ..multi_index([1e-5, 1e-7], (1e-3, 1e-2))
         };
-        let overrides = Overrides { formulation: Some((*formulation).to_owned()), ..overrides };
+        let overrides = Method { formulation: Some((*formulation).to_owned()), ..overrides };
         let settings = Settings::new(&scene, &overrides).expect("the settings are built");
-        let mut simulation = mbs::Simulation::<f64, 3>::new(&scene, &settings).expect("it starts");
+        let mut simulation =
+            mbs::typed::Simulation::<f64, 3>::new(&scene, &settings).expect("it starts");
         simulation.advance(1.0).expect("it steps");
         let (mut rejected, mut landed) = (0, 0);
         let before = allocations::count();
@@ -339,13 +340,13 @@ fn runs_in_single_precision_end_where_they_should_and_rows_count_every_trial() {
     // Ends that are no numbers of single precision, above and below what is.
     for duration in [0.0101, 0.0107, 0.3, 1.1, 2.0] {
         for tolerance in [[1e-4, 1e-6], [1e-3, 1e-5]] {
-            let overrides = Overrides {
+            let overrides = Method {
                 duration: Some(duration),
                 precision: Some("f32".to_owned()),
                 ..multi_index(tolerance, (1e-3, 5e-2))
             };
             let settings = Settings::new(&scene, &overrides).expect("it is built");
-            let outcome = mbs::run::<f32, 2>(&scene, &settings, &mut ());
+            let outcome = mbs::typed::run::<f32, 2>(&scene, &settings, &mut ());
             let summary = &outcome.summary;
             assert!(summary.completed, "{duration}: {:?}", summary.error);
             assert!((summary.end_time - duration).abs() < 1e-15, "{}", summary.end_time);
@@ -384,7 +385,7 @@ table = [[0, 0, 0], [1, 0, 0], [2, 10, 0]]
     let document = mbs::scene_file::SceneFile::parse(text, "push").expect("it is read");
     let scene: Scene<f64> = document.scene().expect("it is a scene");
     for formulation in ["multi-index", "recursive"] {
-        let overrides = Overrides {
+        let overrides = Method {
             step_max: Some(2e-2),
             energy_tolerance: Some([1e-5, 1e-7]),
             ..with(formulation)
@@ -401,7 +402,8 @@ table = [[0, 0, 0], [1, 0, 0], [2, 10, 0]]
 fn a_step_of_a_simulation_ends_exactly_where_it_is_asked_to() {
     let scene = scene("double-pendulum");
     let settings = Settings::new(&scene, &multi_index([1e-6, 1e-8], (1e-3, 5e-2))).expect("built");
-    let mut simulation = mbs::Simulation::<f64, 2>::new(&scene, &settings).expect("it starts");
+    let mut simulation =
+        mbs::typed::Simulation::<f64, 2>::new(&scene, &settings).expect("it starts");
     let mut t = 0.0;
     for k in 1..=30 {
         let dt = 0.013 * f64::from(k % 5 + 1);

@@ -127,8 +127,8 @@ fn no_run_drifts_by_a_tenth_of_its_energy_in_silence() {
             for step in LARGE_STEPS {
                 let settings = settings(&scene, formulation, Some(step));
                 let outcome = match scene.dimension {
-                    Dimension::Planar => mbs::run::<f64, 2>(&scene, &settings, &mut ()),
-                    Dimension::Spatial => mbs::run::<f64, 3>(&scene, &settings, &mut ()),
+                    Dimension::Planar => mbs::typed::run::<f64, 2>(&scene, &settings, &mut ()),
+                    Dimension::Spatial => mbs::typed::run::<f64, 3>(&scene, &settings, &mut ()),
                 };
                 let s = &outcome.summary;
                 let case = format!("{name} {formulation} {step}");
@@ -192,7 +192,8 @@ const PARTS: usize = 10;
 fn thousand_seconds(formulation: &str) -> ([f64; PARTS], f64) {
     let scene = scene("double-pendulum");
     let settings = settings(&scene, formulation, Some(1e-3));
-    let mut simulation = mbs::Simulation::<f64, 2>::new(&scene, &settings).expect("it starts");
+    let mut simulation =
+        mbs::typed::Simulation::<f64, 2>::new(&scene, &settings).expect("it starts");
     let mut violation = [0.0_f64; PARTS];
     let (mut k, mut rest) = (0_u64, 0.0);
     while k < 1_000_000 {
@@ -296,15 +297,15 @@ fn a_change_point_is_passed_in_index3_and_multi_index_wherever_steps_land() {
     let document = mbs::scene_file::SceneFile::from_bytes(CHANGE_POINT.as_bytes(), "change.toml");
     let scene = document.unwrap().scene::<f64>().unwrap();
     let end = |formulation: &str, integrator: &str, (step, tolerance): (f64, Option<f64>)| {
-        let overrides = mbs::Overrides {
+        let overrides = mbs::Method {
             formulation: Some(formulation.to_owned()),
             integrator: Some(integrator.to_owned()),
             step: Some(step),
             tolerance,
-            ..mbs::Overrides::default()
+            ..mbs::Method::default()
         };
         let settings = mbs::Settings::new(&scene, &overrides).unwrap();
-        let outcome = mbs::run::<f64, 2>(&scene, &settings, &mut ());
+        let outcome = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
         assert!(outcome.summary.completed, "{formulation} {step}: {:?}", outcome.summary.error);
         outcome.summary.outputs.0[0].1[0]
     };

@@ -3,7 +3,7 @@
 use crate::common::{self, path};
 use mbs::explain::{Effort, explain, report};
 use mbs::scene_file::{EffectCost, Explanation, Provenance, SceneFile, SearchEnd};
-use mbs::{Overrides, Settings};
+use mbs::{Method, Settings};
 use mbs_core::scene::Scene;
 
 /// Little is timed; everything else is measured in full.
@@ -54,7 +54,7 @@ value = 0.0
 "#;
 
 fn explained(scene: &Scene<f64>) -> (Explanation, Settings) {
-    let overrides = Overrides { step: Some(1e-2), ..Overrides::default() };
+    let overrides = Method { step: Some(1e-2), ..Method::default() };
     let settings = Settings::new(scene, &overrides).expect("the settings are built");
     (explain::<f64, 2>(scene, &settings, &LITTLE), settings)
 }
@@ -93,7 +93,7 @@ axis = [0.0, 1.0, 0.0]
 "#;
     let document = SceneFile::parse(text, "rods.toml").expect("TOML");
     let scene: Scene<f64> = document.scene().expect("a scene");
-    let settings = Settings::new(&scene, &Overrides::default()).expect("the settings are built");
+    let settings = Settings::new(&scene, &Method::default()).expect("the settings are built");
     let simulated = explain::<f64, 3>(&scene, &settings, &LITTLE).simulated;
     let rods: Vec<_> =
         simulated.rods.iter().map(|rod| (rod.body.as_str(), rod.idle_spin_carried)).collect();
@@ -123,7 +123,7 @@ fn leaving_a_damper_out_changes_what_two_runs_differ_by_and_an_idle_effect_chang
     let (explanation, settings) = explained(&scene);
     let mut free = scene.clone();
     free.effects[0].enabled = false;
-    let [with, without] = [&scene, &free].map(|s| mbs::run::<f64, 2>(s, &settings, &mut ()));
+    let [with, without] = [&scene, &free].map(|s| mbs::typed::run::<f64, 2>(s, &settings, &mut ()));
     let rows = with.rows().iter().zip(without.rows());
     let by_hand = rows.map(|(a, b)| (a.1[0] - b.1[0]).abs()).fold(0.0, f64::max);
     assert!(by_hand > 0.1, "{by_hand} rad");
@@ -189,7 +189,7 @@ fn the_largest_step_completes_and_twice_as_long_a_one_does_not() {
         scene.effects[0].enabled = enabled;
         let completes = |step: f64| {
             let settings = Settings { step, step_max: step, ..settings.clone() };
-            mbs::run::<f64, 2>(&scene, &settings, &mut ()).summary.completed
+            mbs::typed::run::<f64, 2>(&scene, &settings, &mut ()).summary.completed
         };
         assert!(completes(step));
         match found.end {

@@ -4,9 +4,10 @@ use crate::common::{scene, settings};
 use mbs::core::scene::{Dimension, Scene};
 use mbs::core::step::{Step, StepError};
 use mbs::scene_file::{Family, SceneFile, generate};
-use mbs::{FORMULATIONS, FormulationKind, InSpace, Overrides, Plane, Settings, Simulation};
+use mbs::typed::Simulation;
+use mbs::{FORMULATIONS, FormulationKind, InSpace, Method, Plane, Settings};
 
-fn simulation<const D: usize>(scene: &Scene<f64>, overrides: Overrides) -> Simulation<f64, D>
+fn simulation<const D: usize>(scene: &Scene<f64>, overrides: Method) -> Simulation<f64, D>
 where
     Plane<D>: InSpace<f64>,
 {
@@ -56,8 +57,7 @@ fn a_step_that_is_none_is_refused_by_every_formulation_and_changes_nothing() {
             }
             let [formulation, integrator, step_control] =
                 [formulation, integrator, step_control].map(|name| Some(name.to_owned()));
-            let overrides =
-                Overrides { formulation, integrator, step_control, ..Overrides::default() };
+            let overrides = Method { formulation, integrator, step_control, ..Method::default() };
             let mut simulation = simulation::<2>(&scene, overrides.clone());
             let before = go(&mut simulation, 3);
             for dt in [0.0, -1e-3, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -113,10 +113,10 @@ fn clones_that_share_threads_step_at_the_same_time() {
     let text = generate(&Family::Chain { bodies: 300 }, "chain").expect("generated");
     let scene = SceneFile::parse(&text, "chain.toml").expect("parsed").scene().expect("sound");
     for formulation in FormulationKind::ALL.into_iter().filter(|f| f.row().threads) {
-        let of = |threads| Overrides {
+        let of = |threads| Method {
             formulation: Some(formulation.name().to_owned()),
             threads: Some(threads),
-            ..Overrides::default()
+            ..Method::default()
         };
         let alone = go(&mut simulation::<2>(&scene, of(1)), 4);
         let mut original = simulation::<2>(&scene, of(2));

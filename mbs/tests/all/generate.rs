@@ -1,7 +1,7 @@
 //! Generated scenes: as many bodies and joints as said, consistent at the start, and sound in motion.
 
 use mbs::scene_file::{Family, GenerateError, SceneFile, generate};
-use mbs::{Outcome, Overrides, Settings};
+use mbs::{Method, Outcome, Settings};
 use mbs_core::scene::{Dimension, Scene};
 
 const COMMAND: &str = "mbs generate";
@@ -31,16 +31,16 @@ fn vehicle(name: &str) -> SceneFile {
 
 /// Runs the first tenth of a second in index-3 and asserts that nothing drifts.
 fn run(scene: &Scene<f64>) -> Outcome {
-    let overrides = Overrides {
+    let overrides = Method {
         formulation: Some("index-3".to_owned()),
         step: Some(1e-3),
         duration: Some(0.1),
-        ..Overrides::default()
+        ..Method::default()
     };
     let settings = Settings::new(scene, &overrides).expect("settings");
     let outcome = match scene.dimension {
-        Dimension::Planar => mbs::run::<f64, 2>(scene, &settings, &mut ()),
-        Dimension::Spatial => mbs::run::<f64, 3>(scene, &settings, &mut ()),
+        Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
+        Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, &settings, &mut ()),
     };
     let summary = &outcome.summary;
     assert!(summary.completed, "{}: {:?}", summary.scene, summary.error);

@@ -11,11 +11,12 @@ use mbs::core::scene::{
 };
 use mbs::core::step::InputError;
 use mbs::scene_file::SceneFile;
-use mbs::{FormulationKind, Overrides, Settings, Simulation};
+use mbs::typed::Simulation;
+use mbs::{FormulationKind, Method, Settings};
 
 fn simulation(scene: &Scene<f64>, formulation: &str) -> Simulation<f64, 2> {
     let formulation = Some(formulation.to_owned());
-    let overrides = Overrides { formulation, step: Some(1e-3), ..Overrides::default() };
+    let overrides = Method { formulation, step: Some(1e-3), ..Method::default() };
     let settings = Settings::new(scene, &overrides).expect("the settings are built");
     Simulation::new(scene, &settings).expect("the scene starts")
 }
@@ -27,7 +28,7 @@ fn with_integrator(
     step: f64,
 ) -> Simulation<f64, 2> {
     let [formulation, integrator] = [formulation, integrator].map(|name| Some(name.to_owned()));
-    let overrides = Overrides { formulation, integrator, step: Some(step), ..Overrides::default() };
+    let overrides = Method { formulation, integrator, step: Some(step), ..Method::default() };
     let settings = Settings::new(scene, &overrides).expect("the settings are built");
     Simulation::new(scene, &settings).expect("the scene starts")
 }
@@ -108,11 +109,11 @@ fn an_input_set_for_one_step_acts_in_that_whole_step_and_does_its_work_there() {
 fn steps_of_controlled_length_begin_with_the_input_that_is_set() {
     let (scene, h) = (wheel(), 1e-3);
     for formulation in FormulationKind::ALL.map(FormulationKind::name) {
-        let overrides = Overrides {
+        let overrides = Method {
             formulation: Some(formulation.into()),
             step: Some(h),
             error_tolerance: Some(1e-6),
-            ..Overrides::default()
+            ..Method::default()
         };
         let settings = Settings::new(&scene, &overrides).expect("the settings are built");
         let mut simulation =

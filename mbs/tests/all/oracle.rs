@@ -4,7 +4,7 @@ use crate::common;
 use crate::retell;
 
 use crate::common::SCENES;
-use crate::common::oracle::{Method, Told, disagreement, everything, methods, rows, tell};
+use crate::common::oracle::{Told, Way, disagreement, everything, methods, rows, tell};
 use mbs::core::scene::{BodyId, Output, Quantity, Scene};
 
 /// Step and span of a scene: the step resolves its motion, and the span ends before chaos has made rounding large.
@@ -41,7 +41,7 @@ fn every_formulation_tells_of_the_same_motion_on_every_scene() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
-fn fault(name: &str, scene: &Scene<f64>, method: Method, reference: &Told) -> Option<String> {
+fn fault(name: &str, scene: &Scene<f64>, method: Way, reference: &Told) -> Option<String> {
     let expected = REFUSED.iter().find(|(s, f, _)| *s == name && *f == method.0).map(|r| r.2);
     match (tell(scene, method, span(name)), expected) {
         (Ok(told), _) => {

@@ -5,7 +5,8 @@ use crate::common;
 use crate::common::allocations;
 use mbs::realtime::{Clock, Degrade, Overrun, Pacing, PacingError, Recovery, run_document};
 use mbs::scene_file::SceneFile;
-use mbs::{Outcome, Overrides, Settings, Simulation, SwitchError};
+use mbs::typed::Simulation;
+use mbs::{Method, Outcome, Settings, SwitchError};
 use std::cell::Cell;
 use std::time::Duration;
 
@@ -48,7 +49,7 @@ fn document(name: &str) -> SceneFile {
 /// A run on a clock that is told.
 fn paced(
     document: &SceneFile,
-    overrides: &Overrides,
+    overrides: &Method,
     pacing: &Pacing,
     clock: &mut Told,
 ) -> Result<Outcome, PacingError> {
@@ -57,12 +58,12 @@ fn paced(
     run_document((document, &scene), &settings, pacing, clock)
 }
 
-fn asked(formulation: &str, step: f64, duration: f64) -> Overrides {
-    Overrides {
+fn asked(formulation: &str, step: f64, duration: f64) -> Method {
+    Method {
         formulation: Some(formulation.to_owned()),
         step: Some(step),
         duration: Some(duration),
-        ..Overrides::default()
+        ..Method::default()
     }
 }
 
@@ -78,7 +79,7 @@ fn pacing_changes_no_bit_of_the_results() {
         let document = document(name);
         // Not a multiple: the last period is shorter.
         let step = document.scene::<f64>().expect("a scene").duration / 2000.5;
-        let overrides = Overrides { duration: None, ..asked(formulation, step, 1.0) };
+        let overrides = Method { duration: None, ..asked(formulation, step, 1.0) };
         let scene = document.scene::<f64>().expect("a scene");
         let settings = Settings::new(&scene, &overrides).expect("settings");
         let plain = mbs::run_document((&document, &scene), &settings, &mut |_| {}).expect("a run");
@@ -107,11 +108,8 @@ fn a_period_of_several_steps_has_the_results_of_these_steps() {
         assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-11), "{t}: {a:?} {b:?}");
     }
     // Lengths of steps may be controlled: each period ends exactly where it should.
-    let controlled = Overrides {
-        error_tolerance: Some(1e-6),
-        step_max: Some(0.05),
-        ..asked("index-3", 1e-3, 0.5)
-    };
+    let controlled =
+        Method { error_tolerance: Some(1e-6), step_max: Some(0.05), ..asked("index-3", 1e-3, 0.5) };
     let run = paced(&document, &controlled, &pacing, &mut Told::default()).expect("it is paced");
     assert!(run.summary.completed && run.rows().len() == 101);
     for (k, (t, row)) in run.rows().iter().enumerate() {
@@ -243,7 +241,7 @@ fn a_state_taken_over_with_the_same_effects_goes_on_as_if_it_had_stayed() {
 }
 
 /// Degraded by a single sleep that is fifty periods too long: late in a row for longer than the patience.
-fn degraded(document: &SceneFile, overrides: &Overrides, words: &[&str]) -> (Outcome, Told) {
+fn degraded(document: &SceneFile, overrides: &Method, words: &[&str]) -> (Outcome, Told) {
     let pacing = Pacing {
         overrun: Overrun::Degrade,
         degrade: Degrade::Listed(words.iter().map(|&word| word.to_owned()).collect()),
@@ -396,7 +394,7 @@ fn a_run_that_stops_keeps_its_rows_and_its_measures() {
     // State space ends where the four-bar is singular, at 3.14 s.
     let run = paced(
         &document("four-bar"),
-        &Overrides { duration: None, ..asked("state-space", 1e-3, 0.0) },
+        &Method { duration: None, ..asked("state-space", 1e-3, 0.0) },
         &Pacing::default(),
         &mut Told::default(),
     );

@@ -172,7 +172,7 @@ fn rssr_rocker_follows_the_crank_in_closed_form() {
     let scene = common::scene("rssr");
     for formulation in FORMULATIONS {
         let settings = common::settings(&scene, formulation, None);
-        let outcome = mbs::run::<f64, 3>(&scene, &settings, &mut ());
+        let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
         assert!(outcome.error.is_none(), "{formulation}: {:?}", outcome.error);
         let (mut off, mut reach) = (0.0, 0.0_f64);
         for (_, row) in outcome.rows() {
@@ -346,7 +346,7 @@ fn guided_four_bar_crank_reaction_carries_the_torque_of_inverse_dynamics() {
     let scene = common::scene("guided-four-bar");
     for formulation in FORMULATIONS {
         let settings = common::settings(&scene, formulation, None);
-        let outcome = mbs::run::<f64, 2>(&scene, &settings, &mut ());
+        let outcome = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
         assert!(outcome.error.is_none());
         let fixed = |at| [at, [0.0; 2], [0.0; 2]];
         let mut off = 0.0;

@@ -1,7 +1,7 @@
 //! The sweeps of the repository.
 
 use crate::common::path;
-use mbs::Overrides;
+use mbs::Method;
 use mbs::scene_file::SceneFile;
 use mbs::sweep::{Study, StudyError};
 
@@ -13,7 +13,7 @@ fn read(name: &str) -> SceneFile {
 #[test]
 fn a_sweep_in_pairs_of_doubles_is_refused_before_its_members() {
     let (scene, sweep) = (read("double-pendulum"), read("sweeps/double-pendulum-lengths"));
-    let overrides = Overrides { precision: Some("dd".to_owned()), ..Overrides::default() };
+    let overrides = Method { precision: Some("dd".to_owned()), ..Method::default() };
     assert!(matches!(Study::new(scene, &sweep, &overrides), Err(StudyError::Pairs)));
 }
 
@@ -24,7 +24,7 @@ fn the_sweeps_of_the_repository_fit_their_scenes() {
         ("iltis-stairs-vehicles", "iltis-stairs", 200),
     ] {
         let (scene, sweep) = (read(scene_name), read(&format!("sweeps/{name}")));
-        let study = Study::new(scene, &sweep, &Overrides::default());
+        let study = Study::new(scene, &sweep, &Method::default());
         let study = study.unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(study.n_members(), members);
         let row = study.member(members - 1);

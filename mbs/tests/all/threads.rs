@@ -5,7 +5,8 @@ use crate::common;
 use crate::common::{SCENES, scene};
 use mbs::core::scene::{Dimension, Scene};
 use mbs::scene_file::{Family, SceneFile, generate};
-use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
+use mbs::typed::Simulation;
+use mbs::{InSpace, Method, Plane, Settings};
 
 /// Scenes of the repository that are vehicles, and those with inputs of every kind.
 const OTHERS: [&str; 8] = [
@@ -37,7 +38,7 @@ where
     Plane<D>: InSpace<f64>,
 {
     let formulation = Some(formulation.to_owned());
-    let overrides = Overrides { formulation, threads: Some(threads), ..Overrides::default() };
+    let overrides = Method { formulation, threads: Some(threads), ..Method::default() };
     let settings = Settings::new(scene, &overrides).expect("the settings are built");
     let mut simulation = Simulation::<f64, D>::new(scene, &settings).expect("the scene assembles");
     let mut told = Vec::new();

@@ -3,8 +3,9 @@
 use crate::common::settings;
 use crate::retell::{reorder, turn_by, turn_scene, turned_in_plane};
 use mbs::core::scene::{BodyId, Dimension, InitialTarget, JointId, JointKind, Scene};
-use mbs::front::tree::{Matrix, Tree, TreeError, TreeRange};
-use mbs::{InSpace, Plane, Simulation};
+use mbs::typed::Simulation;
+use mbs::{InSpace, Plane};
+use mbs::{Matrix, Tree, TreeError, TreeRange};
 use mbs_testkit::random::{self, Random};
 use mbs_testkit::{allocations, close, dot, file, plus, scene};
 use std::iter;
@@ -151,10 +152,10 @@ where
         .unwrap_or_else(|e| panic!("{name}: {e}"));
     let mut tree = tree(scene);
     for _ in 0..20 {
-        tree.follow(&sim).expect("the same mechanism");
+        tree.follow_typed(&sim).expect("the same mechanism");
         sim.step(1e-3).expect("a step");
     }
-    tree.follow(&sim).expect("the same mechanism");
+    tree.follow_typed(&sim).expect("the same mechanism");
     let v = tree.velocities().to_vec();
     if scene.guides.is_empty() {
         let closed = times(tree.loop_jacobian(), &v);
@@ -293,7 +294,7 @@ where
     let sim = Simulation::<f64, D>::new(&scene, &settings(&scene, "index-3", Some(1e-3)))
         .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     let mut tree = tree(&scene);
-    tree.follow(&sim).expect("the same mechanism");
+    tree.follow_typed(&sim).expect("the same mechanism");
     for (joint, mut value, mut rate) in given {
         let (data, at) = (&scene.joints[joint], tree.coordinates_of(joint).expect("in the tree"));
         if data.kind == JointKind::Spherical {

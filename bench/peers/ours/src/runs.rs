@@ -3,7 +3,8 @@
 use crate::space::in_space;
 use crate::{Failure, tell};
 use cpu_time::ProcessTime;
-use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
+use mbs::{InSpace, Method, Plane, Settings};
+use mbs::typed::Simulation;
 use mbs_core::scene::Scene;
 use mbs_recursive::space::Space;
 use mbs_recursive::{Options, Planar, Spatial, TreeModel, Workspace, rk4_step, step};
@@ -134,11 +135,11 @@ fn assembled<const D: usize>(
 where
     Plane<D>: InSpace<f64>,
 {
-    let asked = Overrides {
+    let asked = Method {
         formulation: Some(formulation.to_owned()),
         integrator: Some(integrator.to_owned()),
         step: Some(dt),
-        ..Overrides::default()
+        ..Method::default()
     };
     Ok(Simulation::new(scene, &Settings::new(scene, &asked)?)?)
 }

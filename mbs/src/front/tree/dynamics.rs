@@ -1,7 +1,8 @@
 //! Matrices, efforts and Jacobians of a [`Tree`].
 
 use super::inner::{Inner, Typed, with};
-use super::{Matrix, PointMotion, Tree, TreeError, TreeErrorKind, Weighted, checked};
+use super::{Matrix, Tree, TreeError, TreeErrorKind, Weighted, checked};
+use crate::front::values::PointMotion;
 use crate::stop::StopError;
 use mbs_core::algebra::Vector;
 use mbs_core::rigid::RigidMotion;
@@ -16,7 +17,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// // rods of 1 m and 1 kg in a line
     /// assert!((tree.mass_matrix()[(0, 0)] - 8.0 / 3.0).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -40,7 +41,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/four-bar.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// let rows = tree.loop_jacobian();
     /// assert_eq!((rows.rows, rows.columns), (2, 3));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -57,7 +58,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// // two rods of 1 m and 1 kg, level
     /// assert!((tree.gravity_forces()[0] - 9.81 * (0.5 + 1.5)).abs() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -72,7 +73,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// tree.set(&[0.0, 1.0], &[2.0, 0.0])?;
     /// let gravity = tree.gravity_forces().to_vec();
     /// assert!((tree.bias_forces()[1] - gravity[1] - 2.0 * 1.0_f64.sin()).abs() < 1e-12);
@@ -91,7 +92,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// let hold = tree.gravity_forces().to_vec();
     /// assert!(tree.forward_dynamics(&hold)?.iter().all(|a| a.abs() < 1e-12));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -116,7 +117,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// let falling = tree.forward_dynamics(&[0.0, 0.0])?.to_vec();
     /// assert!(tree.inverse_dynamics(&falling)?.iter().all(|effort| effort.abs() < 1e-12));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -140,7 +141,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// use mbs::core::scene::BodyId;
     /// let tip = tree.point_jacobian(BodyId::new(1), [2.0, 0.0, 0.0]);
     /// assert_eq!(tip.row(1), [2.0, 1.0]);
@@ -155,7 +156,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// use mbs::core::scene::BodyId;
     /// let frame = tree.frame_jacobian(BodyId::new(1));
     /// assert_eq!((frame.row(1), frame.row(5)), (&[1.5, 0.5][..], &[1.0, 1.0][..]));
@@ -171,7 +172,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// assert_eq!(tree.center_of_mass_jacobian().row(1), [1.0, 0.25]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -185,7 +186,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// use mbs::core::scene::BodyId;
     /// tree.set(&[0.0, 0.0], &[1.0, 0.0])?;
     /// let tip = tree.point(BodyId::new(1), [2.0, 0.0, 0.0]);
@@ -203,7 +204,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// assert_eq!(tree.center_of_mass().position, [1.0, 0.0, 0.0]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -7,11 +7,12 @@ mod layout;
 mod values;
 
 pub use error::{TreeError, TreeErrorKind};
-pub use values::{Matrix, PointMotion, TreeRange};
+pub use values::{Matrix, TreeRange};
 
+use crate::front::Simulation;
 use crate::names::Names;
-use crate::simulation::Simulation;
 use crate::tree::{InSpace, Plane};
+use crate::typed;
 use inner::{Inner, with};
 use layout::Layout;
 use mbs_core::cluster::mass_properties;
@@ -117,7 +118,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// tree.set(&[0.4, -1.1], &[1.3, -0.7])?;
     /// assert_eq!(tree.coordinates(), [0.4, -1.1]);
     /// assert_eq!(tree.set(&[0.4], &[1.3]).unwrap_err().code(), "wrong-length");
@@ -140,7 +141,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/guided-four-bar.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// // its crank is guided
     /// let before = tree.gravity_forces().to_vec();
     /// tree.set_time(0.25);
@@ -158,20 +159,26 @@ impl Tree {
     /// [`TreeErrorKind::Length`] for a simulation of another number of bodies.
     ///
     /// ```
+    /// use mbs::{Mechanism, Method};
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
-    /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let scene = file.scene().unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&scene)?;
-    /// # let settings = mbs::Settings::new(&scene, &mbs::Overrides::default()).unwrap();
-    /// let mut simulation = mbs::Simulation::<f64, 2>::new(&scene, &settings).unwrap();
-    /// simulation.step(1e-3)?;
-    /// tree.follow(&simulation)?;
+    /// let m = Mechanism::read(path)?;
+    /// let (mut sim, mut tree) = (m.simulate(&Method::default())?, m.tree()?);
+    /// sim.step(1e-3)?;
+    /// tree.follow(&sim)?;
     /// assert!(tree.velocities()[0] < 0.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn follow<const D: usize>(
+    pub fn follow(&mut self, simulation: &Simulation) -> Result<(), TreeError> {
+        simulation.read(|look| look.follow(self))
+    }
+
+    /// The same of one in a scalar and dimension.
+    ///
+    /// # Errors
+    /// As for [`follow`](Self::follow).
+    pub fn follow_typed<const D: usize>(
         &mut self,
-        simulation: &Simulation<f64, D>,
+        simulation: &typed::Simulation<f64, D>,
     ) -> Result<(), TreeError>
     where
         Plane<D>: InSpace<f64>,
@@ -217,7 +224,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/four-bar.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// use mbs::core::scene::JointId;
     /// assert_eq!(tree.coordinates_of(JointId::new(0))?.v, 0..1);
     /// let cut = tree.coordinates_of(JointId::new(3)).unwrap_err();
@@ -249,7 +256,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/free-body.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// use mbs::core::scene::BodyId;
     /// let at = tree.free_coordinates_of(BodyId::new(0)).expect("nothing holds it");
     /// assert_eq!((at.q, at.v), (0..7, 0..6));
@@ -266,7 +273,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// assert_eq!(tree.coordinates(), [0.0, 0.0]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -280,7 +287,7 @@ impl Tree {
     /// ```
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
-    /// # let mut tree = mbs::front::tree::Tree::new(&file.scene().unwrap())?;
+    /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
     /// assert_eq!(tree.velocities(), [0.0, 0.0]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

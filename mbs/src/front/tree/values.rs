@@ -1,6 +1,7 @@
 //! What a tree answers with.
 
 use super::layout::Layout;
+use crate::front::values::PointMotion;
 use mbs_core::algebra::Vector;
 use std::ops::{Index, Range};
 
@@ -58,18 +59,6 @@ pub struct TreeRange {
     pub q: Range<usize>,
     /// In the velocities, accelerations and efforts.
     pub v: Range<usize>,
-}
-
-/// How a point moves, global axes.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[non_exhaustive]
-pub struct PointMotion {
-    /// [m]
-    pub position: [f64; 3],
-    /// [m/s]
-    pub velocity: [f64; 3],
-    /// [m/s^2]
-    pub acceleration: [f64; 3],
 }
 
 impl PointMotion {

@@ -4,7 +4,8 @@ use super::items::{CASE, Case, saved};
 use super::layout::{Parts, sealed};
 use super::scratch;
 use mbs::core::scene::Scene;
-use mbs::{Checkpoint, CheckpointError, Keeping, Overrides, Settings, Simulation, run_kept};
+use mbs::typed::{Simulation, run_kept};
+use mbs::{Checkpoint, CheckpointError, Keeping, Method, Settings};
 use proptest::prelude::*;
 use proptest::test_runner::{TestRng, TestRunner};
 
@@ -35,7 +36,7 @@ const TRIED: [Case; 5] = [
 /// A run of 30 steps, kept; the bytes of its checkpoint in the middle.
 fn run_bytes(case: Case) -> (Scene<f64>, Settings, Vec<u8>) {
     let scene = case.scene();
-    let overrides = Overrides { duration: Some(0.03), ..case.overrides() };
+    let overrides = Method { duration: Some(0.03), ..case.overrides() };
     let settings = Settings::new(&scene, &overrides).expect("good settings");
     let out = scratch("bytes");
     let mut keeping = Keeping::new(&out, 0.01).expect("a directory of ours");

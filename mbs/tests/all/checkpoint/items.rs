@@ -5,7 +5,8 @@ use crate::common::scene;
 use mbs::core::scene::{
     BodyId, BodyTorque, Effect, EffectKind, JointId, Scene, Signal, TorsionSpring,
 };
-use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
+use mbs::typed::Simulation;
+use mbs::{InSpace, Method, Plane, Settings};
 
 /// How a simulation is made and stepped.
 #[derive(Debug, Clone, Copy)]
@@ -52,16 +53,16 @@ impl Case {
         scene
     }
 
-    pub(super) fn overrides(&self) -> Overrides {
+    pub(super) fn overrides(&self) -> Method {
         let text = |text: &str| Some(text.to_owned());
-        Overrides {
+        Method {
             formulation: text(self.formulation),
             integrator: text(self.integrator),
             step_control: (self.control != "fixed").then(|| self.control.to_owned()),
             step: Some(self.step),
             step_max: (self.control != "fixed").then_some(20.0 * self.step),
             energy_tolerance: (self.control == "energy").then_some([1e-7, 1e-9]),
-            ..Overrides::default()
+            ..Method::default()
         }
     }
 

@@ -4,7 +4,8 @@ use super::layout::Parts;
 use super::{scratch, told};
 use crate::common::scene;
 use mbs::core::scene::Scene;
-use mbs::{Checkpoint, InSpace, Keeping, Overrides, Plane, Progress, Settings, run_kept};
+use mbs::typed::{Progress, run_kept};
+use mbs::{Checkpoint, InSpace, Keeping, Method, Plane, Settings};
 use std::path::PathBuf;
 
 /// Takes the checkpoints that stand there at the first step, and at a time.
@@ -45,7 +46,7 @@ where
 
 /// That a run gives the same from its checkpoint before time `at`, and something else where one of the items is left out: it is
 /// then as in a run that has made no step.
-fn every_item_matters<const D: usize>(name: &str, overrides: &Overrides, at: f64, items: &[&str])
+fn every_item_matters<const D: usize>(name: &str, overrides: &Method, at: f64, items: &[&str])
 where
     Plane<D>: InSpace<f64>,
 {
@@ -83,8 +84,8 @@ where
     }
 }
 
-fn of(step: f64, duration: f64) -> Overrides {
-    Overrides { step: Some(step), duration: Some(duration), ..Overrides::default() }
+fn of(step: f64, duration: f64) -> Method {
+    Method { step: Some(step), duration: Some(duration), ..Method::default() }
 }
 
 #[test]
@@ -98,14 +99,14 @@ fn every_item_of_the_record_matters() {
 fn contacts_and_what_control_has_counted_matter() {
     let items = ["contacts", "counts of the control"];
     let control = Some("both".to_owned());
-    let overrides = Overrides { step_control: control, step_max: Some(5e-3), ..of(1e-3, 1.0) };
+    let overrides = Method { step_control: control, step_max: Some(5e-3), ..of(1e-3, 1.0) };
     every_item_matters::<3>("iltis-suspension", &overrides, 0.8, &items);
 }
 
 #[test]
 fn what_the_alarm_has_heard_matters() {
     // it rings after ten steps in a row, here at 1.99 s
-    let overrides = Overrides { energy_alarm: Some(1e-3), ..of(1e-2, 10.0) };
+    let overrides = Method { energy_alarm: Some(1e-3), ..of(1e-2, 10.0) };
     every_item_matters::<2>("double-pendulum", &overrides, 1.95, &["alarm"]);
 }
 

@@ -2,16 +2,17 @@
 
 use crate::common::scene;
 use mbs::core::scene::{Inertia, Scene};
-use mbs::{Checkpoint, CheckpointError, Overrides, Settings, Simulation};
+use mbs::typed::Simulation;
+use mbs::{Checkpoint, CheckpointError, Method, Settings};
 
-fn settings(scene: &Scene<f64>, overrides: &Overrides) -> Settings {
+fn settings(scene: &Scene<f64>, overrides: &Method) -> Settings {
     Settings::new(scene, overrides).expect("good settings")
 }
 
 /// A checkpoint of the double pendulum after some steps.
 fn saved() -> Vec<u8> {
     let scene = scene("double-pendulum");
-    let settings = settings(&scene, &Overrides::default());
+    let settings = settings(&scene, &Method::default());
     let mut simulation = Simulation::<f64, 2>::new(&scene, &settings).expect("it starts");
     for _ in 0..10 {
         simulation.step(1e-3).expect("a regular step");
@@ -22,11 +23,7 @@ fn saved() -> Vec<u8> {
 }
 
 /// What comes of it in a scene with settings; the state must be as it was on an error.
-fn restored(
-    scene: &Scene<f64>,
-    overrides: &Overrides,
-    bytes: &[u8],
-) -> Result<(), CheckpointError> {
+fn restored(scene: &Scene<f64>, overrides: &Method, bytes: &[u8]) -> Result<(), CheckpointError> {
     let settings = settings(scene, overrides);
     let mut simulation = Simulation::<f64, 2>::new(scene, &settings).expect("it starts");
     let before = simulation.state().clone();
@@ -38,7 +35,7 @@ fn restored(
 #[test]
 fn another_scene_is_named_by_its_parts() {
     let bytes = saved();
-    let plain = Overrides::default();
+    let plain = Method::default();
     let mut other = scene("double-pendulum");
     assert!(restored(&other, &plain, &bytes).is_ok());
     other.bodies[1].mass *= 1.0 + f64::EPSILON;
@@ -59,18 +56,18 @@ fn another_scene_is_named_by_its_parts() {
 #[test]
 fn another_setting_is_named_with_both_values() {
     let (bytes, scene) = (saved(), scene("double-pendulum"));
-    let plain = Overrides::default();
+    let plain = Method::default();
     let text = |text: &str| Some(text.to_owned());
     let others = [
-        ("step", Overrides { step: Some(2e-3), ..plain.clone() }),
-        ("formulation", Overrides { formulation: text("recursive"), ..plain.clone() }),
-        ("integrator", Overrides { integrator: text("hht"), ..plain.clone() }),
-        ("tolerance", Overrides { tolerance: Some(1e-9), ..plain.clone() }),
-        ("penalty", Overrides { penalty: Some(1e7), ..plain.clone() }),
-        ("duration", Overrides { duration: Some(20.0), ..plain.clone() }),
-        ("step-control", Overrides { step_control: text("error"), ..plain.clone() }),
-        ("energy-alarm", Overrides { energy_alarm: Some(0.2), ..plain.clone() }),
-        ("precision", Overrides { precision: text("f32"), ..plain.clone() }),
+        ("step", Method { step: Some(2e-3), ..plain.clone() }),
+        ("formulation", Method { formulation: text("recursive"), ..plain.clone() }),
+        ("integrator", Method { integrator: text("hht"), ..plain.clone() }),
+        ("tolerance", Method { tolerance: Some(1e-9), ..plain.clone() }),
+        ("penalty", Method { penalty: Some(1e7), ..plain.clone() }),
+        ("duration", Method { duration: Some(20.0), ..plain.clone() }),
+        ("step-control", Method { step_control: text("error"), ..plain.clone() }),
+        ("energy-alarm", Method { energy_alarm: Some(0.2), ..plain.clone() }),
+        ("precision", Method { precision: text("f32"), ..plain.clone() }),
     ];
     for (name, overrides) in others {
         match restored(&scene, &overrides, &bytes) {
@@ -81,7 +78,7 @@ fn another_setting_is_named_with_both_values() {
             other => panic!("{name}: {other:?}"),
         }
     }
-    let threads = Overrides { threads: Some(2), ..plain };
+    let threads = Method { threads: Some(2), ..plain };
     assert!(restored(&scene, &threads, &bytes).is_ok(), "threads change no bit");
 }
 

@@ -7,7 +7,8 @@ use mbs::augmented::{StepError, StepReport};
 use mbs::auto::Clock;
 use mbs::core::natural::Affine;
 use mbs::core::scene::{BodyId, Scene};
-use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
+use mbs::typed::Simulation;
+use mbs::{InSpace, Method, Plane, Settings};
 pub(crate) use mbs_testkit::{allocations, random};
 
 /// The augmented formulations, by name.
@@ -30,7 +31,7 @@ impl Clock for CountedClock {
 /// Settings of a scene with formulation and step; without a step, the scene's own.
 pub(crate) fn settings(scene: &Scene<f64>, formulation: &str, step: Option<f64>) -> Settings {
     let formulation = Some(formulation.to_owned());
-    let overrides = Overrides { formulation, step, ..Overrides::default() };
+    let overrides = Method { formulation, step, ..Method::default() };
     Settings::new(scene, &overrides).expect("the settings are built")
 }
 

@@ -4,7 +4,7 @@
 //! channel; two methods agree when they differ by at most [`SHARE`] times the larger of their estimates.
 
 use mbs::core::scene::{BodyId, Dimension, JointId, Output, Quantity, Scene};
-use mbs::{FormulationKind, Overrides, Settings, StopError};
+use mbs::{FormulationKind, Method, Settings, StopError};
 
 /// Times the larger of two methods' own errors that they may differ by.
 const SHARE: f64 = 10.0;
@@ -14,15 +14,15 @@ const ROUNDING: f64 = 1e-7;
 
 /// A formulation with an integrator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Method(pub(crate) &'static str, pub(crate) &'static str);
+pub(crate) struct Way(pub(crate) &'static str, pub(crate) &'static str);
 
 /// All that are compared; the others are compared with the first.
-pub(crate) fn methods() -> Vec<Method> {
+pub(crate) fn methods() -> Vec<Way> {
     // Those whose index follows the step choose its length.
     let fixed = FormulationKind::listed().filter(|f| !f.row().energy_rule);
-    let mut methods: Vec<_> = fixed.map(|f| Method(f.name(), "trapezoidal")).collect();
+    let mut methods: Vec<_> = fixed.map(|f| Way(f.name(), "trapezoidal")).collect();
     let explicit = ["rk4", "rk54", "rk853"];
-    methods.extend(explicit.map(|i| Method(FormulationKind::RELATIVE.name(), i)));
+    methods.extend(explicit.map(|i| Way(FormulationKind::RELATIVE.name(), i)));
     methods
 }
 
@@ -62,21 +62,21 @@ pub(crate) fn everything(scene: &Scene<f64>) -> Scene<f64> {
 /// Runs a scene to `duration` and keeps the rows at multiples of `every` steps.
 pub(crate) fn rows(
     scene: &Scene<f64>,
-    Method(formulation, integrator): Method,
+    Way(formulation, integrator): Way,
     (step, duration): (f64, f64),
     every: usize,
 ) -> Result<Rows, StopError> {
-    let overrides = Overrides {
+    let overrides = Method {
         formulation: Some(formulation.to_owned()),
         integrator: Some(integrator.to_owned()),
         step: Some(step),
         duration: Some(duration),
-        ..Overrides::default()
+        ..Method::default()
     };
     let settings = Settings::new(scene, &overrides).unwrap_or_else(|e| panic!("{e}"));
     let outcome = match scene.dimension {
-        Dimension::Planar => mbs::run::<f64, 2>(scene, &settings, &mut ()),
-        Dimension::Spatial => mbs::run::<f64, 3>(scene, &settings, &mut ()),
+        Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
+        Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, &settings, &mut ()),
     };
     match outcome.error {
         Some(error) => Err(error),
@@ -93,7 +93,7 @@ pub(crate) struct Told {
 /// Runs a method at dt and dt/2.
 pub(crate) fn tell(
     scene: &Scene<f64>,
-    method: Method,
+    method: Way,
     (step, duration): (f64, f64),
 ) -> Result<Told, StopError> {
     let coarse = rows(scene, method, (step, duration), 1)?;

@@ -70,14 +70,14 @@ fn a_hundred_starts_pass_with_redundant_constraints() {
     let mut most = 0.0_f64;
     for share in spread() {
         let start = scaled(&base, 1.0 + 0.1 * share);
-        let exact = Overrides {
+        let exact = Method {
             integrator: Some("rk54".to_owned()),
             tolerance: Some(1e-10),
             duration: Some(2.0),
             ..with("recursive")
         };
         let exact = outputs(&completed(&start, &exact), &names);
-        let multi = Overrides { duration: Some(2.0), ..multi_index([1e-7, 1e-9], (1e-3, 2e-2)) };
+        let multi = Method { duration: Some(2.0), ..multi_index([1e-7, 1e-9], (1e-3, 2e-2)) };
         let error = largest_difference(&outputs(&completed(&start, &multi), &names), &exact);
         most = most.max(error);
         assert!(error < 1e-2, "{share}: {error}");
@@ -92,7 +92,7 @@ fn a_hundred_starts_pass_the_blow_on_a_stiff_stop() {
     for share in spread() {
         let angle = 0.8 * (1.0 + 0.5 * share);
         let start = scaled(&base, angle / 0.8);
-        let multi = Overrides { duration: Some(7.5), ..multi_index([1e-6, 1e-8], (1e-3, 5e-2)) };
+        let multi = Method { duration: Some(7.5), ..multi_index([1e-6, 1e-8], (1e-3, 5e-2)) };
         let error = (output(&completed(&start, &multi), "angle")[0] - hammer(angle)).abs();
         most = most.max(error / angle);
         // Steps of 0.05 s leave (w h)^2 / 12 of the phase, 5e-5 of the angle here; the blow adds less.
@@ -107,12 +107,12 @@ fn a_hundred_starts_pass_with_a_wheel_that_leaves_the_road() {
     let (mut most, mut left) = (0.0_f64, 0);
     for share in spread() {
         let start = scaled(&base, 1.0 + 0.1 * share);
-        let to = |overrides: Overrides| Overrides { duration: Some(3.3), ..overrides };
+        let to = |overrides: Method| Method { duration: Some(3.3), ..overrides };
         let multi = completed(&start, &to(multi_index([1e-6, 1e-8], (1e-3, 1e-2))));
         left += u32::from(multi.summary.contacts.iter().any(|c| c.event == "broken"));
         let exact = completed(
             &start,
-            &to(Overrides {
+            &to(Method {
                 integrator: Some("rk54".to_owned()),
                 tolerance: Some(1e-9),
                 step_max: Some(1e-2),

@@ -4,7 +4,7 @@ use super::{field, read, text};
 use mbs::core::scene::{Inertia, Scene};
 use mbs::doctor::{Checkup, Effort, Severity, examine};
 use mbs::scene_file::SceneFile;
-use mbs::{Overrides, Settings, SettingsError};
+use mbs::{Method, Settings, SettingsError};
 
 /// No run: what is asked is seen at the start.
 const STILL: Effort = Effort { positions: 0, seconds: 60.0 };
@@ -12,7 +12,7 @@ const STILL: Effort = Effort { positions: 0, seconds: 60.0 };
 const CLOSE: f64 = 1e-5;
 
 fn checkup(scene: &Scene<f64>) -> Checkup {
-    let settings = Settings::new(scene, &Overrides::default()).expect("the defaults are built");
+    let settings = Settings::new(scene, &Method::default()).expect("the defaults are built");
     examine(scene, &settings, &STILL)
 }
 
@@ -120,8 +120,11 @@ fn a_part_that_no_body_can_have_is_a_note_where_what_it_is_welded_to_can() {
     assert!(notes.contains(&(Severity::Note, "part-inertia")), "{notes:?}");
     assert_eq!(found.worst(), Some(Severity::Note));
     // the weld is one body: its free fall is that of the scene without the frame
-    let outcome =
-        mbs::run::<f64, 3>(&scene, &Settings::new(&scene, &Overrides::default()).unwrap(), &mut ());
+    let outcome = mbs::typed::run::<f64, 3>(
+        &scene,
+        &Settings::new(&scene, &Method::default()).unwrap(),
+        &mut (),
+    );
     assert!(outcome.error.is_none());
     let alone = text("16-dummy-inertia-on-a-weld").replace("\"weld\"", "\"spherical\"");
     let document = SceneFile::parse(&alone, "alone").expect("a scene file");
@@ -139,7 +142,7 @@ fn a_table_that_ends_on_a_slope_within_the_run_is_refused_at_its_row_and_runs_wi
     let text = text("20-guide-table-ends-on-a-slope");
     let document = SceneFile::parse(&text, "table.toml").expect("a scene file");
     let scene: Scene<f64> = document.scene().expect("a scene");
-    let error = Settings::new(&scene, &Overrides::default()).unwrap_err();
+    let error = Settings::new(&scene, &Method::default()).unwrap_err();
     let SettingsError::Scene(fault) = error else { panic!("{error}") };
     let told = document.meaning(fault);
     // the third row of the table
@@ -150,15 +153,15 @@ fn a_table_that_ends_on_a_slope_within_the_run_is_refused_at_its_row_and_runs_wi
     );
     assert!(told.hint().contains("ends = \"level\""));
     // up to its end it runs, and so it does with what the hint says
-    let short = Overrides { duration: Some(0.5), ..Overrides::default() };
+    let short = Method { duration: Some(0.5), ..Method::default() };
     assert!(Settings::new(&scene, &short).is_ok());
     let level = text.replace("[0.5, 0.3]]", "[0.5, 0.3]]\nends = \"level\"");
     let scene = read(&level, "level");
     let run = |formulation: &str, step: f64| {
         let formulation = Some(formulation.to_owned());
-        let overrides = Overrides { formulation, step: Some(step), ..Overrides::default() };
+        let overrides = Method { formulation, step: Some(step), ..Method::default() };
         let settings = Settings::new(&scene, &overrides).expect("it is taken");
-        let outcome = mbs::run::<f64, 2>(&scene, &settings, &mut ());
+        let outcome = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
         assert!(outcome.error.is_none(), "{:?}", outcome.error);
         let outputs = outcome.summary.outputs.0;
         let of = |name: &str| outputs.iter().find(|(n, _)| n == name).expect("an output").1[0];

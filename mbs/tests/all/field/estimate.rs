@@ -6,7 +6,7 @@ use mbs::auto::{Goal, plan, run_plan};
 use mbs::core::scene::{Dimension, Scene};
 use mbs::estimate::estimate;
 use mbs::scene_file::{ErrorEstimate, SceneFile};
-use mbs::{Outcome, Overrides, Settings};
+use mbs::{Method, Outcome, Settings};
 
 /// An error is stated if it is no more than so many times the estimate; estimates are of the size of the errors if the median of the
 /// quotients lies between its inverse and the second.
@@ -15,19 +15,19 @@ const MEDIAN: f64 = 10.0;
 /// Rounding of a result in an error-controlled run, relative.
 const CONTROLLED: f64 = 1e-6;
 
-fn run(scene: &Scene<f64>, overrides: &Overrides) -> (Settings, Outcome) {
+fn run(scene: &Scene<f64>, overrides: &Method) -> (Settings, Outcome) {
     let settings = Settings::new(scene, overrides).expect("the settings are built");
     let outcome = match scene.dimension {
-        Dimension::Planar => mbs::run::<f64, 2>(scene, &settings, &mut ()),
-        Dimension::Spatial => mbs::run::<f64, 3>(scene, &settings, &mut ()),
+        Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
+        Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, &settings, &mut ()),
     };
     assert!(outcome.error.is_none(), "{:?}", outcome.error);
     (settings, outcome)
 }
 
-fn by(formulation: &str, integrator: &str, tolerance: Option<f64>) -> Overrides {
+fn by(formulation: &str, integrator: &str, tolerance: Option<f64>) -> Method {
     let [formulation, integrator] = [formulation, integrator].map(|name| Some(name.to_owned()));
-    Overrides { formulation, integrator, tolerance, ..Overrides::default() }
+    Method { formulation, integrator, tolerance, ..Method::default() }
 }
 
 /// Nominal seconds that an estimate may take: more than it needs.
@@ -35,7 +35,7 @@ const ENOUGH: f64 = 10.0;
 
 /// A default run with its estimate.
 fn estimated(scene: &Scene<f64>) -> (Outcome, ErrorEstimate) {
-    let (settings, mut outcome) = run(scene, &Overrides::default());
+    let (settings, mut outcome) = run(scene, &Method::default());
     let before = outcome.rows().to_vec();
     estimate(scene, &settings, &mut outcome, (&mut CountedClock::default(), ENOUGH));
     assert_eq!(before, outcome.rows(), "an estimate changes no result");
@@ -125,9 +125,9 @@ fn a_spring_too_stiff_for_the_step_is_said() {
 #[test]
 fn a_run_that_stops_has_no_estimate_and_says_why() {
     let scene = field("09-light-wrist");
-    let overrides = Overrides { energy_alarm: Some(1e-9), ..Overrides::default() };
+    let overrides = Method { energy_alarm: Some(1e-9), ..Method::default() };
     let settings = Settings::new(&scene, &overrides).unwrap();
-    let mut outcome = mbs::run::<f64, 3>(&scene, &settings, &mut ());
+    let mut outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
     estimate(&scene, &settings, &mut outcome, (&mut CountedClock::default(), ENOUGH));
     let estimate = outcome.summary.estimate.unwrap();
     assert_eq!(estimate.missing.as_deref(), Some("the run stopped before its end"));
@@ -215,7 +215,7 @@ fn a_choice_by_measurement_is_right_or_refused_where_coordinates_disagree() {
     for (name, component, right) in cases {
         let document = SceneFile::parse(&text(name), name).expect("it is a document");
         let scene = document.scene::<f64>().expect("it is a scene");
-        let base = Overrides::default();
+        let base = Method::default();
         let settings = Settings::new(&scene, &base).expect("the settings go together");
         let goal = Goal { error: Some(1e-4), deadline: None };
         let clock = &mut CountedClock::default();
@@ -232,13 +232,13 @@ fn a_choice_for_a_vehicle_that_jumps_sees_its_landing_and_keeps_its_error() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/iltis-jump.toml");
     let document = SceneFile::parse(&std::fs::read_to_string(path).unwrap(), path).unwrap();
     let scene = document.scene::<f64>().expect("it is a scene");
-    let base = Overrides { formulation: Some("auto".to_owned()), ..Overrides::default() };
+    let base = Method { formulation: Some("auto".to_owned()), ..Method::default() };
     let settings = Settings::new(&scene, &base).expect("the settings go together");
     let goal = Goal { error: Some(1e-2), deadline: None };
     let plan =
         plan((&document, &scene), (&base, settings), goal, &mut CountedClock::default()).unwrap();
     let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
-    let exact = Overrides { step: Some(0.05), ..by("recursive", "rk853", Some(1e-10)) };
+    let exact = Method { step: Some(0.05), ..by("recursive", "rk853", Some(1e-10)) };
     let (_, reference) = run(&scene, &exact);
     let chassis = |row: &[f64]| [row[0], row[2]];
     let mut compared = 0;

@@ -6,7 +6,7 @@ use crate::common::{Bench, settings};
 use mbs::core::scene::{BodyId, Dimension, Effect, EffectKind, Friction, Inertia, JointId, Scene};
 use mbs::core::step::StepError;
 use mbs::doctor::{Effort, Severity, examine};
-use mbs::{InSpace, Overrides, Plane, Settings, StopError};
+use mbs::{InSpace, Method, Plane, Settings, StopError};
 
 /// Formulations in natural coordinates with steps of fixed length.
 const NATURAL: [&str; 4] = ["index-3", "index-1", "classical", "state-space"];
@@ -60,7 +60,8 @@ fn sized(scene: &Scene<f64>, size: f64) -> Scene<f64> {
 fn index_1_runs_a_sprung_leg_as_the_others_do() {
     let scene = field("13-leg-index-1");
     let run = |formulation| {
-        let outcome = mbs::run::<f64, 3>(&scene, &settings(&scene, formulation, None), &mut ());
+        let outcome =
+            mbs::typed::run::<f64, 3>(&scene, &settings(&scene, formulation, None), &mut ());
         assert_eq!(outcome.error, None, "{formulation}");
         outcome.rows().last().expect("a row").1[..4].to_vec()
     };
@@ -106,7 +107,7 @@ fn a_motion_from_rest_does_not_depend_on_the_size() {
 fn classical_does_not_take_thin_legs_for_dependent_constraints() {
     let scene = field("10-hexapod-thin-legs");
     let settings = settings(&scene, "classical", None);
-    let outcome = mbs::run::<f64, 3>(&scene, &settings, &mut ());
+    let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
     let is_true = match outcome.error {
         None => true,
         Some(StopError::Step(error, _)) => matches!(error, StepError::Singular(_)),
@@ -156,9 +157,9 @@ fn several_frictions_are_followed_in_natural_coordinates() {
 fn explicit_steps_that_pass_over_a_friction_stop_and_name_it() {
     let scene = field("08-friction-holds");
     let [formulation, integrator] = ["recursive", "rk4"].map(|x| Some(x.to_owned()));
-    let overrides = Overrides { formulation, integrator, ..Overrides::default() };
+    let overrides = Method { formulation, integrator, ..Method::default() };
     let settings = Settings::new(&scene, &overrides).expect("the settings are built");
-    let outcome = mbs::run::<f64, 2>(&scene, &settings, &mut ());
+    let outcome = mbs::typed::run::<f64, 2>(&scene, &settings, &mut ());
     assert!(matches!(outcome.error, Some(StopError::Friction { effect: 0, .. })));
     let error = outcome.summary.error.expect("an error in the summary");
     assert_eq!(error.code, "friction-not-resolved");
@@ -179,7 +180,7 @@ fn an_axis_that_is_off_by_a_millionth_runs_as_the_parallel_one_with_a_note() {
         let scene = tilted(angle);
         for formulation in ["index-3", "recursive"] {
             let settings = settings(&scene, formulation, None);
-            let outcome = mbs::run::<f64, 3>(&scene, &settings, &mut ());
+            let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
             assert_eq!(outcome.error, None, "{formulation}, {angle:e}");
             let is_named = outcome.notes().iter().any(|note| note.contains("`C`"));
             assert!(is_named, "{angle:e}: {:?}", outcome.notes());
@@ -193,7 +194,8 @@ fn an_axis_that_is_off_by_a_millionth_runs_as_the_parallel_one_with_a_note() {
 fn an_axis_that_is_off_by_more_is_refused_with_the_axis_that_mends_it() {
     for angle in [1e-5, 1e-4, 9e-4] {
         let scene = tilted(angle);
-        let outcome = mbs::run::<f64, 3>(&scene, &settings(&scene, "index-3", None), &mut ());
+        let outcome =
+            mbs::typed::run::<f64, 3>(&scene, &settings(&scene, "index-3", None), &mut ());
         let Some(StopError::AlmostDependent(tilt)) = outcome.error else {
             panic!("{angle:e}: {:?}", outcome.error)
         };
@@ -203,8 +205,8 @@ fn an_axis_that_is_off_by_more_is_refused_with_the_axis_that_mends_it() {
         assert_eq!((error.code.as_str(), error.joint.as_deref()), ("almost-dependent", Some("C")));
     }
     // What is meant, or holds nothing, is left alone.
-    let outcome = Settings::new(&tilted(1e-2), &Overrides::default())
-        .map(|settings| mbs::run::<f64, 3>(&tilted(1e-2), &settings, &mut ()).error);
+    let outcome = Settings::new(&tilted(1e-2), &Method::default())
+        .map(|settings| mbs::typed::run::<f64, 3>(&tilted(1e-2), &settings, &mut ()).error);
     assert!(!matches!(outcome, Ok(Some(StopError::AlmostDependent(_)))));
     let mut open = tilted(1e-4);
     open.joints.retain(|joint| joint.name != "D");

@@ -3,7 +3,7 @@
 use super::{field, read, text};
 use crate::common::settings;
 use mbs::core::scene::Scene;
-use mbs::{FormulationKind, Names, Outcome, Overrides, Settings};
+use mbs::{FormulationKind, Method, Names, Outcome, Settings};
 
 /// The last value of the first output, or why the run stopped.
 fn last(outcome: &Outcome) -> Result<f64, &'static str> {
@@ -63,7 +63,8 @@ fn value<const D: usize>(scene: &Scene<f64>, formulation: &str, step: f64) -> f6
 where
     mbs::Plane<D>: mbs::InSpace<f64>,
 {
-    let outcome = mbs::run::<f64, D>(scene, &settings(scene, formulation, Some(step)), &mut ());
+    let outcome =
+        mbs::typed::run::<f64, D>(scene, &settings(scene, formulation, Some(step)), &mut ());
     last(&outcome).unwrap_or_else(|code| panic!("{formulation}: {code}"))
 }
 
@@ -111,16 +112,17 @@ fn a_bushing_in_space_springs_back_below_a_turn_about_any_axis() {
 fn rejected_steps_leave_the_turn_of_a_bushing_as_it_was() {
     let scene = let_go_at("4.0");
     for formulation in formulations() {
-        let overrides = Overrides {
+        let overrides = Method {
             formulation: Some(formulation.into()),
             // far too long: the first trials are rejected
             step: Some(0.2),
             step_max: Some(0.2),
             error_tolerance: Some(1e-9),
-            ..Overrides::default()
+            ..Method::default()
         };
         let settings = Settings::new(&scene, &overrides).expect("the settings are built");
-        let found = last(&mbs::run::<f64, 2>(&scene, &settings, &mut ())).map(|x| x - LET_GO[1].1);
+        let found =
+            last(&mbs::typed::run::<f64, 2>(&scene, &settings, &mut ())).map(|x| x - LET_GO[1].1);
         assert!(found.is_ok_and(|off| off.abs() < 1e-4), "{formulation}: {found:?}");
     }
 }
@@ -131,7 +133,7 @@ fn a_bushing_in_space_stops_a_run_at_a_whole_turn_and_names_itself() {
     let scene = in_space("0.0", "40.0");
     for formulation in formulations() {
         let settings = settings(&scene, formulation, Some(1e-3));
-        let outcome = mbs::run::<f64, 3>(&scene, &settings, &mut ());
+        let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
         let error = outcome.error.as_ref().unwrap_or_else(|| panic!("{formulation} runs on"));
         assert_eq!(error.code(), "overturned", "{formulation}: {error}");
         let report = error.report(0.0, &Names::new(&scene));
@@ -170,17 +172,17 @@ fn a_body_on_a_bushing_alone_turns_far_about_changing_axes_alike_in_every_formul
         quantity = "position"
     "#;
     let scene = read(TEXT, "body in rubber");
-    let overrides = Overrides {
+    let overrides = Method {
         formulation: Some("recursive".into()),
         integrator: Some("rk853".into()),
         step: Some(0.01),
-        ..Overrides::default()
+        ..Method::default()
     };
     let exact = Settings::new(&scene, &overrides).expect("the settings are built");
-    let right = last(&mbs::run::<f64, 3>(&scene, &exact, &mut ())).expect("it runs");
+    let right = last(&mbs::typed::run::<f64, 3>(&scene, &exact, &mut ())).expect("it runs");
     for formulation in formulations() {
         let outcomes = [1e-3, 5e-4].map(|step| {
-            mbs::run::<f64, 3>(&scene, &settings(&scene, formulation, Some(step)), &mut ())
+            mbs::typed::run::<f64, 3>(&scene, &settings(&scene, formulation, Some(step)), &mut ())
         });
         let found = outcomes.each_ref().map(|outcome| last(outcome).expect("it runs"));
         let extrapolated = found[1] + (found[1] - found[0]) / 3.0;
@@ -193,14 +195,14 @@ fn a_tree_tells_its_angles_with_all_their_turns_whatever_the_step() {
     let scene = field("14-unwrapped-spin");
     for integrator in ["trapezoidal", "newmark", "rk4", "rk54", "rk853", "gbs", "radau5"] {
         for step in [0.05, 0.25] {
-            let overrides = Overrides {
+            let overrides = Method {
                 formulation: Some("recursive".into()),
                 integrator: Some(integrator.into()),
                 step: Some(step),
-                ..Overrides::default()
+                ..Method::default()
             };
             let settings = Settings::new(&scene, &overrides).expect("the settings are built");
-            let found = last(&mbs::run::<f64, 3>(&scene, &settings, &mut ()));
+            let found = last(&mbs::typed::run::<f64, 3>(&scene, &settings, &mut ()));
             assert!(found.is_ok_and(|x| (x - 100.0).abs() < 1e-9), "{integrator}: {found:?}");
         }
     }
@@ -212,7 +214,7 @@ fn natural_coordinates_follow_turns_or_say_that_they_cannot() {
     for formulation in formulations().filter(|formulation| *formulation != "recursive") {
         for step in [0.1, 0.05, 0.03, 0.02, 0.011, 0.005, 0.001] {
             let settings = settings(&scene, formulation, Some(step));
-            let outcome = mbs::run::<f64, 3>(&scene, &settings, &mut ());
+            let outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
             match last(&outcome) {
                 // The rule itself turns by 2 % less at half a radian a step.
                 Ok(found) => {

@@ -7,7 +7,7 @@ mod words;
 
 use mbs::core::scene::{Dimension, Scene};
 use mbs::scene_file::SceneFile;
-use mbs::{Overrides, Settings};
+use mbs::{Method, Settings};
 
 /// What a row changes: passages of its scene, each of which stands once in it.
 type Change = &'static [(&'static str, &'static str)];
@@ -45,18 +45,18 @@ fn changed(text: &str, change: Change) -> String {
 
 /// Reads and runs a text as `mbs run` does; else what is said: the message and the hint.
 fn run(text: &str) -> Result<(), [String; 2]> {
-    run_with(text, &Overrides::default())
+    run_with(text, &Method::default())
 }
 
-fn run_with(text: &str, overrides: &Overrides) -> Result<(), [String; 2]> {
+fn run_with(text: &str, overrides: &Method) -> Result<(), [String; 2]> {
     let document = SceneFile::parse(text, "scene.toml").map_err(|e| [e.to_string(), e.hint()])?;
     let scene: Scene<f64> = document.scene().map_err(|e| [e.to_string(), e.hint()])?;
     let settings = Settings::new(&scene, overrides)
         .and_then(|settings| settings.check_step(&scene, overrides).map(|()| settings));
     let settings = settings.map_err(|e| [e.to_string(), e.hint()])?;
     let outcome = match scene.dimension {
-        Dimension::Planar => mbs::run::<f64, 2>(&scene, &settings, &mut ()),
-        Dimension::Spatial => mbs::run::<f64, 3>(&scene, &settings, &mut ()),
+        Dimension::Planar => mbs::typed::run::<f64, 2>(&scene, &settings, &mut ()),
+        Dimension::Spatial => mbs::typed::run::<f64, 3>(&scene, &settings, &mut ()),
     };
     match &outcome.error {
         None => Ok(()),
@@ -91,7 +91,7 @@ fn every_hint_leads_to_a_scene_that_runs() {
 }
 
 /// Options that are refused, a part of the hint, and what it says to write.
-type Refused = (fn(&mut Overrides), &'static str, fn(&mut Overrides));
+type Refused = (fn(&mut Method), &'static str, fn(&mut Method));
 
 const OPTIONS: [Refused; 9] = [
     (|o| o.step = Some(-1e-3), "larger than zero", |o| o.step = Some(1e-3)),
@@ -147,7 +147,7 @@ const OPTIONS: [Refused; 9] = [
 #[test]
 fn every_hint_of_an_option_leads_to_settings_that_run() {
     for (i, (spoil, hint, mend)) in OPTIONS.into_iter().enumerate() {
-        let mut overrides = Overrides::default();
+        let mut overrides = Method::default();
         spoil(&mut overrides);
         let [message, told] = run_with(scenes::PLANAR, &overrides).expect_err("it is refused");
         assert!(told.contains(hint), "{i}: {message} / {told}");

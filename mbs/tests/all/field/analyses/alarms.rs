@@ -2,21 +2,21 @@
 
 use super::super::{field, read, text};
 use mbs::core::scene::{Dimension, Scene};
-use mbs::{Outcome, Overrides, Settings};
+use mbs::{Method, Outcome, Settings};
 
 const ALL: [&str; 6] =
     ["index-3", "index-1", "classical", "state-space", "multi-index", "recursive"];
 
-fn run(scene: &Scene<f64>, overrides: &Overrides) -> Outcome {
+fn run(scene: &Scene<f64>, overrides: &Method) -> Outcome {
     let settings = Settings::new(scene, overrides).expect("the settings are built");
     match scene.dimension {
-        Dimension::Planar => mbs::run::<f64, 2>(scene, &settings, &mut ()),
-        Dimension::Spatial => mbs::run::<f64, 3>(scene, &settings, &mut ()),
+        Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
+        Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, &settings, &mut ()),
     }
 }
 
-fn by(formulation: &str) -> Overrides {
-    Overrides { formulation: Some(formulation.to_owned()), ..Overrides::default() }
+fn by(formulation: &str) -> Method {
+    Method { formulation: Some(formulation.to_owned()), ..Method::default() }
 }
 
 /// The values of an output at the end of a run that reaches it.
@@ -53,7 +53,7 @@ fn a_structure_carries_its_load_in_every_formulation() {
 #[test]
 fn a_loop_with_redundant_rows_runs_in_recursive_and_classical_says_why_not() {
     let scene = field("05-redundant-loop");
-    let outcome = run(&scene, &Overrides { step: Some(1e-4), ..by("recursive") });
+    let outcome = run(&scene, &Method { step: Some(1e-4), ..by("recursive") });
     let wanted = [
         ("j0_value", -0.169_544_2),
         ("j0_rate", -1.642_867_9),
@@ -77,7 +77,7 @@ fn motion_that_creeps_is_not_stopped_for_what_its_dampers_are_booked() {
     ] {
         for formulation in ALL {
             for error_tolerance in [None, Some(1e-6)] {
-                let overrides = Overrides { error_tolerance, ..by(formulation) };
+                let overrides = Method { error_tolerance, ..by(formulation) };
                 let what = format!("{name} {formulation} {error_tolerance:?}");
                 if formulation == "recursive" && error_tolerance.is_some() {
                     continue;
@@ -120,14 +120,14 @@ at = [1.0e-3, 0.0]
 #[test]
 fn a_tiny_double_pendulum_with_too_long_a_step_is_stopped() {
     for formulation in ["index-3", "index-1", "recursive"] {
-        let outcome = run(&read(TINY, "tiny"), &Overrides { step: Some(0.02), ..by(formulation) });
+        let outcome = run(&read(TINY, "tiny"), &Method { step: Some(0.02), ..by(formulation) });
         let code = outcome.error.map(|error| error.code());
         // Its periods are about 0.06 s: nothing of the motion is resolved, whatever is found out first.
         let is_stopped =
             matches!(code, Some("energy-drift" | "not-converged" | "violated" | "not-finite"));
         assert!(is_stopped, "{formulation}: {code:?}");
     }
-    let outcome = run(&read(TINY, "tiny"), &Overrides { step: Some(1e-4), ..by("index-3") });
+    let outcome = run(&read(TINY, "tiny"), &Method { step: Some(1e-4), ..by("index-3") });
     assert!(outcome.error.is_none(), "{:?}", outcome.error);
 }
 
@@ -139,7 +139,7 @@ fn energy_that_grows_is_stopped_with_dampers_as_without() {
         let scene =
             read(&damped.replace("viscous = 15.0", &format!("viscous = {viscous}")), "grows");
         let integrator = Some("rk4".to_owned());
-        let overrides = Overrides { step: Some(0.4), integrator, ..by("recursive") };
+        let overrides = Method { step: Some(0.4), integrator, ..by("recursive") };
         let code = run(&scene, &overrides).error.map(|error| error.code());
         assert_eq!(code, Some("energy-drift"), "{viscous}");
     }

@@ -1,0 +1,65 @@
+//! The time of a simulation that is stepped by hand: sums of many steps drift, multiples do not.
+
+use crate::checkpoint::tape::{Tape, Told};
+use crate::digits::is_finer;
+use mbs_core::Real;
+
+/// A row of equal steps.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct StepClock<T> {
+    /// Time at which the row begins [s].
+    origin: T,
+    /// Length of its steps [s], as asked for and in the digits of the run.
+    dt: (f64, T),
+    count: u64,
+    /// Time at its end [s].
+    end: T,
+}
+
+impl<T: Real> StepClock<T> {
+    /// The time after one more step of `dt` [s] from `now`.
+    pub(super) fn advance(&mut self, now: T, dt: (f64, T)) -> T {
+        if self.dt.0.to_bits() != dt.0.to_bits() || self.end != now {
+            *self = Self { origin: now, dt, count: 0, end: now };
+        }
+        self.count += 1;
+        #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
+        let count = self.count as f64;
+        self.end = if is_finer::<T>() {
+            self.origin + T::from_f64(count) * self.dt.1
+        } else {
+            T::from_f64(self.origin.to_f64() + count * self.dt.0)
+        };
+        self.end
+    }
+
+    /// Writes it, or reads it back.
+    pub(super) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+        tape.real(&mut self.origin)?;
+        tape.float(&mut self.dt.0)?;
+        tape.real(&mut self.dt.1)?;
+        tape.count(&mut self.count)?;
+        tape.real(&mut self.end)
+    }
+
+    /// The end of the row is known to be this time [s].
+    pub(super) fn land(&mut self, at: T) {
+        self.end = at;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thousand_steps_of_a_millisecond_end_at_a_second() {
+        let (mut clock, mut t) = (StepClock::default(), 0.0);
+        for _ in 0..1000 {
+            t = clock.advance(t, (1e-3, 1e-3));
+        }
+        assert_eq!(t, 1.0);
+        t = clock.advance(t, (0.5, 0.5));
+        assert_eq!(t, 1.5);
+    }
+}

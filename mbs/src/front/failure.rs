@@ -1,0 +1,148 @@
+//! Why a simulation was refused or stopped.
+
+use super::error::{Error, SceneError};
+use super::tree::TreeError;
+use crate::checkpoint::CheckpointError;
+use crate::names::Names;
+use crate::precision::PrecisionError;
+use crate::settings::SettingsError;
+use crate::stop::StopError;
+use core::fmt::{self, Display, Formatter};
+use mbs_core::step::InputError;
+use mbs_scene::Place;
+
+/// Why a simulation or a study was refused, or why it stopped.
+///
+/// Programs branch on [`code`](Error::code), whose words are a contract (docs/CONTRACT.md); [`cause`](Self::cause) gives the typed error
+/// behind it.
+#[derive(Debug)]
+pub struct SimulationError(Box<Parts>);
+
+#[derive(Debug)]
+struct Parts {
+    code: &'static str,
+    message: String,
+    time: Option<f64>,
+    joint: Option<String>,
+    body: Option<String>,
+    hint: String,
+    place: Option<Place>,
+    cause: Option<Box<dyn core::error::Error + Send + Sync>>,
+}
+
+impl SimulationError {
+    pub(crate) fn new(code: &'static str, message: impl Display, hint: impl Display) -> Self {
+        let (message, hint) = (message.to_string(), hint.to_string());
+        let (time, joint, body, place, cause) = (None, None, None, None, None);
+        Self(Box::new(Parts { code, message, time, joint, body, hint, place, cause }))
+    }
+
+    fn with_cause(mut self, cause: impl core::error::Error + Send + Sync + 'static) -> Self {
+        self.0.cause = Some(Box::new(cause));
+        self
+    }
+
+    /// A stop at a time [s].
+    pub(crate) fn stopped(error: StopError, time: f64, names: &Names) -> Self {
+        let report = error.report(time, names);
+        let mut found = Self::new(error.code(), report.message, report.hint);
+        (found.0.time, found.0.joint, found.0.body) = (Some(time), report.joint, report.body);
+        found.with_cause(error)
+    }
+
+    /// The typed error behind it: `error.cause::<StopError>()`.
+    #[must_use]
+    pub fn cause<E: core::error::Error + 'static>(&self) -> Option<&E> {
+        self.0.cause.as_ref()?.downcast_ref()
+    }
+}
+
+impl Error for SimulationError {
+    fn code(&self) -> &'static str {
+        self.0.code
+    }
+    fn time(&self) -> Option<f64> {
+        self.0.time
+    }
+    fn joint(&self) -> Option<&str> {
+        self.0.joint.as_deref()
+    }
+    fn body(&self) -> Option<&str> {
+        self.0.body.as_deref()
+    }
+    fn hint(&self) -> Option<String> {
+        Some(self.0.hint.clone()).filter(|hint| !hint.is_empty())
+    }
+    fn place(&self) -> Option<Place> {
+        self.0.place.clone()
+    }
+}
+
+impl Display for SimulationError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Parts { message, time, joint, body, hint, place, .. } = &*self.0;
+        if let Some(place) = place {
+            write!(f, "{}:{}: ", place.line, place.column)?;
+        }
+        f.write_str(message)?;
+        if let Some(joint) = joint {
+            write!(f, ", joint `{joint}`")?;
+        }
+        if let Some(body) = body {
+            write!(f, ", body `{body}`")?;
+        }
+        if let Some(time) = time {
+            write!(f, ", at {} s", mbs_scene::format::significant(*time))?;
+        }
+        if hint.is_empty() { Ok(()) } else { write!(f, "\nhint: {hint}") }
+    }
+}
+
+impl core::error::Error for SimulationError {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        self.0.cause.as_ref().map(|cause| &**cause as _)
+    }
+}
+
+impl From<SceneError> for SimulationError {
+    fn from(error: SceneError) -> Self {
+        let mut found = Self::new(error.code(), &error, error.hint().unwrap_or_default());
+        let owned = |name: Option<&str>| name.map(str::to_owned);
+        (found.0.joint, found.0.body) = (owned(error.joint()), owned(error.body()));
+        found.0.place = error.place();
+        found.with_cause(error)
+    }
+}
+
+impl From<PrecisionError> for SimulationError {
+    fn from(error: PrecisionError) -> Self {
+        Self::new("precision-not-built", &error, error.hint()).with_cause(error)
+    }
+}
+
+impl From<SettingsError> for SimulationError {
+    fn from(error: SettingsError) -> Self {
+        Self::new("settings-refused", &error, error.hint()).with_cause(error)
+    }
+}
+
+impl From<CheckpointError> for SimulationError {
+    fn from(error: CheckpointError) -> Self {
+        Self::new("checkpoint-refused", &error, error.hint()).with_cause(error)
+    }
+}
+
+impl From<TreeError> for SimulationError {
+    fn from(error: TreeError) -> Self {
+        let mut found = Self::new(error.code(), &error, "");
+        found.0.joint = error.joint().map(str::to_owned);
+        found.with_cause(error)
+    }
+}
+
+impl From<InputError> for SimulationError {
+    fn from(error: InputError) -> Self {
+        let hint = "inputs are declared in the mechanism: a signal, or the motion of a guide, of kind input; values are finite";
+        Self::new("input-refused", error, hint).with_cause(error)
+    }
+}

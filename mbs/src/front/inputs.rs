@@ -1,0 +1,223 @@
+//! Inputs of a mechanism: numbers by name that are set between steps.
+
+use super::failure::SimulationError;
+use super::inner::Inner;
+use mbs_core::effects::{Form, SignalForm, Value};
+use mbs_core::scene::{Dimension, EffectId, EffectKind, GuideId, Motion, Scene, Signal};
+use std::sync::Arc;
+
+/// An input of a simulation, by its place in [`Simulation::inputs`](crate::Simulation::inputs).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct InputId(usize);
+
+impl InputId {
+    /// The input at a place in the list.
+    #[must_use]
+    pub fn new(index: usize) -> Self {
+        Self(index)
+    }
+
+    /// Its place in the list.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0
+    }
+}
+
+/// What an input belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum InputOwner {
+    /// The signal of an effect.
+    Effect(EffectId),
+    /// The prescribed motion of a guide.
+    Guide(GuideId),
+}
+
+/// One input.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct InputInfo {
+    /// `NAME` of its effect, or `NAME.x` of a vector; `JOINT`, `JOINT.rate` and `JOINT.acceleration` of a guide.
+    pub name: String,
+    /// Its unit; empty for the input of a user's law.
+    pub unit: &'static str,
+    /// What it belongs to.
+    pub owner: InputOwner,
+    /// Which of the owner's numbers it is.
+    pub component: usize,
+    /// Its value at the start.
+    pub start: f64,
+}
+
+/// The inputs of a simulation with their present values.
+#[derive(Debug, Clone)]
+pub(super) struct Inputs {
+    list: Arc<[InputInfo]>,
+    values: Vec<f64>,
+}
+
+impl Inputs {
+    pub(super) fn new(scene: &Scene<f64>) -> Self {
+        let mut list = Vec::new();
+        for (e, effect) in scene.effects.iter().enumerate().filter(|(_, effect)| effect.enabled) {
+            let Some((Signal::Input(start), n, unit)) = signal(&effect.kind, scene.dimension)
+            else {
+                continue;
+            };
+            for (component, &start) in start.iter().enumerate().take(n) {
+                let name = match n {
+                    1 => effect.name.clone(),
+                    _ => format!("{}.{}", effect.name, ["x", "y", "z"][component]),
+                };
+                let owner = InputOwner::Effect(EffectId::new(e));
+                list.push(InputInfo { name, unit, owner, component, start });
+            }
+        }
+        for (g, guide) in scene.guides.iter().enumerate() {
+            let Motion::Input(start) = guide.law else { continue };
+            let joint = &scene.joints[guide.joint.index()];
+            let is_angle = joint.kind.n_rotations(scene.dimension) > 0;
+            let units = if is_angle { ["rad", "rad/s", "rad/s^2"] } else { ["m", "m/s", "m/s^2"] };
+            for (component, suffix) in ["", ".rate", ".acceleration"].into_iter().enumerate() {
+                let (name, owner) =
+                    (format!("{}{suffix}", joint.name), InputOwner::Guide(GuideId::new(g)));
+                let (unit, start) = (units[component], start[component]);
+                list.push(InputInfo { name, unit, owner, component, start });
+            }
+        }
+        let values = list.iter().map(|input| input.start).collect();
+        Self { list: list.into(), values }
+    }
+
+    pub(super) fn list(&self) -> &[InputInfo] {
+        &self.list
+    }
+
+    pub(super) fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The first input of an effect.
+    pub(super) fn of_effect(&self, effect: EffectId) -> Result<InputId, SimulationError> {
+        let place = self.list.iter().position(|input| input.owner == InputOwner::Effect(effect));
+        place.map(InputId).ok_or_else(|| {
+            let message = format!("effect {} has no input", effect.index() + 1);
+            SimulationError::new(
+                "input-refused",
+                message,
+                "give it a signal of kind input, and enable it",
+            )
+        })
+    }
+
+    pub(super) fn set(
+        &mut self,
+        inner: &mut dyn Inner,
+        input: InputId,
+        value: f64,
+    ) -> Result<(), SimulationError> {
+        let Some(info) = self.list.get(input.0) else { return Err(self.missing(input.0 + 1)) };
+        let before = core::mem::replace(&mut self.values[input.0], value);
+        let set = self.write(inner, info.owner);
+        if set.is_err() {
+            self.values[input.0] = before;
+        }
+        set
+    }
+
+    pub(super) fn set_all(
+        &mut self,
+        inner: &mut dyn Inner,
+        all: &[f64],
+    ) -> Result<(), SimulationError> {
+        self.check(all)?;
+        let before = core::mem::replace(&mut self.values, all.to_vec());
+        let set = self.renew(inner);
+        if set.is_err() {
+            self.values = before;
+            self.renew(inner)?;
+        }
+        set
+    }
+
+    pub(super) fn set_guide(
+        &mut self,
+        inner: &mut dyn Inner,
+        guide: GuideId,
+        motion: [f64; 3],
+    ) -> Result<(), SimulationError> {
+        inner.set_guide_input(guide.index(), motion)?;
+        for (value, info) in self.values.iter_mut().zip(&*self.list) {
+            if info.owner == InputOwner::Guide(guide) {
+                *value = motion[info.component];
+            }
+        }
+        Ok(())
+    }
+
+    /// Those of another simulation of the same mechanism are as many.
+    pub(super) fn check(&self, values: &[f64]) -> Result<(), SimulationError> {
+        if values.len() == self.values.len() { Ok(()) } else { Err(self.missing(values.len())) }
+    }
+
+    /// Takes the values of a state that the simulation has returned to.
+    pub(super) fn restore(&mut self, values: &[f64]) {
+        self.values.copy_from_slice(values);
+    }
+
+    /// The values at the start.
+    pub(super) fn reset(&mut self) {
+        self.values = self.list.iter().map(|input| input.start).collect();
+    }
+
+    /// Writes all present values into a simulation that was started anew.
+    pub(super) fn renew(&mut self, inner: &mut dyn Inner) -> Result<(), SimulationError> {
+        let list = self.list.clone();
+        let firsts = list.iter().filter(|input| input.component == 0);
+        firsts.into_iter().try_for_each(|input| self.write(inner, input.owner))
+    }
+
+    fn write(&self, inner: &mut dyn Inner, owner: InputOwner) -> Result<(), SimulationError> {
+        let mut numbers = [0.0; 3];
+        for (value, info) in self.values.iter().zip(&*self.list).filter(|(_, i)| i.owner == owner) {
+            numbers[info.component] = *value;
+        }
+        match owner {
+            InputOwner::Effect(effect) => inner.set_effect_input(effect.index(), numbers)?,
+            InputOwner::Guide(guide) => inner.set_guide_input(guide.index(), numbers)?,
+        }
+        Ok(())
+    }
+
+    fn missing(&self, found: usize) -> SimulationError {
+        let message = format!("input {found} of a mechanism with {} inputs", self.list.len());
+        SimulationError::new(
+            "input-refused",
+            message,
+            "`inputs()` lists them with their names and units",
+        )
+    }
+}
+
+/// The signal of an effect, how many numbers it has, and their unit.
+fn signal(
+    kind: &EffectKind<f64>,
+    dimension: Dimension,
+) -> Option<(Signal<f64>, usize, &'static str)> {
+    if let EffectKind::Own(own) = kind {
+        return Some((own.course.clone(), 3, ""));
+    }
+    let entries = kind.row().fields.iter().zip(kind.values());
+    entries.into_iter().find_map(|(field, value)| match (field.form, value) {
+        (Form::Signal(form), Value::Signal(signal)) => {
+            let n = match form {
+                SignalForm::Scalar => 1,
+                SignalForm::Vector => dimension.count(),
+                SignalForm::Moment => 2 * dimension.count() - 3,
+            };
+            Some((signal, n, field.unit))
+        }
+        _ => None,
+    })
+}

@@ -1,0 +1,174 @@
+//! Readings of a simulation: computed at the first call after a step, and kept until the next.
+
+use super::values::{Coordinates, Wrench};
+use crate::channels::Channels;
+use crate::checkpoint::tape::{Tape, Told};
+use crate::simulation::Simulation;
+use crate::stop::StopError;
+use crate::tree::{InSpace, Plane};
+use core::ops::Range;
+use mbs_core::Real;
+use mbs_core::model::State;
+use mbs_core::outputs::Reactions;
+use mbs_core::scene::{JointId, Output, Quantity, Scene};
+
+/// Joint coordinates with their turns, outputs and reactions.
+#[derive(Debug, Clone)]
+pub(super) struct Readings<T: Real, const D: usize> {
+    joints: Group<T, D>,
+    rates: Group<T, D>,
+    outputs: Group<T, D>,
+    /// Made where one is asked for; whether they are those of the present state.
+    reactions: Option<(Box<Reactions<T, D>>, bool)>,
+}
+
+/// Channels that are read together.
+#[derive(Debug, Clone)]
+struct Group<T: Real, const D: usize> {
+    channels: Channels<T, D>,
+    row: Vec<T>,
+    /// Where the components of each channel are.
+    places: Vec<Range<usize>>,
+    is_present: bool,
+}
+
+impl<T: Real, const D: usize> Group<T, D>
+where
+    Plane<D>: InSpace<T>,
+{
+    /// Of these outputs alone.
+    fn new(
+        scene: &Scene<T>,
+        outputs: Vec<Quantity<T>>,
+        simulation: &Simulation<T, D>,
+    ) -> Result<Self, StopError> {
+        let output = |quantity| Output { name: String::new(), quantity };
+        let scene = Scene { outputs: outputs.into_iter().map(output).collect(), ..scene.clone() };
+        let mut channels = Channels::new(&scene, simulation.model())?;
+        channels.track(simulation)?;
+        let mut end = 0;
+        let places = channels.lengths().map(|n| {
+            end += n;
+            end - n..end
+        });
+        let places: Vec<_> = places.collect();
+        Ok(Self { channels, row: vec![T::ZERO; end], places, is_present: false })
+    }
+
+    /// Makes the row that of the present state.
+    fn update(&mut self, state: &State<T>) -> Result<(), StopError> {
+        if !self.is_present {
+            self.channels.write(state, &mut self.row)?;
+            self.is_present = true;
+        }
+        Ok(())
+    }
+
+    /// The components of a channel, and whether all of the row are finite.
+    fn of(&mut self, channel: usize, state: &State<T>) -> (Coordinates, Result<(), StopError>) {
+        let written = self.update(state);
+        let place = self.places.get(channel).cloned().unwrap_or_default();
+        (Coordinates::new(self.row[place].iter().map(|x| x.to_f64())), written)
+    }
+}
+
+impl<T: Real, const D: usize> Readings<T, D>
+where
+    Plane<D>: InSpace<T>,
+{
+    /// Prepares the readings of a simulation at its start.
+    pub(super) fn new(scene: &Scene<T>, simulation: &Simulation<T, D>) -> Result<Self, StopError> {
+        let of_joints = |quantity: fn(JointId) -> Quantity<T>| {
+            Group::new(
+                scene,
+                (0..scene.joints.len()).map(JointId::new).map(quantity).collect(),
+                simulation,
+            )
+        };
+        let outputs = scene.outputs.iter().map(|output| output.quantity.clone()).collect();
+        Ok(Self {
+            joints: of_joints(|joint| Quantity::JointValue { joint })?,
+            rates: of_joints(|joint| Quantity::JointRate { joint })?,
+            outputs: Group::new(scene, outputs, simulation)?,
+            reactions: None,
+        })
+    }
+
+    /// Follows angles over a step, so that no turn is lost.
+    pub(super) fn follow(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
+        self.stale();
+        self.joints.channels.track(simulation)?;
+        self.outputs.channels.track(simulation)
+    }
+
+    /// What was read is no longer that of the present state.
+    pub(super) fn stale(&mut self) {
+        for group in [&mut self.joints, &mut self.rates, &mut self.outputs] {
+            group.is_present = false;
+        }
+        if let Some((_, is_present)) = &mut self.reactions {
+            *is_present = false;
+        }
+    }
+
+    /// Coordinates of a joint; what is not finite is seen as that.
+    pub(super) fn values(&mut self, joint: usize, state: &State<T>) -> Coordinates {
+        self.joints.of(joint, state).0
+    }
+
+    pub(super) fn rates(&mut self, joint: usize, state: &State<T>) -> Coordinates {
+        self.rates.of(joint, state).0
+    }
+
+    pub(super) fn output(
+        &mut self,
+        output: usize,
+        state: &State<T>,
+    ) -> Result<Coordinates, StopError> {
+        let (output, written) = self.outputs.of(output, state);
+        written.map(|()| output)
+    }
+
+    /// Number of components of all outputs.
+    pub(super) fn n_components(&self) -> usize {
+        self.outputs.row.len()
+    }
+
+    /// Writes the components of all outputs, in their order.
+    pub(super) fn write(&mut self, state: &State<T>, out: &mut [f64]) -> Result<(), StopError> {
+        let written = self.outputs.update(state);
+        out.iter_mut().zip(&self.outputs.row).for_each(|(to, x)| *to = x.to_f64());
+        written
+    }
+
+    /// What the first body of a joint does to the second, at the joint's place on the second body.
+    pub(super) fn reaction(
+        &mut self,
+        joint: usize,
+        (scene, simulation): (&Scene<T>, &Simulation<T, D>),
+    ) -> Result<Wrench, StopError> {
+        if self.reactions.is_none() {
+            let reactions =
+                Reactions::new(scene, simulation.model()).map_err(StopError::Reaction)?;
+            self.reactions = Some((Box::new(reactions), false));
+        }
+        let Some((reactions, is_present)) = &mut self.reactions else {
+            return Ok(Wrench::default());
+        };
+        if !*is_present {
+            reactions.update(simulation.state());
+            *is_present = true;
+        }
+        let [a, b, c, d, e, f] = reactions.reaction(joint).map(Real::to_f64);
+        Ok(match D {
+            2 => Wrench { force: [a, b, 0.0], moment: [0.0, 0.0, c] },
+            _ => Wrench { force: [a, b, c], moment: [d, e, f] },
+        })
+    }
+
+    /// Writes the turns that are remembered, or reads them back.
+    pub(super) fn walk(&mut self, tape: &mut impl Tape) -> Told {
+        self.joints.channels.walk(tape)?;
+        self.outputs.channels.walk(tape)
+    }
+}

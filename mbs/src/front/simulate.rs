@@ -1,0 +1,63 @@
+//! From a mechanism to what moves: its simulation, its tree, and what a study of it runs.
+
+use super::failure::SimulationError;
+use super::inner::Built;
+use super::inputs::Inputs;
+use super::mechanism::Mechanism;
+use super::simulation::Simulation;
+use super::tree::Tree;
+use crate::choice::Precision;
+use crate::names::Names;
+use crate::precision::ReadScene;
+use crate::settings::{Method, Settings};
+use crate::statics::StaticEquilibrium;
+use mbs_core::scene::{Scene, Start};
+
+impl Mechanism {
+    /// Builds the model, assembles it and allocates all that a step needs. What the method leaves open is what the mechanism's file asks for,
+    /// else index-3 with steps of 1 ms.
+    ///
+    /// # Errors
+    /// [`SimulationError`] for a part, a method or a start that is refused.
+    pub fn simulate(&self, method: &Method) -> Result<Simulation, SimulationError> {
+        let (read, settings, scene) = self.prepared(method)?;
+        let names = Names::new(&scene);
+        let inner = read.work(Built(&settings));
+        let inner = inner.map_err(|error| SimulationError::stopped(error, 0.0, &names))?;
+        Ok(Simulation::of(inner, Inputs::new(&scene), names))
+    }
+
+    /// The mechanism in relative coordinates, at any position and velocity.
+    ///
+    /// # Errors
+    /// [`SimulationError`] for a part that is refused, or a mechanism that has no tree.
+    pub fn tree(&self) -> Result<Tree, SimulationError> {
+        Ok(Tree::new(&self.resolve_scene()?)?)
+    }
+
+    /// Starts from an equilibrium that was found: what is simulated or run from now on begins there, with the initial velocities of the
+    /// mechanism.
+    pub fn start_from(&mut self, _rest: &StaticEquilibrium) -> &mut Self {
+        self.scene_mut().start = Start::Equilibrium;
+        self
+    }
+
+    /// The scene in the precision of its settings, the settings, and the scene in `f64`.
+    pub(super) fn prepared(
+        &self,
+        method: &Method,
+    ) -> Result<(ReadScene<'static>, Settings, Scene<f64>), SimulationError> {
+        let scene = self.resolve_scene()?;
+        let settings = Settings::new(&scene, method)?;
+        let read = match settings.precision {
+            Precision::F64 => ReadScene::of_f64(scene.clone()),
+            #[cfg(feature = "f32")]
+            Precision::F32 => ReadScene::F32(Box::new(self.resolved()?)),
+            #[cfg(feature = "dd")]
+            Precision::DoubleDouble => ReadScene::DoubleDouble(Box::new(self.resolved()?)),
+            #[cfg(not(all(feature = "f32", feature = "dd")))]
+            missing => return Err(crate::precision::PrecisionError::NotBuilt(missing).into()),
+        };
+        Ok((read, settings, scene))
+    }
+}

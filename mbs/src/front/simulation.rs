@@ -1,0 +1,240 @@
+//! A mechanism in motion.
+
+use super::failure::SimulationError;
+use super::inner::{Inner, Look};
+use super::inputs::{InputId, InputInfo, Inputs};
+use super::values::{Coordinates, StepReport};
+use crate::checkpoint::CheckpointError;
+use crate::names::Names;
+use crate::stop::StopError;
+use mbs_core::scene::{EffectId, GuideId, JointId};
+use std::sync::Arc;
+
+/// A step that is shorter than the others by less than this ratio is as long as they are, and its end is rounded.
+const SAME_LENGTH: f64 = 1e-9;
+
+/// A mechanism in motion: stepped by hand, read between steps, and cloned to try something and throw the copy away.
+///
+/// Numbers are in SI units, vectors in global axes; in a planar mechanism the third component is zero, and rotations are about z. Handles are
+/// those of the [`Mechanism`](crate::Mechanism) that it was made of: one of another mechanism panics like an index.
+///
+/// ```
+/// use mbs::{Body, GROUND, Joint, Mechanism, Method};
+/// let mut m = Mechanism::planar("double pendulum");
+/// m.set_gravity([0.0, -9.81]);
+/// let upper = m.add(Body::rod([0.0, 0.0], [1.0, 0.0], 1.0));
+/// let lower = m.add(Body::rod([1.0, 0.0], [2.0, 0.0], 1.0));
+/// let pivot = m.add(Joint::revolute([GROUND, upper], [0.0, 0.0]));
+/// let elbow = m.add(Joint::revolute([upper, lower], [1.0, 0.0]));
+/// let mut sim = m.simulate(&Method::default())?;
+/// sim.advance_to(1.0)?;
+/// assert!((sim.value(pivot) - -2.778493).abs() < 1e-6 && (sim.value(elbow) - 0.393281).abs() < 1e-6);
+/// # Ok::<(), mbs::SimulationError>(())
+/// ```
+#[derive(Debug)]
+pub struct Simulation {
+    inner: Box<dyn Inner>,
+    inputs: Inputs,
+    names: Arc<Names>,
+}
+
+impl Clone for Simulation {
+    fn clone(&self) -> Self {
+        let Self { inner, inputs, names } = self;
+        Self { inner: inner.clone_box(), inputs: inputs.clone(), names: names.clone() }
+    }
+}
+
+impl Simulation {
+    pub(super) fn of(inner: Box<dyn Inner>, inputs: Inputs, names: Names) -> Self {
+        Self { inner, inputs, names: Arc::new(names) }
+    }
+
+    /// Reads it.
+    pub(super) fn read<R>(&self, mut read: impl FnMut(&dyn Look) -> R) -> R {
+        let mut found = None;
+        self.inner.with(&mut |look| found = Some(read(look)));
+        found.expect("it is read once")
+    }
+
+    pub(super) fn stopped(&self, error: StopError) -> SimulationError {
+        SimulationError::stopped(error, self.time(), &self.names)
+    }
+
+    /// Advances by `dt` [s]: one step, or as many as the step control takes.
+    ///
+    /// # Errors
+    /// [`SimulationError`] with time and joint; the state is then that before the failed step.
+    pub fn step(&mut self, dt: f64) -> Result<StepReport, SimulationError> {
+        if !(dt > 0.0 && dt.is_finite()) {
+            let message = format!("a step must be positive and finite, but is {dt} s");
+            return Err(SimulationError::new(
+                "bad-step",
+                message,
+                "write a number larger than zero",
+            ));
+        }
+        self.inner.step(dt, None).map_err(|error| self.stopped(error))
+    }
+
+    /// Advances to `time` [s] by steps of the method's length, the last one shorter where they do not fit; at once where the method controls
+    /// their length.
+    ///
+    /// # Errors
+    /// As for [`step`](Self::step); one before now is refused.
+    pub fn advance_to(&mut self, time: f64) -> Result<StepReport, SimulationError> {
+        let (from, h) = (self.time(), self.inner.length());
+        let span = time - from;
+        let mut sum = StepReport::default();
+        if span == 0.0 {
+            return Ok(sum);
+        }
+        if !(span > 0.0 && span.is_finite()) {
+            let message = format!("a simulation at {from} s cannot advance to {time} s");
+            return Err(SimulationError::new(
+                "bad-step",
+                message,
+                "clone or save an earlier state to return to it",
+            ));
+        }
+        if self.inner.is_controlled() {
+            return self.inner.step(span, Some(time)).map_err(|error| self.stopped(error));
+        }
+        loop {
+            let rest = time - self.time();
+            let is_last = rest <= h * (1.0 + SAME_LENGTH * (1.0 + span / h));
+            let is_full = !is_last || (rest - h).abs() <= SAME_LENGTH * span.max(h);
+            let (dt, to) = (if is_full { h } else { rest }, is_last.then_some(time));
+            let report = self.inner.step(dt, to).map_err(|error| self.stopped(error))?;
+            sum.join_report(&report);
+            if is_last {
+                return Ok(sum);
+            }
+        }
+    }
+
+    /// Inputs that can be set between steps, in the order of effects, then guides.
+    #[must_use]
+    pub fn inputs(&self) -> &[InputInfo] {
+        self.inputs.list()
+    }
+
+    /// The first input of an effect; those of a vector follow it.
+    ///
+    /// # Errors
+    /// Where the effect has none: its signal is no [`Signal::Input`](crate::Signal::Input).
+    pub fn input_of(&self, effect: EffectId) -> Result<InputId, SimulationError> {
+        self.inputs.of_effect(effect)
+    }
+
+    /// Sets an input from now on: it acts in the whole of the next step.
+    ///
+    /// # Errors
+    /// A value that is not finite, or an input of another mechanism. Nothing is set then.
+    pub fn set_input(&mut self, input: InputId, value: f64) -> Result<(), SimulationError> {
+        self.inputs.set(&mut *self.inner, input, value)
+    }
+
+    /// Sets all inputs, in the order of [`inputs`](Self::inputs).
+    ///
+    /// # Errors
+    /// As for [`set_input`](Self::set_input); a wrong number of values.
+    pub fn set_inputs(&mut self, all: &[f64]) -> Result<(), SimulationError> {
+        self.inputs.set_all(&mut *self.inner, all)
+    }
+
+    /// Sets value, rate and acceleration that a guide has at the end of the next step.
+    ///
+    /// # Errors
+    /// A guide that is no [`Motion::Input`](crate::Motion::Input), or a number that is not finite.
+    pub fn set_guide(
+        &mut self,
+        guide: GuideId,
+        value: f64,
+        rate: f64,
+        acceleration: f64,
+    ) -> Result<(), SimulationError> {
+        self.inputs.set_guide(&mut *self.inner, guide, [value, rate, acceleration])
+    }
+
+    /// Puts the mechanism into another state: coordinates and rates of these joints hold exactly, the rest follows by the least
+    /// mass-weighted change from the reference configuration. The clock stays; energies and work are counted anew, and inputs keep their
+    /// values.
+    ///
+    /// # Errors
+    /// States that the joints do not allow; the simulation is then as it was.
+    pub fn set_state(
+        &mut self,
+        joints: &[(JointId, Coordinates, Coordinates)],
+    ) -> Result<(), SimulationError> {
+        let started = self.inner.start(Some(joints), self.time());
+        started.map_err(|error| self.stopped(error))?;
+        self.inputs.renew(&mut *self.inner)
+    }
+
+    /// Starts anew at time zero, with the inputs of the mechanism.
+    ///
+    /// # Errors
+    /// Those of the first start.
+    pub fn reset(&mut self) -> Result<(), SimulationError> {
+        self.inner.start(None, 0.0).map_err(|error| self.stopped(error))?;
+        self.inputs.reset();
+        Ok(())
+    }
+
+    /// All that the next steps depend on.
+    ///
+    /// # Errors
+    /// None that a user can make; those of the format.
+    pub fn save(&self) -> Result<Snapshot, SimulationError> {
+        Ok(Snapshot { bytes: self.inner.save()?, inputs: self.inputs.values().to_vec() })
+    }
+
+    /// Returns to a snapshot of a simulation of the same mechanism and method: the next steps have the same bits.
+    ///
+    /// # Errors
+    /// A snapshot of another mechanism, method or version; the simulation is then as it was.
+    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), SimulationError> {
+        self.inputs.check(&snapshot.inputs)?;
+        self.inner.restore(&snapshot.bytes)?;
+        self.inputs.restore(&snapshot.inputs);
+        Ok(())
+    }
+}
+
+/// A state to return to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    bytes: Vec<u8>,
+    inputs: Vec<f64>,
+}
+
+/// First bytes of a snapshot, with the number of its form.
+const MAGIC: &[u8; 10] = b"mbs-snap\x01\x00";
+
+impl Snapshot {
+    /// As bytes, for a file: the checkpoint in it knows its mechanism, method and version.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = MAGIC.to_vec();
+        bytes.extend((self.inputs.len() as u64).to_le_bytes());
+        bytes.extend(self.inputs.iter().flat_map(|x| x.to_le_bytes()));
+        bytes.extend_from_slice(&self.bytes);
+        bytes
+    }
+
+    /// From the bytes of [`to_bytes`](Self::to_bytes); what is in them is checked by [`Simulation::restore`].
+    ///
+    /// # Errors
+    /// Bytes that are no snapshot.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, SimulationError> {
+        let parts = || {
+            let (count, rest) = bytes.strip_prefix(MAGIC)?.split_first_chunk::<8>()?;
+            let n = usize::try_from(u64::from_le_bytes(*count)).ok()?;
+            let (inputs, bytes) = rest.split_at_checked(n.checked_mul(8)?)?;
+            let inputs = inputs.chunks_exact(8).map(|x| x.try_into().map(f64::from_le_bytes));
+            Some(Self { bytes: bytes.to_vec(), inputs: inputs.collect::<Result<_, _>>().ok()? })
+        };
+        parts().ok_or_else(|| CheckpointError::NotACheckpoint.into())
+    }
+}

@@ -1,0 +1,117 @@
+//! Studies of a mechanism: what needs a model or a whole run of it, each with a typed result.
+
+use super::failure::SimulationError;
+use super::mechanism::Mechanism;
+use super::table::Table;
+use crate::document::Plain;
+use crate::modes::{Modes, Place};
+use crate::names::Names;
+use crate::run::Outcome;
+use crate::settings::Method;
+use crate::statics::{Search, StaticEquilibrium};
+use mbs_scene::RunSummary;
+
+/// What is asked of a run: a method, how long, and what else.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Run {
+    /// How the mechanism is stepped; what it leaves open is the mechanism's.
+    pub method: Method,
+}
+
+impl Run {
+    /// A run as the mechanism asks for it.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// By this method.
+    #[must_use]
+    pub fn method(mut self, method: Method) -> Self {
+        self.method = method;
+        self
+    }
+
+    /// For so long [s], in place of the mechanism's duration.
+    #[must_use]
+    pub fn duration(mut self, duration: f64) -> Self {
+        self.method.duration = Some(duration);
+        self
+    }
+}
+
+/// What a run gives.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct RunResult {
+    /// Outputs over time.
+    pub table: Table,
+    /// Why it stopped early; the table then ends there.
+    pub stop: Option<SimulationError>,
+    /// Counts, energies, violations: the object that `mbs run --json` prints.
+    pub summary: RunSummary,
+    /// What the user should know.
+    pub notes: Vec<String>,
+}
+
+/// Runs a mechanism to its end. One that stops early is a result with [`stop`](RunResult::stop).
+///
+/// # Errors
+/// [`SimulationError`] for a mechanism or a method that is refused.
+///
+/// # Examples
+/// ```
+/// use mbs::{Body, GROUND, Joint, Mechanism, Run, run};
+/// let mut m = Mechanism::planar("pendulum");
+/// m.set_gravity([0.0, -9.81]);
+/// let bob = m.add(Body::planar([1.0, 0.0], 1.0, 0.0));
+/// m.add(Joint::revolute([GROUND, bob], [0.0, 0.0]).named("pivot"));
+/// let result = run(&m, &Run::new().duration(1.0))?;
+/// let angle = result.table.column("pivot").unwrap().last().unwrap();
+/// // let go at the horizontal, the bob has turned by -2.9758 rad after 1 s
+/// assert!((angle + 2.9758).abs() < 1e-4 && result.stop.is_none());
+/// # Ok::<(), mbs::SimulationError>(())
+/// ```
+pub fn run(m: &Mechanism, options: &Run) -> Result<RunResult, SimulationError> {
+    let (read, settings, scene) = m.prepared(&options.method)?;
+    let outcome = read.work(Plain(&mut |_| {}, &settings));
+    let Outcome { summary, error, .. } = &outcome;
+    let names = Names::new(&scene);
+    let stop = error.clone().map(|e| SimulationError::stopped(e, summary.end_time, &names));
+    Ok(RunResult {
+        table: Table::new(outcome.channels(), outcome.rows()),
+        stop,
+        summary: outcome.summary.clone(),
+        notes: outcome.notes().to_vec(),
+    })
+}
+
+/// How an equilibrium is searched.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct EquilibriumOptions {
+    /// Downhill to a stable one, or to the nearest one of any kind.
+    pub search: Search,
+}
+
+/// Finds a static equilibrium: where the mechanism stays at rest, dampers and time-dependent parts left out.
+///
+/// # Errors
+/// [`SimulationError`] where there is none, or it is not found.
+pub fn equilibrium(
+    m: &Mechanism,
+    options: &EquilibriumOptions,
+) -> Result<StaticEquilibrium, SimulationError> {
+    let scene = m.resolve_scene()?;
+    let found = StaticEquilibrium::new(&scene, options.search);
+    found.map_err(|error| SimulationError::stopped(error, 0.0, &Names::new(&scene)))
+}
+
+/// Frequencies and damping ratios of the motion about an equilibrium.
+///
+/// # Errors
+/// [`SimulationError`] where the motion cannot be linearised.
+pub fn modes(m: &Mechanism, at: &StaticEquilibrium) -> Result<Modes, SimulationError> {
+    let scene = m.resolve_scene()?;
+    let found = Modes::new(&scene, Place::Equilibrium, at.search);
+    found.map_err(|error| SimulationError::stopped(error, 0.0, &Names::new(&scene)))
+}

@@ -1,0 +1,61 @@
+//! A method as code writes it.
+
+use super::Method;
+use crate::choice::{IntegratorKind, Precision, StepRule};
+use crate::methods::FormulationKind;
+
+impl Method {
+    /// By this formulation; all else is the mechanism's, or its default.
+    ///
+    /// ```
+    /// use mbs::{FormulationKind, IntegratorKind, Method};
+    /// let method = Method::new(FormulationKind::Recursive).integrator(IntegratorKind::Rk4).step(1e-3);
+    /// ```
+    #[must_use]
+    pub fn new(formulation: FormulationKind) -> Self {
+        Self { formulation: Some(formulation.name().to_owned()), ..Self::default() }
+    }
+
+    /// With this integrator. Default: the trapezoidal rule.
+    #[must_use]
+    pub fn integrator(self, integrator: IntegratorKind) -> Self {
+        Self { integrator: Some(integrator.name().to_owned()), ..self }
+    }
+
+    /// In this precision. Default: `f64`.
+    #[must_use]
+    pub fn precision(self, precision: Precision) -> Self {
+        Self { precision: Some(precision.name().to_owned()), ..self }
+    }
+
+    /// Steps of this length [s]; the first one where lengths are controlled. Default: 1 ms.
+    #[must_use]
+    pub fn step(self, dt: f64) -> Self {
+        Self { step: Some(dt), ..self }
+    }
+
+    /// Tolerance of the iterations, relative to the displacement per step; of an integrator that controls its steps, the error of each.
+    /// Default: 1e-10, of such an integrator 1e-8.
+    #[must_use]
+    pub fn tolerance(self, tolerance: f64) -> Self {
+        Self { tolerance: Some(tolerance), ..self }
+    }
+
+    /// What chooses the length of the steps. Default: nothing, all are as long as asked for.
+    #[must_use]
+    pub fn control(self, control: StepRule) -> Self {
+        Self { step_control: Some(control.name().to_owned()), ..self }
+    }
+
+    /// Threads that share the work of a step: the results are the same to the bit. Default: 1.
+    #[must_use]
+    pub fn threads(self, n: usize) -> Self {
+        Self { threads: Some(n), ..self }
+    }
+
+    /// A fixed penalty [N/m in index-3, kg in index-1]. Default: in proportion to the effective mass.
+    #[must_use]
+    pub fn penalty(self, alpha: f64) -> Self {
+        Self { penalty: Some(alpha), ..self }
+    }
+}
