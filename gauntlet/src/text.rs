@@ -2,160 +2,111 @@
 
 use crate::draft::{Body, Draft, Effect, Joint, Shape};
 use crate::vector::Point;
-use std::fmt::Write;
+use mbs::core::scene::{Dimension, JointKind, PolynomialPiece, Road, Scene, SolverTable, Start};
+use mbs::scene_file::to_toml;
+use mbs::{BodyId, GROUND, Guide, InitialCondition, JointId, Motion, Number, Output, Vector3};
 
 /// The scene: outputs are the positions of the points that are watched.
 #[must_use]
 pub fn text(draft: &Draft, name: &str, duration: f64) -> String {
     let n = draft.dimension;
-    let mut t = format!(
-        "[scene]\nname = \"{name}\"\ndimension = {n}\ngravity = {}\nduration = {duration:?}\n\n",
-        vector(draft.gravity, n)
-    );
-    for (k, b) in draft.bodies.iter().enumerate() {
-        body(&mut t, k + 1, b, n);
-    }
-    for (k, j) in draft.joints.iter().enumerate() {
-        joint(&mut t, k, j, n);
-    }
-    for (joint, value, rate) in &draft.starts {
-        line(&mut t, format_args!("[[initial]]\njoint = \"j{joint}\""));
-        for (key, number) in [("value", value), ("rate", rate)] {
-            if let Some(number) = number {
-                line(&mut t, format_args!("{key} = {number:?}"));
-            }
-        }
-        t.push('\n');
-    }
-    for (joint, [amplitude, frequency, phase]) in &draft.guides {
-        line(
-            &mut t,
-            format_args!(
-                "[[guide]]\njoint = \"j{joint}\"\nsine = {{ amplitude = {amplitude:?}, frequency = {frequency:?}, phase = {phase:?} }}\n"
-            ),
-        );
-    }
-    for (k, e) in draft.effects.iter().enumerate() {
-        effect(&mut t, k, e, n);
-    }
-    for (k, (body, at)) in draft.outputs.iter().enumerate() {
-        line(
-            &mut t,
-            format_args!(
-                "[[output]]\nname = \"p{k}\"\nbody = \"{}\"\nat = {}\nquantity = \"position\"\n",
-                body_name(*body),
-                vector(*at, n)
-            ),
-        );
-    }
-    t
+    let names = |list: &str, k: usize| format!("{list}{k}");
+    let number = |x: Option<f64>| x.map(|x| vec![Number::from(x)]);
+    let initial = |(joint, value, rate): &(usize, _, _)| {
+        InitialCondition::joint(JointId::new(*joint), number(*value), number(*rate))
+    };
+    let guide = |(joint, [amplitude, frequency, phase]): &(usize, [f64; 3])| {
+        let [amplitude, frequency, phase] = [*amplitude, *frequency, *phase];
+        Guide::new(JointId::new(*joint), Motion::Sine { amplitude, frequency, phase })
+    };
+    let output = |(body, at): &(usize, Point)| Output::position(id(*body), vector(*at, n));
+    let scene = Scene {
+        name: name.to_owned(),
+        dimension: if n == 2 { Dimension::Planar } else { Dimension::Spatial },
+        gravity: Some(vector(draft.gravity, n).0),
+        duration: duration.into(),
+        bodies: (1..).zip(&draft.bodies).map(|(k, b)| body(b, n).named(&names("b", k))).collect(),
+        joints: (0..).zip(&draft.joints).map(|(k, j)| joint(j, n).named(&names("j", k))).collect(),
+        initials: draft.starts.iter().map(initial).collect(),
+        guides: draft.guides.iter().map(guide).collect(),
+        road: Road::default(),
+        start: Start::default(),
+        effects: (0..)
+            .zip(&draft.effects)
+            .map(|(k, e)| effect(e, n).named(&names("e", k)))
+            .collect(),
+        outputs: (0..).zip(&draft.outputs).map(|(k, o)| output(o).named(&names("p", k))).collect(),
+        solver: SolverTable::default(),
+    };
+    // there is no code in it
+    to_toml(&scene).unwrap_or_default()
 }
 
-/// Writing to a string cannot fail.
-fn line(t: &mut String, what: std::fmt::Arguments<'_>) {
-    let _ = writeln!(t, "{what}");
+fn vector(x: Point, n: usize) -> Vector3 {
+    if n == 2 { [x[0], x[1]].into() } else { x.into() }
 }
 
-fn vector(x: Point, n: usize) -> String {
-    let parts: Vec<String> = x[..n].iter().map(|x| format!("{x:?}")).collect();
-    format!("[{}]", parts.join(", "))
+/// The ground is 0, bodies count from 1.
+fn id(k: usize) -> BodyId {
+    k.checked_sub(1).map_or(GROUND, BodyId::Body)
 }
 
-fn body_name(k: usize) -> String {
-    if k == 0 { "ground".to_owned() } else { format!("b{k}") }
-}
-
-fn names([a, b]: [usize; 2]) -> String {
-    format!("[\"{}\", \"{}\"]", body_name(a), body_name(b))
-}
-
-fn body(t: &mut String, k: usize, body: &Body, n: usize) {
-    line(t, format_args!("[[body]]\nname = \"b{k}\"\nmass = {:?}", body.mass));
+fn body(body: &Body, n: usize) -> mbs::Body {
     match &body.shape {
-        Shape::Rod([from, to]) => line(
-            t,
-            format_args!("rod = {{ from = {}, to = {} }}\n", vector(*from, n), vector(*to, n)),
-        ),
-        Shape::Solid(center, j) => {
-            let inertia = match n {
-                2 => format!("{:?}", j[2]),
-                _ => format!("[{}]", j.map(|x| format!("{x:?}")).join(", ")),
-            };
-            line(t, format_args!("center = {}\ninertia = {inertia}\n", vector(*center, n)));
-        }
+        Shape::Rod([from, to]) => mbs::Body::rod(vector(*from, n), vector(*to, n), body.mass),
+        Shape::Solid(center, j) if n == 2 => mbs::Body::planar(vector(*center, n), body.mass, j[2]),
+        Shape::Solid(center, j) => mbs::Body::spatial(vector(*center, n), body.mass, *j),
     }
 }
 
-fn joint(t: &mut String, k: usize, joint: &Joint, n: usize) {
-    let kind = joint.kind;
-    line(
-        t,
-        format_args!(
-            "[[joint]]\nname = \"j{k}\"\nkind = \"{kind}\"\nbodies = {}",
-            names(joint.bodies)
-        ),
-    );
-    match joint.at.as_slice() {
-        [a, b] => line(t, format_args!("points = [{}, {}]", vector(*a, n), vector(*b, n))),
-        places => places.iter().for_each(|at| line(t, format_args!("at = {}", vector(*at, n)))),
-    }
-    match joint.axes.as_slice() {
-        [a, b] if kind == "universal" => {
-            line(t, format_args!("axes = [{}, {}]", vector(*a, n), vector(*b, n)));
+fn joint(joint: &Joint, n: usize) -> mbs::Joint {
+    let bodies = joint.bodies.map(id);
+    let kind = JointKind::ALL.into_iter().find(|kind| kind.name() == joint.kind);
+    let kind = kind.unwrap_or(JointKind::Weld);
+    let mut of_scene = match joint.at.as_slice() {
+        [a, b] => mbs::Joint::distance(bodies, [vector(*a, n), vector(*b, n)]),
+        places => {
+            let at = places.first().copied().unwrap_or_default();
+            mbs::Joint { kind, ..mbs::Joint::weld(bodies, vector(at, n)) }
         }
-        [a, ..] => line(t, format_args!("axis = {}", vector(*a, n))),
-        [] => {}
+    };
+    let second = if kind == JointKind::Universal { 2 } else { 1 };
+    for (to, axis) in of_scene.axes.iter_mut().zip(&joint.axes).take(second) {
+        *to = Some(vector(*axis, n).0);
     }
-    t.push('\n');
+    of_scene
 }
 
-fn effect(t: &mut String, k: usize, effect: &Effect, n: usize) {
-    line(t, format_args!("[[effect]]\nname = \"e{k}\""));
-    let between = |t: &mut String, kind: &str, bodies: [usize; 2], [a, b]: [Point; 2]| {
-        let (bodies, a, b) = (names(bodies), vector(a, n), vector(b, n));
-        line(t, format_args!("kind = \"{kind}\"\nbodies = {bodies}\npoints = [{a}, {b}]"));
+fn effect(effect: &Effect, n: usize) -> mbs::Effect {
+    let ends = |bodies: &[usize; 2], points: &[Point; 2]| {
+        [0, 1].map(|i| (id(bodies[i]), vector(points[i], n)))
     };
     match effect {
         Effect::Spring(bodies, points, [stiffness, damping, free]) => {
-            between(t, "spring-damper", *bodies, *points);
-            line(
-                t,
-                format_args!(
-                    "stiffness = {stiffness:?}\ndamping = {damping:?}\nfree_length = {free:?}\n"
-                ),
-            );
+            mbs::Effect::spring_damper(ends(bodies, points), *stiffness, *damping, *free)
         }
         Effect::Bumper(bodies, points, [stiffness, damping, clearance]) => {
-            between(t, "bumper", *bodies, *points);
-            line(
-                t,
-                format_args!(
-                    "stiffness = {stiffness:?}\ndamping = {damping:?}\nclearance = {clearance:?}\n"
-                ),
-            );
+            mbs::Effect::bumper(ends(bodies, points), *stiffness, *damping, *clearance)
         }
         Effect::Pieces(bodies, points, pieces) => {
-            between(t, "polynomial-spring", *bodies, *points);
-            line(t, format_args!("coefficients = {pieces:?}\n"));
+            let piece = |piece: &Vec<f64>| {
+                let mut numbers = piece.iter().map(|x| Number::from(*x));
+                let mut next = || numbers.next().unwrap_or_default();
+                let (lower, upper) = (next(), next());
+                PolynomialPiece { lower, upper, coefficients: numbers.collect() }
+            };
+            let pieces = pieces.iter().map(piece).collect();
+            mbs::Effect::polynomial_spring(ends(bodies, points), pieces)
         }
-        Effect::Torsion(joint, [stiffness, damping, free]) => line(
-            t,
-            format_args!(
-                "kind = \"torsion-spring\"\njoint = \"j{joint}\"\nstiffness = {stiffness:?}\ndamping = {damping:?}\nfree_value = {free:?}\n"
-            ),
-        ),
-        Effect::Limit(joint, [lower, upper, stiffness, damping]) => line(
-            t,
-            format_args!(
-                "kind = \"limit\"\njoint = \"j{joint}\"\nlower = {lower:?}\nupper = {upper:?}\nstiffness = {stiffness:?}\ndamping = {damping:?}\n"
-            ),
-        ),
-        Effect::Friction(joint, coulomb) => line(
-            t,
-            format_args!("kind = \"friction\"\njoint = \"j{joint}\"\ncoulomb = {coulomb:?}\n"),
-        ),
-        Effect::Torque(joint, value) => {
-            line(t, format_args!("kind = \"torque\"\njoint = \"j{joint}\"\nvalue = {value:?}\n"))
+        Effect::Torsion(joint, [stiffness, damping, free]) => {
+            mbs::Effect::torsion_spring(JointId::new(*joint), *stiffness, *damping, *free)
         }
+        Effect::Limit(joint, [lower, upper, stiffness, damping]) => {
+            mbs::Effect::limit(JointId::new(*joint), [*lower, *upper], *stiffness, *damping)
+        }
+        Effect::Friction(joint, coulomb) => {
+            mbs::Effect::friction(JointId::new(*joint), *coulomb, 1e-3)
+        }
+        Effect::Torque(joint, value) => mbs::Effect::torque(JointId::new(*joint), *value),
     }
 }

@@ -1,6 +1,7 @@
 //! The spatial chain: `scenes/spatial-chain-20.toml` of any length, coiled, with universal and spherical joints in it.
 
-use super::text::{Text, bar, vector};
+use super::text::{self, bar, vector};
+use mbs_core::scene::{Body, BodyId, Dimension, GROUND, InitialCondition, Joint, JointId, Number};
 
 /// Mass of a link [kg].
 const MASS: f64 = 1.0;
@@ -8,13 +9,9 @@ const MASS: f64 = 1.0;
 const LINKS: [[f64; 3]; 4] =
     [[0.12, 0.0, 0.16], [0.12, 0.16, 0.0], [0.12, 0.0, -0.16], [0.12, -0.16, 0.0]];
 
-/// Kinds of joint by turns, with their axes.
-const JOINTS: [(&str, &[[f64; 3]]); 4] = [
-    ("revolute", &[[0.0, 1.0, 0.0]]),
-    ("universal", &[[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
-    ("revolute", &[[0.0, 0.0, 1.0]]),
-    ("spherical", &[]),
-];
+/// Axes of the joints.
+const Y: [f64; 3] = [0.0, 1.0, 0.0];
+const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
 const COMMENT: &str = "\
 Spatial chain of equal links: revolute joints about y, universal joints, revolute joints about z and spherical joints, in turn, hung
@@ -26,32 +23,29 @@ second joint, which turns with 0.5 rad/s about z; the others follow with the lea
 kept. After half a second the first turns are pulled straight and whip: that takes shorter steps.";
 
 pub(super) fn text(bodies: usize, command: &str) -> String {
-    let mut text = Text::new(COMMENT, command);
-    text.scene(&format!("spatial chain of {bodies}"), 3, 0.5);
-    let link = |k: usize| if k == 0 { "ground".to_owned() } else { format!("link-{k}") };
+    let mut scene = text::scene(&format!("spatial chain of {bodies}"), Dimension::Spatial, 0.5);
+    let link = |k: usize| k.checked_sub(1).map_or(GROUND, BodyId::Body);
     for k in 1..=bodies {
         let (from, to) = (place(k - 1), place(k));
-        let center = core::array::from_fn(|i| (from[i] + to[i]) / 2.0);
-        text.body(&link(k), MASS, center, bar(MASS, LINKS[(k - 1) % LINKS.len()]));
+        let center = vector::<3>(core::array::from_fn(|i| (from[i] + to[i]) / 2.0));
+        let inertia = bar(MASS, LINKS[(k - 1) % LINKS.len()]);
+        scene.bodies.push(Body::spatial(center, MASS, inertia).named(&format!("link-{k}")));
+        let (pair, at) = ([link(k - 1), link(k)], vector(from));
+        let joint = match k % 4 {
+            1 => Joint::revolute(pair, at).about(Y),
+            2 => Joint::universal(pair, at).about(Y).about(Z),
+            3 => Joint::revolute(pair, at).about(Z),
+            _ => Joint::spherical(pair, at),
+        };
+        scene.joints.push(joint.named(&format!("joint-{k}")));
     }
-    for k in 1..=bodies {
-        let (kind, axes) = JOINTS[(k - 1) % JOINTS.len()];
-        text.joint(&format!("joint-{k}"), kind, [&link(k - 1), &link(k)], &place(k - 1));
-        match axes {
-            [axis] => text.key("axis", &vector(axis)),
-            [one, two] => text.key("axes", &format!("[{}, {}]", vector(one), vector(two))),
-            _ => {}
-        }
+    for (j, rate) in [vec![0.0], vec![0.0, 0.5]].into_iter().enumerate().take(bodies) {
+        let rate = Some(rate.into_iter().map(Number::from).collect());
+        scene.initials.push(InitialCondition::joint(JointId::new(j), None, rate));
     }
-    for (joint, rate) in [("joint-1", "0.0"), ("joint-2", "[0.0, 0.5]")].into_iter().take(bodies) {
-        text.table("[[initial]]");
-        text.key("joint", &format!("\"{joint}\""));
-        text.key("rate", rate);
-    }
-    text.step(1e-3);
-    text.position("first-end", &link(1), &place(1));
-    text.position("end", &link(bodies), &place(bodies));
-    text.0
+    scene.outputs.push(text::position("first-end", 0, vector(place(1))));
+    scene.outputs.push(text::position("end", bodies - 1, vector(place(bodies))));
+    text::text(COMMENT, command, &scene)
 }
 
 /// Where a link ends [m]; the chain begins at the origin.

@@ -1,10 +1,10 @@
 //! Copies of a vehicle behind each other on one road.
 
 use super::GenerateError;
-use super::text::{Text, number};
+use super::text::{headed, number};
 use crate::read::SceneFile;
 use crate::read::tree::{Item, Member, Node};
-use crate::write::toml::{quoted, value};
+use crate::write::toml;
 use mbs_core::scene::Scene;
 
 const COMMENT: &str = "\
@@ -33,36 +33,44 @@ pub(super) fn text(
     if !scene.effects.iter().any(|effect| effect.kind.row().needs_road) {
         return Err(GenerateError::NoTires);
     }
-    let mut text = Text::new(COMMENT, command);
-    header(&mut text, vehicle, &format!("{}: convoy of {count}", scene.name));
+    let name = format!("{}: convoy of {count}", scene.name);
+    let mut out = String::new();
+    header(&mut out, vehicle, &name);
     for list in LISTS {
         for k in 0..count {
-            Copy::new(k, spacing).entries(&mut text, vehicle, list);
+            Copy::new(k, spacing).entries(&mut out, vehicle, list);
         }
     }
     let ends = if count > 1 { vec![0, count - 1] } else { vec![0] };
     for k in ends {
         let copy = Copy::new(k, spacing);
         if scene.outputs.is_empty() {
-            copy.center(&mut text, &scene);
+            copy.center(&mut out, &scene);
         }
-        copy.entries(&mut text, vehicle, "output");
+        copy.entries(&mut out, vehicle, "output");
     }
-    Ok(text.0)
+    Ok(headed(COMMENT, command, &out))
 }
 
 /// What the vehicles share: the scene's own keys, the road, the solver.
-fn header(text: &mut Text, vehicle: &SceneFile, name: &str) {
+fn header(out: &mut String, vehicle: &SceneFile, name: &str) {
     for table in ["scene", "road", "solver"] {
         let Some(Item { node: Node::Table(members), .. }) = vehicle.top(table) else { continue };
-        text.table(&format!("[{table}]"));
+        let mut members = members.clone();
         if table == "scene" {
-            text.key("name", &quoted(name));
+            members.retain(|member| member.key != "name");
+            members.insert(0, member("name", Node::Text(name.to_owned())));
         }
-        for member in members.iter().filter(|m| table != "scene" || m.key != "name") {
-            text.key(&member.key, &value(&member.item));
-        }
+        toml::table(out, &format!("[{table}]"), &members);
     }
+}
+
+fn member(key: &str, node: Node) -> Member {
+    Member { key: key.to_owned(), key_span: 0..0, item: item(node) }
+}
+
+fn item(node: Node) -> Item {
+    Item { span: 0..0, node }
 }
 
 /// One of the vehicles.
@@ -76,65 +84,61 @@ impl Copy {
         Self { prefix: format!("v{}-", k + 1), shift: -spacing * k as f64 }
     }
 
-    fn entries(&self, text: &mut Text, vehicle: &SceneFile, list: &str) {
+    fn entries(&self, out: &mut String, vehicle: &SceneFile, list: &str) {
         let Some(Item { node: Node::List(entries), .. }) = vehicle.top(list) else { return };
         for entry in entries {
             let Node::Table(members) = &entry.node else { continue };
-            text.table(&format!("[[{list}]]"));
-            for Member { key, item, .. } in members {
-                let value = match key.as_str() {
-                    key if NAMES.contains(&key) => self.named(item),
-                    key if PLACES.contains(&key) => self.moved(item),
-                    _ => value(item),
-                };
-                text.key(key, &value);
-            }
+            let copy = |Member { key, item, .. }: &Member| match key.as_str() {
+                key if NAMES.contains(&key) => member(key, self.named(&item.node)),
+                key if PLACES.contains(&key) => member(key, self.moved(&item.node)),
+                key => member(key, item.node.clone()),
+            };
+            let members: Vec<Member> = members.iter().map(copy).collect();
+            toml::table(out, &format!("[[{list}]]"), &members);
         }
     }
 
     /// The centre of the first body, where the vehicle's scene has no outputs.
-    fn center(&self, text: &mut Text, scene: &Scene<f64>) {
+    fn center(&self, out: &mut String, scene: &Scene<f64>) {
         let Some(body) = scene.bodies.first() else { return };
-        let name = format!("{}{}", self.prefix, body.name);
+        let name = Node::Text(format!("{}{}", self.prefix, body.name));
         let [x, y, z] = body.center;
-        text.position(&name, &name, &[x + self.shift, y, z][..scene.dimension.count()]);
+        let at = [x + self.shift, y, z].into_iter().take(scene.dimension.count());
+        let at = at.map(|x| item(Node::Number(number(x).text())));
+        let members = [("name", name.clone()), ("body", name), ("at", Node::List(at.collect()))];
+        toml::table(out, "[[output]]", &members.map(|(key, node)| member(key, node)));
     }
 
     /// A name, or a list of names, of this vehicle; the ground has no number.
-    fn named(&self, item: &Item) -> String {
-        match &item.node {
-            Node::Text(name) if name == "ground" => quoted(name),
-            Node::Text(name) => quoted(&format!("{}{name}", self.prefix)),
-            Node::List(items) => list(items, |item| self.named(item)),
-            _ => value(item),
+    fn named(&self, node: &Node) -> Node {
+        match node {
+            Node::Text(name) if name != "ground" => Node::Text(format!("{}{name}", self.prefix)),
+            Node::List(items) => {
+                Node::List(items.iter().map(|x| item(self.named(&x.node))).collect())
+            }
+            other => other.clone(),
         }
     }
 
     /// A place, a list of places, or a table of places, moved along x; a place not moved keeps its text.
-    fn moved(&self, item: &Item) -> String {
-        match &item.node {
+    fn moved(&self, node: &Node) -> Node {
+        match node {
             Node::List(items) => match items.as_slice() {
                 [Item { node: Node::Number(x), .. }, rest @ ..] => {
                     let x = match x.parse::<f64>() {
-                        Ok(place) if self.shift < 0.0 => number(place + self.shift),
+                        Ok(place) if self.shift < 0.0 => number(place + self.shift).text(),
                         _ => x.clone(),
                     };
-                    let rest = rest.iter().map(value);
-                    format!("[{}]", core::iter::once(x).chain(rest).collect::<Vec<_>>().join(", "))
+                    let first = item(Node::Number(x));
+                    Node::List(core::iter::once(first).chain(rest.iter().cloned()).collect())
                 }
-                _ => list(items, |item| self.moved(item)),
+                _ => Node::List(items.iter().map(|x| item(self.moved(&x.node))).collect()),
             },
-            Node::Table(members) => table(members, |item| self.moved(item)),
-            _ => value(item),
+            Node::Table(members) => {
+                let moved = |m: &Member| member(&m.key, self.moved(&m.item.node));
+                Node::Table(members.iter().map(moved).collect())
+            }
+            other => other.clone(),
         }
     }
-}
-
-fn list(items: &[Item], of: impl Fn(&Item) -> String) -> String {
-    format!("[{}]", items.iter().map(of).collect::<Vec<_>>().join(", "))
-}
-
-fn table(members: &[Member], of: impl Fn(&Item) -> String) -> String {
-    let members = members.iter().map(|m| format!("{} = {}", m.key, of(&m.item)));
-    format!("{{ {} }}", members.collect::<Vec<_>>().join(", "))
 }

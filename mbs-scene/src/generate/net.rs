@@ -6,7 +6,8 @@
 //!
 //! A sum of two arcs has rods of equal length everywhere, and no rope is taut between two corners, as it would be in a flat net.
 
-use super::text::Text;
+use super::text::{self, vector};
+use mbs_core::scene::{Body, BodyId, Dimension, GROUND, Joint, Number, Scene};
 
 /// Length of a rod [m], and its mass [kg].
 const ROD: f64 = 0.2;
@@ -23,26 +24,23 @@ The knot (i, j) lies at (x_i, y_j, f_i + g_j), where (x, f) and (y, g) are point
 Three freedoms for each knot but the corners, less one for each rod; the energy is kept.";
 
 pub(super) fn text([rows, columns]: [usize; 2], command: &str) -> String {
-    let mut text = Text::new(COMMENT, command);
-    text.scene(&format!("rope net of {rows} by {columns} meshes"), 3, 1.0);
+    let name = format!("rope net of {rows} by {columns} meshes");
+    let mut scene = text::scene(&name, Dimension::Spatial, 1.0);
     let net = Net { across: arc(columns), along: arc(rows) };
-    let rods: Vec<[[usize; 2]; 2]> = net.rods().collect();
-    for ends in &rods {
-        let [from, to] = ends.map(|knot| net.place(knot));
-        text.rod(&rod(*ends), [&from, &to], MASS);
+    for ends in net.rods() {
+        let [from, to] = ends.map(|knot| vector(net.place(knot)));
+        scene.bodies.push(Body::rod(from, to, MASS).named(&rod(ends)));
     }
     for j in 0..=rows {
         for i in 0..=columns {
-            net.tie(&mut text, [i, j]);
+            net.tie(&mut scene, [i, j]);
         }
     }
-    text.step(1e-3);
-    let middle = [columns / 2, rows / 2];
-    let name = rod([middle, [middle[0] + 1, middle[1]]]);
-    text.position("middle", &name, &net.place(middle));
-    let edge = [columns / 2, 0];
-    text.position("edge", &rod([edge, [edge[0] + 1, 0]]), &net.place(edge));
-    text.0
+    for (name, [i, j]) in [("middle", [columns / 2, rows / 2]), ("edge", [columns / 2, 0])] {
+        let body = net.index([[i, j], [i + 1, j]]);
+        scene.outputs.push(text::position(name, body, vector(net.place([i, j]))));
+    }
+    text::text(COMMENT, command, &scene)
 }
 
 /// Places of an arc of equal chords: along it, and down.
@@ -77,25 +75,33 @@ impl Net {
         across.chain(along)
     }
 
+    /// Place of a rod among the bodies, in the order of [`Self::rods`].
+    fn index(&self, [[i, j], to]: [[usize; 2]; 2]) -> usize {
+        let (m, n) = (self.along.len(), self.across.len());
+        if to[0] > i { j * (n - 1) + i } else { m * (n - 1) + i * (m - 1) + j }
+    }
+
     /// The joints of a knot: every rod on the first one, and a corner on the ground.
-    fn tie(&self, text: &mut Text, knot: [usize; 2]) {
+    fn tie(&self, scene: &mut Scene<Number>, knot: [usize; 2]) {
         let [i, j] = knot;
         let (last_i, last_j) = (self.across.len() - 1, self.along.len() - 1);
         let neighbours = [
-            (i > 0).then(|| rod([[i.wrapping_sub(1), j], knot])),
-            (i < last_i).then(|| rod([knot, [i + 1, j]])),
-            (j > 0).then(|| rod([[i, j.wrapping_sub(1)], knot])),
-            (j < last_j).then(|| rod([knot, [i, j + 1]])),
+            (i > 0).then(|| [[i.wrapping_sub(1), j], knot]),
+            (i < last_i).then(|| [knot, [i + 1, j]]),
+            (j > 0).then(|| [[i, j.wrapping_sub(1)], knot]),
+            (j < last_j).then(|| [knot, [i, j + 1]]),
         ];
-        let mut rods = neighbours.into_iter().flatten();
-        let at = self.place(knot);
+        let mut rods = neighbours.into_iter().flatten().map(|rod| BodyId::Body(self.index(rod)));
         let Some(first) = rods.next() else { return };
+        let mut ball = |bodies, name: String| {
+            let joint = Joint::spherical(bodies, vector(self.place(knot)));
+            scene.joints.push(joint.named(&name));
+        };
         if (i == 0 || i == last_i) && (j == 0 || j == last_j) {
-            text.joint(&format!("corner-{i}-{j}"), "spherical", ["ground", &first], &at);
+            ball([GROUND, first], format!("corner-{i}-{j}"));
         }
         for (k, other) in rods.enumerate() {
-            let name = format!("knot-{i}-{j}-{}", k + 1);
-            text.joint(&name, "spherical", [&first, &other], &at);
+            ball([first, other], format!("knot-{i}-{j}-{}", k + 1));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The binary tree of bars.
 
-use super::text::{Text, bar, vector};
+use super::text::{self, bar, number, vector};
+use mbs_core::scene::{Body, BodyId, Dimension, GROUND, InitialCondition, Joint, JointId};
 
 /// Mass and length of the trunk [kg, m], and by what factor each generation is lighter and shorter.
 const MASS: [f64; 2] = [2.0, 0.7];
@@ -26,28 +27,24 @@ struct Bar {
 }
 
 pub(super) fn text(bodies: usize, command: &str) -> String {
-    let mut text = Text::new(COMMENT, command);
-    text.scene(&format!("binary tree of {bodies}"), 3, 2.0);
+    let mut scene = text::scene(&format!("binary tree of {bodies}"), Dimension::Spatial, 2.0);
     let bars = bars(bodies);
-    let name = |k: usize| if k == 0 { "ground".to_owned() } else { format!("bar-{k}") };
-    for (k, Bar { from, to, mass, .. }) in (1..).zip(&bars) {
-        let center = core::array::from_fn(|i| (from[i] + to[i]) / 2.0);
+    for (k, Bar { from, to, axis, mass }) in (1_usize..).zip(&bars) {
+        let center = vector::<3>(core::array::from_fn(|i| (from[i] + to[i]) / 2.0));
         let inertia = bar(*mass, core::array::from_fn(|i| to[i] - from[i]));
-        text.body(&name(k), *mass, center, inertia);
+        let body = Body::spatial(center, number(*mass), inertia);
+        scene.bodies.push(body.named(&format!("bar-{k}")));
+        let parent = (k / 2).checked_sub(1).map_or(GROUND, BodyId::Body);
+        let joint = Joint::revolute([parent, BodyId::Body(k - 1)], vector(*from)).about(*axis);
+        scene.joints.push(joint.named(&format!("joint-{k}")));
     }
-    for (k, Bar { from, axis, .. }) in (1..).zip(&bars) {
-        text.joint(&format!("joint-{k}"), "revolute", [&name(k / 2), &name(k)], from);
-        text.key("axis", &vector(axis));
-    }
-    text.table("[[initial]]");
-    text.key("joint", "\"joint-1\"");
-    text.key("rate", "0.5");
-    text.step(1e-3);
+    let rate = Some(vec![0.5.into()]);
+    scene.initials.push(InitialCondition::joint(JointId::new(0), None, rate));
     if let (Some(first), Some(last)) = (bars.first(), bars.last()) {
-        text.position("trunk-end", &name(1), &first.to);
-        text.position("last-end", &name(bodies), &last.to);
+        scene.outputs.push(text::position("trunk-end", 0, vector(first.to)));
+        scene.outputs.push(text::position("last-end", bodies - 1, vector(last.to)));
     }
-    text.0
+    text::text(COMMENT, command, &scene)
 }
 
 /// All bars, the trunk first.

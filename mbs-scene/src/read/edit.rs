@@ -29,7 +29,7 @@ impl SceneFile {
     pub fn number(&self, path: &str) -> Result<Number, SweepFault> {
         let address = path::address(self.root(), path)?;
         let text = path::number(self.root(), &address).and_then(Number::from_decimal);
-        text.ok_or_else(|| SweepFault::PathSyntax("it names no finite number"))
+        text.ok_or(SweepFault::PathSyntax("it names no finite number"))
     }
 
     /// The file with another number at a path; all else keeps its text, comments too.

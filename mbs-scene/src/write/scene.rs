@@ -57,7 +57,12 @@ impl core::error::Error for WriteError {}
 /// # Ok::<(), mbs_scene::ReadError>(())
 /// ```
 pub fn to_toml(scene: &Scene<Number>) -> Result<String, WriteError> {
-    Ok(toml::text(&tree(scene)?))
+    let mut out = String::new();
+    tables(scene, &mut |table, is_list, keys| {
+        let header = if is_list { format!("[[{table}]]") } else { format!("[{table}]") };
+        toml::table(&mut out, &header, &keys.0);
+    })?;
+    Ok(out)
 }
 
 impl SceneFile {
@@ -88,24 +93,44 @@ impl SceneFile {
 }
 
 /// The tables of a scene, in the order of the format.
-pub(crate) fn tree(scene: &Scene<Number>) -> Result<Vec<Member>, WriteError> {
-    let w = Writer { scene };
+fn tree(scene: &Scene<Number>) -> Result<Vec<Member>, WriteError> {
     let mut root = Keys::default();
-    root.push("scene", w.header());
-    w.list(&mut root, "body", &scene.bodies, |w, body| Ok(w.body(body)))?;
-    w.list(&mut root, "joint", &scene.joints, Writer::joint)?;
-    w.list(&mut root, "initial", &scene.initials, Writer::initial)?;
-    w.list(&mut root, "guide", &scene.guides, Writer::guide)?;
-    w.list(&mut root, "effect", &scene.effects, Writer::effect)?;
+    tables(scene, &mut |table, is_list, keys| {
+        let Some(last) = root.0.last_mut().filter(|last| is_list && last.key == table) else {
+            let node = Node::from(keys);
+            return root.push(table, if is_list { list([node]) } else { node });
+        };
+        if let Node::List(entries) = &mut last.item.node {
+            entries.push(item(keys.into()));
+        }
+    })?;
+    Ok(root.0)
+}
+
+/// Visits the tables of a scene one by one, so that a large one is never in memory as a tree; `true` for entries of a list.
+fn tables(
+    scene: &Scene<Number>,
+    visit: &mut dyn FnMut(&str, bool, Keys),
+) -> Result<(), WriteError> {
+    let w = Writer { scene };
+    visit("scene", false, w.header());
+    scene.bodies.iter().for_each(|body| visit("body", true, w.body(body)));
+    scene.joints.iter().try_for_each(|x| w.joint(x).map(|keys| visit("joint", true, keys)))?;
+    scene
+        .initials
+        .iter()
+        .try_for_each(|x| w.initial(x).map(|keys| visit("initial", true, keys)))?;
+    scene.guides.iter().try_for_each(|x| w.guide(x).map(|keys| visit("guide", true, keys)))?;
+    scene.effects.iter().try_for_each(|x| w.effect(x).map(|keys| visit("effect", true, keys)))?;
     if let Some(road) = w.road() {
-        root.push("road", road);
+        visit("road", false, road);
     }
-    w.list(&mut root, "output", &scene.outputs, Writer::output)?;
+    scene.outputs.iter().try_for_each(|x| w.output(x).map(|keys| visit("output", true, keys)))?;
     let solver = solver(&scene.solver);
     if !solver.0.is_empty() {
-        root.push("solver", solver);
+        visit("solver", false, solver);
     }
-    Ok(root.0)
+    Ok(())
 }
 
 /// The keys of a table that is written.
@@ -165,21 +190,6 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    fn list<E>(
-        self,
-        root: &mut Keys,
-        key: &str,
-        entries: &[E],
-        keys: impl Fn(Self, &E) -> Result<Keys, WriteError>,
-    ) -> Result<(), WriteError> {
-        if entries.is_empty() {
-            return Ok(());
-        }
-        let tables = entries.iter().map(|entry| Ok(keys(self, entry)?.into()));
-        root.push(key, list(tables.collect::<Result<Vec<Node>, WriteError>>()?));
-        Ok(())
-    }
-
     fn is_planar(self) -> bool {
         self.scene.dimension == Dimension::Planar
     }

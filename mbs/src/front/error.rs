@@ -125,7 +125,7 @@ impl Error for PathError {
 pub struct SceneError {
     error: Refused,
     part: String,
-    place: Option<Place>,
+    place: Option<Box<Place>>,
 }
 
 impl SceneError {
@@ -138,7 +138,7 @@ impl SceneError {
             Entry::Output(i) => name(scene.outputs.get(i).map(|output| &output.name)),
             _ => String::new(),
         };
-        Self { error, part, place }
+        Self { error, part, place: place.map(Box::new) }
     }
 
     /// The entry, its key and the fault with its numbers.
@@ -174,6 +174,6 @@ impl Error for SceneError {
         Some(self.error.fault.advice().to_owned())
     }
     fn place(&self) -> Option<Place> {
-        self.place.clone()
+        self.place.as_deref().cloned()
     }
 }

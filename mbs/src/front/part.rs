@@ -45,13 +45,9 @@ macro_rules! part {
 
         impl sealed::Part for $part {
             fn add_to(mut self, mechanism: &mut Mechanism) -> usize {
-                let set_name: fn(&mut $part, String) = $set_name;
-                let name: fn(&$part, &Scene<Number>) -> bool =
-                    |part, scene| <$id as sealed::Id>::name(part, scene).is_empty();
-                let is_unnamed = name(&self, mechanism.scene());
-                if is_unnamed {
-                    let free = mechanism.free_name::<$id>();
-                    set_name(&mut self, free);
+                if <$id as sealed::Id>::name(&self, mechanism.scene()).is_empty() {
+                    let set_name: fn(&mut $part, String) = $set_name;
+                    set_name(&mut self, mechanism.free_name::<$id>());
                 }
                 let list = &mut mechanism.scene_mut().$list;
                 list.push(self);
