@@ -47,7 +47,7 @@ pub(crate) fn measure<const D: usize>(
     let clocks: Vec<Clock> = (0..=several.len()).map(|_| Clock::new()).collect();
     let clock = |i: usize| is_first.then(|| &clocks[i]);
 
-    let method = Method::named(formulation);
+    let Some(method) = Method::named(formulation) else { return Ok(()) };
     let alone = |solver: &Multifrontal<f64>, order: &str, clock| {
         Lane::alone(prepared, method, solver.clone(), (order, clock))
     };

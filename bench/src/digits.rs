@@ -10,7 +10,7 @@ use mbs_core::natural::NaturalModel;
 use mbs_core::real::DoubleDouble as Pair;
 use mbs_core::refined::{ALL, Refined, Tally};
 use mbs_core::start::assemble;
-use mbs_core::step::{StepError, StepReport};
+use mbs_core::step::{Step, StepError, StepReport};
 use mbs_core::{Cliques, SpdSolver, scene::Dimension};
 use mbs_sparse::Multifrontal;
 use serde_json::{Value, json};
@@ -139,9 +139,9 @@ fn run<T: Real, S: SpdSolver<T>>(
     let start = assemble(&scene, &model, |p| plain(p), &mut solver);
     let mut state = start.map_err(|e| e.to_string())?.state;
     let mut workspace = Workspace::new(&model, analyse(&model));
-    let step: (T, T) = (number(asked.step)?, model.length());
+    let step = Step { dt: number(asked.step)?, length: model.length() };
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-    let n = (number::<f64>(asked.span)? / step.0.to_f64()).round().clamp(1.0, 1e9) as u32;
+    let n = (number::<f64>(asked.span)? / step.dt.to_f64()).round().clamp(1.0, 1e9) as u32;
 
     let reading = reading();
     let mut energy = Energy::new(&model, &state, workspace.terms());

@@ -14,6 +14,7 @@ use crate::{Request, say};
 use faer::sparse::linalg::SupernodalThreshold;
 use mbs_augmented::{Options, Penalty, Workspace, index3};
 use mbs_core::model::{Load, Model, State, System, Tangent, Terms};
+use mbs_core::step::Step;
 use mbs_core::{BlockSource, Cliques, SpdSolver};
 use mbs_sparse::Multifrontal;
 use serde_json::{Value, json};
@@ -32,7 +33,7 @@ pub(crate) fn measure<const D: usize>(
     let mut state = prepared.start.clone();
     beside(prepared, &state, (0, solver), request);
     let mut workspace = Workspace::new(&prepared.model, solver.clone());
-    let step = (prepared.dt, prepared.model.length());
+    let step = Step { dt: prepared.dt, length: prepared.model.length() };
     for _ in 0..STEPS {
         let report =
             index3::step(&prepared.model, step, &Options::index3(), &mut state, &mut workspace);

@@ -5,7 +5,7 @@ use crate::race::{Runner, timed};
 use crate::scenes::Prepared;
 use mbs_augmented::{IndexChange, Options, Workspace, index1, index3};
 use mbs_core::model::{Model, State};
-use mbs_core::step::{StepError, StepReport};
+use mbs_core::step::{Step, StepError, StepReport};
 use mbs_core::team::{Alone, Team};
 use mbs_core::{Real, SpdSolver};
 use mbs_parallel::Pool;
@@ -22,18 +22,20 @@ pub(crate) enum Method {
 }
 
 impl Method {
-    pub(crate) fn named(name: &str) -> Self {
-        match name {
+    /// That of a name; nothing for formulations that are stepped as `mbs run` does.
+    pub(crate) fn named(name: &str) -> Option<Self> {
+        Some(match name {
             "index-1" => Self::One,
             "index-3" => Self::Three,
-            _ => Self::Both(IndexChange::new(Options::index1(), Options::index3())),
-        }
+            "multi-index" => Self::Both(IndexChange::new(Options::index1(), Options::index3())),
+            _ => return None,
+        })
     }
 
     fn step<M: Model<f64>, S: SpdSolver<f64>>(
         &mut self,
         model: &M,
-        step: (f64, f64),
+        step: Step<f64>,
         s: &mut State<f64>,
         w: &mut Workspace<f64, S>,
     ) -> Result<StepReport<f64>, StepError> {
@@ -44,7 +46,7 @@ impl Method {
                 w.keep();
                 change.prepare(model, step, 0, s, w);
                 let report = change.step(model, step, s, w)?;
-                change.tried(step.0);
+                change.tried(step.dt);
                 change.keep();
                 Ok(report)
             }
@@ -206,7 +208,7 @@ fn stepping<'a, const D: usize, M: Model<f64> + Send + 'a, S: SpdSolver<f64> + S
 ) -> Steps<'a> {
     let mut workspace = Workspace::new(&model, solver);
     let mut state = prepared.start.clone();
-    let (step, mut done) = ((prepared.dt, prepared.model.length()), 0);
+    let (step, mut done) = (Step { dt: prepared.dt, length: prepared.model.length() }, 0);
     Box::new(move |n, sums| {
         for _ in 0..n {
             if done == prepared.n_steps {

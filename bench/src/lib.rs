@@ -1,6 +1,7 @@
 //! What a step costs and what threads gain: measured in one process, printed as lines of JSON that `cargo xtask bench` reads.
 //!
 //! ```text
+//! bench formulations
 //! bench forks [--threads 2,3] [--seconds S]
 //! bench SCENE FORMULATION[,FORMULATION] [--threads 1,2] [--seconds S]
 //! bench digits SCENE FORM DIGITS STEP SPAN ALPHA
@@ -28,7 +29,7 @@ mod tally;
 use mbs_core::scene::Dimension;
 use request::{Job, Request};
 use scenes::Prepared;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::process::ExitCode;
 
 /// Does what the command line asks for; its exit status.
@@ -52,6 +53,10 @@ pub(crate) fn say(line: &Value) {
 fn run(words: &[String]) -> Result<(), String> {
     let (job, request) = request::parse(words)?;
     match job {
+        Job::Formulations => {
+            formulations();
+            Ok(())
+        }
         Job::Forks => forks::measure(&request),
         Job::Digits(words) => digits::measure(&words),
         Job::Profile(words) => profile::measure(&words),
@@ -65,6 +70,13 @@ fn run(words: &[String]) -> Result<(), String> {
     }
 }
 
+/// The formulations, and whether solver and clocks of their steps are the bench's own.
+fn formulations() {
+    for name in mbs::FormulationKind::listed().map(mbs::FormulationKind::name) {
+        say(&json!({ "name": name, "own": lane::Method::named(name).is_some() }));
+    }
+}
+
 /// Measures a scene in the formulations named.
 fn measure<const D: usize>(
     scene: mbs_core::scene::Scene<f64>,
@@ -74,8 +86,8 @@ fn measure<const D: usize>(
 where
     mbs::Plane<D>: mbs::InSpace<f64>,
 {
-    let is_augmented = |name: &str| ["index-3", "index-1", "multi-index"].contains(&name);
-    let (own, others): (Vec<_>, Vec<_>) = formulations.split(',').partition(|n| is_augmented(n));
+    let is_own = |n: &&str| lane::Method::named(n).is_some();
+    let (own, others): (Vec<_>, Vec<_>) = formulations.split(',').partition(is_own);
     for name in others {
         others::measure::<D>(&scene, name, request)?;
     }

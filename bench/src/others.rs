@@ -54,7 +54,7 @@ where
     let tell = |threads: usize, told: [Value; 2]| {
         let team = if threads == 1 { "alone" } else { "crew" };
         let mut line = json!({
-            "kind": "lane", "formulation": formulation, "team": team, "threads": threads, "order": "chosen",
+            "kind": "lane", "own": false, "formulation": formulation, "team": team, "threads": threads, "order": "chosen",
             "clocked": false,
         });
         merge(&mut line, told);
@@ -106,7 +106,7 @@ where
     if pilot > LONGEST {
         return Err(format!("one step takes {pilot:.1} s: not measured further"));
     }
-    if FormulationKind::ALL.iter().any(|f| f.name() == formulation && f.takes_threads()) {
+    if FormulationKind::of_name(formulation).is_some_and(|f| f.row().threads) {
         for &threads in request.threads.iter().filter(|&&n| n > 1) {
             lanes.push(simulated(threads)?);
         }

@@ -17,6 +17,7 @@ use mbs_augmented::{Options, Workspace, index3};
 use mbs_core::model::{Model, State, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Dimension;
+use mbs_core::step::Step;
 use mbs_core::{Cliques, Real, SpdSolver};
 use mbs_sparse::{Counters, Multifrontal};
 use serde_json::{Map, Value, json};
@@ -57,7 +58,7 @@ fn dimension(scene: &str) -> Result<Dimension, String> {
 #[derive(Debug, Clone)]
 struct Walk<T, M, S> {
     model: M,
-    step: (T, T),
+    step: Step<T>,
     state: State<T>,
     workspace: Workspace<T, S>,
 }
@@ -67,7 +68,7 @@ type Plain<const D: usize> = Walk<f64, NaturalModel<f64, D>, Multifrontal<f64>>;
 
 impl<T: Real, M: Model<T>, S: SpdSolver<T>> Walk<T, M, S> {
     fn new<const D: usize>(prepared: &Prepared<D, T>, model: M, solver: S) -> Self {
-        let step = (T::from_f64(prepared.dt), prepared.model.length());
+        let step = Step { dt: T::from_f64(prepared.dt), length: prepared.model.length() };
         let workspace = Workspace::new(&model, solver);
         Self { model, step, state: prepared.start.clone(), workspace }
     }

@@ -5,6 +5,8 @@
 /// What is measured.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Job {
+    /// The formulations there are.
+    Formulations,
     /// What a fork of a team costs.
     Forks,
     /// A printed form in 16 or 32 digits.
@@ -48,13 +50,17 @@ pub(crate) fn parse(words: &[String]) -> Result<(Job, Request), String> {
 
 fn job(places: &[String]) -> Result<Job, String> {
     match places {
+        [word] if word == "formulations" => Ok(Job::Formulations),
         [word] if word == "forks" => Ok(Job::Forks),
         [word, words @ ..] if word == "digits" => Ok(Job::Digits(words.to_vec())),
         [word, words @ ..] if word == "profile" => Ok(Job::Profile(words.to_vec())),
         [scene, formulations] => {
             Ok(Job::Scene { scene: scene.clone(), formulations: formulations.clone() })
         }
-        _ => Err("expected `forks`, `digits`, `profile`, or a scene and formulations".to_owned()),
+        _ => Err(
+            "expected `formulations`, `forks`, `digits`, `profile`, or a scene and formulations"
+                .to_owned(),
+        ),
     }
 }
 

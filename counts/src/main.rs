@@ -10,6 +10,7 @@ use mbs_core::dense::Dense;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Dimension, Scene};
 use mbs_core::start::assemble;
+use mbs_core::step::Step;
 use mbs_recursive::{Planar, Spatial, TreeModel, space::Space};
 use std::error::Error;
 use std::process::ExitCode;
@@ -71,9 +72,9 @@ fn index_3<const D: usize>(
     let mut solver = Dense::new(model);
     let mut state = assemble(scene, model, |p| Dense::new(p), &mut solver)?.state;
     let mut workspace = Workspace::new(model, solver);
-    let (options, dt) = (Options::index3(), (STEP, model.length()));
+    let (options, step) = (Options::index3(), Step { dt: STEP, length: model.length() });
     count(&format!("index-3 {name}"), steps, || {
-        index3::step(model, dt, &options, &mut state, &mut workspace)
+        index3::step(model, step, &options, &mut state, &mut workspace)
     })
 }
 

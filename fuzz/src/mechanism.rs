@@ -1,11 +1,9 @@
 //! Random mechanisms as scene text: any joint between any two bodies, as if at random by someone who knows the format and no mechanics.
 
 use crate::Dice;
+use mbs::FORMULATIONS;
 use mbs::core::scene::{Dimension, JointKind};
 use std::fmt::Write;
-
-const FORMULATIONS: [&str; 7] =
-    ["auto", "index-1", "index-3", "multi-index", "classical", "state-space", "recursive"];
 
 /// Numbers of a mechanism of so many dimensions.
 struct Space {

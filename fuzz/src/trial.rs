@@ -3,7 +3,7 @@
 use crate::{Dice, tables, torn};
 use mbs::core::scene::Scene;
 use mbs::scene_file::SceneFile;
-use mbs::{Overrides, Settings};
+use mbs::{FormulationKind, Overrides, Settings};
 
 /// Steps of a run.
 const STEPS: f64 = 6.0;
@@ -13,14 +13,9 @@ const STEP: f64 = 1e-3;
 const OTHER_PRECISIONS: usize = 5;
 /// Larger mechanisms take too long in double-double.
 const SMALL: usize = 8;
-/// Formulations, integrators and controls of the step.
-const TRIED: [[&str; 3]; 12] = [
-    ["index-1", "trapezoidal", "fixed"],
-    ["index-3", "trapezoidal", "fixed"],
-    ["classical", "trapezoidal", "fixed"],
-    ["state-space", "trapezoidal", "fixed"],
-    ["recursive", "trapezoidal", "fixed"],
-    ["multi-index", "trapezoidal", "energy"],
+/// Methods that control their steps; those whose index follows the step come before them. One of these is tried with every second text
+/// that is not in double-double: where a motion is hopeless, control takes a hundred thousand trials to say so.
+const CONTROLLED: [[&str; 3]; 6] = [
     ["state-space", "trapezoidal", "both"],
     ["recursive", "trapezoidal", "error"],
     ["recursive", "rk54", "fixed"],
@@ -28,9 +23,17 @@ const TRIED: [[&str; 3]; 12] = [
     ["recursive", "rk853", "fixed"],
     ["recursive", "radau5", "fixed"],
 ];
-/// Of these the first are tried with every text, and one of the others with every second one that is not in double-double: where a
-/// motion is hopeless, control takes a hundred thousand trials to say so.
-const ALWAYS: usize = 5;
+
+/// Formulation, integrator and control of the step of all that are tried, and how many of the first are tried with every text.
+fn tried() -> (Vec<[&'static str; 3]>, usize) {
+    let (steered, fixed): (Vec<_>, Vec<_>) =
+        FormulationKind::ALL.into_iter().partition(|f| f.row().energy_rule);
+    let mut all: Vec<_> = fixed.iter().map(|f| [f.name(), "trapezoidal", "fixed"]).collect();
+    all.extend(steered.iter().map(|f| [f.name(), "trapezoidal", "energy"]));
+    all.extend(CONTROLLED);
+    (all, fixed.len())
+}
+
 /// And over a shorter time than the fixed steps', since short steps are what control is there for.
 const SHORTER: f64 = 1e-2;
 
@@ -68,12 +71,14 @@ pub fn trial(text: &[u8], turn: usize) -> Verdict {
     };
     let [mut completed, mut stopped] = [0; 2];
     let is_turn = (turn / OTHER_PRECISIONS).is_multiple_of(2) && precision != "dd";
-    let other = is_turn.then_some(ALWAYS + turn / (2 * OTHER_PRECISIONS) % (TRIED.len() - ALWAYS));
-    for (i, method) in TRIED.into_iter().enumerate() {
-        if i >= ALWAYS && other != Some(i) {
+    let (tried, always) = tried();
+    let other = turn / (2 * OTHER_PRECISIONS) % (tried.len() - always);
+    let other = is_turn.then_some(always + other);
+    for (i, &method) in tried.iter().enumerate() {
+        if i >= always && other != Some(i) {
             continue;
         }
-        let share = if i < ALWAYS { 1.0 } else { SHORTER };
+        let share = if i < always { 1.0 } else { SHORTER };
         match run((&document, &scene), method, (precision, share)) {
             Ok(Some(true)) => completed += 1,
             Ok(Some(false)) => stopped += 1,
@@ -88,7 +93,7 @@ pub fn trial(text: &[u8], turn: usize) -> Verdict {
     if let Err(why) = tables(&document, &scene, &mut dice) {
         return Verdict::Wrong(why);
     }
-    let formulation = TRIED[turn % ALWAYS][0];
+    let formulation = tried[turn % always][0];
     match torn(&scene, formulation, &mut dice) {
         Ok(_) => Verdict::Ran { completed, stopped },
         Err(why) => Verdict::Wrong(format!("a damaged checkpoint, {formulation}: {why}")),

@@ -6,7 +6,8 @@
 //! is more. Or where its energy invariant is off by more than a tenth of the energy turned over.
 
 use crate::case::{Case, Image, Options, Truth};
-use crate::run::{EXTRAPOLATED, METHODS, Ran, run};
+use crate::run::{EXTRAPOLATED, Ran, methods, run};
+use mbs::FormulationKind;
 
 /// So many times the error of the rule is wrong.
 const TIMES: f64 = 10.0;
@@ -27,8 +28,13 @@ const THIRD: f64 = 3.0;
 /// Shares of the step at which it is seen whether the others were lucky at the whole: tenths, so that a reference at a tenth of the
 /// step has rows of the same times; other references are met at some times and at the end.
 const SMALLER: [f64; 5] = [0.9, 0.8, 0.7, 0.6, 0.5];
-/// Formulations that references are taken from, in this order.
-const REFERENCES: [&str; 4] = ["recursive", "index-3", "state-space", "classical"];
+/// Formulations that references are taken from at most.
+const N_REFERENCES: usize = 4;
+
+/// They, in this order.
+fn reference_methods() -> Vec<&'static str> {
+    FormulationKind::references().into_iter().take(N_REFERENCES).map(|f| f.name()).collect()
+}
 
 /// What a method came to.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,9 +66,8 @@ struct Reference {
 
 /// Runs a case with all methods; `about` is told what is run before it begins.
 pub fn judge(case: &Case, about: &mut dyn FnMut(&str)) -> Vec<(&'static str, Verdict)> {
-    let ran: Vec<(&'static str, Ran)> = METHODS
-        .iter()
-        .map(|&method| {
+    let ran: Vec<(&'static str, Ran)> = methods()
+        .map(|method| {
             about(method);
             (method, run(&case.scene, method, case.step, case.options))
         })
@@ -70,7 +75,7 @@ pub fn judge(case: &Case, about: &mut dyn FnMut(&str)) -> Vec<(&'static str, Ver
     let references = references(case, &ran, about);
     let rule = match &case.truth {
         Truth::Twin(scene, image) => {
-            let twins = runs(scene, &REFERENCES[..3], case.step, about);
+            let twins = runs(scene, &reference_methods()[..3], case.step, about);
             let twins: Vec<_> = twins.iter().map(|(m, rows)| (*m, image_of(rows, image))).collect();
             errors(twins.iter().map(|(m, rows)| (*m, &rows[..])), &references, case.size)
         }
@@ -104,7 +109,8 @@ fn verdict(
     let Some(reference) = of_another(references, method) else { return Verdict::Unjudged };
     let is_twin = matches!(case.truth, Truth::Twin(..));
     // multi-index takes shorter steps than that
-    let is_other = |other: &str| other != "multi-index" && (is_twin || other != method);
+    let is_steered = |f: &str| FormulationKind::of_name(f).is_some_and(|f| f.row().energy_rule);
+    let is_other = |other: &str| !is_steered(other) && (is_twin || other != method);
     let others = rule.iter().filter(|(other, _)| is_other(other)).map(|(_, e)| *e);
     let Some(of_rule) = lower_median(others.collect()) else { return Verdict::Unjudged };
     let error = error(&rows, &reference.rows, case.size);
@@ -124,7 +130,8 @@ fn verdict(
 /// What the others are off by at most at somewhat smaller steps: where that is more, their errors at the step were small by luck. A
 /// contact or a break is met at another part of a step there, and the error of the rule goes with that part.
 fn at_smaller(case: &Case, method: &str, references: &[Reference]) -> f64 {
-    let others: Vec<&'static str> = REFERENCES.into_iter().filter(|m| *m != method).collect();
+    let others: Vec<&'static str> =
+        reference_methods().into_iter().filter(|m| *m != method).collect();
     let off = |share: f64| {
         let rows = runs_with(&case.scene, &others, share * case.step, case.options);
         let errors = errors(rows.iter().map(|(m, rows)| (*m, &rows[..])), references, case.size);
@@ -222,14 +229,15 @@ fn agreeing(
     about: &mut dyn FnMut(&str),
 ) -> Vec<(&'static str, Rows)> {
     let mut found: Vec<(&'static str, Rows)> = Vec::new();
-    for method in REFERENCES {
+    let methods = reference_methods();
+    for &method in &methods {
         found.extend(runs(scene, &[method], step, about));
         let apart = |a: &[Row], b: &[Row]| error(a, b, size);
         let nearest = pairs(found.len())
             .map(|(i, j)| (apart(&found[i].1, &found[j].1), i, j))
             .min_by(|a, b| a.0.total_cmp(&b.0));
         let Some((apart, i, j)) = nearest else { continue };
-        let is_last = method == REFERENCES[REFERENCES.len() - 1];
+        let is_last = methods.last() == Some(&method);
         if apart <= NEAR || (is_last && apart <= COARSE) {
             let second = found.swap_remove(j);
             return vec![found.swap_remove(i), second];

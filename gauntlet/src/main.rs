@@ -4,6 +4,7 @@
 
 use gauntlet::families::Family;
 use gauntlet::judge::{Verdict, judge};
+use gauntlet::run::methods;
 use gauntlet::schedule::{cases, family};
 use serde_json::{Value, json};
 use std::io::Write;
@@ -74,7 +75,7 @@ fn told((family, seed): (&Family, u64), about: &mut dyn FnMut(&str)) -> Value {
         .into_iter()
         .map(|(method, verdict)| (method.to_owned(), of_verdict(&verdict)))
         .collect();
-    json!({ "family": family.name, "property": family.property, "seed": seed, "step": case.step, "verdicts": verdicts })
+    json!({ "family": family.name, "property": family.property, "seed": seed, "step": case.step, "methods": methods().collect::<Vec<_>>(), "verdicts": verdicts })
 }
 
 fn of_verdict(verdict: &Verdict) -> Value {

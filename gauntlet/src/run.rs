@@ -7,8 +7,9 @@ use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Formulations under test, with the trapezoidal rule; multi-index with its own control of the step.
-pub const METHODS: [&str; 6] =
-    ["index-3", "index-1", "multi-index", "classical", "state-space", "recursive"];
+pub fn methods() -> impl Iterator<Item = &'static str> {
+    FormulationKind::listed().map(FormulationKind::name)
+}
 
 /// Share of the energy turned over that an invariant may be off by.
 const MOST_ENERGY: f64 = 0.1;
@@ -64,16 +65,15 @@ pub fn keep_panics() {
 pub fn run(scene: &str, method: &str, step: f64, options: Options) -> Ran {
     let integrator = if method == EXTRAPOLATED { "gbs" } else { "trapezoidal" };
     let is_extrapolated = method == EXTRAPOLATED;
-    let formulation = if is_extrapolated { "recursive" } else { method };
-    let is_augmented =
-        FormulationKind::ALL.iter().any(|f| f.name() == formulation && f.is_augmented());
+    let formulation = if is_extrapolated { FormulationKind::RELATIVE.name() } else { method };
+    let takes_penalty = FormulationKind::of_name(formulation).and_then(|f| f.scene_penalty());
     let overrides = Overrides {
         formulation: Some(formulation.to_owned()),
         integrator: Some(integrator.to_owned()),
         precision: options.is_single.then(|| "f32".to_owned()),
         step: Some(step),
         tolerance: is_extrapolated.then_some(1e-13),
-        penalty: options.penalty.filter(|_| is_augmented),
+        penalty: options.penalty.filter(|_| takes_penalty.is_some()),
         ..Overrides::default()
     };
     match catch_unwind(AssertUnwindSafe(|| go(scene, &overrides))) {

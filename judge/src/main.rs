@@ -28,8 +28,10 @@ fn main() -> ExitCode {
             only.as_deref().unwrap_or("index-3") == *f
                 && integrator.as_deref().unwrap_or("trapezoidal") == *i
         };
-        let method =
-            trial::oracle::methods().into_iter().find(is_asked).unwrap_or(trial::seeds::METHODS[0]);
+        let method = trial::oracle::methods()
+            .into_iter()
+            .find(is_asked)
+            .unwrap_or(trial::seeds::methods()[0]);
         let share = value("--share").and_then(|s| s.parse().ok()).unwrap_or(1);
         let text =
             drawn(&name).map_or("no case of this name".to_owned(), |d| look(&d, method, share));

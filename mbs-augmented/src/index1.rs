@@ -18,22 +18,25 @@ use crate::workspace::{Mass, Workspace};
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    Counts, StepError, StepReport, Stop, check_guides, check_rotations, largest, largest_or_nan,
+    Counts, Step, StepError, StepReport, Stop, check_guides, check_rotations, largest,
+    largest_or_nan,
 };
 use mbs_core::team::{add_product, norm_inf, on_stretches, set_product, set_sum, subtract};
 use mbs_core::{Real, SpdSolver};
 
-/// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
+/// Advances `s` by one [`Step`].
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
 pub fn step<T: Real, M: Model<T>, S: SpdSolver<T>>(
     model: &M,
-    (dt, length): (T, T),
+    step: Step<T>,
     options: &Options<T>,
     s: &mut State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
+    let Step { dt, length } = step.checked()?;
+    options.validate()?;
     take_inputs(model, s, w)?;
     let rule = options.integrator.rule(dt);
     w.counts = Counts::default();

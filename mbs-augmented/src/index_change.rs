@@ -9,7 +9,7 @@ use crate::options::Options;
 use crate::workspace::Workspace;
 use crate::{index1, index3};
 use mbs_core::model::{Model, State};
-use mbs_core::step::{StepError, StepReport};
+use mbs_core::step::{Step, StepError, StepReport};
 use mbs_core::{Real, SpdSolver};
 
 /// Which form of the equations is stepped.
@@ -84,16 +84,17 @@ impl<T: Real> IndexChange<T> {
         (self.index, self.changes, self.tried, self.last) = (index, changes, tried, last);
     }
 
-    /// Chooses the index for a trial of length `h` [s] after `reductions` of it in a row. Where the state cannot be made
+    /// Chooses the index for a trial after `reductions` of it in a row. Where the state cannot be made
     /// consistent the index stays, and the workspace goes back to what it kept. Returns whether it changed, and the state with it.
     pub fn prepare<M: Model<T>, S: SpdSolver<T>>(
         &mut self,
         model: &M,
-        (h, length): (T, T),
+        step: Step<T>,
         reductions: u32,
         s: &mut State<T>,
         w: &mut Workspace<T, S>,
     ) -> bool {
+        let Step { dt: h, length } = step;
         let is_grown = reductions == 0 && h > self.last;
         let wanted = match self.index {
             ConstraintIndex::Three if h < self.threshold || reductions >= self.patience => {
@@ -126,20 +127,20 @@ impl<T: Real> IndexChange<T> {
         self.last = self.tried;
     }
 
-    /// One step of length `h` [s] in the present index.
+    /// One step in the present index.
     ///
     /// # Errors
     /// [`StepError`]; the state is then unchanged.
     pub fn step<M: Model<T>, S: SpdSolver<T>>(
         &self,
         model: &M,
-        (h, length): (T, T),
+        step: Step<T>,
         s: &mut State<T>,
         w: &mut Workspace<T, S>,
     ) -> Result<StepReport<T>, StepError> {
         match self.index {
-            ConstraintIndex::One => index1::step(model, (h, length), &self.index1, s, w),
-            ConstraintIndex::Three => index3::step(model, (h, length), &self.index3, s, w),
+            ConstraintIndex::One => index1::step(model, step, &self.index1, s, w),
+            ConstraintIndex::Three => index3::step(model, step, &self.index3, s, w),
         }
     }
 }

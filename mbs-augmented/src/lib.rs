@@ -3,6 +3,7 @@
 
 extern crate alloc;
 
+mod formulation;
 mod history;
 pub mod index1;
 pub mod index3;
@@ -15,10 +16,11 @@ mod pace;
 mod projection;
 mod workspace;
 
+pub use formulation::{Augmented, Form};
 pub use history::{History, IndexHistory};
 pub use index_change::{ConstraintIndex, IndexChange};
 pub use inputs::take_inputs;
-pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
+pub use mbs_core::step::{OptionError, Step, StepError, StepReport, Stop};
 pub use multi_index::MultiIndex;
 pub use options::{Multipliers, Options, Penalty, Projection};
 pub use workspace::Workspace;

@@ -5,7 +5,7 @@ use crate::inputs::take_inputs;
 use crate::workspace::Workspace;
 use mbs_core::control::{Accepted, Driver, Invariant, LocalError, Rules, Stepper, TrialStep};
 use mbs_core::model::{Model, State};
-use mbs_core::step::StepError;
+use mbs_core::step::{Step, StepError};
 use mbs_core::{Real, SpdSolver};
 
 /// Steps whose length and index are chosen from what the last steps did.
@@ -61,7 +61,7 @@ impl<T: Real> MultiIndex<T> {
         self.driver.next()
     }
 
-    /// Makes one step of at most `rest` [s], in as many trials as it takes, in a scene of the given `length` [m].
+    /// Makes one step of at most `dt` [s], in as many trials as it takes.
     ///
     /// No allocation. A rejected trial leaves no trace.
     ///
@@ -70,10 +70,11 @@ impl<T: Real> MultiIndex<T> {
     pub fn step<M: Model<T>, S: SpdSolver<T>>(
         &mut self,
         model: &M,
-        (rest, length): (T, T),
+        step: Step<T>,
         s: &mut State<T>,
         w: &mut Workspace<T, S>,
     ) -> Result<Accepted<T>, StepError> {
+        let Step { dt: rest, length } = step.checked()?;
         take_inputs(model, s, w)?;
         self.saved.copy_from(s);
         w.keep();
@@ -97,7 +98,7 @@ struct Trial<'a, T, M, S> {
 
 impl<T: Real, M: Model<T>, S: SpdSolver<T>> Stepper<T> for Trial<'_, T, M, S> {
     fn prepare(&mut self, h: T, reductions: u32) -> Result<(), StepError> {
-        let step = (h, self.length);
+        let step = Step { dt: h, length: self.length };
         if self.change.prepare(self.model, step, reductions, self.s, self.w) {
             self.saved.copy_from(self.s);
             self.w.keep();
@@ -106,7 +107,8 @@ impl<T: Real, M: Model<T>, S: SpdSolver<T>> Stepper<T> for Trial<'_, T, M, S> {
     }
 
     fn attempt(&mut self, h: T) -> Result<TrialStep<T>, StepError> {
-        let report = self.change.step(self.model, (h, self.length), self.s, self.w);
+        let step = Step { dt: h, length: self.length };
+        let report = self.change.step(self.model, step, self.s, self.w);
         let report = report.inspect_err(|_| self.w.undo())?;
         let s = &*self.s;
         let potential = self.model.potential_energy(&s.q, self.w.terms());

@@ -19,13 +19,13 @@ use crate::workspace::{Mass, Workspace};
 use mbs_core::integrator::Rule;
 use mbs_core::model::{Model, State};
 use mbs_core::step::{
-    ConvergenceCriterion, StepError, StepReport, Stop, check_rotations, largest_or_nan, step_scale,
-    stopping,
+    ConvergenceCriterion, Step, StepError, StepReport, Stop, check_rotations, largest_or_nan,
+    step_scale, stopping,
 };
 use mbs_core::team::{norm_inf, on_stretches};
 use mbs_core::{Real, SymmetricSolver};
 
-/// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
+/// Advances `s` by one [`Step`].
 ///
 /// Cost: two or three evaluations, factorisations and solutions for the motion, three to five solutions for the projections;
 /// no allocation.
@@ -35,11 +35,13 @@ use mbs_core::{Real, SymmetricSolver};
 /// or a singular position.
 pub fn step<T: Real, M: Model<T>, S: SymmetricSolver<T>>(
     model: &M,
-    (dt, length): (T, T),
+    step: Step<T>,
     options: &Options<T>,
     s: &mut State<T>,
     w: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
+    let Step { dt, length } = step.checked()?;
+    options.validate()?;
     take_inputs(model, options, s, w)?;
     let rule = options.integrator.rule(dt);
     w.begin(options.regularisation);

@@ -3,6 +3,7 @@
 
 extern crate alloc;
 
+mod formulation;
 pub mod index1;
 pub mod index3;
 mod inputs;
@@ -10,8 +11,9 @@ mod options;
 mod projection;
 mod workspace;
 
+pub use formulation::Classical;
 pub use inputs::take_inputs;
 pub use mbs_core::saddle::Saddle;
-pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};
+pub use mbs_core::step::{OptionError, Step, StepError, StepReport, Stop};
 pub use options::{Options, Stabilisation};
 pub use workspace::Workspace;

@@ -15,7 +15,11 @@ pub mod control;
 pub mod dense;
 pub mod effects;
 pub mod elements;
+#[cfg(feature = "alloc")]
+pub mod formulation;
 mod forward;
+#[cfg(feature = "alloc")]
+pub mod history;
 #[cfg(feature = "alloc")]
 pub mod inputs;
 pub mod integrator;

@@ -15,6 +15,8 @@ mod error;
 mod evaluate;
 pub mod explicit;
 #[cfg(feature = "alloc")]
+mod formulation;
+#[cfg(feature = "alloc")]
 mod graph;
 #[cfg(feature = "alloc")]
 mod history;
@@ -55,6 +57,8 @@ mod turns;
 pub use at::Outside;
 #[cfg(feature = "alloc")]
 pub use error::{LanesError, TreeError};
+#[cfg(feature = "alloc")]
+pub use formulation::{Tree, TreeStep};
 #[cfg(feature = "alloc")]
 pub use history::History;
 pub use mbs_core::step::{OptionError, StepError, StepReport, Stop};

@@ -16,7 +16,7 @@ use crate::tree::TreeModel;
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross};
 use mbs_core::ode::{Adaptive, Extrapolation, Method, Radau, Tableau};
-use mbs_core::step::{StepError, StepReport};
+use mbs_core::step::{Step, StepError, StepReport};
 
 /// Advances `state` by one step of length `dt` [s] of the trapezoidal rule or another of the Newmark family.
 ///
@@ -31,6 +31,7 @@ pub fn step<T: Real, S: Space<T>>(
     state: &mut TreeState<T>,
     workspace: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
+    check(dt, options)?;
     model.take_inputs(options, state, workspace)?;
     let m = model.mechanism();
     let mut s = workspace.store();
@@ -58,6 +59,7 @@ pub fn bounded_step<T: Real, S: Space<T>>(
     state: &mut TreeState<T>,
     workspace: &mut Workspace<T, S>,
 ) -> Result<BoundedReport<T>, StepError> {
+    check(dt, options)?;
     model.take_inputs(options, state, workspace)?;
     let m = model.mechanism();
     let mut s = workspace.store();
@@ -82,6 +84,7 @@ pub fn rk4_step<T: Real, S: Space<T>>(
     state: &mut TreeState<T>,
     workspace: &mut Workspace<T, S>,
 ) -> Result<StepReport<T>, StepError> {
+    check(dt, options)?;
     model.take_inputs(options, state, workspace)?;
     let m = model.mechanism();
     let (mut s, scratch) = workspace.parts();
@@ -105,9 +108,6 @@ pub fn rk4_step<T: Real, S: Space<T>>(
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
-///
-/// # Panics
-/// If `dt` or the first step is not positive and finite.
 pub fn rk54_step<T: Real, S: Space<T>>(
     model: &TreeModel<T, S>,
     dt: T,
@@ -126,9 +126,6 @@ pub fn rk54_step<T: Real, S: Space<T>>(
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
-///
-/// # Panics
-/// If `dt` or the first step is not positive and finite.
 pub fn rk853_step<T: Real, S: Space<T>>(
     model: &TreeModel<T, S>,
     dt: T,
@@ -154,9 +151,6 @@ pub fn rk853_step<T: Real, S: Space<T>>(
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
-///
-/// # Panics
-/// If `dt` or the first step is not positive and finite.
 pub fn extrapolated_step<T: Real, S: Space<T>>(
     model: &TreeModel<T, S>,
     dt: T,
@@ -178,9 +172,6 @@ pub fn extrapolated_step<T: Real, S: Space<T>>(
 ///
 /// # Errors
 /// [`StepError`]; the state is then unchanged.
-///
-/// # Panics
-/// If `dt` or the first step is not positive and finite.
 pub fn radau5_step<T: Real, S: Space<T>>(
     model: &TreeModel<T, S>,
     dt: T,
@@ -201,6 +192,7 @@ fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     slot: impl Fn(&mut Explicit<T>) -> &mut Option<Adaptive<T, M>>,
     method: impl FnOnce() -> M,
 ) -> Result<StepReport<T>, StepError> {
+    check(dt, options)?;
     model.take_inputs(options, state, workspace)?;
     let first = options.first_step.unwrap_or(dt);
     let known = slot(&mut workspace.explicit).take();
@@ -217,6 +209,12 @@ fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     let power = own(ledger::power(&m, &mut s));
     take((dt, power), &s, state);
     Ok(report)
+}
+
+/// Is the step one that can be made, with options in their ranges? The tree's length has no part in it.
+fn check<T: Real>(dt: T, options: &Options<T>) -> Result<(), StepError> {
+    Step { dt, length: T::ONE }.checked()?;
+    Ok(options.validate()?)
 }
 
 /// The work of an explicit step.

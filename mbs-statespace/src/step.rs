@@ -19,7 +19,7 @@ use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::{Rule, is_far};
 use mbs_core::model::{Load, Model, State, System, Tangent};
 use mbs_core::step::{
-    Counts, StepError, StepReport, Stop, add_work, check_guides, check_rotations, largest,
+    Counts, Step, StepError, StepReport, Stop, add_work, check_guides, check_rotations, largest,
     largest_or_nan, step_scale, take_coordinates,
 };
 use mbs_core::{FactorError, Real, SpdSolver};
@@ -27,7 +27,7 @@ use mbs_core::{FactorError, Real, SpdSolver};
 /// Velocities and accelerations off their constraints by more than this, relative to their size, are violations.
 const VIOLATION: f64 = 5e-10;
 
-/// Advances `s` by one step of length `dt` [s] in a scene of the given `length` [m].
+/// Advances `s` by one [`Step`].
 ///
 /// Fails at singular positions with [`StepError::RankLost`], which names a row that takes part.
 ///
@@ -38,11 +38,13 @@ const VIOLATION: f64 = 5e-10;
 /// [`StepError`]; the state is then unchanged.
 pub fn step<T: Real, M: Model<T>>(
     model: &M,
-    (dt, length): (T, T),
+    step: Step<T>,
     options: &Options<T>,
     s: &mut State<T>,
     w: &mut Workspace<T>,
 ) -> Result<StepReport<T>, StepError> {
+    let Step { dt, length } = step.checked()?;
+    options.validate()?;
     take_inputs(model, s, w)?;
     let rule = options.integrator.rule(dt);
     w.counts = Counts::default();

@@ -1,11 +1,8 @@
-//! The names a scene or the command line may choose from, and what they stand for.
+//! The names of integrators, step rules and precisions that a scene or the command line may choose from, and what they stand for.
 
 use mbs_core::Real;
 use mbs_core::integrator::Integrator;
 
-/// Formulations that are built, by their names in scenes and on the command line.
-pub const FORMULATIONS: [&str; 7] =
-    ["auto", "index-1", "index-3", "multi-index", "classical", "state-space", "recursive"];
 /// Integrators that are built.
 pub const INTEGRATORS: [&str; 9] =
     ["trapezoidal", "newmark", "generalised-alpha", "hht", "rk4", "rk54", "rk853", "gbs", "radau5"];
@@ -13,66 +10,6 @@ pub const INTEGRATORS: [&str; 9] =
 pub const PRECISIONS: [&str; 3] = ["f32", "f64", "dd"];
 /// Controls of the step size.
 pub const STEP_RULES: [&str; 5] = ["fixed", "energy", "energy-printed", "error", "both"];
-
-/// A formulation that can run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FormulationKind {
-    /// Index-3 augmented Lagrangian.
-    Index3,
-    /// Index-1 augmented Lagrangian.
-    Index1,
-    /// Augmented Lagrangian in index-3 for long steps and in index-1 for short ones.
-    MultiIndex,
-    /// Index-3 classical Lagrangian.
-    Classical,
-    /// State space: independent coordinates by a null-space basis.
-    StateSpace,
-    /// Fully recursive, relative coordinates.
-    Recursive,
-}
-
-impl FormulationKind {
-    /// All of them, in the order of [`FORMULATIONS`] after `auto`.
-    pub const ALL: [Self; 6] = [
-        Self::Index1,
-        Self::Index3,
-        Self::MultiIndex,
-        Self::Classical,
-        Self::StateSpace,
-        Self::Recursive,
-    ];
-
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Index3 => "index-3",
-            Self::Index1 => "index-1",
-            Self::MultiIndex => "multi-index",
-            Self::Classical => "classical",
-            Self::StateSpace => "state-space",
-            Self::Recursive => "recursive",
-        }
-    }
-
-    /// Is it one of the augmented Lagrangian's forms, with a penalty on the constraints?
-    #[must_use]
-    pub fn is_augmented(self) -> bool {
-        matches!(self, Self::Index1 | Self::Index3 | Self::MultiIndex)
-    }
-
-    /// Do threads share the work of its steps?
-    #[must_use]
-    pub fn takes_threads(self) -> bool {
-        self.is_augmented() || self == Self::Classical
-    }
-
-    /// Does it run with this integrator?
-    #[must_use]
-    pub fn runs_with(self, integrator: IntegratorKind) -> bool {
-        self == Self::Recursive || !integrator.is_of_first_order()
-    }
-}
 
 /// An integrator that can run, with the parameters it is given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -260,7 +197,6 @@ mod tests {
 
     #[test]
     fn every_name_that_is_offered_stands_for_something() {
-        assert_eq!(FormulationKind::ALL.map(FormulationKind::name), FORMULATIONS[1..]);
         assert_eq!(StepRule::ALL.map(StepRule::name), STEP_RULES);
         assert_eq!(Precision::ALL.map(Precision::name), PRECISIONS);
         assert_eq!(IntegratorKind::ALL.map(IntegratorKind::name), INTEGRATORS);

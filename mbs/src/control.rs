@@ -1,22 +1,21 @@
 //! Steps of controlled length, whatever the formulation.
 
 use crate::checkpoint::ControlKept;
-use crate::choice::{FormulationKind, StepRule};
-use crate::engine::Engine;
+use crate::choice::StepRule;
 use crate::settings::Settings;
-use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::control::{
     Accepted, Driver, EnergyRule, Event, Invariant, LocalError, Rules, Stepper, TrialStep,
 };
+use mbs_core::formulation::Formulation;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::{ModelError, NaturalModel};
 use mbs_core::outputs::{Events, Turns};
 use mbs_core::scene::Scene;
-use mbs_core::step::StepError;
+use mbs_core::step::{Step, StepError};
 
 /// The driver of a run, with the state to which a rejected step goes back.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Control<T: Real, const D: usize> {
     driver: Driver<T>,
     estimate: Option<LocalError<T>>,
@@ -26,10 +25,7 @@ pub(crate) struct Control<T: Real, const D: usize> {
     saved: State<T>,
 }
 
-impl<T: Real, const D: usize> Control<T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Control<T, D> {
     /// As the settings say; nothing for steps of fixed length.
     ///
     /// # Errors
@@ -58,7 +54,7 @@ where
         let driver = Driver::new(rules, lengths.step);
         let mut events = settings.events.then(|| Events::new(scene, model)).transpose()?;
         events.iter_mut().for_each(|events| events.start(state));
-        let is_tree = settings.formulation == FormulationKind::Recursive;
+        let is_tree = settings.formulation.row().relative;
         let turns = (!is_tree).then(|| Turns::new(scene, model));
         Ok(Some(Self { driver, estimate, events, turns, saved: state.clone() }))
     }
@@ -86,28 +82,25 @@ where
     /// One step of at most `rest` [s].
     pub(crate) fn step(
         &mut self,
-        (model, engine): (&NaturalModel<T, D>, &mut Engine<T, D>),
+        (model, formulation): (&NaturalModel<T, D>, &mut dyn Formulation<T, D>),
         state: &mut State<T>,
         invariant: &mut Invariant,
         rest: T,
     ) -> Result<Accepted<T>, StepError> {
         self.saved.copy_from(state);
-        engine.keep();
+        formulation.save_trial();
         let Self { driver, estimate, events, turns, saved } = self;
         let (estimate, turns) = (*estimate, turns.as_ref());
-        let mut trial = Trial { model, engine, state, saved, estimate, events, turns };
+        let mut trial = Trial { model, formulation, state, saved, estimate, events, turns };
         let t = trial.state.t;
         driver.step(&mut trial, invariant, (t, rest))
     }
 }
 
 /// The state that is tried, and the one to go back to.
-struct Trial<'a, T: Real, const D: usize>
-where
-    Plane<D>: InSpace<T>,
-{
+struct Trial<'a, T: Real, const D: usize> {
     model: &'a NaturalModel<T, D>,
-    engine: &'a mut Engine<T, D>,
+    formulation: &'a mut dyn Formulation<T, D>,
     state: &'a mut State<T>,
     saved: &'a mut State<T>,
     estimate: Option<LocalError<T>>,
@@ -115,40 +108,46 @@ where
     turns: Option<&'a Turns<T, D>>,
 }
 
-impl<T: Real, const D: usize> Stepper<T> for Trial<'_, T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Trial<'_, T, D> {
+    /// A trial of length `h` [s].
+    fn length(&self, h: T) -> Step<T> {
+        Step { dt: h, length: self.model.length() }
+    }
+}
+
+impl<T: Real, const D: usize> Stepper<T> for Trial<'_, T, D> {
     fn prepare(&mut self, h: T, reductions: u32) -> Result<(), StepError> {
-        if self.engine.prepare(self.model, h, reductions, self.state) {
+        let step = self.length(h);
+        if self.formulation.prepare(self.model, step, reductions, self.state) {
             self.saved.copy_from(self.state);
-            self.engine.keep();
+            self.formulation.save_trial();
         }
         Ok(())
     }
 
     fn attempt(&mut self, h: T) -> Result<TrialStep<T>, StepError> {
-        let report = self.engine.step(self.model, h, self.state);
-        let report = report.inspect_err(|_| self.engine.undo())?;
+        let step = self.length(h);
+        let report = self.formulation.step(self.model, step, self.state);
+        let report = report.inspect_err(|_| self.formulation.restore_trial())?;
         if let Some(turns) = self.turns {
             let checked = turns.check([self.saved, self.state]);
             checked.inspect_err(|_| self.undo())?;
         }
-        let energies = self.engine.energies(self.model, self.state);
+        let energies = self.formulation.energies(self.model, self.state);
         let length = self.model.length();
         let error = self
             .estimate
             .map_or(T::ZERO, |estimate| estimate.of(h, &self.saved.a, &self.state.a) / length);
         let acceleration_energy =
             [&self.saved.a, &self.state.a].map(|a| self.model.kinetic_energy(a).to_f64());
-        self.engine.tried(h);
+        self.formulation.tried(h);
         let (t, error) = (self.state.t, error.to_f64());
         Ok(TrialStep { report, t, energies, error, acceleration_energy })
     }
 
     fn undo(&mut self) {
         self.state.copy_from(self.saved);
-        self.engine.undo();
+        self.formulation.restore_trial();
     }
 
     fn first_event(&mut self, _: T) -> Option<Event> {
@@ -156,7 +155,7 @@ where
     }
 
     fn keep(&mut self, at_event: bool) {
-        self.engine.accept();
+        self.formulation.accept();
         if let Some(events) = self.events {
             events.accept(self.state);
         }

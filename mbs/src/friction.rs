@@ -8,7 +8,7 @@
 //! its sign does so for a step or two; one that friction throws back does so step after step, and what holds by friction creeps at a
 //! rate that is none of the law's. Implicit methods, and those that control their error, follow the rise.
 
-use crate::choice::{FormulationKind, IntegratorKind};
+use crate::choice::IntegratorKind;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
@@ -40,8 +40,7 @@ pub(crate) struct Frictions<T: Real, const D: usize> {
 impl<T: Real, const D: usize> Frictions<T, D> {
     /// Those of a scene; none where the method of the settings follows them.
     pub(crate) fn new(scene: &Scene<T>, settings: &Settings, model: &NaturalModel<T, D>) -> Self {
-        let is_explicit = settings.formulation == FormulationKind::Recursive
-            && settings.integrator == IntegratorKind::Rk4;
+        let is_explicit = settings.integrator == IntegratorKind::Rk4;
         let friction = |(effect, e): (usize, &Effect<T>)| match &e.kind {
             EffectKind::Friction(law) if e.enabled => {
                 let &scene::Friction { joint, coulomb, r#static, regularisation, .. } = law;

@@ -10,7 +10,6 @@ mod control;
 mod digits;
 pub mod doctor;
 mod document;
-mod engine;
 pub mod estimate;
 pub mod explain;
 pub mod export;
@@ -21,6 +20,7 @@ mod friction;
 pub mod front;
 mod interrupt;
 mod journal;
+mod methods;
 mod modes;
 mod names;
 mod precision;
@@ -50,30 +50,28 @@ pub use mbs_sparse as sparse;
 pub use mbs_statespace as statespace;
 
 pub use checkpoint::{Checkpoint, CheckpointError, FILE as CHECKPOINT, Keeping};
-pub use choice::{
-    FORMULATIONS, FormulationKind, INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
-    StepRule,
-};
+pub use choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES, StepRule};
 pub use document::{run_document, run_document_kept};
-pub use engine::{Engine, Index};
 pub use front::{
     Body, Effect, Error, Guide, Id, InitialCondition, Joint, Mechanism, Output, Part, PathError,
     SceneError, UnknownName,
 };
 pub use interrupt::Interrupt;
+pub use mbs_core::formulation::{Formulation, SwitchError};
 pub use mbs_core::scene::{
     BodyId, EffectId, GROUND, GuideId, InitialId, JointId, Motion, Number, OutputId, Signal,
     Vector3,
 };
 pub use mbs_scene::{ReadError, WriteError};
+pub use methods::{FORMULATIONS, FormulationKind, PenaltyUse, Row};
 pub use modes::{Mode, Modes, Place};
 pub use names::Names;
 pub use precision::PrecisionError;
 pub use rest::LeftOut;
 pub use run::{Outcome, Progress, run, run_kept};
 pub use settings::{Overrides, Settings, SettingsError};
-pub use simulation::{Simulation, SwitchError};
+pub use simulation::Simulation;
 pub use statics::{Moved, Search, StaticEquilibrium, equilibrium_start, find_equilibrium};
 pub use stop::{INTERRUPTED, StopError};
 pub use tilt::AlmostDependent;
-pub use tree::{InSpace, Plane, Tree};
+pub use tree::{InSpace, Plane};

@@ -2,12 +2,10 @@
 
 pub(crate) mod way;
 
-use crate::choice::{
-    FORMULATIONS, FormulationKind, INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES,
-    StepRule,
-};
+use crate::choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES, StepRule};
 use crate::digits::is_finer;
 use crate::interrupt::Interrupt;
+use crate::methods::{FORMULATIONS, FormulationKind, PenaltyUse};
 use crate::precision::{PrecisionError, not_built_hint};
 use mbs_core::Real;
 use mbs_core::control::EnergyRule;
@@ -175,13 +173,15 @@ impl SettingsError {
                     .to_owned()
             }
             Self::NotTogether { option, .. } if option == "threads" => {
-                "threads share the steps of index-3, index-1, multi-index and classical".to_owned()
+                let names = FormulationKind::names(|row| row.threads, "and");
+                format!("threads share the steps of {names}")
             }
             Self::NotTogether { option, .. } if option == "penalty" => {
                 "leave the penalty out".to_owned()
             }
             Self::NotTogether { .. } => {
-                "rk4, rk54, rk853, gbs and radau5 need formulation `recursive`".to_owned()
+                let name = FormulationKind::RELATIVE.name();
+                format!("rk4, rk54, rk853, gbs and radau5 need formulation `{name}`")
             }
             Self::TooManySteps { .. } => "write a longer step, or a shorter duration".to_owned(),
             Self::Scene(error) => error.fault.advice().to_owned(),
@@ -242,7 +242,7 @@ impl Settings {
         if threads == 0 {
             return Err(SettingsError::NotPositive { key: "threads", value: 0.0 });
         }
-        if threads > 1 && !formulation.takes_threads() {
+        if threads > 1 && !formulation.row().threads {
             let option = "threads".to_owned();
             return Err(SettingsError::NotTogether { formulation, option });
         }
@@ -262,7 +262,7 @@ impl Settings {
             return Err(SettingsError::TooManySteps { step: shorter, duration });
         }
         // A scene's penalty is meant for the augmented Lagrangian.
-        let of_file = of_scene(solver.penalty).filter(|_| formulation.is_augmented());
+        let of_file = of_scene(solver.penalty).filter(|_| formulation.scene_penalty().is_some());
         let penalty = overrides.penalty.or(of_file);
         Ok(Self {
             asked,
@@ -350,14 +350,14 @@ fn method<T>(
     )?;
     let formulation = match formulation {
         Some(formulation) => formulation,
-        None if integrator.is_of_first_order() => FormulationKind::Recursive,
-        None => FormulationKind::Index3,
+        None if integrator.is_of_first_order() => FormulationKind::RELATIVE,
+        None => FormulationKind::DEFAULT,
     };
     if !formulation.runs_with(integrator) {
         let option = format!("integrator {}", integrator.name());
         return Err(SettingsError::NotTogether { formulation, option });
     }
-    if formulation == FormulationKind::StateSpace && overrides.penalty.is_some() {
+    if formulation.row().penalty == PenaltyUse::None && overrides.penalty.is_some() {
         let option = "penalty".to_owned();
         return Err(SettingsError::NotTogether { formulation, option });
     }
@@ -371,7 +371,7 @@ fn step_rule<T>(
     overrides: &Overrides,
     (formulation, integrator): (FormulationKind, IntegratorKind),
 ) -> Result<StepRule, SettingsError> {
-    let of_formulation = formulation == FormulationKind::MultiIndex;
+    let of_formulation = formulation.row().energy_rule;
     let given = [overrides.energy_tolerance.is_some(), overrides.error_tolerance.is_some()];
     let is_named = overrides.step_control.is_some() || solver.step_control.is_some();
     let (from_caller, default) = if overrides.step_control.is_none() && given != [false; 2] {

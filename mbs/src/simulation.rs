@@ -2,12 +2,9 @@
 
 mod carry;
 
-pub use carry::SwitchError;
-
 use crate::checkpoint::{Kept, inputs};
-use crate::choice::FormulationKind;
 use crate::control::Control;
-use crate::engine::Engine;
+use crate::methods::Request;
 use crate::ready::AssembledScene;
 use crate::settings::Settings;
 use crate::stop::StopError;
@@ -15,23 +12,22 @@ use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::control::{Accepted, Invariant, Limit, TrialStep};
 use mbs_core::effects::{Field, Value};
+use mbs_core::formulation::{Formulation, energies};
 use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{EffectKind, Scene, Signal};
 use mbs_core::start::Assembled;
-use mbs_core::step::{InputError, StepError, StepReport, largest};
+use mbs_core::step::{InputError, Step, StepError, StepReport, largest};
 
 /// A scene ready to step, in D dimensions and scalar T.
 ///
-/// Whatever the formulation, its state is known in natural coordinates too: outputs are measured there.
-#[derive(Debug)]
-pub struct Simulation<T: Real, const D: usize>
-where
-    Plane<D>: InSpace<T>,
-{
+/// Whatever the formulation, its state is written in natural coordinates too: outputs are measured there. A clone steps to the same bits and
+/// leaves the original as it is; the threads that share the work of a step are shared by both.
+#[derive(Debug, Clone)]
+pub struct Simulation<T: Real, const D: usize> {
     model: NaturalModel<T, D>,
     state: State<T>,
-    engine: Engine<T, D>,
+    formulation: Box<dyn Formulation<T, D>>,
     /// What assembly did; the state in it is the start.
     pub start: Assembled<T>,
     sizes: [usize; 3],
@@ -58,23 +54,30 @@ where
         settings: &Settings,
         mut ready: AssembledScene<T, D>,
     ) -> Result<Self, StopError> {
-        let natural = (settings.formulation != FormulationKind::Recursive).then(|| ready.sizes());
+        let natural = (!settings.formulation.row().relative).then(|| ready.sizes());
         let AssembledScene { model, solver, start, .. } = ready;
         let mut state = start.state.clone();
-        let engine = Engine::new(scene, settings, &model, solver, &mut state)?;
-        let sizes = engine.sizes().or(natural).unwrap_or_default();
-        let initial_energy = engine.start_energies(&model, &state);
+        let request = Request { scene, settings, model: &model, solver, state: &mut state };
+        let formulation = settings.formulation.build(request)?;
+        let sizes = formulation.sizes().or(natural).unwrap_or_default();
+        let [kinetic, potential, _] = match formulation.terms() {
+            // Nothing has been evaluated yet.
+            Some(_) => energies(&model, &state, None),
+            None => formulation.energies(&model, &state),
+        };
         let control = Control::new(scene, settings, &model, &state);
         let control = control.map_err(|e| StopError::Start(e.into()))?.map(Box::new);
-        let [kinetic, potential] = initial_energy;
         let is_damped =
             scene.effects.iter().any(|effect| effect.enabled && effect.kind.dissipates());
         let (ground, epsilon) = (ground(scene, settings, &model), T::EPSILON.to_f64());
         let invariant = Invariant::new([kinetic, potential, 0.0], ground, epsilon);
         let invariant = invariant.with_dampers(is_damped);
-        Ok(Self { model, state, engine, start, sizes, initial_energy, control, invariant })
+        let initial_energy = [kinetic, potential];
+        Ok(Self { model, state, formulation, start, sizes, initial_energy, control, invariant })
     }
+}
 
+impl<T: Real, const D: usize> Simulation<T, D> {
     /// Advances by `dt` [s]: one step, or as many as the control of the step size takes.
     ///
     /// # Errors
@@ -83,6 +86,7 @@ where
         if self.control.is_none() {
             return self.advance(dt).map(|accepted| accepted.attempt.report);
         }
+        Step { dt, length: self.model.length() }.checked()?;
         let end = self.state.t + dt;
         let mut sum = StepReport { steps: 0, ..StepReport::default() };
         loop {
@@ -104,17 +108,15 @@ where
     /// # Errors
     /// [`StepError`]; the state is then unchanged.
     pub fn advance(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
-        let Self { model, state, engine, control, invariant, .. } = self;
-        engine.take_inputs(model, state)?;
+        let Self { model, state, formulation, control, invariant, .. } = self;
+        let formulation = &mut **formulation;
+        let step = Step { dt: rest, length: model.length() };
         if let Some(control) = control {
-            return control.step((model, engine), state, invariant, rest);
+            step.checked()?;
+            formulation.take_inputs(model, state)?;
+            return control.step((model, formulation), state, invariant, rest);
         }
-        engine.keep();
-        engine.prepare(model, rest, 0, state);
-        let report = engine.step(model, rest, state)?;
-        engine.tried(rest);
-        engine.accept();
-        let energies = engine.energies(model, state);
+        let (report, energies) = formulation.advance(model, step, state)?;
         let change = invariant.change(energies);
         invariant.mark(state.t.to_f64(), energies);
         let t = state.t;
@@ -141,13 +143,13 @@ where
 
     /// The index in which the next step would be made, and the changes of it so far, where a formulation has one.
     pub fn index(&self) -> Option<(u8, u32)> {
-        self.engine.index()
+        self.formulation.index()
     }
 
     /// Sets the clock: sums of many steps drift, multiples do not.
     pub fn set_time(&mut self, t: T) {
         self.state.t = t;
-        self.engine.set_time(t);
+        self.formulation.set_time(t);
     }
 
     /// Sets the input of `scene.effects[effect]` between two steps: a force, a torque, or what a law of your own asks for. It
@@ -174,15 +176,12 @@ where
     /// An angle or slide of a joint with its turns, by joint and number, where the formulation's own coordinates have it: in a tree, but for
     /// joints that it cuts and rotations in space.
     pub fn coordinate(&self, joint: usize, number: usize) -> Option<T> {
-        match &self.engine {
-            Engine::Recursive(tree) => tree.coordinate(joint, number),
-            _ => None,
-        }
+        self.formulation.coordinate(joint, number)
     }
 
     /// Does the formulation step coordinates of its own, those of a tree?
     pub(crate) fn has_own_coordinates(&self) -> bool {
-        matches!(self.engine, Engine::Recursive(_))
+        self.formulation.terms().is_none()
     }
 
     /// The natural-coordinate model: outputs are measured in it.
@@ -195,16 +194,16 @@ where
         &self.state
     }
 
-    /// The formulation, with its options.
-    pub fn engine_mut(&mut self) -> &mut Engine<T, D> {
-        &mut self.engine
+    /// The formulation; its options are changed in its own type.
+    pub fn formulation_mut(&mut self) -> &mut dyn Formulation<T, D> {
+        &mut *self.formulation
     }
 
     /// All that the next step goes on from.
     pub(crate) fn kept(&self) -> Kept<T> {
         Kept {
             state: self.state.clone(),
-            engine: self.engine.kept(),
+            formulation: self.formulation.history(),
             control: self.control.as_ref().map(|control| control.kept()),
             invariant: self.invariant.history(),
             inputs: inputs(self.model.prescribed(), &self.state.inputs),
@@ -213,12 +212,12 @@ where
 
     /// Goes on from what was kept; says whether it is of this simulation.
     pub(crate) fn go_on(&mut self, kept: &Kept<T>) -> bool {
-        let Kept { state, engine, control, invariant, inputs: [courses, guides] } = kept;
+        let Kept { state, formulation, control, invariant, inputs: [courses, guides] } = kept;
         let mut is_ours = match (&mut self.control, control) {
             (Some(present), Some(control)) => present.go_on(control),
             (present, control) => present.is_none() && control.is_none(),
         };
-        if !is_ours || !self.engine.go_on(engine) {
+        if !is_ours || self.formulation.set_history(formulation).is_err() {
             return false;
         }
         self.state.copy_from(state);
@@ -234,12 +233,12 @@ where
 
     /// Kinetic energy, potential energy, and work of dampers, guides and courses since the start [J].
     pub fn energies(&self) -> [f64; 3] {
-        self.engine.energies(&self.model, &self.state)
+        self.formulation.energies(&self.model, &self.state)
     }
 
     /// The same, taken anew: what watching the invariant costs in each step.
     pub(crate) fn watched_energies(&mut self) -> [f64; 3] {
-        self.engine.watch();
+        self.formulation.watch();
         self.energies()
     }
 
@@ -255,13 +254,13 @@ where
 
     /// Threads that share the work of a step.
     pub(crate) fn threads(&self) -> usize {
-        self.engine.threads()
+        self.formulation.threads()
     }
 
     /// A failed step with the joint or body it is about.
     pub fn explain(&self, error: StepError) -> StopError {
-        let unknown = |u| self.engine.owner_of_unknown(&self.model, u);
-        StopError::step(error, unknown, |row| self.engine.owner_of_row(&self.model, row))
+        let unknown = |u| self.formulation.owner_of_unknown(&self.model, u);
+        StopError::step(error, unknown, |row| self.formulation.owner_of_row(&self.model, row))
     }
 
     /// Whose constraint carries the largest force; where no multipliers are known, whose coordinate accelerates most.

@@ -6,7 +6,6 @@ use crate::ready::AssembledScene;
 use crate::rest::{LeftOut, at_rest, left_out};
 use crate::simulation::rank;
 use crate::stop::StopError;
-use crate::tree;
 use mbs_core::algebra::{norm, rotation_vector};
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
@@ -72,7 +71,7 @@ fn tell<T: Real, const D: usize>(
     told: &mut State<T>,
 ) {
     let motions: Vec<_> = (0..scene.bodies.len()).map(|b| from.motion(scene, b, state)).collect();
-    tree::tell(&motions, to, &mut to.terms(), told);
+    to.take_motions(&motions, &mut to.terms(), told);
 }
 
 fn settle_model<T: Real, const D: usize>(

@@ -1,8 +1,8 @@
 //! What is said about a run: rows of a summary, notes, and when and why it stopped.
 
 use crate::choice::IntegratorKind;
+use crate::methods::ROUNDINGS;
 use crate::settings::Settings;
-use crate::tree::ROUNDINGS;
 use mbs_core::Real;
 use mbs_core::control::Limit;
 use mbs_core::scene::{Body, BodyId, Inertia, Scene};

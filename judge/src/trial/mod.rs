@@ -7,7 +7,7 @@ use crate::scene::Quantity;
 use crate::{Mechanism, State};
 use mbs::core::scene::Scene;
 use mbs::scene_file::SceneFile;
-use mbs::{Overrides, Settings};
+use mbs::{FormulationKind, Overrides, Settings};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Times its own error, by steps of h and h/2, that a rule may be off.
@@ -26,8 +26,10 @@ const SHORT: u32 = 16;
 /// What is off goes to this share at least by short steps, where it is the rule's: a sixteenth, by order 1; a quarter after a stop.
 const GONE: f64 = 0.4;
 
-/// Its steps are steered by the energy.
-const MULTI: &str = "multi-index";
+/// Are its steps steered by the energy?
+fn is_steered(formulation: &str) -> bool {
+    FormulationKind::of_name(formulation).is_some_and(|f| f.row().energy_rule)
+}
 
 /// A formulation with an integrator.
 pub type Method = [&'static str; 2];
@@ -149,7 +151,7 @@ pub fn rows(
         integrator: Some(integrator.to_owned()),
         step: Some(step / f64::from(share)),
         // a step that the energy steers is halved by a tolerance of an eighth
-        energy_tolerance: (formulation == MULTI && share > 1).then(|| {
+        energy_tolerance: (is_steered(formulation) && share > 1).then(|| {
             let n = f64::from(share);
             [1e-5, 1e-7].map(|x| x / (n * n * n))
         }),
@@ -173,7 +175,7 @@ pub fn rows(
         return Err(stops(&error.code, error.time, error.message));
     }
     // steps that are steered end at the grid's end alone
-    let wanted = (0..=steps).filter(|i| formulation != MULTI || *i == 0 || *i == steps);
+    let wanted = (0..=steps).filter(|i| !is_steered(formulation) || *i == 0 || *i == steps);
     let wanted = wanted.map(|i| f64::from(i) * step);
     let mut rows = Vec::new();
     let mut all = outcome.rows().iter();
@@ -223,7 +225,7 @@ fn by_two(
 ) -> Verdict {
     let by = |share| rows(scene, method, step, share);
     match by(share).and_then(|coarse| Ok((coarse, by(2 * share)?))) {
-        Ok((coarse, fine)) if method[0] == MULTI => {
+        Ok((coarse, fine)) if is_steered(method[0]) => {
             let ends: Rows =
                 judged.rows.first().into_iter().chain(judged.rows.last()).cloned().collect();
             compare(judged, &ends, &coarse, &fine)

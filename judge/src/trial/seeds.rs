@@ -2,18 +2,16 @@
 
 use super::{Method, Verdict};
 use crate::{random, trial};
+use mbs::FormulationKind;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// The formulations.
-pub const METHODS: [Method; 6] = [
-    ["index-3", "trapezoidal"],
-    ["index-1", "trapezoidal"],
-    ["classical", "trapezoidal"],
-    ["state-space", "trapezoidal"],
-    ["recursive", "trapezoidal"],
-    ["multi-index", "trapezoidal"],
-];
+/// The formulations, those that steer their steps last.
+pub fn methods() -> Vec<Method> {
+    let (steered, fixed): (Vec<_>, Vec<_>) =
+        FormulationKind::listed().partition(|f| f.row().energy_rule);
+    fixed.into_iter().chain(steered).map(|f| [f.name(), "trapezoidal"]).collect()
+}
 
 /// What became of scenes.
 #[derive(Debug, Default)]
@@ -57,7 +55,7 @@ impl Tally {
                 return out;
             }
         };
-        for method in METHODS {
+        for method in methods() {
             if only.is_some_and(|o| o != method[0]) {
                 continue;
             }

@@ -23,6 +23,7 @@ use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Dimension;
 use mbs_core::start::assemble;
+use mbs_core::step::Step;
 use mbs_scene::SceneFile;
 use mbs_sparse::Multifrontal;
 use std::hint::black_box;
@@ -40,7 +41,7 @@ const N_COUNTED: u32 = 1000;
 /// Steps from the start of the scene to where the benchmarks stand, away from its special first configuration.
 const N_BEFORE: u32 = 200;
 
-type Step<const D: usize> = fn(
+type OneStep<const D: usize> = fn(
     &NaturalModel<f64, D>,
     &mut State<f64>,
     &mut Workspace<f64, Multifrontal<f64>>,
@@ -51,7 +52,8 @@ fn step3<const D: usize>(
     s: &mut State<f64>,
     w: &mut Workspace<f64, Multifrontal<f64>>,
 ) -> StepReport<f64> {
-    index3::step(model, (DT, model.length()), &Options::index3(), s, w).expect("step")
+    index3::step(model, Step { dt: DT, length: model.length() }, &Options::index3(), s, w)
+        .expect("step")
 }
 
 fn step1<const D: usize>(
@@ -59,7 +61,8 @@ fn step1<const D: usize>(
     s: &mut State<f64>,
     w: &mut Workspace<f64, Multifrontal<f64>>,
 ) -> StepReport<f64> {
-    index1::step(model, (DT, model.length()), &Options::index1(), s, w).expect("step")
+    index1::step(model, Step { dt: DT, length: model.length() }, &Options::index1(), s, w)
+        .expect("step")
 }
 
 /// The state after some steps.
@@ -67,7 +70,7 @@ fn advanced<const D: usize>(
     model: &NaturalModel<f64, D>,
     start: &State<f64>,
     n_steps: u32,
-    step: Step<D>,
+    step: OneStep<D>,
 ) -> (State<f64>, [f64; 3]) {
     let (mut s, mut w) = (start.clone(), workspace(model));
     let mut counts = [0.0; 3];
@@ -108,7 +111,7 @@ fn scene<const D: usize>(c: &mut Criterion, name: &str, document: &SceneFile) {
     let rival = Rival::analyse(&model);
     let (n, m, e) = (model.n_unknowns(), model.n_constraints(), model.n_elements());
     println!("{name}: n {n}, m {m}, elements {e}, {counters:?}, faer L {}", rival.n_entries());
-    for (index, step) in [("index-3", step3::<D> as Step<D>), ("index-1", step1::<D>)] {
+    for (index, step) in [("index-3", step3::<D> as OneStep<D>), ("index-1", step1::<D>)] {
         let [iterations, factorizations, solves] = advanced(&model, &start, N_COUNTED, step).1;
         println!(
             "{name}: {index}, {N_COUNTED} steps of {DT} s: {iterations:.3} iterations, \
@@ -119,7 +122,7 @@ fn scene<const D: usize>(c: &mut Criterion, name: &str, document: &SceneFile) {
     let mut group = c.benchmark_group(name);
     newton(&mut group, &model, &state, solver);
     faer(&mut group, &model, &state, rival);
-    for (index, step) in [("step/index3", step3::<D> as Step<D>), ("step/index1", step1::<D>)] {
+    for (index, step) in [("step/index3", step3::<D> as OneStep<D>), ("step/index1", step1::<D>)] {
         let (mut s, mut w) = (state.clone(), workspace(&model));
         // A step from the same state again and again, with all that a running simulation carries along.
         step(&model, &mut s, &mut w);

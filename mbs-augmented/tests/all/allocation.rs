@@ -1,6 +1,7 @@
 //! After [`Workspace::new`] nothing allocates: a counting allocator sees zero calls in a step, with effects and guides.
 
 use mbs_augmented::{Options, Workspace, index1, index3};
+use mbs_core::step::Step;
 use mbs_testkit::{PLANAR, SPATIAL, allocations, scene, solver, start};
 
 fn check<const D: usize>(text: &str) {
@@ -13,7 +14,13 @@ fn check<const D: usize>(text: &str) {
         let options = if is_index1 { Options::index1() } else { Options::index3() };
         let before = allocations::count();
         for _ in 0..20 {
-            let report = step(&model, (1e-3, model.length()), &options, &mut state, &mut w);
+            let report = step(
+                &model,
+                Step { dt: 1e-3, length: model.length() },
+                &options,
+                &mut state,
+                &mut w,
+            );
             assert!(report.is_ok(), "{}: {report:?}", scene.name);
         }
         assert_eq!(allocations::count() - before, 0, "{}", scene.name);

@@ -6,6 +6,7 @@ use mbs_core::Real;
 use mbs_core::outputs::Measures;
 use mbs_core::real::DoubleDouble as Pair;
 use mbs_core::scene::{Output, Quantity, Scene};
+use mbs_core::step::Step;
 use mbs_testkit::{file_in, solver, start_in};
 
 fn pair(text: &str) -> Pair {
@@ -22,7 +23,7 @@ fn ends(scene: &Scene<Pair>, times: &[u32], n: u32) -> Vec<[Pair; 4]> {
         adaptive_penalty: false,
         ..Options::index3()
     };
-    let step = (Pair::ONE / Pair::from_f64(f64::from(n)), model.length());
+    let step = Step { dt: Pair::ONE / Pair::from_f64(f64::from(n)), length: model.length() };
     let mut measures = Measures::new(scene, &model).expect("channels");
     let mut out = vec![Pair::ZERO; measures.n_components()];
     let mut violation = Pair::ZERO;

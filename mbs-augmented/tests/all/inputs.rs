@@ -1,6 +1,6 @@
 //! Inputs belong to the state: one model serves states with different inputs, in threads of their own.
 
-use mbs_augmented::{Options, Workspace, index3};
+use mbs_augmented::{Options, Step, Workspace, index3};
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{Effect, JointId, JointTorque, Motion, Scene, Signal};
@@ -31,8 +31,14 @@ fn stepped(
         let torque = [torque * f64::from(k / 10 % 3), 0.0, 0.0];
         model.prescribed().set_guide(&mut state.inputs, 0, motion).expect("an input");
         model.prescribed().set_input(&mut state.inputs, effect, torque).expect("an input");
-        index3::step(model, (1e-3, model.length()), &Options::index3(), &mut state, &mut work)
-            .expect("a regular step");
+        index3::step(
+            model,
+            Step { dt: 1e-3, length: model.length() },
+            &Options::index3(),
+            &mut state,
+            &mut work,
+        )
+        .expect("a regular step");
     }
     state
 }

@@ -5,6 +5,7 @@ use mbs_core::Real;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{InitialTarget, Scene};
+use mbs_core::step::Step;
 use mbs_testkit::retell::{reorder, turn_scene, turned};
 use mbs_testkit::scenes::{CHAIN, DOUBLE, REDUNDANT, TOP, TWO_FOUR_BARS};
 use mbs_testkit::{named_centres, scene, scene_in, solver, start, start_in};
@@ -23,8 +24,14 @@ fn run<T: Real, const D: usize>(
     let mut w = Workspace::new(&model, solver(&model));
     let options = Options::<T>::index3();
     for i in 0..steps {
-        index3::step(&model, (T::from_f64(dt), model.length()), &options, &mut state, &mut w)
-            .unwrap_or_else(|e| panic!("{}: step {i}: {e}", scene.name));
+        index3::step(
+            &model,
+            Step { dt: T::from_f64(dt), length: model.length() },
+            &options,
+            &mut state,
+            &mut w,
+        )
+        .unwrap_or_else(|e| panic!("{}: step {i}: {e}", scene.name));
     }
     (model, state)
 }
@@ -129,8 +136,14 @@ fn index1_holds_what_is_at_rest_too() {
     let (model, mut state) = start::<2>(&scene);
     let mut w = Workspace::new(&model, solver(&model));
     for _ in 0..100 {
-        index1::step(&model, (1e-3, model.length()), &Options::index1(), &mut state, &mut w)
-            .unwrap();
+        index1::step(
+            &model,
+            Step { dt: 1e-3, length: model.length() },
+            &Options::index1(),
+            &mut state,
+            &mut w,
+        )
+        .unwrap();
     }
     assert!(state.v.iter().all(|v| v.abs() < 1e-12));
 }

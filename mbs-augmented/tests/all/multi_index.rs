@@ -5,6 +5,7 @@ use mbs_core::SpdSolver;
 use mbs_core::control::{EnergyRule, Rules};
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
+use mbs_core::step::Step;
 use mbs_sparse::Multifrontal;
 use mbs_testkit::{apart, file, solver, start};
 
@@ -25,7 +26,7 @@ impl<const D: usize> Bench<D> {
 
     fn index3(&mut self, h: f64, n: u32) {
         for _ in 0..n {
-            let step = (h, self.model.length());
+            let step = Step { dt: h, length: self.model.length() };
             index3::step(&self.model, step, &Options::index3(), &mut self.state, &mut self.work)
                 .expect("it steps");
         }
@@ -97,7 +98,7 @@ fn rejected_trials_leave_no_trace_to_the_last_bit() {
     while bench.state.t < 1.0 {
         let Bench { model, state, work } = &mut bench;
         let length = model.length();
-        let accepted = multi.step(model, (1.0, length), state, work).expect("it steps");
+        let accepted = multi.step(model, Step { dt: 1.0, length }, state, work).expect("it steps");
         steps.push((accepted.step, accepted.rejected));
     }
     assert!(steps.iter().map(|s| s.1).sum::<u32>() > 10);
@@ -114,7 +115,7 @@ fn short_steps_are_made_in_index_1_and_long_ones_in_index_3_with_room_between() 
     let mut change = IndexChange::new(Options::index1(), Options::index3());
     let length = model.length();
     let mut index_at = |change: &mut IndexChange<f64>, h: f64, reductions: u32| {
-        let is_changed = change.prepare(model, (h, length), reductions, state, work);
+        let is_changed = change.prepare(model, Step { dt: h, length }, reductions, state, work);
         change.tried(h);
         change.keep();
         (change.index(), is_changed)
@@ -139,7 +140,7 @@ fn the_motion_does_not_feel_the_changes_of_index() {
     while bench.state.t < 1.0 {
         let Bench { model, state, work } = &mut bench;
         let length = model.length();
-        multi.step(model, (1.0 - state.t, length), state, work).expect("it steps");
+        multi.step(model, Step { dt: 1.0 - state.t, length }, state, work).expect("it steps");
     }
     assert!(multi.change.changes() > 2, "{} changes", multi.change.changes());
     let at = bench.model.point(mbs_core::scene::BodyId::Body(1), [2.0, 0.0, 0.0]);

@@ -5,6 +5,7 @@ use crate::common::{Index, Run, distance};
 use mbs_classical::{Options, StepError};
 use mbs_core::model::{Model, Owner};
 use mbs_core::scene::Scene;
+use mbs_core::step::Step;
 use mbs_testkit::retell::{turn_scene, turned};
 use mbs_testkit::scenes::{
     CHAIN, DOUBLE, FREE, GUIDED, N_FOUR_BAR, REDUNDANT, SIMPLE, SLIDER, TOP, TWO_FOUR_BARS,
@@ -22,7 +23,7 @@ fn augmented<const D: usize>(scene: &Scene<f64>, dt: f64, n: usize) -> (Vec<[f64
     let mut w = mbs_augmented::Workspace::new(&model, solver(&model));
     let options = mbs_augmented::Options::index3();
     for i in 0..n {
-        let size = (dt, model.length());
+        let size = Step { dt, length: model.length() };
         mbs_augmented::index3::step(&model, size, &options, &mut state, &mut w)
             .unwrap_or_else(|e| panic!("{}: step {i}: {e}", scene.name));
     }
@@ -173,7 +174,7 @@ fn a_dense_solver_gives_the_same_motion() {
     let solver = mbs_core::dense::Dense::new(&Saddle::new(&run.model));
     let mut w = Workspace::new(&run.model, solver);
     for _ in 0..100 {
-        let size = (1e-3, run.model.length());
+        let size = Step { dt: 1e-3, length: run.model.length() };
         index3::step(&run.model, size, &run.options, &mut run.state, &mut w).unwrap();
     }
     assert!(distance(&run.points(), &expected) < SAME);

@@ -7,7 +7,7 @@ use crate::Real;
 use crate::algebra::Vector;
 use crate::blocks::Cliques;
 use crate::cluster::Clusters;
-use crate::model::{Model, State};
+use crate::model::{Model, State, Terms};
 use crate::rigid::RigidMotion;
 use alloc::vec::Vec;
 
@@ -78,6 +78,16 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
             for (to, from) in [&mut s.q, &mut s.v, &mut s.a].into_iter().zip(values) {
                 to[at..at + D].copy_from_slice(&from.as_slice()[..D]);
             }
+        }
+    }
+
+    /// The same, and the measured angles, which continue from those that the state remembers; the state has its time.
+    pub fn take_motions(&self, motions: &[RigidMotion<T>], terms: &mut Terms<T>, s: &mut State<T>) {
+        self.write_motions(motions, s);
+        if !s.memory.is_empty() {
+            self.set_inputs(s.t, s, terms);
+            self.evaluate_forces(&s.q, &s.v, terms);
+            self.remember(terms, &mut s.memory);
         }
     }
 

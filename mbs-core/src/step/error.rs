@@ -43,6 +43,15 @@ pub enum StepError {
         /// The row that is violated most.
         row: u32,
     },
+    /// A step whose length, or whose scene's length, is not positive and finite.
+    BadStep {
+        /// Length of the step [s].
+        dt: f64,
+        /// Length of the scene [m].
+        length: f64,
+    },
+    /// An option outside its range.
+    BadOption(OptionError),
     /// Numbers in a model's tables point outside of them, or a scratch is not the model's.
     Tables,
     /// A joint turned by more in one step than its position at the end can tell: its turns would be lost.
@@ -142,6 +151,11 @@ impl core::fmt::Display for StepError {
                     "the projection left a {name} violation of {violation:.1e}: the mechanism may stand in a singular position or lock; try a smaller step or another penalty"
                 )
             }
+            Self::BadStep { dt, length } => write!(
+                f,
+                "a step of {dt:e} s in a scene of {length:e} m cannot be made: both must be positive and finite"
+            ),
+            Self::BadOption(error) => error.fmt(f),
             Self::Tables => {
                 write!(f, "the tables of the model do not fit each other: load it again")
             }
@@ -168,6 +182,12 @@ impl core::error::Error for StepError {}
 impl From<FactorError> for StepError {
     fn from(error: FactorError) -> Self {
         Self::Singular(error)
+    }
+}
+
+impl From<OptionError> for StepError {
+    fn from(error: OptionError) -> Self {
+        Self::BadOption(error)
     }
 }
 

@@ -15,5 +15,5 @@ pub use error::{InputError, OptionError, StepError};
 #[cfg(feature = "alloc")]
 pub use inputs::{add_response, has_new_inputs, load_at};
 pub use newton::{ConvergenceCriterion, stopping};
-pub use report::{Counts, StepReport, Stop};
+pub use report::{Counts, Step, StepReport, Stop};
 pub use scan::{largest, largest_or_nan, step_scale};

@@ -1,6 +1,32 @@
-//! What a step did, in counts.
+//! What is asked of a step, and what it did, in counts.
 
+use super::error::StepError;
 use crate::Real;
+
+/// A step that is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step<T> {
+    /// Its length [s].
+    pub dt: T,
+    /// Length of the scene, beside which corrections and violations are small [m].
+    pub length: T,
+}
+
+impl<T: Real> Step<T> {
+    /// The step, if both lengths are positive and finite.
+    ///
+    /// # Errors
+    /// [`StepError::BadStep`].
+    #[inline]
+    pub fn checked(self) -> Result<Self, StepError> {
+        let Self { dt, length } = self;
+        let is_length = |x: T| x > T::ZERO && x.is_finite();
+        if is_length(dt) && is_length(length) {
+            return Ok(self);
+        }
+        Err(StepError::BadStep { dt: dt.to_f64(), length: length.to_f64() })
+    }
+}
 
 /// Why the iteration of a step ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

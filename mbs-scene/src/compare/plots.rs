@@ -8,8 +8,8 @@ use serde::Serialize;
 
 /// Digits of what is drawn.
 const DIGITS: usize = 5;
-const FORMULATIONS: [&str; 6] =
-    ["index-3", "index-1", "multi-index", "classical", "state-space", "recursive"];
+/// Colours and marks of the page.
+const KINDS: usize = 6;
 
 /// How the lines of a method look: told apart by mark and dash as well as by colour.
 #[derive(Debug, Serialize)]
@@ -60,7 +60,7 @@ pub(super) fn looks(comparison: &Comparison) -> Vec<Look> {
     let has_f64 = comparison.methods.iter().any(|m| m.precision == "f64");
     let look = |m: &MethodRuns| Look {
         name: m.name.clone(),
-        kind: FORMULATIONS.iter().position(|f| *f == m.formulation).unwrap_or_default(),
+        kind: m.look % KINDS,
         dash: match (m.integrator.as_str(), m.control.as_str()) {
             ("rk4", _) => 3,
             ("rk853" | "gbs" | "radau5", _) => 4,

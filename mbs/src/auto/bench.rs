@@ -6,7 +6,6 @@ use crate::channels::Channels;
 use crate::compare::drive::{Signal, Watcher, drive};
 use crate::compare::ladder::{Instants, count, work};
 use crate::compare::method::{Control, Method};
-use crate::engine::Engine;
 use crate::names::Names;
 use crate::ready::AssembledScene;
 use crate::settings::{DEFAULT_STEP, Overrides, Settings, SettingsError};
@@ -104,8 +103,8 @@ where
             Ok(started) => started,
             Err(error) => return Trial { end: End::NotStarted(*error), ..nothing() },
         };
-        if let (Engine::Recursive(tree), Some(most)) = (simulation.engine_mut(), self.most_steps) {
-            tree.limit_steps(most);
+        if let Some(most) = self.most_steps {
+            simulation.formulation_mut().set_max_steps(most);
         }
         let [coordinates, constraints, _] = simulation.sizes();
         let n_columns = self.channels.iter().map(|c| c.components.len()).sum();
@@ -229,9 +228,9 @@ pub(crate) fn settings<T: Real>(
         events: base.events,
         energy_alarm: base.energy_alarm,
         duration: base.duration,
-        penalty: base.penalty.filter(|_| method.formulation.is_augmented()),
+        penalty: base.penalty.filter(|_| method.formulation.scene_penalty().is_some()),
         interrupt: base.interrupt.clone(),
-        threads: base.threads.filter(|_| method.formulation.takes_threads()),
+        threads: base.threads.filter(|_| method.formulation.row().threads),
         ..method.overrides(setting, step, instants.interval)
     };
     Settings::new(scene, &overrides)

@@ -2,7 +2,6 @@
 
 use super::law::{HELD, Law, Point, Prediction, credited, predict};
 use super::trial::{End, Trial};
-use crate::choice::FormulationKind;
 use crate::compare::method::{Control, Method};
 
 /// Errors above this share of the outputs' ranges have lost the motion: what they become at finer settings is not to be told.
@@ -239,7 +238,7 @@ pub(super) fn is_twin(a: &Method, b: &Method) -> bool {
 }
 
 pub(super) fn is_relative(method: &Method) -> bool {
-    method.formulation == FormulationKind::Recursive
+    method.formulation.row().relative
 }
 
 #[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]

@@ -24,9 +24,10 @@ pub use goal::{Goal, GoalError, time};
 pub use plan::{Plan, PlanError, Processor, plan, run_plan};
 pub(crate) use report::reasons;
 
-use crate::choice::{FormulationKind, IntegratorKind, Precision};
+use crate::choice::{IntegratorKind, Precision};
 use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, Method};
+use crate::methods::FormulationKind;
 use crate::names::Names;
 use crate::precision::Work;
 use crate::ready::AssembledScene;
@@ -189,9 +190,12 @@ fn few_methods(
     structure: &structure::Structure,
 ) -> Vec<Method> {
     let is_free = task.settings.asked == "auto" && task.goal.deadline.is_none();
-    let is_few = |m: &&Method| match m.formulation {
-        FormulationKind::Recursive => m.control != Control::Fixed || m.integrator.is_explicit(),
-        formulation => formulation == FormulationKind::Index3 && m.control == Control::Fixed,
+    let is_few = |m: &&Method| {
+        let is_fixed = m.control == Control::Fixed;
+        if m.formulation.row().relative {
+            return !is_fixed || m.integrator.is_explicit();
+        }
+        m.formulation == FormulationKind::DEFAULT && is_fixed
     };
     let few: Vec<Method> = methods.iter().filter(is_few).copied().collect();
     if !is_free || structure.loops.is_err() || few.is_empty() { methods.to_vec() } else { few }

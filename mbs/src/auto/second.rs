@@ -5,9 +5,10 @@ use super::entrant::LOST;
 use super::finish::Place;
 use super::race::{BUDGET, Race, SHARE};
 use super::trial::{Aim, End, Time, Trial};
-use crate::choice::{FormulationKind, IntegratorKind};
+use crate::choice::IntegratorKind;
 use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, Method};
+use crate::methods::FormulationKind;
 use mbs_scene::SecondLook;
 
 /// Outputs differ by more than so many times the wanted error, beyond what the look itself errs by, where the models do.
@@ -16,7 +17,7 @@ const DIFFERS: f64 = 10.0;
 /// quite met.
 const OWN: f64 = 2.0 / 3.0;
 
-/// Compares the chosen candidate with index-3 in steps as long as the distance of the instants, and half as long. Nothing where the choice is none in
+/// Compares the chosen candidate with the default formulation in steps as long as the distance of the instants, and half as long. Nothing where the choice is none in
 /// relative coordinates.
 pub(super) fn look(
     race: &mut Race<'_>,
@@ -25,13 +26,13 @@ pub(super) fn look(
 ) -> Option<SecondLook> {
     let chosen = &race.entrants[places.first()?.entrant];
     let precision = chosen.method.precision;
-    if chosen.method.formulation != FormulationKind::Recursive {
+    if !chosen.method.formulation.row().relative {
         return None;
     }
     let best = chosen.done().rfind(|t| t.error.is_some())?;
     let (rows, error) = (best.trial.rows.clone(), best.error.unwrap_or_default());
     let method = Method {
-        formulation: FormulationKind::Index3,
+        formulation: FormulationKind::DEFAULT,
         integrator: IntegratorKind::Trapezoidal,
         control: Control::Fixed,
         precision,

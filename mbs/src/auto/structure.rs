@@ -1,7 +1,7 @@
 //! What a scene's structure says before anything is run: who cannot run it, and what makes it dear.
 
-use crate::choice::FormulationKind;
 use crate::compare::method::Method;
+use crate::methods::FormulationKind;
 use crate::names::Names;
 use crate::ready::AssembledScene;
 use crate::stop::StopError;
@@ -84,9 +84,10 @@ fn frequency<T: Real>(scene: &Scene<T>, effect: &Effect<T>) -> f64 {
 impl Structure {
     /// Why a method cannot run the scene.
     pub(crate) fn refuses(&self, method: &Method) -> Option<String> {
-        match (method.formulation, &self.loops, self.natural) {
-            (FormulationKind::Recursive, Err(why), _) => Some(why.clone()),
-            (FormulationKind::Classical, _, Some([_, rows, rank])) if rank < rows => Some(format!(
+        let formulation = method.formulation.row();
+        match (&self.loops, self.natural) {
+            (Err(why), _) if formulation.relative => Some(why.clone()),
+            (_, Some([_, rows, rank])) if !formulation.redundant && rank < rows => Some(format!(
                 "{} of {rows} constraints are redundant: their multipliers are not unique",
                 rows - rank
             )),
@@ -100,11 +101,11 @@ impl Structure {
         let steps = STEPS_A_PERIOD * self.frequency * self.duration / core::f64::consts::TAU;
         let is_stiff = steps > STIFF;
         let is_controlled = !method.is_fixed();
-        match (method.formulation, method.integrator.is_explicit()) {
-            (FormulationKind::Recursive, true) if !is_stiff => usize::from(!is_controlled),
-            (FormulationKind::Recursive, true) => 6,
-            (FormulationKind::Recursive, false) => 3 - usize::from(is_controlled),
-            (FormulationKind::Index3, _) => 5 - usize::from(is_controlled),
+        match (method.formulation.row().relative, method.integrator.is_explicit()) {
+            (true, true) if !is_stiff => usize::from(!is_controlled),
+            (true, true) => 6,
+            (true, false) => 3 - usize::from(is_controlled),
+            _ if method.formulation == FormulationKind::DEFAULT => 5 - usize::from(is_controlled),
             _ => 7,
         }
     }

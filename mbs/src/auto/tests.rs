@@ -6,9 +6,10 @@ use super::law::Law;
 use super::race::{BUDGET, Race, Wanted};
 use super::second;
 use super::trial::{Aim, Bench, End, Rows, Time, Trial};
-use crate::choice::{FormulationKind, Precision};
+use crate::choice::Precision;
 use crate::compare::ladder::Instants;
 use crate::compare::method::{Control, Method};
+use crate::methods::FormulationKind;
 use crate::settings::{Overrides, Settings};
 use mbs_scene::RunError;
 

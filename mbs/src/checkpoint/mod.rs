@@ -8,9 +8,9 @@
 //! its record among it. docs/CHECKPOINT.md says what is in the file and what is not. The numeric crates give plain histories of
 //! what they remember from step to step; the format is here alone.
 
-mod engine;
 mod error;
 mod file;
+mod history;
 mod identity;
 mod keeping;
 mod rows;
@@ -21,7 +21,6 @@ pub use error::CheckpointError;
 pub use file::Checkpoint;
 pub use keeping::{FILE, Keeping};
 
-pub(crate) use engine::TreeKept;
 pub(crate) use file::{Kind, whole};
 pub(crate) use identity::Identity;
 pub(crate) use rows::write_rows;

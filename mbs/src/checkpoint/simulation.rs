@@ -1,13 +1,13 @@
 //! What a simulation steps on from.
 
-use super::engine::{EngineKept, Parts};
+use super::history::Parts;
 use super::tape::{Tape, Told, holds};
 use super::{Checkpoint, CheckpointError, Identity, Kind, whole};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
-use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::control::{DriverHistory, Invariant};
+use mbs_core::history::History;
 use mbs_core::inputs::Prescribed;
 use mbs_core::model::State;
 use mbs_core::outputs::EventHistory;
@@ -18,7 +18,7 @@ use std::io::{Read, Write};
 #[derive(Debug, Clone)]
 pub(crate) struct Kept<T> {
     pub(crate) state: State<T>,
-    pub(crate) engine: EngineKept<T>,
+    pub(crate) formulation: History<T>,
     pub(crate) control: Option<ControlKept<T>>,
     pub(crate) invariant: [f64; Invariant::N_HISTORY],
     /// What is set from outside: courses and guides.
@@ -35,9 +35,9 @@ pub(crate) struct ControlKept<T> {
 impl<T: Real> Kept<T> {
     /// Writes it, or reads it back in the same shape.
     pub(crate) fn walk(&mut self, tape: &mut impl Tape) -> Told {
-        let Self { state, engine, control, invariant, inputs } = self;
+        let Self { state, formulation, control, invariant, inputs } = self;
         tape.state(state)?;
-        engine.walk(tape)?;
+        tape.history(&mut formulation.entries)?;
         let mut is_controlled = control.is_some();
         tape.flag(&mut is_controlled)?;
         holds(is_controlled == control.is_some())?;
@@ -86,10 +86,7 @@ pub(crate) fn inputs<T: Real>(
     [effects.map(|((effect, _), value)| (effect, *value)).collect(), guides]
 }
 
-impl<T: Real, const D: usize> Simulation<T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Simulation<T, D> {
     /// Writes a checkpoint of the simulation, which was made of this scene and these settings: all that the next steps depend
     /// on, so that they have the same bits after [`restore`](Self::restore), inputs that were set among it.
     ///

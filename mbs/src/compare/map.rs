@@ -4,7 +4,8 @@ use super::drive::Signal;
 use super::ladder::{Instants, count, work};
 use super::pass::Scenes;
 use super::reference::Known;
-use crate::choice::{FormulationKind, Precision};
+use crate::choice::Precision;
+use crate::methods::FormulationKind;
 use crate::settings::{Overrides, Settings};
 use mbs_scene::compare::{Cell, ConvergenceMap, Status};
 
@@ -77,12 +78,11 @@ impl Plan {
         let mut row = |penalty| -> Result<Vec<Cell>, E> {
             self.between.iter().map(|&between| cell(between, penalty)).collect()
         };
-        let is_index1 = formulation == FormulationKind::Index1;
         Ok(ConvergenceMap {
             formulation: formulation.name().to_owned(),
             precision: precision.name().to_owned(),
             span: self.instants.time(self.instants.count),
-            unit: if is_index1 { "kg" } else { "N/m" }.to_owned(),
+            unit: formulation.scene_penalty().unwrap_or_default().to_owned(),
             steps: self.steps(),
             penalties: PENALTIES.to_vec(),
             cells: PENALTIES.into_iter().map(&mut row).collect::<Result<_, E>>()?,

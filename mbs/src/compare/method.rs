@@ -1,6 +1,7 @@
 //! The methods that are compared: formulation, integrator, what chooses the steps, precision.
 
-use crate::choice::{FormulationKind, IntegratorKind, Precision};
+use crate::choice::{IntegratorKind, Precision};
+use crate::methods::FormulationKind;
 use crate::settings::Overrides;
 
 /// What chooses the length of the steps.
@@ -25,16 +26,6 @@ pub(crate) struct Method {
     pub(crate) precision: Precision,
 }
 
-/// Formulations in the order in which methods are listed.
-const FORMULATIONS: [FormulationKind; 6] = [
-    FormulationKind::Index3,
-    FormulationKind::Index1,
-    FormulationKind::MultiIndex,
-    FormulationKind::Classical,
-    FormulationKind::StateSpace,
-    FormulationKind::Recursive,
-];
-
 /// Precisions that are compared; the last one only where it is asked for.
 pub(crate) const PRECISIONS: [Precision; 3] =
     [Precision::F64, Precision::F32, Precision::DoubleDouble];
@@ -43,22 +34,18 @@ pub(crate) const PRECISIONS: [Precision; 3] =
 fn ways(formulation: FormulationKind) -> Vec<(IntegratorKind, Control)> {
     use Control::{Energy, Error, Fixed, Own};
     use IntegratorKind::{Extrapolation, Radau5, Rk4, Rk54, Rk853, Trapezoidal};
-    match formulation {
+    let row = formulation.row();
+    let mut ways = vec![(Trapezoidal, Error)];
+    if row.energy_rule {
         // its index changes with the step
-        FormulationKind::MultiIndex => vec![(Trapezoidal, Error), (Trapezoidal, Energy)],
-        FormulationKind::Recursive => {
-            vec![
-                (Trapezoidal, Fixed),
-                (Trapezoidal, Error),
-                (Rk4, Fixed),
-                (Rk54, Own),
-                (Rk853, Own),
-                (Extrapolation, Own),
-                (Radau5, Own),
-            ]
-        }
-        _ => vec![(Trapezoidal, Fixed), (Trapezoidal, Error)],
+        ways.push((Trapezoidal, Energy));
+    } else {
+        ways.insert(0, (Trapezoidal, Fixed));
     }
+    if row.relative {
+        ways.extend([(Rk4, Fixed), (Rk54, Own), (Rk853, Own), (Extrapolation, Own), (Radau5, Own)]);
+    }
+    ways
 }
 
 impl Method {
@@ -70,7 +57,7 @@ impl Method {
             if !(is_usual || precisions.contains(&precision)) {
                 continue;
             }
-            for formulation in FORMULATIONS {
+            for formulation in FormulationKind::listed() {
                 if !(formulations.is_empty() || formulations.contains(&formulation)) {
                     continue;
                 }

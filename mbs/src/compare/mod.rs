@@ -23,9 +23,10 @@ pub use crate::journal::JournalError;
 pub use store::Earlier;
 pub use table::TableError;
 
-use crate::choice::{FormulationKind, Precision};
+use crate::choice::Precision;
 use crate::interrupt::Interrupt;
 use crate::journal::{Head, Kind, hash};
+use crate::methods::FormulationKind;
 use crate::precision::{PrecisionError, not_built_hint};
 use crate::settings::DEFAULT_STEP;
 use crate::settings::way::{is_too_long, too_long};
@@ -314,9 +315,9 @@ impl<'a> Study<'a> {
     }
 
     fn map_plan(&self, known: &Known) -> Option<map::Plan> {
-        let augmented: Vec<FormulationKind> = [FormulationKind::Index3, FormulationKind::Index1]
-            .into_iter()
-            .filter(|f| self.methods.iter().any(|m| m.formulation == *f))
+        let has_map = |f: &FormulationKind| f.scene_penalty().is_some() && !f.row().energy_rule;
+        let augmented: Vec<FormulationKind> = FormulationKind::listed()
+            .filter(|f| has_map(f) && self.methods.iter().any(|m| m.formulation == *f))
             .collect();
         if !self.request.maps || augmented.is_empty() || known.rows.iter().any(Option::is_none) {
             return None;

@@ -7,7 +7,6 @@ use super::layout::moved;
 use crate::alarm::Alarm;
 use crate::channels::Channels;
 use crate::choice::Precision;
-use crate::engine::Engine;
 use crate::interrupt::Interrupt;
 use crate::names::Names;
 use crate::precision::{PrecisionError, ReadScene, Work};
@@ -184,9 +183,7 @@ where
             return Recorded { entry, is_not_started: true, ..Recorded::default() };
         }
     };
-    if let Engine::Recursive(tree) = simulation.engine_mut() {
-        tree.limit_steps(MOST_OWN_STEPS);
-    }
+    simulation.formulation_mut().set_max_steps(MOST_OWN_STEPS);
     let mut recorder = Recorder {
         channels,
         alarm: Alarm::new(settings.energy_alarm),

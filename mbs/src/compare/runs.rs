@@ -6,6 +6,7 @@ use super::method::Method;
 use super::reference::Known;
 use super::store::Store;
 use super::{CompareError, Study, Watch};
+use crate::methods::FormulationKind;
 use mbs_scene::compare::{MethodRuns, RunEntry, Status};
 use serde_json::{Value, json};
 
@@ -50,6 +51,7 @@ impl Study<'_> {
             all.push(MethodRuns {
                 name: method.name(),
                 formulation: method.formulation.name().to_owned(),
+                look: FormulationKind::listed().position(|f| f == method.formulation).unwrap_or(0),
                 integrator: method.integrator.name().to_owned(),
                 control: method.control().to_owned(),
                 precision: method.precision.name().to_owned(),

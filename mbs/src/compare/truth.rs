@@ -5,7 +5,8 @@ use super::method::{Control, Method};
 use super::reference::{Known, Pair, Rows};
 use super::store::Store;
 use super::{CompareError, Study, drive::Signal, table};
-use crate::choice::{FormulationKind, IntegratorKind, Precision};
+use crate::choice::{IntegratorKind, Precision};
+use crate::methods::FormulationKind;
 use crate::settings::Settings;
 use mbs_scene::compare::Status;
 use serde_json::{Value, json};
@@ -19,14 +20,6 @@ const TOLERANCES: [[f64; 2]; 3] = [[1e-13, 1e-12], [1e-11, 1e-10], [1e-9, 1e-8]]
 const PAIR_TOLERANCES: [[f64; 2]; 1] = [[1e-20, 1e-18]];
 /// Steps of the check beside that of the scene; each is halved twice. A third of the work of all runs is not exceeded.
 const STEPS: [f64; 4] = [0.125, 0.25, 0.5, 1.0];
-/// Formulations that check, and that serve where there are no relative coordinates.
-const CHECKS: [FormulationKind; 4] = [
-    FormulationKind::Index3,
-    FormulationKind::StateSpace,
-    FormulationKind::Classical,
-    FormulationKind::Index1,
-];
-
 /// An integrator that controls its error, in a precision; the tolerances of its two runs, and how long they may take.
 type Way<'a> = ((IntegratorKind, Precision), (&'a [[f64; 2]], f64));
 const ORDINARY: (IntegratorKind, Precision) = (IntegratorKind::Rk54, Precision::F64);
@@ -76,7 +69,8 @@ impl Study<'_> {
                 pairs.push(pair);
             }
         }
-        for formulation in CHECKS {
+        let checks = FormulationKind::references().into_iter().filter(|f| !f.row().relative);
+        for formulation in checks {
             if pairs.len() < 2
                 && let Some(pair) = self.extrapolated(formulation, store, &mut why)?
             {
@@ -95,7 +89,7 @@ impl Study<'_> {
         why: &mut String,
     ) -> Result<Option<Pair>, CompareError> {
         let method = Method {
-            formulation: FormulationKind::Recursive,
+            formulation: FormulationKind::RELATIVE,
             integrator,
             control: Control::Own,
             precision,

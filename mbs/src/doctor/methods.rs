@@ -1,7 +1,8 @@
 //! Which formulations take a step of a scene with dependent equations: tried, not foretold.
 
 use super::finding::{Finding, Severity, Topic};
-use crate::choice::{FormulationKind, IntegratorKind, StepRule};
+use crate::choice::{IntegratorKind, StepRule};
+use crate::methods::FormulationKind;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;

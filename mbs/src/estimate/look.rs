@@ -4,7 +4,6 @@ use super::stiffness::shortest_period;
 use crate::alarm::Alarm;
 use crate::auto::Clock;
 use crate::channels::Channels;
-use crate::engine::Engine;
 use crate::names::Names;
 use crate::ready::AssembledScene;
 use crate::settings::Settings;
@@ -201,8 +200,8 @@ where
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
         let (count, most) =
             (pieces as u64, (FEW_STEPS + self.look.n_steps * rest / span).min(1e6) as u32);
-        if let (Engine::Recursive(tree), None) = (self.simulation.engine_mut(), self.step) {
-            tree.limit_steps(most);
+        if self.step.is_none() {
+            self.simulation.formulation_mut().set_max_steps(most);
         }
         for j in 1..=count {
             #[allow(clippy::cast_precision_loss, reason = "a small count")]

@@ -17,8 +17,9 @@ mod look;
 mod stiffness;
 
 use crate::auto::Clock;
-use crate::choice::{FormulationKind, IntegratorKind, Precision, StepRule};
+use crate::choice::{IntegratorKind, Precision, StepRule};
 use crate::compare::ladder::count;
+use crate::methods::FormulationKind;
 use crate::ready::AssembledScene;
 use crate::run::Outcome;
 use crate::settings::Settings;
@@ -204,7 +205,7 @@ impl Judge<'_> {
         let of_run = settings.tolerance.filter(|_| settings.integrator.controls_its_step());
         let finer = of_run.map_or(tolerance, |of_run| tolerance.min(FINER * of_run));
         Settings {
-            formulation: FormulationKind::Recursive,
+            formulation: FormulationKind::RELATIVE,
             integrator,
             precision: Precision::F64,
             step_max: settings.duration,

@@ -1,6 +1,7 @@
 //! What is simulated: bodies, joints, guides, and the sizes of the model in both kinds of coordinates.
 
-use crate::choice::{FormulationKind, IntegratorKind};
+use crate::choice::IntegratorKind;
+use crate::methods::FormulationKind;
 use crate::names::Names;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
@@ -28,9 +29,9 @@ where
         };
         Simulation::<T, D>::new(scene, &settings).map(|simulation| Sizes::new(simulation.sizes()))
     };
-    let natural = sizes(FormulationKind::Index3).ok();
+    let natural = sizes(FormulationKind::DEFAULT).ok();
     let relative =
-        sizes(FormulationKind::Recursive).and_then(|sizes| relative::<T, D>(scene, sizes));
+        sizes(FormulationKind::RELATIVE).and_then(|sizes| relative::<T, D>(scene, sizes));
     let (relative, relative_error) = match relative {
         Ok(relative) => (Some(relative), None),
         Err(error) => (None, Some(error.report(0.0, &Names::new(scene)))),

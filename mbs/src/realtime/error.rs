@@ -1,7 +1,8 @@
 //! Why a run cannot be paced as it is asked for.
 
+use crate::methods::FormulationKind;
 use crate::precision::PrecisionError;
-use crate::simulation::SwitchError;
+use mbs_core::formulation::SwitchError;
 use mbs_scene::{format::significant, nearest_name};
 
 /// A pacing that is refused.
@@ -61,8 +62,8 @@ impl PacingError {
                     .to_owned()
             }
             Self::Fixed { why: SwitchError::Formulation, .. } => {
-                "take --formulation index-3, index-1, multi-index or recursive, or --degrade steps"
-                    .to_owned()
+                let names = FormulationKind::names(|row| row.switches, "or");
+                format!("take --formulation {names}, or --degrade steps")
             }
             Self::Fixed { .. } => "name another effect, or write steps".to_owned(),
             Self::NoLadder => {

@@ -3,9 +3,10 @@
 use super::error::PacingError;
 use crate::run::{Rung, Track};
 use crate::settings::Settings;
-use crate::simulation::{Simulation, SwitchError};
+use crate::simulation::Simulation;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
+use mbs_core::formulation::SwitchError;
 use mbs_core::scene::Scene;
 use mbs_scene::Degraded;
 

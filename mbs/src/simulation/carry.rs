@@ -9,26 +9,12 @@
 //! So Π = T + V − W goes on without a jump, and the invariant stays watched.
 
 use super::Simulation;
-use crate::engine::Engine;
-use crate::tree::{InSpace, Plane};
+use mbs_core::formulation::SwitchError;
 use mbs_core::natural::NaturalModel;
 use mbs_core::step::StepError;
 use mbs_core::{Cliques, Real};
 
-/// Why a state cannot be taken over.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum SwitchError {
-    /// The formulation has no way to make accelerations consistent between two steps.
-    Formulation,
-    /// The models have other coordinates, constraints, or measured angles whose turns are counted.
-    Coordinates,
-}
-
-impl<T: Real, const D: usize> Simulation<T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Simulation<T, D> {
     /// May this simulation [`take_over`](Self::take_over) the state of another? It may where both are of one formulation (index-3,
     /// index-1, multi-index or recursive) and of scenes that differ in effects that are switched off, other than those that count
     /// turns (torsion springs and the like), and in nothing else that makes coordinates.
@@ -36,15 +22,7 @@ where
     /// # Errors
     /// [`SwitchError`].
     pub fn takes_over(&self, other: &Self) -> Result<(), SwitchError> {
-        match (&self.engine, &other.engine) {
-            (Engine::Augmented { .. }, Engine::Augmented { .. }) => {}
-            (Engine::Recursive(own), Engine::Recursive(tree)) => {
-                if !own.has_same_coordinates(tree) {
-                    return Err(SwitchError::Coordinates);
-                }
-            }
-            _ => return Err(SwitchError::Formulation),
-        }
+        self.formulation.can_take_over(&*other.formulation)?;
         let is_same =
             self.model.has_same_coordinates(&other.model) && same_memory(&self.model, &other.model);
         if is_same { Ok(()) } else { Err(SwitchError::Coordinates) }
@@ -69,35 +47,22 @@ where
     pub(crate) fn show(&mut self, other: &Self) {
         self.state.copy_unknowns(&other.state, self.model.n_unknowns());
         self.invariant = other.invariant;
-        if let (Engine::Recursive(own), Engine::Recursive(tree)) = (&mut self.engine, &other.engine)
-        {
-            own.show(tree);
-        }
+        self.formulation.take_over(&*other.formulation);
     }
 
     /// Makes ready to go on from a state that was shown.
     pub(crate) fn resume(&mut self) -> Result<(), StepError> {
-        let Self { model, state, engine, control, invariant, .. } = self;
-        match engine {
-            Engine::Augmented { workspace, .. } => {
-                let options = mbs_augmented::Options::index1();
-                let settled = mbs_augmented::index1::settle;
-                settled(&*model, model.length(), &options, state, workspace)?;
-            }
-            Engine::Recursive(tree) => tree.settle(model, state)?,
-            Engine::Classical { .. } | Engine::StateSpace { .. } => {}
-        }
+        let Self { model, state, formulation, control, invariant, .. } = self;
+        formulation.refresh(model, state)?;
         state.dt = T::ZERO;
         if let Some(control) = control {
             control.restart(state);
         }
-        let [kinetic, potential, _] = engine.energies(model, state);
+        let [kinetic, potential, _] = formulation.energies(model, state);
         let [kinetic_before, potential_before, _] = invariant.energies();
         let change = (kinetic - kinetic_before) + (potential - potential_before);
         state.work += T::from_f64(change);
-        if let Engine::Recursive(tree) = engine {
-            tree.set_work(state.work);
-        }
+        formulation.set_work(state.work);
         Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! Effects about the axis of a joint: every kind of joint that has one, in both orders of its bodies, on the ground and on a body that
 //! moves, in every formulation; and guides on every joint of a chain.
 
-use crate::common::oracle::{METHODS, Method, disagreement, everything, rows, tell};
+use crate::common::oracle::{Method, disagreement, everything, methods, rows, tell};
 use mbs::core::scene::Scene;
 use mbs::scene_file::SceneFile;
 
@@ -78,8 +78,8 @@ fn effects_about_an_axis_are_the_same_in_every_formulation() {
                 let text = hung(is_planar, kind, place, effect);
                 let scene = everything(&read(&text));
                 let case = |method: Method| tell(&scene, method, (1e-3, 0.1));
-                let reference = case(METHODS[0]).unwrap_or_else(|e| panic!("{e}\n{text}"));
-                for &method in &METHODS[1..] {
+                let reference = case(methods()[0]).unwrap_or_else(|e| panic!("{e}\n{text}"));
+                for &method in &methods()[1..] {
                     n += 1;
                     match case(method) {
                         Ok(told) => {
@@ -107,7 +107,7 @@ fn a_torque_on_a_free_joint_turns_its_body_by_closed_form() {
     // a body on nothing:   α = M / J,   rate of the second body in the first after 0.6 s: 0.6 · 0.7 / 0.05
     for place in [[false, false], [false, true]] {
         let scene = read(&hung(true, "free", place, ON_ONE_ROTATION[0]));
-        for method in METHODS.iter().filter(|method| method.0 == "recursive") {
+        for method in methods().iter().filter(|method| method.0 == "recursive") {
             let rows = rows(&everything(&scene), *method, (1e-3, 0.6), 600);
             let rows = rows.unwrap_or_else(|e| panic!("{method:?}: {e}"));
             let last = rows.last().expect("rows").1.last().copied().expect("a joint rate");
@@ -131,7 +131,7 @@ fn chains_that_are_guided_at_every_joint_run_in_relative_coordinates() {
     // centres at 0.5 m and 1.5 m:   m a = −(0.5 + 1) π² − 0.5 (1.6 π)²,   and the weight of both
     let pi = core::f64::consts::PI;
     let x = -(1.5 * pi * pi + 0.5 * (1.6 * pi) * (1.6 * pi));
-    for method in METHODS.iter().filter(|method| method.0 == "recursive") {
+    for method in methods().iter().filter(|method| method.0 == "recursive") {
         let rows = rows(&scene, *method, (1e-3, 1.0), 1000);
         let rows = rows.unwrap_or_else(|e| panic!("{method:?}: {e}"));
         let last = &rows.last().expect("rows").1;

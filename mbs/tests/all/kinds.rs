@@ -1,6 +1,6 @@
 //! Every kind of joint in every formulation: in a tree, in a loop, and beside a chain of massless bodies with one freedom each.
 
-use crate::common::oracle::{METHODS, Method, disagreement, everything, tell};
+use crate::common::oracle::{Method, disagreement, everything, methods, tell};
 use crate::common::random;
 use mbs::core::scene::{Dimension, JointKind, Quantity, Scene};
 
@@ -8,10 +8,10 @@ use mbs::core::scene::{Dimension, JointKind, Quantity, Scene};
 const SPAN: (f64, f64) = (1e-3, 0.2);
 
 /// All methods agree with the first one of them, on what the first scene asks for.
-fn agree(scenes: [&Scene<f64>; 2], methods: &[Method], faults: &mut Vec<String>) {
-    let reference = tell(scenes[0], METHODS[0], SPAN);
+fn agree(scenes: [&Scene<f64>; 2], others: &[Method], faults: &mut Vec<String>) {
+    let reference = tell(scenes[0], methods()[0], SPAN);
     let reference = reference.unwrap_or_else(|e| panic!("{}: {e}", scenes[0].name));
-    for method in methods {
+    for method in others {
         let fault = match tell(scenes[1], *method, SPAN) {
             Ok(told) => {
                 let (ratio, component) = disagreement(&reference, &told);
@@ -37,7 +37,7 @@ fn formulations_agree_on_every_kind_of_joint_in_a_tree() {
     for (kind, dimension) in kinds().filter(|(kind, _)| !kind.is_link()) {
         for seed in 1..=2 {
             let scene = everything(&random::of_kind(seed, kind, dimension));
-            agree([&scene, &scene], &METHODS[1..], &mut faults);
+            agree([&scene, &scene], &methods()[1..], &mut faults);
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
@@ -49,7 +49,7 @@ fn formulations_agree_on_every_kind_of_joint_in_a_loop() {
     for (kind, dimension) in kinds().filter(|(kind, _)| !kind.is_free()) {
         for seed in 1..=2 {
             let scene = everything(&random::closed_by(seed, kind, dimension));
-            agree([&scene, &scene], &METHODS[1..], &mut faults);
+            agree([&scene, &scene], &methods()[1..], &mut faults);
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
@@ -57,7 +57,7 @@ fn formulations_agree_on_every_kind_of_joint_in_a_loop() {
 
 #[test]
 fn every_kind_of_joint_moves_as_a_chain_of_massless_bodies_with_its_freedoms() {
-    let methods = [METHODS[0], Method("recursive", "rk4")];
+    let methods = [methods()[0], Method("recursive", "rk4")];
     let mut faults = Vec::new();
     for (kind, dimension) in kinds().filter(|(kind, _)| !kind.is_link()) {
         let mut scene = everything(&random::of_kind(3, kind, dimension));

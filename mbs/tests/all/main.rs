@@ -16,6 +16,7 @@ mod doctor;
 mod energy;
 mod explain;
 mod field;
+mod formulations;
 mod generate;
 mod hints;
 mod inputs;

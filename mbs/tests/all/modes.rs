@@ -8,6 +8,7 @@ use mbs::core::model::State;
 use mbs::core::natural::NaturalModel;
 use mbs::core::scene::{InitialTarget, Road};
 use mbs::core::start::assemble;
+use mbs::core::step::Step;
 use mbs::linear::{Instant, Linear, LinearOptions, Saddle, linearise};
 use mbs::sparse::{Indefinite, Multifrontal};
 use mbs::{Modes, Place, Search, equilibrium_start};
@@ -95,8 +96,14 @@ fn a_rolling_vehicle_moves_as_its_linearisation_says() {
     let mut w = Workspace::new(&model, solver);
     let mut run = |mut s: State<f64>, (step, steps): (f64, u32)| {
         for _ in 0..steps {
-            index3::step(&model, (step, model.length()), &Options::index3(), &mut s, &mut w)
-                .expect("the vehicle rolls");
+            index3::step(
+                &model,
+                Step { dt: step, length: model.length() },
+                &Options::index3(),
+                &mut s,
+                &mut w,
+            )
+            .expect("the vehicle rolls");
             s.t += step;
         }
         s

@@ -4,7 +4,7 @@ use crate::common;
 use crate::retell;
 
 use crate::common::SCENES;
-use crate::common::oracle::{METHODS, Method, Told, disagreement, everything, rows, tell};
+use crate::common::oracle::{Method, Told, disagreement, everything, methods, rows, tell};
 use mbs::core::scene::{BodyId, Output, Quantity, Scene};
 
 /// Step and span of a scene: the step resolves its motion, and the span ends before chaos has made rounding large.
@@ -30,9 +30,9 @@ fn every_formulation_tells_of_the_same_motion_on_every_scene() {
     let mut faults = Vec::new();
     for name in SCENES {
         let scene = everything(&common::scene(name));
-        let reference = tell(&scene, METHODS[0], span(name))
+        let reference = tell(&scene, methods()[0], span(name))
             .unwrap_or_else(|e| panic!("{name} in index-3: {e}"));
-        for method in &METHODS[1..] {
+        for method in &methods()[1..] {
             if let Some(fault) = fault(name, &scene, *method, &reference) {
                 faults.push(fault);
             }
@@ -75,7 +75,7 @@ fn the_redundant_spatial_four_bar_moves_like_the_planar_one_or_is_refused() {
     };
     spatial.outputs = vec![output(0, pins[0].0), output(1, pins[1].0)];
     planar.outputs = vec![output(0, pins[0].1), output(1, pins[1].1)];
-    for method in METHODS {
+    for method in methods() {
         let run = |scene: &Scene<f64>| rows(scene, method, (1e-3, 1.0), 10);
         let flat = run(&planar).unwrap_or_else(|e| panic!("{method:?}, planar: {e}"));
         let space = match run(&spatial) {

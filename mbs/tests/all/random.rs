@@ -3,7 +3,7 @@
 use crate::common::random;
 use crate::retell;
 
-use crate::common::oracle::{METHODS, differences, disagreement, everything, rows, tell};
+use crate::common::oracle::{differences, disagreement, everything, methods, rows, tell};
 use mbs::core::scene::{Dimension, Motion, Scene};
 use mbs::{Overrides, Settings, Simulation};
 
@@ -16,14 +16,14 @@ const RETOLD: f64 = 1e-8;
 fn agree(scene: &Scene<f64>) {
     let scene = everything(scene);
     let reference =
-        tell(&scene, METHODS[0], SPAN).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+        tell(&scene, methods()[0], SPAN).unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     let ends = [reference.rows.first(), reference.rows.last()].map(|row| {
         let (_, row) = row.expect("there are rows");
         vec![(0.0, row.clone())]
     });
     let moved = differences(&ends[0], &ends[1]).into_iter().fold(0.0, f64::max);
     assert!(moved > 0.1, "{}: what rests shows nothing, moved by {moved:.1e}", scene.name);
-    for method in &METHODS[1..] {
+    for method in &methods()[1..] {
         let told = match tell(&scene, *method, SPAN) {
             Ok(told) => told,
             // Redundant rows have no unique multipliers, and random loops have some by chance.
@@ -138,7 +138,7 @@ fn retold_apart(
         scene
     };
     let (first, second) = (centres(scene, &|i| i), centres(other, &body));
-    for method in METHODS {
+    for method in methods() {
         if method.0 == "classical" && redundant(scene) > 0 {
             continue;
         }

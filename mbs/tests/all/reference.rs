@@ -9,7 +9,8 @@
 use crate::common;
 
 use crate::common::{Bench, FORMULATIONS, distance, steps, worst};
-use mbs::augmented::{Options, Projection, StepError};
+use mbs::augmented::{Augmented, Form, Options, Projection, StepError};
+use mbs::parallel::{Multifrontal, Threads};
 
 /// Errors at a step and at half of it have this ratio in a method of order 2; higher orders of the step make the rest.
 const SECOND_ORDER: core::ops::Range<f64> = 3.7..4.3;
@@ -184,18 +185,18 @@ fn rssr_rocker_follows_the_crank_in_closed_form() {
     }
 }
 
-/// The options of a bench in index-3.
-fn index_three(bench: &mut Bench<2>) -> &mut Options<f64> {
-    match bench.simulation.engine_mut() {
-        mbs::Engine::Augmented { index: mbs::Index::Three(options), .. } => options,
-        _ => panic!("index-3 is an augmented Lagrangian"),
-    }
+/// Steps a bench in index-3 with other options.
+fn step_with(bench: &mut Bench<2>, options: Options<f64>) {
+    type OfRun = Augmented<f64, Multifrontal<f64, Threads>, Threads>;
+    let formulation = bench.simulation.formulation_mut().as_any_mut();
+    let augmented: &mut OfRun = formulation.downcast_mut().expect("index-3 is augmented");
+    augmented.set_form(Form::Index3(options)).expect("options in their ranges");
 }
 
 /// Outcome of the double pendulum in the printed form to 10 s: largest energy error, or the error of the step that failed.
 fn printed(alpha: f64, step: f64, projection: Projection) -> Result<f64, (f64, StepError)> {
     let mut bench = Bench::<2>::new("double-pendulum", "index-3", step);
-    *index_three(&mut bench) = Options { projection, ..Options::printed(alpha) };
+    step_with(&mut bench, Options { projection, ..Options::printed(alpha) });
     let mut error = 0.0;
     let outcome = bench.run(10.0, |b| error = worst(error, b.energy_error()));
     println!("printed alpha {alpha:e} dt {step:e} {projection:?}: {outcome:?}, {error:.3e} J");
@@ -242,7 +243,8 @@ const SWEPT: f64 = 1e-9;
 #[test]
 fn sweeps_with_the_tangent_as_it_is_hold_where_penalties_were_raised() {
     let mut bench = Bench::<2>::new("two-four-bars", "index-3", 1e-3);
-    index_three(&mut bench).projection = Projection::PrintedTangent;
+    let projection = Projection::PrintedTangent;
+    step_with(&mut bench, Options { projection, ..Options::index3() });
     let mut off = 0.0;
     for _ in 0..2000 {
         off = worst(off, bench.step().expect("passes singular positions").violation[1]);

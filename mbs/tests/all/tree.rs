@@ -7,6 +7,7 @@ use mbs::front::tree::{Matrix, Tree, TreeError, TreeRange};
 use mbs::{InSpace, Plane, Simulation};
 use mbs_testkit::random::{self, Random};
 use mbs_testkit::{allocations, close, dot, file, plus, scene};
+use std::iter;
 
 /// Rounding through trees of some bodies.
 const ROUNDING: f64 = 1e-10;
@@ -46,11 +47,15 @@ fn floating(dimension: Dimension) -> Scene<f64> {
     scene
 }
 
+const BOTH: [Dimension; 2] = [Dimension::Planar, Dimension::Spatial];
+
+fn trees() -> impl Iterator<Item = Scene<f64>> {
+    BOTH.into_iter().flat_map(|d| (1..4).map(move |seed| random::tree(seed, d, 8)))
+}
+
 /// Trees of all joints, with their bodies in both orders.
 fn mechanisms() -> Vec<Scene<f64>> {
-    let both = [Dimension::Planar, Dimension::Spatial];
-    let trees = both.into_iter().flat_map(|d| (1..4).map(move |seed| random::tree(seed, d, 8)));
-    let mut all: Vec<_> = trees.chain(both.map(floating)).collect();
+    let mut all: Vec<_> = trees().chain(BOTH.map(floating)).collect();
     // A body that nothing holds, which has no joint.
     all[7].joints.remove(0);
     all.push(floating(Dimension::Spatial));
@@ -263,86 +268,65 @@ fn inverse_dynamics_returns_what_forward_dynamics_took_and_power_is_the_change_o
 
 #[test]
 fn coordinates_have_the_sense_of_the_joints_whichever_body_comes_first() {
-    for seed in 1..4 {
-        for scene in
-            [random::tree(seed, Dimension::Spatial, 8), random::tree(seed, Dimension::Planar, 8)]
-        {
-            let other = reversed(scene.clone());
-            match scene.dimension {
-                Dimension::Planar => starts::<2>(&[scene, other]),
-                Dimension::Spatial => starts::<3>(&[scene, other]),
-            }
-        }
+    for scene in trees() {
+        let other = reversed(scene.clone());
+        match scene.dimension {
+            Dimension::Planar => [scene, other].map(starts::<2>),
+            Dimension::Spatial => [scene, other].map(starts::<3>),
+        };
     }
 }
 
 /// The tree of a start has the values and rates that were asked for; rates of a ball were in global axes.
-fn starts<const D: usize>(scenes: &[Scene<f64>])
+fn starts<const D: usize>(mut scene: Scene<f64>)
 where
     Plane<D>: InSpace<f64>,
 {
-    for scene in scenes {
-        let mut scene = scene.clone();
-        for initial in &mut scene.initials {
-            let InitialTarget::Joint { value, rate: Some(rate), .. } = &mut initial.target else {
-                continue;
-            };
-            *value = Some(rate.iter().map(|x| 0.3 * x).collect());
+    let mut given = Vec::new();
+    for initial in &mut scene.initials {
+        if let InitialTarget::Joint { joint, value, rate: Some(rate) } = &mut initial.target {
+            let half: Vec<f64> = rate.iter().map(|x| 0.3 * x).collect();
+            given.push((*joint, half.clone(), rate.clone()));
+            *value = Some(half);
         }
-        let sim = Simulation::<f64, D>::new(&scene, &settings(&scene, "index-3", Some(1e-3)))
-            .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
-        let mut tree = tree(&scene);
-        tree.follow(&sim).expect("the same mechanism");
-        for initial in &scene.initials {
-            let InitialTarget::Joint { joint, value: Some(value), rate: Some(rate) } =
-                &initial.target
-            else {
-                continue;
-            };
-            let (data, at) =
-                (&scene.joints[*joint], tree.coordinates_of(*joint).expect("in the tree"));
-            let (q, v) = (&tree.coordinates()[at.q], &tree.velocities()[at.v]);
-            if data.kind != JointKind::Spherical {
-                close(&data.name, q, value, FOLLOWED);
-                close(&data.name, v, rate, FOLLOWED);
-                continue;
+    }
+    let sim = Simulation::<f64, D>::new(&scene, &settings(&scene, "index-3", Some(1e-3)))
+        .unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+    let mut tree = tree(&scene);
+    tree.follow(&sim).expect("the same mechanism");
+    for (joint, mut value, mut rate) in given {
+        let (data, at) = (&scene.joints[joint], tree.coordinates_of(joint).expect("in the tree"));
+        if data.kind == JointKind::Spherical {
+            let half = 0.5 * dot(&value, &value).sqrt();
+            value.iter_mut().for_each(|x| *x *= 0.5 * half.sin() / half);
+            value.insert(0, half.cos());
+            if let Some(b) = data.bodies[1].index() {
+                let turned = sim.model().motion(&scene, b, sim.state()).rotation.transpose();
+                rate = (turned * mbs::core::algebra::Vector::<f64, 3>::from_fn(|i, _| rate[i]))
+                    .as_slice()
+                    .to_vec();
             }
-            let half = 0.5 * dot(value, value).sqrt();
-            let vector: Vec<f64> = value.iter().map(|x| 0.5 * x * half.sin() / half).collect();
-            close(&data.name, q, &[&[half.cos()], &vector[..]].concat(), FOLLOWED);
-            let rotation = match data.bodies[1] {
-                BodyId::Body(b) => sim.model().motion(&scene, b, sim.state()).rotation,
-                BodyId::Ground => mbs::core::algebra::Matrix::<f64, 3>::identity(),
-            };
-            let turned: Vec<f64> =
-                (0..3).map(|i| dot(rotation.column(i).as_slice(), rate)).collect();
-            close(&data.name, v, &turned, FOLLOWED);
         }
+        close(&data.name, &tree.coordinates()[at.q], &value, FOLLOWED);
+        close(&data.name, &tree.velocities()[at.v], &rate, FOLLOWED);
     }
 }
 
 #[test]
 fn order_and_direction_of_a_mechanism_change_nothing() {
-    for seed in 1..4 {
-        for scene in
-            [random::tree(seed, Dimension::Spatial, 6), random::tree(seed, Dimension::Planar, 6)]
-        {
-            let mut first = wandering(&scene, 9);
-            let turned = match scene.dimension {
-                Dimension::Planar => turn_by(&scene, turned_in_plane),
-                Dimension::Spatial => turn_scene(&scene),
-            };
-            for other in [reorder(&scene), turned] {
-                let mut second = tree(&other);
-                second.set(first.coordinates(), first.velocities()).expect("a state");
-                let is_turned = other.gravity != scene.gravity;
-                // Axes of balls turn with the mechanism: their numbers do not.
-                if is_turned && scene.joints.iter().any(|j| j.kind == JointKind::Spherical) {
-                    continue;
-                }
-                close(&scene.name, &first.mass_matrix().data, &second.mass_matrix().data, ROUNDING);
-                close(&scene.name, first.bias_forces(), second.bias_forces(), 10.0 * ROUNDING);
-            }
+    for scene in trees() {
+        let mut first = wandering(&scene, 9);
+        let turned = match scene.dimension {
+            Dimension::Planar => turn_by(&scene, turned_in_plane),
+            Dimension::Spatial => turn_scene(&scene),
+        };
+        // Axes of balls turn with the mechanism, and what is along them does not.
+        let has_balls = scene.joints.iter().any(|j| j.kind == JointKind::Spherical);
+        for other in iter::once(reorder(&scene)).chain((!has_balls).then_some(turned)) {
+            let mut second = tree(&other);
+            second.set(first.coordinates(), first.velocities()).expect("a state");
+            close(&scene.name, &first.mass_matrix().data, &second.mass_matrix().data, ROUNDING);
+            close(&scene.name, first.bias_forces(), second.bias_forces(), 10.0 * ROUNDING);
         }
     }
 }

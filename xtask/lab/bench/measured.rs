@@ -9,6 +9,8 @@ pub(crate) struct Measured {
     pub(crate) machine: Machine,
     /// Sizes of teams, one among them.
     pub(crate) threads: Vec<usize>,
+    /// All formulations, in the order in which they are shown.
+    pub(crate) formulations: Vec<String>,
     /// Empty forks, as printed.
     pub(crate) forks: Vec<Value>,
     pub(crate) scenes: Vec<Scene>,
@@ -237,6 +239,7 @@ pub(super) mod tests {
         Measured {
             machine: Machine { cores: 2, processor: "P".into(), load: [Some(0.1), Some(1.0)] },
             threads: vec![1, 2],
+            formulations: ["index-3", "state-space", "recursive"].map(str::to_owned).to_vec(),
             forks: vec![fork("alone", 1, 1e-9), fork("crew", 2, 2e-7), fork("pool", 2, 4e-8)],
             scenes: vec![scene],
         }

@@ -15,6 +15,7 @@ pub(crate) use child::finish;
 pub(crate) use machine::Machine;
 pub(crate) use machine::{cores, processor};
 use measured::{Measured, Scene};
+use serde_json::Value;
 use std::process::ExitCode;
 use std::time::Duration;
 pub(crate) use threads::Threads;
@@ -39,10 +40,6 @@ const SCENES: [&str; 14] = [
 ];
 /// The largest ones, which `--quick` leaves out.
 const LARGEST: [&str; 4] = ["net-1000", "convoy-100", "tree-4095", "chain-10000"];
-
-/// Formulations whose solver and clocks are the bench's own, and those that are stepped as `mbs run` does.
-const SHARED: &str = "index-3,index-1,multi-index";
-const OTHERS: [&str; 3] = ["classical", "state-space", "recursive"];
 
 /// What is asked for.
 #[derive(Debug, Clone)]
@@ -111,11 +108,17 @@ fn measure(asked: &Asked) -> Result<Measured, String> {
     let threads = asked.threads.clone().unwrap_or_else(|| Threads::up_to(machine.cores));
     let program = built(&threads, asked.quick)?;
 
+    let listed = program.run(&["formulations"], Duration::from_secs(60))?;
     let forks = program.run(&["forks"], Duration::from_secs(60))?;
-    let mut measured =
-        Measured { machine, threads: threads.sizes().to_vec(), forks, scenes: Vec::new() };
+    let name = |line: &Value| line["name"].as_str().unwrap_or_default().to_owned();
+    let formulations = listed.iter().map(name).collect();
+    // Those whose solver and clocks are the bench's own, and those that are stepped as `mbs run` does.
+    let (own, others): (Vec<_>, Vec<_>) = listed.iter().partition(|line| line["own"] == true);
+    let [own, others] = [own, others].map(|lines| lines.into_iter().map(name).collect::<Vec<_>>());
+    let threads = threads.sizes().to_vec();
+    let mut measured = Measured { machine, threads, formulations, forks, scenes: Vec::new() };
     for name in wanted(asked) {
-        measured.scenes.push(scene(&program, &name)?);
+        measured.scenes.push(scene(&program, &name, (&own.join(","), &others))?);
     }
     measured.machine.end();
     process::progress("");
@@ -148,11 +151,11 @@ fn wanted(asked: &Asked) -> Vec<String> {
 }
 
 /// Measures one scene in all formulations, each in a process of its own where it may take too long.
-fn scene(program: &Program, name: &str) -> Result<Scene, String> {
-    process::progress(&format!("{name} {SHARED}"));
+fn scene(program: &Program, name: &str, (own, others): (&str, &[String])) -> Result<Scene, String> {
+    process::progress(&format!("{name} {own}"));
     let mut scene = Scene::new(name);
-    scene.read(&program.run(&[name, SHARED], Duration::from_secs(300))?)?;
-    for formulation in OTHERS {
+    scene.read(&program.run(&[name, own], Duration::from_secs(300))?)?;
+    for formulation in others {
         process::progress(&format!("{name} {formulation}"));
         match program.run(&[name, formulation], Duration::from_secs(30)) {
             Ok(lines) => scene.read(&lines)?,

@@ -56,9 +56,8 @@ fn row(scene: &Scene, lane: &Lane) -> Value {
 /// Sizes and work of one step.
 fn counts(scene: &Scene, lane: &Lane) -> Value {
     let mut counts = Map::new();
-    if let Some(order) =
-        scene.order(&lane.order).filter(|_| super::SHARED.contains(&lane.formulation))
-    {
+    let is_own = lane.line["own"] != false;
+    if let Some(order) = scene.order(&lane.order).filter(|_| is_own) {
         for key in OF_ORDER {
             counts.insert(key.to_owned(), order[key].clone());
         }

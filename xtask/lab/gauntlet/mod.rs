@@ -9,7 +9,7 @@ use crate::page::page;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
-use tally::{METHODS, Tallies};
+use tally::Tallies;
 use workers::Share;
 use xtask::process::{self, write};
 
@@ -76,7 +76,7 @@ fn section(tallies: &Tallies, (count, jobs): (usize, usize), time: Duration) -> 
         "{} cases by seed, each run by {} formulations with the trapezoidal rule (multi-index with its own control of the step): {} runs are right, {} as far \
          off as the rule itself is at that step, {} further off than the others by an error that falls with the square of the step, {} ended in a typed error, {} were completed with nothing to compare them with, {} are wrong. {:.0} minutes in {jobs} processes. \
          Again: cargo xtask gauntlet --count {count}.",
-        tallies.cases, METHODS.len(), sum.right, sum.coarse,
+        tallies.cases, tallies.methods.len(), sum.right, sum.coarse,
         sum.apart, sum.stops(), sum.unjudged, sum.wrong + tallies.faults.len(),
         time.as_secs_f64() / 60.0,
     ));
@@ -87,7 +87,7 @@ fn section(tallies: &Tallies, (count, jobs): (usize, usize), time: Duration) -> 
          the share of runs that ended in a typed error, and the error that most of them name.",
     );
     let mut head = vec!["property"];
-    head.extend(METHODS);
+    head.extend(tallies.methods.iter().map(String::as_str));
     let row = |name: &str, tallies: &[tally::Tally]| {
         let cells = tallies.iter().map(tally::Tally::told);
         [name.to_owned()].into_iter().chain(cells).collect::<Vec<_>>()

@@ -3,10 +3,6 @@
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// Methods in the order of the columns.
-pub(super) const METHODS: [&str; 6] =
-    ["index-3", "index-1", "multi-index", "classical", "state-space", "recursive"];
-
 /// Counts of a method's verdicts.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Tally {
@@ -38,8 +34,10 @@ pub(super) struct Wrong {
 /// Everything.
 #[derive(Debug, Default)]
 pub(super) struct Tallies {
+    /// Methods in the order of the columns.
+    pub(super) methods: Vec<String>,
     /// Property, family, then a tally for each method.
-    pub(super) families: Vec<(String, String, [Tally; METHODS.len()])>,
+    pub(super) families: Vec<(String, String, Vec<Tally>)>,
     pub(super) wrong: Vec<Wrong>,
     /// Cases that ended their process.
     pub(super) faults: Vec<String>,
@@ -134,6 +132,10 @@ impl Tallies {
                 all.faults.push(format!("case {}: {fault}", line["number"]));
                 continue;
             }
+            if let (true, Some(methods)) = (all.methods.is_empty(), line["methods"].as_array()) {
+                let names = methods.iter().filter_map(Value::as_str);
+                all.methods = names.map(str::to_owned).collect();
+            }
             all.take(line);
         }
         all.wrong.sort_by(|a, b| (&a.family, a.seed).cmp(&(&b.family, b.seed)));
@@ -146,14 +148,11 @@ impl Tallies {
         let step = line["step"].as_f64().unwrap_or(0.0);
         let at = self.families.iter().position(|(_, name, _)| *name == family);
         let at = at.unwrap_or_else(|| {
-            self.families.push((
-                property,
-                family.clone(),
-                std::array::from_fn(|_| Tally::default()),
-            ));
+            let tallies = vec![Tally::default(); self.methods.len()];
+            self.families.push((property, family.clone(), tallies));
             self.families.len() - 1
         });
-        for (tally, method) in self.families[at].2.iter_mut().zip(METHODS) {
+        for (tally, method) in self.families[at].2.iter_mut().zip(&self.methods) {
             let verdict = &line["verdicts"][method];
             tally.take(verdict, step);
             if let Some(why) = verdict["why"].as_str() {
@@ -169,8 +168,8 @@ impl Tallies {
     }
 
     /// Tallies by property, in the order of the families.
-    pub(super) fn properties(&self) -> Vec<(String, [Tally; METHODS.len()])> {
-        let mut rows: Vec<(String, [Tally; METHODS.len()])> = Vec::new();
+    pub(super) fn properties(&self) -> Vec<(String, Vec<Tally>)> {
+        let mut rows: Vec<(String, Vec<Tally>)> = Vec::new();
         for (property, _, tallies) in &self.families {
             match rows.iter_mut().find(|(name, _)| name == property) {
                 Some((_, sums)) => sums.iter_mut().zip(tallies).for_each(|(sum, t)| sum.add(t)),
@@ -213,16 +212,17 @@ mod tests {
 
     #[test]
     fn families_of_a_property_are_added_and_faults_are_kept() {
+        let methods = ["index-3", "classical"];
         let line = |family: &str, seed: u64| {
             let all: serde_json::Map<_, _> =
-                METHODS.iter().map(|m| ((*m).to_owned(), json!({ "is": "right" }))).collect();
-            json!({ "family": family, "property": "p", "seed": seed, "step": 1e-3, "verdicts": all })
+                methods.map(|m| (m.to_owned(), json!({ "is": "right" }))).into_iter().collect();
+            json!({ "family": family, "property": "p", "seed": seed, "step": 1e-3, "methods": methods, "verdicts": all })
         };
         let fault = json!({ "number": 9, "fault": "index-3 hung for 1 s" });
         let all = Tallies::of(&[line("a", 0), line("b", 0), line("a", 1), fault]);
         assert_eq!((all.cases, all.families.len(), all.properties().len()), (4, 2, 1));
         assert_eq!(all.properties()[0].1[0].right, 3);
         assert_eq!(all.faults, ["case 9: index-3 hung for 1 s"]);
-        assert_eq!(all.sum().runs(), 3 * METHODS.len());
+        assert_eq!(all.sum().runs(), 3 * methods.len());
     }
 }

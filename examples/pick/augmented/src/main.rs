@@ -3,6 +3,7 @@
 #[path = "../../double_pendulum.rs"]
 mod double_pendulum;
 
+use mbs_core::step::Step;
 use double_pendulum::{TIP, TRAPEZOIDAL, check, double_pendulum};
 use mbs_augmented::{Options, Workspace, index3};
 use mbs_core::dense::Dense;
@@ -17,7 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut state = assemble(&scene, &model, |p| Dense::new(p), &mut solver)?.state;
     let mut workspace = Workspace::new(&model, solver);
 
-    let (options, step) = (Options::index3(), (1e-3, model.length()));
+    let (options, step) = (Options::index3(), Step { dt: 1e-3, length: model.length() });
     for _ in 0..1000 {
         index3::step(&model, step, &options, &mut state, &mut workspace)?;
     }

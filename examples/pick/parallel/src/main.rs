@@ -3,6 +3,7 @@
 #[path = "../../double_pendulum.rs"]
 mod double_pendulum;
 
+use mbs_core::step::Step;
 use double_pendulum::{TIP, TRAPEZOIDAL, check, double_pendulum};
 use mbs_augmented::{Options, Workspace, index3};
 use mbs_core::model::State;
@@ -45,7 +46,7 @@ fn run<W: Team + Clone>(
     let solver = Multifrontal::on(team.clone(), model, SparseOptions::default());
     let mut workspace = Workspace::new(model, solver);
     let mut state = start.clone();
-    let (options, step) = (Options::index3(), (1e-3, model.length()));
+    let (options, step) = (Options::index3(), Step { dt: 1e-3, length: model.length() });
     for _ in 0..1000 {
         index3::step(&model.with_team(&team), step, &options, &mut state, &mut workspace)?;
     }

@@ -3,6 +3,7 @@
 #[path = "../../double_pendulum.rs"]
 mod double_pendulum;
 
+use mbs_core::step::Step;
 use double_pendulum::{TIP, TRAPEZOIDAL, check, double_pendulum};
 use mbs_core::dense::Dense;
 use mbs_core::natural::NaturalModel;
@@ -19,7 +20,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let (options, length) = (Options::default(), model.length());
     for _ in 0..1000 {
-        step(&model, (1e-3, length), &options, &mut state, &mut workspace)?;
+        step(&model, Step { dt: 1e-3, length }, &options, &mut state, &mut workspace)?;
     }
 
     let tip = model.point(BodyId::Body(1), TIP).value(&state.q);

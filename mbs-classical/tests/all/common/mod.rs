@@ -5,6 +5,7 @@ use mbs_core::Real;
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Scene;
+use mbs_core::step::Step;
 use mbs_sparse::Indefinite;
 use mbs_testkit::{apart, centres, invariant, start_in};
 
@@ -35,7 +36,7 @@ impl<T: Real, const D: usize> Run<T, D> {
     }
 
     pub(crate) fn step(&mut self, dt: f64) -> Result<StepReport<T>, StepError> {
-        let size = (T::from_f64(dt), self.model.length());
+        let size = Step { dt: T::from_f64(dt), length: self.model.length() };
         match self.index {
             Index::One => mbs_classical::index1::step(
                 &self.model,

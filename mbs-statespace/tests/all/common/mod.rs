@@ -5,6 +5,7 @@ use mbs_core::Real;
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Scene;
+use mbs_core::step::Step;
 use mbs_statespace::{Options, StepError, StepReport, Workspace, step};
 use mbs_testkit::{invariant, named_centres, scene_in, solver, start_in};
 
@@ -30,7 +31,7 @@ impl<T: Real, const D: usize> Bench<T, D> {
     }
 
     pub(crate) fn try_step(&mut self, dt: f64) -> Result<StepReport<T>, StepError> {
-        let scale = (T::from_f64(dt), self.model.length());
+        let scale = Step { dt: T::from_f64(dt), length: self.model.length() };
         step(&self.model, scale, &self.options, &mut self.state, &mut self.w)
     }
 
@@ -46,7 +47,8 @@ impl<T: Real, const D: usize> Bench<T, D> {
     pub(crate) fn index3(&self, dt: f64, steps: u32) -> State<T> {
         let mut w = mbs_augmented::Workspace::new(&self.model, solver(&self.model));
         let options = mbs_augmented::Options::index3();
-        let (mut state, scale) = (self.start.clone(), (T::from_f64(dt), self.model.length()));
+        let (mut state, scale) =
+            (self.start.clone(), Step { dt: T::from_f64(dt), length: self.model.length() });
         for i in 0..steps {
             index3::step(&self.model, scale, &options, &mut state, &mut w)
                 .unwrap_or_else(|e| panic!("{}: step {i}: {e}", self.scene.name));

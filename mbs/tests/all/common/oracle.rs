@@ -4,7 +4,7 @@
 //! channel; two methods agree when they differ by at most [`SHARE`] times the larger of their estimates.
 
 use mbs::core::scene::{BodyId, Dimension, JointId, Output, Quantity, Scene};
-use mbs::{Overrides, Settings, StopError};
+use mbs::{FormulationKind, Overrides, Settings, StopError};
 
 /// Times the larger of two methods' own errors that they may differ by.
 const SHARE: f64 = 10.0;
@@ -16,17 +16,15 @@ const ROUNDING: f64 = 1e-7;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Method(pub(crate) &'static str, pub(crate) &'static str);
 
-/// All that are compared; the first is what the others are held against.
-pub(crate) const METHODS: [Method; 8] = [
-    Method("index-3", "trapezoidal"),
-    Method("index-1", "trapezoidal"),
-    Method("classical", "trapezoidal"),
-    Method("state-space", "trapezoidal"),
-    Method("recursive", "trapezoidal"),
-    Method("recursive", "rk4"),
-    Method("recursive", "rk54"),
-    Method("recursive", "rk853"),
-];
+/// All that are compared; the others are compared with the first.
+pub(crate) fn methods() -> Vec<Method> {
+    // Those whose index follows the step choose its length.
+    let fixed = FormulationKind::listed().filter(|f| !f.row().energy_rule);
+    let mut methods: Vec<_> = fixed.map(|f| Method(f.name(), "trapezoidal")).collect();
+    let explicit = ["rk4", "rk54", "rk853"];
+    methods.extend(explicit.map(|i| Method(FormulationKind::RELATIVE.name(), i)));
+    methods
+}
 
 /// Rows of a run: times and components.
 pub(crate) type Rows = Vec<(f64, Vec<f64>)>;

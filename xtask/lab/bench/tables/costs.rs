@@ -1,18 +1,20 @@
 //! What a step costs, what it is made of, and where its time goes.
 
 use super::super::measured::{Lane, Measured, Scene, number};
-use super::{FORMULATIONS, average, by_size, count, percent, ratio, span, time};
+use super::{average, by_size, count, percent, ratio, span, time};
 use crate::chart::{Axis, Chart, Kind, Look, Series};
 use crate::lab::section::Section;
 
 /// Seconds per step with one thread, in each formulation.
 pub(super) fn steps(measured: &Measured) -> Section {
     let mut section = Section::new("S", "Time of a step, one thread");
-    let head = [&["scene"][..], &FORMULATIONS, &["dt"]].concat();
+    let mut head = vec!["scene"];
+    head.extend(measured.formulations.iter().map(String::as_str));
+    head.push("dt");
     let (mut rows, mut spread, mut refused) = (Vec::new(), Vec::new(), Vec::new());
     for scene in by_size(measured) {
         let mut row = vec![scene.name.clone()];
-        for formulation in FORMULATIONS {
+        for formulation in &measured.formulations {
             let lane = scene.serial(formulation);
             row.push(lane.and_then(|lane| lane.seconds).map_or("–".to_owned(), time));
             if let Some(lane) = lane {
@@ -77,16 +79,17 @@ fn details(scene: &Scene, lane: &Lane) -> Vec<String> {
 
 /// Which formulation steps how many scenes fastest.
 fn fastest(measured: &Measured) -> String {
-    let mut wins = [0; FORMULATIONS.len()];
+    let mut wins = vec![0; measured.formulations.len()];
     for scene in &measured.scenes {
         let time = |name: &str| scene.serial(name).and_then(|lane| lane.seconds);
-        let times = FORMULATIONS.map(|name| time(name).unwrap_or(f64::INFINITY));
+        let time = |name: &String| time(name).unwrap_or(f64::INFINITY);
+        let times: Vec<f64> = measured.formulations.iter().map(time).collect();
         let least = times.iter().copied().fold(f64::INFINITY, f64::min);
         if let Some(at) = times.iter().position(|&t| t <= least && t.is_finite()) {
             wins[at] += 1;
         }
     }
-    let told = FORMULATIONS.iter().zip(wins).filter(|(_, n)| *n > 0);
+    let told = measured.formulations.iter().zip(wins).filter(|(_, n)| *n > 0);
     let told: Vec<_> = told.map(|(name, n)| format!("{name} in {n}")).collect();
     format!(
         "The cheapest step, of those that could be measured: {} of {} scenes. How accurate a step is, is in the tables on accuracy.",
@@ -96,11 +99,11 @@ fn fastest(measured: &Measured) -> String {
 }
 
 fn chart(measured: &Measured) -> Chart {
-    let series = FORMULATIONS.iter().enumerate().map(|(style, name)| {
+    let series = measured.formulations.iter().enumerate().map(|(style, name)| {
         let point = |scene: &&Scene| Some([scene.size("unknowns")?, scene.serial(name)?.seconds?]);
         let scenes = by_size(measured);
         let points = scenes.iter().filter_map(point).collect();
-        Series { name: (*name).to_owned(), style, look: Look::Dots, points }
+        Series { name: name.clone(), style, look: Look::Dots, points }
     });
     let x = Axis::new("unknowns", Kind::Log);
     Chart::new(x, Axis::new("time of a step [s]", Kind::Log), series.collect())

@@ -5,8 +5,6 @@ use super::{by_size, percent, ratio, time};
 use crate::chart::{Axis, Chart, Kind, Look, Series};
 use crate::lab::section::Section;
 
-/// The formulations that teams share the steps of.
-const SHARED: [&str; 4] = ["index-3", "index-1", "multi-index", "classical"];
 /// A gain below this is none.
 const SEEN: f64 = 1.05;
 /// The whole vehicle, of 168 coordinates in the report.
@@ -37,7 +35,7 @@ pub(super) fn threads(measured: &Measured) -> Section {
         "speed-up",
         "efficiency",
     ];
-    for formulation in SHARED {
+    for formulation in &measured.formulations {
         let mut rows = Vec::new();
         for scene in by_size(measured) {
             for &n in &several {

@@ -7,10 +7,6 @@ mod gains;
 use super::measured::{Measured, Scene};
 use crate::lab::section::Section;
 
-/// Formulations in the order in which they are shown.
-const FORMULATIONS: [&str; 6] =
-    ["index-3", "index-1", "multi-index", "classical", "state-space", "recursive"];
-
 /// What holds for all of them.
 pub(crate) fn remark(measured: &Measured) -> String {
     format!(

@@ -1,0 +1,337 @@
+//! The formulation of this crate behind the common trait: [`Tree`], whose state is written in natural coordinates too, for the outputs.
+
+use crate::history::History as OfWorkspace;
+use crate::options::Options;
+use crate::space::Space;
+use crate::state::{TreeState, Workspace};
+use crate::tree::TreeModel;
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::any::Any;
+use mbs_core::Real;
+use mbs_core::actions::{Action, Actions};
+use mbs_core::formulation::{Formulation, SwitchError};
+use mbs_core::history::{Book, History, RestoreError, Restored};
+use mbs_core::model::{Model, Owner, State, Terms};
+use mbs_core::natural::NaturalModel;
+use mbs_core::ode::{AdaptiveHistory, RadauHistory};
+use mbs_core::rigid::RigidMotion;
+use mbs_core::scene::{BodyId, Scene};
+use mbs_core::step::{OptionError, Step, StepError, StepReport};
+
+/// A step of a tree by one of its methods, such as [`step`](crate::step()) or [`rk54_step`](crate::rk54_step).
+pub type TreeStep<T, S> = fn(
+    &TreeModel<T, S>,
+    T,
+    &Options<T>,
+    &mut TreeState<T>,
+    &mut Workspace<T, S>,
+) -> Result<StepReport<T>, StepError>;
+
+/// An angle that the tree has with its turns.
+#[derive(Debug, Clone, Copy)]
+enum Angle {
+    /// A link's coordinate.
+    Of(u32),
+    /// Of the second body against the first, in the plane.
+    Between([BodyId; 2]),
+}
+
+/// The angles that effects measure, by the place where the natural state remembers each: of a joint that is not cut, or in the plane.
+fn angles<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    natural: &NaturalModel<T, D>,
+    coordinates: &[Vec<Option<u32>>],
+) -> Vec<(usize, Angle)> {
+    // A scene that has a tree has actions.
+    let list = Actions::new(scene).map(|actions| actions.list).unwrap_or_default();
+    let angle = |(effect, action): &(usize, Action<T>)| {
+        let angle = match action {
+            // Joints with an effect about their axis have one angle.
+            Action::Angle { joint, .. } => {
+                let (number, _) = scene.joints[*joint].kind.turn(scene.dimension)?;
+                Angle::Of(coordinates[*joint][number]?)
+            }
+            Action::Turn { bodies, .. } => Angle::Between(*bodies),
+            Action::Torque { body, .. } if D == 2 => {
+                Angle::Between([BodyId::Ground, BodyId::Body(*body)])
+            }
+            _ => return None,
+        };
+        Some((natural.memory_of_effect(*effect)?, angle))
+    };
+    list.iter().filter_map(angle).collect()
+}
+
+/// A scene in relative coordinates: the tree and its state.
+#[derive(Debug, Clone)]
+pub struct Tree<T: Real, S: Space<T>> {
+    model: TreeModel<T, S>,
+    state: TreeState<T>,
+    saved: TreeState<T>,
+    workspace: Workspace<T, S>,
+    options: Options<T>,
+    step: TreeStep<T, S>,
+    motions: Vec<RigidMotion<T>>,
+    terms: Terms<T>,
+    /// The links that have the coordinates of each joint.
+    coordinates: Vec<Vec<Option<u32>>>,
+    /// Where the natural state remembers angles that the tree has, and whose they are.
+    angles: Vec<(usize, Angle)>,
+    rank: usize,
+    energies: [f64; 2],
+    saved_energies: [f64; 2],
+}
+
+impl<T: Real, S: Space<T>> Tree<T, S> {
+    /// A tree that starts at `start`, which is the natural `state` of the same scene; that is then written from the tree.
+    ///
+    /// # Errors
+    /// [`OptionError`] for an option out of range.
+    pub fn new<const D: usize>(
+        scene: &Scene<T>,
+        (model, start): (TreeModel<T, S>, TreeState<T>),
+        (options, step): (Options<T>, TreeStep<T, S>),
+        (natural, state): (&NaturalModel<T, D>, &mut State<T>),
+    ) -> Result<Self, OptionError> {
+        options.validate()?;
+        let mut workspace = Workspace::new(&model);
+        let rank = model.rank(&start, &mut workspace).unwrap_or_else(|_| model.n_rows());
+        let motions = (0..scene.bodies.len()).map(|b| natural.motion(scene, b, state)).collect();
+        let coordinates = model.coordinate_links(scene);
+        let mut tree = Self {
+            angles: angles(scene, natural, &coordinates),
+            coordinates,
+            saved: start.clone(),
+            state: start,
+            workspace,
+            options,
+            step,
+            motions,
+            terms: natural.terms(),
+            rank,
+            energies: [0.0; 2],
+            saved_energies: [0.0; 2],
+            model,
+        };
+        tree.write(natural, state);
+        Ok(tree)
+    }
+
+    /// Steps with other options from now on.
+    ///
+    /// # Errors
+    /// [`OptionError`] for an option out of range; nothing is changed then.
+    pub fn set_options(&mut self, options: Options<T>) -> Result<(), OptionError> {
+        options.validate()?;
+        self.options = options;
+        Ok(())
+    }
+
+    /// Writes the tree's state in natural coordinates.
+    fn write<const D: usize>(&mut self, natural: &NaturalModel<T, D>, state: &mut State<T>) {
+        self.model.write_motions(&self.state, &mut self.workspace, &mut self.motions);
+        state.t = self.state.t;
+        state.work = self.state.work;
+        state.power = self.state.power;
+        state.applied.copy_from_slice(&self.state.applied);
+        for &(place, angle) in &self.angles {
+            state.memory[place] = match angle {
+                Angle::Of(link) => self.model.coordinate(&self.state, link),
+                Angle::Between(bodies) => self.model.turn_between(&self.state, bodies),
+            };
+        }
+        natural.take_motions(&self.motions, &mut self.terms, state);
+        self.evaluate_energies();
+    }
+
+    fn evaluate_energies(&mut self) {
+        let energies = self.model.energies(&self.state, &mut self.workspace);
+        self.energies = energies.map(Real::to_f64);
+    }
+}
+
+impl<T: Real, S: Space<T>, const D: usize> Formulation<T, D> for Tree<T, S> {
+    fn step(
+        &mut self,
+        natural: &NaturalModel<T, D>,
+        step: Step<T>,
+        state: &mut State<T>,
+    ) -> Result<StepReport<T>, StepError> {
+        let Self { model, options, workspace, .. } = self;
+        let report = (self.step)(model, step.dt, options, &mut self.state, workspace)?;
+        self.write(natural, state);
+        Ok(report)
+    }
+
+    fn take_inputs(
+        &mut self,
+        natural: &NaturalModel<T, D>,
+        state: &mut State<T>,
+    ) -> Result<(), StepError> {
+        self.state.inputs.copy_from_slice(&state.inputs);
+        if self.model.take_inputs(&self.options, &mut self.state, &mut self.workspace)? {
+            self.write(natural, state);
+        }
+        Ok(())
+    }
+
+    fn save_trial(&mut self) {
+        self.saved.copy_from(&self.state);
+        self.saved_energies = self.energies;
+    }
+
+    fn restore_trial(&mut self) {
+        self.state.copy_from(&self.saved);
+        self.energies = self.saved_energies;
+    }
+
+    fn history(&self) -> History<T> {
+        let (mut state, mut own) = (self.state.clone(), self.workspace.history());
+        let mut energies = self.energies;
+        Book::write(|book| walk((&mut state, &mut energies), &mut own, book)).unwrap_or_default()
+    }
+
+    fn set_history(&mut self, history: &History<T>) -> Result<(), RestoreError> {
+        let (mut state, mut own) = (self.state.clone(), self.workspace.history());
+        let mut energies = self.energies;
+        Book::read(history, |book| walk((&mut state, &mut energies), &mut own, book))?;
+        if !self.workspace.set_history(&own, &self.options) {
+            return Err(RestoreError);
+        }
+        (self.state, self.energies) = (state, energies);
+        Ok(())
+    }
+
+    fn terms(&self) -> Option<&Terms<T>> {
+        None
+    }
+
+    fn energies(&self, _natural: &NaturalModel<T, D>, state: &State<T>) -> [f64; 3] {
+        let [kinetic, potential] = self.energies;
+        [kinetic, potential, state.work.to_f64()]
+    }
+
+    /// Freedoms of the tree, equations of its cut joints, their rank.
+    fn sizes(&self) -> Option<[usize; 3]> {
+        Some([self.state.v.len(), self.model.n_rows(), self.rank])
+    }
+
+    /// Nothing where the joint is cut, or turns in space.
+    fn coordinate(&self, joint: usize, number: usize) -> Option<T> {
+        let link = (*self.coordinates.get(joint)?.get(number)?)?;
+        Some(self.model.coordinate(&self.state, link))
+    }
+
+    fn owner_of_unknown(&self, _natural: &NaturalModel<T, D>, unknown: usize) -> Owner {
+        self.model.owner_of_unknown(unknown)
+    }
+
+    fn owner_of_row(&self, _natural: &NaturalModel<T, D>, row: usize) -> Owner {
+        self.model.owner_of_row(row)
+    }
+
+    fn set_time(&mut self, t: T) {
+        self.state.t = t;
+    }
+
+    fn set_work(&mut self, work: T) {
+        self.state.work = work;
+    }
+
+    fn watch(&mut self) {
+        self.evaluate_energies();
+    }
+
+    fn set_max_steps(&mut self, n: u32) {
+        self.options.max_steps = n.max(1);
+    }
+
+    fn can_take_over(&self, other: &dyn Formulation<T, D>) -> Result<(), SwitchError> {
+        let other = other.as_any().downcast_ref::<Self>().ok_or(SwitchError::Formulation)?;
+        let is_same = self.model.has_same_coordinates(&other.model);
+        if is_same { Ok(()) } else { Err(SwitchError::Coordinates) }
+    }
+
+    fn take_over(&mut self, other: &dyn Formulation<T, D>) {
+        if let Some(other) = other.as_any().downcast_ref::<Self>() {
+            self.state.copy_coordinates(&other.state);
+        }
+    }
+
+    fn refresh(
+        &mut self,
+        natural: &NaturalModel<T, D>,
+        state: &mut State<T>,
+    ) -> Result<(), StepError> {
+        self.state.inputs.copy_from_slice(&state.inputs);
+        self.model.settle(&mut self.state, &mut self.workspace)?;
+        self.write(natural, state);
+        Ok(())
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+
+    fn clone_box(&self) -> Box<dyn Formulation<T, D>> {
+        Box::new(self.clone())
+    }
+}
+
+/// Over all that is remembered.
+fn walk<T: Real>(
+    (state, energies): (&mut TreeState<T>, &mut [f64; 2]),
+    own: &mut OfWorkspace<T>,
+    book: &mut Book<'_, T>,
+) -> Restored {
+    book.kind(3)?;
+    // What is set goes with the natural state.
+    let TreeState { t, z, v, a, lambda, inputs: _, applied, work, power } = state;
+    book.real("t", t)?;
+    book.real("work", work)?;
+    book.real("power", power)?;
+    book.rows("z", z)?;
+    book.rows("v", v)?;
+    book.rows("a", a)?;
+    book.rows("lambda", lambda)?;
+    book.vectors("inputs", applied.as_chunks_mut::<3>().0)?;
+    let OfWorkspace { rank, pivots, pair, eighth, extrapolation, radau } = own;
+    let mut count = *rank as u64;
+    book.count("rank", &mut count)?;
+    *rank = usize::try_from(count).map_err(|_| RestoreError)?;
+    book.rows("pivots", pivots)?;
+    book.option("rk54", pair, walk_steps)?;
+    book.option("rk853", eighth, walk_steps)?;
+    book.option("extrapolation", extrapolation, walk_steps)?;
+    book.option("radau5", radau, |book, (steps, slopes)| {
+        walk_steps(book, steps)?;
+        walk_slopes(book, slopes)
+    })?;
+    book.doubles("energies", energies)
+}
+
+/// Over the control of a step inside a step.
+fn walk_steps<T: Real>(book: &mut Book<'_, T>, history: &mut AdaptiveHistory<T>) -> Restored {
+    let AdaptiveHistory { step, control: (memory, was_rejected), counts } = history;
+    book.real("step", step)?;
+    book.option("error", memory, |book, x| book.float("error", x))?;
+    book.flag("was rejected", was_rejected)?;
+    book.count("accepted", &mut counts.accepted)?;
+    book.count("rejected", &mut counts.rejected)?;
+    book.count("evaluations", &mut counts.evaluations)
+}
+
+fn walk_slopes<T: Real>(book: &mut Book<'_, T>, history: &mut RadauHistory<T>) -> Restored {
+    let RadauHistory { jacobian, has_jacobian, factored, stages, step, rest } = history;
+    book.list("jacobian", jacobian)?;
+    book.list("stages", stages)?;
+    book.flag("has jacobian", has_jacobian)?;
+    book.option("factored", factored, |book, x| book.real("step", x))?;
+    book.option("step", step, |book, x| book.real("step", x))?;
+    book.real("rest", rest)
+}

@@ -1,0 +1,113 @@
+//! The formulation of this crate behind the common trait: [`StateSpace`].
+
+use crate::history::History as OfWorkspace;
+use crate::options::Options;
+use crate::workspace::Workspace;
+use crate::{step::step, take_inputs};
+use alloc::boxed::Box;
+use core::any::Any;
+use mbs_core::Real;
+use mbs_core::formulation::Formulation;
+use mbs_core::history::{Book, History, RestoreError, Restored};
+use mbs_core::model::{Model, State, Terms};
+use mbs_core::natural::NaturalModel;
+use mbs_core::step::{OptionError, Step, StepError, StepReport};
+
+/// The modified state-space formulation.
+#[derive(Debug, Clone)]
+pub struct StateSpace<T> {
+    options: Options<T>,
+    workspace: Box<Workspace<T>>,
+}
+
+impl<T: Real> StateSpace<T> {
+    /// A formulation of `model`; `start` is a consistent state, and the rank of its constraints is the rank that stands.
+    ///
+    /// # Errors
+    /// [`OptionError`] for an option out of range.
+    pub fn new(
+        model: &impl Model<T>,
+        options: Options<T>,
+        start: &State<T>,
+    ) -> Result<Self, OptionError> {
+        options.validate()?;
+        Ok(Self { options, workspace: Box::new(Workspace::new(model, start)) })
+    }
+
+    /// Steps with other options from now on.
+    ///
+    /// # Errors
+    /// [`OptionError`] for an option out of range; nothing is changed then.
+    pub fn set_options(&mut self, options: Options<T>) -> Result<(), OptionError> {
+        options.validate()?;
+        self.options = options;
+        Ok(())
+    }
+}
+
+impl<T: Real, const D: usize> Formulation<T, D> for StateSpace<T> {
+    fn step(
+        &mut self,
+        model: &NaturalModel<T, D>,
+        size: Step<T>,
+        state: &mut State<T>,
+    ) -> Result<StepReport<T>, StepError> {
+        step(model, size, &self.options, state, &mut self.workspace)
+    }
+
+    fn take_inputs(
+        &mut self,
+        model: &NaturalModel<T, D>,
+        state: &mut State<T>,
+    ) -> Result<(), StepError> {
+        take_inputs(model, state, &mut self.workspace).map(drop)
+    }
+
+    fn history(&self) -> History<T> {
+        let (mut own, mut terms) = (self.workspace.history(), self.workspace.terms().clone());
+        Book::write(|book| walk(&mut own, &mut terms, book)).unwrap_or_default()
+    }
+
+    fn set_history(&mut self, history: &History<T>) -> Result<(), RestoreError> {
+        let mut own = self.workspace.history();
+        Book::read(history, |book| walk(&mut own, self.workspace.terms_mut(), book))?;
+        if self.workspace.set_history(&own) { Ok(()) } else { Err(RestoreError) }
+    }
+
+    fn terms(&self) -> Option<&Terms<T>> {
+        Some(self.workspace.terms())
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+
+    fn clone_box(&self) -> Box<dyn Formulation<T, D>> {
+        Box::new(self.clone())
+    }
+}
+
+/// Over all that is remembered.
+fn walk<T: Real>(
+    own: &mut OfWorkspace<T>,
+    terms: &mut Terms<T>,
+    book: &mut Book<'_, T>,
+) -> Restored {
+    book.kind(2)?;
+    let OfWorkspace { order, usual, first_basis, is_stale, choices } = own;
+    book.pairs("pivots", &mut order.pivots)?;
+    book.rows("row scales", &mut order.row_scales)?;
+    book.list("pivot sizes", &mut order.sizes)?;
+    if order.sizes.len() != order.pivots.len() {
+        return Err(RestoreError);
+    }
+    book.real("usual pivot", usual)?;
+    book.real("first basis", first_basis)?;
+    book.flag("chooses anew", is_stale)?;
+    book.small("choices", choices)?;
+    book.laws(terms)
+}
