@@ -56,6 +56,14 @@ mod tests {
         );
         assert_eq!(find("force"), Some(Listed { module: "force", feature: None, has_law: false }));
         assert!(all.len() >= 15);
+        // Each file of a kind has its line.
+        let folder = crate::process::root().join("mbs-core/src/effects");
+        for entry in std::fs::read_dir(folder).expect("the folder") {
+            let name = entry.expect("a file").file_name().into_string().expect("a name");
+            let module = name.strip_suffix(".rs").expect("a file of Rust");
+            let is_kind = !["mod", "data", "example", "field", "kind", "table"].contains(&module);
+            assert_eq!(find(module).is_some(), is_kind, "{module} in the list of effects");
+        }
         // Each feature of the list is a feature of mbs-core, and in `effects`.
         let manifest = include_str!("../../mbs-core/Cargo.toml");
         for feature in all.iter().filter_map(|listed| listed.feature) {

@@ -8,8 +8,13 @@ macro_rules! effects {
         $(body $Body:ident($BodyLaw:ident $(<$BS:ident>)?) = $body_tag:literal)?;
     )*) => {
         $(pub mod $module;)*
+        /// The data of each kind.
         #[cfg(feature = "alloc")]
-        pub use self::{$($module::$Kind),*};
+        pub mod kinds {
+            $(pub use super::$module::$Kind;)*
+        }
+        #[cfg(feature = "alloc")]
+        pub use kinds::*;
         #[cfg(feature = "alloc")]
         kind::kinds! { $($Kind $module $gate),* }
 

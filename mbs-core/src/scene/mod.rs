@@ -32,10 +32,7 @@ mod output;
 mod resolve;
 
 #[cfg(feature = "alloc")]
-pub use crate::effects::{
-    Actuator, AeroDrag, BodyTorque, Bumper, Bushing, EffectKind, Force, Friction, JointTorque,
-    Limit, Own, Polynomial, SpeedHold, SpringDamper, Tire, TorsionSpring,
-};
+pub use crate::effects::{EffectKind, kinds::*};
 #[cfg(feature = "alloc")]
 pub use axes::transverse;
 #[cfg(feature = "alloc")]
