@@ -140,7 +140,11 @@ fn gentler(joint: &Joint<f64>, dimension: Dimension) -> Vec<JointKind> {
         let is_placed = (!needed[0] || joint.axes[0].is_some()) && (!needed[1] || is_found);
         let is_allowed = dimension == Dimension::Spatial || !kind.is_spatial_only();
         let is_joint = !joint.kind.is_link() && !kind.is_link();
+        // a bearing is not replaced by what neither holds its place nor its axis
+        let is_near = kind.translation(dimension) == joint.kind.translation(dimension)
+            || kind.rotation(dimension) == joint.kind.rotation(dimension);
         let is_gentler = is_joint
+            && is_near
             && kind.n_coordinates(dimension) > joint.kind.n_coordinates(dimension)
             && own.iter().all(lets);
         kind.is_free() || is_allowed && is_placed && is_gentler

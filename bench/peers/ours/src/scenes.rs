@@ -54,8 +54,8 @@ pub(crate) fn add_joint<T: Real>(
     bodies: [BodyRef; 2],
     [x, y]: [T; 2],
 ) {
-    let is_turning = kind == JointKind::Revolute && scene.dimension == Dimension::Spatial;
-    let axis = is_turning.then_some([T::ZERO, T::ZERO, T::ONE]);
+    let [needs_axis, _] = kind.needs_axes(scene.dimension);
+    let axis = needs_axis.then_some([T::ZERO, T::ZERO, T::ONE]);
     let points = [[x, y, T::ZERO]; 2];
     scene.joints.push(Joint { name: String::new(), kind, bodies, points, axes: [axis, None] });
 }
