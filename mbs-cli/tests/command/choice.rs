@@ -15,6 +15,11 @@ fn the_evidence_stands_in_the_json_in_files_and_on_the_page() {
     assert_eq!(json["formulation"], "auto");
     assert!(json["chosen"]["reasons"][0].as_str().unwrap().contains("for an error of 0.001"));
     let candidates = evidence["candidates"].as_array().unwrap();
+    for [old, new] in
+        [["over_chosen", "cost_ratio"], ["out", "rejected"], ["basis", "prediction_basis"]]
+    {
+        assert!(candidates.iter().all(|c| c.get(old).is_some() && c[old] == c[new]), "{new}");
+    }
     assert_eq!(candidates[0]["rank"], 1);
     for candidate in candidates {
         // a rank with its price, or a reason

@@ -27,6 +27,7 @@ fn json_is_one_object_with_its_keys() {
         "chosen",
         "dimension",
         "duration",
+        "effect_costs",
         "effects",
         "error",
         "formulation",
@@ -66,6 +67,9 @@ fn json_is_one_object_with_its_keys() {
         assert!(prices[key].is_number(), "{key}");
     }
     assert_eq!(prices["timed_steps"], 1000);
+    assert_eq!(prices, &value["effect_costs"]);
+    assert_eq!(simulated["rods"], simulated["thin_rods"]);
+    assert_eq!(value["absent"][0]["what"], value["absent"][0]["description"]);
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod checkpoint;
 mod choice;
 mod command;
 mod compare;
+mod contract;
 mod doctor;
 mod double_double;
 mod explain;

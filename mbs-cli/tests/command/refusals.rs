@@ -32,7 +32,7 @@ fn steps_and_errors_that_cannot_be_meant_are_refused_with_the_true_reason() {
         (["--error", "0"], "more than 0 and less than 1, but is 0", "such as 1e-4"),
         (["--error", "NaN"], "more than 0 and less than 1, but is NaN", "such as 1e-4"),
         (["--error", "-1e-3"], "more than 0 and less than 1, but is -0.001", "such as 1e-4"),
-        (["--error", "1e-300"], "finer than numbers of f64 are", "1e-13 or more"),
+        (["--error", "1e-300"], "below the resolution of f64", "1e-13 or more"),
         (["--deadline", "-1e-3"], "must be a time longer than zero", "such as 1ms"),
     ] {
         let told = refused(&arguments);
