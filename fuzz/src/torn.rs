@@ -2,7 +2,7 @@
 
 use crate::Dice;
 use mbs::core::scene::{Dimension, Scene};
-use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
+use mbs::{Overrides, Settings, Simulation};
 
 /// Steps before a state is kept, and after it is taken up again.
 const STEPS: [usize; 2] = [3, 3];
@@ -34,10 +34,7 @@ fn go<const D: usize>(
     scene: &Scene<f64>,
     settings: &Settings,
     dice: &mut Dice,
-) -> Result<Option<bool>, String>
-where
-    Plane<D>: InSpace<f64>,
-{
+) -> Result<Option<bool>, String> {
     let Ok(mut simulation) = Simulation::<f64, D>::new(scene, settings) else { return Ok(None) };
     for _ in 0..STEPS[0] {
         if simulation.step(settings.step).is_err() {

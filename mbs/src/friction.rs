@@ -12,7 +12,6 @@ use crate::choice::IntegratorKind;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, cross};
 use mbs_core::natural::joint_axes;
@@ -60,10 +59,7 @@ impl Frictions {
         &self,
         scene: &Scene<T>,
         simulation: &Simulation<T, D>,
-    ) -> Option<StopError>
-    where
-        Plane<D>: InSpace<T>,
-    {
+    ) -> Option<StopError> {
         let is_passed = |friction: &&Friction| {
             let [rate, acceleration] = motion(scene, simulation, friction.joint);
             let change = acceleration.abs() * self.step;
@@ -79,10 +75,7 @@ fn motion<T: Real, const D: usize>(
     scene: &Scene<T>,
     simulation: &Simulation<T, D>,
     joint: usize,
-) -> [f64; 2]
-where
-    Plane<D>: InSpace<T>,
-{
+) -> [f64; 2] {
     let joint = &scene.joints[joint];
     let [first, second] = joint.bodies.map(|body| match body {
         BodyId::Ground => RigidMotion::at_rest(Vector::zeros()),

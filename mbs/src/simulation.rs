@@ -9,7 +9,6 @@ use crate::methods::Request;
 use crate::ready::Ready;
 use crate::settings::Settings;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::control::{Accepted, Attempt, Invariant, Limit};
 use mbs_core::formulation::{Formulation, energies};
@@ -36,10 +35,7 @@ pub struct Simulation<T: Real, const D: usize> {
     invariant: Invariant,
 }
 
-impl<T: Real, const D: usize> Simulation<T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Simulation<T, D> {
     /// Builds the model of a scene, assembles it, and allocates everything a step needs.
     ///
     /// # Errors

@@ -5,8 +5,8 @@ use crate::common::{path, scene};
 use mbs::core::scene::{Dimension, Effect, EffectKind, Motion, Scene, Signal};
 use mbs::scene_file::{Provenance, SceneFile};
 use mbs::{
-    CHECKPOINT, Checkpoint, FormulationKind, InSpace, Keeping, Outcome, Overrides, Plane, Settings,
-    Simulation, run_document, run_document_kept,
+    CHECKPOINT, Checkpoint, FormulationKind, Keeping, Outcome, Overrides, Settings, Simulation,
+    run_document, run_document_kept,
 };
 
 mod bytes;
@@ -210,10 +210,7 @@ fn driven() -> Scene<f64> {
 }
 
 /// Bits of state and energies after each of some steps.
-fn bits<const D: usize>(simulation: &mut Simulation<f64, D>, steps: usize) -> Vec<u64>
-where
-    Plane<D>: InSpace<f64>,
-{
+fn bits<const D: usize>(simulation: &mut Simulation<f64, D>, steps: usize) -> Vec<u64> {
     let mut told = Vec::new();
     for k in 0..=steps {
         let s = simulation.state();

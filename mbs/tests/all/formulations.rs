@@ -4,12 +4,9 @@ use crate::common::{scene, settings};
 use mbs::core::scene::{Dimension, Scene};
 use mbs::core::step::{Step, StepError};
 use mbs::scene_file::{Family, SceneFile, generate};
-use mbs::{FORMULATIONS, FormulationKind, InSpace, Overrides, Plane, Settings, Simulation};
+use mbs::{FORMULATIONS, FormulationKind, Overrides, Settings, Simulation};
 
-fn simulation<const D: usize>(scene: &Scene<f64>, overrides: Overrides) -> Simulation<f64, D>
-where
-    Plane<D>: InSpace<f64>,
-{
+fn simulation<const D: usize>(scene: &Scene<f64>, overrides: Overrides) -> Simulation<f64, D> {
     let settings = Settings::new(scene, &overrides).expect("the settings are built");
     Simulation::new(scene, &settings).expect("the scene assembles")
 }
@@ -93,10 +90,7 @@ fn a_clone_steps_to_the_same_bits_and_leaves_the_original_as_it_is() {
     }
 }
 
-fn clones<const D: usize>(scene: &Scene<f64>, formulation: FormulationKind)
-where
-    Plane<D>: InSpace<f64>,
-{
+fn clones<const D: usize>(scene: &Scene<f64>, formulation: FormulationKind) {
     let settings = settings(scene, formulation.name(), Some(1e-3));
     let mut original = Simulation::<f64, D>::new(scene, &settings).expect("it assembles");
     let before = go(&mut original, 20);

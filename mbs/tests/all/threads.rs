@@ -5,7 +5,7 @@ use crate::common;
 use crate::common::{SCENES, scene};
 use mbs::core::scene::{Dimension, Scene};
 use mbs::scene_file::{Family, SceneFile, generate};
-use mbs::{InSpace, Overrides, Plane, Settings, Simulation};
+use mbs::{Overrides, Settings, Simulation};
 
 /// Scenes of the repository that are vehicles, and those with inputs of every kind.
 const OTHERS: [&str; 8] = [
@@ -32,10 +32,7 @@ fn bits_in<const D: usize>(
     formulation: &str,
     threads: usize,
     steps: usize,
-) -> Vec<u64>
-where
-    Plane<D>: InSpace<f64>,
-{
+) -> Vec<u64> {
     let formulation = Some(formulation.to_owned());
     let overrides = Overrides { formulation, threads: Some(threads), ..Overrides::default() };
     let settings = Settings::new(scene, &overrides).expect("the settings are built");

@@ -15,6 +15,7 @@ pub(crate) use child::finish;
 pub(crate) use machine::Machine;
 pub(crate) use machine::{cores, processor};
 use measured::{Measured, Scene};
+use serde_json::Value;
 use std::process::ExitCode;
 use std::time::Duration;
 pub(crate) use threads::Threads;

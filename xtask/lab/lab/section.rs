@@ -41,7 +41,7 @@ impl Claim {
 enum Block {
     Heading(String),
     Words(String),
-    Table(Vec<&'static str>, Vec<Vec<String>>),
+    Table(Vec<String>, Vec<Vec<String>>),
     /// A table whose cells lead to rows of another on the page.
     Leading(Vec<&'static str>, Vec<Vec<Leading>>),
     /// A table that is on the page alone, behind its title; rows that are led to have names.
@@ -89,8 +89,9 @@ impl Section {
     }
 
     /// Adds a table; its first column has names.
-    pub(crate) fn table(&mut self, head: &[&'static str], rows: Vec<Vec<String>>) {
-        self.blocks.push(Block::Table(head.to_vec(), rows));
+    pub(crate) fn table(&mut self, head: &[&str], rows: Vec<Vec<String>>) {
+        let head = head.iter().map(|&name| name.to_owned()).collect();
+        self.blocks.push(Block::Table(head, rows));
     }
 
     /// Adds a long table that opens on the page at a touch, and is not on a terminal.
@@ -141,7 +142,7 @@ impl Section {
             match block {
                 Block::Heading(heading) => text.push_str(&format!("\n{heading}\n")),
                 Block::Words(sentences) => paragraph(&mut text, 0, sentences),
-                Block::Table(head, rows) => grid(&mut text, head, rows),
+                Block::Table(head, rows) => grid(&mut text, &names(head), rows),
                 Block::Leading(head, rows) => {
                     let row = |row: &Vec<Leading>| row.iter().map(|c| c.text.clone()).collect();
                     grid(&mut text, head, &rows.iter().map(row).collect::<Vec<_>>());
@@ -172,7 +173,7 @@ impl Section {
                 Block::Words(sentences) => {
                     html.push_str(&format!("<p>{}</p>\n", words(sentences)));
                 }
-                Block::Table(head, rows) => html.push_str(&table(head, rows, &[])),
+                Block::Table(head, rows) => html.push_str(&table(&names(head), rows, &[])),
                 Block::Leading(head, rows) => html.push_str(&leading(head, rows)),
                 Block::Claim(claim) => {
                     html.push_str(&format!("<ul class=\"claims\">{}</ul>\n", item(claim)));
@@ -226,6 +227,11 @@ fn leading(head: &[&str], rows: &[Vec<Leading>]) -> String {
         html.push_str("</tr>\n");
     }
     html + "</tbody>\n</table>\n"
+}
+
+/// Names as they are borrowed.
+fn names(all: &[String]) -> Vec<&str> {
+    all.iter().map(String::as_str).collect()
 }
 
 /// A table on a page; in the first column are names, and rows may have names that are led to.

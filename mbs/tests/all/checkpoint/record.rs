@@ -4,7 +4,7 @@ use super::layout::Parts;
 use super::{scratch, told};
 use crate::common::scene;
 use mbs::core::scene::Scene;
-use mbs::{Checkpoint, InSpace, Keeping, Overrides, Plane, Progress, Settings, run_kept};
+use mbs::{Checkpoint, Keeping, Overrides, Progress, Settings, run_kept};
 use std::path::PathBuf;
 
 /// Takes the checkpoints that stand there at the first step, and at a time.
@@ -29,10 +29,7 @@ impl Progress for Copies {
 fn kept<const D: usize>(
     (scene, settings): (&Scene<f64>, &Settings),
     at: f64,
-) -> ([String; 4], [Parts; 2])
-where
-    Plane<D>: InSpace<f64>,
-{
+) -> ([String; 4], [Parts; 2]) {
     let out = scratch(&format!("record-{:?}", std::thread::current().id()));
     let mut keeping = Keeping::new(&out, settings.step).expect("a directory of ours");
     let mut copies = Copies { at, path: keeping.path(), first: Vec::new(), bytes: Vec::new() };
@@ -45,10 +42,7 @@ where
 
 /// That a run gives the same from its checkpoint before time `at`, and something else where one of the items is left out: it is
 /// then as in a run that has made no step.
-fn every_item_matters<const D: usize>(name: &str, overrides: &Overrides, at: f64, items: &[&str])
-where
-    Plane<D>: InSpace<f64>,
-{
+fn every_item_matters<const D: usize>(name: &str, overrides: &Overrides, at: f64, items: &[&str]) {
     let scene = scene(name);
     let settings = Settings::new(&scene, overrides).expect("good settings");
     let (whole, [first, kept]) = kept::<D>((&scene, &settings), at);
