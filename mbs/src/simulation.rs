@@ -105,9 +105,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn advance(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
         let Self { model, state, formulation, control, invariant, .. } = self;
         let formulation = &mut **formulation;
-        let step = Step { dt: rest, length: model.length() };
+        // Before a formulation prepares its index for the step.
+        let step = Step { dt: rest, length: model.length() }.checked()?;
         if let Some(control) = control {
-            step.checked()?;
             formulation.take_inputs(model, state)?;
             return control.step((model, formulation), state, invariant, rest);
         }

@@ -112,8 +112,8 @@ fn clones_that_share_threads_step_at_the_same_time() {
             threads: Some(threads),
             ..Overrides::default()
         };
-        let alone = go(&mut simulation::<2>(&scene, of(1)), 4);
-        let mut original = simulation::<2>(&scene, of(2));
+        let alone = go(&mut simulation::<3>(&scene, of(1)), 4);
+        let mut original = simulation::<3>(&scene, of(2));
         travels(&original);
         let mut clone = original.clone();
         let both = std::thread::scope(|scope| {
