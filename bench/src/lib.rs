@@ -82,10 +82,7 @@ fn measure<const D: usize>(
     scene: mbs_core::scene::Scene<f64>,
     formulations: &str,
     request: &Request,
-) -> Result<(), String>
-where
-    mbs::Plane<D>: mbs::InSpace<f64>,
-{
+) -> Result<(), String> {
     let is_own = |n: &&str| lane::Method::named(n).is_some();
     let (own, others): (Vec<_>, Vec<_>) = formulations.split(',').partition(is_own);
     for name in others {

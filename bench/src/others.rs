@@ -6,7 +6,7 @@ use crate::race::{Runner, Timing, race, timed};
 use crate::scenes::steps;
 use crate::{Request, say};
 use mbs::typed::Simulation;
-use mbs::{FormulationKind, InSpace, Method, Plane, Settings};
+use mbs::{FormulationKind, Method, Settings};
 use mbs_core::scene::Scene;
 use serde_json::{Value, json};
 
@@ -14,19 +14,13 @@ use serde_json::{Value, json};
 const LONGEST: f64 = 2.0;
 
 /// A simulation that is stepped, and its counts.
-struct Steps<const D: usize>
-where
-    Plane<D>: InSpace<f64>,
-{
+struct Steps<const D: usize> {
     simulation: Simulation<f64, D>,
     dt: f64,
     sums: Sums,
 }
 
-impl<const D: usize> Runner for Steps<D>
-where
-    Plane<D>: InSpace<f64>,
-{
+impl<const D: usize> Runner for Steps<D> {
     fn run(&mut self, n: u32) -> Result<f64, String> {
         timed(|| {
             for _ in 0..n {
@@ -48,10 +42,7 @@ pub(crate) fn measure<const D: usize>(
     scene: &Scene<f64>,
     formulation: &str,
     request: &Request,
-) -> Result<(), String>
-where
-    Plane<D>: InSpace<f64>,
-{
+) -> Result<(), String> {
     let tell = |threads: usize, told: [Value; 2]| {
         let team = if threads == 1 { "alone" } else { "crew" };
         let mut line = json!({
@@ -87,10 +78,7 @@ fn raced<const D: usize>(
     scene: &Scene<f64>,
     formulation: &str,
     request: &Request,
-) -> Result<Raced<D>, String>
-where
-    Plane<D>: InSpace<f64>,
-{
+) -> Result<Raced<D>, String> {
     let (dt, _) = steps(scene);
     let simulated = |threads: usize| {
         let asked = Method {

@@ -3,7 +3,7 @@
 use crate::Dice;
 use mbs::core::scene::{Dimension, Scene};
 use mbs::typed::Simulation;
-use mbs::{InSpace, Method, Plane, Settings};
+use mbs::{Method, Settings};
 
 /// Steps before a state is kept, and after it is taken up again.
 const STEPS: [usize; 2] = [3, 3];
@@ -35,10 +35,7 @@ fn go<const D: usize>(
     scene: &Scene<f64>,
     settings: &Settings,
     dice: &mut Dice,
-) -> Result<Option<bool>, String>
-where
-    Plane<D>: InSpace<f64>,
-{
+) -> Result<Option<bool>, String> {
     let Ok(mut simulation) = Simulation::<f64, D>::new(scene, settings) else { return Ok(None) };
     for _ in 0..STEPS[0] {
         if simulation.step(settings.step).is_err() {

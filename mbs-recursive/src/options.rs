@@ -77,29 +77,27 @@ impl<T: Real> Options<T> {
     /// # Errors
     /// [`OptionError`] names the option.
     pub fn validate(&self) -> Result<(), OptionError> {
-        let closure = match self.closure {
-            Closure::Constraints => [("regularisation", self.regularisation); 3],
-            Closure::Report { alpha, omega, mu } => {
-                [("alpha", alpha), ("omega", omega), ("mu", mu)]
-            }
+        let positive = |name, value: T| {
+            let is_positive = value > T::ZERO && value.is_finite();
+            if is_positive { Ok(()) } else { Err(OptionError::NotPositive(name)) }
         };
-        let first_step = self.first_step.map(|step| ("first_step", step));
-        let others = [("tolerance", self.tolerance), ("error", self.error)];
-        for (name, value) in closure.into_iter().chain(others).chain(first_step) {
-            if !(value > T::ZERO && value.is_finite()) {
-                return Err(OptionError::NotPositive(name));
+        let some = |name, count| {
+            if count > 0 { Ok(()) } else { Err(OptionError::NotPositive(name)) }
+        };
+        match self.closure {
+            Closure::Constraints => positive("regularisation", self.regularisation)?,
+            Closure::Report { alpha, omega, mu } => {
+                positive("alpha", alpha)?;
+                positive("omega", omega)?;
+                positive("mu", mu)?;
             }
         }
-        let counts = [
-            ("max_iterations", self.max_iterations),
-            ("max_sweeps", self.max_sweeps),
-            ("max_steps", self.max_steps),
-        ];
-        for (name, count) in counts {
-            if count == 0 {
-                return Err(OptionError::NotPositive(name));
-            }
-        }
+        positive("tolerance", self.tolerance)?;
+        positive("error", self.error)?;
+        positive("first_step", self.first_step.unwrap_or(T::ONE))?;
+        some("max_iterations", self.max_iterations)?;
+        some("max_sweeps", self.max_sweeps)?;
+        some("max_steps", self.max_steps)?;
         let Integrator { alpha_m, alpha_f, .. } = self.integrator;
         if alpha_m != T::ZERO || alpha_f != T::ZERO {
             return Err(OptionError::NotBuilt("integrator"));

@@ -3,7 +3,6 @@
 use crate::checkpoint::tape::{Tape, Told};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 
 /// Steps in a row, or less at the end of a run, that it may be off by more: the first steps from rest turn little over, and
@@ -33,10 +32,7 @@ impl Alarm {
         &mut self,
         simulation: &Simulation<T, D>,
         is_last: bool,
-    ) -> Option<StopError>
-    where
-        Plane<D>: InSpace<T>,
-    {
+    ) -> Option<StopError> {
         self.rings_for(simulation, is_last, None)
     }
 
@@ -46,10 +42,7 @@ impl Alarm {
         simulation: &Simulation<T, D>,
         is_last: bool,
         reason: Option<StopError>,
-    ) -> Option<StopError>
-    where
-        Plane<D>: InSpace<T>,
-    {
+    ) -> Option<StopError> {
         let invariant = simulation.invariant();
         let is_off = invariant.is_off(self.share);
         let (error, turned_over) = (invariant.error().abs(), invariant.turned_over());

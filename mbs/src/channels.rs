@@ -3,7 +3,6 @@
 use crate::checkpoint::tape::{Tape, Told, holds};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
@@ -63,10 +62,7 @@ impl<T: Real, const D: usize> Channels<T, D> {
     ///
     /// # Errors
     /// [`StopError::Step`] with the joint whose turns are not known.
-    pub(crate) fn track(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError>
-    where
-        Plane<D>: InSpace<T>,
-    {
+    pub(crate) fn track(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
         let state = simulation.state();
         if simulation.has_own_coordinates() {
             self.measures.track_with(state, |joint, number| simulation.coordinate(joint, number));

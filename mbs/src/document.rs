@@ -4,7 +4,6 @@ use crate::checkpoint::{Checkpoint, CheckpointError, Keeping};
 use crate::precision::{PrecisionError, ReadScene, Work};
 use crate::run::{Outcome, Progress, run, run_kept};
 use crate::settings::Settings;
-use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;
@@ -24,10 +23,7 @@ pub(crate) struct Plain<'a>(pub(crate) &'a mut dyn FnMut(f64), pub(crate) &'a Se
 impl Work for Plain<'_> {
     type Done = Outcome;
 
-    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome
-    where
-        Plane<D>: InSpace<T>,
-    {
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome {
         run::<T, D>(scene, self.1, &mut Listener(self.0))
     }
 }
@@ -38,10 +34,7 @@ struct InParts<'a>(Listener<'a>, &'a Settings, Option<&'a Checkpoint>, Option<&'
 impl Work for InParts<'_> {
     type Done = Result<Outcome, CheckpointError>;
 
-    fn done<T: Real, const D: usize>(mut self, scene: &Scene<T>) -> Self::Done
-    where
-        Plane<D>: InSpace<T>,
-    {
+    fn done<T: Real, const D: usize>(mut self, scene: &Scene<T>) -> Self::Done {
         run_kept::<T, D>(scene, self.1, &mut self.0, (self.2, self.3))
     }
 }

@@ -12,7 +12,6 @@ use crate::choice::IntegratorKind;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::natural::NaturalModel;
 use mbs_core::outputs::CoordinateMotion;
@@ -58,10 +57,7 @@ impl<T: Real, const D: usize> Frictions<T, D> {
     }
 
     /// The first one that the last step has passed over.
-    pub(crate) fn passed(&self, simulation: &Simulation<T, D>) -> Option<StopError>
-    where
-        Plane<D>: InSpace<T>,
-    {
+    pub(crate) fn passed(&self, simulation: &Simulation<T, D>) -> Option<StopError> {
         let is_passed = |friction: &&Friction<T, D>| {
             let [rate, acceleration] = friction.motion.at(simulation.state()).map(Real::to_f64);
             let change = acceleration.abs() * self.step;

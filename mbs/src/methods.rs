@@ -5,7 +5,6 @@
 use crate::choice::IntegratorKind;
 use crate::settings::Settings;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use mbs_augmented::{Augmented, Form, IndexChange, Penalty};
 use mbs_classical::Classical;
 use mbs_core::Real;
@@ -17,7 +16,7 @@ use mbs_core::start::AssemblyError;
 use mbs_core::step::OptionError;
 use mbs_parallel::{Threads, most_threads};
 use mbs_recursive::space::Space;
-use mbs_recursive::{Closure, StartError, Tree, TreeModel, TreeStep};
+use mbs_recursive::{Closure, Planar, Spatial, StartError, Tree, TreeModel, TreeStep};
 use mbs_sparse::{Indefinite, Multifrontal};
 use mbs_statespace::StateSpace;
 
@@ -106,10 +105,7 @@ macro_rules! formulations {
             }
 
             /// Builds it.
-            pub(crate) fn build<T: Real, const D: usize>(self, request: Request<'_, T, D>) -> Built<T, D>
-            where
-                Plane<D>: InSpace<T>,
-            {
+            pub(crate) fn build<T: Real, const D: usize>(self, request: Request<'_, T, D>) -> Built<T, D> {
                 match self {
                     $(Self::$kind => $build(request),)*
                 }
@@ -266,21 +262,16 @@ fn state_space<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, 
     boxed(StateSpace::new(request.model, options, request.state))
 }
 
-fn recursive<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+fn recursive<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
+    if const { D == 2 } { tree::<T, Planar, D>(request) } else { tree::<T, Spatial, D>(request) }
+}
+
+fn tree<T: Real, S: Space<T>, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
     let Request { scene, settings, model: natural, state, .. } = request;
-    let model = TreeModel::new(scene).map_err(StopError::tree)?;
+    let model = TreeModel::<T, S>::new(scene).map_err(StopError::tree)?;
     let start = model.start(scene, natural, state).map_err(|e| not_started(e, &model))?;
     let method = (tree_options(scene, settings), tree_step(settings.integrator));
-    let tree = Tree::<T, <Plane<D> as InSpace<T>>::Space>::new(
-        scene,
-        (model, start),
-        method,
-        (natural, state),
-    );
-    boxed(tree)
+    boxed(Tree::new(scene, (model, start), method, (natural, state)))
 }
 
 /// Error of a step by extrapolation where none is given: 2e-10 in double precision, 5e-26 in pairs.

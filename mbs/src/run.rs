@@ -18,7 +18,6 @@ use crate::recorder::{Keep, Recorder, StepMark};
 use crate::settings::{Lengths, Settings};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use crate::words::{few_threads, limit_name, notes, stop_text, summary_rows};
 use core::time::Duration;
 use kept::{Clock, Kept};
@@ -52,11 +51,8 @@ pub fn run<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
     progress: &mut impl Progress,
-) -> Outcome
-where
-    Plane<D>: InSpace<T>,
-{
-    run_keeping(scene, settings, progress, Keep::Rows)
+) -> Outcome {
+    run_keeping::<T, D>(scene, settings, progress, Keep::Rows)
 }
 
 /// [`run`], with all rows and pictures, or with the last row and no picture.
@@ -65,10 +61,7 @@ pub(crate) fn run_keeping<T: Real, const D: usize>(
     settings: &Settings,
     progress: &mut impl Progress,
     keep: Keep,
-) -> Outcome
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Outcome {
     match Run::<T, D>::begin(scene, settings, keep) {
         Ok(run) => run.complete(progress),
         Err(outcome) => *outcome,
@@ -84,10 +77,7 @@ pub fn run_kept<T: Real, const D: usize>(
     settings: &Settings,
     progress: &mut impl Progress,
     (from, keeping): (Option<&Checkpoint>, Option<&mut Keeping>),
-) -> Result<Outcome, CheckpointError>
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Result<Outcome, CheckpointError> {
     let identity = Identity::new(scene, settings);
     let mut run = match Run::<T, D>::begin(scene, settings, Keep::Rows) {
         Ok(run) => run,
@@ -110,10 +100,7 @@ struct Counts {
     control: ControlSummary,
 }
 
-struct Run<'a, T: Real, const D: usize>
-where
-    Plane<D>: InSpace<T>,
-{
+struct Run<'a, T: Real, const D: usize> {
     scene: &'a Scene<T>,
     settings: &'a Settings,
     lengths: Lengths<T>,
@@ -139,10 +126,7 @@ where
     level: Option<f64>,
 }
 
-impl<'a, T: Real, const D: usize> Run<'a, T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<'a, T: Real, const D: usize> Run<'a, T, D> {
     /// Builds everything and takes the first row; else the outcome of a run that does not start.
     fn begin(
         scene: &'a Scene<T>,

@@ -8,7 +8,6 @@ use crate::methods::Request;
 use crate::ready::AssembledScene;
 use crate::settings::Settings;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::control::{Accepted, Invariant, Limit, TrialStep};
 use mbs_core::effects::{Field, Value};
@@ -36,10 +35,7 @@ pub struct Simulation<T: Real, const D: usize> {
     invariant: Invariant,
 }
 
-impl<T: Real, const D: usize> Simulation<T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Simulation<T, D> {
     /// Builds the model of a scene, assembles it, and allocates everything a step needs.
     ///
     /// # Errors
@@ -110,9 +106,9 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     pub fn advance(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
         let Self { model, state, formulation, control, invariant, .. } = self;
         let formulation = &mut **formulation;
-        let step = Step { dt: rest, length: model.length() };
+        // Before a formulation prepares its index for the step.
+        let step = Step { dt: rest, length: model.length() }.checked()?;
         if let Some(control) = control {
-            step.checked()?;
             formulation.take_inputs(model, state)?;
             return control.step((model, formulation), state, invariant, rest);
         }

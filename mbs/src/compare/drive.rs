@@ -4,7 +4,6 @@ use super::ladder::Instants;
 use crate::interrupt::Interrupt;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::control::Accepted;
 
@@ -17,10 +16,7 @@ pub(crate) struct Signal {
 }
 
 /// Watches a run; does nothing by default.
-pub(crate) trait Watcher<T: Real, const D: usize>
-where
-    Plane<D>: InSpace<T>,
-{
+pub(crate) trait Watcher<T: Real, const D: usize> {
     /// A step was made; `is_last`: it ends the run. Says whether to go on.
     ///
     /// # Errors
@@ -45,7 +41,7 @@ where
     }
 }
 
-impl<T: Real, const D: usize> Watcher<T, D> for () where Plane<D>: InSpace<T> {}
+impl<T: Real, const D: usize> Watcher<T, D> for () {}
 
 /// A watcher of a run that is asked to end between two steps.
 struct Interruptible<'a, W> {
@@ -53,10 +49,7 @@ struct Interruptible<'a, W> {
     interrupt: &'a Interrupt,
 }
 
-impl<T: Real, const D: usize, W: Watcher<T, D>> Watcher<T, D> for Interruptible<'_, W>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize, W: Watcher<T, D>> Watcher<T, D> for Interruptible<'_, W> {
     fn step(
         &mut self,
         simulation: &Simulation<T, D>,
@@ -80,10 +73,7 @@ pub(crate) fn drive<T: Real, const D: usize>(
     simulation: &mut Simulation<T, D>,
     (course, interrupt): (&Signal, &Interrupt),
     watcher: &mut impl Watcher<T, D>,
-) -> Result<(), StopError>
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Result<(), StopError> {
     for k in 0..course.instants.count {
         let is_last = k + 1 == course.instants.count;
         let watcher = &mut Interruptible { watcher, interrupt };
@@ -107,10 +97,7 @@ fn fixed<T: Real, const D: usize>(
     (instants, n): (Instants, u64),
     k: usize,
     watcher: &mut impl Watcher<T, D>,
-) -> Result<bool, StopError>
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Result<bool, StopError> {
     #[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
     let float = |n: u64| n as f64;
     let h = instants.interval / float(n);
@@ -134,10 +121,7 @@ fn controlled<T: Real, const D: usize>(
     end: T,
     is_last: bool,
     watcher: &mut impl Watcher<T, D>,
-) -> Result<bool, StopError>
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Result<bool, StopError> {
     loop {
         let rest = end - simulation.state().t;
         if rest <= T::ZERO {

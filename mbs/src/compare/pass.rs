@@ -13,7 +13,6 @@ use crate::precision::{PrecisionError, ReadScene, Work};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use core::time::Duration;
 use cpu_time::ThreadTime;
 use mbs_core::Real;
@@ -109,10 +108,7 @@ struct ToTime<'a> {
 impl Work for ToTime<'_> {
     type Done = Option<f64>;
 
-    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Option<f64>
-    where
-        Plane<D>: InSpace<T>,
-    {
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Option<f64> {
         timed::<T, D>(scene, self.settings, self.course, self.turn)
     }
 }
@@ -128,10 +124,7 @@ struct ToRecord<'a> {
 impl Work for ToRecord<'_> {
     type Done = Recorded;
 
-    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Recorded
-    where
-        Plane<D>: InSpace<T>,
-    {
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Recorded {
         recorded::<T, D>(scene, self.settings, self.course, (self.n_columns, self.most))
     }
 }
@@ -141,10 +134,7 @@ fn timed<T: Real, const D: usize>(
     settings: &Settings,
     course: &Signal,
     turn: u32,
-) -> Option<f64>
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Option<f64> {
     let (mut least, mut sum) = (None::<f64>, 0.0);
     for k in 0..MOST_FRESH {
         let seconds = moved(turn * MOST_FRESH + k, || {
@@ -167,10 +157,7 @@ fn recorded<T: Real, const D: usize>(
     settings: &Settings,
     course: &Signal,
     (n_columns, most): (usize, f64),
-) -> Recorded
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Recorded {
     let started = Simulation::<T, D>::new(scene, settings).and_then(|simulation| {
         let channels = Channels::new(scene, simulation.model())?;
         Ok((simulation, channels))
@@ -221,10 +208,7 @@ struct Recorder<T: Real, const D: usize> {
     start: ThreadTime,
 }
 
-impl<T: Real, const D: usize> Watcher<T, D> for Recorder<T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Watcher<T, D> for Recorder<T, D> {
     fn step(
         &mut self,
         simulation: &Simulation<T, D>,
@@ -256,10 +240,7 @@ where
     }
 }
 
-impl<T: Real, const D: usize> Recorder<T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Recorder<T, D> {
     fn finish(
         self,
         simulation: &Simulation<T, D>,

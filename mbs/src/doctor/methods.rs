@@ -6,7 +6,6 @@ use crate::methods::FormulationKind;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use mbs_core::scene::Scene;
 
 /// A first step by one formulation.
@@ -21,10 +20,7 @@ pub struct Attempt {
 /// Bodies of a scene that is small enough to be tried.
 const LARGEST: usize = 300;
 
-pub(super) fn try_all<const D: usize>(scene: &Scene<f64>, settings: &Settings) -> Vec<Attempt>
-where
-    Plane<D>: InSpace<f64>,
-{
+pub(super) fn try_all<const D: usize>(scene: &Scene<f64>, settings: &Settings) -> Vec<Attempt> {
     if scene.bodies.len() > LARGEST {
         return Vec::new();
     }
@@ -44,10 +40,7 @@ where
     FormulationKind::ALL.map(attempt).to_vec()
 }
 
-fn first_step<const D: usize>(scene: &Scene<f64>, settings: &Settings) -> Result<(), StopError>
-where
-    Plane<D>: InSpace<f64>,
-{
+fn first_step<const D: usize>(scene: &Scene<f64>, settings: &Settings) -> Result<(), StopError> {
     let mut simulation = Simulation::<f64, D>::new(scene, settings)?;
     let step = simulation.advance(settings.step);
     step.map(drop).map_err(|error| simulation.explain(error))

@@ -27,7 +27,6 @@ use crate::ready::AssembledScene;
 use crate::settings::Settings;
 use crate::simulation::{Simulation, rank};
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use mbs_core::Cliques;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
@@ -124,10 +123,7 @@ pub fn examine(scene: &Scene<f64>, settings: &Settings, effort: &Effort) -> Chec
     }
 }
 
-fn in_space<const D: usize>(scene: &Scene<f64>, settings: &Settings, effort: &Effort) -> Checkup
-where
-    Plane<D>: InSpace<f64>,
-{
+fn in_space<const D: usize>(scene: &Scene<f64>, settings: &Settings, effort: &Effort) -> Checkup {
     let mut findings = Vec::new();
     let begun = begin::<D>(scene);
     let linkage = Linkage::new(scene);
@@ -187,10 +183,7 @@ where
 }
 
 /// Assembles, and settles where the scene asks for it.
-fn begin<const D: usize>(scene: &Scene<f64>) -> Result<Begun<D>, StopError>
-where
-    Plane<D>: InSpace<f64>,
-{
+fn begin<const D: usize>(scene: &Scene<f64>) -> Result<Begun<D>, StopError> {
     let AssembledScene { model, start, .. } = AssembledScene::new(scene)?;
     let poses = places(scene, &model, &start.state);
     Ok(Begun { model, start, poses })

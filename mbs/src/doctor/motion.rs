@@ -12,7 +12,6 @@ use super::finding::{Finding, Severity, Topic, joint_names};
 use super::{Effort, places, stopped};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
-use crate::tree::{InSpace, Plane};
 use crate::words::few;
 use mbs_core::scene::{Entry, Scene};
 use mbs_doctor::{Linkage, Loop, Part, Poses, Rank, loops};
@@ -104,10 +103,7 @@ pub(super) fn watch<const D: usize>(
     scene: &Scene<f64>,
     settings: &Settings,
     (linkage, effort): (&Linkage, &Effort),
-) -> Motion
-where
-    Plane<D>: InSpace<f64>,
-{
+) -> Motion {
     let mut motion = Motion {
         formulation: settings.formulation.name(),
         positions: 0,

@@ -9,7 +9,6 @@ use crate::ready::AssembledScene;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use mbs_core::scene::Scene;
 use mbs_core::step::StepError;
 use mbs_sparse::Multifrontal;
@@ -82,10 +81,7 @@ pub(super) struct Look<'a, const D: usize> {
     pub(super) step_at: &'a dyn Fn(f64) -> f64,
 }
 
-impl<const D: usize> Look<'_, D>
-where
-    Plane<D>: InSpace<f64>,
-{
+impl<const D: usize> Look<'_, D> {
     /// Looks with these settings at these rows, in steps of about `step` [s] where their length is fixed, for no longer than `most` [s].
     pub(super) fn at(
         &self,
@@ -140,10 +136,7 @@ where
 }
 
 /// A look on its way.
-struct Eye<'a, const D: usize>
-where
-    Plane<D>: InSpace<f64>,
-{
+struct Eye<'a, const D: usize> {
     look: &'a Look<'a, D>,
     simulation: Simulation<f64, D>,
     channels: Channels<f64, D>,
@@ -152,10 +145,7 @@ where
     solver: Multifrontal<f64>,
 }
 
-impl<const D: usize> Eye<'_, D>
-where
-    Plane<D>: InSpace<f64>,
-{
+impl<const D: usize> Eye<'_, D> {
     fn follow(
         mut self,
         instants: &[usize],

@@ -23,7 +23,6 @@ use crate::methods::FormulationKind;
 use crate::ready::AssembledScene;
 use crate::run::Outcome;
 use crate::settings::Settings;
-use crate::tree::{InSpace, Plane};
 use crate::words::few;
 use look::{End, Look, Pace, Seen};
 use mbs_core::cluster::scene_length;
@@ -104,10 +103,7 @@ struct Found {
 }
 
 impl Judge<'_> {
-    fn estimate<const D: usize>(&self, clock: &mut dyn Clock) -> ErrorEstimate
-    where
-        Plane<D>: InSpace<f64>,
-    {
+    fn estimate<const D: usize>(&self, clock: &mut dyn Clock) -> ErrorEstimate {
         let begun = clock.seconds();
         let mut estimate = ErrorEstimate::default();
         let Ok(ready) = AssembledScene::<f64, D>::new(self.scene) else {
@@ -144,10 +140,7 @@ impl Judge<'_> {
         most: &mut Pace,
         clock: &mut dyn Clock,
         begun: f64,
-    ) -> Result<Found, String>
-    where
-        Plane<D>: InSpace<f64>,
-    {
+    ) -> Result<Found, String> {
         let rows = look.rows;
         let (instants, mut why) = (instants(rows), Vec::new());
         let mut see = |settings: &Settings, instants: &[usize], step: Option<f64>| {

@@ -13,7 +13,6 @@ use crate::precision::Work;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use core::fmt::Debug;
 use mbs_core::Real;
 use mbs_core::rigid::RigidMotion;
@@ -61,10 +60,7 @@ pub(crate) trait Inner: Debug + Send + Sync {
 }
 
 /// A simulation that is read.
-pub(crate) struct At<'a, T: Real, const D: usize>
-where
-    Plane<D>: InSpace<T>,
-{
+pub(crate) struct At<'a, T: Real, const D: usize> {
     pub(crate) scene: &'a Scene<T>,
     pub(crate) simulation: &'a Simulation<T, D>,
     pub(crate) readings: &'a Mutex<Readings<T, D>>,
@@ -72,10 +68,7 @@ where
 
 /// It, in its scalar and dimension.
 #[derive(Debug)]
-struct Typed<T: Real, const D: usize>
-where
-    Plane<D>: InSpace<T>,
-{
+struct Typed<T: Real, const D: usize> {
     scene: Scene<T>,
     settings: Settings,
     simulation: Simulation<T, D>,
@@ -83,10 +76,7 @@ where
     readings: Mutex<Readings<T, D>>,
 }
 
-impl<T: Real, const D: usize> Typed<T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Typed<T, D> {
     fn new(scene: Scene<T>, settings: &Settings) -> Result<Self, StopError> {
         let simulation = Simulation::new(&scene, settings)?;
         let readings = Mutex::new(Readings::new(&scene, &simulation)?);
@@ -104,19 +94,13 @@ where
     }
 }
 
-impl<T: Real, const D: usize> At<'_, T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> At<'_, T, D> {
     fn read(&self) -> MutexGuard<'_, Readings<T, D>> {
         locked(self.readings)
     }
 }
 
-impl<T: Real, const D: usize> Look for At<'_, T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Look for At<'_, T, D> {
     fn time(&self) -> f64 {
         self.simulation.state().t.to_f64()
     }
@@ -197,10 +181,7 @@ where
     }
 }
 
-impl<T: Real, const D: usize> Inner for Typed<T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Inner for Typed<T, D> {
     fn clone_box(&self) -> Box<dyn Inner> {
         Box::new(Self {
             scene: self.scene.clone(),
@@ -334,10 +315,7 @@ pub(super) struct Built<'a>(pub(super) &'a Settings);
 impl Work for Built<'_> {
     type Done = Result<Box<dyn Inner>, StopError>;
 
-    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done
-    where
-        Plane<D>: InSpace<T>,
-    {
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done {
         Ok(Box::new(Typed::<T, D>::new(scene.clone(), self.0)?))
     }
 }

@@ -5,7 +5,6 @@ use crate::channels::Channels;
 use crate::checkpoint::tape::{Tape, Told};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use core::ops::Range;
 use mbs_core::Real;
 use mbs_core::model::State;
@@ -32,10 +31,7 @@ struct Group<T: Real, const D: usize> {
     is_present: bool,
 }
 
-impl<T: Real, const D: usize> Group<T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Group<T, D> {
     /// Of these outputs alone.
     fn new(
         scene: &Scene<T>,
@@ -72,10 +68,7 @@ where
     }
 }
 
-impl<T: Real, const D: usize> Readings<T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Readings<T, D> {
     /// Prepares the readings of a simulation at its start.
     pub(super) fn new(scene: &Scene<T>, simulation: &Simulation<T, D>) -> Result<Self, StopError> {
         let of_joints = |quantity: fn(JointId) -> Quantity<T>| {

@@ -9,7 +9,6 @@ use crate::digits::is_finer;
 use crate::precision::{ReadScene, Work};
 use crate::run::{Outcome, Rung, Track, paced};
 use crate::settings::Settings;
-use crate::tree::{InSpace, Plane};
 use core::time::Duration;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
@@ -46,10 +45,7 @@ struct Paced<'a> {
 impl Work for Paced<'_> {
     type Done = Result<Outcome, PacingError>;
 
-    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done
-    where
-        Plane<D>: InSpace<T>,
-    {
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done {
         run::<T, D>(scene, self.settings, self.pacing, self.clock)
     }
 }
@@ -59,10 +55,7 @@ fn run<T: Real, const D: usize>(
     settings: &Settings,
     pacing: &Pacing,
     clock: &mut dyn Clock,
-) -> Result<Outcome, PacingError>
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Result<Outcome, PacingError> {
     let (pace, track) = track::<T>(scene, settings, pacing)?;
     let sought = Sought { scene, settings, track: &track };
     let rungs = match (&pacing.degrade, pacing.overrun) {

@@ -4,7 +4,6 @@ use super::error::PacingError;
 use crate::run::{Rung, Track};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
-use crate::tree::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::formulation::SwitchError;
 use mbs_core::scene::Scene;
@@ -38,10 +37,7 @@ impl<T: Real> Sought<'_, T> {
     }
 
     /// Can the running scene change between everything and this level, and back?
-    pub(super) fn changes<const D: usize>(&self, rung: &Rung) -> Result<(), SwitchError>
-    where
-        Plane<D>: InSpace<T>,
-    {
+    pub(super) fn changes<const D: usize>(&self, rung: &Rung) -> Result<(), SwitchError> {
         if rung.off.is_empty() {
             return Ok(());
         }
@@ -56,10 +52,7 @@ impl<T: Real> Sought<'_, T> {
 pub(super) fn listed<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
     words: &[String],
-) -> Result<Vec<Rung>, PacingError>
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Result<Vec<Rung>, PacingError> {
     let effects = &sought.scene.effects;
     let mut rungs = vec![sought.rung(0, Vec::new())];
     let (mut halvings, mut off) = (0, Vec::new());

@@ -15,7 +15,6 @@ use super::{Pace, Pacer};
 use crate::explain::changes::Outputs;
 use crate::run::{Outcome, Rung, Track, paced};
 use crate::settings::Settings;
-use crate::tree::{InSpace, Plane};
 use core::cell::Cell;
 use core::time::Duration;
 use mbs_core::Real;
@@ -84,10 +83,7 @@ impl Trial {
 /// The levels, that of everything first, with what was measured of each.
 pub(super) fn measured<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
-) -> Result<Vec<Rung>, PacingError>
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Result<Vec<Rung>, PacingError> {
     let full = sought.rung(0, Vec::new());
     let candidates = candidates::<T, D>(sought);
     if candidates.is_empty() {
@@ -115,10 +111,7 @@ where
 }
 
 /// Longer steps, and effects one by one, or by kinds where they are many.
-fn candidates<T: Real, const D: usize>(sought: &Sought<'_, T>) -> Vec<Rung>
-where
-    Plane<D>: InSpace<T>,
-{
+fn candidates<T: Real, const D: usize>(sought: &Sought<'_, T>) -> Vec<Rung> {
     let effects = sought.scene.effects.iter().enumerate().filter(|(_, effect)| effect.enabled);
     let can = |off: &Vec<usize>| sought.changes::<D>(&sought.rung(0, off.clone())).is_ok();
     let alone: Vec<Vec<usize>> = effects.map(|(i, _)| vec![i]).filter(can).collect();
@@ -166,10 +159,7 @@ fn run_all<T: Real, const D: usize>(
     full: &Rung,
     others: Vec<Rung>,
     periods: u64,
-) -> Vec<Trial>
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Vec<Trial> {
     let all = core::iter::once(full.clone()).chain(others);
     let mut trials: Vec<Trial> = all.map(Trial::new).collect();
     for _ in 0..REPEATS {
@@ -211,10 +201,7 @@ fn trial<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
     rung: &Rung,
     periods: u64,
-) -> Option<Outcome>
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Option<Outcome> {
     let Sought { settings, track, .. } = *sought;
     let periods = periods.min(track.periods);
     let duration = settings.duration.min(count(usize::try_from(periods).ok()?) * track.period.1);

@@ -3,7 +3,6 @@
 use super::{Counts, Run};
 use crate::checkpoint::tape::{Tape, Told, holds};
 use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Keeping, Kind, whole};
-use crate::tree::{InSpace, Plane};
 use core::time::Duration;
 use cpu_time::{ProcessTime, ThreadTime};
 use mbs_core::Real;
@@ -71,10 +70,7 @@ impl Clock {
     }
 }
 
-impl<T: Real, const D: usize> Run<'_, T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Run<'_, T, D> {
     /// Writes rows and a checkpoint where they are due after step `k`; says whether it took time.
     pub(super) fn keep(&mut self, k: u64) -> bool {
         self.done = k;

@@ -10,7 +10,6 @@ use crate::recorder::Keep;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use crate::tree::{InSpace, Plane};
 use core::ops::ControlFlow;
 use core::time::Duration;
 use mbs_core::Real;
@@ -74,16 +73,13 @@ pub(crate) fn paced<T: Real, const D: usize>(
     track: &Track<T>,
     (pacer, rungs): (&mut Pacer, &[Rung]),
     clock: &mut impl Clock,
-) -> Result<Outcome, (usize, SwitchError)>
-where
-    Plane<D>: InSpace<T>,
-{
+) -> Result<Outcome, (usize, SwitchError)> {
     let mut channels = Channel::of_scene(scene);
     if track.tells_level {
         let one = Component { label: String::new(), unit: "level".to_owned() };
         channels.push(Channel { name: LEVEL.to_owned(), components: vec![one] });
     }
-    let mut run = match Run::new(scene, settings, channels, (track.periods, Keep::Rows)) {
+    let mut run = match Run::<T, D>::new(scene, settings, channels, (track.periods, Keep::Rows)) {
         Ok(run) => run,
         Err(outcome) => return Ok(*outcome),
     };
@@ -124,10 +120,7 @@ impl From<StopError> for Unready {
 }
 
 /// What a level steps, where it is not the run's own simulation.
-struct Level<T: Real, const D: usize>
-where
-    Plane<D>: InSpace<T>,
-{
+struct Level<T: Real, const D: usize> {
     simulation: Option<Box<Simulation<T, D>>>,
     /// Of its effects; while it runs, those of the full scene.
     reactions: Option<Reactions<T, D>>,
@@ -135,10 +128,7 @@ where
     steps: Option<u32>,
 }
 
-impl<T: Real, const D: usize> Level<T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Level<T, D> {
     /// Builds what a level needs beside the run.
     fn new(run: &Run<'_, T, D>, rung: &Rung, steps: Option<u32>) -> Result<Self, Unready> {
         let steps = steps.map(|steps| rung.steps(steps));
@@ -157,10 +147,7 @@ where
 }
 
 /// A run in the hands of a pacer.
-struct Paced<'a, T: Real, const D: usize>
-where
-    Plane<D>: InSpace<T>,
-{
+struct Paced<'a, T: Real, const D: usize> {
     run: Run<'a, T, D>,
     levels: Vec<Level<T, D>>,
     /// The level of the last task.
@@ -168,10 +155,7 @@ where
     track: Track<T>,
 }
 
-impl<T: Real, const D: usize> Work for Paced<'_, T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Work for Paced<'_, T, D> {
     type Error = StopError;
 
     fn step(&mut self, task: Task) -> Result<ControlFlow<()>, StopError> {
@@ -190,10 +174,7 @@ where
     }
 }
 
-impl<T: Real, const D: usize> Paced<'_, T, D>
-where
-    Plane<D>: InSpace<T>,
-{
+impl<T: Real, const D: usize> Paced<'_, T, D> {
     /// Goes on at another level. No allocation.
     fn change(&mut self, to: usize) -> Result<(), StopError> {
         let Self { run, levels, at, .. } = self;

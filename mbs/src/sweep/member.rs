@@ -4,7 +4,6 @@ use crate::precision::{ReadScene, Work};
 use crate::recorder::Keep;
 use crate::run::{Outcome, run_keeping};
 use crate::settings::{Method, Settings};
-use crate::tree::{InSpace, Plane};
 use core::time::Duration;
 use cpu_time::ThreadTime;
 use mbs_core::Real;
@@ -90,10 +89,7 @@ struct Last<'a>(&'a Settings);
 impl Work for Last<'_> {
     type Done = Outcome;
 
-    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome
-    where
-        Plane<D>: InSpace<T>,
-    {
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome {
         run_keeping::<T, D>(scene, self.0, &mut (), Keep::Last)
     }
 }

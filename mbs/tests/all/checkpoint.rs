@@ -6,8 +6,8 @@ use mbs::core::scene::{BodyId, BodyTorque, Dimension, Effect, EffectKind, Motion
 use mbs::scene_file::{Provenance, SceneFile};
 use mbs::typed::Simulation;
 use mbs::{
-    CHECKPOINT, Checkpoint, FormulationKind, InSpace, Keeping, Method, Outcome, Plane, Settings,
-    run_document, run_document_kept,
+    CHECKPOINT, Checkpoint, FormulationKind, Keeping, Method, Outcome, Settings, run_document,
+    run_document_kept,
 };
 
 mod bytes;
@@ -211,10 +211,7 @@ fn driven() -> Scene<f64> {
 }
 
 /// Bits of state and energies after each of some steps.
-fn bits<const D: usize>(simulation: &mut Simulation<f64, D>, steps: usize) -> Vec<u64>
-where
-    Plane<D>: InSpace<f64>,
-{
+fn bits<const D: usize>(simulation: &mut Simulation<f64, D>, steps: usize) -> Vec<u64> {
     let mut told = Vec::new();
     for k in 0..=steps {
         let s = simulation.state();

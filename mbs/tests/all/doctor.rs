@@ -71,10 +71,7 @@ fn both_levels_count_the_same_freedoms_and_natural_coordinates_hide_redundancies
 
 #[test]
 fn reactions_are_unique_where_the_balance_of_the_bodies_says_so() {
-    fn compare<const D: usize>(scene: &Scene<f64>)
-    where
-        mbs::Plane<D>: mbs::InSpace<f64>,
-    {
+    fn compare<const D: usize>(scene: &Scene<f64>) {
         let settings = Settings::new(scene, &Method::default()).expect("the defaults are built");
         let simulation = Simulation::<f64, D>::new(scene, &settings).expect("it starts");
         let mut reactions = Reactions::new(scene, simulation.model()).expect("small");

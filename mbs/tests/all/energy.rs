@@ -2,7 +2,6 @@
 
 use crate::common::{Bench, FORMULATIONS, SCENES, scene, settings, worst};
 use mbs::core::scene::Dimension;
-use mbs::{InSpace, Plane};
 
 /// Steps of the tables [s].
 const STEPS: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
@@ -163,10 +162,11 @@ const ROUNDING: f64 = 1e-9;
 
 /// Largest kinetic energy plus gross work of a run that is known to complete [J].
 fn turned_over(scene: &mbs::core::scene::Scene<f64>, formulation: &str, step: f64) -> f64 {
-    fn of<const D: usize>(scene: &mbs::core::scene::Scene<f64>, formulation: &str, step: f64) -> f64
-    where
-        Plane<D>: InSpace<f64>,
-    {
+    fn of<const D: usize>(
+        scene: &mbs::core::scene::Scene<f64>,
+        formulation: &str,
+        step: f64,
+    ) -> f64 {
         let mut bench = Bench::<D>::of_scene(scene, formulation, step);
         let mut kinetic = bench.simulation.initial_energies()[0];
         let (mut work, mut gross) = (0.0, 0.0);

@@ -5,12 +5,9 @@ use mbs::core::scene::{Dimension, Scene};
 use mbs::core::step::{Step, StepError};
 use mbs::scene_file::{Family, SceneFile, generate};
 use mbs::typed::Simulation;
-use mbs::{FORMULATIONS, FormulationKind, InSpace, Method, Plane, Settings};
+use mbs::{FORMULATIONS, FormulationKind, Method, Settings};
 
-fn simulation<const D: usize>(scene: &Scene<f64>, overrides: Method) -> Simulation<f64, D>
-where
-    Plane<D>: InSpace<f64>,
-{
+fn simulation<const D: usize>(scene: &Scene<f64>, overrides: Method) -> Simulation<f64, D> {
     let settings = Settings::new(scene, &overrides).expect("the settings are built");
     Simulation::new(scene, &settings).expect("the scene assembles")
 }
@@ -93,10 +90,7 @@ fn a_clone_steps_to_the_same_bits_and_leaves_the_original_as_it_is() {
     }
 }
 
-fn clones<const D: usize>(scene: &Scene<f64>, formulation: FormulationKind)
-where
-    Plane<D>: InSpace<f64>,
-{
+fn clones<const D: usize>(scene: &Scene<f64>, formulation: FormulationKind) {
     let settings = settings(scene, formulation.name(), Some(1e-3));
     let mut original = Simulation::<f64, D>::new(scene, &settings).expect("it assembles");
     let before = go(&mut original, 20);
@@ -118,8 +112,8 @@ fn clones_that_share_threads_step_at_the_same_time() {
             threads: Some(threads),
             ..Method::default()
         };
-        let alone = go(&mut simulation::<2>(&scene, of(1)), 4);
-        let mut original = simulation::<2>(&scene, of(2));
+        let alone = go(&mut simulation::<3>(&scene, of(1)), 4);
+        let mut original = simulation::<3>(&scene, of(2));
         travels(&original);
         let mut clone = original.clone();
         let both = std::thread::scope(|scope| {

@@ -8,7 +8,6 @@ use crate::common::{Bench, FORMULATIONS, SCENES, cross, distance, dot, scene, wo
 use crate::retell::{turn_scene, turned};
 use mbs::core::natural::Affine;
 use mbs::core::scene::{Dimension, Inertia, InitialTarget, Scene};
-use mbs::{InSpace, Plane};
 
 /// Falls by 4 when the step is halved, in a method of order 2, or faster; higher orders of the step make the rest.
 const SECOND_ORDER: core::ops::RangeFrom<f64> = 3.5..;
@@ -165,10 +164,7 @@ const VIOLATION: f64 = 1e-9;
 
 #[test]
 fn constraints_hold_after_projection_on_all_scenes_at_their_own_steps() {
-    fn largest<const D: usize>(name: &str, formulation: &str) -> [f64; 3]
-    where
-        Plane<D>: InSpace<f64>,
-    {
+    fn largest<const D: usize>(name: &str, formulation: &str) -> [f64; 3] {
         let scene = scene(name);
         let step = common::settings(&scene, formulation, None).step;
         let mut bench = Bench::<D>::of_scene(&scene, formulation, step);
@@ -202,10 +198,7 @@ fn constraints_hold_after_projection_on_all_scenes_at_their_own_steps() {
 
 #[test]
 fn a_step_allocates_nothing() {
-    fn in_steps<const D: usize>(name: &str, formulation: &str) -> u64
-    where
-        Plane<D>: InSpace<f64>,
-    {
+    fn in_steps<const D: usize>(name: &str, formulation: &str) -> u64 {
         let mut bench = Bench::<D>::new(name, formulation, 1e-3);
         let before = allocations::count();
         for _ in 0..200 {

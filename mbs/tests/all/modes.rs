@@ -95,15 +95,10 @@ fn a_rolling_vehicle_moves_as_its_linearisation_says() {
 
     let mut w = Workspace::new(&model, solver);
     let mut run = |mut s: State<f64>, (step, steps): (f64, u32)| {
+        let size = Step { dt: step, length: model.length() };
         for _ in 0..steps {
-            index3::step(
-                &model,
-                Step { dt: step, length: model.length() },
-                &Options::index3(),
-                &mut s,
-                &mut w,
-            )
-            .expect("the vehicle rolls");
+            index3::step(&model, size, &Options::index3(), &mut s, &mut w)
+                .expect("the vehicle rolls");
             s.t += step;
         }
         s

@@ -6,7 +6,7 @@ use crate::common::{SCENES, scene};
 use mbs::core::scene::{Dimension, Scene};
 use mbs::scene_file::{Family, SceneFile, generate};
 use mbs::typed::Simulation;
-use mbs::{InSpace, Method, Plane, Settings};
+use mbs::{Method, Settings};
 
 /// Scenes of the repository that are vehicles, and those with inputs of every kind.
 const OTHERS: [&str; 8] = [
@@ -33,10 +33,7 @@ fn bits_in<const D: usize>(
     formulation: &str,
     threads: usize,
     steps: usize,
-) -> Vec<u64>
-where
-    Plane<D>: InSpace<f64>,
-{
+) -> Vec<u64> {
     let formulation = Some(formulation.to_owned());
     let overrides = Method { formulation, threads: Some(threads), ..Method::default() };
     let settings = Settings::new(scene, &overrides).expect("the settings are built");

@@ -3,13 +3,13 @@
 #[path = "../../double_pendulum.rs"]
 mod double_pendulum;
 
-use mbs_core::step::Step;
 use double_pendulum::{TIP, TRAPEZOIDAL, check, double_pendulum};
 use mbs_augmented::{Options, Workspace, index3};
 use mbs_core::dense::Dense;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::BodyId;
 use mbs_core::start::assemble;
+use mbs_core::step::Step;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = double_pendulum();

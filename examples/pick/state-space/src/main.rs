@@ -3,12 +3,12 @@
 #[path = "../../double_pendulum.rs"]
 mod double_pendulum;
 
-use mbs_core::step::Step;
 use double_pendulum::{TIP, TRAPEZOIDAL, check, double_pendulum};
 use mbs_core::dense::Dense;
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::BodyId;
 use mbs_core::start::assemble;
+use mbs_core::step::Step;
 use mbs_statespace::{Options, Workspace, step};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

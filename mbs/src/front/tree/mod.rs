@@ -11,7 +11,6 @@ pub use values::{Matrix, TreeRange};
 
 use crate::front::Simulation;
 use crate::names::Names;
-use crate::tree::{InSpace, Plane};
 use crate::typed;
 use inner::{Inner, with};
 use layout::Layout;
@@ -179,10 +178,7 @@ impl Tree {
     pub fn follow_typed<const D: usize>(
         &mut self,
         simulation: &typed::Simulation<f64, D>,
-    ) -> Result<(), TreeError>
-    where
-        Plane<D>: InSpace<f64>,
-    {
+    ) -> Result<(), TreeError> {
         let (model, state) = (simulation.model(), simulation.state());
         let motions: Vec<_> =
             (0..self.scene.bodies.len()).map(|b| model.motion(&self.scene, b, state)).collect();

@@ -6,7 +6,7 @@ use mbs::core::scene::{
     BodyId, BodyTorque, Effect, EffectKind, JointId, Scene, Signal, TorsionSpring,
 };
 use mbs::typed::Simulation;
-use mbs::{InSpace, Method, Plane, Settings};
+use mbs::{Method, Settings};
 
 /// How a simulation is made and stepped.
 #[derive(Debug, Clone, Copy)]
@@ -70,20 +70,14 @@ impl Case {
         Settings::new(scene, &self.overrides()).expect("good settings")
     }
 
-    fn simulation<const D: usize>(&self) -> Simulation<f64, D>
-    where
-        Plane<D>: InSpace<f64>,
-    {
+    fn simulation<const D: usize>(&self) -> Simulation<f64, D> {
         let scene = self.scene();
         let settings = self.settings(&scene);
         Simulation::new(&scene, &settings).expect("it starts")
     }
 
     /// The simulation as it is when its checkpoint is made.
-    pub(super) fn before<const D: usize>(&self) -> Simulation<f64, D>
-    where
-        Plane<D>: InSpace<f64>,
-    {
+    pub(super) fn before<const D: usize>(&self) -> Simulation<f64, D> {
         let mut simulation = self.simulation();
         let motor = self.scene().effects.len() - 1;
         simulation.set_input(motor, [0.3, 0.0, 0.3]).expect("an input");
@@ -99,10 +93,7 @@ impl Case {
     }
 
     /// Everything that can be seen of the steps that follow, in bits.
-    fn after<const D: usize>(&self, simulation: &mut Simulation<f64, D>) -> Vec<u64>
-    where
-        Plane<D>: InSpace<f64>,
-    {
+    fn after<const D: usize>(&self, simulation: &mut Simulation<f64, D>) -> Vec<u64> {
         let mut seen: Vec<u64> = simulation.energies().map(f64::to_bits).to_vec();
         for _ in 0..self.steps[1] {
             let Ok(accepted) = simulation.advance(self.rest()) else {
@@ -130,10 +121,7 @@ impl Case {
 pub(super) fn saved<const D: usize>(
     simulation: &Simulation<f64, D>,
     whose: (&Scene<f64>, &Settings),
-) -> Vec<u8>
-where
-    Plane<D>: InSpace<f64>,
-{
+) -> Vec<u8> {
     let mut bytes = Vec::new();
     simulation.save(whose, &mut bytes).expect("memory");
     bytes
@@ -154,10 +142,7 @@ enum Left {
 
 /// That the bits after a checkpoint are those without it, wherever it is, and that they are not where one of the items is left
 /// out, at some of the places: not every one matters everywhere.
-fn every_item_matters<const D: usize>(case: Case, items: &[Item])
-where
-    Plane<D>: InSpace<f64>,
-{
+fn every_item_matters<const D: usize>(case: Case, items: &[Item]) {
     let scene = case.scene();
     let settings = case.settings(&scene);
     let whose = (&scene, &settings);

@@ -206,27 +206,20 @@ impl<'a> Walk<'a> {
     }
 
     fn formulation(&mut self, formulation: FormulationKind) -> Option<()> {
-        let number = self.word()?;
-        match formulation {
-            FormulationKind::Index1 | FormulationKind::Index3 | FormulationKind::MultiIndex => {
-                assert_eq!(number, 0);
+        match self.word()? {
+            0 => {
                 self.named("penalty", |walk| walk.numbers(1))?;
                 self.named("what is left of the combination", |walk| walk.numbers(1))?;
                 self.named("combination of constraints", Self::list_of_numbers)?;
                 self.skip(8)?;
-                if formulation == FormulationKind::MultiIndex {
+                if formulation.row().energy_rule {
                     self.named("index", |walk| walk.skip(1))?;
                     self.named("changes", |walk| walk.skip(4))?;
                     self.numbers(2)?;
                 }
                 self.springs()
             }
-            FormulationKind::Classical => {
-                assert_eq!(number, 1);
-                self.springs()
-            }
-            FormulationKind::StateSpace => {
-                assert_eq!(number, 2);
+            2 => {
                 self.named("order", |walk| {
                     walk.list(|walk| walk.skip(8))?;
                     walk.list_of_numbers()?;
@@ -237,10 +230,9 @@ impl<'a> Walk<'a> {
                 self.named("choices", |walk| walk.skip(4))?;
                 self.springs()
             }
-            FormulationKind::Recursive => {
-                assert_eq!(number, 3);
-                self.tree()
-            }
+            3 => self.tree(),
+            // Nothing but the laws.
+            _ => self.springs(),
         }
     }
 

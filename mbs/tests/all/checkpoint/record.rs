@@ -5,7 +5,7 @@ use super::{scratch, told};
 use crate::common::scene;
 use mbs::core::scene::Scene;
 use mbs::typed::{Progress, run_kept};
-use mbs::{Checkpoint, InSpace, Keeping, Method, Plane, Settings};
+use mbs::{Checkpoint, Keeping, Method, Settings};
 use std::path::PathBuf;
 
 /// Takes the checkpoints that stand there at the first step, and at a time.
@@ -30,10 +30,7 @@ impl Progress for Copies {
 fn kept<const D: usize>(
     (scene, settings): (&Scene<f64>, &Settings),
     at: f64,
-) -> ([String; 4], [Parts; 2])
-where
-    Plane<D>: InSpace<f64>,
-{
+) -> ([String; 4], [Parts; 2]) {
     let out = scratch(&format!("record-{:?}", std::thread::current().id()));
     let mut keeping = Keeping::new(&out, settings.step).expect("a directory of ours");
     let mut copies = Copies { at, path: keeping.path(), first: Vec::new(), bytes: Vec::new() };
@@ -46,10 +43,7 @@ where
 
 /// That a run gives the same from its checkpoint before time `at`, and something else where one of the items is left out: it is
 /// then as in a run that has made no step.
-fn every_item_matters<const D: usize>(name: &str, overrides: &Method, at: f64, items: &[&str])
-where
-    Plane<D>: InSpace<f64>,
-{
+fn every_item_matters<const D: usize>(name: &str, overrides: &Method, at: f64, items: &[&str]) {
     let scene = scene(name);
     let settings = Settings::new(&scene, overrides).expect("good settings");
     let (whole, [first, kept]) = kept::<D>((&scene, &settings), at);

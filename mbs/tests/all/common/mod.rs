@@ -8,7 +8,7 @@ use mbs::auto::Clock;
 use mbs::core::natural::Affine;
 use mbs::core::scene::{BodyId, Scene};
 use mbs::typed::Simulation;
-use mbs::{InSpace, Method, Plane, Settings};
+use mbs::{Method, Settings};
 pub(crate) use mbs_testkit::{allocations, random};
 
 /// The augmented formulations, by name.
@@ -36,19 +36,13 @@ pub(crate) fn settings(scene: &Scene<f64>, formulation: &str, step: Option<f64>)
 }
 
 /// A simulation that is stepped by hand.
-pub(crate) struct Bench<const D: usize>
-where
-    Plane<D>: InSpace<f64>,
-{
+pub(crate) struct Bench<const D: usize> {
     pub(crate) simulation: Simulation<f64, D>,
     pub(crate) step: f64,
     initial: f64,
 }
 
-impl<const D: usize> Bench<D>
-where
-    Plane<D>: InSpace<f64>,
-{
+impl<const D: usize> Bench<D> {
     pub(crate) fn new(name: &str, formulation: &str, step: f64) -> Self {
         Self::of_scene(&scene(name), formulation, step)
     }

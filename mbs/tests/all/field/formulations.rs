@@ -6,7 +6,7 @@ use crate::common::{Bench, settings};
 use mbs::core::scene::{BodyId, Dimension, Effect, EffectKind, Friction, Inertia, JointId, Scene};
 use mbs::core::step::StepError;
 use mbs::doctor::{Effort, Severity, examine};
-use mbs::{InSpace, Method, Plane, Settings, StopError};
+use mbs::{Method, Settings, StopError};
 
 /// Formulations in natural coordinates with steps of fixed length.
 const NATURAL: [&str; 4] = ["index-3", "index-1", "classical", "state-space"];
@@ -22,10 +22,7 @@ fn centres<const D: usize>(
     scene: &Scene<f64>,
     formulation: &str,
     (dt, n): (f64, u32),
-) -> Result<Vec<[f64; D]>, StepError>
-where
-    Plane<D>: InSpace<f64>,
-{
+) -> Result<Vec<[f64; D]>, StepError> {
     let mut bench = Bench::<D>::of_scene(scene, formulation, dt);
     for _ in 0..n {
         bench.step()?;
@@ -75,10 +72,7 @@ fn index_1_runs_a_sprung_leg_as_the_others_do() {
 
 #[test]
 fn a_motion_from_rest_does_not_depend_on_the_size() {
-    fn check<const D: usize>(seed: u64, dimension: Dimension)
-    where
-        Plane<D>: InSpace<f64>,
-    {
+    fn check<const D: usize>(seed: u64, dimension: Dimension) {
         let scene = tree(seed, dimension, 4);
         for formulation in NATURAL {
             let run = |size: f64| {

@@ -59,10 +59,7 @@ fn in_space(angle: &str, rate: &str) -> Scene<f64> {
     read(&text, "wheel in rubber, in space")
 }
 
-fn value<const D: usize>(scene: &Scene<f64>, formulation: &str, step: f64) -> f64
-where
-    mbs::Plane<D>: mbs::InSpace<f64>,
-{
+fn value<const D: usize>(scene: &Scene<f64>, formulation: &str, step: f64) -> f64 {
     let outcome =
         mbs::typed::run::<f64, D>(scene, &settings(scene, formulation, Some(step)), &mut ());
     last(&outcome).unwrap_or_else(|code| panic!("{formulation}: {code}"))
