@@ -58,8 +58,8 @@ mod tests {
         for _ in 0..1000 {
             t = clock.advance(t, (1e-3, 1e-3));
         }
-        assert_eq!(t, 1.0);
+        assert_eq!(t.to_bits(), 1f64.to_bits());
         t = clock.advance(t, (0.5, 0.5));
-        assert_eq!(t, 1.5);
+        assert_eq!(t.to_bits(), 1.5f64.to_bits());
     }
 }

@@ -163,7 +163,7 @@ impl Layout {
     pub(super) fn range(&self, joint: usize) -> Option<TreeRange> {
         let mut own = self.places.iter().filter(|place| place.of.0 == Some(joint));
         let first = own.next()?.own.clone();
-        let last = own.last().map_or(&first, |place| &place.own).clone();
+        let last = own.next_back().map_or(&first, |place| &place.own).clone();
         Some(TreeRange { q: first.q.start..last.q.end, v: first.v.start..last.v.end })
     }
 
