@@ -54,7 +54,7 @@ mod tests {
 
     #[test]
     fn a_thousand_steps_of_a_millisecond_end_at_a_second() {
-        let (mut clock, mut t) = (StepClock::default(), 0.0);
+        let (mut clock, mut t) = (StepClock::default(), 0.0_f64);
         for _ in 0..1000 {
             t = clock.advance(t, (1e-3, 1e-3));
         }

@@ -11,7 +11,7 @@ use mbs_recursive::{
     Options, Planar, Spatial, TreeModel, TreeState, Workspace, extrapolated_step, rk54_step,
     rk853_step,
 };
-use mbs_scene::Document;
+use mbs_scene::SceneFile;
 use std::hint::black_box;
 
 const SCENE: &str = include_str!("../../../../scenes/andrews.toml");
@@ -43,7 +43,7 @@ type Method<S> = fn(
 
 /// Three methods in the plane and in space, each at its errors; the value is the number of right digits.
 pub(crate) fn andrews(seconds: f64) -> Result<(), Failure> {
-    let scene = Document::parse(SCENE, "andrews.toml").and_then(|document| document.scene());
+    let scene = SceneFile::parse(SCENE, "andrews.toml").and_then(|document| document.scene());
     let scene: Scene<f64> = scene.map_err(|e| e.render())?;
     runs::<Planar>("planar", &scene, seconds)?;
     runs::<Spatial>("spatial", &in_space(&scene)?, seconds)

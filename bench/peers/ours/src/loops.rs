@@ -8,7 +8,7 @@ use crate::clock::time_of;
 use crate::scenes::{GRAVITY, add_joint, add_rod, empty};
 use crate::{Failure, tell};
 use mbs_core::model::Owner;
-use mbs_core::scene::{BodyRef, Dimension, JointKind, Scene};
+use mbs_core::scene::{BodyId, Dimension, JointKind, Scene};
 use mbs_recursive::space::Space;
 use mbs_recursive::{Options, Planar, Spatial, TreeModel, TreeState, Workspace};
 use std::hint::black_box;
@@ -29,7 +29,7 @@ fn scene(n: usize, dimension: Dimension) -> (Scene<f64>, Vec<f64>) {
     for j in 0..=n {
         let x = j as f64;
         let crank = add_rod(&mut scene, [x, 0.0], [c, s]);
-        add_joint(&mut scene, JointKind::Revolute, [BodyRef::Ground, crank], [x, 0.0]);
+        add_joint(&mut scene, JointKind::Revolute, [BodyId::Ground, crank], [x, 0.0]);
         rates.push(RATE);
         let tip = [x + c, s];
         if let Some(coupler) = last {

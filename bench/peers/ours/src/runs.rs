@@ -8,7 +8,7 @@ use mbs::typed::Simulation;
 use mbs_core::scene::Scene;
 use mbs_recursive::space::Space;
 use mbs_recursive::{Options, Planar, Spatial, TreeModel, Workspace, rk4_step, step};
-use mbs_scene::Document;
+use mbs_scene::SceneFile;
 use std::f64::consts::FRAC_PI_2;
 
 /// Formulation and integrator of the runs that are made as `mbs run` makes them.
@@ -59,7 +59,7 @@ pub(crate) fn four_bars(n: usize, dt: f64) -> Result<(), Failure> {
 
 /// Runs a scene by every method; one that stops is told and left out.
 fn runs(text: &str, dt: f64, judge: Judge) -> Result<(), Failure> {
-    let scene = Document::parse(text, "scene").and_then(|document| document.scene());
+    let scene = SceneFile::parse(text, "scene").and_then(|document| document.scene());
     let scene: Scene<f64> = scene.map_err(|e| e.render())?;
     let n = (scene.duration / dt).round() as usize;
     let spatial = in_space(&scene)?;

@@ -3,7 +3,7 @@
 use crate::clock::STATES;
 use crate::exactly;
 use mbs_core::Real;
-use mbs_core::scene::{Body, BodyRef, Dimension, Inertia, Joint, JointKind, Scene, SolverChoice};
+use mbs_core::scene::{Body, BodyId, Dimension, Inertia, Joint, JointKind, Scene, SolverTable};
 
 /// Gravity in the plane, or none [m/s^2].
 pub(crate) const GRAVITY: f64 = 9.81;
@@ -23,12 +23,12 @@ pub(crate) fn empty<T: Real>(dimension: Dimension, gravity: f64) -> Scene<T> {
         road: Default::default(),
         start: Default::default(),
         outputs: Vec::new(),
-        solver: SolverChoice::default(),
+        solver: SolverTable::default(),
     }
 }
 
 /// Adds a rod from `from` along (c, s), 0.001 kg m² about its own axis; returns the body.
-pub(crate) fn add_rod<T: Real>(scene: &mut Scene<T>, from: [T; 2], [c, s]: [T; 2]) -> BodyRef {
+pub(crate) fn add_rod<T: Real>(scene: &mut Scene<T>, from: [T; 2], [c, s]: [T; 2]) -> BodyId {
     let (thin, thick) = (exactly::<T>(1e-3), exactly::<T>(1.0 / 12.0));
     let inertia = match scene.dimension {
         Dimension::Planar => Inertia::Planar(thick),
@@ -44,14 +44,14 @@ pub(crate) fn add_rod<T: Real>(scene: &mut Scene<T>, from: [T; 2], [c, s]: [T; 2
     };
     let center = [from[0] + T::HALF * c, from[1] + T::HALF * s, T::ZERO];
     scene.bodies.push(Body { name: String::new(), mass: T::ONE, center, inertia });
-    BodyRef::Body(scene.bodies.len() - 1)
+    BodyId::Body(scene.bodies.len() - 1)
 }
 
 /// Adds a joint at a point.
 pub(crate) fn add_joint<T: Real>(
     scene: &mut Scene<T>,
     kind: JointKind,
-    bodies: [BodyRef; 2],
+    bodies: [BodyId; 2],
     [x, y]: [T; 2],
 ) {
     let [needs_axis, _] = kind.needs_axes(scene.dimension);
@@ -61,7 +61,7 @@ pub(crate) fn add_joint<T: Real>(
 }
 
 /// Adds a rod along x with its joint, 1 m from its parent's; returns the body.
-fn hang<T: Real>(scene: &mut Scene<T>, parent: BodyRef, x: f64) -> BodyRef {
+fn hang<T: Real>(scene: &mut Scene<T>, parent: BodyId, x: f64) -> BodyId {
     let at = [exactly(x), T::ZERO];
     let body = add_rod(scene, at, [T::ONE, T::ZERO]);
     add_joint(scene, JointKind::Revolute, [parent, body], at);
@@ -90,7 +90,7 @@ impl Shape {
 /// `n` rods one behind the other.
 fn chain<T: Real>(n: usize, dimension: Dimension, gravity: f64) -> Scene<T> {
     let mut scene = empty(dimension, gravity);
-    let mut last = BodyRef::Ground;
+    let mut last = BodyId::Ground;
     for i in 0..n {
         last = hang(&mut scene, last, i as f64);
     }
@@ -99,14 +99,14 @@ fn chain<T: Real>(n: usize, dimension: Dimension, gravity: f64) -> Scene<T> {
 
 /// A binary tree of `n` rods, depth first.
 fn tree<T: Real>(n: usize, dimension: Dimension, gravity: f64) -> Scene<T> {
-    fn grow<T: Real>(scene: &mut Scene<T>, (i, n): (usize, usize), parent: BodyRef, x: f64) {
+    fn grow<T: Real>(scene: &mut Scene<T>, (i, n): (usize, usize), parent: BodyId, x: f64) {
         let body = hang(scene, parent, x);
         for child in [2 * i + 1, 2 * i + 2].into_iter().filter(|&child| child < n) {
             grow(scene, (child, n), body, x + 1.0);
         }
     }
     let mut scene = empty(dimension, gravity);
-    grow(&mut scene, (0, n), BodyRef::Ground, 0.0);
+    grow(&mut scene, (0, n), BodyId::Ground, 0.0);
     scene
 }
 
