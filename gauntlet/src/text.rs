@@ -70,7 +70,7 @@ fn joint(joint: &Joint, n: usize) -> mbs::Joint {
             mbs::Joint { kind, ..mbs::Joint::weld(bodies, vector(at, n)) }
         }
     };
-    let second = if kind == JointKind::Universal { 2 } else { 1 };
+    let second = if kind.axis_keys(Dimension::Spatial) == ["axes"; 2] { 2 } else { 1 };
     for (to, axis) in of_scene.axes.iter_mut().zip(&joint.axes).take(second) {
         *to = Some(vector(*axis, n).0);
     }

@@ -3,10 +3,11 @@
 //! Points and vectors are in global axes, reference configuration, with two numbers in the plane and three in space.
 
 use crate::scene::{
-    Actuator, AeroDrag, AxisFrame, Body, BodyId, BodyTorque, Bumper, Bushing, Effect, EffectKind,
-    Force, Friction, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointId, JointKind,
-    JointTorque, Limit, Motion, Number, Output, Polynomial, PolynomialPiece, Quantity, Signal,
-    SpeedHold, SpringDamper, Tire, TorsionSpring, Vector3,
+    Actuator, AeroDrag, Axis, AxisFrame, Body, BodyId, BodyTorque, Bumper, Bushing, Dimension,
+    Effect, EffectKind, Force, Freedom, Friction, Guide, Inertia, InitialCondition, InitialTarget,
+    Joint, JointId, JointKind, JointTorque, Limit, Motion, Number, Output, Polynomial,
+    PolynomialPiece, Quantity, Rotation, Signal, SpeedHold, SpringDamper, Tire, TorsionSpring,
+    Vector3,
 };
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -105,7 +106,8 @@ impl Joint<Number> {
     /// The axis of its rotation; of a universal joint the first, then the second; of a planar one the normal.
     #[must_use]
     pub fn about(mut self, axis: impl Into<Vector3>) -> Self {
-        let is_second = self.kind == JointKind::Universal && self.axes[0].is_some();
+        let rotation = self.kind.rotation(Dimension::Spatial);
+        let is_second = matches!(rotation, Rotation::Universal(_)) && self.axes[0].is_some();
         self.axes[usize::from(is_second)] = Some(axis.into().0);
         self
     }
@@ -113,7 +115,9 @@ impl Joint<Number> {
     /// The direction of its slide; of a planar joint that of the first translation.
     #[must_use]
     pub fn along(mut self, direction: impl Into<Vector3>) -> Self {
-        self.axes[usize::from(self.kind == JointKind::Planar)] = Some(direction.into().0);
+        let slides = self.kind.freedoms(Dimension::Spatial);
+        let is_second = slides.first() == Some(&Freedom::Slide(Axis::Second));
+        self.axes[usize::from(is_second)] = Some(direction.into().0);
         self
     }
 

@@ -3,7 +3,6 @@
 mod value;
 
 use crate::read::ReadFault;
-use crate::read::error::OWNER;
 use crate::read::fields::{Fields, Read};
 use mbs_core::effects::{Default, EFFECTS, Field, Form, Row, Value};
 use mbs_core::scene::{AxisFrame, Effect, EffectKind, Number};
@@ -57,7 +56,9 @@ fn choose(fields: &Fields<'_>, named: &[usize]) -> Read<usize> {
             let is_there = |row: &usize| fields.get(first(*row)).is_some();
             match [one, other].into_iter().find(is_there) {
                 Some(row) => Ok(row),
-                None => fields.context.fault(fields.header, ReadFault::Missing { key: OWNER }),
+                None => {
+                    fields.context.fault(fields.header, ReadFault::Missing { key: "body or joint" })
+                }
             }
         }
         _ => Ok(named[0]),

@@ -13,7 +13,7 @@ use crate::read::tree::{Item, Member, Node};
 use core::fmt::{self, Display, Formatter};
 use mbs_core::scene::{
     Body, BodyId, Dimension, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointId,
-    JointKind, Motion, Number, Output, Quantity, Scene, SolverTable, Start, TableEnds,
+    Motion, Number, Output, Quantity, Scene, SolverTable, Start, TableEnds,
 };
 
 /// A scene that has no text.
@@ -259,13 +259,15 @@ impl Writer<'_> {
         keys.push("name", joint.name.as_str());
         keys.push("kind", joint.kind.name());
         keys.push("bodies", self.pair(joint.bodies)?);
-        if joint.kind == JointKind::Distance {
+        if joint.kind.is_link() {
             keys.push("points", self.two(&joint.points));
         } else if !self.is_in_the_centre(joint) {
             keys.push("at", self.vector(&joint.points[0]));
         }
         match &joint.axes {
-            [Some(first), Some(second)] if joint.kind == JointKind::Universal => {
+            [Some(first), Some(second)]
+                if joint.kind.axis_keys(Dimension::Spatial) == ["axes"; 2] =>
+            {
                 keys.push("axes", list([self.vector(first), self.vector(second)]));
             }
             [axis, direction] => {
@@ -283,7 +285,7 @@ impl Writer<'_> {
             _ => None,
         };
         let is_same = |(a, b): (&Number, &Number)| a == b && a.is_computed() == b.is_computed();
-        joint.kind == JointKind::Free
+        joint.kind.is_free()
             && body.is_some_and(|body| joint.points[0].iter().zip(&body.center).all(is_same))
     }
 

@@ -16,7 +16,7 @@ use inner::{Inner, with};
 use layout::Layout;
 use mbs_core::cluster::mass_properties;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{BodyId, JointId, JointKind, Scene};
+use mbs_core::scene::{BodyId, JointId, Scene};
 
 /// A point of a body, in the reference configuration, and what it counts.
 type Weighted = (BodyId, [f64; 3], f64);
@@ -238,7 +238,7 @@ impl Tree {
             TreeErrorKind::Guided
         } else if cuts.any(|cut| cut == joint.index()) {
             TreeErrorKind::Cut
-        } else if data.kind == JointKind::Weld {
+        } else if data.kind.is_rigid() {
             return Ok(TreeRange { q: 0..0, v: 0..0 });
         } else {
             TreeErrorKind::Idle
