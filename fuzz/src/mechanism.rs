@@ -36,7 +36,7 @@ impl Space {
     }
 }
 
-/// The text of a [`scene`].
+/// The text of a scene.
 #[must_use]
 pub fn mechanism(dice: &mut Dice) -> String {
     // there is no code in it

@@ -1,5 +1,5 @@
 // The scene "double pendulum", as constant tables for mbs-nostd; written by `mbs export`, not by hand.
-// Features of mbs-nostd that its effects need: none.
+// Features of mbs-core that its effects need: none.
 
 use mbs_nostd::table::*;
 
