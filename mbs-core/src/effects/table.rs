@@ -30,7 +30,7 @@ macro_rules! effects {
         pub enum Law<T> {
             $($(
                 #[cfg $gate]
-                #[doc = concat!("[`", stringify!($TensionLaw), "`].")]
+                #[doc = concat!("[`", stringify!($TensionLaw), "`](laws::", stringify!($TensionLaw), ").")]
                 $Tension($module::$TensionLaw $(<$TS>)?),
             )?)*
         }
@@ -91,7 +91,7 @@ macro_rules! effects {
             Never(NeverLaw<T>),
             $($(
                 #[cfg $gate]
-                #[doc = concat!("[`", stringify!($BodyLaw), "`].")]
+                #[doc = concat!("[`", stringify!($BodyLaw), "`](laws::", stringify!($BodyLaw), ").")]
                 $Body($module::$BodyLaw $(<$BS>)?),
             )?)*
         }

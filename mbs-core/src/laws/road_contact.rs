@@ -49,7 +49,7 @@ const fn steps<T: Real>() -> usize {
     if size_of::<T>() == 4 { 32 } else { 64 }
 }
 
-/// Heights that [`foot`] asks for at most: below the centre, in one search, at the ends of all cells, and in as many steps as two
+/// Heights that [`road_contact`] asks for at most: below the centre, in one search, at the ends of all cells, and in as many steps as two
 /// searches have, which the cells share.
 #[must_use]
 pub const fn most_heights<T: Real>() -> usize {

@@ -153,7 +153,7 @@ impl<T: Real, const D: usize> Events<T, D> {
 
     /// Ends the step in a state, from which the next begins.
     ///
-    /// Reads it anew, so that it need not be the one that [`crossing`](Self::crossing) was last asked for. Cost: as
+    /// Reads it anew, so that it need not be the one that [`first_event`](Self::first_event) was last asked for. Cost: as
     /// [`start`](Self::start).
     pub fn accept(&mut self, state: &State<T>) {
         self.start(state);

@@ -27,4 +27,4 @@ pub(crate) use rows::write_rows;
 pub(crate) use simulation::{ControlKept, Kept, inputs};
 
 #[cfg(doc)]
-use crate::Simulation;
+use crate::typed::Simulation;

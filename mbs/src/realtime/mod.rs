@@ -101,7 +101,7 @@ pub(crate) use summary::summary;
 pub(crate) use words::note;
 
 #[cfg(doc)]
-use crate::Simulation;
+use crate::typed::Simulation;
 
 /// How a run is paced.
 #[derive(Debug, Clone, PartialEq)]
