@@ -266,6 +266,10 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             return self.model.owner_of_row(largest(&self.state.reaction) as usize);
         }
         let n = mbs_core::Cliques::n_unknowns(&self.model);
+        if n == 0 {
+            // all bodies are welded to the ground
+            return Owner::Body(0);
+        }
         self.model.owner_of_unknown(largest(&self.state.a[..n]) as usize)
     }
 }
