@@ -117,13 +117,13 @@ mod tests {
         let start = |script: &str| {
             let mut command = Command::new("sh");
             let mut child = command.args(["-c", script, "sh"]).arg(&current).spawn().unwrap();
-            let hung = watch(&mut child, &current, Duration::from_millis(400)).unwrap();
+            let hung = watch(&mut child, &current, Duration::from_millis(1500)).unwrap();
             child.wait().unwrap();
             hung
         };
         assert!(start("echo text > \"$1\"; exec sleep 20"), "one text for too long");
         assert!(
-            !start("for i in 1 2 3 4 5 6; do echo $i > \"$1\"; sleep 0.15; done"),
+            !start("for i in 1 2 3 4 5 6 7 8; do echo $i > \"$1\"; sleep 0.3; done"),
             "many texts"
         );
         assert_eq!(keep(&current, &folder).unwrap(), folder.join("kept-1.toml"));
