@@ -7,7 +7,6 @@ use crate::options::Options;
 use crate::workspace::Workspace;
 use crate::{index1, index3};
 use alloc::boxed::Box;
-use core::any::Any;
 use core::fmt::Debug;
 use mbs_core::formulation::{Formulation, SwitchError, energies};
 use mbs_core::history::{Book, History, RestoreError, Restored};
@@ -20,11 +19,11 @@ use mbs_core::{Real, SpdSolver, with_team};
 /// Which form of the equations is stepped, with its options.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Form<T> {
-    /// ConstraintIndex-1.
+    /// Index-1.
     Index1(Options<T>),
-    /// ConstraintIndex-3.
+    /// Index-3.
     Index3(Options<T>),
-    /// ConstraintIndex-3 for long steps, index-1 for short ones.
+    /// Index-3 for long steps, index-1 for short ones.
     MultiIndex(IndexChange<T>),
 }
 
@@ -194,18 +193,6 @@ where
     ) -> Result<(), StepError> {
         let options = Options::index1();
         index1::settle(model, model.length(), &options, state, &mut self.workspace)
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
-    }
-
-    fn as_any_mut(&mut self) -> &mut dyn Any {
-        self
-    }
-
-    fn clone_box(&self) -> Box<dyn Formulation<T, D>> {
-        Box::new(self.clone())
     }
 }
 

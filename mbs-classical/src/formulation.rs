@@ -4,7 +4,6 @@ use crate::options::Options;
 use crate::workspace::Workspace;
 use crate::{index3, take_inputs};
 use alloc::boxed::Box;
-use core::any::Any;
 use core::fmt::Debug;
 use mbs_core::formulation::{Formulation, energies};
 use mbs_core::history::{Book, History, RestoreError, Restored};
@@ -100,18 +99,6 @@ where
             Some(row) => model.owner_of_row(row),
             None => model.owner_of_unknown(unknown),
         }
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
-    }
-
-    fn as_any_mut(&mut self) -> &mut dyn Any {
-        self
-    }
-
-    fn clone_box(&self) -> Box<dyn Formulation<T, D>> {
-        Box::new(self.clone())
     }
 }
 

@@ -13,7 +13,7 @@ use core::fmt::Debug;
 ///
 /// What a formulation keeps beside that state is its own: scratch, what it remembers from step to step, a state in other coordinates.
 /// Those that step natural coordinates implement few of the methods: the defaults are theirs.
-pub trait Formulation<T: Real, const D: usize>: Debug + Send + Sync {
+pub trait Formulation<T: Real, const D: usize>: Debug + Send + Sync + Erased<T, D> {
     /// Advances the state by one step.
     ///
     /// # Errors
@@ -158,7 +158,10 @@ pub trait Formulation<T: Real, const D: usize>: Debug + Send + Sync {
     ) -> Result<(), StepError> {
         Ok(())
     }
+}
 
+/// A formulation without its type: every one that can be cloned has it.
+pub trait Erased<T: Real, const D: usize> {
     /// This formulation as its own type: options are changed there.
     fn as_any(&self) -> &dyn Any;
 
@@ -167,6 +170,20 @@ pub trait Formulation<T: Real, const D: usize>: Debug + Send + Sync {
 
     /// A copy, which steps to the same bits; threads are shared.
     fn clone_box(&self) -> Box<dyn Formulation<T, D>>;
+}
+
+impl<T: Real, F: Formulation<T, D> + Clone + 'static, const D: usize> Erased<T, D> for F {
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+
+    fn clone_box(&self) -> Box<dyn Formulation<T, D>> {
+        Box::new(self.clone())
+    }
 }
 
 impl<T: Real, const D: usize> Clone for Box<dyn Formulation<T, D>> {

@@ -5,9 +5,7 @@ use crate::options::Options;
 use crate::space::Space;
 use crate::state::{TreeState, Workspace};
 use crate::tree::TreeModel;
-use alloc::boxed::Box;
 use alloc::vec::Vec;
-use core::any::Any;
 use mbs_core::Real;
 use mbs_core::actions::{Action, Actions};
 use mbs_core::formulation::{Formulation, SwitchError};
@@ -268,18 +266,6 @@ impl<T: Real, S: Space<T>, const D: usize> Formulation<T, D> for Tree<T, S> {
         self.model.settle(&mut self.state, &mut self.workspace)?;
         self.write(natural, state);
         Ok(())
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
-    }
-
-    fn as_any_mut(&mut self) -> &mut dyn Any {
-        self
-    }
-
-    fn clone_box(&self) -> Box<dyn Formulation<T, D>> {
-        Box::new(self.clone())
     }
 }
 

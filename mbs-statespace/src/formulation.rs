@@ -5,7 +5,6 @@ use crate::options::Options;
 use crate::workspace::Workspace;
 use crate::{step::step, take_inputs};
 use alloc::boxed::Box;
-use core::any::Any;
 use mbs_core::Real;
 use mbs_core::formulation::Formulation;
 use mbs_core::history::{Book, History, RestoreError, Restored};
@@ -76,18 +75,6 @@ impl<T: Real, const D: usize> Formulation<T, D> for StateSpace<T> {
 
     fn terms(&self) -> Option<&Terms<T>> {
         Some(self.workspace.terms())
-    }
-
-    fn as_any(&self) -> &dyn Any {
-        self
-    }
-
-    fn as_any_mut(&mut self) -> &mut dyn Any {
-        self
-    }
-
-    fn clone_box(&self) -> Box<dyn Formulation<T, D>> {
-        Box::new(self.clone())
     }
 }
 
