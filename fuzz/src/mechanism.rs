@@ -2,7 +2,7 @@
 
 use crate::Dice;
 use mbs::FORMULATIONS;
-use mbs::core::scene::{Dimension, JointKind, Road, Scene, SolverTable, Start, TableEnds};
+use mbs::core::scene::{Dimension, JointKind, Scene, SolverTable, TableEnds};
 use mbs::scene_file::to_toml;
 use mbs::{
     Body, BodyId, Effect, GROUND, Guide, InitialCondition, Joint, JointId, Motion, Number, Vector3,
@@ -53,19 +53,10 @@ fn scene(dice: &mut Dice) -> Scene<Number> {
     let step = Some(10_f64.powf(dice.between(-7.0, 0.0)).into());
     let formulation = Some((*dice.one_of(&FORMULATIONS)).to_owned());
     let mut scene = Scene {
-        name: "random".to_owned(),
-        dimension,
         gravity,
-        duration: 1.0.into(),
         bodies: (0..bodies).map(|k| body(space, dice).named(&format!("b{k}"))).collect(),
-        joints: Vec::new(),
-        initials: Vec::new(),
-        guides: Vec::new(),
-        road: Road::default(),
-        start: Start::default(),
-        effects: Vec::new(),
-        outputs: Vec::new(),
         solver: SolverTable { step, formulation, ..SolverTable::default() },
+        ..Scene::empty("random", dimension, 1.0.into())
     };
     let joints = bodies + dice.below(3);
     let mut simple = Vec::new();

@@ -2,7 +2,7 @@
 
 use crate::draft::{Body, Draft, Effect, Joint, Shape};
 use crate::vector::Point;
-use mbs::core::scene::{Dimension, JointKind, PolynomialPiece, Road, Scene, SolverTable, Start};
+use mbs::core::scene::{Dimension, JointKind, PolynomialPiece, Scene};
 use mbs::scene_file::to_toml;
 use mbs::{BodyId, GROUND, Guide, InitialCondition, JointId, Motion, Number, Output, Vector3};
 
@@ -20,23 +20,19 @@ pub fn text(draft: &Draft, name: &str, duration: f64) -> String {
         Guide::new(JointId::new(*joint), Motion::Sine { amplitude, frequency, phase })
     };
     let output = |(body, at): &(usize, Point)| Output::position(id(*body), vector(*at, n));
+    let dimension = if n == 2 { Dimension::Planar } else { Dimension::Spatial };
     let scene = Scene {
-        name: name.to_owned(),
-        dimension: if n == 2 { Dimension::Planar } else { Dimension::Spatial },
         gravity: Some(vector(draft.gravity, n).0),
-        duration: duration.into(),
         bodies: (1..).zip(&draft.bodies).map(|(k, b)| body(b, n).named(&names("b", k))).collect(),
         joints: (0..).zip(&draft.joints).map(|(k, j)| joint(j, n).named(&names("j", k))).collect(),
         initials: draft.starts.iter().map(initial).collect(),
         guides: draft.guides.iter().map(guide).collect(),
-        road: Road::default(),
-        start: Start::default(),
         effects: (0..)
             .zip(&draft.effects)
             .map(|(k, e)| effect(e, n).named(&names("e", k)))
             .collect(),
         outputs: (0..).zip(&draft.outputs).map(|(k, o)| output(o).named(&names("p", k))).collect(),
-        solver: SolverTable::default(),
+        ..Scene::empty(name, dimension, duration.into())
     };
     // there is no code in it
     to_toml(&scene).unwrap_or_default()

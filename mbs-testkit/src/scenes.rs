@@ -1,7 +1,7 @@
 //! Scenes: from text, from the repository, and empty ones to fill.
 
 use mbs_core::Real;
-use mbs_core::scene::{Dimension, Scene, SolverTable};
+use mbs_core::scene::{Dimension, Scene};
 use mbs_scene::SceneFile;
 use std::sync::LazyLock;
 
@@ -81,19 +81,5 @@ fn text(name: &str) -> String {
 /// A scene of one second without bodies.
 #[must_use]
 pub fn empty(name: &str, dimension: Dimension, gravity: Option<[f64; 3]>) -> Scene<f64> {
-    Scene {
-        name: name.to_owned(),
-        dimension,
-        gravity,
-        duration: 1.0,
-        bodies: Vec::new(),
-        joints: Vec::new(),
-        initials: Vec::new(),
-        guides: Vec::new(),
-        effects: Vec::new(),
-        road: Default::default(),
-        start: Default::default(),
-        outputs: Vec::new(),
-        solver: SolverTable::default(),
-    }
+    Scene { gravity, ..Scene::empty(name, dimension, 1.0) }
 }

@@ -2,7 +2,9 @@
 //!
 //! Reader, writer, checks, documents and tests go through fields and values; none of them has a list of kinds.
 
-use crate::scene::{AxisFrame, BodyId, CalspanCoefficients, JointId, PolynomialPiece, Signal};
+use crate::scene::{
+    AxisFrame, BodyId, CalspanCoefficients, Dimension, JointId, PolynomialPiece, Signal,
+};
 use alloc::vec::Vec;
 
 /// One key of an effect in scene files.
@@ -96,6 +98,17 @@ pub enum SignalForm {
     Vector,
     /// About an axis: one number in the plane, a vector in space.
     Moment,
+}
+
+impl SignalForm {
+    /// Number of its components in a scene of that dimension.
+    #[must_use]
+    pub fn n_components(self, dimension: Dimension) -> usize {
+        match (self, dimension) {
+            (Self::Scalar, _) | (Self::Moment, Dimension::Planar) => 1,
+            (Self::Vector, _) | (Self::Moment, Dimension::Spatial) => dimension.count(),
+        }
+    }
 }
 
 /// What holds where a key is left out.

@@ -35,6 +35,28 @@ pub struct Scene<T> {
     pub solver: SolverTable<T>,
 }
 
+impl<T: Default> Scene<T> {
+    /// A scene of that name, dimension and duration [s], without gravity and with nothing in it.
+    #[must_use]
+    pub fn empty(name: &str, dimension: Dimension, duration: T) -> Self {
+        Self {
+            name: String::from(name),
+            dimension,
+            gravity: None,
+            duration,
+            bodies: Vec::new(),
+            joints: Vec::new(),
+            initials: Vec::new(),
+            guides: Vec::new(),
+            road: Road::default(),
+            start: Start::default(),
+            effects: Vec::new(),
+            outputs: Vec::new(),
+            solver: SolverTable::default(),
+        }
+    }
+}
+
 /// What a run starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Start {

@@ -1,6 +1,6 @@
 //! What the families of scenes share: a scene that grows, its numbers, and the comment at the head of its text.
 
-use mbs_core::scene::{Dimension, Number, Output, Road, Scene, SolverTable, Start, Vector3};
+use mbs_core::scene::{Dimension, Number, Output, Scene, SolverTable, Vector3};
 
 /// An empty scene with gravity down; duration [s], steps of 1 ms.
 pub(super) fn scene(name: &str, dimension: Dimension, duration: f64) -> Scene<Number> {
@@ -9,19 +9,9 @@ pub(super) fn scene(name: &str, dimension: Dimension, duration: f64) -> Scene<Nu
         Dimension::Spatial => [0.0, 0.0, -9.81].into(),
     };
     Scene {
-        name: name.to_owned(),
-        dimension,
         gravity: Some(gravity.0),
-        duration: duration.into(),
-        bodies: Vec::new(),
-        joints: Vec::new(),
-        initials: Vec::new(),
-        guides: Vec::new(),
-        road: Road::default(),
-        start: Start::default(),
-        effects: Vec::new(),
-        outputs: Vec::new(),
         solver: SolverTable { step: Some(1e-3.into()), ..SolverTable::default() },
+        ..Scene::empty(name, dimension, duration.into())
     }
 }
 

@@ -8,12 +8,11 @@ const KEYS: [&str; 8] = ["name", "kind", "bodies", "at", "axis", "axes", "points
 /// Reads a joint; `centers` are the bodies' centres of mass, where a free joint is placed by default.
 pub(crate) fn read(fields: &Fields<'_>, centers: &[[Number; 3]]) -> Read<Joint<Number>> {
     let kind = read_kind(fields)?;
-    let is_planar = fields.context.is_planar();
-    let dimension = if is_planar { Dimension::Planar } else { Dimension::Spatial };
+    let dimension = fields.context.dimension;
     // Spatial kinds keep their axes in planar scenes: the check speaks about the kind, which is the fault there.
     let needed = kind.needs_axes(dimension);
     let axis_keys = kind.axis_keys(dimension);
-    let has_hinge = kind.is_link() && !is_planar;
+    let has_hinge = kind.is_link() && dimension == Dimension::Spatial;
     let place = if kind.is_link() { "points" } else { "at" };
     let mut known = vec!["name", "kind", "bodies", place];
     known.extend((0..2).filter(|&i| needed[i] || has_hinge && i == 0).map(|i| axis_keys[i]));

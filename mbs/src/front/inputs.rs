@@ -2,7 +2,7 @@
 
 use super::failure::SimulationError;
 use super::inner::Inner;
-use mbs_core::effects::{Form, SignalForm, Value};
+use mbs_core::effects::{Form, Value};
 use mbs_core::scene::{Dimension, EffectId, EffectKind, GuideId, Motion, Scene, Signal};
 use std::sync::Arc;
 
@@ -211,12 +211,7 @@ fn signal(
     let entries = kind.row().fields.iter().zip(kind.values());
     entries.into_iter().find_map(|(field, value)| match (field.form, value) {
         (Form::Signal(form), Value::Signal(signal)) => {
-            let n = match form {
-                SignalForm::Scalar => 1,
-                SignalForm::Vector => dimension.count(),
-                SignalForm::Moment => 2 * dimension.count() - 3,
-            };
-            Some((signal, n, field.unit))
+            Some((signal, form.n_components(dimension), field.unit))
         }
         _ => None,
     })

@@ -3,7 +3,7 @@
 use super::part::sealed::Id as _;
 use super::{Id, Part, PathError, SceneError, UnknownName};
 use mbs_core::Real;
-use mbs_core::scene::{Dimension, Number, Road, Scene, SolverTable, Start, Vector3};
+use mbs_core::scene::{Dimension, Number, Road, Scene, Vector3};
 use mbs_scene::{ReadError, SceneFile, WriteError};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::path::Path;
@@ -54,21 +54,7 @@ impl Mechanism {
     }
 
     fn empty(name: &str, dimension: Dimension) -> Self {
-        let scene = Scene {
-            name: name.to_owned(),
-            dimension,
-            gravity: None,
-            duration: Number::assumed(1.0),
-            bodies: Vec::new(),
-            joints: Vec::new(),
-            initials: Vec::new(),
-            guides: Vec::new(),
-            road: Road::default(),
-            start: Start::default(),
-            effects: Vec::new(),
-            outputs: Vec::new(),
-            solver: SolverTable::default(),
-        };
+        let scene = Scene::empty(name, dimension, Number::assumed(1.0));
         Self { scene, file: None, is_changed: true }
     }
 

@@ -48,11 +48,7 @@ fn signal(fields: &Fields<'_>, form: SignalForm) -> Read<Option<Signal<Number>>>
     fields.exclusive("value", "table")?;
     fields.exclusive("table", "input")?;
     let context = fields.context;
-    let is_scalar = match form {
-        SignalForm::Scalar => true,
-        SignalForm::Vector => false,
-        SignalForm::Moment => context.is_planar(),
-    };
+    let is_scalar = form.n_components(context.dimension) == 1;
     let value = |item| {
         if is_scalar {
             return Ok([context.number(item)?, Number::ZERO, Number::ZERO]);

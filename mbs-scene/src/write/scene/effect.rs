@@ -1,7 +1,7 @@
 //! `[[effect]]`: any kind with its keys, by the table of mbs-core.
 
 use super::{Keys, Node, WriteError, Writer, list};
-use mbs_core::effects::{Field, Form, SignalForm, Value};
+use mbs_core::effects::{Field, Form, Value};
 use mbs_core::scene::{AxisFrame, CalspanCoefficients, Effect, Number, PolynomialPiece, Signal};
 
 impl Writer<'_> {
@@ -51,8 +51,7 @@ impl Writer<'_> {
             }
             Value::Signal(signal) => {
                 let is_scalar = match field.form {
-                    Form::Signal(SignalForm::Vector) => false,
-                    Form::Signal(SignalForm::Moment) => self.is_planar(),
+                    Form::Signal(form) => form.n_components(self.scene.dimension) == 1,
                     _ => true,
                 };
                 self.signal(keys, signal, is_scalar);
