@@ -237,7 +237,8 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
         let Lengths { step_max, duration, .. } = self.lengths;
         let mut clock = Instant::now();
         for k in self.done + 1..=n_steps {
-            let (from, to) = (multiple(k - 1, (step_max, h)), multiple(k, (step_max, h)));
+            let (from, to) =
+                (multiple(T::ZERO, k - 1, (step_max, h)), multiple(T::ZERO, k, (step_max, h)));
             let is_last = k == n_steps;
             #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
             let (before, count) = ((k - 1) as f64 * h, k as f64);
@@ -437,9 +438,13 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
     }
 }
 
-/// Time k h [s]: in `f64` where that has as many digits, so that short numbers make no short times.
-fn multiple<T: Real>(k: u64, (step, in_f64): (T, f64)) -> T {
+/// Time t + k h [s]: in `f64` where that has as many digits, so that short numbers make no short times.
+pub(crate) fn multiple<T: Real>(t: T, k: u64, (step, in_f64): (T, f64)) -> T {
     #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
     let count = k as f64;
-    if is_finer::<T>() { T::from_f64(count) * step } else { T::from_f64(count * in_f64) }
+    if is_finer::<T>() {
+        t + T::from_f64(count) * step
+    } else {
+        T::from_f64(t.to_f64() + count * in_f64)
+    }
 }

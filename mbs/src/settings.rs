@@ -295,20 +295,11 @@ impl Settings {
         })
     }
 
-    /// Step, largest step and duration in the precision of the run: what the scene says with all its digits, else the
-    /// decimal number that was meant, which is the shortest one that `f64` reads as this.
+    /// Step, largest step and duration in the precision of the run.
     #[must_use]
     pub fn lengths<T: Real>(&self, scene: &Scene<T>) -> Lengths<T> {
-        let solver = &scene.solver;
-        let written = [Some(scene.duration), solver.step, solver.step_max];
-        let exact = |x: f64| {
-            if !is_finer::<T>() {
-                return T::from_f64(x);
-            }
-            let same = written.into_iter().flatten().find(|&w| w.to_f64().to_bits() == x.to_bits());
-            same.or_else(|| T::from_decimal(&format!("{x:e}"))).unwrap_or(T::from_f64(x))
-        };
-        let [step, step_max, duration] = [self.step, self.step_max, self.duration].map(exact);
+        let lengths = [self.step, self.step_max, self.duration];
+        let [step, step_max, duration] = lengths.map(|x| exact(scene, x));
         Lengths { step, step_max, duration }
     }
 
@@ -329,6 +320,17 @@ impl Settings {
             steps.ceil() as u64
         }
     }
+}
+
+/// A length of time [s] in the precision of a run: what the scene says with all its digits, else the decimal number that was meant, which is
+/// the shortest one that `f64` reads as this.
+pub(crate) fn exact<T: Real>(scene: &Scene<T>, x: f64) -> T {
+    if !is_finer::<T>() {
+        return T::from_f64(x);
+    }
+    let written = [Some(scene.duration), scene.solver.step, scene.solver.step_max];
+    let same = written.into_iter().flatten().find(|&w| w.to_f64().to_bits() == x.to_bits());
+    same.or_else(|| T::from_decimal(&format!("{x:e}"))).unwrap_or(T::from_f64(x))
 }
 
 /// The formulation as asked and as it runs, and the integrator.

@@ -1,7 +1,7 @@
 //! The time of a simulation that is stepped by hand: sums of many steps drift, multiples do not.
 
 use crate::checkpoint::tape::{Tape, Told};
-use crate::digits::is_finer;
+use crate::run::multiple;
 use mbs_core::Real;
 
 /// A row of equal steps.
@@ -23,13 +23,7 @@ impl<T: Real> StepClock<T> {
             *self = Self { origin: now, dt, count: 0, end: now };
         }
         self.count += 1;
-        #[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
-        let count = self.count as f64;
-        self.end = if is_finer::<T>() {
-            self.origin + T::from_f64(count) * self.dt.1
-        } else {
-            T::from_f64(self.origin.to_f64() + count * self.dt.0)
-        };
+        self.end = multiple(self.origin, self.count, (self.dt.1, self.dt.0));
         self.end
     }
 

@@ -8,9 +8,8 @@ use super::values::{
 };
 use crate::checkpoint::CheckpointError;
 use crate::checkpoint::tape::{Eye, Pen, Tape, holds};
-use crate::digits::is_finer;
 use crate::precision::Work;
-use crate::settings::Settings;
+use crate::settings::{Settings, exact};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use core::fmt::Debug;
@@ -20,8 +19,9 @@ use mbs_core::scene::{BodyId, InitialCondition, InitialTarget, JointId, Scene, S
 use mbs_core::step::InputError;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What can be read of a simulation, without its scalar and its dimension.
-pub(crate) trait Look {
+/// A simulation without its scalar and its dimension.
+pub(crate) trait Inner: Debug + Send + Sync {
+    fn clone_box(&self) -> Box<dyn Inner>;
     fn time(&self) -> f64;
     fn values(&self, joint: usize) -> Coordinates;
     fn rates(&self, joint: usize) -> Coordinates;
@@ -35,13 +35,6 @@ pub(crate) trait Look {
     fn sizes(&self) -> Sizes;
     /// Puts a tree of the same mechanism where the simulation is.
     fn follow(&self, tree: &mut Tree) -> Result<(), TreeError>;
-}
-
-/// A simulation without its scalar and its dimension.
-pub(crate) trait Inner: Debug + Send + Sync {
-    fn clone_box(&self) -> Box<dyn Inner>;
-    /// Reads it, once.
-    fn with(&self, read: &mut dyn FnMut(&dyn Look));
     /// Length of the steps that the method asks for [s].
     fn length(&self) -> f64;
     fn is_controlled(&self) -> bool;
@@ -57,13 +50,6 @@ pub(crate) trait Inner: Debug + Send + Sync {
     ) -> Result<(), StopError>;
     fn save(&self) -> Result<Vec<u8>, CheckpointError>;
     fn restore(&mut self, bytes: &[u8]) -> Result<(), CheckpointError>;
-}
-
-/// A simulation that is read.
-pub(crate) struct At<'a, T: Real, const D: usize> {
-    pub(crate) scene: &'a Scene<T>,
-    pub(crate) simulation: &'a Simulation<T, D>,
-    pub(crate) readings: &'a Mutex<Readings<T, D>>,
 }
 
 /// It, in its scalar and dimension.
@@ -84,23 +70,23 @@ impl<T: Real, const D: usize> Typed<T, D> {
         Ok(Self { scene, settings: settings.clone(), simulation, clock, readings })
     }
 
-    /// A length of time in the digits of the run [s]: the scene's step with all that are written, else the shortest decimal number.
-    fn exact(&self, x: f64) -> T {
-        if x.to_bits() == self.settings.step_max.to_bits() {
-            return self.settings.lengths(&self.scene).step_max;
-        }
-        let exact = if is_finer::<T>() { T::from_decimal(&format!("{x:e}")) } else { None };
-        exact.unwrap_or(T::from_f64(x))
-    }
-}
-
-impl<T: Real, const D: usize> At<'_, T, D> {
     fn read(&self) -> MutexGuard<'_, Readings<T, D>> {
-        locked(self.readings)
+        // readings are made anew from the state: a panic while they were made leaves nothing behind
+        self.readings.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl<T: Real, const D: usize> Look for At<'_, T, D> {
+impl<T: Real, const D: usize> Inner for Typed<T, D> {
+    fn clone_box(&self) -> Box<dyn Inner> {
+        Box::new(Self {
+            scene: self.scene.clone(),
+            settings: self.settings.clone(),
+            simulation: self.simulation.clone(),
+            clock: self.clock,
+            readings: Mutex::new(self.read().clone()),
+        })
+    }
+
     fn time(&self) -> f64 {
         self.simulation.state().t.to_f64()
     }
@@ -126,7 +112,7 @@ impl<T: Real, const D: usize> Look for At<'_, T, D> {
     }
 
     fn reaction(&self, joint: usize) -> Result<Wrench, StopError> {
-        self.read().reaction(joint, (self.scene, self.simulation))
+        self.read().reaction(joint, (&self.scene, &self.simulation))
     }
 
     fn body(&self, body: BodyId) -> (Pose, BodyMotion) {
@@ -139,7 +125,7 @@ impl<T: Real, const D: usize> Look for At<'_, T, D> {
             angular_acceleration,
             acceleration,
             ..
-        } = self.simulation.model().motion(self.scene, body, self.simulation.state());
+        } = self.simulation.model().motion(&self.scene, body, self.simulation.state());
         let rotation =
             core::array::from_fn(|i| core::array::from_fn(|j| rotation[(i, j)].to_f64()));
         let pose = Pose { position: numbers(position.as_slice()), rotation };
@@ -169,7 +155,7 @@ impl<T: Real, const D: usize> Look for At<'_, T, D> {
 
     fn follow(&self, tree: &mut Tree) -> Result<(), TreeError> {
         let (model, state) = (self.simulation.model(), self.simulation.state());
-        let motion = |b| in_doubles(&model.motion(self.scene, b, state));
+        let motion = |b| in_doubles(&model.motion(&self.scene, b, state));
         let motions: Vec<_> = (0..self.scene.bodies.len()).map(motion).collect();
         let applied: Vec<f64> = state.applied.iter().map(|x| x.to_f64()).collect();
         tree.follow_motions((state.t.to_f64(), &applied), &motions)
@@ -179,32 +165,15 @@ impl<T: Real, const D: usize> Look for At<'_, T, D> {
         let [coordinates, constraints, rank] = self.simulation.sizes();
         Sizes { coordinates, constraints, rank }
     }
-}
-
-impl<T: Real, const D: usize> Inner for Typed<T, D> {
-    fn clone_box(&self) -> Box<dyn Inner> {
-        Box::new(Self {
-            scene: self.scene.clone(),
-            settings: self.settings.clone(),
-            simulation: self.simulation.clone(),
-            clock: self.clock,
-            readings: Mutex::new(locked(&self.readings).clone()),
-        })
-    }
-
-    fn with(&self, read: &mut dyn FnMut(&dyn Look)) {
-        let Self { scene, simulation, readings, .. } = self;
-        read(&At { scene, simulation, readings });
-    }
 
     fn length(&self) -> f64 {
         self.settings.step_max
     }
 
     fn step(&mut self, dt: f64, to: Option<f64>) -> Result<StepReport, StopError> {
-        let (length, now) = (self.exact(dt), self.simulation.state().t);
+        let (length, now) = (exact(&self.scene, dt), self.simulation.state().t);
         let end = self.clock.advance(now, (dt, length));
-        let end = to.map_or(end, |to| self.exact(to));
+        let end = to.map_or(end, |to| exact(&self.scene, to));
         let readings = self.readings.get_mut().unwrap_or_else(PoisonError::into_inner);
         let (mut sum, mut rest) = (StepReport::default(), length);
         loop {
@@ -254,7 +223,7 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
             scene.start = Start::Initial;
         }
         let mut fresh = Self::new(scene, &self.settings)?;
-        fresh.simulation.set_time(self.exact(t));
+        fresh.simulation.set_time(exact(&self.scene, t));
         // the scene's own conditions are those of a later reset
         core::mem::swap(&mut fresh.scene, &mut self.scene);
         *self = fresh;
@@ -266,7 +235,7 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
         let mut state = Vec::new();
         self.simulation.save((&self.scene, &self.settings), &mut state)?;
         pen.list(&mut state, 1, |tape, byte| tape.bytes(core::slice::from_mut(byte)))?;
-        locked(&self.readings).clone().walk(&mut pen)?;
+        self.read().clone().walk(&mut pen)?;
         self.clock.clone().walk(&mut pen)?;
         Ok(pen.0)
     }
@@ -274,7 +243,7 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
     fn restore(&mut self, bytes: &[u8]) -> Result<(), CheckpointError> {
         let (mut eye, mut state) = (Eye(bytes), Vec::new());
         eye.list(&mut state, 1, |tape, byte| tape.bytes(core::slice::from_mut(byte)))?;
-        let (mut readings, mut clock) = (locked(&self.readings).clone(), self.clock);
+        let (mut readings, mut clock) = (self.read().clone(), self.clock);
         readings.walk(&mut eye)?;
         clock.walk(&mut eye)?;
         holds(eye.0.is_empty())?;
@@ -283,11 +252,6 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
         (self.readings, self.clock) = (Mutex::new(readings), clock);
         Ok(())
     }
-}
-
-/// Readings are made anew from the state: a panic while they were made leaves nothing behind.
-fn locked<R>(readings: &Mutex<R>) -> MutexGuard<'_, R> {
-    readings.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Components as plain numbers; those that the plane lacks are zero.

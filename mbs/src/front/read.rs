@@ -11,7 +11,7 @@ impl Simulation {
     /// Time [s]. It is a count times the step plus a rest, so that 1000 steps of 1e-3 end at 1.0.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.read(|look| look.time())
+        self.inner.time()
     }
 
     /// First coordinate of a joint, from the reference configuration, turns counted [rad, m].
@@ -26,7 +26,7 @@ impl Simulation {
     /// All coordinates of a joint [rad, m].
     #[must_use]
     pub fn values(&self, joint: JointId) -> Coordinates {
-        self.read(|look| look.values(joint.index()))
+        self.inner.values(joint.index())
     }
 
     /// Rate of the first coordinate of a joint [rad/s, m/s].
@@ -41,26 +41,26 @@ impl Simulation {
     /// All rates of a joint; of a ball the relative angular velocity in global axes [rad/s, m/s].
     #[must_use]
     pub fn rates(&self, joint: JointId) -> Coordinates {
-        self.read(|look| look.rates(joint.index()))
+        self.inner.rates(joint.index())
     }
 
     /// Centre of mass of a body, and its rotation from the reference configuration.
     #[must_use]
     pub fn pose(&self, body: BodyId) -> Pose {
-        self.read(|look| look.body(body)).0
+        self.inner.body(body).0
     }
 
     /// Velocities and accelerations of a body.
     #[must_use]
     pub fn motion(&self, body: BodyId) -> BodyMotion {
-        self.read(|look| look.body(body)).1
+        self.inner.body(body).1
     }
 
     /// The material point of a body that is at `at` in the reference configuration [m].
     #[must_use]
     pub fn point(&self, body: BodyId, at: impl Into<Vector3>) -> PointMotion {
         let at = at.into().0.each_ref().map(Number::to_f64);
-        self.read(|look| look.point(body, at))
+        self.inner.point(body, at)
     }
 
     /// What the first body of a joint does to the second, at the joint's place on the second body, effort of guides included.
@@ -70,7 +70,7 @@ impl Simulation {
     /// # Errors
     /// Where connected loops are too large for it.
     pub fn reaction(&self, joint: JointId) -> Result<Wrench, SimulationError> {
-        self.read(|look| look.reaction(joint.index())).map_err(|error| self.stopped(error))
+        self.inner.reaction(joint.index()).map_err(|error| self.stopped(error))
     }
 
     /// Components of an output of the mechanism.
@@ -78,7 +78,7 @@ impl Simulation {
     /// # Errors
     /// Where one is not finite.
     pub fn output(&self, output: OutputId) -> Result<Components, SimulationError> {
-        self.read(|look| look.output(output.index())).map_err(|error| self.stopped(error))
+        self.inner.output(output.index()).map_err(|error| self.stopped(error))
     }
 
     /// Writes all outputs in their order: as many numbers as [`n_outputs`](Self::n_outputs), or the first ones.
@@ -86,24 +86,24 @@ impl Simulation {
     /// # Errors
     /// Where one is not finite.
     pub fn write_outputs(&self, out: &mut [f64]) -> Result<(), SimulationError> {
-        self.read(|look| look.write_outputs(out)).map_err(|error| self.stopped(error))
+        self.inner.write_outputs(out).map_err(|error| self.stopped(error))
     }
 
     /// Number of components of all outputs; of all joint coordinates where the mechanism names no output.
     #[must_use]
     pub fn n_outputs(&self) -> usize {
-        self.read(|look| look.n_outputs())
+        self.inner.n_outputs()
     }
 
     /// Kinetic and potential energy, and work of dampers, guides and inputs since the start [J].
     #[must_use]
     pub fn energies(&self) -> Energies {
-        self.read(|look| look.energies())
+        self.inner.energies()
     }
 
     /// Sizes of the model that steps.
     #[must_use]
     pub fn sizes(&self) -> Sizes {
-        self.read(|look| look.sizes())
+        self.inner.sizes()
     }
 }

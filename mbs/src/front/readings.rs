@@ -16,7 +16,8 @@ use mbs_core::scene::{JointId, Output, Quantity, Scene};
 pub(super) struct Readings<T: Real, const D: usize> {
     joints: Group<T, D>,
     rates: Group<T, D>,
-    outputs: Group<T, D>,
+    /// Of a scene that names none they are the joints'.
+    outputs: Option<Group<T, D>>,
     /// Made where one is asked for; whether they are those of the present state.
     reactions: Option<(Box<Reactions<T, D>>, bool)>,
 }
@@ -78,11 +79,12 @@ impl<T: Real, const D: usize> Readings<T, D> {
                 simulation,
             )
         };
-        let outputs = scene.outputs.iter().map(|output| output.quantity.clone()).collect();
+        let outputs: Vec<_> = scene.outputs.iter().map(|o| o.quantity.clone()).collect();
+        let outputs = (!outputs.is_empty()).then(|| Group::new(scene, outputs, simulation));
         Ok(Self {
             joints: of_joints(|joint| Quantity::JointValue { joint })?,
             rates: of_joints(|joint| Quantity::JointRate { joint })?,
-            outputs: Group::new(scene, outputs, simulation)?,
+            outputs: outputs.transpose()?,
             reactions: None,
         })
     }
@@ -91,12 +93,16 @@ impl<T: Real, const D: usize> Readings<T, D> {
     pub(super) fn follow(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
         self.stale();
         self.joints.channels.track(simulation)?;
-        self.outputs.channels.track(simulation)
+        self.outputs.as_mut().map_or(Ok(()), |outputs| outputs.channels.track(simulation))
+    }
+
+    fn outputs(&mut self) -> &mut Group<T, D> {
+        self.outputs.as_mut().unwrap_or(&mut self.joints)
     }
 
     /// What was read is no longer that of the present state.
     pub(super) fn stale(&mut self) {
-        for group in [&mut self.joints, &mut self.rates, &mut self.outputs] {
+        for group in [&mut self.joints, &mut self.rates].into_iter().chain(&mut self.outputs) {
             group.is_present = false;
         }
         if let Some((_, is_present)) = &mut self.reactions {
@@ -118,19 +124,20 @@ impl<T: Real, const D: usize> Readings<T, D> {
         output: usize,
         state: &State<T>,
     ) -> Result<Coordinates, StopError> {
-        let (output, written) = self.outputs.of(output, state);
+        let (output, written) = self.outputs().of(output, state);
         written.map(|()| output)
     }
 
     /// Number of components of all outputs.
     pub(super) fn n_components(&self) -> usize {
-        self.outputs.row.len()
+        self.outputs.as_ref().unwrap_or(&self.joints).row.len()
     }
 
     /// Writes the components of all outputs, in their order.
     pub(super) fn write(&mut self, state: &State<T>, out: &mut [f64]) -> Result<(), StopError> {
-        let written = self.outputs.update(state);
-        out.iter_mut().zip(&self.outputs.row).for_each(|(to, x)| *to = x.to_f64());
+        let outputs = self.outputs();
+        let written = outputs.update(state);
+        out.iter_mut().zip(&outputs.row).for_each(|(to, x)| *to = x.to_f64());
         written
     }
 
@@ -162,6 +169,6 @@ impl<T: Real, const D: usize> Readings<T, D> {
     /// Writes the turns that are remembered, or reads them back.
     pub(super) fn walk(&mut self, tape: &mut impl Tape) -> Told {
         self.joints.channels.walk(tape)?;
-        self.outputs.channels.walk(tape)
+        self.outputs.as_mut().map_or(Ok(()), |outputs| outputs.channels.walk(tape))
     }
 }

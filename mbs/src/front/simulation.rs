@@ -1,7 +1,7 @@
 //! A mechanism in motion.
 
 use super::failure::SimulationError;
-use super::inner::{Inner, Look};
+use super::inner::Inner;
 use super::inputs::{InputId, InputInfo, Inputs};
 use super::values::{Coordinates, StepReport};
 use crate::checkpoint::CheckpointError;
@@ -33,7 +33,7 @@ const SAME_LENGTH: f64 = 1e-9;
 /// ```
 #[derive(Debug)]
 pub struct Simulation {
-    inner: Box<dyn Inner>,
+    pub(super) inner: Box<dyn Inner>,
     inputs: Inputs,
     names: Arc<Names>,
 }
@@ -48,13 +48,6 @@ impl Clone for Simulation {
 impl Simulation {
     pub(super) fn of(inner: Box<dyn Inner>, inputs: Inputs, names: Names) -> Self {
         Self { inner, inputs, names: Arc::new(names) }
-    }
-
-    /// Reads it.
-    pub(super) fn read<R>(&self, mut read: impl FnMut(&dyn Look) -> R) -> R {
-        let mut found = None;
-        self.inner.with(&mut |look| found = Some(read(look)));
-        found.expect("it is read once")
     }
 
     pub(super) fn stopped(&self, error: StopError) -> SimulationError {

@@ -200,8 +200,8 @@ impl<T: Real, const D: usize> Paced<'_, T, D> {
     fn period(&mut self, k: u64) -> Result<(), StopError> {
         let Track { period, periods, .. } = self.track;
         let is_last = k == periods;
-        let from = multiple(k - 1, period);
-        let to = if is_last { self.run.lengths.duration } else { multiple(k, period) };
+        let from = multiple(T::ZERO, k - 1, period);
+        let to = if is_last { self.run.lengths.duration } else { multiple(T::ZERO, k, period) };
         let mut clock = Instant::now();
         let Some(n) = self.levels[self.at].steps else { return self.controlled(to, &mut clock) };
         // The length of a whole period is exact; that between two multiples is rounded.

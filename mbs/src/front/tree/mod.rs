@@ -168,7 +168,7 @@ impl Tree {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn follow(&mut self, simulation: &Simulation) -> Result<(), TreeError> {
-        simulation.read(|look| look.follow(self))
+        simulation.inner.follow(self)
     }
 
     /// The same of one in a scalar and dimension.
