@@ -24,6 +24,27 @@ pub(crate) trait Work {
         Plane<D>: InSpace<T>;
 }
 
+/// What has a scene in every precision.
+pub(crate) trait Source {
+    /// Why it has none in one.
+    type Error: From<PrecisionError>;
+
+    /// The scene in the precision `T`.
+    #[cfg_attr(
+        not(any(feature = "f32", feature = "dd")),
+        allow(dead_code, reason = "a build in f64 alone has its scene")
+    )]
+    fn scene_in<T: Real>(&self) -> Result<Scene<T>, Self::Error>;
+}
+
+impl Source for SceneFile {
+    type Error = PrecisionError;
+
+    fn scene_in<T: Real>(&self) -> Result<Scene<T>, PrecisionError> {
+        Ok(self.scene()?)
+    }
+}
+
 /// A scene in one precision.
 #[derive(Debug)]
 pub(crate) enum ReadScene<'a> {
@@ -43,21 +64,25 @@ impl<'a> ReadScene<'a> {
         (document, scene): (&SceneFile, &'a Scene<f64>),
         precision: Precision,
     ) -> Result<Self, PrecisionError> {
-        let _ = document;
-        match precision {
-            Precision::F64 => Ok(Self::F64(Box::new(Cow::Borrowed(scene)))),
-            #[cfg(feature = "f32")]
-            Precision::F32 => Ok(Self::F32(Box::new(document.scene()?))),
-            #[cfg(feature = "dd")]
-            Precision::DoubleDouble => Ok(Self::DoubleDouble(Box::new(document.scene()?))),
-            #[cfg(not(all(feature = "f32", feature = "dd")))]
-            missing => Err(PrecisionError::NotBuilt(missing)),
-        }
+        Self::of(document, Cow::Borrowed(scene), precision)
     }
 
-    /// A scene in `f64`.
-    pub(crate) fn of_f64(scene: Scene<f64>) -> Self {
-        Self::F64(Box::new(Cow::Owned(scene)))
+    /// The same of any source that has the scene in `f64`.
+    pub(crate) fn of<S: Source>(
+        source: &S,
+        scene: Cow<'a, Scene<f64>>,
+        precision: Precision,
+    ) -> Result<Self, S::Error> {
+        let _ = source;
+        match precision {
+            Precision::F64 => Ok(Self::F64(Box::new(scene))),
+            #[cfg(feature = "f32")]
+            Precision::F32 => Ok(Self::F32(Box::new(source.scene_in()?))),
+            #[cfg(feature = "dd")]
+            Precision::DoubleDouble => Ok(Self::DoubleDouble(Box::new(source.scene_in()?))),
+            #[cfg(not(all(feature = "f32", feature = "dd")))]
+            missing => Err(PrecisionError::NotBuilt(missing).into()),
+        }
     }
 
     /// The same for as long as one likes.

@@ -6,12 +6,13 @@ use super::inputs::Inputs;
 use super::mechanism::Mechanism;
 use super::simulation::Simulation;
 use super::tree::Tree;
-use crate::choice::Precision;
 use crate::names::Names;
-use crate::precision::ReadScene;
+use crate::precision::{ReadScene, Source};
 use crate::settings::{Method, Settings};
 use crate::statics::StaticEquilibrium;
+use mbs_core::Real;
 use mbs_core::scene::{Scene, Start};
+use std::borrow::Cow;
 
 impl Mechanism {
     /// Builds the model, assembles it and allocates all that a step needs. What the method leaves open is what the mechanism's file asks for,
@@ -49,15 +50,15 @@ impl Mechanism {
     ) -> Result<(ReadScene<'static>, Settings, Scene<f64>), SimulationError> {
         let scene = self.resolve_scene()?;
         let settings = Settings::new(&scene, method)?;
-        let read = match settings.precision {
-            Precision::F64 => ReadScene::of_f64(scene.clone()),
-            #[cfg(feature = "f32")]
-            Precision::F32 => ReadScene::F32(Box::new(self.resolved()?)),
-            #[cfg(feature = "dd")]
-            Precision::DoubleDouble => ReadScene::DoubleDouble(Box::new(self.resolved()?)),
-            #[cfg(not(all(feature = "f32", feature = "dd")))]
-            missing => return Err(crate::precision::PrecisionError::NotBuilt(missing).into()),
-        };
+        let read = ReadScene::of(self, Cow::Owned(scene.clone()), settings.precision)?;
         Ok((read, settings, scene))
+    }
+}
+
+impl Source for Mechanism {
+    type Error = SimulationError;
+
+    fn scene_in<T: Real>(&self) -> Result<Scene<T>, SimulationError> {
+        Ok(self.resolved()?)
     }
 }
