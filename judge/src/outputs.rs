@@ -1,8 +1,53 @@
 //! What channels show.
 
 use crate::motion::{Mechanism, State};
-use crate::scene::Quantity;
 use crate::vector::{Vector, add, cross};
+
+/// What a channel shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Quantity {
+    /// Of a body's point.
+    Position(usize, Vector),
+    /// Of a body's point.
+    Velocity(usize, Vector),
+    /// Of a body's point.
+    Acceleration(usize, Vector),
+    /// Of a joint.
+    Value(usize),
+    /// Of a joint.
+    Rate(usize),
+    /// Of a joint.
+    Reaction(usize),
+}
+
+impl Quantity {
+    /// Names of those of a body's point.
+    pub const OF_POINTS: &[&str] = &["position", "velocity", "acceleration"];
+    /// Names of those of a body.
+    pub const OF_BODIES: &[&str] = &[];
+    /// Names of those of a joint.
+    pub const OF_JOINTS: &[&str] = &["value", "rate", "reaction"];
+
+    /// That of a body, or of its point.
+    pub(crate) fn of_body(name: &str, body: usize, at: Option<Vector>) -> Option<Self> {
+        Some(match (name, at) {
+            ("position", Some(at)) => Self::Position(body, at),
+            ("velocity", Some(at)) => Self::Velocity(body, at),
+            ("acceleration", Some(at)) => Self::Acceleration(body, at),
+            _ => return None,
+        })
+    }
+
+    /// That of a joint.
+    pub(crate) fn of_joint(name: &str, joint: usize) -> Option<Self> {
+        Some(match name {
+            "value" => Self::Value(joint),
+            "rate" => Self::Rate(joint),
+            "reaction" => Self::Reaction(joint),
+            _ => return None,
+        })
+    }
+}
 
 impl Mechanism {
     /// Components of a quantity.

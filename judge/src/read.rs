@@ -279,23 +279,12 @@ fn output(mut table: Table, names: &Names) -> Read<Output> {
     let name = table.text("name")?;
     let kind = table.text("quantity")?;
     let quantity = if let Some(Node::Text(joint)) = table.take("joint") {
-        let joint = names.joint(&joint)?;
-        match kind.as_str() {
-            "value" => Quantity::Value(joint),
-            "rate" => Quantity::Rate(joint),
-            "reaction" => Quantity::Reaction(joint),
-            other => return fault(format!("no quantity `{other}` of a joint")),
-        }
+        Quantity::of_joint(&kind, names.joint(&joint)?)
     } else {
         let body = names.body(&table.text("body")?)?;
-        let at = table.vector("at")?;
-        match kind.as_str() {
-            "position" => Quantity::Position(body, at),
-            "velocity" => Quantity::Velocity(body, at),
-            "acceleration" => Quantity::Acceleration(body, at),
-            other => return fault(format!("no quantity `{other}` of a body")),
-        }
+        Quantity::of_body(&kind, body, table.vector_or_none("at")?)
     };
+    let Some(quantity) = quantity else { return fault(format!("no quantity `{kind}`")) };
     table.done("output")?;
     Ok(Output { name, quantity })
 }

@@ -1,5 +1,6 @@
 //! What a scene says, as the judge reads it. A planar scene lies in the plane z = 0 of space.
 
+pub use crate::outputs::Quantity;
 use crate::vector::{Matrix, Vector};
 
 /// A scene.
@@ -267,23 +268,6 @@ pub enum Feature {
     Bump([f64; 3]),
     /// Natural cubic spline of the height.
     Table(Spline),
-}
-
-/// What a channel shows.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Quantity {
-    /// Of a body's point.
-    Position(usize, Vector),
-    /// Of a body's point.
-    Velocity(usize, Vector),
-    /// Of a body's point.
-    Acceleration(usize, Vector),
-    /// Of a joint.
-    Value(usize),
-    /// Of a joint.
-    Rate(usize),
-    /// Of a joint.
-    Reaction(usize),
 }
 
 /// A channel.

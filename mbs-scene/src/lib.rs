@@ -12,11 +12,12 @@ mod write;
 
 pub use dice::Dice;
 pub use generate::{Family, GenerateError, MOST_BODIES, generate};
+pub use mbs_core::outputs::Component;
 pub use page::page;
 pub use read::{Place, ReadError, ReadFault, SceneFile, Sweep, SweepFault, nearest_name};
 pub use record::{
-    Animation, Channel, ChannelSeries, Component, EnergySeries, IterationSeries, Polyline,
-    Provenance, RunRecord, StepRow, StepSeries, Trace, ViolationSeries,
+    Animation, Channel, ChannelSeries, EnergySeries, IterationSeries, Polyline, Provenance,
+    RunRecord, StepRow, StepSeries, Trace, ViolationSeries,
 };
 pub use report::{Report, Section};
 pub use write::{

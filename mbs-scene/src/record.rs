@@ -1,7 +1,8 @@
 //! What a run leaves behind, as plain data: channels, pictures, energies, counts.
 
 use crate::write::ControlSummary;
-use mbs_core::scene::{Dimension, Freedom, JointId, JointKind, Quantity, Scene};
+use mbs_core::outputs::Component;
+use mbs_core::scene::{Output, Scene};
 
 /// A recorded channel: its name and its components.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -10,15 +11,6 @@ pub struct Channel {
     pub name: String,
     /// Components in the order of the record; one for a number.
     pub components: Vec<Component>,
-}
-
-/// A component of a channel.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Component {
-    /// What follows the dot in a column's name; empty when the channel is one number.
-    pub label: String,
-    /// Unit, such as `m` or `rad/s`.
-    pub unit: String,
 }
 
 impl Channel {
@@ -30,30 +22,12 @@ impl Channel {
     /// # Panics
     /// If an output points to a joint that is not there; [`Scene::check`] refuses those.
     #[must_use]
-    pub fn of_scene<T>(scene: &Scene<T>) -> Vec<Self> {
-        if scene.outputs.is_empty() {
-            let joints = scene.joints.iter().map(|joint| {
-                Self::numbered(&joint.name, &coordinate_units(joint.kind, scene.dimension), "")
-            });
-            return joints.filter(|channel| !channel.components.is_empty()).collect();
-        }
-        let vector = |name: &str, unit| {
-            let labels = &["x", "y", "z"][..scene.dimension.count()];
-            Self::labelled(name, labels.iter().map(|label| (*label, unit)))
+    pub fn of_scene<T: Clone>(scene: &Scene<T>) -> Vec<Self> {
+        let channel = |output: Output<T>| Self {
+            components: output.quantity.components(scene),
+            name: output.name,
         };
-        let units = |joint: JointId| coordinate_units(scene.joints[joint].kind, scene.dimension);
-        scene
-            .outputs
-            .iter()
-            .map(|output| match output.quantity {
-                Quantity::Position { .. } => vector(&output.name, "m"),
-                Quantity::Velocity { .. } => vector(&output.name, "m/s"),
-                Quantity::Acceleration { .. } => vector(&output.name, "m/s^2"),
-                Quantity::JointValue { joint } => Self::numbered(&output.name, &units(joint), ""),
-                Quantity::JointRate { joint } => Self::numbered(&output.name, &units(joint), "/s"),
-                Quantity::Reaction { .. } => reaction(&output.name, scene.dimension),
-            })
-            .collect()
+        scene.channels().into_iter().map(channel).collect()
     }
 
     /// The names of its columns: `name`, or `name.x`, `name.y`, ...
@@ -65,38 +39,6 @@ impl Channel {
             format!("{}.{}", self.name, component.label)
         })
     }
-
-    fn labelled<'a>(name: &str, parts: impl Iterator<Item = (&'a str, &'a str)>) -> Self {
-        let components = parts
-            .map(|(label, unit)| Component { label: label.to_owned(), unit: unit.to_owned() })
-            .collect();
-        Self { name: name.to_owned(), components }
-    }
-
-    fn numbered(name: &str, units: &[&str], per: &str) -> Self {
-        let label = |i| if units.len() == 1 { String::new() } else { format!("{}", i + 1) };
-        let components = units
-            .iter()
-            .enumerate()
-            .map(|(i, unit)| Component { label: label(i), unit: format!("{unit}{per}") })
-            .collect();
-        Self { name: name.to_owned(), components }
-    }
-}
-
-fn reaction(name: &str, dimension: Dimension) -> Channel {
-    let planar = [("Fx", "N"), ("Fy", "N"), ("Mz", "N m")];
-    let spatial =
-        [("Fx", "N"), ("Fy", "N"), ("Fz", "N"), ("Mx", "N m"), ("My", "N m"), ("Mz", "N m")];
-    match dimension {
-        Dimension::Planar => Channel::labelled(name, planar.into_iter()),
-        Dimension::Spatial => Channel::labelled(name, spatial.into_iter()),
-    }
-}
-
-fn coordinate_units(kind: JointKind, dimension: Dimension) -> Vec<&'static str> {
-    let units = |f: &Freedom| core::iter::repeat_n(f.unit(), f.n_coordinates());
-    kind.freedoms(dimension).iter().flat_map(units).collect()
 }
 
 /// Everything the page of a run shows. Series may have any number of points; the page thins them.

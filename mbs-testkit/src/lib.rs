@@ -4,6 +4,7 @@
 pub mod allocations;
 mod dense;
 pub mod effects;
+pub mod quantities;
 pub mod random;
 pub mod retell;
 pub mod scenes;

@@ -6,9 +6,8 @@ use crate::stop::StopError;
 use mbs_core::Real;
 use mbs_core::model::State;
 use mbs_core::natural::NaturalModel;
-use mbs_core::outputs::{Measures, Reactions};
-use mbs_core::scene::{Quantity, Scene};
-use mbs_scene::Channel;
+use mbs_core::outputs::{Measures, Reactions, Target};
+use mbs_core::scene::Scene;
 
 /// Measures and reactions of a scene.
 #[derive(Debug, Clone)]
@@ -29,16 +28,18 @@ impl<T: Real, const D: usize> Channels<T, D> {
             .then(|| Reactions::new(scene, model))
             .transpose()
             .map_err(StopError::Reaction)?;
-        let asked = scene.outputs.iter().filter_map(|o| match o.quantity {
-            Quantity::Reaction { joint } => Some(joint.index()),
-            _ => None,
-        });
-        let asked: Vec<usize> = asked.collect();
-        let outputs = Channel::of_scene(scene).into_iter().scan(0, |end, channel| {
-            *end += channel.components.len();
+        let asked = scene.outputs.iter().filter(|o| o.quantity.row().needs_reactions);
+        let asked: Vec<usize> = asked
+            .filter_map(|o| match o.quantity.target() {
+                Target::Joint(joint) => Some(joint.index()),
+                _ => None,
+            })
+            .collect();
+        let ends = measures.lengths().scan(0, |end, length| {
+            *end += length;
             Some(*end)
         });
-        let outputs = outputs.collect();
+        let outputs = ends.collect();
         let not_unique = Vec::with_capacity(asked.len());
         Ok(Self { measures, reactions, not_unique, asked, outputs })
     }
@@ -84,10 +85,8 @@ impl<T: Real, const D: usize> Channels<T, D> {
                 }
             }
         }
-        let reactions = &self.reactions;
-        let of = |joint| reactions.as_ref().map_or([T::ZERO; 6], |r| r.reaction(joint));
         // A state that was tracked before: its turns are known.
-        let _ = self.measures.write(state, of, out);
+        let _ = self.measures.write(state, self.reactions.as_ref(), out);
         let Some(bad) = out.iter().position(|x| !x.to_f64().is_finite()) else { return Ok(()) };
         Err(StopError::Output { output: self.outputs.partition_point(|end| *end <= bad) })
     }

@@ -10,7 +10,7 @@ use mbs_core::algebra::{norm, rotation_vector};
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{Dimension, JointId, Output, Quantity, Scene};
+use mbs_core::scene::{Dimension, Joint, JointId, Output, Quantity, Scene};
 use mbs_core::start::{Assembled, restart};
 use mbs_core::{Cliques, Real, SpdSolver};
 use mbs_linear::{
@@ -183,16 +183,17 @@ impl StaticEquilibrium {
         let from = places(&state);
         let found = find_equilibrium(scene, &model, search, &mut state)?;
         let moved = moved(scene, &from, &places(&state));
-        let joints = (0..scene.joints.len())
-            .filter(|&j| scene.joints[j].kind.n_coordinates(scene.dimension) > 0)
-            .map(|joint| Quantity::JointValue { joint: JointId::new(joint) });
-        let reactions =
-            (0..scene.joints.len()).map(|joint| Quantity::Reaction { joint: JointId::new(joint) });
+        let reaction = |(index, joint): (usize, &Joint<f64>)| {
+            let quantity = Quantity::Reaction { joint: JointId::new(index) };
+            Output { name: joint.name.clone(), quantity }
+        };
+        let reactions = scene.joints.iter().enumerate().map(reaction).collect();
+        let joints = Scene { outputs: Vec::new(), ..scene.clone() }.channels();
         let stability = stability(&model, &state);
-        let (joints, _) = measured(&of_joints(scene, joints), &model, &state)?;
-        let all = of_joints(scene, reactions);
-        let (reactions, not_unique) = measured(&all, &model, &state).unwrap_or_default();
-        let (outputs, _) = measured(scene, &model, &state)?;
+        let told = |outputs| measured(outputs, scene, &model, &state);
+        let (joints, _) = told(joints)?;
+        let (reactions, not_unique) = told(reactions).unwrap_or_default();
+        let (outputs, _) = told(scene.outputs.clone())?;
         let mut terms = model.terms();
         model.set_inputs(state.t, &state, &mut terms);
         model.evaluate(&state.q, &mut terms);
@@ -292,32 +293,20 @@ fn object(channels: &[(Channel, Vec<f64>)]) -> Map<String, Value> {
     channels.iter().map(|(channel, values)| (channel.name.clone(), json!(values))).collect()
 }
 
-/// The scene with other outputs, one for each quantity and named after its joint.
-fn of_joints(scene: &Scene<f64>, quantities: impl Iterator<Item = Quantity<f64>>) -> Scene<f64> {
-    let outputs = quantities.map(|quantity| {
-        let name = match quantity {
-            Quantity::JointValue { joint } | Quantity::Reaction { joint } => {
-                scene.joints[joint].name.clone()
-            }
-            _ => String::new(),
-        };
-        Output { name, quantity }
-    });
-    Scene { outputs: outputs.collect(), ..scene.clone() }
-}
-
 /// Channels with their values.
 type Told = Vec<(Channel, Vec<f64>)>;
 
-/// The outputs of a scene at a state, and the joints whose reaction is not unique.
+/// Outputs of a scene at a state, and the joints whose reaction is not unique.
 fn measured<const D: usize>(
+    outputs: Vec<Output<f64>>,
     scene: &Scene<f64>,
     model: &NaturalModel<f64, D>,
     state: &State<f64>,
 ) -> Result<(Told, Vec<String>), StopError> {
-    if scene.outputs.is_empty() {
+    if outputs.is_empty() {
         return Ok(Default::default());
     }
+    let scene = &Scene { outputs, ..scene.clone() };
     let mut measures = Channels::new(scene, model)?;
     let channels = Channel::of_scene(scene);
     let mut values = vec![0.0; channels.iter().map(|c| c.components.len()).sum()];

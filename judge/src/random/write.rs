@@ -1,7 +1,7 @@
 //! The text of a draft.
 
 use super::mechanism::{Draft, Link};
-use crate::scene::Kind;
+use crate::scene::{Kind, Quantity};
 use crate::vector::Vector;
 use std::fmt::Write;
 
@@ -128,24 +128,28 @@ impl Draft {
     }
 
     fn outputs(&self, out: &mut String) {
+        let mut output = |of: &str, name: &str, quantity: &str| {
+            let _ = writeln!(
+                out,
+                "\n[[output]]\nname = \"{name}-{quantity}\"\n{of}\nquantity = \"{quantity}\""
+            );
+        };
         for (i, body) in self.bodies.iter().enumerate() {
-            for quantity in ["position", "velocity", "acceleration"] {
-                let at = vector(body.mark, self.planar);
-                let _ = writeln!(
-                    out,
-                    "\n[[output]]\nname = \"b{i}-{quantity}\"\nbody = \"b{i}\"\nat = {at}\nquantity = \"{quantity}\""
-                );
-            }
+            let (name, at) = (format!("b{i}"), vector(body.mark, self.planar));
+            let of = format!("body = \"{name}\"");
+            let of_point = format!("{of}\nat = {at}");
+            Quantity::OF_POINTS.iter().for_each(|quantity| output(&of_point, &name, quantity));
+            Quantity::OF_BODIES.iter().for_each(|quantity| output(&of, &name, quantity));
         }
         for (i, link) in self.links.iter().enumerate() {
-            let moving = !matches!(link.kind, Kind::Weld | Kind::Distance);
-            let reacting = link.kind != Kind::Free;
-            for (quantity, shown) in [("value", moving), ("rate", moving), ("reaction", reacting)] {
-                if shown {
-                    let _ = writeln!(
-                        out,
-                        "\n[[output]]\nname = \"j{i}-{quantity}\"\njoint = \"j{i}\"\nquantity = \"{quantity}\""
-                    );
+            let name = format!("j{i}");
+            for quantity in Quantity::OF_JOINTS {
+                let is_shown = match *quantity {
+                    "reaction" => link.kind != Kind::Free,
+                    _ => !matches!(link.kind, Kind::Weld | Kind::Distance),
+                };
+                if is_shown {
+                    output(&format!("joint = \"{name}\""), &name, quantity);
                 }
             }
         }

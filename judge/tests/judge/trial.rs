@@ -1,11 +1,24 @@
 //! The crates before the judge: what is enumerated, and the first hundred of the random scenes.
 
 use judge::random;
+use judge::scene::Quantity;
 use judge::trial::{oracle, seeds};
+use mbs::core::outputs::{QUANTITIES, TargetKind};
 use std::collections::BTreeMap;
 
 /// The only reason to leave a combination out: it is refused as a setting, whatever the scene.
 const NO_SUCH_RULE: &str = "formulation .. has no ..";
+
+#[test]
+fn the_judge_knows_every_quantity_of_the_table() {
+    let of = |target| {
+        let rows = QUANTITIES.iter().filter(move |row| row.target == target);
+        rows.map(|row| row.name).collect::<Vec<_>>()
+    };
+    assert_eq!(of(TargetKind::Point), Quantity::OF_POINTS);
+    assert_eq!(of(TargetKind::Body), Quantity::OF_BODIES);
+    assert_eq!(of(TargetKind::Joint), Quantity::OF_JOINTS);
+}
 
 #[test]
 fn every_joint_with_every_effect_moves_as_the_judge_says_in_every_formulation() {

@@ -4,7 +4,8 @@ use crate::Real;
 use crate::actions::{Action, Actions};
 use crate::algebra::{Vector, norm};
 use crate::cluster::{Cluster, Clusters};
-use crate::scene::{BodyId, InitialTarget, Quantity, Scene};
+use crate::outputs::Target;
+use crate::scene::{BodyId, InitialTarget, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -35,11 +36,8 @@ impl<T: Real> Rods<T> {
         rods.ask_initials(scene);
         actions.list.iter().for_each(|(_, action)| rods.ask_action(scene, action));
         for output in &scene.outputs {
-            if let Quantity::Position { body, at }
-            | Quantity::Velocity { body, at }
-            | Quantity::Acceleration { body, at } = &output.quantity
-            {
-                rods.point(*body, at);
+            if let Target::Point(body, at) = output.quantity.target() {
+                rods.point(body, &at);
             }
         }
         rods

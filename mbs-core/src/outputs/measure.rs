@@ -1,11 +1,13 @@
 //! The numbers of all channels of a scene at a state.
 
 use super::coordinate::Coordinate;
+use super::quantity::{Channel, Instant, Maker};
+use super::reaction::Reactions;
 use crate::Real;
 use crate::inputs::GuideInput;
 use crate::model::State;
-use crate::natural::{Affine, ModelError, NaturalModel};
-use crate::scene::{InitialTarget, Joint, JointId, Quantity, Scene};
+use crate::natural::{ModelError, NaturalModel};
+use crate::scene::{InitialTarget, Joint, Scene};
 use crate::step::StepError;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -20,24 +22,13 @@ const MISFIT: f64 = 2e-2;
 /// followed by the rates. Counting starts from the scene's initial value (an `[[initial]]` entry or a guide at time zero), else from zero.
 #[derive(Debug, Clone)]
 pub struct Measures<T: Real, const D: usize> {
-    channels: Vec<Channel<T, D>>,
+    /// What each channel reads, and its number of components.
+    channels: Vec<(Channel<T, D>, usize)>,
     /// Last values of all tracked joint coordinates, then their rates, then what the rates tell of their turns since the start, then what the
     /// positions do less, then the time.
     memory: Vec<T>,
     n_values: usize,
     n_components: usize,
-}
-
-/// What one channel reads.
-#[derive(Debug, Clone)]
-enum Channel<T: Real, const D: usize> {
-    Position(Affine<T, D>),
-    Velocity(Affine<T, D>),
-    Acceleration(Affine<T, D>),
-    /// Coordinates, where their last values start in the memory, and the joint.
-    Value(Vec<Coordinate<T, D>>, usize, usize),
-    Rate(Vec<Coordinate<T, D>>),
-    Reaction(usize),
 }
 
 impl<T: Real, const D: usize> Measures<T, D> {
@@ -49,52 +40,20 @@ impl<T: Real, const D: usize> Measures<T, D> {
         if scene.dimension.count() != D {
             return Err(ModelError::Dimension);
         }
-        let mut measures =
-            Self { channels: Vec::new(), memory: Vec::new(), n_values: 0, n_components: 0 };
         let starts = start_values(scene);
-        if scene.outputs.is_empty() {
-            for joint in 0..scene.joints.len() {
-                if scene.joints[joint].kind.n_coordinates(scene.dimension) > 0 {
-                    measures.add(
-                        (scene, &starts),
-                        model,
-                        &Quantity::JointValue { joint: JointId::new(joint) },
-                    );
-                }
-            }
-        }
-        for output in &scene.outputs {
-            measures.add((scene, &starts), model, &output.quantity);
-        }
-        measures.n_values = measures.memory.len();
-        measures.memory.resize(4 * measures.n_values, T::ZERO);
+        let mut maker = Maker { scene, model, starts: &starts, values: Vec::new() };
+        let outputs = scene.channels();
+        let channels = outputs.iter().map(|output| {
+            let length = output.quantity.components(scene).len();
+            (Channel::new(&output.quantity, &mut maker), length)
+        });
+        let channels: Vec<_> = channels.collect();
+        let (mut memory, n_components) = (maker.values, channels.iter().map(|c| c.1).sum());
+        let n_values = memory.len();
+        memory.resize(4 * n_values, T::ZERO);
         // No state was seen yet: the first one is followed from the start values.
-        measures.memory.push(-T::ONE);
-        Ok(measures)
-    }
-
-    fn add(
-        &mut self,
-        (scene, starts): (&Scene<T>, &[Vec<T>]),
-        model: &NaturalModel<T, D>,
-        quantity: &Quantity<T>,
-    ) {
-        let point = |body, at| model.point(body, at);
-        let coordinates = |joint: JointId| Coordinate::of_joint(scene, model, &scene.joints[joint]);
-        let channel = match *quantity {
-            Quantity::Position { body, at } => Channel::Position(point(body, at)),
-            Quantity::Velocity { body, at } => Channel::Velocity(point(body, at)),
-            Quantity::Acceleration { body, at } => Channel::Acceleration(point(body, at)),
-            Quantity::JointValue { joint } => {
-                let start = self.memory.len();
-                self.memory.extend_from_slice(&starts[joint.index()]);
-                Channel::Value(coordinates(joint), start, joint.index())
-            }
-            Quantity::JointRate { joint } => Channel::Rate(coordinates(joint)),
-            Quantity::Reaction { joint } => Channel::Reaction(joint.index()),
-        };
-        self.n_components += channel.len();
-        self.channels.push(channel);
+        memory.push(-T::ONE);
+        Ok(Self { channels, memory, n_values, n_components })
     }
 
     /// Number of components of all channels: the places that [`write`](Self::write) fills.
@@ -105,7 +64,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
 
     /// Number of components of each channel, in order.
     pub fn lengths(&self) -> impl Iterator<Item = usize> + '_ {
-        self.channels.iter().map(Channel::len)
+        self.channels.iter().map(|channel| channel.1)
     }
 
     /// The last values of the joint coordinates that are followed, with their turns; then the state from which following them continues.
@@ -152,10 +111,10 @@ impl<T: Real, const D: usize> Measures<T, D> {
         let has_passed = dt > T::ZERO && time[0] >= T::ZERO;
         time[0] = state.t;
         let mut lost = Ok(());
-        for channel in channels {
-            let Channel::Value(coordinates, start, joint) = channel else { continue };
-            let mut at = *start;
-            for (number, coordinate) in coordinates.iter().enumerate() {
+        for (channel, _) in channels {
+            let Channel::JointValue(value) = channel else { continue };
+            let mut at = value.start;
+            for (number, coordinate) in value.coordinates.iter().enumerate() {
                 let end = at + coordinate.len();
                 let mut expected = [T::ZERO; 3];
                 let expected = &mut expected[..end - at];
@@ -167,7 +126,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
                 }
                 let (last, before) = (values[at], rates[at]);
                 coordinate.rates(&state.q, &state.v, &mut rates[at..end]);
-                if let Some(known) = known(*joint, number) {
+                if let Some(known) = known(value.joint, number) {
                     expected[0] = known;
                 } else if has_passed {
                     expected[0] = Coordinate::<T, D>::expected(last, [before, rates[at]], dt);
@@ -179,7 +138,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
                     let (turn, misfit) = (expected[0] - last, misfits[at].abs());
                     let most = (T::PI * T::HALF).max(turns[at].abs() * T::from_f64(MISFIT));
                     if misfit > most && lost.is_ok() {
-                        let joint = u32::try_from(*joint).unwrap_or(u32::MAX);
+                        let joint = u32::try_from(value.joint).unwrap_or(u32::MAX);
                         lost = Err(StepError::TurnTooLarge { joint, turn: turn.to_f64() });
                     }
                 }
@@ -191,8 +150,7 @@ impl<T: Real, const D: usize> Measures<T, D> {
 
     /// Tracks `state` and writes all components in the order of the channels.
     ///
-    /// `reaction` gives the reaction of a joint (planar [Fx, Fy, Mz] in the first three places); it is asked only for the
-    /// channels that are reactions.
+    /// `reactions` are those of the state; without them the channels that are reactions are zero.
     ///
     /// Cost: as [`track`](Self::track), and a few products for each point; no allocation.
     ///
@@ -204,52 +162,19 @@ impl<T: Real, const D: usize> Measures<T, D> {
     pub fn write(
         &mut self,
         state: &State<T>,
-        mut reaction: impl FnMut(usize) -> [T; 6],
+        reactions: Option<&Reactions<T, D>>,
         out: &mut [T],
     ) -> Result<(), StepError> {
         assert_eq!(out.len(), self.n_components, "one place per component");
         let tracked = self.track(state);
+        let now = Instant { state, values: &self.memory[..self.n_values], reactions };
         let mut rest = out;
-        for channel in &self.channels {
-            let (here, tail) = rest.split_at_mut(channel.len());
+        for (channel, length) in &self.channels {
+            let (here, tail) = rest.split_at_mut(*length);
+            channel.write(&now, here);
             rest = tail;
-            match channel {
-                Channel::Position(x) => copy(x.value(&state.q).as_slice(), here),
-                Channel::Velocity(x) => copy(x.rate(&state.v).as_slice(), here),
-                Channel::Acceleration(x) => copy(x.rate(&state.a).as_slice(), here),
-                Channel::Value(_, start, _) => copy(&self.memory[*start..self.n_values], here),
-                Channel::Rate(coordinates) => {
-                    let mut at = 0;
-                    for coordinate in coordinates {
-                        let mut rates = [T::ZERO; 3];
-                        let n = coordinate.len();
-                        coordinate.rates(&state.q, &state.v, &mut rates[..n]);
-                        copy(&rates, &mut here[at..at + n]);
-                        at += n;
-                    }
-                }
-                Channel::Reaction(joint) => copy(&reaction(*joint), here),
-            }
         }
         tracked
-    }
-}
-
-impl<T: Real, const D: usize> Channel<T, D> {
-    fn len(&self) -> usize {
-        match self {
-            Self::Position(_) | Self::Velocity(_) | Self::Acceleration(_) => D,
-            Self::Value(coordinates, ..) | Self::Rate(coordinates) => {
-                coordinates.iter().map(Coordinate::len).sum()
-            }
-            Self::Reaction(_) => 3 * (D - 1),
-        }
-    }
-}
-
-fn copy<T: Real>(from: &[T], to: &mut [T]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
     }
 }
 

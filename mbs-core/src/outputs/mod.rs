@@ -16,6 +16,7 @@ mod measure;
 mod minimum_norm;
 mod motion;
 mod peel;
+mod quantity;
 mod reaction;
 mod turns;
 mod wrench;
@@ -25,6 +26,9 @@ pub use coordinate::CoordinateMotion;
 pub use error::ReactionError;
 pub use event::{EventHistory, Events};
 pub use measure::{Measures, start_values};
+pub use quantity::{
+    Component, ComponentForm, QUANTITIES, Quantity, QuantityRow, Target, TargetKind,
+};
 pub use reaction::{LARGEST_BLOCK, Reactions};
 pub use turns::Turns;
 pub use wrench::{JointWrenches, Wrench};

@@ -19,7 +19,7 @@ use crate::algebra::{Matrix, Vector, cross, raised};
 use crate::cluster::mass_properties;
 use crate::model::State;
 use crate::natural::{Affine, ModelError, NaturalModel};
-use crate::scene::{BodyId, Quantity, Scene};
+use crate::scene::{BodyId, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -64,7 +64,7 @@ struct Balance<T: Real, const D: usize> {
 impl<T: Real, const D: usize> Reactions<T, D> {
     /// Does some output ask for a reaction?
     pub fn needed(scene: &Scene<T>) -> bool {
-        scene.outputs.iter().any(|output| matches!(output.quantity, Quantity::Reaction { .. }))
+        scene.outputs.iter().any(|output| output.quantity.row().needs_reactions)
     }
 
     /// Prepares a scene that passed its check; all memory is taken here.

@@ -6,8 +6,7 @@ use crate::scene::{
     Actuator, AeroDrag, Axis, AxisFrame, Body, BodyId, BodyTorque, Bumper, Bushing, Dimension,
     Effect, EffectKind, Force, Freedom, Friction, Guide, Inertia, InitialCondition, InitialTarget,
     Joint, JointId, JointKind, JointTorque, Limit, Motion, Number, Output, Polynomial,
-    PolynomialPiece, Quantity, Rotation, Signal, SpeedHold, SpringDamper, Tire, TorsionSpring,
-    Vector3,
+    PolynomialPiece, Rotation, Signal, SpeedHold, SpringDamper, Tire, TorsionSpring, Vector3,
 };
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -345,45 +344,6 @@ impl Effect<Number> {
             rolling_resistance: Number::ZERO,
             side: None,
         })
-    }
-}
-
-impl Output<Number> {
-    fn of(quantity: Quantity<Number>) -> Self {
-        Self { name: String::new(), quantity }
-    }
-
-    /// Position of a point of a body [m].
-    pub fn position(body: BodyId, at: impl Into<Vector3>) -> Self {
-        Self::of(Quantity::Position { body, at: at.into().0 })
-    }
-
-    /// Velocity of a point of a body [m/s].
-    pub fn velocity(body: BodyId, at: impl Into<Vector3>) -> Self {
-        Self::of(Quantity::Velocity { body, at: at.into().0 })
-    }
-
-    /// Acceleration of a point of a body [m/s^2].
-    pub fn acceleration(body: BodyId, at: impl Into<Vector3>) -> Self {
-        Self::of(Quantity::Acceleration { body, at: at.into().0 })
-    }
-
-    /// Coordinates of a joint [rad or m].
-    #[must_use]
-    pub fn value(joint: JointId) -> Self {
-        Self::of(Quantity::JointValue { joint })
-    }
-
-    /// Rates of a joint [rad/s or m/s].
-    #[must_use]
-    pub fn rate(joint: JointId) -> Self {
-        Self::of(Quantity::JointRate { joint })
-    }
-
-    /// What a joint's first body does to the second [N, N m].
-    #[must_use]
-    pub fn reaction(joint: JointId) -> Self {
-        Self::of(Quantity::Reaction { joint })
     }
 }
 

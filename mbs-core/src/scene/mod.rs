@@ -34,6 +34,8 @@ mod resolve;
 #[cfg(feature = "alloc")]
 pub use crate::effects::{EffectKind, kinds::*};
 #[cfg(feature = "alloc")]
+pub use crate::outputs::Quantity;
+#[cfg(feature = "alloc")]
 pub use axes::transverse;
 #[cfg(feature = "alloc")]
 pub use build::StartedJoint;
@@ -56,4 +58,4 @@ pub use joint::{Axis, Freedom, JOINTS, JointForm, JointKind, Rotation, Translati
 #[cfg(feature = "alloc")]
 pub use number::{Number, Vector3};
 #[cfg(feature = "alloc")]
-pub use output::{Output, Quantity, SolverTable};
+pub use output::{Output, SolverTable};

@@ -1,6 +1,7 @@
 //! Output channels and the scene's wishes for the solver.
 
-use crate::scene::{BodyId, JointId};
+use crate::outputs::Quantity;
+use crate::scene::{Joint, JointId, Scene};
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -13,45 +14,26 @@ pub struct Output<T> {
     pub quantity: Quantity<T>,
 }
 
-/// What a channel measures.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Quantity<T> {
-    /// Position of a material point [m], global axes.
-    Position {
-        /// Body.
-        body: BodyId,
-        /// Point in the reference configuration [m].
-        at: [T; 3],
-    },
-    /// Velocity of a material point [m/s].
-    Velocity {
-        /// Body.
-        body: BodyId,
-        /// Point in the reference configuration [m].
-        at: [T; 3],
-    },
-    /// Acceleration of a material point [m/s^2].
-    Acceleration {
-        /// Body.
-        body: BodyId,
-        /// Point in the reference configuration [m].
-        at: [T; 3],
-    },
-    /// Joint coordinates [rad or m], unwrapped.
-    JointValue {
-        /// Joint.
-        joint: JointId,
-    },
-    /// Joint rates [rad/s or m/s].
-    JointRate {
-        /// Joint.
-        joint: JointId,
-    },
-    /// What the first body does to the second at the joint's place: planar [Fx, Fy, Mz], spatial [Fx, Fy, Fz, Mx, My, Mz].
-    Reaction {
-        /// Joint.
-        joint: JointId,
-    },
+impl<T> Output<T> {
+    /// An output without a name.
+    #[must_use]
+    pub const fn new(quantity: Quantity<T>) -> Self {
+        Self { name: String::new(), quantity }
+    }
+}
+
+impl<T: Clone> Scene<T> {
+    /// Its outputs; where it names none, the coordinates of every joint that has some, under the joint's name.
+    #[must_use]
+    pub fn channels(&self) -> Vec<Output<T>> {
+        if !self.outputs.is_empty() {
+            return self.outputs.clone();
+        }
+        let moves = |joint: &Joint<T>| joint.kind.n_coordinates(self.dimension) > 0;
+        let joints = self.joints.iter().enumerate().filter(|(_, joint)| moves(joint));
+        let value = |index| Quantity::JointValue { joint: JointId::new(index) };
+        joints.map(|(i, joint)| Output { name: joint.name.clone(), quantity: value(i) }).collect()
+    }
 }
 
 /// The `[solver]` table: all optional; the command line overrides.

@@ -3,8 +3,8 @@
 use crate::Real;
 use crate::scene::{
     Body, CalspanCoefficients, Dimension, Effect, Entry, Guide, Inertia, InitialCondition,
-    InitialTarget, Joint, Motion, Number, Output, Quantity, Road, RoadFeature, Scene, SceneError,
-    SceneFault, SolverTable,
+    InitialTarget, Joint, Motion, Number, Output, Road, RoadFeature, Scene, SceneError, SceneFault,
+    SolverTable,
 };
 use alloc::vec::Vec;
 
@@ -189,17 +189,7 @@ impl<T> RoadFeature<T> {
 
 impl<T> Output<T> {
     fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> Output<U> {
-        let quantity = match &self.quantity {
-            Quantity::Position { body, at } => Quantity::Position { body: *body, at: all(at, f) },
-            Quantity::Velocity { body, at } => Quantity::Velocity { body: *body, at: all(at, f) },
-            Quantity::Acceleration { body, at } => {
-                Quantity::Acceleration { body: *body, at: all(at, f) }
-            }
-            Quantity::JointValue { joint } => Quantity::JointValue { joint: *joint },
-            Quantity::JointRate { joint } => Quantity::JointRate { joint: *joint },
-            Quantity::Reaction { joint } => Quantity::Reaction { joint: *joint },
-        };
-        Output { name: self.name.clone(), quantity }
+        Output { name: self.name.clone(), quantity: self.quantity.map(f) }
     }
 }
 

@@ -2,10 +2,11 @@
 
 use crate::small::{GROUND, add_body, add_joint, add_rod, hold, output, scene, start};
 use mbs_core::algebra::{Matrix, Vector, rotation, rotation_vector};
-use mbs_core::outputs::Measures;
+use mbs_core::outputs::{Measures, QUANTITIES, Reactions};
 use mbs_core::scene::{
     BodyId, Dimension, Inertia, JointId, JointKind, Motion, Quantity, Scene, TableEnds,
 };
+use mbs_testkit::{PLANAR, SPATIAL, quantities};
 
 /// Assembly closes to rounding of a few products of numbers of order one.
 const CLOSED: f64 = 1e-11;
@@ -14,7 +15,7 @@ fn measured<const D: usize>(scene: &Scene<f64>) -> Vec<f64> {
     let (model, state) = start::<D>(scene);
     let mut measures = Measures::new(scene, &model).expect("channels");
     let mut out = vec![0.0; measures.n_components()];
-    measures.write(&state, |_| [0.0; 6], &mut out).expect("turns are known");
+    measures.write(&state, None, &mut out).expect("turns are known");
     out
 }
 
@@ -55,6 +56,33 @@ fn a_planar_pendulum_moves_as_a_circle_says() {
     let mut expected = acceleration.to_vec();
     expected.extend([2.0 * cos, 2.0 * sin, rate, -2.0 * rate * sin, 2.0 * rate * cos, angle]);
     assert_near(&measured::<2>(&s), &expected);
+}
+
+fn is_as_its_row_says<const D: usize>(text: &str) {
+    let mut scene = mbs_testkit::scene(text);
+    let all = quantities::every(&scene);
+    for quantity in &all {
+        let row = quantity.row();
+        assert!(QUANTITIES.contains(row), "{row:?}");
+        assert_eq!(Quantity::of(row.name, quantity.target()).as_ref(), Some(quantity));
+        // There and back through another type of number.
+        let there = quantity.map(&mut |x: &f64| x.to_bits());
+        assert_eq!(&there.map(&mut |x| f64::from_bits(*x)), quantity);
+    }
+    quantities::show(&mut scene, all);
+    let (model, state) = start::<D>(&scene);
+    let mut reactions = Reactions::new(&scene, &model).expect("reactions");
+    reactions.update(&state);
+    let mut measures = Measures::new(&scene, &model).expect("channels");
+    let mut out = vec![f64::NAN; measures.n_components()];
+    measures.write(&state, Some(&reactions), &mut out).expect("turns are known");
+    assert!(out.iter().all(|x| x.is_finite()), "{out:?}");
+}
+
+#[test]
+fn every_quantity_fills_the_components_of_its_row_on_every_kind_of_joint() {
+    is_as_its_row_says::<2>(PLANAR);
+    is_as_its_row_says::<3>(SPATIAL);
 }
 
 #[test]
@@ -153,7 +181,7 @@ fn turns_are_counted_over_three_turns_and_back() {
         (state.q[0], state.q[1]) = (cos, sin);
         measures.track(&state).expect("turns are known");
         if i % 7 == 0 {
-            measures.write(&state, |_| [0.0; 6], &mut out).expect("turns are known");
+            measures.write(&state, None, &mut out).expect("turns are known");
             assert!((out[0] - angle).abs() < CLOSED, "{} {angle}", out[0]);
         }
     }
@@ -189,7 +217,7 @@ fn a_rod_between_balls_turns_by_the_smallest_rotation() {
     let turned = rotation(&Vector::from([0.0, 0.3, -0.4])) * Vector::<f64, 3>::new(1.0, 0.0, 0.0);
     state.q[..3].copy_from_slice(turned.as_slice());
     let mut out = [0.0; 6];
-    measures.write(&state, |_| [0.0; 6], &mut out).expect("turns are known");
+    measures.write(&state, None, &mut out).expect("turns are known");
     let r = rotation(&Vector::<f64, 3>::from([out[0], out[1], out[2]]));
     let gap = rotation_vector(&r) - Vector::from([0.0, 0.3, -0.4]);
     assert!(gap.iter().all(|x| x.abs() < CLOSED), "{gap}");

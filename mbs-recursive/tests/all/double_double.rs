@@ -73,9 +73,7 @@ impl Run {
             self.model.write_motions(&self.state, &mut self.workspace, &mut self.motions);
             self.natural.write_motions(&self.motions, &mut self.told);
             self.told.t = self.state.t;
-            self.measures
-                .write(&self.told, |_| [Pair::ZERO; 6], &mut out)
-                .expect("no turn is lost");
+            self.measures.write(&self.told, None, &mut out).expect("no turn is lost");
         }
         out
     }

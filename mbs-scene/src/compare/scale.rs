@@ -78,7 +78,7 @@ pub fn row_distance(scales: &[OutputScale], a: &[f64], b: &[f64]) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::Component;
+    use mbs_core::outputs::Component;
 
     fn channel(name: &str, units: &[&str]) -> Channel {
         let component = |unit: &&str| Component { label: String::new(), unit: (*unit).to_owned() };

@@ -3,45 +3,40 @@
 use crate::read::ReadFault;
 use crate::read::error::OWNER;
 use crate::read::fields::{Fields, Read};
-use mbs_core::scene::{Number, Output, Quantity, SolverTable};
-
-const KEYS: [&str; 5] = ["name", "body", "at", "joint", "quantity"];
-const BODY_WORDS: [&str; 3] = ["position", "velocity", "acceleration"];
-const JOINT_WORDS: [&str; 3] = ["value", "rate", "reaction"];
+use mbs_core::outputs::{QUANTITIES, Quantity, QuantityRow, Target, TargetKind};
+use mbs_core::scene::{Number, Output, SolverTable};
 
 pub(crate) fn read(fields: &Fields<'_>) -> Read<Output<Number>> {
     fields.exclusive("joint", "body")?;
-    let quantity = if let Some(joint) = fields.get("joint") {
-        fields.allow(&["name", "joint", "quantity"], &KEYS)?;
-        let joint = fields.context.joint(joint)?;
-        match quantity_word(fields, "value")? {
-            "value" => Quantity::JointValue { joint },
-            "rate" => Quantity::JointRate { joint },
-            "reaction" => Quantity::Reaction { joint },
-            _ => return fields.unknown_word("quantity", fields.word("quantity")?, &JOINT_WORDS),
+    let keys = |of: &[&'static str]| [&["name"], of, &["quantity"]].concat();
+    let mut every = Vec::new();
+    for key in QUANTITIES.iter().flat_map(|row| row.target.keys()) {
+        if !every.contains(key) {
+            every.push(*key);
         }
-    } else if let Some(body) = fields.get("body") {
-        fields.allow(&["name", "body", "at", "quantity"], &KEYS)?;
-        let body = fields.context.moving_body(body)?;
-        let at = fields.vector("at")?;
-        match quantity_word(fields, "position")? {
-            "position" => Quantity::Position { body, at },
-            "velocity" => Quantity::Velocity { body, at },
-            "acceleration" => Quantity::Acceleration { body, at },
-            _ => return fields.unknown_word("quantity", fields.word("quantity")?, &BODY_WORDS),
-        }
-    } else {
-        fields.allow(&KEYS, &[])?;
+    }
+    let is_here = |row: &&QuantityRow| fields.get(row.target.keys()[0]).is_some();
+    let rows: Vec<&QuantityRow> = QUANTITIES.iter().filter(is_here).collect();
+    let Some(first) = rows.first() else {
+        fields.allow(&keys(&every), &[])?;
         return fields.context.fault(fields.header, ReadFault::Missing { key: OWNER });
     };
+    let word = fields.get("quantity").map(|_| fields.word("quantity")).transpose()?;
+    let word = word.unwrap_or((first.name, fields.header));
+    let kind = rows.iter().find(|row| row.name == word.0).unwrap_or(first).target;
+    fields.allow(&keys(kind.keys()), &keys(&every))?;
+    let owner = fields.need(kind.keys()[0])?;
+    let body = || fields.context.moving_body(owner);
+    let target = match kind {
+        TargetKind::Point => Target::Point(body()?, fields.vector("at")?),
+        TargetKind::Body => Target::Body(body()?),
+        TargetKind::Joint => Target::Joint(fields.context.joint(owner)?),
+    };
+    let Some(quantity) = Quantity::of(word.0, target) else {
+        let known: Vec<_> = rows.iter().map(|row| row.name).collect();
+        return fields.unknown_word("quantity", word, &known);
+    };
     Ok(Output { name: fields.name()?, quantity })
-}
-
-fn quantity_word<'a>(fields: &Fields<'a>, default: &'static str) -> Read<&'a str> {
-    if fields.get("quantity").is_none() {
-        return Ok(default);
-    }
-    Ok(fields.word("quantity")?.0)
 }
 
 pub(crate) fn read_solver(fields: &Fields<'_>) -> Read<SolverTable<Number>> {

@@ -11,9 +11,10 @@ use super::toml;
 use crate::read::SceneFile;
 use crate::read::tree::{Item, Member, Node};
 use core::fmt::{self, Display, Formatter};
+use mbs_core::outputs::Target;
 use mbs_core::scene::{
     Body, BodyId, Dimension, Guide, Inertia, InitialCondition, InitialTarget, Joint, JointId,
-    Motion, Number, Output, Quantity, Scene, SolverTable, Start, TableEnds,
+    Motion, Number, Output, Scene, SolverTable, Start, TableEnds,
 };
 
 /// A scene that has no text.
@@ -346,22 +347,15 @@ impl Writer<'_> {
     fn output(self, output: &Output<Number>) -> Result<Keys, WriteError> {
         let mut keys = Keys::default();
         keys.push("name", output.name.as_str());
-        let (word, body, joint) = match &output.quantity {
-            Quantity::Position { body, at } => ("position", Some((body, at)), None),
-            Quantity::Velocity { body, at } => ("velocity", Some((body, at)), None),
-            Quantity::Acceleration { body, at } => ("acceleration", Some((body, at)), None),
-            Quantity::JointValue { joint } => ("value", None, Some(joint)),
-            Quantity::JointRate { joint } => ("rate", None, Some(joint)),
-            Quantity::Reaction { joint } => ("reaction", None, Some(joint)),
-        };
-        if let Some((body, at)) = body {
-            keys.push("body", self.body_name(*body)?);
-            keys.push("at", self.vector(at));
+        match output.quantity.target() {
+            Target::Point(body, at) => {
+                keys.push("body", self.body_name(body)?);
+                keys.push("at", self.vector(&at));
+            }
+            Target::Body(body) => keys.push("body", self.body_name(body)?),
+            Target::Joint(joint) => keys.push("joint", self.joint_name(joint)?),
         }
-        if let Some(joint) = joint {
-            keys.push("joint", self.joint_name(*joint)?);
-        }
-        keys.push("quantity", word);
+        keys.push("quantity", output.quantity.row().name);
         Ok(keys)
     }
 }

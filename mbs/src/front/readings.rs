@@ -39,8 +39,8 @@ impl<T: Real, const D: usize> Group<T, D> {
         outputs: Vec<Quantity<T>>,
         simulation: &Simulation<T, D>,
     ) -> Result<Self, StopError> {
-        let output = |quantity| Output { name: String::new(), quantity };
-        let scene = Scene { outputs: outputs.into_iter().map(output).collect(), ..scene.clone() };
+        let outputs = outputs.into_iter().map(Output::new).collect();
+        let scene = Scene { outputs, ..scene.clone() };
         let mut channels = Channels::new(&scene, simulation.model())?;
         channels.track(simulation)?;
         let mut end = 0;

@@ -2,6 +2,7 @@
 
 use crate::common::oracle::{Way, disagreement, everything, methods, tell};
 use crate::common::random;
+use mbs::core::outputs::Target;
 use mbs::core::scene::{Dimension, JointKind, Quantity, Scene};
 
 /// Step and span [s].
@@ -61,14 +62,11 @@ fn every_kind_of_joint_moves_as_a_chain_of_massless_bodies_with_its_freedoms() {
     let mut faults = Vec::new();
     for (kind, dimension) in kinds().filter(|(kind, _)| !kind.is_link()) {
         let mut scene = everything(&random::of_kind(3, kind, dimension));
-        let is_of_body = |quantity: &Quantity<f64>| match quantity {
-            Quantity::Position { .. } | Quantity::Velocity { .. } => true,
-            Quantity::Acceleration { .. }
-            | Quantity::JointValue { .. }
-            | Quantity::JointRate { .. }
-            | Quantity::Reaction { .. } => false,
+        let is_of_joint = |quantity: &Quantity<f64>| matches!(quantity.target(), Target::Joint(_));
+        let is_told = |quantity: &Quantity<f64>| {
+            !is_of_joint(quantity) && !matches!(quantity, Quantity::Acceleration { .. })
         };
-        scene.outputs.retain(|output| is_of_body(&output.quantity));
+        scene.outputs.retain(|output| is_told(&output.quantity));
         agree([&scene, &random::split(&scene)], &methods, &mut faults);
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));

@@ -3,32 +3,26 @@
 use super::effect::known_body;
 use super::vector::Place;
 use crate::Real;
-use crate::scene::{Quantity, Scene, SceneError, SceneFault};
+use crate::outputs::{Quantity, Target};
+use crate::scene::{Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(
     scene: &Scene<T>,
     quantity: &Quantity<T>,
     place: Place,
 ) -> Result<(), SceneError> {
-    match *quantity {
-        Quantity::Position { body, at }
-        | Quantity::Velocity { body, at }
-        | Quantity::Acceleration { body, at } => {
+    match quantity.target() {
+        Target::Point(body, at) => {
             known_body(scene, body, place)?;
             place.vector("at", at)
         }
-        Quantity::JointValue { joint } | Quantity::JointRate { joint } => {
-            match scene.joints.get(joint.index()) {
-                None => place.fault("joint", SceneFault::UnknownReference),
-                Some(joint) if joint.kind.n_coordinates(scene.dimension) == 0 => {
-                    place.fault("joint", SceneFault::NoCoordinate)
-                }
-                Some(_) => Ok(()),
+        Target::Body(body) => known_body(scene, body, place).map(drop),
+        Target::Joint(joint) => match scene.joints.get(joint.index()) {
+            None => place.fault("joint", SceneFault::UnknownReference),
+            Some(_) if quantity.components(scene).is_empty() => {
+                place.fault("joint", SceneFault::NoCoordinate)
             }
-        }
-        Quantity::Reaction { joint } if joint.index() >= scene.joints.len() => {
-            place.fault("joint", SceneFault::UnknownReference)
-        }
-        Quantity::Reaction { .. } => Ok(()),
+            Some(_) => Ok(()),
+        },
     }
 }

@@ -3,6 +3,7 @@
 use crate::read::SceneFile;
 use crate::to_toml;
 use mbs_core::Real;
+use mbs_core::outputs::QUANTITIES;
 use mbs_core::real::DoubleDouble;
 use mbs_core::scene::{Number, Scene};
 use std::path::PathBuf;
@@ -43,6 +44,26 @@ fn every_scene_reads_back_as_it_was_written_in_all_precisions() {
         assert_eq!(bits::<f32>(&again), bits::<f32>(scene), "{name}");
         assert_eq!(bits::<f64>(&again), bits::<f64>(scene), "{name}");
         assert_eq!(bits::<DoubleDouble>(&again), bits::<DoubleDouble>(scene), "{name}");
+    }
+}
+
+#[test]
+fn every_quantity_of_the_table_reads_back_as_it_was_written() {
+    for row in QUANTITIES {
+        let key = |key: &&str| match *key {
+            "at" => "at = [1, 2, 3]\n".to_owned(),
+            owner => format!("{owner} = \"one\"\n"),
+        };
+        let keys: String = row.target.keys().iter().map(key).collect();
+        let text = format!(
+            "[scene]\ndimension = 3\nduration = 1\n[[body]]\nname = \"one\"\nmass = 1\ncenter = [0, 0, 0]\ninertia = [1, 1, 1, 0, 0, 0]\n\
+             [[joint]]\nname = \"one\"\nkind = \"free\"\nbodies = [\"ground\", \"one\"]\nat = [0, 0, 0]\n\
+             [[output]]\nname = \"x\"\n{keys}quantity = \"{}\"\n",
+            row.name
+        );
+        let scene = SceneFile::parse(&text, "x").and_then(|file| file.numbers()).expect("a scene");
+        assert_eq!(scene.outputs[0].quantity.row(), row);
+        assert_eq!(again(&scene), scene, "{}", row.name);
     }
 }
 

@@ -3,8 +3,9 @@
 //! Each method runs at dt and dt/2. Its error is estimated by the largest difference of the two over the run, channel by
 //! channel; two methods agree when they differ by at most [`SHARE`] times the larger of their estimates.
 
-use mbs::core::scene::{BodyId, Dimension, JointId, Output, Quantity, Scene};
+use mbs::core::scene::{Dimension, Scene};
 use mbs::{FormulationKind, Method, Settings, StopError};
+use mbs_testkit::quantities;
 
 /// Times the larger of two methods' own errors that they may differ by.
 const SHARE: f64 = 10.0;
@@ -29,33 +30,12 @@ pub(crate) fn methods() -> Vec<Way> {
 /// Rows of a run: times and components.
 pub(crate) type Rows = Vec<(f64, Vec<f64>)>;
 
-/// Positions, velocities and accelerations of all centres, and all joint coordinates and rates, beside the scene's outputs.
+/// Every quantity of all centres, bodies and joints but reactions, which are not unique, beside the scene's outputs.
 pub(crate) fn everything(scene: &Scene<f64>) -> Scene<f64> {
+    let asked = scene.outputs.iter().map(|output| output.quantity.clone());
+    let all = asked.chain(quantities::every(scene));
     let mut scene = scene.clone();
-    let dimension = scene.dimension;
-    let mut all = Vec::new();
-    for (body, data) in scene.bodies.iter().enumerate() {
-        let at = match data.inertia {
-            mbs::core::scene::Inertia::Rod { from, to } => {
-                [0, 1, 2].map(|i| 0.5 * (from[i] + to[i]))
-            }
-            _ => data.center,
-        };
-        all.push(Quantity::Position { body: BodyId::Body(body), at });
-        all.push(Quantity::Velocity { body: BodyId::Body(body), at });
-        all.push(Quantity::Acceleration { body: BodyId::Body(body), at });
-    }
-    for (joint, data) in scene.joints.iter().enumerate() {
-        if data.kind.n_coordinates(dimension) > 0 {
-            all.push(Quantity::JointValue { joint: JointId::new(joint) });
-            all.push(Quantity::JointRate { joint: JointId::new(joint) });
-        }
-    }
-    let asked = scene.outputs.drain(..).map(|output| output.quantity);
-    let unique = asked.filter(|q| !matches!(q, Quantity::Reaction { .. }));
-    let named = unique.chain(all).enumerate();
-    scene.outputs =
-        named.map(|(i, quantity)| Output { name: format!("channel-{i}"), quantity }).collect();
+    quantities::show(&mut scene, all.filter(|quantity| !quantity.row().needs_reactions));
     scene
 }
 

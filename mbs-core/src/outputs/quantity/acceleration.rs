@@ -1,0 +1,24 @@
+//! Acceleration of a material point.
+
+use super::{ComponentForm, Instant, Maker, Measured, QuantityRow, TargetKind};
+use crate::Real;
+use crate::natural::Affine;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("acceleration", TargetKind::Point, ComponentForm::Vector("m/s^2"));
+
+/// The point.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct Acceleration<T: Real, const D: usize>(Affine<T, D>);
+
+impl<T: Real, const D: usize> Measured<T, D> for Acceleration<T, D> {
+    type Of = Affine<T, D>;
+
+    fn new(of: Affine<T, D>, _: &mut Maker<'_, T, D>) -> Self {
+        Self(of)
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        out.copy_from_slice(self.0.rate(&now.state.a).as_slice());
+    }
+}

@@ -1,0 +1,31 @@
+//! Rates of a joint.
+
+use super::super::coordinate::Coordinate;
+use super::{ComponentForm, Instant, Maker, Measured, QuantityRow, TargetKind};
+use crate::Real;
+use crate::scene::JointId;
+use alloc::vec::Vec;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("rate", TargetKind::Joint, ComponentForm::Coordinates("/s"));
+
+/// Its coordinates.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct JointRate<T: Real, const D: usize>(Vec<Coordinate<T, D>>);
+
+impl<T: Real, const D: usize> Measured<T, D> for JointRate<T, D> {
+    type Of = JointId;
+
+    fn new(joint: JointId, from: &mut Maker<'_, T, D>) -> Self {
+        Self(from.coordinates(joint))
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        let mut rest = out;
+        for coordinate in &self.0 {
+            let (here, tail) = rest.split_at_mut(coordinate.len());
+            coordinate.rates(&now.state.q, &now.state.v, here);
+            rest = tail;
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! Every quantity that an output of a scene can have.
+
+use mbs_core::outputs::{QUANTITIES, Quantity, Target, TargetKind};
+use mbs_core::scene::{BodyId, Inertia, JointId, Output, Scene};
+
+/// All quantities of centres of mass, bodies and joints, in the order of the table.
+#[must_use]
+pub fn every(scene: &Scene<f64>) -> Vec<Quantity<f64>> {
+    let center = |body: usize| match scene.bodies[body].inertia {
+        Inertia::Rod { from, to } => [0, 1, 2].map(|i| 0.5 * (from[i] + to[i])),
+        _ => scene.bodies[body].center,
+    };
+    let bodies = || (0..scene.bodies.len()).map(|body| (BodyId::Body(body), center(body)));
+    let all = QUANTITIES.iter().flat_map(|row| {
+        let targets: Vec<_> = match row.target {
+            TargetKind::Point => bodies().map(|(body, at)| Target::Point(body, at)).collect(),
+            TargetKind::Body => bodies().map(|(body, _)| Target::Body(body)).collect(),
+            TargetKind::Joint => {
+                (0..scene.joints.len()).map(|joint| Target::Joint(JointId::new(joint))).collect()
+            }
+        };
+        targets.into_iter().filter_map(|target| Quantity::of(row.name, target))
+    });
+    all.filter(|quantity| !quantity.components(scene).is_empty()).collect()
+}
+
+/// Makes these the outputs of a scene, by number.
+pub fn show(scene: &mut Scene<f64>, quantities: impl IntoIterator<Item = Quantity<f64>>) {
+    let named = |(i, quantity)| Output { name: format!("channel-{i}"), quantity };
+    scene.outputs = quantities.into_iter().enumerate().map(named).collect();
+}
