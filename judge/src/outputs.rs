@@ -12,6 +12,8 @@ pub enum Quantity {
     Velocity(usize, Vector),
     /// Of a body's point.
     Acceleration(usize, Vector),
+    /// Of a body.
+    AngularVelocity(usize),
     /// Of a joint.
     Value(usize),
     /// Of a joint.
@@ -24,7 +26,7 @@ impl Quantity {
     /// Names of those of a body's point.
     pub const OF_POINTS: &[&str] = &["position", "velocity", "acceleration"];
     /// Names of those of a body.
-    pub const OF_BODIES: &[&str] = &[];
+    pub const OF_BODIES: &[&str] = &["angular-velocity"];
     /// Names of those of a joint.
     pub const OF_JOINTS: &[&str] = &["value", "rate", "reaction"];
 
@@ -34,6 +36,7 @@ impl Quantity {
             ("position", Some(at)) => Self::Position(body, at),
             ("velocity", Some(at)) => Self::Velocity(body, at),
             ("acceleration", Some(at)) => Self::Acceleration(body, at),
+            ("angular-velocity", None) => Self::AngularVelocity(body),
             _ => return None,
         })
     }
@@ -64,6 +67,9 @@ impl Mechanism {
                 let a = self.evaluate(state).accelerations[body];
                 let turning = add(cross([a[3], a[4], a[5]], seat.arm), seat.bias);
                 vector(add([a[0], a[1], a[2]], turning))
+            }
+            Quantity::AngularVelocity(body) => {
+                places.of(Some(body)).w[if planar { 2 } else { 0 }..].to_vec()
             }
             Quantity::Value(joint) => {
                 self.now(state, &places).coordinates(joint).iter().map(|row| row.value).collect()

@@ -109,6 +109,7 @@ pub fn judge(text: &str, step: f64, steps: u32) -> Result<Judged, String> {
     let is_unique = |q: Quantity| match q {
         Quantity::Reaction(j) => begun.unique[j],
         Quantity::Value(j) | Quantity::Rate(j) => !turns_idle(j),
+        Quantity::AngularVelocity(b) => !begun.idle[b],
         _ => true,
     };
     let channels =
@@ -238,7 +239,7 @@ fn kind(quantity: Quantity) -> usize {
         Quantity::Velocity(..) => 1,
         Quantity::Acceleration(..) => 2,
         Quantity::Value(..) => 3,
-        Quantity::Rate(..) => 4,
+        Quantity::Rate(..) | Quantity::AngularVelocity(..) => 4,
         Quantity::Reaction(..) => 5,
     }
 }
@@ -280,7 +281,7 @@ pub fn parts(judged: &Judged) -> Vec<Part> {
             {
                 1
             }
-            (Quantity::Value(_) | Quantity::Rate(_), _) => 0,
+            (Quantity::Value(_) | Quantity::Rate(_) | Quantity::AngularVelocity(_), _) => 0,
             _ => n,
         };
         let of = |second: bool| 2 * kind(quantity) + usize::from(second);

@@ -48,13 +48,14 @@ fn a_planar_pendulum_moves_as_a_circle_says() {
     output(&mut s, Quantity::JointRate { joint: JointId::new(pivot) });
     output(&mut s, Quantity::Velocity { body: BodyId::Body(0), at });
     output(&mut s, Quantity::JointValue { joint: JointId::new(pivot) });
+    output(&mut s, Quantity::AngularVelocity { body: BodyId::Body(0) });
     let (sin, cos) = angle.sin_cos();
     // rod about its end: alpha = -3 g cos / (2 l)
     let alpha = -1.5 * 9.81 * cos / 2.0;
     let acceleration =
         [2.0 * (-alpha * sin - rate * rate * cos), 2.0 * (alpha * cos - rate * rate * sin)];
     let mut expected = acceleration.to_vec();
-    expected.extend([2.0 * cos, 2.0 * sin, rate, -2.0 * rate * sin, 2.0 * rate * cos, angle]);
+    expected.extend([2.0 * cos, 2.0 * sin, rate, -2.0 * rate * sin, 2.0 * rate * cos, angle, rate]);
     assert_near(&measured::<2>(&s), &expected);
 }
 
@@ -128,6 +129,31 @@ fn held_values_and_rates_are_measured_as_they_were_held() {
         let found = measured::<3>(&s);
         assert_near(&found, &[value, rate].concat());
     }
+}
+
+#[test]
+fn a_body_on_a_skew_axis_turns_by_its_rate_along_that_axis() {
+    let (axis, rate) = ([0.0, 3.0, 4.0], -0.7);
+    let mut s = single(JointKind::Revolute, [Some(axis), None]);
+    hold(&mut s, 0, &[1.2], &[rate]);
+    output(&mut s, Quantity::AngularVelocity { body: BodyId::Body(0) });
+    assert_near(&measured::<3>(&s), &axis.map(|x| rate * x / 5.0));
+}
+
+#[test]
+fn a_rod_between_balls_turns_across_itself() {
+    let mut s = scene(Dimension::Spatial, [0.0, 0.0, -9.81]);
+    let rod = add_rod(&mut s, 1.0, [0.0; 3], [2.0, 0.0, 0.0]);
+    add_joint(&mut s, JointKind::Spherical, [GROUND, rod], [0.0; 3], [None; 2]);
+    output(&mut s, Quantity::AngularVelocity { body: rod });
+    let (model, mut state) = start::<3>(&s);
+    assert!(!model.has_full_rotation(rod));
+    // the end moves by omega x (2, 0, 0)
+    state.v[..3].copy_from_slice(&[0.0, 3.0, -1.0]);
+    let mut out = [0.0; 3];
+    let mut measures = Measures::new(&s, &model).expect("channels");
+    measures.write(&state, None, &mut out).expect("turns are known");
+    assert_near(&out, &[0.0, 0.5, 1.5]);
 }
 
 /// The present directions of what were the global axes, from the positions of points.

@@ -25,6 +25,7 @@ mod kinds;
 mod modes;
 mod oracle;
 mod random;
+mod readings;
 mod realtime;
 mod reference;
 mod sweep;

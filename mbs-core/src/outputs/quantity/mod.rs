@@ -26,6 +26,8 @@ table::quantities! {
         Acceleration in acceleration;
     }
     body {
+        /// Angular velocity of a body [rad/s], global axes; in the plane one number. Of a thin rod that balls alone hold, the part across it.
+        AngularVelocity in angular_velocity;
     }
     joint {
         /// Coordinates of a joint [rad or m], turns counted.

@@ -1,0 +1,27 @@
+//! Angular velocity of a body.
+
+use super::super::frame::Frame;
+use super::{ComponentForm, Instant, Maker, Measured, QuantityRow, TargetKind};
+use crate::Real;
+use crate::scene::BodyId;
+
+pub(super) const ROW: QuantityRow =
+    QuantityRow::new("angular-velocity", TargetKind::Body, ComponentForm::Axial("rad/s"));
+
+/// The directions of the body; of a thin rod that balls alone hold, the part across it.
+#[derive(Debug, Clone)]
+pub(in crate::outputs) struct AngularVelocity<T: Real, const D: usize>(Frame<T, D>);
+
+impl<T: Real, const D: usize> Measured<T, D> for AngularVelocity<T, D> {
+    type Of = BodyId;
+
+    fn new(of: BodyId, from: &mut Maker<'_, T, D>) -> Self {
+        Self(Frame::new(from.scene, from.model, of))
+    }
+
+    fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+        // omega, in the plane its last component
+        let omega = self.0.turning(&now.state.q, &now.state.v);
+        out.copy_from_slice(&omega.as_slice()[3 - out.len()..]);
+    }
+}
