@@ -5,8 +5,9 @@ use mbs_core::Cliques;
 use mbs_core::algebra::{Matrix, Vector};
 use mbs_core::model::Model;
 use mbs_core::outputs::{JointWrenches, Wrench};
-use mbs_core::scene::{Dimension, Freedom, Inertia, Joint, JointKind};
+use mbs_core::scene::{Dimension, Freedom, Inertia, JOINTS, Joint, JointKind};
 use mbs_testkit::Random;
+use std::collections::BTreeSet;
 
 /// Products of unit vectors.
 const ROUNDING: f64 = 1e-12;
@@ -131,4 +132,13 @@ fn a_body_on_a_joint_of_any_kind_moves_by_its_coordinates_alone() {
             }
         }
     }
+}
+
+#[test]
+fn the_readme_lists_the_kinds_of_joint() {
+    let readme = include_str!("../../../README.md");
+    let list = readme.split("with joints: ").nth(1).and_then(|rest| rest.split('.').next());
+    let last = |entry: &'static str| entry.split_whitespace().last().unwrap_or_default();
+    let listed: BTreeSet<_> = list.expect("a list").split(',').map(last).collect();
+    assert_eq!(listed, JOINTS.iter().map(|form| form.name).collect());
 }
