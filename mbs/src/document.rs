@@ -1,19 +1,30 @@
 //! A scene document, run in the precision that its settings name.
 
 use crate::checkpoint::{Checkpoint, CheckpointError, Keeping};
+use crate::driver::Observer;
 use crate::precision::{PrecisionError, ReadScene, Work};
-use crate::run::{Outcome, Progress, run, run_kept};
+use crate::run::{Outcome, run, run_kept};
 use crate::settings::Settings;
+use crate::simulation::Simulation;
+use crate::stop::StopError;
+use core::ops::ControlFlow;
 use mbs_core::Real;
+use mbs_core::control::Accepted;
 use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;
 
 /// Who is told where a run is [s].
 struct Listener<'a>(&'a mut dyn FnMut(f64));
 
-impl Progress for Listener<'_> {
-    fn reached(&mut self, t: f64) {
-        (self.0)(t);
+impl<T: Real, const D: usize> Observer<T, D> for Listener<'_> {
+    fn step(
+        &mut self,
+        now: &Simulation<T, D>,
+        _: &Accepted<T>,
+        _: bool,
+    ) -> Result<ControlFlow<()>, StopError> {
+        (self.0)(now.state().t.to_f64());
+        Ok(ControlFlow::Continue(()))
     }
 }
 

@@ -10,6 +10,7 @@ mod control;
 mod digits;
 pub mod doctor;
 mod document;
+mod driver;
 pub mod estimate;
 pub mod explain;
 pub mod export;
@@ -80,7 +81,8 @@ pub use tree::{InSpace, Plane};
 
 /// A scene in one scalar and dimension: for those who write generic code.
 pub mod typed {
-    pub use crate::run::{Progress, run, run_kept};
+    pub use crate::driver::{Inputs, Observer};
+    pub use crate::run::{run, run_kept};
     pub use crate::simulation::Simulation;
 }
 

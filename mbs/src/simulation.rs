@@ -4,10 +4,13 @@ mod carry;
 
 use crate::checkpoint::{Kept, inputs};
 use crate::control::Control;
+use crate::driver::{Observer, Stretch, drive};
+use crate::interrupt::Interrupt;
 use crate::methods::Request;
 use crate::ready::AssembledScene;
 use crate::settings::Settings;
 use crate::stop::StopError;
+use core::ops::ControlFlow;
 use mbs_core::Real;
 use mbs_core::control::{Accepted, Invariant, Limit, TrialStep};
 use mbs_core::effects::{Field, Value};
@@ -73,30 +76,34 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 }
 
+/// Adds the reports of steps.
+struct Sum<T>(StepReport<T>);
+
+impl<T: Real, const D: usize> Observer<T, D> for Sum<T> {
+    fn step(
+        &mut self,
+        _: &Simulation<T, D>,
+        accepted: &Accepted<T>,
+        _: bool,
+    ) -> Result<ControlFlow<()>, StopError> {
+        self.0.add(&accepted.attempt.report);
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
 impl<T: Real, const D: usize> Simulation<T, D> {
     /// Advances by `dt` [s]: one step, or as many as the control of the step size takes.
     ///
     /// # Errors
-    /// [`StepError`]; the state is then that after the last accepted step.
-    pub fn step(&mut self, dt: T) -> Result<StepReport<T>, StepError> {
-        if self.control.is_none() {
-            return self.advance(dt).map(|accepted| accepted.attempt.report);
-        }
-        Step { dt, length: self.model.length() }.checked()?;
-        let end = self.state.t + dt;
-        let mut sum = StepReport { steps: 0, ..StepReport::default() };
-        loop {
-            let rest = end - self.state.t;
-            if rest > T::ZERO {
-                let accepted = self.advance(rest)?;
-                sum.add(&accepted.attempt.report);
-                if !accepted.is_last {
-                    continue;
-                }
-            }
-            self.set_time(end);
-            return Ok(sum);
-        }
+    /// [`StopError`] with the joint or body; the state is then that after the last accepted step.
+    pub fn step(&mut self, dt: T) -> Result<StepReport<T>, StopError> {
+        let step = Step { dt, length: self.model.length() }.checked();
+        step.map_err(|error| self.explain(error))?;
+        let end = Stretch::to(self.state.t + dt);
+        let stretch = if self.is_controlled() { end } else { end.in_one(Some(dt)) };
+        let mut sum = Sum(StepReport { steps: 0, ..StepReport::default() });
+        drive(self, [stretch], &Interrupt::default(), &mut sum)?;
+        Ok(sum.0)
     }
 
     /// Makes one step: of `rest` [s] where the length of steps is fixed, of at most that where it is controlled.

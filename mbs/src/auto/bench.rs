@@ -3,15 +3,17 @@
 use super::trial::{Aim, Bench, End, Rows, Time, Trial};
 use crate::alarm::Alarm;
 use crate::channels::Channels;
-use crate::compare::drive::{Signal, Watcher, drive};
+use crate::compare::course::Course;
 use crate::compare::ladder::{Instants, count, work};
 use crate::compare::method::{Control, MethodCase};
+use crate::driver::{Observer, drive, goes_on};
 use crate::names::Names;
 use crate::ready::AssembledScene;
 use crate::settings::{DEFAULT_STEP, Method, Settings, SettingsError};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use crate::tree::{InSpace, Plane};
+use core::ops::ControlFlow;
 use mbs_core::Real;
 use mbs_core::cluster::scene_length;
 use mbs_core::control::Accepted;
@@ -127,8 +129,8 @@ where
             reached: 0.0,
             is_late: false,
         };
-        let course = Signal { instants: self.instants, between };
-        let end = drive(&mut simulation, (&course, &self.base.interrupt), &mut recorder);
+        let course = Course { instants: self.instants, between };
+        let end = drive(&mut simulation, course.stretches(), &self.base.interrupt, &mut recorder);
         let Recorder { rows, steps, reached, slowest, is_late, span, .. } = recorder;
         let seconds = self.clock.seconds() - begun;
         let end = match end {
@@ -258,7 +260,7 @@ struct Recorder<'a, T: Real, const D: usize> {
     is_late: bool,
 }
 
-impl<T: Real, const D: usize> Watcher<T, D> for Recorder<'_, T, D>
+impl<T: Real, const D: usize> Observer<T, D> for Recorder<'_, T, D>
 where
     Plane<D>: InSpace<T>,
 {
@@ -267,7 +269,7 @@ where
         simulation: &Simulation<T, D>,
         accepted: &Accepted<T>,
         is_last: bool,
-    ) -> Result<bool, StopError> {
+    ) -> Result<ControlFlow<()>, StopError> {
         let report = &accepted.attempt.report;
         self.clock.worked(f64::from(report.iterations) * self.per_iteration);
         let before = self.steps;
@@ -281,16 +283,16 @@ where
             self.is_late = self.time.is_over(now - self.begun, self.reached / self.span);
             self.last = now;
         }
-        let Some(channels) = &mut self.channels else { return Ok(!self.is_late) };
+        let Some(channels) = &mut self.channels else { return Ok(goes_on(!self.is_late)) };
         channels.track(simulation)?;
         let stop = self.alarm.rings(simulation, is_last);
         if self.is_fine {
             self.last = self.clock.seconds();
         }
-        stop.map_or(Ok(!self.is_late), Err)
+        stop.map_or(Ok(goes_on(!self.is_late)), Err)
     }
 
-    fn instant(&mut self, simulation: &Simulation<T, D>) -> Result<bool, StopError> {
+    fn instant(&mut self, simulation: &Simulation<T, D>) -> Result<ControlFlow<()>, StopError> {
         if let Some(channels) = &mut self.channels {
             channels.write(simulation.state(), &mut self.row)?;
             self.rows.push(self.row.iter().copied().map(Real::to_f64).collect());
@@ -298,6 +300,6 @@ where
                 self.last = self.clock.seconds();
             }
         }
-        Ok(!self.is_late)
+        Ok(goes_on(!self.is_late))
     }
 }

@@ -1,6 +1,6 @@
 //! Where index-3 and index-1 converge: short runs over step and fixed penalty.
 
-use super::drive::Signal;
+use super::course::Course;
 use super::ladder::{Instants, count, work};
 use super::pass::Scenes;
 use super::reference::Known;
@@ -112,7 +112,7 @@ impl Plan {
         let Ok(settings) = Settings::new(&scenes.double, &overrides) else {
             return Cell { failure: "settings-refused".to_owned(), ..Cell::default() };
         };
-        let course = Signal { instants: self.instants, between: Some(between) };
+        let course = Course { instants: self.instants, between: Some(between) };
         let recorded = scenes.recorded(&settings, &course, most);
         let entry = recorded.entry;
         let failure = match entry.failure {

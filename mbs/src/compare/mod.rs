@@ -5,7 +5,7 @@
 //! that two comparisons make the same ones. Each result is in the journal before the next run begins.
 
 mod clocked;
-pub(crate) mod drive;
+pub(crate) mod course;
 mod judged;
 pub(crate) mod ladder;
 mod layout;

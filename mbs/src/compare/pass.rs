@@ -1,18 +1,20 @@
 //! One run of a scene: recorded, with its steps timed one by one, or timed as a whole.
 
 use super::clocked::step_times;
-use super::drive::{Signal, Watcher, drive};
+use super::course::Course;
 use super::ladder::work;
 use super::layout::moved;
 use crate::alarm::Alarm;
 use crate::channels::Channels;
 use crate::choice::Precision;
+use crate::driver::{Observer, drive, goes_on};
 use crate::interrupt::Interrupt;
 use crate::names::Names;
 use crate::precision::{PrecisionError, ReadScene, Work};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
+use core::ops::ControlFlow;
 use core::time::Duration;
 use cpu_time::ThreadTime;
 use mbs_core::Real;
@@ -82,7 +84,7 @@ impl Scenes {
     }
 
     /// Runs and records, for at most so many seconds of CPU time.
-    pub(super) fn recorded(&self, settings: &Settings, course: &Signal, most: f64) -> Recorded {
+    pub(super) fn recorded(&self, settings: &Settings, course: &Course, most: f64) -> Recorded {
         let Some(scene) = self.of(settings.precision) else {
             return Recorded { is_not_started: true, ..Recorded::default() };
         };
@@ -92,7 +94,7 @@ impl Scenes {
 
     /// CPU time of the steps from a fresh start [s]; the least of several where they take little. Each turn finds other places in
     /// memory.
-    pub(super) fn timed(&self, settings: &Settings, course: &Signal, turn: u32) -> Option<f64> {
+    pub(super) fn timed(&self, settings: &Settings, course: &Course, turn: u32) -> Option<f64> {
         let settings = &self.interruptible(settings);
         self.of(settings.precision)?.work(ToTime { settings, course, turn })
     }
@@ -101,7 +103,7 @@ impl Scenes {
 /// A run that is timed.
 struct ToTime<'a> {
     settings: &'a Settings,
-    course: &'a Signal,
+    course: &'a Course,
     turn: u32,
 }
 
@@ -116,7 +118,7 @@ impl Work for ToTime<'_> {
 /// A run that is recorded.
 struct ToRecord<'a> {
     settings: &'a Settings,
-    course: &'a Signal,
+    course: &'a Course,
     n_columns: usize,
     most: f64,
 }
@@ -132,7 +134,7 @@ impl Work for ToRecord<'_> {
 fn timed<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
-    course: &Signal,
+    course: &Course,
     turn: u32,
 ) -> Option<f64> {
     let (mut least, mut sum) = (None::<f64>, 0.0);
@@ -140,7 +142,7 @@ fn timed<T: Real, const D: usize>(
         let seconds = moved(turn * MOST_FRESH + k, || {
             let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
             let clock = ThreadTime::now();
-            drive(&mut simulation, (course, &settings.interrupt), &mut ()).ok()?;
+            drive(&mut simulation, course.stretches(), &settings.interrupt, &mut ()).ok()?;
             Some(clock.elapsed().as_secs_f64())
         })?;
         least = Some(least.map_or(seconds, |least| least.min(seconds)));
@@ -155,7 +157,7 @@ fn timed<T: Real, const D: usize>(
 fn recorded<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
-    course: &Signal,
+    course: &Course,
     (n_columns, most): (usize, f64),
 ) -> Recorded {
     let started = Simulation::<T, D>::new(scene, settings).and_then(|simulation| {
@@ -186,7 +188,7 @@ fn recorded<T: Real, const D: usize>(
         last: Duration::ZERO,
         start: ThreadTime::now(),
     };
-    let end = drive(&mut simulation, (course, &settings.interrupt), &mut recorder);
+    let end = drive(&mut simulation, course.stretches(), &settings.interrupt, &mut recorder);
     recorder.finish(&simulation, end.err(), &Names::new(scene))
 }
 
@@ -208,13 +210,13 @@ struct Recorder<T: Real, const D: usize> {
     start: ThreadTime,
 }
 
-impl<T: Real, const D: usize> Watcher<T, D> for Recorder<T, D> {
+impl<T: Real, const D: usize> Observer<T, D> for Recorder<T, D> {
     fn step(
         &mut self,
         simulation: &Simulation<T, D>,
         accepted: &Accepted<T>,
         is_last: bool,
-    ) -> Result<bool, StopError> {
+    ) -> Result<ControlFlow<()>, StopError> {
         let now = self.start.elapsed();
         let report = &accepted.attempt.report;
         let steps = report.steps.max(1);
@@ -228,15 +230,15 @@ impl<T: Real, const D: usize> Watcher<T, D> for Recorder<T, D> {
         self.channels.track(simulation)?;
         let stop = self.alarm.rings(simulation, is_last);
         self.last = self.start.elapsed();
-        stop.map_or(Ok(true), Err)
+        stop.map_or(Ok(goes_on(true)), Err)
     }
 
-    fn instant(&mut self, simulation: &Simulation<T, D>) -> Result<bool, StopError> {
+    fn instant(&mut self, simulation: &Simulation<T, D>) -> Result<ControlFlow<()>, StopError> {
         self.channels.write(simulation.state(), &mut self.row)?;
         self.rows.push(self.row.iter().copied().map(Real::to_f64).collect());
         self.last = self.start.elapsed();
         self.is_given_up = self.last > self.most;
-        Ok(!self.is_given_up)
+        Ok(goes_on(!self.is_given_up))
     }
 }
 

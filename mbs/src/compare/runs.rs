@@ -1,6 +1,6 @@
 //! The recorded runs of every method, from the coarsest setting on.
 
-use super::drive::Signal;
+use super::course::Course;
 use super::ladder::Instants;
 use super::method::MethodCase;
 use super::reference::Known;
@@ -143,13 +143,13 @@ impl Study<'_> {
         method: &MethodCase,
         setting: f64,
         known: &Known,
-    ) -> Result<(crate::Settings, Signal), String> {
+    ) -> Result<(crate::Settings, Course), String> {
         let instants = Instants { count: known.rows.len(), ..self.instants };
         let between = method.is_fixed().then(|| instants.steps_between(setting));
         #[allow(clippy::cast_precision_loss, reason = "a count of steps")]
         let step = between.map_or(self.of_scene, |n| instants.interval / n as f64);
         let settings = self.settings(method, setting, step)?;
-        Ok((settings, Signal { instants, between }))
+        Ok((settings, Course { instants, between }))
     }
 }
 

@@ -4,7 +4,7 @@ use super::ladder::count;
 use super::method::{Control, MethodCase};
 use super::reference::{Known, Pair, Rows};
 use super::store::Store;
-use super::{CompareError, Study, drive::Signal, table};
+use super::{CompareError, Study, course::Course, table};
 use crate::choice::{IntegratorKind, Precision};
 use crate::methods::FormulationKind;
 use crate::settings::Settings;
@@ -171,7 +171,7 @@ impl Study<'_> {
             Err(text) => return json!({ "stopped": text }),
         };
         let between = method.is_fixed().then(|| self.instants.steps_between(setting));
-        let course = Signal { instants: self.instants, between };
+        let course = Course { instants: self.instants, between };
         let recorded = self.scenes.recorded(&settings, &course, patience * self.request.time_limit);
         match (&recorded.entry.failure, recorded.entry.status) {
             (Some(error), _) => {

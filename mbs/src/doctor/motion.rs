@@ -10,9 +10,14 @@
 
 use super::finding::{Finding, Severity, Topic, joint_names};
 use super::{Effort, places, stopped};
+use crate::driver::{Observer, Stretch, drive};
+use crate::run::step;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
+use crate::stop::StopError;
 use crate::words::few;
+use core::ops::ControlFlow;
+use mbs_core::control::Accepted;
 use mbs_core::scene::{Entry, Scene};
 use mbs_doctor::{Linkage, Loop, Part, Poses, Rank, loops};
 use std::time::Instant;
@@ -124,36 +129,56 @@ pub(super) fn watch<const D: usize>(
         }
     };
     let mut watch = Watch::new(scene, linkage);
-    let clock = Instant::now();
-    let end = settings.duration;
-    let every = end / positions(linkage, effort);
     watch.look(0.0, &places(scene, simulation.model(), simulation.state()));
     motion.positions = 1;
-    let mut next = every;
-    while motion.reached < end * (1.0 - 1e-12) {
-        let rest = end - motion.reached;
-        match simulation.advance(rest.min(settings.step_max)) {
-            Ok(_) => motion.reached = simulation.state().t,
-            Err(error) => {
-                let stop = simulation.explain(error);
-                let (message, hint) = stopped(scene, &stop, motion.reached);
-                (motion.error, motion.entry) = (Some((stop.code(), message, hint)), stop.entry());
-                break;
-            }
-        }
-        if motion.reached >= next * (1.0 - 1e-9) {
-            watch.look(motion.reached, &places(scene, simulation.model(), simulation.state()));
-            motion.positions += 1;
-            next += every * ((motion.reached - next) / every).floor().max(0.0) + every;
-        }
-        if clock.elapsed().as_secs_f64() > effort.seconds {
-            motion.is_cut_short = motion.reached < end * (1.0 - 1e-12);
-            break;
-        }
+    let every = settings.duration / positions(linkage, effort);
+    let clock = Instant::now();
+    let goes_on = || clock.elapsed().as_secs_f64() <= effort.seconds;
+    let (lengths, is_controlled) = (settings.lengths(scene), simulation.is_controlled());
+    let stretches = (1..=settings.n_steps()).map(|k| {
+        let step = step(settings, &lengths, k);
+        if is_controlled { Stretch { fixed: None, ..step } } else { step }
+    });
+    let mut look =
+        Look { watch: &mut watch, motion: &mut motion, every, next: every, goes_on: &goes_on };
+    if let Err(stop) = drive(&mut simulation, stretches, &settings.interrupt, &mut look) {
+        let (message, hint) = stopped(scene, &stop, motion.reached);
+        (motion.error, motion.entry) = (Some((stop.code(), message, hint)), stop.entry());
     }
     motion.nearest = watch.tracks.iter().map(Track::nearest).collect();
     motion.corners = watch.corners;
     motion
+}
+
+/// Looks at positions along a run, for as long as there is time.
+struct Look<'a, 'b> {
+    watch: &'a mut Watch<'b>,
+    motion: &'a mut Motion,
+    /// Time between two positions, and that of the next [s].
+    every: f64,
+    next: f64,
+    goes_on: &'a dyn Fn() -> bool,
+}
+
+impl<const D: usize> Observer<f64, D> for Look<'_, '_> {
+    fn step(
+        &mut self,
+        now: &Simulation<f64, D>,
+        _: &Accepted<f64>,
+        is_last: bool,
+    ) -> Result<ControlFlow<()>, StopError> {
+        let Self { watch, motion, every, next, .. } = self;
+        let t = now.state().t;
+        motion.reached = t;
+        if t >= *next * (1.0 - 1e-9) {
+            watch.look(t, &places(watch.scene, now.model(), now.state()));
+            motion.positions += 1;
+            *next += *every * ((t - *next) / *every).floor().max(0.0) + *every;
+        }
+        let goes_on = (self.goes_on)();
+        self.motion.is_cut_short = !goes_on && !is_last;
+        Ok(crate::driver::goes_on(goes_on))
+    }
 }
 
 /// How many positions are looked at.

@@ -4,11 +4,14 @@ use super::stiffness::shortest_period;
 use crate::alarm::Alarm;
 use crate::auto::Clock;
 use crate::channels::Channels;
+use crate::driver::{Observer, Stretch, drive, goes_on};
+use crate::interrupt::Interrupt;
 use crate::names::Names;
 use crate::ready::AssembledScene;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
+use core::ops::ControlFlow;
 use mbs_core::scene::Scene;
 use mbs_core::step::StepError;
 use mbs_sparse::Multifrontal;
@@ -163,7 +166,7 @@ impl<const D: usize> Eye<'_, D> {
             self.reach((*t, rate), *t >= span, is_late)?;
             rate = self.turning(*t, &mut seen.pace);
             let written = self.channels.write(self.simulation.state(), &mut row);
-            written.map_err(|error| self.stopped(&error))?;
+            written.map_err(|error| stopped(self.look.scene, &self.simulation, &error))?;
             for ((most, a), b) in seen.differences.iter_mut().zip(&row).zip(values) {
                 *most = most.max((a - b).abs());
             }
@@ -193,34 +196,20 @@ impl<const D: usize> Eye<'_, D> {
         if self.step.is_none() {
             self.simulation.formulation_mut().set_max_steps(most);
         }
-        for j in 1..=count {
-            #[allow(clippy::cast_precision_loss, reason = "a small count")]
-            let t = if j == count { to } else { from + rest * (j as f64 / pieces) };
-            let dt = t - self.simulation.state().t;
-            if let Err(error) = self.simulation.step(dt) {
-                if self.step.is_none() && matches!(error, StepError::StepTooSmall { .. }) {
-                    return Err(End::Late);
-                }
-                let stop = self.simulation.explain(error);
-                return Err(self.stopped(&stop));
+        #[allow(clippy::cast_precision_loss, reason = "a small count")]
+        let end = |j: u64| if j == count { to } else { from + rest * (j as f64 / pieces) };
+        let piece = |j| Stretch { is_last: is_last && j == count, ..Stretch::to(end(j)) };
+        let Self { look, simulation, channels, alarm, step, .. } = self;
+        let mut glance = Glance { channels, alarm, is_late, to: (to, is_last), span, late: false };
+        let stretches = (1..=count).map(piece);
+        match drive(simulation, stretches, &Interrupt::default(), &mut glance) {
+            Ok(()) if glance.late => Err(End::Late),
+            Ok(()) => Ok(()),
+            Err(StopError::Step(StepError::StepTooSmall { .. }, _)) if step.is_none() => {
+                Err(End::Late)
             }
-            self.simulation.set_time(t);
-            if let Err(stop) = self.channels.track(&self.simulation) {
-                return Err(self.stopped(&stop));
-            }
-            if let Some(stop) = self.alarm.rings(&self.simulation, is_last && j == count) {
-                return Err(self.stopped(&stop));
-            }
-            if j < count && is_late(t / span) {
-                return Err(End::Late);
-            }
+            Err(stop) => Err(stopped(look.scene, simulation, &stop)),
         }
-        Ok(())
-    }
-
-    fn stopped(&self, error: &StopError) -> End {
-        let t = self.simulation.state().t;
-        End::Stopped(t, error.report(t, &Names::new(self.look.scene)).message)
     }
 
     /// The largest angular velocity of a body [rad/s]; keeps the largest turn in a step of the run.
@@ -246,5 +235,39 @@ impl<const D: usize> Eye<'_, D> {
         let period = shortest_period(model, &mut self.solver, state);
         let steps_per_period = period.map(|period| period / step).filter(|n| n.is_finite());
         most.take(&Pace { steps_per_period, ..Pace::default() });
+    }
+}
+
+/// How a look ends that stops.
+fn stopped<const D: usize>(
+    scene: &Scene<f64>,
+    simulation: &Simulation<f64, D>,
+    error: &StopError,
+) -> End {
+    let t = simulation.state().t;
+    End::Stopped(t, error.report(t, &Names::new(scene)).message)
+}
+
+/// Sees the pieces of a look up to a row.
+struct Glance<'a, F, const D: usize> {
+    channels: &'a mut Channels<f64, D>,
+    alarm: &'a mut Alarm,
+    is_late: &'a mut F,
+    /// Time of the row [s]; does the look end with it?
+    to: (f64, bool),
+    span: f64,
+    late: bool,
+}
+
+impl<F: FnMut(f64) -> bool, const D: usize> Observer<f64, D> for Glance<'_, F, D> {
+    fn instant(&mut self, now: &Simulation<f64, D>) -> Result<ControlFlow<()>, StopError> {
+        self.channels.track(now)?;
+        let t = now.state().t;
+        let (to, is_last) = self.to;
+        if let Some(stop) = self.alarm.rings(now, is_last && t >= to) {
+            return Err(stop);
+        }
+        self.late = t < to && (self.is_late)(t / self.span);
+        Ok(goes_on(!self.late))
     }
 }

@@ -1,7 +1,7 @@
 //! The time of a simulation that is stepped by hand: sums of many steps drift, multiples do not.
 
 use crate::checkpoint::tape::{Tape, Told};
-use crate::run::multiple;
+use crate::driver::multiple;
 use mbs_core::Real;
 
 /// A row of equal steps.
@@ -23,7 +23,8 @@ impl<T: Real> StepClock<T> {
             *self = Self { origin: now, dt, count: 0, end: now };
         }
         self.count += 1;
-        self.end = multiple(self.origin, self.count, (self.dt.1, self.dt.0));
+        self.end =
+            multiple((self.origin, self.origin.to_f64()), self.count, (self.dt.1, self.dt.0));
         self.end
     }
 

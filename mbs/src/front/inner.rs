@@ -8,12 +8,15 @@ use super::values::{
 };
 use crate::checkpoint::CheckpointError;
 use crate::checkpoint::tape::{Eye, Pen, Tape, holds};
+use crate::driver::{Observer, Stretch, drive};
 use crate::precision::Work;
 use crate::settings::{Settings, exact};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use core::fmt::Debug;
+use core::ops::ControlFlow;
 use mbs_core::Real;
+use mbs_core::control::Accepted;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{BodyId, InitialCondition, InitialTarget, JointId, Scene, Start};
 use mbs_core::step::InputError;
@@ -175,21 +178,12 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
         let end = self.clock.advance(now, (dt, length));
         let end = to.map_or(end, |to| exact(&self.scene, to));
         let readings = self.readings.get_mut().unwrap_or_else(PoisonError::into_inner);
-        let (mut sum, mut rest) = (StepReport::default(), length);
-        loop {
-            let accepted = match self.simulation.advance(rest) {
-                Ok(accepted) => accepted,
-                Err(error) => return Err(self.simulation.explain(error)),
-            };
-            sum.add(&accepted);
-            readings.follow(&self.simulation)?;
-            rest = end - self.simulation.state().t;
-            if accepted.is_last || rest <= T::ZERO {
-                break;
-            }
-        }
+        let fixed = (!self.simulation.is_controlled()).then_some(length);
+        let mut watch = Watch { readings, sum: StepReport::default() };
+        let interrupt = &self.settings.interrupt;
+        drive(&mut self.simulation, [Stretch::to(end).in_one(fixed)], interrupt, &mut watch)?;
+        let sum = watch.sum;
         self.clock.land(end);
-        self.simulation.set_time(end);
         Ok(sum)
     }
 
@@ -251,6 +245,25 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
         readings.stale();
         (self.readings, self.clock) = (Mutex::new(readings), clock);
         Ok(())
+    }
+}
+
+/// Follows the readings of a simulation over its steps, and adds their reports.
+struct Watch<'a, T: Real, const D: usize> {
+    readings: &'a mut Readings<T, D>,
+    sum: StepReport,
+}
+
+impl<T: Real, const D: usize> Observer<T, D> for Watch<'_, T, D> {
+    fn step(
+        &mut self,
+        now: &Simulation<T, D>,
+        accepted: &Accepted<T>,
+        _: bool,
+    ) -> Result<ControlFlow<()>, StopError> {
+        self.sum.add(accepted);
+        self.readings.follow(now)?;
+        Ok(ControlFlow::Continue(()))
     }
 }
 

@@ -27,8 +27,7 @@
 //!     fn step(&mut self, task: Task) -> Result<ControlFlow<()>, StopError> {
 //!         let torque = [(self.wanted)(task.index), 0.0, 0.0];
 //!         self.simulation.set_input(self.motor, torque).expect("the motor's torque is an input");
-//!         let stepped = self.simulation.step(1e-3);
-//!         stepped.map_err(|error| self.simulation.explain(error))?;
+//!         self.simulation.step(1e-3)?;
 //!         Ok(ControlFlow::Continue(()))
 //!     }
 //!     fn publish(&mut self, _: Task) {

@@ -1,8 +1,10 @@
 //! A run that is kept while it goes, and one that goes on from where it was kept.
 
-use super::{Counts, Run};
+use super::Run;
+use super::record::{Counts, Record};
 use crate::checkpoint::tape::{Tape, Told, holds};
 use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Keeping, Kind, whole};
+use crate::simulation::Simulation;
 use core::time::Duration;
 use cpu_time::{ProcessTime, ThreadTime};
 use mbs_core::Real;
@@ -71,41 +73,6 @@ impl Clock {
 }
 
 impl<T: Real, const D: usize> Run<'_, T, D> {
-    /// Writes rows and a checkpoint where they are due after step `k`; says whether it took time.
-    pub(super) fn keep(&mut self, k: u64) -> bool {
-        self.done = k;
-        let is_due = self.kept.as_ref().is_some_and(|kept| kept.keeping.is_due(self.reached));
-        self.write(is_due)
-    }
-
-    /// Writes rows and a checkpoint, whether they are due or not.
-    pub(super) fn keep_now(&mut self) {
-        self.write(true);
-    }
-
-    /// Writes what waits, and a checkpoint where one is due.
-    fn write(&mut self, is_due: bool) -> bool {
-        let Some(kept) = self.kept.take() else { return false };
-        let is_busy = is_due || kept.keeping.is_waiting(&self.recorder);
-        if is_busy {
-            let since = self.clock.get();
-            let bytes = is_due.then(|| self.checkpoint(&kept, since));
-            kept.keeping.write(&self.recorder, bytes.map(|bytes| (self.reached, bytes)));
-            self.clock.take_off(since);
-        }
-        self.kept = Some(kept);
-        is_busy
-    }
-
-    /// The bytes of a checkpoint.
-    fn checkpoint(&mut self, kept: &Kept<'_>, cpu: Duration) -> Result<Vec<u8>, CheckpointError> {
-        let times = [self.reached, kept.keeping.every()];
-        whole(&kept.identity, (Kind::Run, times), |pen| {
-            self.simulation.kept().walk(pen)?;
-            self.walk(pen, cpu)
-        })
-    }
-
     /// Goes on from a checkpoint. On an error the run is of no use any more.
     pub(super) fn resume(
         &mut self,
@@ -118,25 +85,67 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
         checkpoint.check(identity)?;
         let mut tape = checkpoint.body();
         self.simulation.restore_from(&mut tape)?;
-        self.walk(&mut tape, Duration::ZERO)?;
+        self.record.walk(&self.simulation, &mut tape, Duration::ZERO)?;
         holds(tape.left() == Some(0))?;
         let is_controlled = self.simulation.is_controlled();
         let t = self.simulation.state().t;
         holds(if is_controlled {
-            t >= T::ZERO && t < self.lengths.duration
+            t >= T::ZERO && t < self.record.lengths.duration
         } else {
-            self.done < self.settings.n_steps()
+            self.record.done < self.record.settings.n_steps()
+        })
+    }
+}
+
+impl<T: Real, const D: usize> Record<'_, T, D> {
+    /// Writes rows and a checkpoint where they are due after step `k`; says whether it took time.
+    pub(super) fn keep(&mut self, simulation: &Simulation<T, D>, k: u64) -> bool {
+        self.done = k;
+        let is_due = self.kept.as_ref().is_some_and(|kept| kept.keeping.is_due(self.reached));
+        self.write(simulation, is_due)
+    }
+
+    /// Writes rows and a checkpoint, whether they are due or not.
+    pub(super) fn keep_now(&mut self, simulation: &Simulation<T, D>) {
+        self.write(simulation, true);
+    }
+
+    /// Writes what waits, and a checkpoint where one is due.
+    fn write(&mut self, simulation: &Simulation<T, D>, is_due: bool) -> bool {
+        let Some(kept) = self.kept.take() else { return false };
+        let is_busy = is_due || kept.keeping.is_waiting(&self.recorder);
+        if is_busy {
+            let since = self.clock.get();
+            let bytes = is_due.then(|| self.checkpoint(simulation, &kept, since));
+            kept.keeping.write(&self.recorder, bytes.map(|bytes| (self.reached, bytes)));
+            self.clock.take_off(since);
+        }
+        self.kept = Some(kept);
+        is_busy
+    }
+
+    /// The bytes of a checkpoint.
+    fn checkpoint(
+        &mut self,
+        simulation: &Simulation<T, D>,
+        kept: &Kept<'_>,
+        cpu: Duration,
+    ) -> Result<Vec<u8>, CheckpointError> {
+        let times = [self.reached, kept.keeping.every()];
+        whole(&kept.identity, (Kind::Run, times), |pen| {
+            simulation.kept().walk(pen)?;
+            self.walk(simulation, pen, cpu)
         })
     }
 
-    /// Writes the run beside its simulation, or reads it back. What the last step left in `mark` and `values` the next one replaces.
-    fn walk(&mut self, tape: &mut impl Tape, cpu: Duration) -> Told {
+    /// Writes the record, or reads it back. What the last step left in `mark` and `values` the next one replaces.
+    fn walk(&mut self, simulation: &Simulation<T, D>, tape: &mut impl Tape, cpu: Duration) -> Told {
         tape.count(&mut self.done)?;
         tape.float(&mut self.reached)?;
         self.recorder.walk(tape)?;
         self.figure.walk(tape)?;
         self.measures.walk(tape)?;
-        self.walk_contacts(tape)?;
+        self.walk_contacts(simulation, tape)?;
         self.counts.walk(tape)?;
         self.alarm.walk(tape)?;
         let mut cpu = cpu;
@@ -148,7 +157,7 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
     }
 
     /// The instants of contact; the gaps are those of the state.
-    fn walk_contacts(&mut self, tape: &mut impl Tape) -> Told {
+    fn walk_contacts(&mut self, simulation: &Simulation<T, D>, tape: &mut impl Tape) -> Told {
         let numbers = |i: &Instant| (i.t, i.effect, i.end, i.makes);
         let mut instants: Vec<_> = self.contacts.instants().iter().map(numbers).collect();
         let mut left_out = self.contacts.left_out();
@@ -164,7 +173,7 @@ impl<T: Real, const D: usize> Run<'_, T, D> {
         if tape.left().is_some() {
             let instant = |(t, effect, end, makes)| Instant { t, effect, end, makes };
             let instants: Vec<Instant> = instants.into_iter().map(instant).collect();
-            self.contacts.resume(self.simulation.state(), &instants, left_out);
+            self.contacts.resume(simulation.state(), &instants, left_out);
         }
         Ok(())
     }

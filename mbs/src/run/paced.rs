@@ -4,7 +4,9 @@
 //! of its own, which takes the state over when the level changes, and shows it to the run's after each step: outputs are measured
 //! there. The state, the clock of the simulation and the rows are those of simulated time, whatever the clock of the loop does.
 
-use super::{Outcome, Run, multiple};
+use super::record::Record;
+use super::{Outcome, Run};
+use crate::driver::{Fixed, Observer, Plant, Stretch, drive, multiple};
 use crate::realtime::summary;
 use crate::recorder::Keep;
 use crate::settings::Settings;
@@ -13,12 +15,13 @@ use crate::stop::StopError;
 use core::ops::ControlFlow;
 use core::time::Duration;
 use mbs_core::Real;
+use mbs_core::control::Accepted;
 use mbs_core::formulation::SwitchError;
 use mbs_core::outputs::Reactions;
 use mbs_core::scene::Scene;
+use mbs_core::step::StepError;
 use mbs_realtime::{Clock, Pacer, Task, Work};
 use mbs_scene::{Channel, Component, Degraded};
-use std::time::Instant;
 
 /// The column that says at which level a row was simulated.
 const LEVEL: &str = "realtime-level";
@@ -83,7 +86,8 @@ pub(crate) fn paced<T: Real, const D: usize>(
         Ok(run) => run,
         Err(outcome) => return Ok(*outcome),
     };
-    run.level = track.tells_level.then_some(0.0);
+    run.record.level = track.tells_level.then_some(0.0);
+    run.record.periods = Some(track.periods);
     let levels: Result<Vec<_>, _> =
         rungs.iter().map(|rung| Level::new(&run, rung, track.steps)).collect();
     let levels = match levels {
@@ -91,18 +95,19 @@ pub(crate) fn paced<T: Real, const D: usize>(
         Err(Unready::Refused(refusal)) => return Err(refusal),
         Err(Unready::Stopped(error)) => return Ok(run.finish(Duration::ZERO, Some(*error))),
     };
-    run.recorder.reserve(track.periods);
-    run.figure.reserve(settings.duration);
-    let run = match run.started() {
+    run.record.recorder.reserve(track.periods);
+    run.record.figure.reserve(settings.duration);
+    let Run { simulation, record } = match run.started() {
         Ok(run) => run,
         Err(outcome) => return Ok(*outcome),
     };
-    let mut paced = Paced { run, levels, at: 0, track: *track };
+    let ladder = Ladder { simulation, levels, at: 0 };
+    let mut paced = Paced { ladder, record, track: *track };
     let error = pacer.run(track.periods, clock, &mut paced).err();
     let report = pacer.report();
-    let mut run = paced.run;
-    run.realtime = Some(summary(pacer, track, rungs));
-    Ok(run.finish(report.busy, error))
+    let Paced { ladder: Ladder { simulation, .. }, mut record, .. } = paced;
+    record.realtime = Some(summary(pacer, track, rungs));
+    Ok(Run { simulation, record }.finish(report.busy, error))
 }
 
 /// Why a level is not there.
@@ -135,23 +140,73 @@ impl<T: Real, const D: usize> Level<T, D> {
         let Some(&last) = rung.off.last() else {
             return Ok(Self { simulation: None, reactions: None, steps });
         };
-        let scene = rung.scene(run.scene);
-        let simulation = Simulation::new(&scene, run.settings)?;
+        let scene = rung.scene(run.record.scene);
+        let simulation = Simulation::new(&scene, run.record.settings)?;
         let taken = simulation.takes_over(&run.simulation);
         taken.map_err(|refusal| Unready::Refused((last, refusal)))?;
-        let needed = Reactions::<T, D>::needed(run.scene);
+        let needed = Reactions::<T, D>::needed(run.record.scene);
         let reactions = needed.then(|| Reactions::new(&scene, run.simulation.model()));
         let reactions = reactions.transpose().map_err(StopError::Reaction)?;
         Ok(Self { simulation: Some(Box::new(simulation)), reactions, steps })
     }
 }
 
+/// The run's own simulation, and those of the levels that take turns with it.
+struct Ladder<T: Real, const D: usize> {
+    simulation: Simulation<T, D>,
+    levels: Vec<Level<T, D>>,
+    /// The level that steps.
+    at: usize,
+}
+
+impl<T: Real, const D: usize> Plant<T, D> for Ladder<T, D> {
+    fn stepped(&mut self) -> &mut Simulation<T, D> {
+        self.levels[self.at].simulation.as_deref_mut().unwrap_or(&mut self.simulation)
+    }
+
+    fn shown(&self) -> &Simulation<T, D> {
+        &self.simulation
+    }
+
+    fn advance(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
+        let accepted = self.stepped().advance(rest)?;
+        if let Some(simulation) = &self.levels[self.at].simulation {
+            self.simulation.show(simulation);
+        }
+        Ok(accepted)
+    }
+
+    fn set_time(&mut self, t: T) {
+        self.stepped().set_time(t);
+        self.simulation.set_time(t);
+    }
+}
+
+impl<T: Real, const D: usize> Ladder<T, D> {
+    /// Goes on at another level. No allocation.
+    fn change(&mut self, to: usize, record: &mut Record<'_, T, D>) -> Result<(), StopError> {
+        let Self { simulation: own, levels, at } = self;
+        let from = core::mem::replace(at, to);
+        let was_own = levels[from].simulation.is_none();
+        if !was_own {
+            record.measures.exchange(&mut levels[from].reactions);
+        }
+        let level = &mut levels[to];
+        match &mut level.simulation {
+            Some(simulation) => {
+                record.measures.exchange(&mut level.reactions);
+                simulation.take_over(own).map_err(|error| simulation.explain(error))
+            }
+            None if was_own => Ok(()),
+            None => own.resume().map_err(|error| own.explain(error)),
+        }
+    }
+}
+
 /// A run in the hands of a pacer.
 struct Paced<'a, T: Real, const D: usize> {
-    run: Run<'a, T, D>,
-    levels: Vec<Level<T, D>>,
-    /// The level of the last task.
-    at: usize,
+    ladder: Ladder<T, D>,
+    record: Record<'a, T, D>,
     track: Track<T>,
 }
 
@@ -159,102 +214,40 @@ impl<T: Real, const D: usize> Work for Paced<'_, T, D> {
     type Error = StopError;
 
     fn step(&mut self, task: Task) -> Result<ControlFlow<()>, StopError> {
-        if task.level != self.at {
-            self.change(task.level)?;
+        let Self { ladder, record, .. } = self;
+        if task.level != ladder.at
+            && let Err(stop) = ladder.change(task.level, record)
+        {
+            record.end(&ladder.simulation, Some(&stop));
+            return Err(stop);
         }
         #[allow(clippy::cast_precision_loss, reason = "there are few levels")]
         let level = task.level as f64;
-        self.run.level = self.run.level.map(|lowest| lowest.max(level));
-        let k = task.index + 1;
-        self.period(k)?;
-        let is_last = k == self.track.periods;
-        self.run.finish_step((k, is_last), &mut ())?;
-        self.run.heed(is_last)?;
+        record.level = record.level.map(|lowest| lowest.max(level));
+        let stretch = self.period(task.index + 1);
+        self.record.begin_step();
+        let interrupt = &self.record.settings.interrupt;
+        drive(&mut self.ladder, [stretch], interrupt, &mut self.record)?;
         Ok(ControlFlow::Continue(()))
     }
 }
 
 impl<T: Real, const D: usize> Paced<'_, T, D> {
-    /// Goes on at another level. No allocation.
-    fn change(&mut self, to: usize) -> Result<(), StopError> {
-        let Self { run, levels, at, .. } = self;
-        let from = core::mem::replace(at, to);
-        let was_own = levels[from].simulation.is_none();
-        if !was_own {
-            run.measures.exchange(&mut levels[from].reactions);
-        }
-        let level = &mut levels[to];
-        let error = match &mut level.simulation {
-            Some(simulation) => {
-                run.measures.exchange(&mut level.reactions);
-                let taken = simulation.take_over(&run.simulation);
-                taken.map_err(|error| simulation.explain(error))
-            }
-            None if was_own => Ok(()),
-            None => run.simulation.resume().map_err(|error| run.simulation.explain(error)),
-        };
-        error.or_else(|stop| run.stop(stop))
-    }
-
-    /// Period `k` from 1, in its steps.
-    fn period(&mut self, k: u64) -> Result<(), StopError> {
+    /// Period `k` from 1.
+    fn period(&self, k: u64) -> Stretch<T> {
         let Track { period, periods, .. } = self.track;
         let is_last = k == periods;
-        let from = multiple(T::ZERO, k - 1, period);
-        let to = if is_last { self.run.lengths.duration } else { multiple(T::ZERO, k, period) };
-        let mut clock = Instant::now();
-        let Some(n) = self.levels[self.at].steps else { return self.controlled(to, &mut clock) };
+        let at = |k| multiple((T::ZERO, 0.0), k, period);
+        let from = at(k - 1);
+        let to = if is_last { self.record.lengths.duration } else { at(k) };
         // The length of a whole period is exact; that between two multiples is rounded.
         let is_whole = !is_last || (to - from - period.0).abs() <= period.0 * T::from_f64(1e-9);
         let whole = if is_whole { period.0 } else { to - from };
-        let h = whole / T::from_f64(f64::from(n));
-        for j in 1..=n {
-            let end = if j == n { to } else { from + h * T::from_f64(f64::from(j)) };
-            self.step(h, Some(end), &mut clock)?;
-        }
-        Ok(())
-    }
-
-    /// Steps of controlled lengths to an instant.
-    fn controlled(&mut self, to: T, clock: &mut Instant) -> Result<(), StopError> {
-        while self.run.simulation.state().t < to {
-            let rest = to - self.run.simulation.state().t;
-            if self.step(rest, None, clock)? {
-                break;
-            }
-        }
-        self.set_time(to);
-        Ok(())
-    }
-
-    /// A step of at most `rest` [s]; says whether it took the whole.
-    fn step(&mut self, rest: T, to: Option<T>, clock: &mut Instant) -> Result<bool, StopError> {
-        let Some(simulation) = &mut self.levels[self.at].simulation else {
-            return self.run.step(rest, to, clock);
+        let fixed = |n: u32| {
+            let h = whole / T::from_f64(f64::from(n));
+            Fixed { n: n.into(), from: (from, from.to_f64()), dt: (h, h.to_f64()) }
         };
-        let accepted = match simulation.advance(rest) {
-            Ok(accepted) => accepted,
-            Err(error) => {
-                let stop = simulation.explain(error);
-                return self.run.stop(stop).map(|()| true);
-            }
-        };
-        if let Some(to) = to {
-            simulation.set_time(to);
-        }
-        self.run.simulation.show(simulation);
-        self.run.made(&accepted, clock)?;
-        Ok(accepted.is_last)
-    }
-
-    /// Sets the clocks of the simulation that runs and of the run.
-    fn set_time(&mut self, to: T) {
-        if let Some(simulation) = &mut self.levels[self.at].simulation {
-            simulation.set_time(to);
-        }
-        self.run.simulation.set_time(to);
-        self.run.reached = to.to_f64();
-        self.run.mark.t = self.run.reached;
-        self.run.recorder.end_at(self.run.reached);
+        let fixed = self.ladder.levels[self.ladder.at].steps.map(fixed);
+        Stretch { fixed, is_last, ..Stretch::to(to) }
     }
 }

@@ -56,7 +56,7 @@ const PASSAGES: u32 = 10;
 fn symmetric_branch(
     formulation: &str,
     step: f64,
-) -> Result<(f64, f64, u32), (f64, mbs::augmented::StepError)> {
+) -> Result<(f64, f64, u32), (f64, mbs::StopError)> {
     let mut bench = Bench::<2>::new("two-four-bars", formulation, step);
     let first = bench.point(0, [0.0, 1.0, 0.0]);
     let last = bench.point(4, [2.0, 1.0, 0.0]);

@@ -5,7 +5,7 @@ use mbs::core::scene::{Dimension, Scene};
 use mbs::core::step::{Step, StepError};
 use mbs::scene_file::{Family, SceneFile, generate};
 use mbs::typed::Simulation;
-use mbs::{FORMULATIONS, FormulationKind, Method, Settings};
+use mbs::{FORMULATIONS, FormulationKind, Method, Settings, StopError};
 
 fn simulation<const D: usize>(scene: &Scene<f64>, overrides: Method) -> Simulation<f64, D> {
     let settings = Settings::new(scene, &overrides).expect("the settings are built");
@@ -58,8 +58,12 @@ fn a_step_that_is_none_is_refused_by_every_formulation_and_changes_nothing() {
             let mut simulation = simulation::<2>(&scene, overrides.clone());
             let before = go(&mut simulation, 3);
             for dt in [0.0, -1e-3, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-                for stopped in [simulation.step(dt).err(), simulation.advance(dt).err()] {
-                    let is_refused = matches!(stopped, Some(StepError::BadStep { .. }));
+                for stopped in [
+                    simulation.step(dt).err(),
+                    simulation.advance(dt).err().map(|e| simulation.explain(e)),
+                ] {
+                    let is_refused =
+                        matches!(stopped, Some(StopError::Step(StepError::BadStep { .. }, _)));
                     assert!(is_refused, "{overrides:?}, {dt}: {stopped:?}");
                 }
                 assert_eq!(bits(&simulation), before, "{overrides:?}, {dt}");

@@ -9,6 +9,7 @@
 use crate::common;
 
 use crate::common::{Bench, FORMULATIONS, distance, steps, worst};
+use mbs::StopError;
 use mbs::augmented::{Augmented, Form, Options, Projection, StepError};
 use mbs::parallel::{Multifrontal, Threads};
 
@@ -194,7 +195,7 @@ fn step_with(bench: &mut Bench<2>, options: Options<f64>) {
 }
 
 /// Outcome of the double pendulum in the printed form to 10 s: largest energy error, or the error of the step that failed.
-fn printed(alpha: f64, step: f64, projection: Projection) -> Result<f64, (f64, StepError)> {
+fn printed(alpha: f64, step: f64, projection: Projection) -> Result<f64, (f64, StopError)> {
     let mut bench = Bench::<2>::new("double-pendulum", "index-3", step);
     step_with(&mut bench, Options { projection, ..Options::printed(alpha) });
     let mut error = 0.0;
@@ -223,7 +224,10 @@ fn printed_form_with_alpha_1e7_works_to_1e_3_and_does_not_converge_at_1e_4() {
             assert!(error <= limit, "{step}: {error:e}");
         }
         let broken = printed(1e7, 1e-4, projection);
-        assert!(matches!(broken, Err((_, StepError::NotConverged { .. }))), "{broken:?}");
+        assert!(
+            matches!(broken, Err((_, StopError::Step(StepError::NotConverged { .. }, _)))),
+            "{broken:?}"
+        );
     }
 }
 
@@ -233,7 +237,10 @@ fn printed_form_with_alpha_1e9_works_to_1e_4_and_does_not_converge_at_1e_5() {
         let error = printed(1e9, 1e-4, projection).expect("a larger alpha reaches a smaller step");
         assert!(error <= PRINTED_AT_1E_4, "{error:e}");
         let broken = printed(1e9, 1e-5, projection);
-        assert!(matches!(broken, Err((_, StepError::NotConverged { .. }))), "{broken:?}");
+        assert!(
+            matches!(broken, Err((_, StopError::Step(StepError::NotConverged { .. }, _)))),
+            "{broken:?}"
+        );
     }
 }
 

@@ -4,11 +4,11 @@ use super::layout::Parts;
 use super::{scratch, told};
 use crate::common::scene;
 use mbs::core::scene::Scene;
-use mbs::typed::{Progress, run_kept};
-use mbs::{Checkpoint, Keeping, Method, Settings};
+use mbs::typed::{Inputs, Observer, run_kept};
+use mbs::{Checkpoint, Keeping, Method, Settings, StopError};
 use std::path::PathBuf;
 
-/// Takes the checkpoints that stand there at the first step, and at a time.
+/// Takes the checkpoints that stand there before the first step, and before a time.
 struct Copies {
     at: f64,
     path: PathBuf,
@@ -16,13 +16,15 @@ struct Copies {
     bytes: Vec<u8>,
 }
 
-impl Progress for Copies {
-    fn reached(&mut self, t: f64) {
-        for (copy, is_due) in [(&mut self.first, true), (&mut self.bytes, t >= self.at)] {
-            if is_due && copy.is_empty() {
+impl<const D: usize> Observer<f64, D> for Copies {
+    fn before(&mut self, inputs: &mut Inputs<'_, f64, D>) -> Result<(), StopError> {
+        let t = inputs.state().t;
+        for (copy, is_due) in [(&mut self.first, t == 0.0), (&mut self.bytes, t < self.at)] {
+            if is_due {
                 *copy = std::fs::read(&self.path).expect("there is always one");
             }
         }
+        Ok(())
     }
 }
 

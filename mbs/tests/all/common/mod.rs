@@ -3,12 +3,12 @@ pub(crate) mod files;
 pub(crate) mod oracle;
 
 pub(crate) use files::{SCENES, path, scene};
-use mbs::augmented::{StepError, StepReport};
+use mbs::augmented::StepReport;
 use mbs::auto::Clock;
 use mbs::core::natural::Affine;
 use mbs::core::scene::{BodyId, Scene};
 use mbs::typed::Simulation;
-use mbs::{Method, Settings};
+use mbs::{Method, Settings, StopError};
 pub(crate) use mbs_testkit::{allocations, random};
 
 /// The augmented formulations, by name.
@@ -54,7 +54,7 @@ impl<const D: usize> Bench<D> {
         Self { simulation, step, initial: kinetic + potential }
     }
 
-    pub(crate) fn step(&mut self) -> Result<StepReport<f64>, StepError> {
+    pub(crate) fn step(&mut self) -> Result<StepReport<f64>, StopError> {
         self.simulation.step(self.step)
     }
 
@@ -63,7 +63,7 @@ impl<const D: usize> Bench<D> {
         &mut self,
         duration: f64,
         mut look: impl FnMut(&Self),
-    ) -> Result<(), (f64, StepError)> {
+    ) -> Result<(), (f64, StopError)> {
         for k in 1..=steps(duration, self.step) {
             self.step().map_err(|e| (k as f64 * self.step, e))?;
             self.simulation.set_time(k as f64 * self.step);

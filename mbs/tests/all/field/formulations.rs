@@ -22,7 +22,7 @@ fn centres<const D: usize>(
     scene: &Scene<f64>,
     formulation: &str,
     (dt, n): (f64, u32),
-) -> Result<Vec<[f64; D]>, StepError> {
+) -> Result<Vec<[f64; D]>, StopError> {
     let mut bench = Bench::<D>::of_scene(scene, formulation, dt);
     for _ in 0..n {
         bench.step()?;
