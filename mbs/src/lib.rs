@@ -52,13 +52,15 @@ pub use mbs_statespace as statespace;
 
 pub use checkpoint::{Checkpoint, CheckpointError, FILE as CHECKPOINT, Keeping};
 pub use choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES, StepRule};
+pub use compare::Request as Compare;
 pub use document::{run_document, run_document_kept};
 pub use front::tree::{Matrix, Tree, TreeError, TreeErrorKind, TreeRange};
 pub use front::{
     Body, BodyMotion, Components, Coordinates, Effect, Energies, EquilibriumOptions, Error, Guide,
-    Id, InitialCondition, InputId, InputInfo, InputOwner, Joint, Mechanism, Output, Part,
-    PathError, PointMotion, Pose, Run, RunResult, SceneError, Simulation, SimulationError, Sizes,
-    Snapshot, StepReport, Table, UnknownName, Wrench, equilibrium, modes, run,
+    Id, InitialCondition, InputId, InputInfo, InputOwner, Joint, Mechanism, Observer, Output, Part,
+    PathError, PointMotion, Pose, Run, RunInputs, RunResult, SceneError, Simulation,
+    SimulationError, Sizes, Snapshot, StepReport, Sweep, SweepResult, Table, UnknownName, View,
+    Wrench, compare, equilibrium, modes, run, run_with, sweep,
 };
 pub use interrupt::Interrupt;
 pub use mbs_core::formulation::{Formulation, SwitchError};

@@ -49,6 +49,13 @@ pub enum StopError {
     NoThreads(usize),
     /// The run was asked to end, and has ended after a step.
     Interrupted,
+    /// An observer stopped the run.
+    Observer {
+        /// Code of its error.
+        code: &'static str,
+        /// What it says.
+        message: String,
+    },
     /// An output whose value is not finite.
     Output {
         /// Its number in the scene.
@@ -151,6 +158,7 @@ impl StopError {
             | Self::Linear(_)
             | Self::Eigenvalues
             | Self::NoThreads(_)
+            | Self::Observer { .. }
             | Self::Interrupted => return None,
         };
         Some(match owner {
@@ -192,6 +200,7 @@ impl StopError {
             Self::Eigenvalues => "no-eigenvalues",
             Self::NoThreads(_) => "no-threads",
             Self::Interrupted => INTERRUPTED,
+            Self::Observer { code, .. } => code,
         }
     }
 
@@ -248,6 +257,7 @@ impl StopError {
             Self::Interrupted => {
                 "computed rows are kept; a run begun with --checkpoint SECONDS continues with --resume"
             }
+            Self::Observer { .. } => "change what the observer of the run reads or sets",
             Self::Output { .. } => {
                 "measure a point nearer to the body, try a smaller step, or leave the output out"
             }
@@ -288,6 +298,7 @@ impl StopError {
             | Self::Linear(_)
             | Self::Eigenvalues
             | Self::Interrupted
+            | Self::Observer { .. }
             | Self::NoThreads(_) => None,
         }
     }
@@ -341,6 +352,7 @@ impl core::fmt::Display for StopError {
             Self::Eigenvalues => write!(f, "the iteration for the eigenvalues did not converge"),
             Self::NoThreads(n) => write!(f, "the system gives no {n} threads"),
             Self::Interrupted => write!(f, "interrupted by a signal"),
+            Self::Observer { message, .. } => f.write_str(message),
             Self::Output { .. } => {
                 write!(f, "an output is not finite: it is larger than numbers can be")
             }

@@ -1,15 +1,18 @@
 //! Why a simulation was refused or stopped.
 
-use super::error::{Error, SceneError};
+use super::error::{Error, PathError, SceneError};
 use super::tree::TreeError;
 use crate::checkpoint::CheckpointError;
+use crate::compare::{CompareError, JournalError};
 use crate::names::Names;
 use crate::precision::PrecisionError;
 use crate::settings::SettingsError;
-use crate::stop::StopError;
+use crate::stop::{INTERRUPTED, StopError};
+use crate::sweep::StudyError;
 use core::fmt::{self, Display, Formatter};
 use mbs_core::step::InputError;
-use mbs_scene::Place;
+use mbs_parallel::ensemble::EnsembleError;
+use mbs_scene::{Place, ReadError, WriteError};
 
 /// Why a simulation or a study was refused, or why it stopped.
 ///
@@ -42,12 +45,29 @@ impl SimulationError {
         self
     }
 
+    /// An error of the front door.
+    fn of(error: impl Error + Send + Sync + 'static) -> Self {
+        let mut found = Self::new(error.code(), &error, error.hint().unwrap_or_default());
+        let owned = |name: Option<&str>| name.map(str::to_owned);
+        (found.0.joint, found.0.body) = (owned(error.joint()), owned(error.body()));
+        (found.0.time, found.0.place) = (error.time(), error.place());
+        found.with_cause(error)
+    }
+
     /// A stop at a time [s].
     pub(crate) fn stopped(error: StopError, time: f64, names: &Names) -> Self {
         let report = error.report(time, names);
         let mut found = Self::new(error.code(), report.message, report.hint);
         (found.0.time, found.0.joint, found.0.body) = (Some(time), report.joint, report.body);
         found.with_cause(error)
+    }
+
+    /// As what stops a run.
+    pub(crate) fn into_stop(self) -> StopError {
+        match self.cause::<StopError>() {
+            Some(stop) => stop.clone(),
+            None => StopError::Observer { code: self.0.code, message: self.0.message },
+        }
     }
 
     /// The typed error behind it: `error.cause::<StopError>()`.
@@ -104,16 +124,6 @@ impl core::error::Error for SimulationError {
     }
 }
 
-impl From<SceneError> for SimulationError {
-    fn from(error: SceneError) -> Self {
-        let mut found = Self::new(error.code(), &error, error.hint().unwrap_or_default());
-        let owned = |name: Option<&str>| name.map(str::to_owned);
-        (found.0.joint, found.0.body) = (owned(error.joint()), owned(error.body()));
-        found.0.place = error.place();
-        found.with_cause(error)
-    }
-}
-
 impl From<PrecisionError> for SimulationError {
     fn from(error: PrecisionError) -> Self {
         Self::new("precision-not-built", &error, error.hint()).with_cause(error)
@@ -132,11 +142,46 @@ impl From<CheckpointError> for SimulationError {
     }
 }
 
-impl From<TreeError> for SimulationError {
-    fn from(error: TreeError) -> Self {
-        let mut found = Self::new(error.code(), &error, "");
-        found.0.joint = error.joint().map(str::to_owned);
-        found.with_cause(error)
+macro_rules! from {
+    ($($error:ty),* $(,)?) => {$(
+        impl From<$error> for SimulationError {
+            fn from(error: $error) -> Self {
+                Self::of(error)
+            }
+        }
+    )*};
+}
+
+from!(SceneError, TreeError, ReadError, WriteError, PathError);
+
+impl From<StudyError> for SimulationError {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Read(error) => Self::of(error),
+            StudyError::Settings(error) => error.into(),
+            other => {
+                let hint = "leave the option out, or do not vary the number";
+                Self::new("sweep-refused", &other, hint).with_cause(other)
+            }
+        }
+    }
+}
+
+impl From<EnsembleError> for SimulationError {
+    fn from(error: EnsembleError) -> Self {
+        Self::new("settings-refused", error, "write a smaller number").with_cause(error)
+    }
+}
+
+impl From<CompareError> for SimulationError {
+    fn from(error: CompareError) -> Self {
+        let code = match &error {
+            CompareError::Read(_) => "scene-refused",
+            CompareError::Journal(JournalError::Interrupted) => INTERRUPTED,
+            CompareError::NoReference(_) => "no-reference",
+            _ => "settings-refused",
+        };
+        Self::new(code, &error, error.hint()).with_cause(error)
     }
 }
 

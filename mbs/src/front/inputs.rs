@@ -1,9 +1,9 @@
 //! Inputs of a mechanism: numbers by name that are set between steps.
 
 use super::failure::SimulationError;
-use super::inner::Inner;
 use mbs_core::effects::{Form, Value};
 use mbs_core::scene::{Dimension, EffectId, EffectKind, GuideId, Motion, Scene, Signal};
+use mbs_core::step::InputError;
 use std::sync::Arc;
 
 /// An input of a simulation, by its place in [`Simulation::inputs`](crate::Simulation::inputs).
@@ -22,6 +22,12 @@ impl InputId {
     pub fn index(self) -> usize {
         self.0
     }
+}
+
+/// What takes the inputs: a simulation, or a run before one of its steps.
+pub(crate) trait Sink {
+    fn set_effect_input(&mut self, effect: usize, value: [f64; 3]) -> Result<(), InputError>;
+    fn set_guide_input(&mut self, guide: usize, motion: [f64; 3]) -> Result<(), InputError>;
 }
 
 /// What an input belongs to.
@@ -113,7 +119,7 @@ impl Inputs {
 
     pub(super) fn set(
         &mut self,
-        inner: &mut dyn Inner,
+        inner: &mut (impl Sink + ?Sized),
         input: InputId,
         value: f64,
     ) -> Result<(), SimulationError> {
@@ -128,7 +134,7 @@ impl Inputs {
 
     pub(super) fn set_all(
         &mut self,
-        inner: &mut dyn Inner,
+        inner: &mut (impl Sink + ?Sized),
         all: &[f64],
     ) -> Result<(), SimulationError> {
         self.check(all)?;
@@ -143,7 +149,7 @@ impl Inputs {
 
     pub(super) fn set_guide(
         &mut self,
-        inner: &mut dyn Inner,
+        inner: &mut (impl Sink + ?Sized),
         guide: GuideId,
         motion: [f64; 3],
     ) -> Result<(), SimulationError> {
@@ -172,13 +178,20 @@ impl Inputs {
     }
 
     /// Writes all present values into a simulation that was started anew.
-    pub(super) fn renew(&mut self, inner: &mut dyn Inner) -> Result<(), SimulationError> {
+    pub(super) fn renew(
+        &mut self,
+        inner: &mut (impl Sink + ?Sized),
+    ) -> Result<(), SimulationError> {
         let list = self.list.clone();
         let firsts = list.iter().filter(|input| input.component == 0);
         firsts.into_iter().try_for_each(|input| self.write(inner, input.owner))
     }
 
-    fn write(&self, inner: &mut dyn Inner, owner: InputOwner) -> Result<(), SimulationError> {
+    fn write(
+        &self,
+        inner: &mut (impl Sink + ?Sized),
+        owner: InputOwner,
+    ) -> Result<(), SimulationError> {
         let mut numbers = [0.0; 3];
         for (value, info) in self.values.iter().zip(&*self.list).filter(|(_, i)| i.owner == owner) {
             numbers[info.component] = *value;

@@ -236,7 +236,7 @@ impl Mechanism {
     }
 
     /// The file that says what this mechanism is now.
-    fn current(&self) -> Result<SceneFile, WriteError> {
+    pub(super) fn current(&self) -> Result<SceneFile, WriteError> {
         match &self.file {
             Some(file) if !self.is_changed => Ok(file.clone()),
             Some(file) => file.updated(&self.scene),

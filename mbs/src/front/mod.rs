@@ -9,14 +9,17 @@ mod mechanism;
 mod part;
 mod read;
 mod readings;
+mod seen;
 mod simulate;
 mod simulation;
 mod study;
+mod sweep;
 mod table;
 #[cfg(test)]
 mod tests;
 pub(crate) mod tree;
 mod values;
+mod view;
 
 pub use error::{Error, PathError, SceneError, UnknownName};
 pub use failure::SimulationError;
@@ -24,11 +27,13 @@ pub use inputs::{InputId, InputInfo, InputOwner};
 pub use mechanism::Mechanism;
 pub use part::{Id, Part};
 pub use simulation::{Simulation, Snapshot};
-pub use study::{EquilibriumOptions, Run, RunResult, equilibrium, modes, run};
+pub use study::{EquilibriumOptions, Run, RunResult, compare, equilibrium, modes, run, run_with};
+pub use sweep::{Sweep, SweepResult, sweep};
 pub use table::Table;
 pub use values::{
     BodyMotion, Components, Coordinates, Energies, PointMotion, Pose, Sizes, StepReport, Wrench,
 };
+pub use view::{Observer, RunInputs, View};
 
 use mbs_core::scene;
 use mbs_core::scene::Number;

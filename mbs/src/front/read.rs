@@ -1,17 +1,25 @@
-//! What is read of a simulation between steps.
+//! What is read of a simulation between steps, and of a run at an instant: the same, written once.
 
 use super::failure::SimulationError;
 use super::simulation::Simulation;
 use super::values::{
     BodyMotion, Components, Coordinates, Energies, PointMotion, Pose, Sizes, Wrench,
 };
+use super::view::View;
 use mbs_core::scene::{BodyId, JointId, Number, OutputId, Vector3};
 
-impl Simulation {
+macro_rules! both {
+    ($($readings:tt)*) => {
+        impl Simulation { $($readings)* }
+        impl View<'_> { $($readings)* }
+    };
+}
+
+both! {
     /// Time [s]. It is a count times the step plus a rest, so that 1000 steps of 1e-3 end at 1.0.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.inner.time()
+        self.seen().time()
     }
 
     /// First coordinate of a joint, from the reference configuration, turns counted [rad, m].
@@ -26,7 +34,7 @@ impl Simulation {
     /// All coordinates of a joint [rad, m].
     #[must_use]
     pub fn values(&self, joint: JointId) -> Coordinates {
-        self.inner.values(joint.index())
+        self.seen().values(joint.index())
     }
 
     /// Rate of the first coordinate of a joint [rad/s, m/s].
@@ -41,26 +49,26 @@ impl Simulation {
     /// All rates of a joint; of a ball the relative angular velocity in global axes [rad/s, m/s].
     #[must_use]
     pub fn rates(&self, joint: JointId) -> Coordinates {
-        self.inner.rates(joint.index())
+        self.seen().rates(joint.index())
     }
 
     /// Centre of mass of a body, and its rotation from the reference configuration.
     #[must_use]
     pub fn pose(&self, body: BodyId) -> Pose {
-        self.inner.body(body).0
+        self.seen().body(body).0
     }
 
     /// Velocities and accelerations of a body.
     #[must_use]
     pub fn motion(&self, body: BodyId) -> BodyMotion {
-        self.inner.body(body).1
+        self.seen().body(body).1
     }
 
     /// The material point of a body that is at `at` in the reference configuration [m].
     #[must_use]
     pub fn point(&self, body: BodyId, at: impl Into<Vector3>) -> PointMotion {
         let at = at.into().0.each_ref().map(Number::to_f64);
-        self.inner.point(body, at)
+        self.seen().point(body, at)
     }
 
     /// What the first body of a joint does to the second, at the joint's place on the second body, effort of guides included.
@@ -70,7 +78,7 @@ impl Simulation {
     /// # Errors
     /// Where connected loops are too large for it.
     pub fn reaction(&self, joint: JointId) -> Result<Wrench, SimulationError> {
-        self.inner.reaction(joint.index()).map_err(|error| self.stopped(error))
+        self.seen().reaction(joint.index()).map_err(|error| self.stopped(error))
     }
 
     /// Components of an output of the mechanism.
@@ -78,7 +86,7 @@ impl Simulation {
     /// # Errors
     /// Where one is not finite.
     pub fn output(&self, output: OutputId) -> Result<Components, SimulationError> {
-        self.inner.output(output.index()).map_err(|error| self.stopped(error))
+        self.seen().output(output.index()).map_err(|error| self.stopped(error))
     }
 
     /// Writes all outputs in their order: as many numbers as [`n_outputs`](Self::n_outputs), or the first ones.
@@ -86,24 +94,24 @@ impl Simulation {
     /// # Errors
     /// Where one is not finite.
     pub fn write_outputs(&self, out: &mut [f64]) -> Result<(), SimulationError> {
-        self.inner.write_outputs(out).map_err(|error| self.stopped(error))
+        self.seen().write_outputs(out).map_err(|error| self.stopped(error))
     }
 
     /// Number of components of all outputs; of all joint coordinates where the mechanism names no output.
     #[must_use]
     pub fn n_outputs(&self) -> usize {
-        self.inner.n_outputs()
+        self.seen().n_outputs()
     }
 
     /// Kinetic and potential energy, and work of dampers, guides and inputs since the start [J].
     #[must_use]
     pub fn energies(&self) -> Energies {
-        self.inner.energies()
+        self.seen().energies()
     }
 
     /// Sizes of the model that steps.
     #[must_use]
     pub fn sizes(&self) -> Sizes {
-        self.inner.sizes()
+        self.seen().sizes()
     }
 }

@@ -3,7 +3,9 @@
 use super::failure::SimulationError;
 use super::inner::Inner;
 use super::inputs::{InputId, InputInfo, Inputs};
+use super::seen::Read;
 use super::values::{Coordinates, StepReport};
+use super::view::View;
 use crate::checkpoint::CheckpointError;
 use crate::names::Names;
 use crate::stop::StopError;
@@ -48,6 +50,14 @@ impl Clone for Simulation {
 impl Simulation {
     pub(super) fn of(inner: Box<dyn Inner>, inputs: Inputs, names: Names) -> Self {
         Self { inner, inputs, names: Arc::new(names) }
+    }
+
+    pub(super) fn seen(&self) -> &dyn Read {
+        self.inner.seen()
+    }
+
+    pub(super) fn view(&self) -> View<'_> {
+        View::new(self.inner.seen(), &self.names)
     }
 
     pub(super) fn stopped(&self, error: StopError) -> SimulationError {

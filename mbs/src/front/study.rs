@@ -1,15 +1,22 @@
 //! Studies of a mechanism: what needs a model or a whole run of it, each with a typed result.
 
 use super::failure::SimulationError;
+use super::inputs::Inputs;
 use super::mechanism::Mechanism;
 use super::table::Table;
-use crate::document::Plain;
+use super::view::{Observed, Observer};
+use crate::compare::{self, Earlier, Request as Compare};
 use crate::modes::{Modes, Place};
 use crate::names::Names;
+use crate::precision::Work;
 use crate::run::Outcome;
-use crate::settings::Method;
+use crate::settings::{Method, Settings};
 use crate::statics::{Search, StaticEquilibrium};
+use crate::typed;
+use mbs_core::Real;
+use mbs_core::scene::Scene;
 use mbs_scene::RunSummary;
+use mbs_scene::compare::Comparison;
 
 /// What is asked of a run: a method, how long, and what else.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -73,10 +80,25 @@ pub struct RunResult {
 /// # Ok::<(), mbs::SimulationError>(())
 /// ```
 pub fn run(m: &Mechanism, options: &Run) -> Result<RunResult, SimulationError> {
+    run_with(m, options, &mut [])
+}
+
+/// [`run`], before observers: they set inputs on the way, read the mechanism after each step, and may end the run.
+///
+/// Cost: joint coordinates are followed at each step where there is an observer.
+///
+/// # Errors
+/// As for [`run`].
+pub fn run_with(
+    m: &Mechanism,
+    options: &Run,
+    observers: &mut [&mut dyn Observer],
+) -> Result<RunResult, SimulationError> {
     let (read, settings, scene) = m.prepared(&options.method)?;
-    let outcome = read.work(Plain(&mut |_| {}, &settings));
-    let Outcome { summary, error, .. } = &outcome;
     let names = Names::new(&scene);
+    let inputs = Inputs::new(&scene);
+    let outcome = read.work(Watched { settings: &settings, names: &names, inputs, observers });
+    let Outcome { summary, error, .. } = &outcome;
     let stop = error.clone().map(|e| SimulationError::stopped(e, summary.end_time, &names));
     Ok(RunResult {
         table: Table::new(outcome.channels(), outcome.rows()),
@@ -84,6 +106,53 @@ pub fn run(m: &Mechanism, options: &Run) -> Result<RunResult, SimulationError> {
         summary: outcome.summary.clone(),
         notes: outcome.notes().to_vec(),
     })
+}
+
+/// A run before observers.
+struct Watched<'a, 'b> {
+    settings: &'a Settings,
+    names: &'a Names,
+    inputs: Inputs,
+    observers: &'a mut [&'b mut dyn Observer],
+}
+
+impl Work for Watched<'_, '_> {
+    type Done = Outcome;
+
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome {
+        let Self { settings, names, inputs, observers } = self;
+        if observers.is_empty() {
+            return typed::run::<T, D>(scene, settings, &mut ());
+        }
+        typed::run(scene, settings, &mut Observed::<T, D>::new((scene, names), inputs, observers))
+    }
+}
+
+/// What every formulation, integrator and step costs and gives on a mechanism, against a reference that is not under test.
+///
+/// Cost: many runs. Empty lists of the options mean all there are; short lists and a short duration make it quick.
+///
+/// # Errors
+/// [`SimulationError`] for a mechanism that is refused or has a part in code, and where no method serves as the reference. Runs that fail
+/// are results.
+///
+/// # Examples
+/// ```no_run
+/// use mbs::{Compare, FormulationKind, Mechanism, compare};
+/// let m = Mechanism::read("scenes/double-pendulum.toml")?;
+/// let formulations = vec![FormulationKind::Index3, FormulationKind::Recursive];
+/// let found = compare(&m, &Compare { formulations, duration: Some(1.0), ..Compare::default() })?;
+/// for method in &found.methods {
+///     for run in &method.runs {
+///         println!("{}: step {} s, error {:?}", method.name, run.setting, run.error);
+///     }
+/// }
+/// # Ok::<(), mbs::SimulationError>(())
+/// ```
+pub fn compare(m: &Mechanism, options: &Compare) -> Result<Comparison, SimulationError> {
+    m.check()?;
+    let document = m.current()?;
+    Ok(compare::compare(&document, options, None, (None, Earlier::default()), &mut ())?)
 }
 
 /// How an equilibrium is searched.

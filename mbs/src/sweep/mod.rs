@@ -198,6 +198,30 @@ impl Study {
         self.run_jobs(out, threads, anew, watch, |i| self.member(i))
     }
 
+    /// Runs all members over threads (left out: all processors), without files; rows in the order of the members.
+    ///
+    /// # Errors
+    /// The system gives no threads.
+    pub fn rows(&self, threads: Option<NonZeroUsize>) -> Result<Vec<Row>, EnsembleError> {
+        let all: Vec<usize> = (0..self.n_members()).collect();
+        let mut rows = BTreeMap::new();
+        self.ensemble(threads, all.len())?.run(
+            &all,
+            |i| self.member(i),
+            |i, row| {
+                rows.insert(i, row.unwrap_or_else(|panic| self.panicked(i, &panic)));
+                ControlFlow::Continue(())
+            },
+        );
+        Ok(rows.into_values().collect())
+    }
+
+    /// Threads for so many members.
+    fn ensemble(&self, threads: Option<NonZeroUsize>, n: usize) -> Result<Ensemble, EnsembleError> {
+        let most = NonZeroUsize::new(n.min(most_threads())).unwrap_or(NonZeroUsize::MIN);
+        Ensemble::new(Some(threads.unwrap_or_else(available).min(most)))
+    }
+
     /// [`Self::run`] with what a member is.
     fn run_jobs(
         &self,
@@ -216,9 +240,7 @@ impl Study {
         let mut rows = whole_rows(lines, self.columns.len(), self.n_members());
         let resumed = rows.len();
         let todo: Vec<usize> = (0..self.n_members()).filter(|i| !rows.contains_key(i)).collect();
-        let most = NonZeroUsize::new(todo.len().min(most_threads())).unwrap_or(NonZeroUsize::MIN);
-        let threads = threads.unwrap_or_else(available).min(most);
-        let ensemble = Ensemble::new(Some(threads)).map_err(SweepError::Threads)?;
+        let ensemble = self.ensemble(threads, todo.len()).map_err(SweepError::Threads)?;
         let mut failed = rows.values().filter(|row| !self.columns.is_completed(row)).count();
         let mut cpu_seconds = 0.0;
         let mut written = Ok(());
@@ -253,7 +275,7 @@ impl Study {
             completed: rows.len() - failed,
             resumed,
             failures: self.columns.failures(rows.values()),
-            threads: threads.get(),
+            threads: ensemble.threads().get(),
             wall_seconds: clock.elapsed().as_secs_f64(),
             cpu_seconds,
             tables,

@@ -120,7 +120,7 @@ impl Columns {
     }
 
     /// Writes header and rows as CSV.
-    pub(super) fn write_csv<'a>(
+    pub(crate) fn write_csv<'a>(
         &self,
         sink: impl io::Write,
         rows: impl Iterator<Item = &'a Vec<String>>,

@@ -2,6 +2,7 @@
 
 use crate::common::settings;
 use crate::retell::{reorder, turn_by, turn_scene, turned_in_plane};
+use mbs::Error as _;
 use mbs::core::scene::{BodyId, Dimension, InitialTarget, JointId, JointKind, Scene};
 use mbs::typed::Simulation;
 use mbs::{InSpace, Plane};

@@ -1,5 +1,6 @@
 //! What a tree refuses, with names.
 
+use crate::front::Error;
 use crate::names::Names;
 use crate::stop::StopError;
 use std::fmt;
@@ -48,30 +49,6 @@ impl TreeError {
 
     pub(super) fn of_joint(kind: TreeErrorKind, joint: &str) -> Self {
         Self { kind, joint: Some(joint.to_owned()), body: None }
-    }
-
-    /// A short fixed word for programs.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        self.words().0
-    }
-
-    /// The name of the joint that it is about.
-    #[must_use]
-    pub fn joint(&self) -> Option<&str> {
-        self.joint.as_deref()
-    }
-
-    /// The name of the body that it is about.
-    #[must_use]
-    pub fn body(&self) -> Option<&str> {
-        self.body.as_deref()
-    }
-
-    /// What to do.
-    #[must_use]
-    pub fn hint(&self) -> &'static str {
-        self.words().1
     }
 
     /// Code, hint and message.
@@ -132,3 +109,18 @@ impl fmt::Display for TreeError {
 }
 
 impl std::error::Error for TreeError {}
+
+impl Error for TreeError {
+    fn code(&self) -> &'static str {
+        self.words().0
+    }
+    fn joint(&self) -> Option<&str> {
+        self.joint.as_deref()
+    }
+    fn body(&self) -> Option<&str> {
+        self.body.as_deref()
+    }
+    fn hint(&self) -> Option<String> {
+        Some(self.words().1.to_owned())
+    }
+}

@@ -9,7 +9,7 @@ mod values;
 pub use error::{TreeError, TreeErrorKind};
 pub use values::{Matrix, TreeRange};
 
-use crate::front::Simulation;
+use crate::front::View;
 use crate::names::Names;
 use crate::typed;
 use inner::{Inner, with};
@@ -167,8 +167,8 @@ impl Tree {
     /// assert!(tree.velocities()[0] < 0.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn follow(&mut self, simulation: &Simulation) -> Result<(), TreeError> {
-        simulation.inner.follow(self)
+    pub fn follow<'a>(&mut self, at: impl Into<View<'a>>) -> Result<(), TreeError> {
+        at.into().seen().follow(self)
     }
 
     /// The same of one in a scalar and dimension.

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 /// Takes the checkpoints that stand there before the first step, and before a time.
 struct Copies {
-    at: f64,
+    near: core::ops::Range<f64>,
     path: PathBuf,
     first: Vec<u8>,
     bytes: Vec<u8>,
@@ -19,7 +19,9 @@ struct Copies {
 impl<const D: usize> Observer<f64, D> for Copies {
     fn before(&mut self, inputs: &mut Inputs<'_, f64, D>) -> Result<(), StopError> {
         let t = inputs.state().t;
-        for (copy, is_due) in [(&mut self.first, t == 0.0), (&mut self.bytes, t < self.at)] {
+        for (copy, is_due) in
+            [(&mut self.first, t == 0.0), (&mut self.bytes, self.near.contains(&t))]
+        {
             if is_due {
                 *copy = std::fs::read(&self.path).expect("there is always one");
             }
@@ -35,7 +37,8 @@ fn kept<const D: usize>(
 ) -> ([String; 4], [Parts; 2]) {
     let out = scratch(&format!("record-{:?}", std::thread::current().id()));
     let mut keeping = Keeping::new(&out, settings.step).expect("a directory of ours");
-    let mut copies = Copies { at, path: keeping.path(), first: Vec::new(), bytes: Vec::new() };
+    let near = at - 2.0 * settings.step_max..at;
+    let mut copies = Copies { near, path: keeping.path(), first: Vec::new(), bytes: Vec::new() };
     let whole = run_kept::<f64, D>(scene, settings, &mut copies, (None, Some(&mut keeping)));
     let whole = told(&whole.expect("no checkpoint to refuse"));
     std::fs::remove_dir_all(&out).expect("it is ours");

@@ -1,0 +1,275 @@
+//! What is seen of a run while it goes: an observer's view, and the inputs that it may set.
+
+use super::failure::SimulationError;
+use super::inputs::{InputId, InputInfo, InputOwner, Inputs, Sink};
+use super::readings::Readings;
+use super::seen::{Read, Seen};
+use super::simulation::Simulation as Front;
+use super::values::StepReport;
+use crate::names::Names;
+use crate::simulation::Simulation;
+use crate::stop::StopError;
+use crate::typed;
+use core::ops::ControlFlow;
+use mbs_core::Real;
+use mbs_core::control::Accepted;
+use mbs_core::scene::{EffectId, GuideId, Scene};
+use mbs_core::step::InputError;
+use std::sync::Arc;
+
+/// A mechanism at an instant of a run: it is read as a [`Simulation`](crate::Simulation) is.
+#[derive(Debug, Clone, Copy)]
+pub struct View<'a> {
+    seen: &'a dyn Read,
+    names: &'a Names,
+}
+
+impl<'a> View<'a> {
+    pub(super) fn new(seen: &'a dyn Read, names: &'a Names) -> Self {
+        Self { seen, names }
+    }
+
+    pub(super) fn seen(&self) -> &dyn Read {
+        self.seen
+    }
+
+    pub(super) fn stopped(&self, error: StopError) -> SimulationError {
+        SimulationError::stopped(error, self.time(), self.names)
+    }
+}
+
+impl<'a> From<&'a Front> for View<'a> {
+    fn from(simulation: &'a Front) -> Self {
+        simulation.view()
+    }
+}
+
+impl<'a> From<&View<'a>> for View<'a> {
+    fn from(view: &View<'a>) -> Self {
+        *view
+    }
+}
+
+/// Sees a run go, sets its inputs, and may end it. Does nothing by default.
+///
+/// An error stops the run with that reason; [`ControlFlow::Break`] ends it without one.
+///
+/// # Examples
+/// ```
+/// use core::ops::ControlFlow;
+/// use mbs::{
+///     Body, Effect, EffectId, GROUND, Joint, JointId, Mechanism, Observer, Run, RunInputs, Signal,
+///     SimulationError, StepReport, View, run_with,
+/// };
+///
+/// /// Holds an arm where it is by PD control, and ends the run when it is at rest.
+/// struct Hold {
+///     motor: EffectId,
+///     pivot: JointId,
+/// }
+/// impl Observer for Hold {
+///     fn inputs(&mut self, now: &View<'_>, inputs: &mut RunInputs<'_>) -> Result<(), SimulationError> {
+///         let torque = -200.0 * (now.value(self.pivot) - 0.5) - 20.0 * now.rate(self.pivot);
+///         inputs.set(inputs.of_effect(self.motor)?, torque)
+///     }
+///     fn step(&mut self, now: &View<'_>, _: &StepReport) -> Result<ControlFlow<()>, SimulationError> {
+///         let is_at_rest = now.time() > 0.5 && now.rate(self.pivot).abs() < 1e-6;
+///         Ok(if is_at_rest { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+///     }
+/// }
+///
+/// let mut m = Mechanism::planar("arm");
+/// let arm = m.add(Body::rod([0.0, 0.0], [1.0, 0.0], 3.0));
+/// let pivot = m.add(Joint::revolute([GROUND, arm], [0.0, 0.0]));
+/// let motor = m.add(Effect::torque(pivot, Signal::input(0.0)));
+/// let result = run_with(&m, &Run::new().duration(5.0), &mut [&mut Hold { motor, pivot }])?;
+/// let angle = result.table.column("joint-1").unwrap().last().unwrap();
+/// // inertia 1 kg m², stiffness 200 N m/rad, damping 20 N m s/rad: e^(−10 t) falls to 1e-6 well before 5 s
+/// assert!((angle - 0.5).abs() < 1e-6 && result.summary.end_time < 2.5);
+/// # Ok::<(), SimulationError>(())
+/// ```
+pub trait Observer {
+    /// Before a step: inputs may be set; they hold until they are set again.
+    ///
+    /// # Errors
+    /// What stops the run.
+    fn inputs(
+        &mut self,
+        now: &View<'_>,
+        inputs: &mut RunInputs<'_>,
+    ) -> Result<(), SimulationError> {
+        let _ = (now, inputs);
+        Ok(())
+    }
+
+    /// A step was accepted.
+    ///
+    /// # Errors
+    /// What stops the run.
+    fn step(
+        &mut self,
+        now: &View<'_>,
+        report: &StepReport,
+    ) -> Result<ControlFlow<()>, SimulationError> {
+        let _ = (now, report);
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// The run has ended; why, where it stopped early.
+    fn end(&mut self, now: &View<'_>, stop: Option<&SimulationError>) {
+        let _ = (now, stop);
+    }
+}
+
+/// The inputs of a run, to be set before a step: as those of a [`Simulation`](crate::Simulation).
+#[derive(Debug)]
+pub struct RunInputs<'a> {
+    inputs: &'a mut Inputs,
+    pending: &'a mut Pending,
+}
+
+impl RunInputs<'_> {
+    /// All of them, in the order of effects, then guides.
+    #[must_use]
+    pub fn list(&self) -> &[InputInfo] {
+        self.inputs.list()
+    }
+
+    /// The first input of an effect; those of a vector follow it.
+    ///
+    /// # Errors
+    /// Where the effect has none.
+    pub fn of_effect(&self, effect: EffectId) -> Result<InputId, SimulationError> {
+        self.inputs.of_effect(effect)
+    }
+
+    /// Sets one from now on: it acts in the whole of the coming step.
+    ///
+    /// # Errors
+    /// A value that is not finite, or an input of another mechanism. Nothing is set then.
+    pub fn set(&mut self, input: InputId, value: f64) -> Result<(), SimulationError> {
+        self.inputs.set(self.pending, input, value)
+    }
+
+    /// Sets value, rate and acceleration that a guide has at the end of the coming step.
+    ///
+    /// # Errors
+    /// A guide that is no input, or a number that is not finite.
+    pub fn set_guide(&mut self, guide: GuideId, motion: [f64; 3]) -> Result<(), SimulationError> {
+        self.inputs.set_guide(self.pending, guide, motion)
+    }
+}
+
+/// What was set while the mechanism was seen: owner and numbers.
+#[derive(Debug, Default)]
+struct Pending(Vec<(InputOwner, [f64; 3])>);
+
+impl Sink for Pending {
+    fn set_effect_input(&mut self, effect: usize, value: [f64; 3]) -> Result<(), InputError> {
+        InputError::check(effect, &value)?;
+        self.0.push((InputOwner::Effect(EffectId::new(effect)), value));
+        Ok(())
+    }
+
+    fn set_guide_input(&mut self, guide: usize, motion: [f64; 3]) -> Result<(), InputError> {
+        InputError::check(guide, &motion)?;
+        self.0.push((InputOwner::Guide(GuideId::new(guide)), motion));
+        Ok(())
+    }
+}
+
+impl Pending {
+    fn write<T: Real, const D: usize>(
+        &mut self,
+        to: &mut typed::Inputs<'_, T, D>,
+    ) -> Result<(), SimulationError> {
+        for (owner, numbers) in self.0.drain(..) {
+            let numbers = numbers.map(T::from_f64);
+            match owner {
+                InputOwner::Effect(effect) => to.set_input(effect.index(), numbers)?,
+                InputOwner::Guide(guide) => to.set_guide(guide.index(), numbers)?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Observers of a run in `f64`, as one observer of it in its scalar and dimension.
+pub(super) struct Observed<'a, 'b, T: Real, const D: usize> {
+    scene: Arc<Scene<T>>,
+    names: &'a Names,
+    inputs: Inputs,
+    pending: Pending,
+    observers: &'a mut [&'b mut dyn Observer],
+    /// Made before the first step.
+    readings: Option<Readings<T, D>>,
+}
+
+impl<'a, 'b, T: Real, const D: usize> Observed<'a, 'b, T, D> {
+    pub(super) fn new(
+        (scene, names): (&Scene<T>, &'a Names),
+        inputs: Inputs,
+        observers: &'a mut [&'b mut dyn Observer],
+    ) -> Self {
+        let (scene, pending) = (Arc::new(scene.clone()), Pending::default());
+        Self { scene, names, inputs, pending, observers, readings: None }
+    }
+
+    /// Shows each observer the present instant.
+    fn show(
+        &mut self,
+        now: &Simulation<T, D>,
+        mut show: impl FnMut(&mut dyn Observer, &View<'_>, RunInputs<'_>) -> Result<(), SimulationError>,
+    ) -> Result<(), StopError> {
+        let Self { scene, names, inputs, pending, observers, readings } = self;
+        let known = match readings.take() {
+            Some(known) => known,
+            None => Readings::new(scene, now)?,
+        };
+        let seen = Seen::new(scene.clone(), now, known);
+        let view = View::new(&seen, names);
+        let shown = observers.iter_mut().try_for_each(|observer| {
+            let inputs = RunInputs { inputs: &mut *inputs, pending: &mut *pending };
+            show(&mut **observer, &view, inputs)
+        });
+        *readings = Some(seen.into_readings());
+        shown.map_err(|error| error.into_stop())
+    }
+}
+
+impl<T: Real, const D: usize> typed::Observer<T, D> for Observed<'_, '_, T, D> {
+    fn before(&mut self, to: &mut typed::Inputs<'_, T, D>) -> Result<(), StopError> {
+        self.show(to, |observer, now, mut inputs| observer.inputs(now, &mut inputs))?;
+        self.pending.write(to).map_err(|error| error.into_stop())
+    }
+
+    fn step(
+        &mut self,
+        now: &Simulation<T, D>,
+        accepted: &Accepted<T>,
+        _: bool,
+    ) -> Result<ControlFlow<()>, StopError> {
+        if let Some(readings) = &mut self.readings {
+            readings.follow(now)?;
+        }
+        let mut report = StepReport::default();
+        report.add(accepted);
+        let mut flow = ControlFlow::Continue(());
+        self.show(now, |observer, now, _| {
+            let asked = observer.step(now, &report)?;
+            flow = if asked.is_break() { asked } else { flow };
+            Ok(())
+        })?;
+        Ok(flow)
+    }
+
+    fn end(&mut self, now: &Simulation<T, D>, stop: Option<&StopError>) {
+        let (t, names) = (now.state().t.to_f64(), self.names);
+        let stop = stop.map(|stop| SimulationError::stopped(stop.clone(), t, names));
+        // nothing is left to stop
+        let _ = self.show(now, |observer, now, _| {
+            observer.end(now, stop.as_ref());
+            Ok(())
+        });
+    }
+}

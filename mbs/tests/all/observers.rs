@@ -1,0 +1,175 @@
+//! Observers of a run: what they set acts as it does on a simulation that is stepped by hand, what they read is what the run records,
+//! and what they return ends the run with its rows.
+
+use core::ops::ControlFlow;
+use mbs::{
+    Body, Effect, EffectId, Error, FormulationKind, GROUND, InputId, IntegratorKind, Joint,
+    JointId, Mechanism, Method, Observer, Output, OutputId, Run, RunInputs, Signal,
+    SimulationError, StepReport, View, run, run_with,
+};
+
+/// Length of a step [s].
+const STEP: f64 = 1e-3;
+
+/// An arm with a motor, and the output of its tip.
+struct Arm {
+    mechanism: Mechanism,
+    pivot: JointId,
+    motor: EffectId,
+    tip: OutputId,
+}
+
+fn arm() -> Arm {
+    let mut m = Mechanism::planar("arm");
+    m.set_gravity([0.0, -9.81]).set_duration(0.5);
+    let upper = m.add(Body::rod([0.0, 0.0], [1.0, 0.0], 2.0));
+    let lower = m.add(Body::rod([1.0, 0.0], [1.5, 0.0], 1.0));
+    let pivot = m.add(Joint::revolute([GROUND, upper], [0.0, 0.0]).named("pivot"));
+    m.add(Joint::revolute([upper, lower], [1.0, 0.0]));
+    let motor = m.add(Effect::torque(pivot, Signal::input(0.0)));
+    let tip = m.add(Output::position(lower, [1.5, 0.0]).named("tip"));
+    Arm { mechanism: m, pivot, motor, tip }
+}
+
+fn methods() -> [Method; 3] {
+    let method = |f| Method::new(f).step(STEP);
+    [
+        method(FormulationKind::Index3),
+        method(FormulationKind::Recursive).integrator(IntegratorKind::Rk4),
+        method(FormulationKind::Recursive).integrator(IntegratorKind::Rk54),
+    ]
+}
+
+/// The torque of a controller at an angle and a rate [N m].
+fn torque(angle: f64, rate: f64) -> f64 {
+    -80.0 * angle - 12.0 * rate
+}
+
+/// Holds the arm, and keeps what it reads after each step.
+struct Hold {
+    pivot: JointId,
+    motor: EffectId,
+    tip: OutputId,
+    seen: Vec<[f64; 3]>,
+    ends: u32,
+}
+
+impl Hold {
+    fn new(arm: &Arm) -> Self {
+        Self { pivot: arm.pivot, motor: arm.motor, tip: arm.tip, seen: Vec::new(), ends: 0 }
+    }
+}
+
+impl Observer for Hold {
+    fn inputs(
+        &mut self,
+        now: &View<'_>,
+        inputs: &mut RunInputs<'_>,
+    ) -> Result<(), SimulationError> {
+        let motor = inputs.of_effect(self.motor)?;
+        inputs.set(motor, torque(now.value(self.pivot), now.rate(self.pivot)))
+    }
+
+    fn step(
+        &mut self,
+        now: &View<'_>,
+        report: &StepReport,
+    ) -> Result<ControlFlow<()>, SimulationError> {
+        assert!(report.steps > 0);
+        let tip = now.output(self.tip)?;
+        self.seen.push([now.time(), tip[0], tip[1]]);
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn end(&mut self, now: &View<'_>, stop: Option<&SimulationError>) {
+        assert!(stop.is_none() && (now.time() - 0.5).abs() < 1e-12);
+        self.ends += 1;
+    }
+}
+
+#[test]
+fn a_controller_in_a_run_has_the_bits_of_one_around_a_simulation() {
+    let arm = arm();
+    for method in methods() {
+        let mut hold = Hold::new(&arm);
+        let options = Run::new().method(method.clone());
+        let result = run_with(&arm.mechanism, &options, &mut [&mut hold]).expect("it runs");
+        assert_eq!((result.stop.map(|e| e.to_string()), hold.ends), (None, 1));
+
+        let mut sim = arm.mechanism.simulate(&method).expect("it starts");
+        let input = sim.input_of(arm.motor).expect("it has one");
+        for k in 0..500 {
+            sim.set_input(input, torque(sim.value(arm.pivot), sim.rate(arm.pivot))).unwrap();
+            sim.step(STEP).expect("it steps");
+            let tip = sim.output(arm.tip).expect("it is finite");
+            assert_eq!(hold.seen[k], [sim.time(), tip[0], tip[1]], "{method:?}, step {k}");
+        }
+        let of = |name| result.table.column(name).expect("an output");
+        for (row, seen) in hold.seen.iter().enumerate() {
+            let recorded =
+                [result.table.time()[row + 1], of("tip.x")[row + 1], of("tip.y")[row + 1]];
+            assert_eq!(recorded, *seen, "{method:?}, row {row}");
+        }
+    }
+}
+
+/// Ends the run at a time, one way or the other.
+struct Ends {
+    at: f64,
+    by: fn(&mut RunInputs<'_>) -> Result<(), SimulationError>,
+    is_break: bool,
+    stop: Option<String>,
+}
+
+impl Observer for Ends {
+    fn inputs(
+        &mut self,
+        now: &View<'_>,
+        inputs: &mut RunInputs<'_>,
+    ) -> Result<(), SimulationError> {
+        if now.time() < self.at { Ok(()) } else { (self.by)(inputs) }
+    }
+
+    fn step(&mut self, now: &View<'_>, _: &StepReport) -> Result<ControlFlow<()>, SimulationError> {
+        let is_over = self.is_break && now.time() >= self.at;
+        Ok(if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+    }
+
+    fn end(&mut self, _: &View<'_>, stop: Option<&SimulationError>) {
+        self.stop = stop.map(|stop| stop.code().to_owned());
+    }
+}
+
+#[test]
+fn an_observer_ends_a_run_and_its_rows_stay() {
+    let arm = arm();
+    let whole = run(&arm.mechanism, &Run::new()).expect("it runs");
+    let not_finite: fn(&mut RunInputs<'_>) -> _ = |i| i.set(InputId::new(0), f64::NAN);
+    let unknown: fn(&mut RunInputs<'_>) -> _ = |i| i.set(InputId::new(7), 0.0);
+    let none: fn(&mut RunInputs<'_>) -> _ = |_| Ok(());
+    for (by, is_break) in [(not_finite, false), (unknown, false), (none, true)] {
+        let mut ends = Ends { at: 0.1, by, is_break, stop: None };
+        let result = run_with(&arm.mechanism, &Run::new(), &mut [&mut ends]).expect("it starts");
+        let code = (!is_break).then_some("input-refused");
+        assert_eq!(result.stop.as_ref().map(Error::code), code);
+        assert_eq!(ends.stop.as_deref(), code);
+        assert_eq!(result.summary.completed, is_break);
+        assert!((result.summary.end_time - 0.1).abs() < 1e-12);
+        let n = result.table.len();
+        assert_eq!(n, 101);
+        assert_eq!(result.table.column("tip.y"), whole.table.column("tip.y").map(|y| &y[..n]));
+    }
+}
+
+#[test]
+fn an_observer_that_only_looks_changes_no_bit() {
+    struct Looks;
+    impl Observer for Looks {}
+    let arm = arm();
+    for method in methods() {
+        let options = Run::new().method(method);
+        let alone = run(&arm.mechanism, &options).expect("it runs");
+        let seen = run_with(&arm.mechanism, &options, &mut [&mut Looks]).expect("it runs");
+        assert_eq!(alone.table, seen.table);
+    }
+}
