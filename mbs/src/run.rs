@@ -21,6 +21,7 @@ use kept::Kept;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_scene::{Channel, ControlSummary, Outputs, RunRecord, RunSummary};
+pub(crate) use record::Columns;
 use record::Record;
 use summary::{contact, energy_summary, not_started, plain_summary};
 
@@ -45,7 +46,20 @@ pub(crate) fn run_keeping<T: Real, const D: usize>(
     observer: &mut dyn Observer<T, D>,
     keep: Keep,
 ) -> Outcome {
-    match Run::<T, D>::begin(scene, settings, keep) {
+    match Run::<T, D>::begin(scene, settings, (keep, None)) {
+        Ok(run) => run.complete(observer),
+        Err(outcome) => *outcome,
+    }
+}
+
+/// [`run`], with more columns.
+pub(crate) fn run_columns<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    observer: &mut dyn Observer<T, D>,
+    columns: &mut dyn Columns<T, D>,
+) -> Outcome {
+    match Run::<T, D>::begin(scene, settings, (Keep::Rows, Some(columns))) {
         Ok(run) => run.complete(observer),
         Err(outcome) => *outcome,
     }
@@ -62,7 +76,7 @@ pub fn run_kept<T: Real, const D: usize>(
     (from, keeping): (Option<&Checkpoint>, Option<&mut Keeping>),
 ) -> Result<Outcome, CheckpointError> {
     let identity = Identity::new(scene, settings);
-    let mut run = match Run::<T, D>::begin(scene, settings, Keep::Rows) {
+    let mut run = match Run::<T, D>::begin(scene, settings, (Keep::Rows, None)) {
         Ok(run) => run,
         Err(outcome) => return Ok(*outcome),
     };
@@ -100,10 +114,13 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
     fn begin(
         scene: &'a Scene<T>,
         settings: &'a Settings,
-        keep: Keep,
+        (keep, columns): (Keep, Option<&'a mut dyn Columns<T, D>>),
     ) -> Result<Self, Box<Outcome>> {
-        let rows = (settings.n_steps(), keep);
-        Self::new(scene, settings, Channel::of_scene(scene), rows)?.started()
+        let mut channels = Channel::of_scene(scene);
+        channels.extend(columns.iter().flat_map(|columns| columns.channels()));
+        let mut run = Self::new(scene, settings, channels, (settings.n_steps(), keep))?;
+        run.record.others = columns;
+        run.started()
     }
 
     /// Everything that a run needs, for rows after so many steps or intervals; else how it did not start.

@@ -21,7 +21,7 @@ use mbs_core::scene::{
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum WriteError {
-    /// An effect that is a law in code; its name.
+    /// A part that is code; what it is, with its name.
     InCode(String),
     /// A body or joint that an entry refers to is not there (scenes built in code); the entry's key.
     UnknownReference(&'static str),
@@ -32,7 +32,7 @@ pub enum WriteError {
 impl Display for WriteError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
-            Self::InCode(name) => write!(f, "effect `{name}` is a law in code, which has no text"),
+            Self::InCode(part) => write!(f, "{part} is code, which has no text"),
             Self::NotWritten(problem) => write!(f, "the file cannot be written: {problem}"),
             Self::UnknownReference(key) => {
                 write!(f, "`{key}` points to something that is not in the scene")

@@ -1,12 +1,16 @@
 //! A mechanism: its scene in decimal numbers, and the file that it came from.
 
+use super::function::{Function, FunctionId, OutputFunction};
 use super::part::sealed::Id as _;
 use super::{Id, Part, PathError, SceneError, UnknownName};
 use mbs_core::Real;
-use mbs_core::scene::{Dimension, Number, Road, Scene, Vector3};
+use mbs_core::scene::{
+    Dimension, Entry, Number, Road, Scene, SceneError as RefusedScene, SceneFault, Vector3,
+};
 use mbs_scene::{ReadError, SceneFile, WriteError};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::path::Path;
+use std::sync::Arc;
 
 /// A mechanism: bodies, joints and what acts on them, by name. Start with [`planar`](Self::planar) or [`spatial`](Self::spatial), or
 /// [`read`](Self::read) a scene file.
@@ -32,11 +36,12 @@ pub struct Mechanism {
     /// The file that says the same, or said so before the last change by handle.
     file: Option<SceneFile>,
     is_changed: bool,
+    functions: Vec<Function>,
 }
 
 impl PartialEq for Mechanism {
     fn eq(&self, other: &Self) -> bool {
-        self.scene == other.scene
+        self.scene == other.scene && self.functions == other.functions
     }
 }
 
@@ -55,7 +60,7 @@ impl Mechanism {
 
     fn empty(name: &str, dimension: Dimension) -> Self {
         let scene = Scene::empty(name, dimension, Number::assumed(1.0));
-        Self { scene, file: None, is_changed: true }
+        Self { scene, file: None, is_changed: true, functions: Vec::new() }
     }
 
     /// Reads a scene file.
@@ -75,7 +80,8 @@ impl Mechanism {
     }
 
     fn of_file(file: SceneFile) -> Result<Self, ReadError> {
-        Ok(Self { scene: file.numbers()?, file: Some(file), is_changed: false })
+        let scene = file.numbers()?;
+        Ok(Self { scene, file: Some(file), is_changed: false, functions: Vec::new() })
     }
 
     /// The scene file of this mechanism. Numbers keep their digits: `parse` of it is equal to this. What came from a file keeps its text and
@@ -123,6 +129,22 @@ impl Mechanism {
     /// Adds a body, joint, initial condition, guide, effect or output and returns its handle. A part without a name is `body-1`, ...
     pub fn add<P: Part>(&mut self, part: P) -> P::Id {
         P::Id::new(part.add_to(self))
+    }
+
+    /// Adds an output that is code: a column of runs, and read by [`Simulation::function`](crate::Simulation::function). It lives beside the
+    /// scene: clones share it, and what writes the mechanism as text refuses it.
+    pub fn add_function(
+        &mut self,
+        name: &str,
+        function: impl OutputFunction + 'static,
+    ) -> FunctionId {
+        self.functions.push(Function { name: name.to_owned(), code: Arc::new(function) });
+        FunctionId(self.functions.len() - 1)
+    }
+
+    /// Its outputs that are code.
+    pub(super) fn functions(&self) -> &[Function] {
+        &self.functions
     }
 
     /// The handle of a name: `m.find::<JointId>("elbow")`. Guides and initial conditions go by the name of their joint or body.
@@ -175,7 +197,7 @@ impl Mechanism {
     /// # Errors
     /// [`PathError`] for a path to nothing, or to something that is no number.
     pub fn get(&self, path: &str) -> Result<f64, PathError> {
-        let file = self.current().map_err(PathError::NotWritten)?;
+        let file = self.data().map_err(PathError::NotWritten)?;
         let fault = |fault| PathError::Path { path: path.to_owned(), fault };
         Ok(file.number(path).map_err(fault)?.to_f64())
     }
@@ -187,10 +209,12 @@ impl Mechanism {
     /// # Errors
     /// As [`get`](Self::get). A number that cannot be meant is refused by [`check`](Self::check).
     pub fn set(&mut self, path: &str, value: impl Into<Number>) -> Result<&mut Self, PathError> {
-        let file = self.current().map_err(PathError::NotWritten)?;
+        let file = self.data().map_err(PathError::NotWritten)?;
         let fault = |fault| PathError::Path { path: path.to_owned(), fault };
         let file = file.with_number(path, &value.into()).map_err(fault)?;
-        *self = Self::of_file(file).map_err(PathError::Refused)?;
+        let functions = core::mem::take(&mut self.functions);
+        let fresh = Self::of_file(file).map_err(PathError::Refused);
+        *self = Self { functions, ..fresh? };
         Ok(self)
     }
 
@@ -209,11 +233,30 @@ impl Mechanism {
 
     /// The scene in a precision, checked.
     pub(crate) fn resolved<T: Real>(&self) -> Result<Scene<T>, SceneError> {
-        self.scene.resolve().map_err(|error| {
+        let scene = self.scene.resolve().and_then(|scene| {
+            self.check_functions()?;
+            Ok(scene)
+        });
+        scene.map_err(|error| {
             let file = self.file.as_ref().filter(|_| !self.is_changed);
             let place = file.map(|file| file.place(error.entry, error.field));
             SceneError::new(error, &self.scene, place)
         })
+    }
+
+    /// Outputs that are code have names of their own.
+    fn check_functions(&self) -> Result<(), RefusedScene> {
+        let outputs = self.scene.outputs.iter().map(|output| &output.name);
+        let names: Vec<&String> = outputs.chain(self.functions.iter().map(|f| &f.name)).collect();
+        for (i, name) in names.iter().enumerate().skip(self.scene.outputs.len()) {
+            let fault = match names[..i].iter().position(|n| n == name) {
+                Some(first) => SceneFault::DuplicateName(first),
+                None if name.is_empty() || *name == "t" => SceneFault::ReservedName,
+                None => continue,
+            };
+            return Err(RefusedScene { entry: Entry::Output(i), field: "name", fault });
+        }
+        Ok(())
     }
 
     /// The scene in decimal numbers.
@@ -237,6 +280,14 @@ impl Mechanism {
 
     /// The file that says what this mechanism is now.
     pub(super) fn current(&self) -> Result<SceneFile, WriteError> {
+        match self.functions.first() {
+            Some(function) => Err(WriteError::InCode(format!("output `{}`", function.name))),
+            None => self.data(),
+        }
+    }
+
+    /// The same of all that is data.
+    fn data(&self) -> Result<SceneFile, WriteError> {
         match &self.file {
             Some(file) if !self.is_changed => Ok(file.clone()),
             Some(file) => file.updated(&self.scene),

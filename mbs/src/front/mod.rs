@@ -3,6 +3,7 @@
 mod clock;
 mod error;
 mod failure;
+mod function;
 mod inner;
 mod inputs;
 mod mechanism;
@@ -23,6 +24,7 @@ mod view;
 
 pub use error::{Error, PathError, SceneError, UnknownName};
 pub use failure::SimulationError;
+pub use function::{FunctionId, OutputFunction};
 pub use inputs::{InputId, InputInfo, InputOwner};
 pub use mechanism::Mechanism;
 pub use part::{Id, Part};

@@ -25,7 +25,7 @@ impl Mechanism {
         let names = Names::new(&scene);
         let inner = read.work(Built(&settings));
         let inner = inner.map_err(|error| SimulationError::stopped(error, 0.0, &names))?;
-        Ok(Simulation::of(inner, Inputs::new(&scene), names))
+        Ok(Simulation::of(inner, Inputs::new(&scene), names, self.functions()))
     }
 
     /// The mechanism in relative coordinates, at any position and velocity.

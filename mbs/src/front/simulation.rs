@@ -1,6 +1,7 @@
 //! A mechanism in motion.
 
 use super::failure::SimulationError;
+use super::function::{Function, FunctionId};
 use super::inner::Inner;
 use super::inputs::{InputId, InputInfo, Inputs};
 use super::seen::Read;
@@ -38,18 +39,24 @@ pub struct Simulation {
     pub(super) inner: Box<dyn Inner>,
     inputs: Inputs,
     names: Arc<Names>,
+    functions: Arc<[Function]>,
 }
 
 impl Clone for Simulation {
     fn clone(&self) -> Self {
-        let Self { inner, inputs, names } = self;
-        Self { inner: inner.clone_box(), inputs: inputs.clone(), names: names.clone() }
+        let (inputs, functions) = (self.inputs.clone(), self.functions.clone());
+        Self { inner: self.inner.clone_box(), inputs, names: self.names.clone(), functions }
     }
 }
 
 impl Simulation {
-    pub(super) fn of(inner: Box<dyn Inner>, inputs: Inputs, names: Names) -> Self {
-        Self { inner, inputs, names: Arc::new(names) }
+    pub(super) fn of(
+        inner: Box<dyn Inner>,
+        inputs: Inputs,
+        names: Names,
+        functions: &[Function],
+    ) -> Self {
+        Self { inner, inputs, names: Arc::new(names), functions: functions.into() }
     }
 
     pub(super) fn seen(&self) -> &dyn Read {
@@ -114,6 +121,15 @@ impl Simulation {
                 return Ok(sum);
             }
         }
+    }
+
+    /// The present value of an output that is code, whatever it gives.
+    ///
+    /// # Panics
+    /// For a handle of another mechanism, as an index does.
+    #[must_use]
+    pub fn function(&self, function: FunctionId) -> f64 {
+        self.functions[function.0].code.evaluate(&self.view())
     }
 
     /// Inputs that can be set between steps, in the order of effects, then guides.

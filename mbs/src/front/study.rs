@@ -1,6 +1,7 @@
 //! Studies of a mechanism: what needs a model or a whole run of it, each with a typed result.
 
 use super::failure::SimulationError;
+use super::function::{Function, FunctionColumns};
 use super::inputs::Inputs;
 use super::mechanism::Mechanism;
 use super::table::Table;
@@ -9,7 +10,7 @@ use crate::compare::{self, Earlier, Request as Compare};
 use crate::modes::{Modes, Place};
 use crate::names::Names;
 use crate::precision::Work;
-use crate::run::Outcome;
+use crate::run::{Outcome, run_columns};
 use crate::settings::{Method, Settings};
 use crate::statics::{Search, StaticEquilibrium};
 use crate::typed;
@@ -17,6 +18,7 @@ use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_scene::RunSummary;
 use mbs_scene::compare::Comparison;
+use std::sync::Arc;
 
 /// What is asked of a run: a method, how long, and what else.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -97,7 +99,9 @@ pub fn run_with(
     let (read, settings, scene) = m.prepared(&options.method)?;
     let names = Names::new(&scene);
     let inputs = Inputs::new(&scene);
-    let outcome = read.work(Watched { settings: &settings, names: &names, inputs, observers });
+    let functions = m.functions();
+    let watched = Watched { settings: &settings, names: &names, inputs, observers, functions };
+    let outcome = read.work(watched);
     let Outcome { summary, error, .. } = &outcome;
     let stop = error.clone().map(|e| SimulationError::stopped(e, summary.end_time, &names));
     Ok(RunResult {
@@ -114,17 +118,23 @@ struct Watched<'a, 'b> {
     names: &'a Names,
     inputs: Inputs,
     observers: &'a mut [&'b mut dyn Observer],
+    functions: &'a [Function],
 }
 
 impl Work for Watched<'_, '_> {
     type Done = Outcome;
 
     fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome {
-        let Self { settings, names, inputs, observers } = self;
-        if observers.is_empty() {
-            return typed::run::<T, D>(scene, settings, &mut ());
+        let Self { settings, names, inputs, observers, functions } = self;
+        let mut observed = Observed::<T, D>::new((scene, names), inputs, observers);
+        let observer: &mut dyn typed::Observer<T, D> =
+            if observed.is_empty() { &mut () } else { &mut observed };
+        if functions.is_empty() {
+            return typed::run(scene, settings, observer);
         }
-        typed::run(scene, settings, &mut Observed::<T, D>::new((scene, names), inputs, observers))
+        let scene_ = Arc::new(scene.clone());
+        let mut columns = FunctionColumns { scene: scene_, names, functions, readings: None };
+        run_columns(scene, settings, observer, &mut columns)
     }
 }
 

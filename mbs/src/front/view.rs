@@ -215,6 +215,10 @@ impl<'a, 'b, T: Real, const D: usize> Observed<'a, 'b, T, D> {
         Self { scene, names, inputs, pending, observers, readings: None }
     }
 
+    pub(super) fn is_empty(&self) -> bool {
+        self.observers.is_empty()
+    }
+
     /// Shows each observer the present instant.
     fn show(
         &mut self,

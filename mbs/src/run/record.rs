@@ -29,6 +29,24 @@ pub(super) struct Counts {
     pub(super) control: ControlSummary,
 }
 
+/// Columns of the rows beside those of the scene's channels.
+pub(crate) trait Columns<T: Real, const D: usize> {
+    /// Their names and units.
+    fn channels(&self) -> Vec<Channel>;
+
+    /// A step was made.
+    ///
+    /// # Errors
+    /// What stops the run.
+    fn follow(&mut self, now: &Simulation<T, D>) -> Result<(), StopError>;
+
+    /// Writes the components of a row.
+    ///
+    /// # Errors
+    /// One that is not finite.
+    fn write(&mut self, now: &Simulation<T, D>, out: &mut [T]) -> Result<(), StopError>;
+}
+
 /// The record of a run.
 pub(super) struct Record<'a, T: Real, const D: usize> {
     pub(super) scene: &'a Scene<T>,
@@ -39,6 +57,9 @@ pub(super) struct Record<'a, T: Real, const D: usize> {
     pub(super) recorder: Recorder,
     pub(super) figure: Figure<T, D>,
     values: Vec<T>,
+    /// Where the components of the scene's channels end, and what writes those behind them.
+    n_measured: usize,
+    pub(super) others: Option<&'a mut dyn Columns<T, D>>,
     /// What the last step left behind.
     mark: StepMark,
     pub(super) counts: Counts,
@@ -74,11 +95,13 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
             scene,
             settings,
             lengths: settings.lengths(scene),
+            n_measured: measures.lengths().sum(),
             measures,
             contacts: contacts.map_err(|e| StopError::Start(e.into()))?,
             recorder: Recorder::new(channels, n_rows, simulation.invariant().initial(), keep),
             figure: Figure::new(scene, simulation.model(), settings.duration),
             values: vec![T::ZERO; n],
+            others: None,
             mark: StepMark::default(),
             counts: Counts::default(),
             reached: 0.0,
@@ -123,9 +146,13 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
     /// Records a row, or no row where an output is not finite.
     fn row(&mut self, simulation: &Simulation<T, D>, is_last: bool) -> Result<(), StopError> {
         let state = simulation.state();
-        let n = self.values.len() - usize::from(self.level.is_some());
-        let (values, level) = self.values.split_at_mut(n);
+        let (values, others) = self.values.split_at_mut(self.n_measured);
+        let n_others = others.len() - usize::from(self.level.is_some());
+        let (others, level) = others.split_at_mut(n_others);
         self.measures.write(state, values)?;
+        if let Some(columns) = &mut self.others {
+            columns.write(simulation, others)?;
+        }
         if let ([level], Some(lowest)) = (level, &mut self.level) {
             *level = T::from_f64(core::mem::take(lowest));
         }
@@ -164,7 +191,10 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
         self.reached = t;
         self.counts.iterations += u64::from(report.iterations);
         self.counts.factorizations += u64::from(report.factorizations);
-        let tracked = self.measures.track(simulation);
+        let mut tracked = self.measures.track(simulation);
+        if let Some(columns) = &mut self.others {
+            tracked = tracked.and(columns.follow(simulation));
+        }
         self.contacts.watch(simulation.state());
         self.mark = StepMark {
             t,

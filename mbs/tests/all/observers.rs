@@ -173,3 +173,50 @@ fn an_observer_that_only_looks_changes_no_bit() {
         assert_eq!(alone.table, seen.table);
     }
 }
+
+#[test]
+fn an_output_in_code_is_a_column_and_a_reading_with_the_same_bits() {
+    let Arm { mechanism: mut m, pivot, tip, .. } = arm();
+    let reach = move |now: &View<'_>| {
+        let tip = now.output(tip).expect("it is finite");
+        tip[0].hypot(tip[1]) + now.value(pivot)
+    };
+    let reach = m.add_function("reach", reach);
+    for method in methods() {
+        let result = run(&m, &Run::new().method(method.clone())).expect("it runs");
+        let column = result.table.column("reach").expect("a column");
+        let mut sim = m.simulate(&method).expect("it starts");
+        for value in column {
+            assert_eq!(value.to_bits(), sim.function(reach).to_bits());
+            sim.step(STEP).expect("it steps");
+        }
+        let other = run(&arm().mechanism, &Run::new().method(method)).expect("it runs");
+        assert_eq!(result.table.column("tip.x"), other.table.column("tip.x"));
+    }
+}
+
+#[test]
+fn outputs_in_code_are_shared_by_clones_and_have_no_text() {
+    let Arm { mechanism: mut m, pivot, .. } = arm();
+    m.add_function("twice", move |now: &View<'_>| 2.0 * now.value(pivot));
+    let clone = m.clone();
+    assert_eq!(clone, m);
+    assert_ne!(arm().mechanism, m);
+    let error = m.to_toml().expect_err("it has no text");
+    assert!(error.to_string().contains("output `twice`"), "{error}");
+    assert!(serde_json::to_string(&m).is_err());
+    // numbers by path, with the function kept
+    m.set("body.body-1.mass", 2.5).expect("a path");
+    let result = run(&m, &Run::new()).expect("it runs");
+    assert!(result.table.column("twice").is_some());
+    // names are unique, and what is not finite is said
+    m.add_function("tip", |_: &View<'_>| 0.0);
+    assert!(m.check().expect_err("a name twice").to_string().contains("name"));
+    let mut m = arm().mechanism;
+    m.add_function("late", |now: &View<'_>| if now.time() < 0.1 { 0.0 } else { f64::NAN });
+    let result = run(&m, &Run::new()).expect("it starts");
+    let stop = result.stop.expect("it stops");
+    assert_eq!(stop.code(), "output-not-finite");
+    assert!(stop.to_string().contains("`late`"), "{stop}");
+    assert_eq!(result.table.len(), 100);
+}

@@ -8,7 +8,7 @@ impl Writer<'_> {
     pub(super) fn effect(self, effect: &Effect<Number>) -> Result<Keys, WriteError> {
         let row = effect.kind.row();
         let Some(first) = row.names.first() else {
-            return Err(WriteError::InCode(effect.name.clone()));
+            return Err(WriteError::InCode(format!("effect `{}`", effect.name)));
         };
         let values = effect.kind.values();
         let entries = || row.fields.iter().zip(&values);

@@ -1,0 +1,112 @@
+//! Outputs that are code.
+
+use super::readings::Readings;
+use super::seen::Seen;
+use super::view::View;
+use crate::names::Names;
+use crate::run::Columns;
+use crate::simulation::Simulation;
+use crate::stop::StopError;
+use core::fmt::{self, Debug, Formatter};
+use mbs_core::Real;
+use mbs_core::scene::Scene;
+use mbs_scene::{Channel, Component};
+use std::sync::Arc;
+
+/// An output of the user's own: a number that is read of a mechanism at an instant. Closures over a [`View`] are such functions.
+///
+/// ```
+/// use mbs::{Mechanism, OutputFunction, View};
+///
+/// /// Speed of a body's centre of mass [m/s].
+/// struct Speed(mbs::BodyId);
+/// impl OutputFunction for Speed {
+///     fn evaluate(&self, now: &View<'_>) -> f64 {
+///         now.motion(self.0).velocity.iter().map(|v| v * v).sum::<f64>().sqrt()
+///     }
+/// }
+/// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
+/// let mut m = Mechanism::read(path)?;
+/// let lower = m.find("lower")?;
+/// let speed = m.add_function("speed", Speed(lower));
+/// let mut sim = m.simulate(&mbs::Method::default())?;
+/// sim.advance_to(0.1)?;
+/// // the rods fall freely at first: their angular velocities differ by less than their size
+/// assert!(sim.function(speed) > 0.5 && sim.function(speed) < 3.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub trait OutputFunction: Send + Sync {
+    /// The number. One that is not finite stops a run, with the output's name.
+    fn evaluate(&self, now: &View<'_>) -> f64;
+}
+
+impl<F: Fn(&View<'_>) -> f64 + Send + Sync> OutputFunction for F {
+    fn evaluate(&self, now: &View<'_>) -> f64 {
+        self(now)
+    }
+}
+
+/// An output that is code, by its place among those of its mechanism.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct FunctionId(pub(super) usize);
+
+/// One, with its name. It lives beside the scene: clones share it.
+#[derive(Clone)]
+pub(super) struct Function {
+    pub(super) name: String,
+    pub(super) code: Arc<dyn OutputFunction>,
+}
+
+impl PartialEq for Function {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name && Arc::ptr_eq(&self.code, &other.code)
+    }
+}
+
+impl Debug for Function {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "Function({:?})", self.name)
+    }
+}
+
+/// Those of a mechanism, as columns of a run.
+pub(super) struct FunctionColumns<'a, T: Real, const D: usize> {
+    pub(super) scene: Arc<Scene<T>>,
+    pub(super) names: &'a Names,
+    pub(super) functions: &'a [Function],
+    /// Made at the first row.
+    pub(super) readings: Option<Readings<T, D>>,
+}
+
+impl<T: Real, const D: usize> Columns<T, D> for FunctionColumns<'_, T, D> {
+    fn channels(&self) -> Vec<Channel> {
+        let component = || Component { label: String::new(), unit: String::new() };
+        let channel =
+            |f: &Function| Channel { name: f.name.clone(), components: vec![component()] };
+        self.functions.iter().map(channel).collect()
+    }
+
+    fn follow(&mut self, now: &Simulation<T, D>) -> Result<(), StopError> {
+        self.readings.as_mut().map_or(Ok(()), |readings| readings.follow(now))
+    }
+
+    fn write(&mut self, now: &Simulation<T, D>, out: &mut [T]) -> Result<(), StopError> {
+        let Self { scene, names, functions, readings } = self;
+        let known = match readings.take() {
+            Some(known) => known,
+            None => Readings::new(scene, now)?,
+        };
+        let seen = Seen::new(scene.clone(), now, known);
+        let mut bad = None;
+        for (to, function) in out.iter_mut().zip(*functions) {
+            let value = function.code.evaluate(&View::new(&seen, names));
+            *to = T::from_f64(value);
+            bad = bad.or((!value.is_finite()).then_some(&function.name));
+        }
+        *readings = Some(seen.into_readings());
+        bad.map_or(Ok(()), |name| {
+            let message = format!("output `{name}` is code, and gives no finite number");
+            Err(StopError::Observer { code: "output-not-finite", message })
+        })
+    }
+}
