@@ -126,7 +126,10 @@ impl core::error::Error for SimulationError {
 
 impl From<PrecisionError> for SimulationError {
     fn from(error: PrecisionError) -> Self {
-        Self::new("precision-not-built", &error, error.hint()).with_cause(error)
+        match error {
+            PrecisionError::Read(error) => Self::of(*error),
+            other => Self::new("precision-not-built", &other, other.hint()).with_cause(other),
+        }
     }
 }
 
@@ -175,8 +178,8 @@ impl From<EnsembleError> for SimulationError {
 
 impl From<CompareError> for SimulationError {
     fn from(error: CompareError) -> Self {
-        let code = match &error {
-            CompareError::Read(_) => "scene-refused",
+        let code = match error {
+            CompareError::Read(error) => return error.into(),
             CompareError::Journal(JournalError::Interrupted) => INTERRUPTED,
             CompareError::NoReference(_) => "no-reference",
             _ => "settings-refused",

@@ -73,8 +73,8 @@ impl<'a> From<&View<'a>> for View<'a> {
 ///         inputs.set(inputs.of_effect(self.motor)?, torque)
 ///     }
 ///     fn step(&mut self, now: &View<'_>, _: &StepReport) -> Result<ControlFlow<()>, SimulationError> {
-///         let is_at_rest = now.time() > 0.5 && now.rate(self.pivot).abs() < 1e-6;
-///         Ok(if is_at_rest { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+///         let off = (now.value(self.pivot) - 0.5).abs() + now.rate(self.pivot).abs();
+///         Ok(if off < 1e-6 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
 ///     }
 /// }
 ///

@@ -1,8 +1,8 @@
 //! Studies of a mechanism in code are those of its file.
 
 use mbs::{
-    Body, Compare, Error, FormulationKind, GROUND, Joint, Mechanism, Method, Run, Sweep, compare,
-    run, sweep,
+    Body, Compare, Error, FormulationKind, GROUND, Joint, Mechanism, Method, Precision, Run, Sweep,
+    compare, run, sweep,
 };
 
 fn pendulum() -> Mechanism {
@@ -59,6 +59,7 @@ fn a_sweep_says_what_it_refuses_and_which_runs_fail() {
 fn a_comparison_in_code_ranks_the_methods_that_were_asked_for() {
     let options = Compare {
         formulations: vec![FormulationKind::Index3, FormulationKind::Recursive],
+        precisions: vec![Precision::F64],
         steps: vec![1e-2, 5e-3],
         tolerances: vec![1e-4],
         repeats: 2,

@@ -118,6 +118,7 @@ impl Tree {
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/double-pendulum.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
     /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
+    /// use mbs::Error;
     /// tree.set(&[0.4, -1.1], &[1.3, -0.7])?;
     /// assert_eq!(tree.coordinates(), [0.4, -1.1]);
     /// assert_eq!(tree.set(&[0.4], &[1.3]).unwrap_err().code(), "wrong-length");
@@ -221,7 +222,7 @@ impl Tree {
     /// # let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/four-bar.toml");
     /// # let file = mbs::scene_file::SceneFile::parse(&std::fs::read_to_string(path)?, path).unwrap();
     /// # let mut tree = mbs::Tree::new(&file.scene().unwrap())?;
-    /// use mbs::core::scene::JointId;
+    /// use mbs::{Error, JointId};
     /// assert_eq!(tree.coordinates_of(JointId::new(0))?.v, 0..1);
     /// let cut = tree.coordinates_of(JointId::new(3)).unwrap_err();
     /// assert_eq!((cut.code(), cut.joint()), ("cut-joint", Some("end-0")));
