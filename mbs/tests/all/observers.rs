@@ -2,10 +2,11 @@
 //! and what they return ends the run with its rows.
 
 use core::ops::ControlFlow;
+use mbs::core::control::Accepted;
 use mbs::{
     Body, Effect, EffectId, Error, FormulationKind, GROUND, InputId, IntegratorKind, Joint,
-    JointId, Mechanism, Method, Observer, Output, OutputId, Run, RunInputs, Signal,
-    SimulationError, StepReport, View, run, run_with,
+    JointId, Mechanism, Method, Observer, Output, OutputId, Run, RunInputs, Settings, Signal,
+    SimulationError, StepReport, StopError, View, run, run_with, typed,
 };
 
 /// Length of a step [s].
@@ -219,4 +220,56 @@ fn outputs_in_code_are_shared_by_clones_and_have_no_text() {
     assert_eq!(stop.code(), "output-not-finite");
     assert!(stop.to_string().contains("`late`"), "{stop}");
     assert_eq!(result.table.len(), 100);
+}
+
+/// Keeps the coordinates after each step.
+#[derive(Default)]
+struct Coordinates(Vec<(f64, Vec<u64>)>);
+
+impl<const D: usize> typed::Observer<f64, D> for Coordinates {
+    fn step(
+        &mut self,
+        now: &typed::Simulation<f64, D>,
+        _: &Accepted<f64>,
+        _: bool,
+    ) -> Result<ControlFlow<()>, StopError> {
+        let state = now.state();
+        self.0.push((state.t, state.q.iter().map(|x| x.to_bits()).collect()));
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
+/// The coordinates of a run, and of a loop of single steps from its start.
+fn both<const D: usize>(name: &str, formulation: &str) -> [Vec<(f64, Vec<u64>)>; 2] {
+    let scene = crate::common::scene(name);
+    let formulation = Some(formulation.to_owned());
+    let method =
+        Method { formulation, duration: Some(0.0505), step: Some(STEP), ..Method::default() };
+    let settings = Settings::new(&scene, &method).expect("good settings");
+    let mut seen = Coordinates::default();
+    typed::run::<f64, D>(&scene, &settings, &mut seen);
+    let mut simulation = typed::Simulation::<f64, D>::new(&scene, &settings).expect("it starts");
+    let mut alone = Coordinates::default();
+    for k in 1..=51_u32 {
+        // the last step is half as long
+        let t = if k == 51 { 0.0505 } else { f64::from(k) * STEP };
+        let dt = if k == 51 { t - 50.0 * STEP } else { STEP };
+        let accepted = simulation.advance(dt).expect("it steps");
+        simulation.set_time(t);
+        let flow = typed::Observer::step(&mut alone, &simulation, &accepted, k == 51);
+        assert_eq!(flow, Ok(ControlFlow::Continue(())));
+    }
+    [seen.0, alone.0]
+}
+
+#[test]
+fn a_run_has_the_bits_of_a_loop_of_single_steps() {
+    // multi-index controls the length of its steps
+    for formulation in mbs::FORMULATIONS[1..].iter().filter(|name| **name != "multi-index") {
+        let [run, alone] = both::<2>("double-pendulum", formulation);
+        assert_eq!(run, alone, "{formulation}");
+        assert_eq!(run.len(), 51);
+        let [run, alone] = both::<3>("spinning-top", formulation);
+        assert_eq!(run, alone, "{formulation}");
+    }
 }
