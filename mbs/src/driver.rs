@@ -247,19 +247,18 @@ pub(crate) fn drive<T: Real, const D: usize>(
     interrupt: &Interrupt,
     observer: &mut (impl Observer<T, D> + ?Sized),
 ) -> Result<(), StopError> {
-    let mut stop = None;
     for stretch in stretches {
         match along(plant, &stretch, interrupt, observer) {
             Ok(ControlFlow::Continue(())) => {}
             Ok(ControlFlow::Break(())) => break,
-            Err(error) => {
-                stop = Some(error);
-                break;
+            Err(stop) => {
+                observer.end(plant.shown(), Some(&stop));
+                return Err(stop);
             }
         }
     }
-    observer.end(plant.shown(), stop.as_ref());
-    stop.map_or(Ok(()), Err)
+    observer.end(plant.shown(), None);
+    Ok(())
 }
 
 /// Steps over one stretch; says whether to go on.

@@ -97,10 +97,13 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// [`StopError`] with the joint or body; the state is then that after the last accepted step.
     pub fn step(&mut self, dt: T) -> Result<StepReport<T>, StopError> {
-        let step = Step { dt, length: self.model.length() }.checked();
-        step.map_err(|error| self.explain(error))?;
-        let end = Stretch::to(self.state.t + dt);
-        let stretch = if self.is_controlled() { end } else { end.in_one(Some(dt)) };
+        let mut stretch = Stretch::to(self.state.t + dt);
+        if self.is_controlled() {
+            let step = Step { dt, length: self.model.length() }.checked();
+            step.map_err(|error| self.explain(error))?;
+        } else {
+            stretch = stretch.in_one(Some(dt));
+        }
         let mut sum = Sum(StepReport { steps: 0, ..StepReport::default() });
         drive(self, [stretch], &Interrupt::default(), &mut sum)?;
         Ok(sum.0)
