@@ -56,12 +56,12 @@ pub use compare::Request as Compare;
 pub use document::{run_document, run_document_kept};
 pub use front::tree::{Matrix, Tree, TreeError, TreeErrorKind, TreeRange};
 pub use front::{
-    Body, BodyMotion, Components, Coordinates, Effect, Energies, EquilibriumOptions, Error,
-    FunctionId, Guide, Id, InitialCondition, InputId, InputInfo, InputOwner, Joint, Mechanism,
-    Observer, Output, OutputFunction, Part, PathError, PointMotion, Pose, Run, RunInputs,
-    RunResult, SceneError, Simulation, SimulationError, Sizes, Snapshot, StepReport, Sweep,
-    SweepResult, Table, UnknownName, View, Wrench, compare, equilibrium, modes, run, run_with,
-    sweep,
+    Body, BodyMotion, Components, ContactEvent, Coordinates, Effect, Energies, EquilibriumOptions,
+    Error, FunctionId, Guide, Id, InitialCondition, InputId, InputInfo, InputOwner, Joint,
+    Mechanism, Observer, Output, OutputFunction, Part, PathError, PointMotion, Pose, Run,
+    RunInputs, RunResult, SceneError, Simulation, SimulationError, Sizes, Snapshot, StepReport,
+    Sweep, SweepResult, Table, UnknownName, View, Wrench, compare, equilibrium, modes, run,
+    run_with, sweep,
 };
 pub use interrupt::Interrupt;
 pub use mbs_core::formulation::{Formulation, SwitchError};

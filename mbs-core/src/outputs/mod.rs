@@ -1,7 +1,7 @@
 //! What is recorded of a motion: points, joint coordinates and reactions, measured from a state of the model.
 //!
 //! Nothing here knows a formulation or an integrator: [`Measures`] reads positions, velocities and accelerations,
-//! [`Reactions`] closes the balance of every body of the scene from them, [`Contacts`] lists when one-sided effects touch,
+//! [`Reactions`] closes the balance of every body of the scene from them, [`EffectWrenches`] says what effects exert, [`Contacts`] lists when one-sided effects touch,
 //! [`Turns`] whether positions tell how far joints have turned in a step,
 //! [`Events`] says where within a step a law's kink is passed, for steps that are to end there.
 
@@ -10,6 +10,7 @@ mod coordinate;
 mod cubic;
 mod error;
 mod event;
+mod exerted;
 mod frame;
 mod load;
 mod measure;
@@ -25,6 +26,7 @@ pub use contact::{Contacts, Instant, MOST_INSTANTS};
 pub use coordinate::CoordinateMotion;
 pub use error::ReactionError;
 pub use event::{EventHistory, Events};
+pub use exerted::EffectWrenches;
 pub use measure::{Measures, start_values};
 pub use quantity::{
     Component, ComponentForm, QUANTITIES, Quantity, QuantityRow, Target, TargetKind,

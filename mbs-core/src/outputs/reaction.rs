@@ -91,7 +91,7 @@ impl<T: Real, const D: usize> Reactions<T, D> {
         Ok(Self {
             bodies: (0..scene.bodies.len()).map(|b| Balance::new(scene, model, b)).collect(),
             gravity: scene.gravity.map_or_else(Vector::zeros, Vector::from),
-            loads: Loads::new(scene, model).map_err(ModelError::from)?,
+            loads: Loads::new(scene, model).map_err(ModelError::from)?.0,
             length: model.length(),
             system: MinimumNorm::new(rows, columns),
             directions: Vec::with_capacity(columns),

@@ -16,6 +16,7 @@ use core::fmt::Debug;
 use core::ops::ControlFlow;
 use mbs_core::Real;
 use mbs_core::control::Accepted;
+use mbs_core::outputs::{Contacts, Instant};
 use mbs_core::scene::{InitialCondition, InitialTarget, JointId, Scene, Start};
 use mbs_core::step::InputError;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -25,6 +26,10 @@ pub(crate) trait Inner: Sink + Debug + Send + Sync {
     fn clone_box(&self) -> Box<dyn Inner>;
     /// What is read of it.
     fn seen(&self) -> &dyn Read;
+    /// Contacts that began or ended since they are watched.
+    fn events(&self) -> &[Instant];
+    /// Watches contacts from now on.
+    fn watch_events(&mut self) -> Result<(), StopError>;
     /// Length of the steps that the method asks for [s].
     fn length(&self) -> f64;
     fn is_controlled(&self) -> bool;
@@ -46,6 +51,8 @@ struct Typed<T: Real, const D: usize> {
     seen: Seen<T, D, Simulation<T, D>>,
     settings: Settings,
     clock: StepClock<T>,
+    /// Where contacts are watched.
+    contacts: Option<Contacts<T, D>>,
 }
 
 impl<T: Real, const D: usize> Typed<T, D> {
@@ -53,7 +60,15 @@ impl<T: Real, const D: usize> Typed<T, D> {
         let simulation = Simulation::new(&scene, settings)?;
         let readings = Readings::new(&scene, &simulation)?;
         let seen = Seen::new(Arc::new(scene), simulation, readings);
-        Ok(Self { seen, settings: settings.clone(), clock: StepClock::default() })
+        let clock = StepClock::default();
+        Ok(Self { seen, settings: settings.clone(), clock, contacts: None })
+    }
+
+    /// Forgets contacts so far: the state is another one than that after the last step.
+    fn rewatch(&mut self) {
+        if let Some(contacts) = &mut self.contacts {
+            contacts.resume(self.seen.simulation.state(), &[], 0);
+        }
     }
 }
 
@@ -71,14 +86,28 @@ impl<T: Real, const D: usize> Sink for Typed<T, D> {
 
 impl<T: Real, const D: usize> Inner for Typed<T, D> {
     fn clone_box(&self) -> Box<dyn Inner> {
-        let Self { seen, settings, clock } = self;
+        let Self { seen, settings, clock, contacts } = self;
         let readings = seen.read().clone();
         let seen = Seen::new(seen.scene.clone(), seen.simulation.clone(), readings);
-        Box::new(Self { seen, settings: settings.clone(), clock: *clock })
+        let (settings, contacts) = (settings.clone(), contacts.clone());
+        Box::new(Self { seen, settings, clock: *clock, contacts })
     }
 
     fn seen(&self) -> &dyn Read {
         &self.seen
+    }
+
+    fn events(&self) -> &[Instant] {
+        self.contacts.as_ref().map_or(&[], Contacts::instants)
+    }
+
+    fn watch_events(&mut self) -> Result<(), StopError> {
+        if self.contacts.is_none() {
+            let contacts = Contacts::new(&self.seen.scene, self.seen.simulation.model());
+            self.contacts = Some(contacts.map_err(|e| StopError::Start(e.into()))?);
+        }
+        self.rewatch();
+        Ok(())
     }
 
     fn length(&self) -> f64 {
@@ -86,13 +115,13 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
     }
 
     fn step(&mut self, dt: f64, to: Option<f64>) -> Result<StepReport, StopError> {
-        let Self { seen: Seen { scene, simulation, readings }, settings, clock } = self;
+        let Self { seen: Seen { scene, simulation, readings }, settings, clock, contacts } = self;
         let (length, now) = (exact(scene, dt), simulation.state().t);
         let end = clock.advance(now, (dt, length));
         let end = to.map_or(end, |to| exact(scene, to));
         let readings = readings.get_mut().unwrap_or_else(PoisonError::into_inner);
         let fixed = (!simulation.is_controlled()).then_some(length);
-        let mut watch = Watch { readings, sum: StepReport::default() };
+        let mut watch = Watch { readings, contacts, sum: StepReport::default() };
         let stretch = Stretch::to(end).in_one(fixed);
         drive(simulation, [stretch], &settings.interrupt, &mut watch)?;
         clock.land(end);
@@ -123,7 +152,9 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
         fresh.seen.simulation.set_time(exact(own, t));
         // the scene's own conditions are those of a later reset
         fresh.seen.scene = own.clone();
+        fresh.contacts = self.contacts.take();
         *self = fresh;
+        self.rewatch();
         Ok(())
     }
 
@@ -148,6 +179,7 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
         simulation.restore((scene, &self.settings), &state[..])?;
         readings.stale();
         (self.seen.readings, self.clock) = (Mutex::new(readings), clock);
+        self.rewatch();
         Ok(())
     }
 }
@@ -155,6 +187,7 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
 /// Follows the readings of a simulation over its steps, and adds their reports.
 struct Watch<'a, T: Real, const D: usize> {
     readings: &'a mut Readings<T, D>,
+    contacts: &'a mut Option<Contacts<T, D>>,
     sum: StepReport,
 }
 
@@ -166,6 +199,9 @@ impl<T: Real, const D: usize> Observer<T, D> for Watch<'_, T, D> {
         _: bool,
     ) -> Result<ControlFlow<()>, StopError> {
         self.sum.add(accepted);
+        if let Some(contacts) = self.contacts {
+            contacts.watch(now.state());
+        }
         self.readings.follow(now)?;
         Ok(ControlFlow::Continue(()))
     }

@@ -3,6 +3,7 @@
 use super::function::{Function, FunctionId, OutputFunction};
 use super::part::sealed::Id as _;
 use super::{Id, Part, PathError, SceneError, UnknownName};
+use crate::settings::Method;
 use mbs_core::Real;
 use mbs_core::scene::{
     Dimension, Entry, Number, Road, Scene, SceneError as RefusedScene, SceneFault, Vector3,
@@ -116,6 +117,47 @@ impl Mechanism {
     /// The road under the tires; without it there is level ground at height zero.
     pub fn set_road(&mut self, road: Road<Number>) -> &mut Self {
         self.scene_mut().road = road;
+        self
+    }
+
+    /// Makes a method that of the mechanism, for [`simulate`](Self::simulate), [`run`](crate::run) and its file: what it leaves open stays.
+    /// Precision, threads and interrupt are no part of a mechanism and are left out.
+    ///
+    /// ```
+    /// use mbs::{FormulationKind, Mechanism, Method};
+    /// let mut m = Mechanism::planar("nothing yet");
+    /// m.set_method(&Method::new(FormulationKind::Index1).step(1e-4));
+    /// assert!(m.to_toml()?.contains("formulation = \"index-1\"\nstep = 0.0001"));
+    /// # Ok::<(), mbs::WriteError>(())
+    /// ```
+    pub fn set_method(&mut self, method: &Method) -> &mut Self {
+        let scene = self.scene_mut();
+        let table = &mut scene.solver;
+        let words = [
+            (&mut table.formulation, &method.formulation),
+            (&mut table.integrator, &method.integrator),
+            (&mut table.step_control, &method.step_control),
+        ];
+        let numbers = [
+            (&mut table.step, method.step),
+            (&mut table.step_max, method.step_max),
+            (&mut table.tolerance, method.tolerance),
+            (&mut table.penalty, method.penalty),
+            (&mut table.error_tolerance, method.error_tolerance),
+            (&mut table.energy_alarm, method.energy_alarm),
+        ];
+        for (to, word) in words {
+            *to = word.clone().or(to.take());
+        }
+        for (to, number) in numbers {
+            *to = number.map(Number::from).or(to.take());
+        }
+        let limits = method.energy_tolerance.map(|limits| limits.map(Number::from));
+        table.energy_tolerance = limits.or(table.energy_tolerance.take());
+        table.locate_events = method.events.or(table.locate_events);
+        if let Some(duration) = method.duration {
+            scene.duration = duration.into();
+        }
         self
     }
 

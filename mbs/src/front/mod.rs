@@ -33,7 +33,8 @@ pub use study::{EquilibriumOptions, Run, RunResult, compare, equilibrium, modes,
 pub use sweep::{Sweep, SweepResult, sweep};
 pub use table::Table;
 pub use values::{
-    BodyMotion, Components, Coordinates, Energies, PointMotion, Pose, Sizes, StepReport, Wrench,
+    BodyMotion, Components, ContactEvent, Coordinates, Energies, PointMotion, Pose, Sizes,
+    StepReport, Wrench,
 };
 pub use view::{Observer, RunInputs, View};
 

@@ -6,7 +6,7 @@ use super::values::{
     BodyMotion, Components, Coordinates, Energies, PointMotion, Pose, Sizes, Wrench,
 };
 use super::view::View;
-use mbs_core::scene::{BodyId, JointId, Number, OutputId, Vector3};
+use mbs_core::scene::{BodyId, EffectId, JointId, Number, OutputId, Vector3};
 
 macro_rules! both {
     ($($readings:tt)*) => {
@@ -79,6 +79,31 @@ both! {
     /// Where connected loops are too large for it.
     pub fn reaction(&self, joint: JointId) -> Result<Wrench, SimulationError> {
         self.seen().reaction(joint.index()).map_err(|error| self.stopped(error))
+    }
+
+    /// What an effect exerts on its body, or on the second of its two bodies: on a joint, on the joint's second body [N, N m].
+    ///
+    /// The moment is about the point of that body where the effect is attached, as it has moved. An effect about an angle has a moment alone;
+    /// one that is disabled exerts nothing. The first of two bodies takes the opposite force along the same line.
+    ///
+    /// Cost: at the first call, all effects are prepared; at each, the laws of this one are evaluated.
+    ///
+    /// # Errors
+    /// None that a simulation that was built can make; those of the model.
+    ///
+    /// ```
+    /// use mbs::{Body, Effect, GROUND, Joint, Mechanism, Method};
+    /// let mut m = Mechanism::planar("mass on a spring");
+    /// let mass = m.add(Body::planar([0.0, -1.5], 2.0, 0.1));
+    /// m.add(Joint::prismatic([GROUND, mass], [0.0, -1.5]).along([0.0, 1.0]));
+    /// let spring = m.add(Effect::spring_damper([(GROUND, [0.0, 0.0]), (mass, [0.0, -1.5])], 40.0, 0.0, 1.0));
+    /// let sim = m.simulate(&Method::default())?;
+    /// // half a metre too long, it pulls the mass upward
+    /// assert_eq!(sim.effect_force(spring)?.force, [0.0, 20.0, 0.0]);
+    /// # Ok::<(), mbs::SimulationError>(())
+    /// ```
+    pub fn effect_force(&self, effect: EffectId) -> Result<Wrench, SimulationError> {
+        self.seen().effect_force(effect.index()).map_err(|error| self.stopped(error))
     }
 
     /// Components of an output of the mechanism.

@@ -7,8 +7,9 @@ use crate::simulation::Simulation;
 use crate::stop::StopError;
 use core::ops::Range;
 use mbs_core::Real;
+use mbs_core::algebra::Vector;
 use mbs_core::model::State;
-use mbs_core::outputs::Reactions;
+use mbs_core::outputs::{EffectWrenches, Reactions};
 use mbs_core::scene::{JointId, Output, Quantity, Scene};
 
 /// Joint coordinates with their turns, outputs and reactions.
@@ -20,6 +21,8 @@ pub(super) struct Readings<T: Real, const D: usize> {
     outputs: Option<Group<T, D>>,
     /// Made where one is asked for; whether they are those of the present state.
     reactions: Option<(Box<Reactions<T, D>>, bool)>,
+    /// Made where one is asked for.
+    effects: Option<Box<EffectWrenches<T, D>>>,
 }
 
 /// Channels that are read together.
@@ -86,6 +89,7 @@ impl<T: Real, const D: usize> Readings<T, D> {
             rates: of_joints(|joint| Quantity::JointRate { joint })?,
             outputs: outputs.transpose()?,
             reactions: None,
+            effects: None,
         })
     }
 
@@ -164,6 +168,24 @@ impl<T: Real, const D: usize> Readings<T, D> {
             2 => Wrench { force: [a, b, 0.0], moment: [0.0, 0.0, c] },
             _ => Wrench { force: [a, b, c], moment: [d, e, f] },
         })
+    }
+
+    /// What an effect exerts.
+    pub(super) fn effect(
+        &mut self,
+        effect: usize,
+        (scene, simulation): (&Scene<T>, &Simulation<T, D>),
+    ) -> Result<Wrench, StopError> {
+        let wrenches = match &mut self.effects {
+            Some(wrenches) => wrenches,
+            None => {
+                let made = EffectWrenches::new(scene, simulation.model());
+                self.effects.insert(Box::new(made.map_err(|e| StopError::Start(e.into()))?))
+            }
+        };
+        let wrench = wrenches.of(effect, simulation.state());
+        let numbers = |x: Vector<T, 3>| [x[0], x[1], x[2]].map(Real::to_f64);
+        Ok(Wrench { force: numbers(wrench.force), moment: numbers(wrench.moment) })
     }
 
     /// Writes the turns that are remembered, or reads them back.

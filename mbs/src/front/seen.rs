@@ -22,6 +22,7 @@ pub(crate) trait Read: Debug + Send + Sync {
     fn write_outputs(&self, out: &mut [f64]) -> Result<(), StopError>;
     fn n_outputs(&self) -> usize;
     fn reaction(&self, joint: usize) -> Result<Wrench, StopError>;
+    fn effect_force(&self, effect: usize) -> Result<Wrench, StopError>;
     fn body(&self, body: BodyId) -> (Pose, BodyMotion);
     fn point(&self, body: BodyId, at: [f64; 3]) -> PointMotion;
     fn energies(&self) -> Energies;
@@ -88,6 +89,10 @@ where
 
     fn reaction(&self, joint: usize) -> Result<Wrench, StopError> {
         self.read().reaction(joint, (&self.scene, &self.simulation.borrow()))
+    }
+
+    fn effect_force(&self, effect: usize) -> Result<Wrench, StopError> {
+        self.read().effect(effect, (&self.scene, self.simulation.borrow()))
     }
 
     fn body(&self, body: BodyId) -> (Pose, BodyMotion) {

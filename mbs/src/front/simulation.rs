@@ -5,7 +5,7 @@ use super::function::{Function, FunctionId};
 use super::inner::Inner;
 use super::inputs::{InputId, InputInfo, Inputs};
 use super::seen::Read;
-use super::values::{Coordinates, StepReport};
+use super::values::{ContactEvent, Coordinates, StepReport};
 use super::view::View;
 use crate::checkpoint::CheckpointError;
 use crate::names::Names;
@@ -130,6 +130,37 @@ impl Simulation {
     #[must_use]
     pub fn function(&self, function: FunctionId) -> f64 {
         self.functions[function.0].code.evaluate(&self.view())
+    }
+
+    /// Contacts of bumpers, limits and tires that began or ended since the last [`clear_events`](Self::clear_events), in order, a thousand at
+    /// most; none before its first call. Their times are interpolated within steps.
+    pub fn events(&self) -> impl Iterator<Item = ContactEvent> + '_ {
+        self.inner.events().iter().map(ContactEvent::of)
+    }
+
+    /// Lists contacts anew from now on. The first call begins to watch them, which costs an evaluation of each one-sided effect at a step.
+    /// Another state, by [`set_state`](Self::set_state), [`reset`](Self::reset) or [`restore`](Self::restore), clears the list too.
+    ///
+    /// # Errors
+    /// None that a simulation that was built can make; those of the model.
+    ///
+    /// ```
+    /// use mbs::{Body, Effect, GROUND, Joint, Mechanism, Method};
+    /// let mut m = Mechanism::planar("drop on a stop");
+    /// m.set_gravity([0.0, -9.81]);
+    /// let mass = m.add(Body::planar([0.0, 0.0], 1.0, 0.1));
+    /// let slide = m.add(Joint::prismatic([GROUND, mass], [0.0, 0.0]).along([0.0, 1.0]));
+    /// let stop = m.add(Effect::limit(slide, [-0.1, 1.0], 1e5, 0.0));
+    /// let mut sim = m.simulate(&Method::default())?;
+    /// sim.clear_events()?;
+    /// sim.advance_to(0.2)?;
+    /// let hit = sim.events().next().expect("it falls by 0.1 m");
+    /// assert_eq!((hit.effect, hit.is_made), (stop, true));
+    /// assert!((hit.time - (2.0 * 0.1_f64 / 9.81).sqrt()).abs() < 1e-4);
+    /// # Ok::<(), mbs::SimulationError>(())
+    /// ```
+    pub fn clear_events(&mut self) -> Result<(), SimulationError> {
+        self.inner.watch_events().map_err(|error| self.stopped(error))
     }
 
     /// Inputs that can be set between steps, in the order of effects, then guides.

@@ -1,6 +1,7 @@
 //! A mechanism in code and one from a file are the same; changes keep what they do not touch.
 
 use super::{Body, Effect, Error, Guide, Joint, Mechanism, Output};
+use crate::{FormulationKind, IntegratorKind, Method};
 use mbs_core::scene::{BodyId, GROUND, JointId, Motion, Number, Signal};
 
 fn file(name: &str) -> String {
@@ -46,6 +47,19 @@ fn paths_set_numbers_in_code_and_in_files_and_files_keep_their_comments() {
     let error = read.set("body.uper.mass", 1.0).expect_err("no such body");
     assert_eq!(error.code(), "unknown-path");
     assert_eq!(error.hint(), Some("did you mean `upper`?".to_owned()));
+}
+
+#[test]
+fn a_method_of_a_mechanism_is_written_to_its_file_and_what_it_leaves_open_stays() {
+    let mut m = Mechanism::parse(&file("double-pendulum")).expect("a scene");
+    let method = Method::new(FormulationKind::Recursive).integrator(IntegratorKind::Rk4);
+    m.set_method(&method);
+    let written = m.to_toml().expect("no code");
+    assert!(written.starts_with("# Double pendulum: two uniform rods"), "{written}");
+    let solver = Mechanism::parse(&written).expect("a scene").scene().solver.clone();
+    assert_eq!(solver.formulation.as_deref(), Some("recursive"));
+    assert_eq!(solver.integrator.as_deref(), Some("rk4"));
+    assert_eq!(solver.step, Some(1e-3.into()));
 }
 
 #[test]

@@ -3,6 +3,8 @@
 use core::ops::Deref;
 use mbs_core::Real;
 use mbs_core::control::Accepted;
+use mbs_core::outputs::Instant;
+use mbs_core::scene::EffectId;
 
 /// Coordinates of a joint, at most six [rad, m].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -128,6 +130,27 @@ pub struct Wrench {
     pub force: [f64; 3],
     /// [N m].
     pub moment: [f64; 3],
+}
+
+/// A contact of a one-sided effect that begins or ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct ContactEvent {
+    /// When [s].
+    pub time: f64,
+    /// The bumper, limit or tire.
+    pub effect: EffectId,
+    /// Of a limit 0 at its lower end, 1 at its upper one; 0 else.
+    pub end: usize,
+    /// Does it begin?
+    pub is_made: bool,
+}
+
+impl ContactEvent {
+    pub(super) fn of(instant: &Instant) -> Self {
+        let &Instant { t: time, effect, end, makes: is_made } = instant;
+        Self { time, effect: EffectId::new(effect), end, is_made }
+    }
 }
 
 /// Energies of a mechanism [J].

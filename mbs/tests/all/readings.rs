@@ -1,9 +1,10 @@
 //! What is read of a simulation between steps, in every formulation, against what it must be by definition.
 
 use mbs::{
-    Body, BodyId, FormulationKind, GROUND, InitialCondition, Joint, Mechanism, Method, Number,
-    Output, Simulation,
+    Body, BodyId, Effect, FormulationKind, GROUND, InitialCondition, Joint, Mechanism, Method,
+    Number, Output, Simulation,
 };
+use mbs_testkit::apart;
 
 /// A simulation in each formulation, by steps of this length [s].
 fn simulations(m: &Mechanism, step: f64) -> impl Iterator<Item = (&'static str, Simulation)> {
@@ -90,5 +91,95 @@ fn angular_velocity_is_the_difference_of_rotations_in_every_formulation() {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn what_effects_exert_is_the_mass_times_the_acceleration_in_every_formulation() {
+    let (mass, inertia, gravity) = (2.0, 0.5, [0.0, 0.0, -9.81]);
+    let center = [0.1, -0.2, 0.3];
+    let mut m = Mechanism::spatial("held by effects");
+    m.set_gravity(gravity);
+    let body = m.add(Body::spatial(center, mass, [inertia, inertia, inertia, 0.0, 0.0, 0.0]));
+    m.add(Joint::free([GROUND, body], center));
+    m.add(InitialCondition::angular_velocity(body, [0.5, -1.0, 2.0]));
+    let [on_spring, on_bushing, on_force] = [[0.6, 0.0, 0.2], [-0.3, 0.4, 0.1], [0.0, 0.0, 0.9]];
+    let (stiffness, damping) = ([80.0, 90.0, 70.0, 5.0, 6.0, 7.0], [2.0, 1.0, 3.0, 0.1, 0.2, 0.3]);
+    let spring = [(GROUND, [0.5, 0.3, 1.4]), (body, on_spring)];
+    let effects = [
+        (m.add(Effect::spring_damper(spring, 120.0, 3.0, 0.7)), on_spring),
+        (m.add(Effect::bushing([GROUND, body], on_bushing, stiffness, damping)), on_bushing),
+        (m.add(Effect::force(body, on_force, [1.0, -2.0, 0.5])), on_force),
+        (m.add(Effect::body_torque(body, [0.3, 0.2, -0.4])), center),
+    ];
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        [[1, 2], [2, 0], [0, 1]].map(|[i, j]: [usize; 2]| a[i] * b[j] - a[j] * b[i])
+    };
+    for (name, mut sim) in simulations(&m, 1e-3) {
+        sim.advance_to(0.2).expect("it moves");
+        let (motion, now) = (sim.motion(body), sim.pose(body).position);
+        let (mut force, mut moment) = (gravity.map(|g| mass * g), [0.0; 3]);
+        for (effect, at) in effects {
+            let exerted = sim.effect_force(effect).expect("it is there");
+            let at = sim.point(body, at).position;
+            let turning = cross([0, 1, 2].map(|i| at[i] - now[i]), exerted.force);
+            for i in 0..3 {
+                force[i] += exerted.force[i];
+                moment[i] += exerted.moment[i] + turning[i];
+            }
+        }
+        for i in 0..3 {
+            let off = [
+                mass * motion.acceleration[i] - force[i],
+                inertia * motion.angular_acceleration[i] - moment[i],
+            ];
+            // Newton's method ends where forces of 20 N are off by less than a part in ten thousand
+            assert!(off.iter().all(|x| x.abs() < 2e-3), "{name}: {off:?}");
+        }
+    }
+}
+
+#[test]
+fn an_effect_on_a_joint_exerts_its_moment_on_the_second_body() {
+    let mut m = Mechanism::planar("bar");
+    let bar = m.add(Body::rod([0.0, 0.0], [1.0, 0.0], 1.0));
+    let hinge = m.add(Joint::revolute([bar, GROUND], [0.0, 0.0]));
+    let motor = m.add(Effect::torque(hinge, 3.0));
+    let sim = m.simulate(&Method::default()).expect("it is built");
+    let exerted = sim.effect_force(motor).expect("it is there");
+    assert!(apart(&exerted.moment, &[0.0, 0.0, 3.0]) < 1e-12, "{exerted:?}");
+    // the bar takes the opposite: 3 N m over m l^2/3
+    let angular = sim.motion(bar).angular_acceleration[2];
+    assert!((angular + 9.0).abs() < 1e-9, "{angular}");
+}
+
+#[test]
+fn contacts_are_listed_from_the_first_call_on_and_until_the_state_is_another() {
+    let (mass, stiffness, fall, g) = (1.0_f64, 1e4, 0.1, 9.81);
+    let mut m = Mechanism::planar("drop on a stop");
+    m.set_gravity([0.0, -g]);
+    let body = m.add(Body::planar([0.0, 0.0], mass, 0.1));
+    let slide = m.add(Joint::prismatic([GROUND, body], [0.0, 0.0]).along([0.0, 1.0]));
+    let stop = m.add(Effect::limit(slide, [-fall, 1.0], stiffness, 0.0));
+    // depth: g/w^2 (1 - cos w t) + v/w sin w t, zero again at tan(w t/2) = -v w/g
+    let (hit, speed, w) =
+        ((2.0 * fall / g).sqrt(), (2.0 * fall * g).sqrt(), (stiffness / mass).sqrt());
+    let leave = hit + 2.0 * (core::f64::consts::PI - (speed * w / g).atan()) / w;
+    for (name, mut sim) in simulations(&m, 1e-4) {
+        sim.step(1e-3).expect("it falls");
+        assert_eq!(sim.events().count(), 0, "{name}");
+        sim.clear_events().expect("they are watched");
+        sim.advance_to(0.2).expect("it falls");
+        let found: Vec<_> =
+            sim.events().map(|event| (event.effect, event.end, event.is_made)).collect();
+        assert_eq!(found, [(stop, 0, true), (stop, 0, false)], "{name}");
+        for (event, right) in sim.events().zip([hit, leave]) {
+            // the period of steps of 0.1 ms is off by (w h)^2/12, of controlled ones by their tolerance
+            assert!((event.time - right).abs() < 2e-5, "{name}: {} is not {right}", event.time);
+        }
+        sim.reset().expect("it starts");
+        assert_eq!(sim.events().count(), 0, "{name}");
+        sim.advance_to(0.15).expect("it falls");
+        assert_eq!(sim.events().count(), 1, "{name}");
     }
 }

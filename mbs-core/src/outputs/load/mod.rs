@@ -82,12 +82,15 @@ pub(super) enum Gauge<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Loads<T, D> {
-    /// All enabled effects of a scene.
+    /// All enabled effects of a scene, and their indices.
     ///
     /// # Errors
     /// [`ActionError`] as for the model.
-    pub(super) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, ActionError> {
-        Ok(Self::of(scene, model, |_| true)?.0)
+    pub(super) fn new(
+        scene: &Scene<T>,
+        model: &NaturalModel<T, D>,
+    ) -> Result<(Self, Vec<usize>), ActionError> {
+        Self::of(scene, model, |_| true)
     }
 
     /// The enabled effects that act on one side only, and their indices.
