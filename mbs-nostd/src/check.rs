@@ -3,6 +3,7 @@
 use crate::inputs::{Motion, SignalLaw};
 use crate::model::Model;
 use mbs_core::Real;
+use mbs_core::effects::bushing;
 use mbs_core::laws::Part;
 use mbs_recursive::link::Kind;
 use mbs_recursive::loads::{Gauge, Load};
@@ -23,7 +24,7 @@ pub enum LoadError {
         /// What there is.
         capacity: usize,
     },
-    /// A number in a table points outside of what it is to point into.
+    /// A number in a table points outside of what it is to point into, or this build leaves the effect out.
     Index {
         /// The table.
         table: &'static str,
@@ -48,7 +49,11 @@ impl core::fmt::Display for LoadError {
                 write!(f, "the model has {needed} {of}, and there is room for {capacity}")
             }
             Self::Index { table, entry } => {
-                write!(f, "entry {entry} of the table of {table} points outside of the model")
+                write!(
+                    f,
+                    "entry {entry} of the table of {table} points outside of the model, or has an effect whose feature is off in \
+                     this build"
+                )
             }
             Self::Format => {
                 write!(f, "not a model of this version, or of the other dimension")
@@ -308,7 +313,9 @@ impl<T: Real, S: Space<T>> Look<'_, '_, T, S> {
                 Load::Between { links, gauge, law } => {
                     let has_angle = match gauge {
                         Gauge::Turn => S::DIMENSION == 2,
-                        Gauge::Rotation { number } => S::DIMENSION == 3 && *number < 3,
+                        Gauge::Rotation { number } => {
+                            bushing::IS_BUILT && S::DIMENSION == 3 && *number < 3
+                        }
                         Gauge::Length { .. } | Gauge::Along { .. } => true,
                     };
                     links.iter().all(|&link| is_link(link))

@@ -129,13 +129,13 @@ impl<T: Real, const G: usize, const C: usize> Values<G, C, T> {
 
 /// Laws and written values together: what a step asks for.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Written<'a, T> {
+pub(crate) struct Written<'a, const G: usize, const C: usize, T> {
     pub(crate) laws: Prescriptions<'a, T>,
-    pub(crate) guides: &'a [[T; 3]],
-    pub(crate) courses: &'a [[T; 3]],
+    pub(crate) guides: &'a [[T; 3]; G],
+    pub(crate) courses: &'a [[T; 3]; C],
 }
 
-impl<T: Real> Inputs<T> for Written<'_, T> {
+impl<const G: usize, const C: usize, T: Real> Inputs<T> for Written<'_, G, C, T> {
     fn evaluate(&self, t: T, guides: &mut [[T; 3]], courses: &mut [[T; 3]]) {
         for ((to, law), &written) in guides.iter_mut().zip(self.laws.guides).zip(self.guides) {
             *to = guide_at(law, &self.laws, written, t);

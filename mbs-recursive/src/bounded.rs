@@ -153,12 +153,16 @@ fn advance_by<T: Real, S: Space<T>>(
         violation: [T::ZERO; 3],
         is_cut_short: false,
     };
-    for k in 0..bounds.evaluations.max(1) {
-        if k > 0 && !watch.has_time() {
+    let evaluations = bounds.evaluations.max(1);
+    loop {
+        reach_end(m, (dt, options), &start, s)?;
+        if report.evaluations == evaluations {
+            break;
+        }
+        if report.evaluations > 0 && !watch.has_time() {
             report.is_cut_short = true;
             break;
         }
-        reach_end(m, (dt, options), &start, s)?;
         copy(s.zdd, s.scratch)?;
         report.violation[2] = if m.loads.is_empty() {
             accelerations(m, options, level, s)?
@@ -171,7 +175,6 @@ fn advance_by<T: Real, S: Space<T>>(
         report.correction = norm_inf(s.scratch) * share;
         report.evaluations += 1;
     }
-    reach_end(m, (dt, options), &start, s)?;
     if options.closure == Closure::Constraints && !m.loops.loops.is_empty() {
         for _ in 0..bounds.projections {
             if !watch.has_time() {

@@ -23,9 +23,9 @@ impl Listed {
         }
     }
 
-    /// Can tables of controllers have its law?
+    /// Can tables of controllers have what its feature brings: its law, or what bushings measure?
     pub(crate) fn is_exported(self) -> bool {
-        self.has_law && self.module != "own"
+        (self.has_law || self.module == "bushing") && self.module != "own"
     }
 }
 

@@ -1,5 +1,8 @@
 //! Springs and dampers along and about three axes at a place.
 
+/// Whether a build has the rotations in space that bushings act on.
+pub const IS_BUILT: bool = cfg!(feature = "bushing");
+
 #[cfg(feature = "alloc")]
 pub use data::Bushing;
 

@@ -20,6 +20,7 @@ pub fn largest<T: Real>(x: &[T]) -> u32 {
 }
 
 /// The first entry that is not finite, else the largest.
+#[cold]
 pub fn largest_or_nan<T: Real>(x: &[T]) -> u32 {
     let bad = x.iter().position(|x| !x.is_finite());
     bad.map_or_else(|| largest(x), |i| u32::try_from(i).unwrap_or(u32::MAX))

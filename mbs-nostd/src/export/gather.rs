@@ -7,7 +7,7 @@ use mbs_core::Real;
 use mbs_core::inputs::Prescribed;
 use mbs_core::laws::Part;
 use mbs_core::scene::{Motion as SceneLaw, Signal};
-use mbs_recursive::loads::Load;
+use mbs_recursive::loads::{Gauge, Load};
 use mbs_recursive::mechanism::Mechanism;
 use mbs_recursive::space::Space;
 use mbs_recursive::{TreeModel, TreeState};
@@ -127,6 +127,7 @@ pub fn needs<T: Real, S: Space<T>>(model: &Model<'_, T, S>) -> Vec<&'static str>
     let mut needed = Vec::new();
     for load in model.mechanism.loads {
         let feature = match load {
+            Load::Between { gauge: Gauge::Rotation { .. }, .. } => Some("bushing"),
             Load::Between { law, .. } | Load::Angle { law, .. } => law.feature(),
             Load::OnBody(load) => load.law.feature(),
             _ => None,

@@ -1,7 +1,9 @@
 //! The solver of fixed capacity against mbs-recursive on the same scenes.
 
 use crate::support::start;
-use mbs_nostd::export::{Gathered, bytes};
+use mbs_core::effects::{bushing, laws::SpringDamperLaw};
+use mbs_nostd::export::{Gathered, bytes, needs};
+use mbs_nostd::table::{Gauge, Law, Load};
 use mbs_nostd::{Bounds, Checked, Options, Solver, Spatial, Tables, Unwatched};
 use mbs_recursive::{TreeModel, TreeState, Workspace, bounded_step, step};
 use mbs_testkit::file;
@@ -86,6 +88,19 @@ fn rungs_drop_the_effects_of_the_ladder_in_its_order_and_time_that_runs_out_clim
         assert!(report.is_cut_short && report.evaluations == 1 && report.projections == 0);
         assert_eq!(solver.ladder.rung(), rung);
     }
+}
+
+#[test]
+fn a_rotation_needs_the_feature_of_bushings_and_is_refused_without_it() {
+    let (tree, begin) = vehicle("six-joint-arm");
+    let gathered = Gathered::new(&tree, &begin, &[]);
+    let law = Law::SpringDamper(SpringDamperLaw { stiffness: 1.0, damping: 0.0, free: 0.0 });
+    let load = Load::Between { links: [1, 2], gauge: Gauge::Rotation { number: 0 }, law };
+    let mut model = gathered.model();
+    let loads = [load];
+    model.mechanism.loads = &loads;
+    assert_eq!(needs(&model), ["bushing"]);
+    assert_eq!(Checked::new(&model).is_ok(), bushing::IS_BUILT);
 }
 
 #[test]

@@ -12,6 +12,7 @@ use crate::at::Outside;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 use mbs_core::algebra::rotation_gradient;
+use mbs_core::effects::bushing;
 use mbs_core::laws::scalar::{Law, Measure};
 
 /// What a law measures; points from their links' origins, reference axes.
@@ -63,19 +64,21 @@ impl<T: Real, S: Space<T>> Gauge<T, S> {
                 let gradient = [-S::wrench(&(arms[0] + gap), &d), S::wrench(&arms[1], &d)];
                 (gap.dot(&d) - *offset, gradient)
             }
-            Self::Rotation { number } => {
+            Self::Rotation { number } if bushing::IS_BUILT => {
                 let (w, i) = (at.rotation(links)?, *number as usize);
                 let first = S::rotation_into(&at.placed(links[0])?.rotation);
                 let moment = first * rotation_gradient(&w, i.min(2));
                 let g = S::motion(S::spin_from(&moment), S::Point::zero());
                 (*crate::at::at(w.as_slice(), i)?, [-g, g])
             }
-            Self::Turn => {
+            Self::Turn if S::DIMENSION == 2 => {
                 let (mut x, mut y) = (S::Point::zero(), S::Point::zero());
                 (x[0], y[1]) = (T::ONE, T::ONE);
                 let g = S::motion(S::moment(&x, &y), S::Point::zero());
                 (at.turn(links[1])? - at.turn(links[0])?, [-g, g])
             }
+            // Not in this build, or not in space: a model with one is not loaded.
+            Self::Rotation { .. } | Self::Turn => return Err(Outside),
         };
         let rate = gradient[0].dot(&at.placed(links[0])?.velocity)
             + gradient[1].dot(&at.placed(links[1])?.velocity);

@@ -4,7 +4,7 @@ use crate::at::{Outside, at};
 use crate::link::{Kind, Link, Placed};
 use crate::space::Space;
 use mbs_core::Real;
-use mbs_core::algebra::{Vector, norm};
+use mbs_core::algebra::Vector;
 use mbs_core::laws::Supplies;
 
 /// What loads are evaluated from.
@@ -47,44 +47,6 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
         Ok(sum)
     }
 
-    /// The rotation vector of the second link against the first, in space and the first's axes: twice the half angles of the joints on
-    /// the way make it known below a whole turn.
-    pub(crate) fn rotation(&self, links: [u32; 2]) -> Result<Vector<T, 3>, Outside> {
-        let [[s, x, y, z], second] = [self.quaternion(links[0])?, self.quaternion(links[1])?];
-        let [s, x, y, z] = product([s, -x, -y, -z], second);
-        let v = Vector::<T, 3>::new(x, y, z);
-        let sine = norm(&v);
-        // w = θ v/|v|, tan θ/2 = |v|/s; at no turn 2 v
-        let share = if sine > T::ZERO { T::TWO * sine.atan2(s) / sine } else { T::TWO };
-        Ok(v * share)
-    }
-
-    /// The rotation of a link against the ground, in space, of the sign that its coordinates lead to.
-    fn quaternion(&self, link: u32) -> Result<[T; 4], Outside> {
-        let (mut sum, mut number) = ([T::ONE, T::ZERO, T::ZERO, T::ZERO], link);
-        while number > 0 {
-            let link = at(self.links, number as usize)?;
-            match link.kind {
-                Kind::Revolute | Kind::GuidedRevolute => {
-                    let (s, c) = (self.coordinate(number)?[0] * T::HALF).sin_cos();
-                    let n = S::spin_into(&link.axis) * s;
-                    sum = product([c, n[0], n[1], n[2]], sum);
-                }
-                Kind::Ball | Kind::Free => {
-                    let first = link.z as usize;
-                    let mut own = sum;
-                    for (i, own) in own.iter_mut().enumerate() {
-                        *own = *at(self.coordinates.0, first + i)?;
-                    }
-                    sum = product(own, sum);
-                }
-                Kind::Prismatic | Kind::GuidedPrismatic => {}
-            }
-            number = if link.kind == Kind::Free { 0 } else { link.parent };
-        }
-        Ok(sum)
-    }
-
     /// A link's place.
     #[inline(always)]
     pub(super) fn placed(&self, link: u32) -> Result<&Placed<T, S>, Outside> {
@@ -119,15 +81,4 @@ impl<T: Real, S: Space<T>> Instant<'_, T, S> {
         let c = if S::DIMENSION == 2 { [T::ZERO, T::ZERO, c[0]] } else { c };
         Ok(S::spin_from(&Vector::from(c)))
     }
-}
-
-/// The product of two quaternions.
-fn product<T: Real>(p: [T; 4], q: [T; 4]) -> [T; 4] {
-    let ([a, b, c, d], [e, f, g, h]) = (p, q);
-    [
-        a * e - b * f - c * g - d * h,
-        a * f + b * e + c * h - d * g,
-        a * g - b * h + c * e + d * f,
-        a * h + b * g - c * f + d * e,
-    ]
 }

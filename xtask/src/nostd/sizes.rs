@@ -10,13 +10,18 @@ use std::path::Path;
 /// Modules of the law of tires, which no other effect shares.
 const OF_TIRES: [&str; 4] = ["4laws4tire", "4laws12road_contact", "4laws7calspan", "4laws4road"];
 
-/// The features of effects that bring laws, and mangled modules of mbs-core that must not be in an image without them.
+/// The module of rotations in space, which bushings alone measure.
+const OF_BUSHINGS: &str = "5loads8rotation";
+
+/// The features of effects that bring code, and mangled modules that must not be in an image without them.
 fn features() -> Vec<(&'static str, Vec<String>)> {
-    let with_law = effects::all().filter(|listed| listed.is_exported());
-    let named = with_law.filter_map(|Listed { module, feature, .. }| {
+    let exported = effects::all().filter(|listed| listed.is_exported());
+    let named = exported.filter_map(|Listed { module, feature, .. }| {
         let mut modules = vec![format!("7effects{}{module}", module.len())];
-        if module == "tire" {
-            modules.extend(OF_TIRES.map(str::to_owned));
+        match module {
+            "tire" => modules.extend(OF_TIRES.map(str::to_owned)),
+            "bushing" => modules.push(OF_BUSHINGS.to_owned()),
+            _ => {}
         }
         Some((feature?, modules))
     });
@@ -72,10 +77,12 @@ fn without_others(names: &str, set: &str) -> Result<(), String> {
             return Err(format!("an image without the feature `{feature}` has code of `{module}`"));
         }
     }
-    if set.contains("tire") && !OF_TIRES.iter().any(|module| names.contains(module)) {
-        return Err(
-            "no function of tires is found where they are: the search finds nothing".to_owned()
-        );
+    for (on, modules) in [("tire", &OF_TIRES[..]), ("bushing", &[OF_BUSHINGS])] {
+        if set.contains(on) && !modules.iter().any(|module| names.contains(module)) {
+            return Err(format!(
+                "no function of `{on}` is found where it is: the search finds nothing"
+            ));
+        }
     }
     Ok(())
 }
