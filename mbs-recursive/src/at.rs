@@ -59,9 +59,7 @@ pub(crate) fn copy<X: Copy>(from: &[X], to: &mut [X]) -> Result<(), Outside> {
     if from.len() != to.len() {
         return Err(Outside);
     }
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
-    }
+    to.copy_from_slice(from);
     Ok(())
 }
 
