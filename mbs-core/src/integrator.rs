@@ -57,6 +57,25 @@ impl<T: Real> Integrator<T> {
         Self { beta: half * half, gamma, alpha_m, alpha_f }
     }
 
+    /// Is it of the Newmark family, whose auxiliary accelerations are the accelerations?
+    pub fn is_newmark(&self) -> bool {
+        self.alpha_m == T::ZERO && self.alpha_f == T::ZERO
+    }
+
+    /// The change of an auxiliary acceleration by one of its acceleration at the end of a step; in the Newmark family exactly one.
+    pub fn share(&self) -> T {
+        (T::ONE - self.alpha_f) / (T::ONE - self.alpha_m)
+    }
+
+    /// The auxiliary acceleration at the end of a step, from the acceleration there and both at its beginning.
+    #[inline]
+    pub fn auxiliary(&self, a_next: T, [a, a_aux]: [T; 2]) -> T {
+        if self.is_newmark() {
+            return a_next;
+        }
+        self.share() * a_next + (self.alpha_f * a - self.alpha_m * a_aux) / (T::ONE - self.alpha_m)
+    }
+
     /// The coefficients for steps of length `dt` [s].
     pub fn rule(&self, dt: T) -> Rule<T> {
         let auxiliary = T::ONE / (self.beta * dt * dt);

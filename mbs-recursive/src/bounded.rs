@@ -22,7 +22,7 @@ use crate::space::Space;
 use crate::trapezoidal::{Start, failure, reach_end};
 use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
-use mbs_core::step::{StepError, largest_or_nan};
+use mbs_core::step::{OptionError, StepError, largest_or_nan};
 
 /// How much work a step is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,12 +84,12 @@ pub struct BoundedReport<T> {
 
 /// Makes one step of length `dt` [s]: the end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`.
 ///
-/// Of `options` the integrator, the closure and the regularisation count.
+/// Of `options` the integrator, one of the Newmark family, the closure and the regularisation count.
 ///
 /// Cost: `bounds.evaluations` evaluations, and as many responses as further sweeps, and two for each projection; no allocation.
 ///
 /// # Errors
-/// [`StepError::NotFinite`], [`StepError::Singular`], [`StepError::RankLost`], [`StepError::Tables`].
+/// [`StepError::NotFinite`], [`StepError::Singular`], [`StepError::RankLost`], [`StepError::Tables`], [`StepError::BadOption`].
 pub fn step<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     inputs: &impl Inputs<T>,
@@ -97,6 +97,9 @@ pub fn step<T: Real, S: Space<T>>(
     (start, watch): (Start<'_, T>, &mut impl Watch),
     s: &mut Store<'_, T, S>,
 ) -> Result<BoundedReport<T>, StepError> {
+    if !options.integrator.is_newmark() {
+        return Err(OptionError::NotBuilt("integrator").into());
+    }
     s.counts = Counts::default();
     inputs.evaluate(start.t + dt, s.guides, s.courses);
     let report = advance_by(m, (dt, options, bounds), (start, watch), s);
@@ -155,7 +158,7 @@ fn advance_by<T: Real, S: Space<T>>(
     };
     let evaluations = bounds.evaluations.max(1);
     loop {
-        reach_end(m, (dt, options), &start, s)?;
+        reach_end(m, (dt, options), (&start, start.a, |_, next| next), s)?;
         if report.evaluations == evaluations {
             break;
         }

@@ -277,13 +277,14 @@ fn walk<T: Real>(
 ) -> Restored {
     book.kind(3)?;
     // What is set goes with the natural state.
-    let TreeState { t, z, v, a, lambda, inputs: _, applied, work, power } = state;
+    let TreeState { t, z, v, a, a_aux, lambda, inputs: _, applied, work, power } = state;
     book.real("t", t)?;
     book.real("work", work)?;
     book.real("power", power)?;
     book.rows("z", z)?;
     book.rows("v", v)?;
     book.rows("a", a)?;
+    book.rows("auxiliary", a_aux)?;
     book.rows("lambda", lambda)?;
     book.vectors("inputs", applied.as_chunks_mut::<3>().0)?;
     let OfWorkspace { rank, pivots, pair, eighth, extrapolation, radau } = own;

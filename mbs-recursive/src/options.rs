@@ -7,7 +7,7 @@ use mbs_core::step::OptionError;
 /// Choices for a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options<T> {
-    /// Time integrator of the implicit step, by its beta and gamma alone: of the Newmark family.
+    /// Time integrator of the implicit step; bounded steps take one of the Newmark family.
     pub integrator: Integrator<T>,
     /// A correction below this times the step's own displacement a dt²/2 is small [-].
     pub tolerance: T,

@@ -142,7 +142,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let level = Level::Fine;
         let left = accelerations_under(&m, &Options::default(), (level, efforts), &mut s);
         left.map_err(|fault| failure(&m, fault))?;
-        state.a.copy_from_slice(s.zdd);
+        state.set_accelerations(s.zdd);
         state.lambda.copy_from_slice(s.lambda);
         Ok(())
     }

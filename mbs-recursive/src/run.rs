@@ -18,7 +18,7 @@ use mbs_core::algebra::{Vector, cross};
 use mbs_core::ode::{Adaptive, Extrapolation, Method, Radau, Tableau};
 use mbs_core::step::{Step, StepError, StepReport};
 
-/// Advances `state` by one step of length `dt` [s] of the trapezoidal rule or another of the Newmark family.
+/// Advances `state` by one step of length `dt` [s] of the trapezoidal rule, or another of the Newmark and generalised-alpha families.
 ///
 /// Cost: see [`trapezoidal::step`]; no allocation.
 ///
@@ -36,12 +36,13 @@ pub fn step<T: Real, S: Space<T>>(
     let m = model.mechanism();
     let mut s = workspace.store();
     let start = Start { t: state.t, z: &state.z, v: &state.v, a: &state.a };
+    let start = (start, &state.a_aux[..]);
     let report = trapezoidal::step(&m, &model.inputs(state), (dt, options), start, &mut s);
     let report = report.map_err(|error| model.with_effect(error))?;
     // Work by the trapezoidal rule in time.
     let power = own(ledger::power(&m, &mut s));
     state.work += (state.power + power) * dt * T::HALF;
-    take((dt, power), &s, state);
+    take(options, (dt, power), &s, state);
     Ok(report)
 }
 
@@ -67,7 +68,7 @@ pub fn bounded_step<T: Real, S: Space<T>>(
     let start = (start, &mut Unwatched);
     let report = bounded::step(&m, &model.inputs(state), (dt, options, bounds), start, &mut s);
     let report = report.map_err(|error| model.with_effect(error))?;
-    take((dt, state.power), &s, state);
+    take(options, (dt, state.power), &s, state);
     Ok(report)
 }
 
@@ -94,7 +95,7 @@ pub fn rk4_step<T: Real, S: Space<T>>(
     let report = report.map_err(|error| model.with_effect(error))?;
     state.work += work(scratch);
     let power = own(ledger::power(&m, &mut s));
-    take((dt, power), &s, state);
+    take(options, (dt, power), &s, state);
     Ok(report)
 }
 
@@ -207,7 +208,7 @@ fn controlled<T: Real, S: Space<T>, M: Method<T>>(
     let report = report.map_err(|error| model.with_effect(error))?;
     state.work += work(scratch);
     let power = own(ledger::power(&m, &mut s));
-    take((dt, power), &s, state);
+    take(options, (dt, power), &s, state);
     Ok(report)
 }
 
@@ -223,13 +224,21 @@ fn work<T: Real>(scratch: &Explicit<T>) -> T {
 }
 
 /// The end of a step enters the state.
-fn take<T: Real, S: Space<T>>((dt, power): (T, T), s: &Store<'_, T, S>, state: &mut TreeState<T>) {
+fn take<T: Real, S: Space<T>>(
+    options: &Options<T>,
+    (dt, power): (T, T),
+    s: &Store<'_, T, S>,
+    state: &mut TreeState<T>,
+) {
+    for ((aux, a), &next) in state.a_aux.iter_mut().zip(&mut state.a).zip(&*s.zdd) {
+        *aux = options.integrator.auxiliary(next, [*a, *aux]);
+        *a = next;
+    }
     state.applied.copy_from_slice(&state.inputs);
     state.t += dt;
     state.power = power;
     state.z.copy_from_slice(s.z);
     state.v.copy_from_slice(s.v);
-    state.a.copy_from_slice(s.zdd);
     state.lambda.copy_from_slice(s.lambda);
 }
 
@@ -259,7 +268,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         s.v.copy_from_slice(&state.v);
         self.inputs(state).evaluate(state.t, s.guides, s.courses);
         accelerations(&m, options, Level::Fine, &mut s).map_err(|fault| failure(&m, fault))?;
-        state.a.copy_from_slice(s.zdd);
+        state.set_accelerations(s.zdd);
         state.lambda.copy_from_slice(s.lambda);
         Ok(())
     }
@@ -291,7 +300,10 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         let after = own(ledger::potential(&m, &s.instant(&m)));
         state.power = own(ledger::power(&m, &mut s));
         state.work += after - before;
-        state.a.copy_from_slice(s.zdd);
+        for ((aux, a), &new) in state.a_aux.iter_mut().zip(&mut state.a).zip(&*s.zdd) {
+            *aux = if aux == a { new } else { new + (*aux - *a) };
+            *a = new;
+        }
         state.lambda.copy_from_slice(s.lambda);
         self.prescribed.apply(&state.inputs, &mut state.applied);
         Ok(true)

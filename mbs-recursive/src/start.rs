@@ -167,7 +167,7 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
         state.applied.copy_from_slice(&state.inputs);
         state.z.copy_from_slice(s.z);
         state.v.copy_from_slice(s.v);
-        state.a.copy_from_slice(s.zdd);
+        state.set_accelerations(s.zdd);
         state.lambda.copy_from_slice(s.lambda);
         Ok(())
     }

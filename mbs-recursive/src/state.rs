@@ -24,6 +24,8 @@ pub struct TreeState<T> {
     pub v: Vec<T>,
     /// Rates of the velocities.
     pub a: Vec<T>,
+    /// Auxiliary accelerations of the generalised-alpha family; equal to `a` in the Newmark family.
+    pub a_aux: Vec<T>,
     /// Multipliers of the cut joints' equations [N, N m].
     pub lambda: Vec<T>,
     /// What is set from outside for the next step, in the places that
@@ -49,12 +51,19 @@ impl<T: Real> TreeState<T> {
             z,
             v: vec![T::ZERO; model.n_freedoms],
             a: vec![T::ZERO; model.n_freedoms],
+            a_aux: vec![T::ZERO; model.n_freedoms],
             lambda: vec![T::ZERO; model.rows.len()],
             inputs: model.prescribed.inputs(),
             applied: model.prescribed.inputs(),
             work: T::ZERO,
             power: T::ZERO,
         }
+    }
+
+    /// Accelerations that are known anew: auxiliary ones follow.
+    pub(crate) fn set_accelerations(&mut self, a: &[T]) {
+        self.a.copy_from_slice(a);
+        self.a_aux.copy_from_slice(a);
     }
 
     /// Overwrites this state with another of the same model, without allocating.
@@ -70,6 +79,7 @@ impl<T: Real> TreeState<T> {
         self.z.copy_from_slice(&other.z);
         self.v.copy_from_slice(&other.v);
         self.a.copy_from_slice(&other.a);
+        self.a_aux.copy_from_slice(&other.a_aux);
         self.lambda.copy_from_slice(&other.lambda);
         self.work = other.work;
         self.power = other.power;

@@ -1,10 +1,13 @@
-//! The trapezoidal rule by fixed-point iteration [P3 (43)-(44)], in increments.
+//! The trapezoidal rule and its family by fixed-point iteration [P3 (43)-(44)], in increments.
 //!
 //! ```text
 //! δ = h ż + h² ((1/2 − β) z̈ + β z̈ₙ₊₁),   zₙ₊₁ = zₙ ⊕ δ       β = 1/4                  [P3 (43)]
 //! żₙ₊₁ = żₙ + h ((1 − γ) z̈ + γ z̈ₙ₊₁)                           γ = 1/2                  [P3 (44)]
 //! z̈ₙ₊₁ by the three passes at (zₙ₊₁, żₙ₊₁), until h² β Δz̈ is small
 //! ```
+//!
+//! Generalised-alpha and HHT have auxiliary accelerations in both formulas, and z̈ₙ₊₁ in balance as above [P1 (32)]
+//! ([`Integrator::auxiliary`]).
 //!
 //! Effects answer to Δz̈ within the passes, so that stiff ones let the iteration contract (`loads::Reach`), and iterates of models with
 //! effects are mixed (`mixing`); without effects the iteration is the source's.
@@ -23,6 +26,7 @@ use crate::project::{advance, project, rounding};
 use crate::space::Space;
 use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
+use mbs_core::integrator::Integrator;
 use mbs_core::step::{StepError, StepReport, Stop, largest, largest_or_nan};
 
 /// So many iterates in a row that do not halve the least correction, and it falls no more.
@@ -43,7 +47,7 @@ pub struct Start<'a, T> {
     pub a: &'a [T],
 }
 
-/// Makes one step of length `dt` [s]: the end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`.
+/// Makes one step of length `dt` [s] from a start with its auxiliary accelerations: the end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`.
 ///
 /// Cost: three to six evaluations for steps that resolve the motion, stiff effects or not; no allocation.
 ///
@@ -53,7 +57,7 @@ pub fn step<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     inputs: &impl Inputs<T>,
     (dt, options): (T, &Options<T>),
-    start: Start<'_, T>,
+    (start, aux): (Start<'_, T>, &[T]),
     s: &mut Store<'_, T, S>,
 ) -> Result<StepReport<T>, StepError> {
     s.counts = crate::mechanism::Counts::default();
@@ -68,7 +72,7 @@ pub fn step<T: Real, S: Space<T>>(
     }
     inputs.evaluate(start.t + dt, s.guides, s.courses);
     s.zdd.copy_from_slice(start.a);
-    let (iterations, correction, stop) = iterate(m, (dt, options), (start, projects), s)?;
+    let (iterations, correction, stop) = iterate(m, (dt, options), ((start, aux), projects), s)?;
     let mut violation = [T::ZERO; 3];
     if options.closure == Closure::Constraints && !m.loops.loops.is_empty() {
         let [position, velocity] =
@@ -94,16 +98,17 @@ pub fn step<T: Real, S: Space<T>>(
 fn iterate<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     (dt, options): (T, &Options<T>),
-    (start, projects): (Start<'_, T>, bool),
+    ((start, aux), projects): ((Start<'_, T>, &[T]), bool),
     s: &mut Store<'_, T, S>,
 ) -> Result<(u32, T, Stop), StepError> {
-    let share = dt * dt * options.integrator.beta;
-    let reach = Reach { place: share, speed: dt * options.integrator.gamma };
+    let next = |i: usize, next| options.integrator.auxiliary(next, [start.a[i], aux[i]]);
+    let reach = reach_of(&options.integrator, dt);
+    let share = reach.place;
     let mut mixing = Mixing::default();
     let ([mut last, mut last_rest], mut is_slow) = ([T::ZERO; 2], projects);
     let (mut best, mut stalled) = (T::from_f64(f64::INFINITY), 0);
     for iterations in 1..=options.max_iterations {
-        reach_end(m, (dt, options), &start, s).map_err(|f| failure(m, f.into()))?;
+        reach_end(m, (dt, options), (&start, aux, next), s).map_err(|f| failure(m, f.into()))?;
         s.scratch.copy_from_slice(s.zdd);
         if is_slow {
             project(m, (options, rounding()), s).map_err(|f| failure(m, f))?;
@@ -163,6 +168,12 @@ fn iterate<T: Real, S: Space<T>>(
     })
 }
 
+/// How far places and velocities at the end go with the accelerations there.
+fn reach_of<T: Real>(integrator: &Integrator<T>, dt: T) -> Reach<T> {
+    let share = integrator.share();
+    Reach { place: dt * dt * integrator.beta * share, speed: dt * integrator.gamma * share }
+}
+
 /// Why an iteration that does not contract may end with this correction, beside what accelerations move in the step, if it may.
 fn given_up<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
@@ -188,18 +199,18 @@ fn given_up<T: Real, S: Space<T>>(
     (is_small && (m.loads.is_empty() || stalled >= STALLED)).then_some(Stop::Tolerance)
 }
 
-/// zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁; increments are left in the scratch.
+/// zₙ₊₁ and żₙ₊₁ from z̈ₙ₊₁, with the auxiliary accelerations at the start and, by `next`, at the end; increments are left in the scratch.
 #[inline]
 pub(crate) fn reach_end<T: Real, S: Space<T>>(
     m: &Mechanism<'_, T, S>,
     (dt, options): (T, &Options<T>),
-    start: &Start<'_, T>,
+    (start, aux, next): (&Start<'_, T>, &[T], impl Fn(usize, T) -> T),
     s: &mut Store<'_, T, S>,
 ) -> Result<(), Outside> {
     let (beta, gamma) = (options.integrator.beta, options.integrator.gamma);
-    for (i, (&v, &a)) in start.v.iter().zip(start.a).enumerate() {
+    for (i, (&v, &a)) in start.v.iter().zip(aux).enumerate() {
         // [P3 (43)-(44)]
-        let next = *at(s.zdd, i)?;
+        let next = next(i, *at(s.zdd, i)?);
         *at_mut(s.v, i)? = v + dt * ((T::ONE - gamma) * a + gamma * next);
         *at_mut(s.scratch, i)? = dt * (v + dt * ((T::HALF - beta) * a + beta * next));
     }

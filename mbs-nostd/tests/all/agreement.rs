@@ -2,6 +2,8 @@
 
 use crate::support::start;
 use mbs_core::effects::{bushing, laws::SpringDamperLaw};
+use mbs_core::integrator::Integrator;
+use mbs_core::step::{OptionError, StepError};
 use mbs_nostd::export::{Gathered, bytes, needs};
 use mbs_nostd::table::{Gauge, Law, Load};
 use mbs_nostd::{Bounds, Checked, Options, Solver, Spatial, Tables, Unwatched};
@@ -88,6 +90,18 @@ fn rungs_drop_the_effects_of_the_ladder_in_its_order_and_time_that_runs_out_clim
         assert!(report.is_cut_short && report.evaluations == 1 && report.projections == 0);
         assert_eq!(solver.ladder.rung(), rung);
     }
+}
+
+#[test]
+fn a_solver_refuses_integrators_with_auxiliary_accelerations() {
+    let (tree, begin) = vehicle("six-joint-arm");
+    let gathered = Gathered::new(&tree, &begin, &[]);
+    let model = Checked::new(&gathered.model()).expect("a model");
+    let mut solver = Room::new(&model).expect("room");
+    solver.options.integrator = Integrator::hht(0.05);
+    let refused = StepError::BadOption(OptionError::NotBuilt("integrator"));
+    assert_eq!(solver.step(&model, 1e-3, &mut Unwatched), Err(refused));
+    assert_eq!(solver.time().to_bits(), 0);
 }
 
 #[test]

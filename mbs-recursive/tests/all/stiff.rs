@@ -2,6 +2,7 @@
 
 use crate::support::Run;
 use core::f64::consts::PI;
+use mbs_core::integrator::Integrator;
 use mbs_core::scene::Scene;
 use mbs_recursive::{Planar, Spatial};
 use mbs_testkit::file;
@@ -63,6 +64,33 @@ fn a_stiff_chain_follows_the_trapezoidal_rule_s_own_phase_and_keeps_its_amplitud
             // Each step may be off by the tolerance 1e-10 of its displacement a dt²/2 = 12.5 of the amplitude.
             let apart = (run.state.z[i] - told).abs() / amplitude;
             assert!(apart < 1e-10 * 25.0 * f64::from(n), "step {n}, mass {i}: {apart}");
+        }
+    }
+}
+
+#[test]
+fn generalised_alpha_and_hht_damp_high_frequencies_by_their_closed_forms() {
+    // For ω h → ∞ the steps have the roots −ρ, twice, and −s, s = αf / (1 − αf) (Chung and Hulbert, 1993; Hilber, 1977). Here ω h is
+    // 3162: what that leaves out is 1e-7, and the rounding of a length of 1 m some 1e-7 of the last places.
+    const LEVEL: f64 = 3e-6;
+    let cases = [(Integrator::generalised_alpha(0.8), 0.8), (Integrator::hht(0.05), 0.95 / 1.05)];
+    for (integrator, rho) in cases {
+        let s = integrator.alpha_f / (1.0 - integrator.alpha_f);
+        let mut run = Run::<Planar>::new::<2>(&masses(1));
+        run.options.integrator = integrator;
+        run.state.z[0] = 1e-7;
+        run.accelerate();
+        let mut places = vec![run.state.z[0]];
+        for n in 1..=20 {
+            run.step(1.0).unwrap_or_else(|e| panic!("step {n}: {e}"));
+            places.push(run.state.z[0]);
+        }
+        for four in places.windows(4) {
+            let told = (2.0 * rho + s) * four[2]
+                + rho * (rho + 2.0 * s) * four[1]
+                + rho * rho * s * four[0];
+            let size = four.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            assert!((four[3] + told).abs() < LEVEL * size, "{integrator:?}: {four:?}");
         }
     }
 }

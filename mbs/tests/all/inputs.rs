@@ -39,12 +39,8 @@ fn methods() -> impl Iterator<Item = (&'static str, &'static str)> {
     const SLOPES: [&str; 5] = ["rk4", "rk54", "rk853", "gbs", "radau5"];
     let natural = ["index-1", "index-3", "classical", "state-space", "multi-index"];
     let with = |name, rules: &'static [&'static str]| rules.iter().map(move |&rule| (name, rule));
-    // In the tree the two families with auxiliary accelerations are not built.
-    natural
-        .into_iter()
-        .flat_map(move |name| with(name, &RULES))
-        .chain(with("recursive", &RULES[..2]))
-        .chain(with("recursive", &SLOPES))
+    let all = natural.into_iter().chain(["recursive"]);
+    all.flat_map(move |name| with(name, &RULES)).chain(with("recursive", &SLOPES))
 }
 
 /// A wheel of 1 kg m^2 on a fixed axle, with a torque that is set between steps.

@@ -299,6 +299,7 @@ fn what_relative_coordinates_keep_matters() {
     let case = Case { formulation: "recursive", ..CASE };
     every_item_matters::<2>(case, &items);
     every_item_matters::<3>(Case { scene: "spatial-four-bar", ..case }, &items);
+    every_item_matters::<2>(Case { integrator: "hht", ..case }, &[("auxiliary", Left::Fresh)]);
     let items = [("pivots", Left::Of(|part| all(part, 0.0)))];
     every_item_matters::<2>(Case { scene: "two-four-bars", ..case }, &items);
     for integrator in ["rk54", "rk853", "gbs", "radau5"] {

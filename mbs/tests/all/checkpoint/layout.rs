@@ -246,7 +246,7 @@ impl<'a> Walk<'a> {
     fn tree(&mut self) -> Option<()> {
         self.named("time of the tree", |walk| walk.numbers(1))?;
         self.numbers(2)?;
-        for name in ["coordinates", "rates", "second rates"] {
+        for name in ["coordinates", "rates", "second rates", "auxiliary"] {
             self.named(name, Self::list_of_numbers)?;
         }
         self.list_of_numbers()?;
