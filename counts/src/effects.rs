@@ -2,12 +2,14 @@
 
 use mbs_core::effects::{EFFECTS, Places, Row};
 use mbs_core::laws::body::{Action, BodyMotion};
+use mbs_core::laws::code::{self, Force as Given, Measured, MeasuredBody, Wrench};
 use mbs_core::laws::own::{ScalarLaw, UserBodyLaw, UserScalarLaw, WrenchLaw};
 use mbs_core::laws::scalar::Measure;
 use mbs_core::scene::{
     Actuator, AeroDrag, AxisFrame, BodyId, BodyTorque, Bumper, Bushing, CalspanCoefficients,
-    Dimension, EffectKind, Force, Friction, JointId, JointTorque, Limit, Own, Polynomial,
-    PolynomialPiece, Signal, SpeedHold, SpringDamper, Tire, TorsionSpring, UserLaw,
+    Dimension, EffectKind, Force, Friction, JointId, JointTorque, LawOnBody, LawOnJoint, LawOnLine,
+    Limit, Own, Polynomial, PolynomialPiece, Signal, SpeedHold, SpringDamper, Tire, TorsionSpring,
+    UserLaw,
 };
 
 /// The coupler, its centre, and a pair of points on the ground and on the rocker.
@@ -123,6 +125,14 @@ fn between(points: [[f64; 3]; 2], six: [f64; 6]) -> Vec<(&'static str, EffectKin
                 course: Signal::Constant([1.0; 3]),
             }),
         ),
+        (
+            "law-on-line",
+            LawOnLine { bodies, points, law: Steady.into(), input: Signal::Input([1.0; 3]) }.into(),
+        ),
+        (
+            "law-on-joint",
+            LawOnJoint { joint, law: Steady.into(), input: Signal::Input([1.0; 3]) }.into(),
+        ),
     ]
 }
 
@@ -167,11 +177,35 @@ fn on_a_body(at: [f64; 3], dimension: Dimension) -> Vec<(&'static str, EffectKin
                 course: Signal::Constant([1.0; 3]),
             }),
         ),
+        (
+            "law-on-body",
+            LawOnBody {
+                body,
+                at,
+                axis: [1.0, 0.0, 0.0],
+                law: Steady.into(),
+                input: Signal::Input([1.0; 3]),
+            }
+            .into(),
+        ),
     ]
 }
 
 /// A law of a user's own: as much as its input says.
+#[derive(Debug)]
 struct Steady;
+
+impl code::ForceLaw for Steady {
+    fn evaluate(&self, at: &Measured) -> Given {
+        Given { force: at.input[0], energy: at.input[0] * at.value, ..Given::default() }
+    }
+}
+
+impl code::BodyLaw for Steady {
+    fn evaluate(&self, at: &MeasuredBody) -> Wrench {
+        Wrench { force: at.axis.map(|x| -at.input[0] * x), ..Wrench::default() }
+    }
+}
 
 impl ScalarLaw<f64> for Steady {
     fn evaluate(_: f64, _: f64, input: [f64; 3]) -> Measure<f64> {

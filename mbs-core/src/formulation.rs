@@ -2,6 +2,7 @@
 
 use crate::Real;
 use crate::history::{History, RestoreError};
+use crate::laws::code::Codes;
 use crate::model::{Model, Owner, State, Terms};
 use crate::natural::NaturalModel;
 use crate::step::{Step, StepError, StepReport};
@@ -88,6 +89,11 @@ pub trait Formulation<T: Real, const D: usize>: Debug + Send + Sync + Erased<T, 
 
     /// The terms of the natural-coordinate model as last evaluated; nothing where other coordinates are stepped.
     fn terms(&self) -> Option<&Terms<T>>;
+
+    /// The user-defined laws by which it steps: whether one of them failed.
+    fn codes<'a>(&'a self, model: &'a NaturalModel<T, D>) -> &'a Codes {
+        model.codes()
+    }
 
     /// Kinetic and potential energy, and the work so far [J].
     fn energies(&self, model: &NaturalModel<T, D>, state: &State<T>) -> [f64; 3] {

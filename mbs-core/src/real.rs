@@ -56,6 +56,13 @@ pub trait Real:
 
     /// The nearest number to `x`.
     fn from_f64(x: f64) -> Self;
+    /// The value of a function that was computed in `f64`, with its slope along each number that it depends on: what carries
+    /// derivatives along takes those from the slopes.
+    #[inline]
+    #[must_use]
+    fn from_f64_with(value: f64, _slopes: &[(f64, Self)]) -> Self {
+        Self::from_f64(value)
+    }
     /// The nearest number to a decimal text such as `9.81` or `1.0e-3`; `None` when it is not one.
     fn from_decimal(text: &str) -> Option<Self>;
     /// The nearest `f64`.

@@ -10,6 +10,7 @@ use mbs_core::Real;
 use mbs_core::actions::{Action, Actions};
 use mbs_core::formulation::{Formulation, SwitchError};
 use mbs_core::history::{Book, History, RestoreError, Restored};
+use mbs_core::laws::code::Codes;
 use mbs_core::model::{Model, Owner, State, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::ode::{AdaptiveHistory, RadauHistory};
@@ -203,6 +204,10 @@ impl<T: Real, S: Space<T>, const D: usize> Formulation<T, D> for Tree<T, S> {
 
     fn terms(&self) -> Option<&Terms<T>> {
         None
+    }
+
+    fn codes<'a>(&'a self, _natural: &'a NaturalModel<T, D>) -> &'a Codes {
+        self.model.codes()
     }
 
     fn energies(&self, _natural: &NaturalModel<T, D>, state: &State<T>) -> [f64; 3] {

@@ -21,6 +21,7 @@ use mbs_core::actions::{Actions, Tables};
 use mbs_core::algebra::{Matrix, Vector};
 use mbs_core::cluster::{Cluster, Clusters, scene_length};
 use mbs_core::inputs::Prescribed;
+use mbs_core::laws::code::Codes;
 use mbs_core::model::Owner;
 use mbs_core::scene::align::aligned;
 use mbs_core::scene::{BodyId, Freedom, Joint, Scene};
@@ -321,6 +322,12 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
             n_coordinates: self.n_coordinates,
             n_freedoms: self.n_freedoms,
         }
+    }
+
+    /// User-defined laws that are objects.
+    #[must_use]
+    pub fn codes(&self) -> &Codes {
+        self.tables.codes()
     }
 
     /// The index of the scene's effect that each load of the mechanism comes from.

@@ -25,7 +25,8 @@ impl Listed {
 
     /// Can tables of controllers have what its feature brings: its law, or what bushings measure?
     pub(crate) fn is_exported(self) -> bool {
-        (self.has_law || self.module == "bushing") && self.module != "own"
+        let is_code = self.module == "own" || self.module.starts_with("law_on");
+        (self.has_law || self.module == "bushing") && !is_code
     }
 }
 

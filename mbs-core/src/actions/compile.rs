@@ -3,9 +3,11 @@
 use super::{Action, ActionError, Actions, Seat, Tables};
 use crate::Real;
 use crate::algebra::{Vector, norm};
+use crate::effects::laws::{CodeBodyLaw, CodeLaw};
 use crate::inputs::{Prescribed, SignalInput};
 use crate::laws::Part;
 use crate::laws::body::BodyLaw;
+use crate::laws::code::{BodyLaw as BodyCode, Code, ForceLaw};
 use crate::laws::scalar::Law;
 use crate::scene::{BodyId, Dimension, Freedom, JointId, Scene, Signal};
 use alloc::vec::Vec;
@@ -20,6 +22,7 @@ impl<T: Real> Actions<T> {
             scene,
             effect: 0,
             roads: None,
+            clock: None,
             actions: Self {
                 list: Vec::new(),
                 prescribed: Prescribed::new(scene),
@@ -43,6 +46,8 @@ pub(crate) struct Compiler<'a, T> {
     effect: usize,
     /// Features of the left and the right track, and the course of a moving road, once a tire asks.
     pub(super) roads: Option<([Part; 2], Option<u32>)>,
+    /// The course of time itself, once a law asks.
+    clock: Option<u32>,
     pub(crate) actions: Actions<T>,
 }
 
@@ -62,6 +67,33 @@ impl<T: Real> Compiler<'_, T> {
 
     pub(super) fn input(&mut self, input: SignalInput<T>) -> u32 {
         number(self.actions.prescribed.add(self.effect, input))
+    }
+
+    /// The number of a course whose first component is the time [s].
+    fn clock(&mut self) -> u32 {
+        if let Some(clock) = self.clock {
+            return clock;
+        }
+        let clock = self.input(SignalInput::travel(T::ONE));
+        *self.clock.insert(clock)
+    }
+
+    /// A law along a line or on a joint that is an object.
+    pub(crate) fn force_code(&mut self, law: &Code<dyn ForceLaw>, input: &Signal<T>) -> CodeLaw<T> {
+        let effect = number(self.effect);
+        let number = self.actions.tables.codes.add_force(effect, law);
+        CodeLaw::new(number, [self.course(input), self.clock()])
+    }
+
+    /// A law on a body that is an object.
+    pub(crate) fn body_code(
+        &mut self,
+        law: &Code<dyn BodyCode>,
+        input: &Signal<T>,
+    ) -> CodeBodyLaw<T> {
+        let effect = number(self.effect);
+        let number = self.actions.tables.codes.add_body(effect, law);
+        CodeBodyLaw::new(number, [self.course(input), self.clock()])
     }
 
     /// Adds an action by a law. One whose feature is off has none: its effect is refused before.

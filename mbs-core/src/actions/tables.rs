@@ -2,6 +2,7 @@
 
 use crate::Real;
 use crate::laws::Supplies;
+use crate::laws::code::Codes;
 use crate::laws::polynomial::Piece;
 use crate::laws::road::Feature;
 use alloc::vec::Vec;
@@ -13,12 +14,24 @@ pub struct Tables<T> {
     pub(super) features: Vec<Feature<T>>,
     pub(super) knots: Vec<[T; 2]>,
     pub(super) curvatures: Vec<T>,
+    pub(super) codes: Codes,
 }
 
 impl<T: Real> Tables<T> {
     /// No tables.
     pub(super) fn empty() -> Self {
-        Self { pieces: Vec::new(), features: Vec::new(), knots: Vec::new(), curvatures: Vec::new() }
+        Self {
+            pieces: Vec::new(),
+            features: Vec::new(),
+            knots: Vec::new(),
+            curvatures: Vec::new(),
+            codes: Codes::default(),
+        }
+    }
+
+    /// User-defined laws that are objects.
+    pub fn codes(&self) -> &Codes {
+        &self.codes
     }
 
     /// What laws ask for, with the courses of this instant.
@@ -32,6 +45,8 @@ impl<T: Real> Tables<T> {
             features: &self.features,
             #[cfg(feature = "tire")]
             knots: (&self.knots, &self.curvatures),
+            #[cfg(feature = "own-laws")]
+            codes: Some(&self.codes),
         }
     }
 }

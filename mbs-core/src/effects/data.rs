@@ -3,7 +3,7 @@
 pub(super) use super::field::Default::{As, Needed, NeededWith, Nothing, Number, Times};
 pub(super) use super::field::JointNeed::{Coordinate, Rotation};
 pub(super) use super::field::Sign::{Any, NotNegative, Positive};
-pub(super) use super::field::SignalForm::{Moment, Scalar, Vector};
+pub(super) use super::field::SignalForm::{Moment, Scalar, Three, Vector};
 pub(super) use super::field::effect;
 pub(super) use super::kind::EffectModel;
 pub(super) use crate::Real;

@@ -1,8 +1,9 @@
 //! An example of any kind, made of its fields alone: for tests and measurements that go over all kinds.
 
-use super::{EFFECTS, Form, Sign, SignalForm, Value};
+use super::{EFFECTS, Field, Form, Sign, SignalForm, Value};
 use crate::scene::{AxisFrame, BodyId, EffectKind, JointId, PolynomialPiece, Signal};
 use alloc::vec;
+use alloc::vec::Vec;
 
 /// Where an example acts.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,32 +22,38 @@ impl EffectKind<f64> {
     pub fn example(row: usize, places: &Places) -> Option<Self> {
         let fields = EFFECTS.get(row)?.fields;
         let mut number = 0.9;
-        let values = fields.iter().map(|field| match field.form {
-            Form::Bodies => Value::Bodies(places.pair.0),
-            Form::Body => Value::Body(places.body.0),
-            Form::Joint(_) => Value::Joint(places.joint),
-            Form::Point => Value::Point(places.body.1),
-            Form::Points(_) => Value::Points(places.pair.1),
-            Form::Axis => Value::Axis([1.0, 0.0, 0.0]),
-            Form::MaybeAxis => Value::MaybeAxis(None),
-            Form::Number(Sign::Any | Sign::NotNegative | Sign::Positive) => {
-                number += 0.1;
-                Value::Number(number)
-            }
-            // in the plane along x, y and about z
-            Form::Six => Value::Six([1.0, 1.0, 0.0, 0.0, 0.0, 1.0]),
-            Form::Pieces => Value::Pieces(vec![PolynomialPiece {
-                lower: 0.0,
-                upper: 9.0,
-                coefficients: vec![1.0, 1.0],
-            }]),
-            Form::Signal(SignalForm::Scalar | SignalForm::Vector | SignalForm::Moment) => {
-                Value::Signal(Signal::Input([1.0, 0.0, 0.0]))
-            }
-            Form::Frame => Value::Frame(AxisFrame::Body),
-            Form::Side => Value::Side(None),
-            Form::Name(_) => Value::Name(false),
-        });
-        Self::of(row, values)
+        let value = |field: &Field| {
+            Some(match field.form {
+                Form::Bodies => Value::Bodies(places.pair.0),
+                Form::Body => Value::Body(places.body.0),
+                Form::Joint(_) => Value::Joint(places.joint),
+                Form::Point => Value::Point(places.body.1),
+                Form::Points(_) => Value::Points(places.pair.1),
+                Form::Axis => Value::Axis([1.0, 0.0, 0.0]),
+                Form::MaybeAxis => Value::MaybeAxis(None),
+                Form::Number(Sign::Any | Sign::NotNegative | Sign::Positive) => {
+                    number += 0.1;
+                    Value::Number(number)
+                }
+                // in the plane along x, y and about z
+                Form::Six => Value::Six([1.0, 1.0, 0.0, 0.0, 0.0, 1.0]),
+                Form::Pieces => Value::Pieces(vec![PolynomialPiece {
+                    lower: 0.0,
+                    upper: 9.0,
+                    coefficients: vec![1.0, 1.0],
+                }]),
+                Form::Signal(
+                    SignalForm::Scalar
+                    | SignalForm::Vector
+                    | SignalForm::Moment
+                    | SignalForm::Three,
+                ) => Value::Signal(Signal::Input([1.0, 0.0, 0.0])),
+                Form::Frame => Value::Frame(AxisFrame::Body),
+                Form::Side => Value::Side(None),
+                Form::Name(_) => Value::Name(false),
+                Form::ForceLaw | Form::BodyLaw => return None,
+            })
+        };
+        Self::of(row, fields.iter().map(value).collect::<Option<Vec<_>>>()?)
     }
 }

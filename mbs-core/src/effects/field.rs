@@ -2,6 +2,7 @@
 //!
 //! Reader, writer, checks, documents and tests go through fields and values; none of them has a list of kinds.
 
+use crate::laws::code::{BodyLaw, Code, ForceLaw};
 use crate::scene::{
     AxisFrame, BodyId, CalspanCoefficients, Dimension, JointId, PolynomialPiece, Signal,
 };
@@ -28,7 +29,7 @@ impl Field {
         let keys = match self.form {
             Form::Signal(_) => [Some(self.key), Some("table"), Some("input")],
             Form::Side => [Some(self.key), Some("coefficients"), None],
-            Form::Name(_) => [None; 3],
+            Form::Name(_) | Form::ForceLaw | Form::BodyLaw => [None; 3],
             _ => [Some(self.key), None, None],
         };
         keys.into_iter().flatten()
@@ -67,6 +68,10 @@ pub enum Form {
     Side,
     /// Whether the effect has this one of the names of its kind.
     Name(&'static str),
+    /// A user-defined law along a line or on a joint.
+    ForceLaw,
+    /// A user-defined law on a body.
+    BodyLaw,
 }
 
 /// What an effect asks of its joint.
@@ -98,6 +103,8 @@ pub enum SignalForm {
     Vector,
     /// About an axis: one number in the plane, a vector in space.
     Moment,
+    /// Three numbers of any meaning.
+    Three,
 }
 
 impl SignalForm {
@@ -107,6 +114,7 @@ impl SignalForm {
         match (self, dimension) {
             (Self::Scalar, _) | (Self::Moment, Dimension::Planar) => 1,
             (Self::Vector, _) | (Self::Moment, Dimension::Spatial) => dimension.count(),
+            (Self::Three, _) => 3,
         }
     }
 }
@@ -160,6 +168,10 @@ pub enum Value<T> {
     Side(Option<CalspanCoefficients<T>>),
     /// Of [`Form::Name`].
     Name(bool),
+    /// Of [`Form::ForceLaw`].
+    ForceLaw(Code<dyn ForceLaw>),
+    /// Of [`Form::BodyLaw`].
+    BodyLaw(Code<dyn BodyLaw>),
 }
 
 impl<T> Value<T> {
@@ -193,6 +205,8 @@ impl<T> Value<T> {
                 trail: c.trail.map(&mut *f),
             })),
             Self::Name(is) => Value::Name(is),
+            Self::ForceLaw(law) => Value::ForceLaw(law),
+            Self::BodyLaw(law) => Value::BodyLaw(law),
         }
     }
 }
@@ -232,7 +246,7 @@ macro_rules! effect {
     (@key $field:ident $key:literal) => { $key };
     (
         $(#[$doc:meta])*
-        pub struct $Kind:ident<T> = [$($name:expr),+] {
+        pub struct $Kind:ident<T> = [$($name:expr),*] {
             $(
                 $(#[doc = $meaning:literal])+
                 $field:ident $(as $key:literal)?: $Type:ty =
@@ -251,7 +265,7 @@ macro_rules! effect {
         }
 
         impl<T> $crate::effects::EffectData<T> for $Kind<T> {
-            const NAMES: &'static [&'static str] = &[$($name),+];
+            const NAMES: &'static [&'static str] = &[$($name),*];
             const FIELDS: &'static [$crate::effects::Field] = &[$(
                 $crate::effects::Field {
                     key: $crate::effects::field::effect!(@key $field $($key)?),

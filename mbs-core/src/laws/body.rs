@@ -130,6 +130,16 @@ impl<T> Entry<T> for NeverLaw<T> {
     }
 }
 
+#[cfg(not(feature = "alloc"))]
+impl<T: Real> super::scalar::TensionLaw<T> for NeverLaw<T> {
+    fn evaluate(&self, _: T, _: T, _: &Supplies<'_, T>) -> Measure<T> {
+        match self.0 {}
+    }
+    fn operations(&self) -> Operations {
+        match self.0 {}
+    }
+}
+
 impl<T: Real> WrenchesLaw<T> for NeverLaw<T> {
     fn evaluate(&self, _: &BodyMotion<T>, _: &Supplies<'_, T>, _: &mut [Action<T>]) {
         match self.0 {}

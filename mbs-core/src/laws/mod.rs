@@ -7,6 +7,8 @@
 pub mod body;
 pub mod bumper;
 pub mod calspan;
+#[cfg(feature = "alloc")]
+pub mod code;
 pub mod entry;
 pub mod guide;
 pub mod kink;
@@ -99,6 +101,9 @@ pub struct Supplies<'a, T> {
     /// Points (x, z) of roads given by tables, and their curvatures.
     #[cfg(feature = "tire")]
     pub knots: (&'a [[T; 2]], &'a [T]),
+    /// Laws that are objects.
+    #[cfg(all(feature = "alloc", feature = "own-laws"))]
+    pub codes: Option<&'a code::Codes>,
 }
 
 impl<'a, T: Real> Supplies<'a, T> {
@@ -120,6 +125,8 @@ impl<'a, T: Real> Supplies<'a, T> {
             features: &[],
             #[cfg(feature = "tire")]
             knots: (&[], &[]),
+            #[cfg(all(feature = "alloc", feature = "own-laws"))]
+            codes: None,
         }
     }
 
@@ -136,6 +143,8 @@ impl<'a, T: Real> Supplies<'a, T> {
             features: tables.features,
             #[cfg(feature = "tire")]
             knots: tables.knots,
+            #[cfg(all(feature = "alloc", feature = "own-laws"))]
+            codes: self.codes,
         }
     }
 
@@ -174,6 +183,15 @@ impl<'a, T: Real> Supplies<'a, T> {
         return self.features;
         #[cfg(not(feature = "tire"))]
         &[]
+    }
+
+    /// Laws that are objects; none without the feature.
+    #[cfg(feature = "alloc")]
+    pub(crate) const fn codes(&self) -> Option<&'a code::Codes> {
+        #[cfg(feature = "own-laws")]
+        return self.codes;
+        #[cfg(not(feature = "own-laws"))]
+        None
     }
 
     /// Points of roads and their curvatures; none without the feature.

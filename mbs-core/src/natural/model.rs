@@ -15,6 +15,7 @@ use crate::blocks::Cliques;
 use crate::cluster::Clusters;
 use crate::elements::{Distance, Dot, Guided, Linear, Term};
 use crate::inputs::Prescribed;
+use crate::laws::code::Codes;
 use crate::model::Owner;
 use alloc::vec::Vec;
 
@@ -99,6 +100,12 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     #[must_use]
     pub fn prescribed(&self) -> &Prescribed<T> {
         &self.prescribed
+    }
+
+    /// User-defined laws that are objects.
+    #[must_use]
+    pub fn codes(&self) -> &Codes {
+        self.tables.codes()
     }
 
     /// How many elements stand behind each kind of row: (distance, dot product, linear, guided).

@@ -2,11 +2,13 @@
 //!
 //! Points and vectors are in global axes, reference configuration, with two numbers in the plane and three in space.
 
+use crate::laws::code::{BodyLaw, ForceLaw};
 use crate::scene::{
     Actuator, AeroDrag, Axis, AxisFrame, Body, BodyId, BodyTorque, Bumper, Bushing, Dimension,
     Effect, EffectKind, Force, Freedom, Friction, Guide, Inertia, InitialCondition, InitialTarget,
-    Joint, JointId, JointKind, JointTorque, Limit, Motion, Number, Output, Polynomial,
-    PolynomialPiece, Rotation, Signal, SpeedHold, SpringDamper, Tire, TorsionSpring, Vector3,
+    Joint, JointId, JointKind, JointTorque, LawOnBody, LawOnJoint, LawOnLine, Limit, Motion,
+    Number, Output, Polynomial, PolynomialPiece, Rotation, Signal, SpeedHold, SpringDamper, Tire,
+    TorsionSpring, Vector3,
 };
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -344,6 +346,30 @@ impl Effect<Number> {
             rolling_resistance: Number::ZERO,
             side: None,
         })
+    }
+}
+
+/// User-defined laws with data: code, which no file has. The input of each is three numbers, zero until they are set.
+impl Effect<Number> {
+    /// A force law along the line of two points.
+    pub fn law_on_line<P: Into<Vector3>>(
+        between: [(BodyId, P); 2],
+        law: impl ForceLaw + 'static,
+    ) -> Self {
+        let ((bodies, points), law) = (ends(between), law.into());
+        Self::of(LawOnLine { bodies, points, law, input: Signal::input(0.0) })
+    }
+
+    /// A force law on the coordinate of a joint that has one.
+    pub fn law_on_joint(joint: JointId, law: impl ForceLaw + 'static) -> Self {
+        Self::of(LawOnJoint { joint, law: law.into(), input: Signal::input(0.0) })
+    }
+
+    /// A law on a body at a point. The direction that the law sees turn with the body is at first that of x; the part has another.
+    pub fn law_on_body(body: BodyId, at: impl Into<Vector3>, law: impl BodyLaw + 'static) -> Self {
+        let axis = Vector3::from([1.0, 0.0, 0.0]).0;
+        let (at, law) = (at.into().0, law.into());
+        Self::of(LawOnBody { body, at, axis, law, input: Signal::input(0.0) })
     }
 }
 

@@ -66,6 +66,12 @@ pub enum StepError {
         /// The effect in the scene.
         effect: u32,
     },
+    /// A user-defined law with data gave a number that is infinite or NaN.
+    #[cfg(feature = "alloc")]
+    Law {
+        /// The effect in the scene.
+        effect: u32,
+    },
     /// A guided angle ended at the false root, half a turn from its guide.
     OppositeBranch {
         /// The row of the guide.
@@ -166,6 +172,11 @@ impl core::fmt::Display for StepError {
             Self::Overturned { .. } => write!(
                 f,
                 "the effect is turned by more than a whole turn, where its law ends: give the joint's axis a torsion spring"
+            ),
+            #[cfg(feature = "alloc")]
+            Self::Law { .. } => write!(
+                f,
+                "the law of the effect gave a number that is infinite or NaN: give it a finite force, tangent and energy wherever it is asked, or try a smaller step"
             ),
             Self::OppositeBranch { .. } => {
                 write!(

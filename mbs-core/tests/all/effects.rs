@@ -1,11 +1,14 @@
 //! Every kind of effect in natural coordinates: power, tangents against central differences, action and reaction.
 
+use crate::codes;
 use mbs_core::Cliques;
 use mbs_core::algebra::{Vector, cross, rotation};
 use mbs_core::model::{Load, Measure, Model, State, Tangent, Terms};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{Dimension, EffectKind, Friction, Limit, RoadFeature, Scene, Tire};
+use mbs_core::scene::{
+    Dimension, EffectKind, Friction, LawOnJoint, Limit, RoadFeature, Scene, Tire,
+};
 use mbs_testkit::effects::{bushing, every, tire, with};
 use mbs_testkit::{Random, close, dot, matrix, model, plus, residual};
 
@@ -116,13 +119,18 @@ fn axial<const D: usize>(x: &V) -> V {
     if D == 2 { V::new(0.0, 0.0, x[0]) } else { *x }
 }
 
+/// Every kind of effect, and laws in code.
+fn tried(dimension: Dimension) -> impl Iterator<Item = (&'static str, EffectKind<f64>)> {
+    every(dimension).into_iter().chain(codes::every(dimension))
+}
+
 /// Calls `$check::<D>(what, kind, scene)` for every effect in the plane and in space.
 macro_rules! for_every_effect {
     ($check:ident) => {
-        for (what, kind) in every(Dimension::Planar) {
+        for (what, kind) in tried(Dimension::Planar) {
             $check::<2>(what, &kind, &with(Dimension::Planar, kind.clone()));
         }
-        for (what, kind) in every(Dimension::Spatial) {
+        for (what, kind) in tried(Dimension::Spatial) {
             $check::<3>(what, &kind, &with(Dimension::Spatial, kind.clone()));
         }
     };
@@ -202,6 +210,8 @@ fn damping_is_the_derivative_of_forces_by_velocity() {
                 close(what, &told, &difference, DIFFERENCE);
             }
             EffectKind::Tire(Tire { rolling_resistance, .. }) if *rolling_resistance > 0.0 => {}
+            // It has no tangent.
+            EffectKind::LawOnBody(_) => {}
             _ => {
                 for (i, told) in damping.iter().enumerate() {
                     let difference = at.difference(|s, h| s.v[i] += h, At::minus_force);
@@ -288,17 +298,19 @@ fn what_acts_between_two_bodies_does_no_work_when_they_move_as_one() {
             let at = At::<D>::new(&scene, seed, [0.2, 1.0]);
             let random = &mut Random(seed + 200);
             let (velocity, omega) = match kind {
-                EffectKind::AeroDrag(_) | EffectKind::SpeedHold(_) | EffectKind::Tire(_) => {
-                    continue;
-                }
+                EffectKind::AeroDrag(_)
+                | EffectKind::SpeedHold(_)
+                | EffectKind::Tire(_)
+                | EffectKind::LawOnBody(_) => continue,
                 EffectKind::Limit(Limit { joint, .. })
                 | EffectKind::Friction(Friction { joint, .. })
+                | EffectKind::LawOnJoint(LawOnJoint { joint, .. })
                     if joint.index() == 0 =>
                 {
                     continue;
                 }
                 // The arm turns about its hinge alone.
-                EffectKind::Limit(_) | EffectKind::Friction(_) => {
+                EffectKind::Limit(_) | EffectKind::Friction(_) | EffectKind::LawOnJoint(_) => {
                     let hinge = &scene.joints[0];
                     let omega = V::from(hinge.axes[0].unwrap_or([0.0, 0.0, 1.0]));
                     (-cross(&omega, &V::from(hinge.points[0])), omega)

@@ -2,6 +2,7 @@
 
 mod small;
 
+mod codes;
 mod double_double;
 mod effect_table;
 mod effects;

@@ -37,7 +37,7 @@ pub(super) fn check<T: Real>(
             }
             // left to the kind
             Value::MaybeAxis(_) | Value::Pieces(_) | Value::Side(_) => {}
-            Value::Frame(_) | Value::Name(_) => {}
+            Value::Frame(_) | Value::Name(_) | Value::ForceLaw(_) | Value::BodyLaw(_) => {}
         }
     }
     effect.check(scene, place)

@@ -17,6 +17,7 @@ pub(super) fn read(
         Form::Signal(form) => return Ok(signal(fields, form)?.map(Value::Signal)),
         Form::Side => return side(fields).map(Value::Side).map(Some),
         Form::Name(own) => return Ok(Some(Value::Name(own == name))),
+        Form::ForceLaw | Form::BodyLaw => return Ok(None),
         _ => {}
     }
     let Some(item) = fields.get(key) else { return Ok(None) };

@@ -1,0 +1,159 @@
+//! A user-defined law with data, along the line of two points: see [`code`](crate::laws::code).
+//!
+//! ```text
+//! f = f(t, m, m', u),   stored V(t, m, u) = V(t, m, 0, u),   power that is not stored dV/dt − f m'
+//! ```
+
+#[cfg(not(feature = "alloc"))]
+pub use crate::laws::body::NeverLaw as CodeLaw;
+#[cfg(feature = "alloc")]
+pub use data::LawOnLine;
+#[cfg(feature = "alloc")]
+pub use law::CodeLaw;
+
+#[cfg(feature = "alloc")]
+mod law {
+    use crate::Real;
+    use crate::laws::Supplies;
+    use crate::laws::code::{Force, Measured};
+    use crate::laws::entry::{Entry, EntryReader, EntryWriter};
+    use crate::laws::operations::Operations;
+    use crate::laws::scalar::{Measure, TensionLaw};
+    use core::marker::PhantomData;
+
+    /// A law that is an object, by its number.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct CodeLaw<T> {
+        number: u32,
+        /// Numbers of the signals that are its input and the time.
+        courses: [u32; 2],
+        scalar: PhantomData<T>,
+    }
+
+    impl<T: Real> Entry<T> for CodeLaw<T> {
+        fn of<R: EntryReader<T>>(from: &mut R) -> Result<Self, R::Error> {
+            Err(from.fault())
+        }
+        fn numbers<W: EntryWriter<T>>(&self, to: &mut W) -> bool {
+            to.text("NotExported");
+            false
+        }
+    }
+
+    /// Ratio of a value by which it is changed to find a slope, and the least change [m, rad]: the third root of rounding.
+    const CHANGE: [f64; 2] = [6e-6, 6e-9];
+    /// The change of time for the same [s].
+    const INSTANT: f64 = 1e-6;
+
+    impl<T: Real> CodeLaw<T> {
+        pub(crate) fn new(number: u32, courses: [u32; 2]) -> Self {
+            Self { number, courses, scalar: PhantomData }
+        }
+
+        fn measured(&self, [value, rate]: [T; 2], supplies: &Supplies<'_, T>) -> Measured {
+            let [input, time] = self.courses.map(|course| supplies.course(course));
+            Measured {
+                time: time[0].to_f64(),
+                value: value.to_f64(),
+                rate: rate.to_f64(),
+                input: input.map(T::to_f64),
+            }
+        }
+
+        fn force(&self, at: &Measured, supplies: &Supplies<'_, T>) -> Force {
+            supplies.codes().map_or_else(Force::default, |codes| codes.force(self.number, at))
+        }
+    }
+
+    impl<T: Real> TensionLaw<T> for CodeLaw<T> {
+        #[inline(never)]
+        fn evaluate(&self, value: T, rate: T, supplies: &Supplies<'_, T>) -> Measure<T> {
+            let at = self.measured([value, rate], supplies);
+            let Force { force, stiffness, damping, .. } = self.force(&at, supplies);
+            Measure {
+                value,
+                rate,
+                tension: T::from_f64_with(force, &[(stiffness, value), (damping, rate)]),
+                stiffness: T::from_f64(stiffness),
+                damping: T::from_f64(damping),
+                ..Measure::default()
+            }
+        }
+
+        fn operations(&self) -> Operations {
+            Operations::NONE
+        }
+
+        #[inline(never)]
+        fn energy(&self, value: T, supplies: &Supplies<'_, T>) -> T {
+            let at = self.measured([value, T::ZERO], supplies);
+            T::from_f64(self.force(&at, supplies).energy)
+        }
+
+        /// What the law does not store, with what its energy changes by time alone; by central differences.
+        #[inline(never)]
+        fn power(&self, measure: &Measure<T>, supplies: &Supplies<'_, T>) -> T {
+            let Measure { value, rate, tension, .. } = *measure;
+            let at = self.measured([value, T::ZERO], supplies);
+            let energy = |at| self.force(&at, supplies).energy;
+            // Where there is no energy on one side nothing is taken as stored.
+            let slope = |more: Measured, less: Measured, by: f64| {
+                Some((energy(more) - energy(less)) / by).filter(|x| x.is_finite()).unwrap_or(0.0)
+            };
+            let change = (at.value.abs() * CHANGE[0]).max(CHANGE[1]);
+            let [more, less] = [at.value + change, at.value - change];
+            let [from, to] = [less, more].map(|value| Measured { value, ..at });
+            let elastic = slope(to, from, more - less);
+            // The clock begins at zero.
+            let [late, early] = [at.time + INSTANT, (at.time - INSTANT).max(at.time.min(0.0))];
+            let [from, to] = [early, late].map(|time| Measured { time, ..at });
+            let given = slope(to, from, late - early);
+            (T::from_f64(elastic) - tension) * rate + T::from_f64(given)
+        }
+
+        fn may_push(&self) -> bool {
+            true
+        }
+    }
+}
+
+#[cfg(feature = "alloc")]
+mod data {
+    use crate::effects::data::*;
+    use crate::laws::code::{Code, ForceLaw};
+
+    effect! {
+        /// A user-defined law with data, along the line of two body points; in code only.
+        pub struct LawOnLine<T> = [] {
+            /// First and second body.
+            bodies: [BodyId; 2] = Bodies, "", Needed;
+            /// One point per body, reference configuration.
+            points: [[T; 3]; 2] = Points(true), "m", Needed;
+            /// The law.
+            law: Code<dyn ForceLaw> = ForceLaw, "", Needed;
+            /// Its input.
+            input as "value": Signal<T> = Signal(Three), "", Needed;
+        }
+    }
+
+    impl<T: Real> EffectModel<T> for LawOnLine<T> {
+        const LAW: &'static str = "";
+
+        fn name(&self) -> &'static str {
+            "law-on-line"
+        }
+        fn actions(&self, to: &mut Compiler<'_, T>) {
+            let law = to.force_code(&self.law, &self.input);
+            to.length(self.bodies, self.points, law);
+        }
+        fn stores_energy(&self) -> bool {
+            true
+        }
+        fn dissipates(&self) -> bool {
+            true
+        }
+        fn follows_time(&self) -> bool {
+            true
+        }
+    }
+}
