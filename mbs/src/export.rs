@@ -24,8 +24,8 @@ pub struct Exported {
 pub enum ExportError {
     /// It does not start.
     Stop(StopError),
-    /// An effect cannot be written.
-    Effect,
+    /// An effect of this name is code, which no table has.
+    Effect(String),
     /// A ladder names what the scene has not, or is no price list.
     Ladder(String),
 }
@@ -34,7 +34,9 @@ impl core::fmt::Display for ExportError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Stop(error) => write!(f, "{error}"),
-            Self::Effect => write!(f, "the scene has an effect that cannot be written as a table"),
+            Self::Effect(name) => {
+                write!(f, "effect `{name}` is a law in code, which cannot be written as a table")
+            }
             Self::Ladder(what) => write!(f, "{what}"),
         }
     }
@@ -85,9 +87,14 @@ where
     })?;
     let gathered = Gathered::new(&tree, &start, ladder);
     let model = gathered.model();
-    let bytes = bytes(&model, is_single).ok_or(ExportError::Effect)?;
+    let in_code = || {
+        let mut effects = scene.effects.iter();
+        let found = effects.find(|effect| effect.enabled && effect.kind.row().names.is_empty());
+        ExportError::Effect(found.map(|effect| effect.name.clone()).unwrap_or_default())
+    };
+    let bytes = bytes(&model, is_single).ok_or_else(in_code)?;
     let title = format!("The scene \"{}\"", scene.name.escape_default());
-    let rust = source(&model, (&title, is_single)).map_err(|_| ExportError::Effect)?;
+    let rust = source(&model, (&title, is_single)).map_err(|_| in_code())?;
     Ok(Exported { rust, bytes })
 }
 

@@ -65,6 +65,7 @@ pub use front::{
 };
 pub use interrupt::Interrupt;
 pub use mbs_core::formulation::{Formulation, SwitchError};
+pub use mbs_core::laws::code::{BodyLaw, Force, ForceLaw, Measured, MeasuredBody};
 pub use mbs_core::scene::{
     BodyId, EffectId, GROUND, GuideId, InitialId, JointId, Motion, Number, OutputId, Signal,
     Vector3,

@@ -131,7 +131,7 @@ impl Modes {
         let instant = if is_at_rest { Instant::Rest } else { Instant::Motion };
         let how = (instant, &LinearOptions::default());
         let linear = linearise(&model, how, &start.state, &mut workspace(&model))
-            .map_err(StopError::Linear)?;
+            .map_err(|error| StopError::Linear(error).or_law(model.codes()))?;
         let acceleration = linear.acceleration.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         Ok(Self {
             scene: scene.name.clone(),

@@ -60,7 +60,8 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
         let analyse = mbs_sparse::Options::default();
         let mut solver = Multifrontal::analyse(&model, analyse);
         let start = assemble(scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver);
-        Ok(Self { start: start.map_err(StopError::Start)?, model, solver, rank: None })
+        let start = start.map_err(|error| StopError::Start(error).or_law(model.codes()))?;
+        Ok(Self { start, model, solver, rank: None })
     }
 
     /// Coordinates, constraints, and their rank at the start, which is found once.

@@ -114,6 +114,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     /// # Errors
     /// [`StepError`]; the state is then unchanged.
     pub fn advance(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
+        self.formulation.codes(&self.model).forget();
+        let made = self.advance_by(rest);
+        made.map_err(|error| match self.formulation.codes(&self.model).failed() {
+            Some(effect) => StepError::Law { effect },
+            None => error,
+        })
+    }
+
+    fn advance_by(&mut self, rest: T) -> Result<Accepted<T>, StepError> {
         let Self { model, state, formulation, control, invariant, .. } = self;
         let formulation = &mut **formulation;
         // Before a formulation prepares its index for the step.
@@ -311,6 +320,8 @@ fn given<T: Real>(kind: &EffectKind<T>, length: f64) -> f64 {
         Signal::Table(rows) => rows.iter().map(|(_, value)| size(*value)).fold(0.0, f64::max),
     };
     let given = |(field, value): (&Field, Value<T>)| match value {
+        // What a law makes of its input is not known.
+        Value::Signal(_) if field.unit.is_empty() => 0.0,
         Value::Signal(signal) if field.unit == "N" => largest(&signal) * length,
         Value::Signal(signal) => largest(&signal),
         _ => 0.0,

@@ -93,6 +93,7 @@ fn settle_model<T: Real, const D: usize>(
             |u| model.owner_of_unknown(u),
             |row| model.owner_of_row(row),
         )
+        .or_law(model.codes())
     })
 }
 
@@ -112,7 +113,7 @@ pub fn equilibrium_start<T: Real, const D: usize>(
     let analyse = mbs_sparse::Options::default();
     let state = &mut start.state;
     let residual = restart(scene, model, |p| Multifrontal::analyse(p, analyse), solver, state);
-    start.residual = residual.map_err(StopError::Start)?;
+    start.residual = residual.map_err(|error| StopError::Start(error).or_law(model.codes()))?;
     let mut reference = vec![T::ZERO; model.n_extended()];
     model.write_reference(&mut reference);
     let changes = reference.iter().zip(&start.state.q).map(|(&r, &q)| (q - r).abs());

@@ -8,6 +8,7 @@ use crate::tilt::AlmostDependent;
 use crate::words::few;
 
 use mbs_core::actions::ActionError;
+use mbs_core::laws::code::Codes;
 use mbs_core::model::Owner;
 use mbs_core::natural::ModelError;
 use mbs_core::outputs::ReactionError;
@@ -105,6 +106,11 @@ impl StopError {
         Self::Step(error, owner)
     }
 
+    /// That a user-defined law failed, where one did; else this.
+    pub(crate) fn or_law(self, codes: &Codes) -> Self {
+        codes.failed().map_or(self, |effect| Self::Step(StepError::Law { effect }, None))
+    }
+
     /// A search without equilibrium, given whose unknowns and rows are.
     pub(crate) fn equilibrium(
         error: EquilibriumError,
@@ -188,6 +194,7 @@ impl StopError {
             Self::Step(StepError::StepTooSmall { .. }, _) => "step-too-small",
             Self::Step(StepError::TurnTooLarge { .. }, _) => "turn-too-large",
             Self::Step(StepError::Overturned { .. }, _) => "overturned",
+            Self::Step(StepError::Law { .. }, _) => "law-not-finite",
             Self::Step(..) => "step-failed",
             Self::AlmostDependent(_) => "almost-dependent",
             Self::Reaction(_) => "no-reactions",
@@ -311,6 +318,7 @@ impl StopError {
         let named = match self {
             Self::Output { output } => names.outputs.get(*output),
             Self::Friction { effect, .. } => names.effects.get(*effect),
+            Self::Step(StepError::Law { effect }, _) => names.effects.get(*effect as usize),
             _ => None,
         };
         let message = named.map_or_else(|| self.to_string(), |name| format!("`{name}`: {self}"));

@@ -3,6 +3,7 @@
 use core::ops::Deref;
 use mbs_core::Real;
 use mbs_core::control::Accepted;
+pub use mbs_core::laws::code::Wrench;
 use mbs_core::outputs::Instant;
 use mbs_core::scene::EffectId;
 
@@ -120,16 +121,6 @@ pub struct PointMotion {
     pub velocity: [f64; 3],
     /// Acceleration [m/s^2].
     pub acceleration: [f64; 3],
-}
-
-/// A force and a moment.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[non_exhaustive]
-pub struct Wrench {
-    /// [N].
-    pub force: [f64; 3],
-    /// [N m].
-    pub moment: [f64; 3],
 }
 
 /// A contact of a one-sided effect that begins or ends.

@@ -45,6 +45,9 @@ pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) ->
         StepError::OppositeBranch { .. } => {
             write!(f, "the guided angle jumped half a turn away from its guide")
         }
+        StepError::Law { .. } => {
+            write!(f, "its law gave a number that is infinite or not a number")
+        }
         other => write!(f, "{other}"),
     }
 }
@@ -69,6 +72,9 @@ pub(super) fn step_hint(error: &StepError) -> &'static str {
         }
         StepError::Overturned { .. } => {
             "a bushing in space ends at a whole turn: hold the turning by a joint, with a torsion spring about its axis"
+        }
+        StepError::Law { .. } => {
+            "give a finite force, tangent and energy wherever the law is asked; if the motion should not lead there, try a smaller step"
         }
         _ => "try a smaller step, or another formulation",
     }

@@ -20,14 +20,14 @@ pub struct Row {
     /// Code and message of a run that was not completed.
     pub failure: Option<(String, String)>,
     /// What was measured; nothing where the run did not start.
-    pub measured: Option<Measured>,
+    pub measured: Option<MemberValues>,
     /// CPU time of the whole member, reading to the last step [s].
     pub cpu_seconds: f64,
 }
 
 /// Numbers of a run that started.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Measured {
+pub struct MemberValues {
     /// Time reached [s].
     pub end_time: f64,
     /// Steps.
@@ -94,12 +94,12 @@ impl Work for Last<'_> {
     }
 }
 
-fn measured(outcome: &Outcome) -> Option<Measured> {
+fn measured(outcome: &Outcome) -> Option<MemberValues> {
     let summary = &outcome.summary;
     let (_, last) = outcome.rows().last()?;
     let ranges = outcome.ranges().iter();
     let violation = &summary.violation;
-    Some(Measured {
+    Some(MemberValues {
         end_time: summary.end_time,
         steps: summary.steps,
         energy: summary.energy.max_error,

@@ -1,7 +1,7 @@
 //! What becomes of members that fail in ways no scene can ask for. Members are given here, and not run: mbs/tests/all/sweep.rs
 //! runs them.
 
-use super::member::Measured;
+use super::member::MemberValues;
 use super::*;
 
 const SCENE: &str = r#"
@@ -33,7 +33,7 @@ fn study() -> Study {
 /// A member that was completed.
 fn completed(study: &Study, member: usize) -> Row {
     let (end_time, steps, energy, violation) = (0.1, 10, 1e-9, [1e-12; 3]);
-    let measured = Measured { end_time, steps, energy, violation, outputs: Vec::new() };
+    let measured = MemberValues { end_time, steps, energy, violation, outputs: Vec::new() };
     let values = study.sweep.values(member).map(str::to_owned).collect();
     Row { member, values, failure: None, measured: Some(measured), cpu_seconds: 1e-4 }
 }

@@ -10,6 +10,7 @@ mod andrews;
 mod axes;
 mod checkpoint;
 mod choice;
+mod codes;
 mod contact;
 mod control;
 mod doctor;
