@@ -14,7 +14,7 @@ pub use dice::Dice;
 pub use generate::{Family, GenerateError, MOST_BODIES, generate};
 pub use mbs_core::outputs::Component;
 pub use page::page;
-pub use read::{Place, ReadError, ReadFault, SceneFile, Sweep, SweepFault, nearest_name};
+pub use read::{Place, ReadError, ReadFault, SceneFile, SweepFault, SweepFile, nearest_name};
 pub use record::{
     Animation, Channel, ChannelSeries, EnergySeries, IterationSeries, Polyline, Provenance,
     RunRecord, StepRow, StepSeries, Trace, ViolationSeries,

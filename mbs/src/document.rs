@@ -1,7 +1,7 @@
 //! A scene document, run in the precision that its settings name.
 
 use crate::checkpoint::{Checkpoint, CheckpointError, Keeping};
-use crate::driver::Observer;
+use crate::driver::StepObserver;
 use crate::precision::{PrecisionError, ReadScene, Work};
 use crate::run::{Outcome, run, run_kept};
 use crate::settings::Settings;
@@ -16,7 +16,7 @@ use mbs_scene::SceneFile;
 /// Who is told where a run is [s].
 struct Listener<'a>(&'a mut dyn FnMut(f64));
 
-impl<T: Real, const D: usize> Observer<T, D> for Listener<'_> {
+impl<T: Real, const D: usize> StepObserver<T, D> for Listener<'_> {
     fn step(
         &mut self,
         now: &Simulation<T, D>,

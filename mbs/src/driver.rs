@@ -16,12 +16,12 @@ use mbs_core::step::{InputError, StepError};
 /// ```
 /// use core::ops::ControlFlow;
 /// use mbs::core::control::Accepted;
-/// use mbs::typed::{Observer, Simulation, run};
+/// use mbs::typed::{StepObserver, Simulation, run};
 /// use mbs::{Method, Settings, StopError, scene_file::SceneFile};
 ///
 /// /// Ends a run when the first coordinate falls below zero.
 /// struct Ground;
-/// impl Observer<f64, 2> for Ground {
+/// impl StepObserver<f64, 2> for Ground {
 ///     fn step(
 ///         &mut self,
 ///         now: &Simulation<f64, 2>,
@@ -51,12 +51,12 @@ use mbs_core::step::{InputError, StepError};
 /// assert!((outcome.summary.end_time - 0.4515).abs() < 2e-3);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub trait Observer<T: Real, const D: usize> {
+pub trait StepObserver<T: Real, const D: usize> {
     /// Before a step: its inputs may be set. Where lengths are controlled, a rejected trial is repeated with the same inputs.
     ///
     /// # Errors
     /// What stops the run.
-    fn before(&mut self, inputs: &mut Inputs<'_, T, D>) -> Result<(), StopError> {
+    fn before(&mut self, inputs: &mut StepInputs<'_, T, D>) -> Result<(), StopError> {
         let _ = inputs;
         Ok(())
     }
@@ -90,13 +90,13 @@ pub trait Observer<T: Real, const D: usize> {
     }
 }
 
-impl<T: Real, const D: usize> Observer<T, D> for () {}
+impl<T: Real, const D: usize> StepObserver<T, D> for () {}
 
 /// One after the other.
-impl<T: Real, const D: usize, A: Observer<T, D>> Observer<T, D>
-    for (&mut A, &mut dyn Observer<T, D>)
+impl<T: Real, const D: usize, A: StepObserver<T, D>> StepObserver<T, D>
+    for (&mut A, &mut dyn StepObserver<T, D>)
 {
-    fn before(&mut self, inputs: &mut Inputs<'_, T, D>) -> Result<(), StopError> {
+    fn before(&mut self, inputs: &mut StepInputs<'_, T, D>) -> Result<(), StopError> {
         self.0.before(inputs)?;
         self.1.before(inputs)
     }
@@ -126,9 +126,9 @@ impl<T: Real, const D: usize, A: Observer<T, D>> Observer<T, D>
 
 /// A simulation between two steps, whose inputs can be set.
 #[derive(Debug)]
-pub struct Inputs<'a, T: Real, const D: usize>(&'a mut Simulation<T, D>);
+pub struct StepInputs<'a, T: Real, const D: usize>(&'a mut Simulation<T, D>);
 
-impl<T: Real, const D: usize> Inputs<'_, T, D> {
+impl<T: Real, const D: usize> StepInputs<'_, T, D> {
     /// As [`Simulation::set_input`].
     ///
     /// # Errors
@@ -146,7 +146,7 @@ impl<T: Real, const D: usize> Inputs<'_, T, D> {
     }
 }
 
-impl<T: Real, const D: usize> Deref for Inputs<'_, T, D> {
+impl<T: Real, const D: usize> Deref for StepInputs<'_, T, D> {
     type Target = Simulation<T, D>;
 
     fn deref(&self) -> &Simulation<T, D> {
@@ -245,7 +245,7 @@ pub(crate) fn drive<T: Real, const D: usize>(
     plant: &mut impl Plant<T, D>,
     stretches: impl IntoIterator<Item = Stretch<T>>,
     interrupt: &Interrupt,
-    observer: &mut (impl Observer<T, D> + ?Sized),
+    observer: &mut (impl StepObserver<T, D> + ?Sized),
 ) -> Result<(), StopError> {
     for stretch in stretches {
         match along(plant, &stretch, interrupt, observer) {
@@ -266,7 +266,7 @@ fn along<T: Real, const D: usize>(
     plant: &mut impl Plant<T, D>,
     stretch: &Stretch<T>,
     interrupt: &Interrupt,
-    observer: &mut (impl Observer<T, D> + ?Sized),
+    observer: &mut (impl StepObserver<T, D> + ?Sized),
 ) -> Result<ControlFlow<()>, StopError> {
     let mut j = 0;
     loop {
@@ -276,7 +276,7 @@ fn along<T: Real, const D: usize>(
             plant.set_time(stretch.to);
             break;
         }
-        observer.before(&mut Inputs(plant.stepped()))?;
+        observer.before(&mut StepInputs(plant.stepped()))?;
         let accepted = plant.advance(rest).map_err(|error| plant.stepped().explain(error))?;
         j += 1;
         let left = stretch.to - plant.shown().state().t;

@@ -85,7 +85,7 @@ pub use tree::{InSpace, Plane};
 
 /// A scene in one scalar and dimension: for those who write generic code.
 pub mod typed {
-    pub use crate::driver::{Inputs, Observer};
+    pub use crate::driver::{StepInputs, StepObserver};
     pub use crate::run::{run, run_kept};
     pub use crate::simulation::Simulation;
 }

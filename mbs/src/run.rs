@@ -9,7 +9,7 @@ mod summary;
 pub(crate) use paced::{Rung, Track, paced};
 
 use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Keeping};
-use crate::driver::{Observer, Stretch, drive, multiple};
+use crate::driver::{StepObserver, Stretch, drive, multiple};
 use crate::names::Names;
 use crate::recorder::Keep;
 use crate::settings::{Lengths, Settings};
@@ -34,7 +34,7 @@ const LAST_ROUNDINGS: f64 = 32.0;
 pub fn run<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
-    observer: &mut dyn Observer<T, D>,
+    observer: &mut dyn StepObserver<T, D>,
 ) -> Outcome {
     run_keeping(scene, settings, observer, Keep::Rows)
 }
@@ -43,7 +43,7 @@ pub fn run<T: Real, const D: usize>(
 pub(crate) fn run_keeping<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
-    observer: &mut dyn Observer<T, D>,
+    observer: &mut dyn StepObserver<T, D>,
     keep: Keep,
 ) -> Outcome {
     match Run::<T, D>::begin(scene, settings, (keep, None)) {
@@ -56,7 +56,7 @@ pub(crate) fn run_keeping<T: Real, const D: usize>(
 pub(crate) fn run_columns<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
-    observer: &mut dyn Observer<T, D>,
+    observer: &mut dyn StepObserver<T, D>,
     columns: &mut dyn Columns<T, D>,
 ) -> Outcome {
     match Run::<T, D>::begin(scene, settings, (Keep::Rows, Some(columns))) {
@@ -72,7 +72,7 @@ pub(crate) fn run_columns<T: Real, const D: usize>(
 pub fn run_kept<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
-    observer: &mut dyn Observer<T, D>,
+    observer: &mut dyn StepObserver<T, D>,
     (from, keeping): (Option<&Checkpoint>, Option<&mut Keeping>),
 ) -> Result<Outcome, CheckpointError> {
     let identity = Identity::new(scene, settings);
@@ -150,7 +150,7 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
     }
 
     /// All steps that are left, to the end or to where the run stops.
-    fn complete(mut self, observer: &mut dyn Observer<T, D>) -> Outcome {
+    fn complete(mut self, observer: &mut dyn StepObserver<T, D>) -> Outcome {
         let Self { simulation, record } = &mut self;
         let (settings, lengths, done) = (record.settings, record.lengths, record.done);
         let end = lengths.duration;

@@ -4,7 +4,7 @@ mod carry;
 
 use crate::checkpoint::{Kept, inputs};
 use crate::control::Control;
-use crate::driver::{Observer, Stretch, drive};
+use crate::driver::{StepObserver, Stretch, drive};
 use crate::interrupt::Interrupt;
 use crate::methods::Request;
 use crate::ready::AssembledScene;
@@ -79,7 +79,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 /// Adds the reports of steps.
 struct Sum<T>(StepReport<T>);
 
-impl<T: Real, const D: usize> Observer<T, D> for Sum<T> {
+impl<T: Real, const D: usize> StepObserver<T, D> for Sum<T> {
     fn step(
         &mut self,
         _: &Simulation<T, D>,

@@ -23,4 +23,4 @@ mod units;
 pub use document::SceneFile;
 pub use error::{ReadError, ReadFault, nearest_name};
 pub use place::Place;
-pub use sweep::{Sweep, SweepFault};
+pub use sweep::{SweepFault, SweepFile};

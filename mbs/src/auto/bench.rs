@@ -6,7 +6,7 @@ use crate::channels::Channels;
 use crate::compare::course::Course;
 use crate::compare::ladder::{Instants, count, work};
 use crate::compare::method::{Control, MethodCase};
-use crate::driver::{Observer, drive, goes_on};
+use crate::driver::{StepObserver, drive, goes_on};
 use crate::names::Names;
 use crate::ready::AssembledScene;
 use crate::settings::{DEFAULT_STEP, Method, Settings, SettingsError};
@@ -260,7 +260,7 @@ struct Recorder<'a, T: Real, const D: usize> {
     is_late: bool,
 }
 
-impl<T: Real, const D: usize> Observer<T, D> for Recorder<'_, T, D>
+impl<T: Real, const D: usize> StepObserver<T, D> for Recorder<'_, T, D>
 where
     Plane<D>: InSpace<T>,
 {

@@ -7,7 +7,7 @@ use super::layout::moved;
 use crate::alarm::Alarm;
 use crate::channels::Channels;
 use crate::choice::Precision;
-use crate::driver::{Observer, drive, goes_on};
+use crate::driver::{StepObserver, drive, goes_on};
 use crate::interrupt::Interrupt;
 use crate::names::Names;
 use crate::precision::{PrecisionError, ReadScene, Work};
@@ -210,7 +210,7 @@ struct Recorder<T: Real, const D: usize> {
     start: ThreadTime,
 }
 
-impl<T: Real, const D: usize> Observer<T, D> for Recorder<T, D> {
+impl<T: Real, const D: usize> StepObserver<T, D> for Recorder<T, D> {
     fn step(
         &mut self,
         simulation: &Simulation<T, D>,

@@ -10,7 +10,7 @@
 
 use super::finding::{Finding, Severity, Topic, joint_names};
 use super::{Effort, places, stopped};
-use crate::driver::{Observer, Stretch, drive};
+use crate::driver::{StepObserver, Stretch, drive};
 use crate::run::step;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
@@ -160,7 +160,7 @@ struct Look<'a, 'b> {
     goes_on: &'a dyn Fn() -> bool,
 }
 
-impl<const D: usize> Observer<f64, D> for Look<'_, '_> {
+impl<const D: usize> StepObserver<f64, D> for Look<'_, '_> {
     fn step(
         &mut self,
         now: &Simulation<f64, D>,

@@ -4,7 +4,7 @@ use super::stiffness::shortest_period;
 use crate::alarm::Alarm;
 use crate::auto::Clock;
 use crate::channels::Channels;
-use crate::driver::{Observer, Stretch, drive, goes_on};
+use crate::driver::{StepObserver, Stretch, drive, goes_on};
 use crate::interrupt::Interrupt;
 use crate::names::Names;
 use crate::ready::AssembledScene;
@@ -259,7 +259,7 @@ struct Glance<'a, F, const D: usize> {
     late: bool,
 }
 
-impl<F: FnMut(f64) -> bool, const D: usize> Observer<f64, D> for Glance<'_, F, D> {
+impl<F: FnMut(f64) -> bool, const D: usize> StepObserver<f64, D> for Glance<'_, F, D> {
     fn instant(&mut self, now: &Simulation<f64, D>) -> Result<ControlFlow<()>, StopError> {
         self.channels.track(now)?;
         let t = now.state().t;

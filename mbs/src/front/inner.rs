@@ -7,7 +7,7 @@ use super::seen::{Read, Seen};
 use super::values::{Coordinates, StepReport};
 use crate::checkpoint::CheckpointError;
 use crate::checkpoint::tape::{Eye, Pen, Tape, holds};
-use crate::driver::{Observer, Stretch, drive};
+use crate::driver::{StepObserver, Stretch, drive};
 use crate::precision::Work;
 use crate::settings::{Settings, exact};
 use crate::simulation::Simulation;
@@ -191,7 +191,7 @@ struct Watch<'a, T: Real, const D: usize> {
     sum: StepReport,
 }
 
-impl<T: Real, const D: usize> Observer<T, D> for Watch<'_, T, D> {
+impl<T: Real, const D: usize> StepObserver<T, D> for Watch<'_, T, D> {
     fn step(
         &mut self,
         now: &Simulation<T, D>,

@@ -88,7 +88,7 @@ where
     }
 
     fn reaction(&self, joint: usize) -> Result<Wrench, StopError> {
-        self.read().reaction(joint, (&self.scene, &self.simulation.borrow()))
+        self.read().reaction(joint, (&self.scene, self.simulation.borrow()))
     }
 
     fn effect_force(&self, effect: usize) -> Result<Wrench, StopError> {

@@ -127,7 +127,7 @@ impl Work for Watched<'_, '_> {
     fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome {
         let Self { settings, names, inputs, observers, functions } = self;
         let mut observed = Observed::<T, D>::new((scene, names), inputs, observers);
-        let observer: &mut dyn typed::Observer<T, D> =
+        let observer: &mut dyn typed::StepObserver<T, D> =
             if observed.is_empty() { &mut () } else { &mut observed };
         if functions.is_empty() {
             return typed::run(scene, settings, observer);

@@ -44,8 +44,8 @@ impl<'a> From<&'a Front> for View<'a> {
     }
 }
 
-impl<'a> From<&View<'a>> for View<'a> {
-    fn from(view: &View<'a>) -> Self {
+impl<'a> From<&Self> for View<'a> {
+    fn from(view: &Self) -> Self {
         *view
     }
 }
@@ -181,7 +181,7 @@ impl Sink for Pending {
 impl Pending {
     fn write<T: Real, const D: usize>(
         &mut self,
-        to: &mut typed::Inputs<'_, T, D>,
+        to: &mut typed::StepInputs<'_, T, D>,
     ) -> Result<(), SimulationError> {
         for (owner, numbers) in self.0.drain(..) {
             let numbers = numbers.map(T::from_f64);
@@ -241,8 +241,8 @@ impl<'a, 'b, T: Real, const D: usize> Observed<'a, 'b, T, D> {
     }
 }
 
-impl<T: Real, const D: usize> typed::Observer<T, D> for Observed<'_, '_, T, D> {
-    fn before(&mut self, to: &mut typed::Inputs<'_, T, D>) -> Result<(), StopError> {
+impl<T: Real, const D: usize> typed::StepObserver<T, D> for Observed<'_, '_, T, D> {
+    fn before(&mut self, to: &mut typed::StepInputs<'_, T, D>) -> Result<(), StopError> {
         self.show(to, |observer, now, mut inputs| observer.inputs(now, &mut inputs))?;
         self.pending.write(to).map_err(|error| error.into_stop())
     }

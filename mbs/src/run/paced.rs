@@ -6,7 +6,7 @@
 
 use super::record::Record;
 use super::{Outcome, Run};
-use crate::driver::{Fixed, Observer, Plant, Stretch, drive, multiple};
+use crate::driver::{Fixed, Plant, StepObserver, Stretch, drive, multiple};
 use crate::realtime::summary;
 use crate::recorder::Keep;
 use crate::settings::Settings;

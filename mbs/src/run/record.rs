@@ -3,7 +3,7 @@
 use super::kept::{Clock, Kept};
 use crate::alarm::Alarm;
 use crate::channels::Channels;
-use crate::driver::Observer;
+use crate::driver::StepObserver;
 use crate::figure::Figure;
 use crate::friction::Frictions;
 use crate::recorder::{Keep, Recorder, StepMark};
@@ -217,7 +217,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
     }
 }
 
-impl<T: Real, const D: usize> Observer<T, D> for Record<'_, T, D> {
+impl<T: Real, const D: usize> StepObserver<T, D> for Record<'_, T, D> {
     fn step(
         &mut self,
         now: &Simulation<T, D>,

@@ -8,7 +8,7 @@ use core::time::Duration;
 use cpu_time::ThreadTime;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
-use mbs_scene::{SceneFile, Sweep};
+use mbs_scene::{SceneFile, SweepFile};
 
 /// What a member leaves behind.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,7 +49,7 @@ impl Row {
 }
 
 /// Runs a member.
-pub(super) fn run(scene: &SceneFile, sweep: &Sweep, overrides: &Method, member: usize) -> Row {
+pub(super) fn run(scene: &SceneFile, sweep: &SweepFile, overrides: &Method, member: usize) -> Row {
     let cpu = ThreadTime::try_now();
     let document = sweep.member(scene, member);
     let values = sweep.values(member).map(str::to_owned).collect();

@@ -23,7 +23,7 @@ use core::num::NonZeroUsize;
 use core::ops::ControlFlow;
 use mbs_parallel::ensemble::{Ensemble, EnsembleError, Panicked, available};
 use mbs_parallel::most_threads;
-use mbs_scene::{Channel, ReadError, SceneFile, Sweep};
+use mbs_scene::{Channel, ReadError, SceneFile, SweepFile};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -40,7 +40,7 @@ const KIND: Kind = Kind {
 #[derive(Debug)]
 pub struct Study {
     scene: SceneFile,
-    sweep: Sweep,
+    sweep: SweepFile,
     overrides: Method,
     settings: Settings,
     columns: Columns,
@@ -140,7 +140,7 @@ impl Study {
         let columns = Columns::new(&Channel::of_scene(&data));
         let options = format!("{overrides:?}");
         let head = Head::new(KIND, &[scene.text(), sweep.text(), &options]);
-        let sweep = Sweep::read(sweep, &scene, columns.taken()).map_err(StudyError::Read)?;
+        let sweep = SweepFile::read(sweep, &scene, columns.taken()).map_err(StudyError::Read)?;
         let varied = |path: &str| sweep.varies(&scene, path);
         if let Some((path, _)) = GIVEN.into_iter().find(|(p, is)| is(overrides) && varied(p)) {
             return Err(StudyError::Varied(path));

@@ -20,7 +20,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A sweep: parameters with their values, and the members that these make. Numbers are decimal text, as in a scene.
 #[derive(Debug, Clone)]
-pub struct Sweep {
+pub struct SweepFile {
     document: SceneFile,
     combine: Combine,
     parameters: Vec<Parameter>,
@@ -70,7 +70,7 @@ struct PlaceOfScene {
 /// Digits that a sum of decimals keeps.
 const DIGITS: usize = 15;
 
-impl Sweep {
+impl SweepFile {
     /// Reads a sweep of a scene. `columns` are the names that parameters must not have.
     ///
     /// # Errors

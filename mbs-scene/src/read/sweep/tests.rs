@@ -1,6 +1,6 @@
 //! Members of sweeps, and each refusal with its place.
 
-use crate::{ReadError, ReadFault, SceneFile, Sweep, SweepFault};
+use crate::{ReadError, ReadFault, SceneFile, SweepFault, SweepFile};
 
 const SCENE: &str = r#"[scene]
 name = "one"
@@ -56,9 +56,9 @@ fn scene() -> SceneFile {
     SceneFile::parse(SCENE, "scene.toml").expect("the scene is TOML")
 }
 
-fn read(text: &str) -> Result<Sweep, ReadError> {
+fn read(text: &str) -> Result<SweepFile, ReadError> {
     let sweep = SceneFile::parse(text, "sweep.toml").expect("the sweep is TOML");
-    let sweep = Sweep::read(&sweep, &scene(), &["member".to_owned()])?;
+    let sweep = SweepFile::read(&sweep, &scene(), &["member".to_owned()])?;
     sweep.check(&scene(), |_| Ok(()))?;
     Ok(sweep)
 }
@@ -293,7 +293,7 @@ fn what_the_settings_refuse_is_refused_too_and_varied_paths_are_known() {
     let scene = SceneFile::parse(&format!("{SCENE}[solver]\nstep = 1e-3\n"), "scene.toml").unwrap();
     let text = vary("solver.step", "values = [1e-3, 2.0]");
     let document = SceneFile::parse(&text, "sweep.toml").unwrap();
-    let sweep = Sweep::read(&document, &scene, &[]).expect("the path is there");
+    let sweep = SweepFile::read(&document, &scene, &[]).expect("the path is there");
     let error = sweep.check(&scene, |scene| match scene.solver.step {
         Some(step) if step > 1.0 => Err(("not so".to_owned(), "shorter".to_owned())),
         _ => Ok(()),

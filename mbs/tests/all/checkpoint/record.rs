@@ -4,7 +4,7 @@ use super::layout::Parts;
 use super::{scratch, told};
 use crate::common::scene;
 use mbs::core::scene::Scene;
-use mbs::typed::{Inputs, Observer, run_kept};
+use mbs::typed::{StepInputs, StepObserver, run_kept};
 use mbs::{Checkpoint, Keeping, Method, Settings, StopError};
 use std::path::PathBuf;
 
@@ -16,8 +16,8 @@ struct Copies {
     bytes: Vec<u8>,
 }
 
-impl<const D: usize> Observer<f64, D> for Copies {
-    fn before(&mut self, inputs: &mut Inputs<'_, f64, D>) -> Result<(), StopError> {
+impl<const D: usize> StepObserver<f64, D> for Copies {
+    fn before(&mut self, inputs: &mut StepInputs<'_, f64, D>) -> Result<(), StopError> {
         let t = inputs.state().t;
         for (copy, is_due) in
             [(&mut self.first, t == 0.0), (&mut self.bytes, self.near.contains(&t))]
