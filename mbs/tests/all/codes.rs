@@ -215,7 +215,9 @@ fn every_precision_that_is_built_moves_as_doubles_do() {
     for method in [Method::default(), recursive] {
         let end = |precision| {
             let mut sim = m.simulate(&method.clone().precision(precision)).ok()?;
-            sim.advance_to(0.3).unwrap_or_else(|e| panic!("{precision:?}: {e}"));
+            for _ in 0..300 {
+                sim.step(1e-3).unwrap_or_else(|e| panic!("{precision:?}: {e}"));
+            }
             Some(coordinates(&sim, &m))
         };
         let doubles = end(Precision::F64).expect("always built");
