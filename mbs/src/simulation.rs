@@ -59,11 +59,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let request = Request { scene, settings, model: &model, solver, state: &mut state };
         let formulation = settings.formulation.build(request)?;
         let sizes = formulation.sizes().or(natural).unwrap_or_default();
-        let [kinetic, potential, _] = match formulation.terms() {
-            // Nothing has been evaluated yet.
-            Some(_) => energies(&model, &state, None),
-            None => formulation.energies(&model, &state),
-        };
+        let [kinetic, potential, _] = energies_at(&*formulation, &model, &state);
         let control = Control::new(scene, settings, &model, &state);
         let control = control.map_err(|e| StopError::Start(e.into()))?.map(Box::new);
         let is_damped =
@@ -247,14 +243,16 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// Kinetic energy, potential energy, and work of dampers, guides and courses since the start [J].
+    ///
+    /// Cost: in natural coordinates an evaluation of the model, with its memory.
     pub fn energies(&self) -> [f64; 3] {
-        self.formulation.energies(&self.model, &self.state)
+        energies_at(&*self.formulation, &self.model, &self.state)
     }
 
     /// The same, taken anew: what watching the invariant costs in each step.
     pub(crate) fn watched_energies(&mut self) -> [f64; 3] {
         self.formulation.watch();
-        self.energies()
+        self.formulation.energies(&self.model, &self.state)
     }
 
     /// The same at the start.
@@ -290,6 +288,18 @@ impl<T: Real, const D: usize> Simulation<T, D> {
             return Owner::Body(0);
         }
         self.model.owner_of_unknown(largest(&self.state.a[..n]) as usize)
+    }
+}
+
+/// The energies at a state, whatever a formulation has evaluated last: nothing yet, or a state before other inputs.
+fn energies_at<T: Real, const D: usize>(
+    formulation: &dyn Formulation<T, D>,
+    model: &NaturalModel<T, D>,
+    state: &State<T>,
+) -> [f64; 3] {
+    match formulation.terms() {
+        Some(_) => energies(model, state, None),
+        None => formulation.energies(model, state),
     }
 }
 

@@ -32,6 +32,8 @@ pub(crate) trait Inner: Sink + Debug + Send + Sync {
     fn watch_events(&mut self) -> Result<(), StopError>;
     /// Length of the steps that the method asks for [s].
     fn length(&self) -> f64;
+    /// Rounding of its numbers, relative.
+    fn epsilon(&self) -> f64;
     fn is_controlled(&self) -> bool;
     /// Advances by `dt` [s]; `to` is the time at its end where that is known.
     fn step(&mut self, dt: f64, to: Option<f64>) -> Result<StepReport, StopError>;
@@ -126,6 +128,10 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
         drive(simulation, [stretch], &settings.interrupt, &mut watch)?;
         clock.land(end);
         Ok(watch.sum)
+    }
+
+    fn epsilon(&self) -> f64 {
+        T::EPSILON.to_f64()
     }
 
     fn is_controlled(&self) -> bool {

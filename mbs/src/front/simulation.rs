@@ -16,6 +16,9 @@ use std::sync::Arc;
 /// A step that is shorter than the others by less than this ratio is as long as they are, and its end is rounded.
 const SAME_LENGTH: f64 = 1e-9;
 
+/// Roundings of a time that a sum and its end may differ by.
+const TIME_ROUNDINGS: f64 = 4.0;
+
 /// A mechanism in motion: stepped by hand, read between steps, and cloned to try something and throw the copy away.
 ///
 /// Numbers are in SI units, vectors in global axes; in a planar mechanism the third component is zero, and rotations are about z. Handles are
@@ -96,7 +99,9 @@ impl Simulation {
         let (from, h) = (self.time(), self.inner.length());
         let span = time - from;
         let mut sum = StepReport::default();
-        if span == 0.0 {
+        // short numbers tell times no better than to their rounding
+        let rounding = TIME_ROUNDINGS * self.inner.epsilon() * time.abs();
+        if span.abs() <= rounding {
             return Ok(sum);
         }
         if !(span > 0.0 && span.is_finite()) {
@@ -110,10 +115,11 @@ impl Simulation {
         if self.inner.is_controlled() {
             return self.inner.step(span, Some(time)).map_err(|error| self.stopped(error));
         }
+        let slack = SAME_LENGTH * (span + h) + rounding;
         loop {
             let rest = time - self.time();
-            let is_last = rest <= h * (1.0 + SAME_LENGTH * (1.0 + span / h));
-            let is_full = !is_last || (rest - h).abs() <= SAME_LENGTH * span.max(h);
+            let is_last = rest <= h + slack;
+            let is_full = !is_last || (rest - h).abs() <= slack;
             let (dt, to) = (if is_full { h } else { rest }, is_last.then_some(time));
             let report = self.inner.step(dt, to).map_err(|error| self.stopped(error))?;
             sum.join_report(&report);

@@ -183,3 +183,38 @@ fn contacts_are_listed_from_the_first_call_on_and_until_the_state_is_another() {
         assert_eq!(sim.events().count(), 1, "{name}");
     }
 }
+
+#[test]
+fn energies_before_the_first_step_and_after_a_return_are_those_of_the_state() {
+    let mut m = Mechanism::planar("mass on a spring");
+    let mass = m.add(Body::planar([0.0, -1.5], 2.0, 0.1));
+    m.add(Joint::prismatic([GROUND, mass], [0.0, -1.5]).along([0.0, 1.0]));
+    let ends = [(GROUND, [0.0, 0.0]), (mass, [0.0, -1.5])];
+    m.add(Effect::spring_damper(ends, 40.0, 0.0, 1.0));
+    for (name, mut sim) in simulations(&m, 1e-3) {
+        // half a metre too long: 40/2 · 0.5²
+        let stored = |sim: &Simulation| sim.energies().potential;
+        assert!((stored(&sim) - 5.0).abs() < 1e-12, "{name}: {}", stored(&sim));
+        let start = sim.save().expect("a snapshot");
+        sim.advance_to(0.2).expect("it moves");
+        let later = sim.energies();
+        assert!(later.kinetic > 1.0 && (later.kinetic + later.potential - 5.0).abs() < 1e-3);
+        sim.restore(&start).expect("its own");
+        assert!((stored(&sim) - 5.0).abs() < 1e-12, "{name}: {}", stored(&sim));
+    }
+}
+
+#[test]
+#[cfg(feature = "f32")]
+fn single_precision_arrives_at_times_that_it_cannot_write() {
+    let (m, _) = swinging(true);
+    let method = Method::default().precision(mbs::Precision::F32);
+    let mut sim = m.simulate(&method).expect("it starts");
+    let mut steps = 0;
+    for k in 1..=50_u32 {
+        // tenths are no numbers of f32
+        steps += sim.advance_to(f64::from(k) * 0.1).expect("it arrives").steps;
+        assert_eq!(sim.advance_to(f64::from(k) * 0.1).expect("it is there").steps, 0);
+    }
+    assert_eq!(steps, 5000);
+}
