@@ -129,7 +129,7 @@ mod data {
             "own"
         }
         fn check(&self, scene: &Scene<T>, place: Place) -> Result<(), SceneError> {
-            place.signal(&self.course, false)?;
+            place.signal(&self.course)?;
             match self.law {
                 UserLaw::Length { bodies, points, .. } => {
                     check_pair(scene, bodies, place)?;

@@ -7,8 +7,8 @@ use crate::scene::{
     Actuator, AeroDrag, Axis, AxisFrame, Body, BodyId, BodyTorque, Bumper, Bushing, Dimension,
     Effect, EffectKind, Force, Freedom, Friction, Guide, Inertia, InitialCondition, InitialTarget,
     Joint, JointId, JointKind, JointTorque, LawOnBody, LawOnJoint, LawOnLine, Limit, Motion,
-    Number, Output, Polynomial, PolynomialPiece, Rotation, Signal, SpeedHold, SpringDamper, Tire,
-    TorsionSpring, Vector3,
+    Number, Output, Polynomial, PolynomialPiece, Road, RoadFeature, Rotation, Signal, SpeedHold,
+    SpringDamper, Tire, TorsionSpring, Vector3,
 };
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -220,12 +220,12 @@ impl Effect<Number> {
         Self::of(Force { body, at, course, frame })
     }
 
-    /// A torque of a joint's first body on the second about its axis [N m].
+    /// A torque of a joint's first body on the second about its axis, one number [N m].
     pub fn torque(joint: JointId, signal: impl Into<Signal<Number>>) -> Self {
         Self::of(JointTorque { joint, course: signal.into() })
     }
 
-    /// A torque on a body from the ground, global axes; in the plane the first component [N m].
+    /// A torque on a body from the ground, global axes; in the plane one number [N m].
     pub fn body_torque(body: BodyId, signal: impl Into<Signal<Number>>) -> Self {
         Self::of(BodyTorque { body, course: signal.into() })
     }
@@ -395,6 +395,19 @@ impl Signal<Number> {
     }
 }
 
+impl Road<Number> {
+    /// The same features under all wheels, whose heights add up; they come along -x towards a standing vehicle at a speed [m/s].
+    pub fn new(
+        features: impl IntoIterator<Item = RoadFeature<f64>>,
+        speed: impl Into<Number>,
+    ) -> Self {
+        let number = &mut |x: &f64| Number::from(*x);
+        let left: Vec<_> = features.into_iter().map(|feature| feature.map(number)).collect();
+        Self { right: left.clone(), left, speed: speed.into() }
+    }
+}
+
+/// The first component of a vector.
 impl From<f64> for Signal<Number> {
     fn from(constant: f64) -> Self {
         Self::Constant([constant.into(), Number::ZERO, Number::ZERO])

@@ -92,7 +92,7 @@ pub use crate::laws::calspan::Coefficients as CalspanCoefficients;
 pub struct Road<T> {
     /// Under wheels whose centre has y >= 0 in the reference configuration: features whose heights add up.
     pub left: Vec<RoadFeature<T>>,
-    /// Under the others.
+    /// Under the others; in the plane the same.
     pub right: Vec<RoadFeature<T>>,
     /// Speed at which the road comes towards a standing vehicle, along -x [m/s].
     pub speed: T,

@@ -163,7 +163,7 @@ impl<T> Road<T> {
 }
 
 impl<T> RoadFeature<T> {
-    fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> RoadFeature<U> {
+    pub(super) fn map<U>(&self, f: &mut impl FnMut(&T) -> U) -> RoadFeature<U> {
         match self {
             Self::Flat { height } => RoadFeature::Flat { height: f(height) },
             Self::Rise { start, length, height, rounding } => RoadFeature::Rise {

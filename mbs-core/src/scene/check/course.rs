@@ -4,17 +4,23 @@ use super::is_planar;
 use super::motion::check_times;
 use super::vector::Place;
 use crate::Real;
-use crate::scene::{SceneError, Signal};
+use crate::effects::SignalForm;
+use crate::scene::{SceneError, SceneFault, Signal};
 
-/// Finite numbers, in the plane where a vector is meant, and increasing times.
+/// Finite numbers, in the plane where a vector is meant, zero where one number is; and increasing times. Without a form all are free.
 pub(super) fn check<T: Real>(
     course: &Signal<T>,
-    is_vector: bool,
+    form: Option<SignalForm>,
     place: Place,
 ) -> Result<(), SceneError> {
+    let needed = form.map_or(3, |form| form.n_components(place.dimension));
     let row = |field, value: [T; 3]| {
-        if is_vector && is_planar(place.dimension) {
+        if form == Some(SignalForm::Vector) && is_planar(place.dimension) {
             return place.vector(field, value);
+        }
+        let last = value.iter().rposition(|x| !x.is_zero()).unwrap_or(0);
+        if needed == 1 && last > 0 {
+            return place.fault(field, SceneFault::WrongCount { needed, found: last + 1 });
         }
         value.into_iter().try_for_each(|x| place.finite(field, x))
     };

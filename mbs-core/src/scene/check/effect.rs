@@ -3,7 +3,7 @@
 use super::vector::Place;
 use super::{check_pair, course, is_planar};
 use crate::Real;
-use crate::effects::{Form, JointNeed, Sign, SignalForm, Value};
+use crate::effects::{Form, JointNeed, Sign, Value};
 use crate::scene::{BodyId, EffectKind, JointId, Scene, SceneError, SceneFault};
 
 pub(super) fn check<T: Real>(
@@ -33,7 +33,8 @@ pub(super) fn check<T: Real>(
             },
             Value::Six(six) => check_six(key, &six, place)?,
             Value::Signal(signal) => {
-                place.signal(&signal, field.form == Form::Signal(SignalForm::Vector))?;
+                let Form::Signal(form) = field.form else { continue };
+                course::check(&signal, Some(form), place)?;
             }
             // left to the kind
             Value::MaybeAxis(_) | Value::Pieces(_) | Value::Side(_) => {}
@@ -44,13 +45,12 @@ pub(super) fn check<T: Real>(
 }
 
 impl Place {
-    /// A signal, in the plane where a vector is meant.
+    /// A signal of three free numbers.
     pub(crate) fn signal<T: Real>(
         self,
         signal: &crate::scene::Signal<T>,
-        is_vector: bool,
     ) -> Result<(), SceneError> {
-        course::check(signal, is_vector, self)
+        course::check(signal, None, self)
     }
 }
 

@@ -115,6 +115,27 @@ fn limits_and_friction_need_one_coordinate_and_ordered_levels() {
 }
 
 #[test]
+fn a_torque_about_one_axis_is_one_number() {
+    let course = |value| Signal::Constant(value);
+    let on_body =
+        |value| EffectKind::BodyTorque(BodyTorque { body: BodyId::Body(0), course: course(value) });
+    let at_joint = |value| {
+        EffectKind::JointTorque(JointTorque { joint: JointId::new(0), course: course(value) })
+    };
+    // a vector about z, as in space: its first number is no torque
+    let three = ("value", SceneFault::WrongCount { needed: 1, found: 3 });
+    assert_eq!(fault(planar(), on_body([0.0, 0.0, 5.0])), three);
+    assert_eq!(fault(planar(), at_joint([0.0, 0.0, 5.0])), three);
+    let table = Signal::Table(vec![(0.0, [0.0, 5.0, 0.0])]);
+    let found = EffectKind::JointTorque(JointTorque { joint: JointId::new(0), course: table });
+    let two = ("table", SceneFault::WrongCount { needed: 1, found: 2 });
+    assert_eq!(fault(planar(), found), two);
+    let mut scene = spatial();
+    scene.effects = effect(on_body([0.0, 0.0, 5.0]));
+    assert_eq!(scene.check(), Ok(()));
+}
+
+#[test]
 fn a_bushing_in_the_plane_has_three_directions() {
     let bushing = |stiffness| {
         let (bodies, at, damping) = (PAIR, [0.0; 3], [0.0; 6]);
