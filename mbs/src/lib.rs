@@ -67,8 +67,8 @@ pub use interrupt::Interrupt;
 pub use mbs_core::formulation::{Formulation, SwitchError};
 pub use mbs_core::laws::code::{BodyLaw, Force, ForceLaw, Measured, MeasuredBody};
 pub use mbs_core::scene::{
-    BodyId, EffectId, GROUND, GuideId, InitialId, JointId, Motion, Number, OutputId, Signal,
-    Vector3,
+    BodyId, EffectId, EffectKind, GROUND, GuideId, InitialId, JointId, Motion, Number, OutputId,
+    PolynomialPiece, Road, RoadFeature, Signal, TableEnds, Vector3,
 };
 pub use mbs_scene::{ReadError, WriteError};
 pub use methods::{FORMULATIONS, FormulationKind, PenaltyUse, Row};

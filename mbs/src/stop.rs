@@ -56,6 +56,8 @@ pub enum StopError {
         code: &'static str,
         /// What it says.
         message: String,
+        /// What to try; empty where it does not say.
+        hint: String,
     },
     /// An output whose value is not finite.
     Output {
@@ -322,14 +324,11 @@ impl StopError {
             _ => None,
         };
         let message = named.map_or_else(|| self.to_string(), |name| format!("`{name}`: {self}"));
-        RunError {
-            code: self.code().to_owned(),
-            message,
-            time,
-            joint,
-            body,
-            hint: self.hint().to_owned(),
-        }
+        let hint = match self {
+            Self::Observer { hint, .. } if !hint.is_empty() => hint,
+            _ => self.hint(),
+        };
+        RunError { code: self.code().to_owned(), message, time, joint, body, hint: hint.to_owned() }
     }
 }
 

@@ -87,6 +87,11 @@ pub enum PathError {
     },
     /// The number makes no scene of the mechanism.
     Refused(ReadError),
+    /// The number is infinite or none.
+    NotFinite {
+        /// The path as given.
+        path: String,
+    },
     /// The mechanism has a part that is code, and so no text for paths to lead into.
     NotWritten(WriteError),
 }
@@ -95,6 +100,7 @@ impl Display for PathError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Path { path, fault } => write!(f, "`{path}`: {fault}"),
+            Self::NotFinite { path } => write!(f, "`{path}`: the number is infinite or none"),
             Self::Refused(error) => error.fmt(f),
             Self::NotWritten(error) => error.fmt(f),
         }
@@ -107,6 +113,7 @@ impl Error for PathError {
     fn code(&self) -> &'static str {
         match self {
             Self::Path { .. } => "unknown-path",
+            Self::NotFinite { .. } => "not-finite",
             Self::Refused(error) => error.code(),
             Self::NotWritten(error) => error.code(),
         }
@@ -114,6 +121,7 @@ impl Error for PathError {
     fn hint(&self) -> Option<String> {
         match self {
             Self::Path { fault, .. } => Some(fault.hint()),
+            Self::NotFinite { .. } => Some("give a finite number".to_owned()),
             Self::Refused(error) => Error::hint(error),
             Self::NotWritten(error) => Error::hint(error),
         }
@@ -129,13 +137,19 @@ pub struct SceneError {
 }
 
 impl SceneError {
-    pub(super) fn new(error: Refused, scene: &Scene<Number>, place: Option<Place>) -> Self {
+    /// `columns` are the names of all outputs.
+    pub(super) fn new<'a>(
+        error: Refused,
+        scene: &Scene<Number>,
+        mut columns: impl Iterator<Item = &'a String>,
+        place: Option<Place>,
+    ) -> Self {
         let name = |name: Option<&String>| name.cloned().unwrap_or_default();
         let part = match error.entry {
             Entry::Body(i) => name(scene.bodies.get(i).map(|body| &body.name)),
             Entry::Joint(i) => name(scene.joints.get(i).map(|joint| &joint.name)),
             Entry::Effect(i) => name(scene.effects.get(i).map(|effect| &effect.name)),
-            Entry::Output(i) => name(scene.outputs.get(i).map(|output| &output.name)),
+            Entry::Output(i) => name(columns.nth(i)),
             _ => String::new(),
         };
         Self { error, part, place: place.map(Box::new) }

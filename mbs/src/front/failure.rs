@@ -34,7 +34,15 @@ struct Parts {
 }
 
 impl SimulationError {
-    pub(crate) fn new(code: &'static str, message: impl Display, hint: impl Display) -> Self {
+    /// An error of one's own, by which an [`Observer`](crate::Observer) stops a run: its code, what is wrong, and what to try.
+    ///
+    /// ```
+    /// use mbs::{Error, SimulationError};
+    /// let error = SimulationError::new("too-hot", "the motor is at 140 °C", "");
+    /// assert_eq!((error.code(), error.hint()), ("too-hot", None));
+    /// ```
+    #[must_use]
+    pub fn new(code: &'static str, message: impl Display, hint: impl Display) -> Self {
         let (message, hint) = (message.to_string(), hint.to_string());
         let (time, joint, body, place, cause) = (None, None, None, None, None);
         Self(Box::new(Parts { code, message, time, joint, body, hint, place, cause }))
@@ -54,6 +62,12 @@ impl SimulationError {
         found.with_cause(error)
     }
 
+    /// The same, about a joint.
+    pub(super) fn about(mut self, joint: Option<String>) -> Self {
+        self.0.joint = joint;
+        self
+    }
+
     /// A stop at a time [s].
     pub(crate) fn stopped(error: StopError, time: f64, names: &Names) -> Self {
         let report = error.report(time, names);
@@ -66,7 +80,10 @@ impl SimulationError {
     pub(crate) fn into_stop(self) -> StopError {
         match self.cause::<StopError>() {
             Some(stop) => stop.clone(),
-            None => StopError::Observer { code: self.0.code, message: self.0.message },
+            None => {
+                let Parts { code, message, hint, .. } = *self.0;
+                StopError::Observer { code, message, hint }
+            }
         }
     }
 
@@ -101,7 +118,8 @@ impl Error for SimulationError {
 impl Display for SimulationError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Parts { message, time, joint, body, hint, place, .. } = &*self.0;
-        if let Some(place) = place {
+        // what a file was refused for begins with its name and place
+        if let Some(place) = place.as_ref().filter(|_| self.cause::<ReadError>().is_none()) {
             write!(f, "{}:{}: ", place.line, place.column)?;
         }
         f.write_str(message)?;
@@ -141,7 +159,11 @@ impl From<SettingsError> for SimulationError {
 
 impl From<CheckpointError> for SimulationError {
     fn from(error: CheckpointError) -> Self {
-        Self::new("checkpoint-refused", &error, error.hint()).with_cause(error)
+        let hint = match &error {
+            CheckpointError::Settings(error) => error.hint(),
+            _ => "give what `save` gave, to a simulation of the same mechanism, method and version of mbs".to_owned(),
+        };
+        Self::new("checkpoint-refused", &error, hint).with_cause(error)
     }
 }
 

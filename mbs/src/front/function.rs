@@ -106,7 +106,8 @@ impl<T: Real, const D: usize> Columns<T, D> for FunctionColumns<'_, T, D> {
         *readings = Some(seen.into_readings());
         bad.map_or(Ok(()), |name| {
             let message = format!("output `{name}` is code, and gives no finite number");
-            Err(StopError::Observer { code: "output-not-finite", message })
+            let hint = "change the function, or end the run before".to_owned();
+            Err(StopError::Observer { code: "output-not-finite", message, hint })
         })
     }
 }

@@ -124,6 +124,7 @@ impl Inputs {
         value: f64,
     ) -> Result<(), SimulationError> {
         let Some(info) = self.list.get(input.0) else { return Err(self.missing(input.0 + 1)) };
+        finite(info, value)?;
         let before = core::mem::replace(&mut self.values[input.0], value);
         let set = self.write(inner, info.owner);
         if set.is_err() {
@@ -138,6 +139,7 @@ impl Inputs {
         all: &[f64],
     ) -> Result<(), SimulationError> {
         self.check(all)?;
+        self.list.iter().zip(all).try_for_each(|(info, value)| finite(info, *value))?;
         let before = core::mem::replace(&mut self.values, all.to_vec());
         let set = self.renew(inner);
         if set.is_err() {
@@ -153,6 +155,13 @@ impl Inputs {
         guide: GuideId,
         motion: [f64; 3],
     ) -> Result<(), SimulationError> {
+        let own = self.list.iter().filter(|input| input.owner == InputOwner::Guide(guide));
+        if own.clone().next().is_none() {
+            let message = format!("guide {} has no input", guide.index() + 1);
+            let hint = "give it a motion of kind input";
+            return Err(SimulationError::new("input-refused", message, hint));
+        }
+        own.zip(motion).try_for_each(|(info, value)| finite(info, value))?;
         inner.set_guide_input(guide.index(), motion)?;
         for (value, info) in self.values.iter_mut().zip(&*self.list) {
             if info.owner == InputOwner::Guide(guide) {
@@ -211,6 +220,14 @@ impl Inputs {
             "`inputs()` lists them with their names and units",
         )
     }
+}
+
+fn finite(input: &InputInfo, value: f64) -> Result<(), SimulationError> {
+    if value.is_finite() {
+        return Ok(());
+    }
+    let message = format!("input `{}` would be {value}", input.name);
+    Err(SimulationError::new("input-refused", message, "give a finite number"))
 }
 
 /// The signal of an effect, how many numbers it has, and their unit.

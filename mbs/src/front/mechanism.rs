@@ -108,13 +108,21 @@ impl Mechanism {
         self
     }
 
-    /// Length of a run [s].
+    /// Length of a run [s]; without it 1 s.
     pub fn set_duration(&mut self, duration: impl Into<Number>) -> &mut Self {
         self.scene_mut().duration = duration.into();
         self
     }
 
     /// The road under the tires; without it there is level ground at height zero.
+    ///
+    /// ```
+    /// use mbs::{Mechanism, Road, RoadFeature};
+    /// let mut m = Mechanism::planar("quarter car");
+    /// let bump = RoadFeature::Bump { start: 3.0, length: 2.0, amplitude: 0.05 };
+    /// m.set_road(Road::new([bump], 5.0));
+    /// assert_eq!(m.check(), Ok(()));
+    /// ```
     pub fn set_road(&mut self, road: Road<Number>) -> &mut Self {
         self.scene_mut().road = road;
         self
@@ -174,7 +182,7 @@ impl Mechanism {
     }
 
     /// Adds an output that is code: a column of runs, and read by [`Simulation::function`](crate::Simulation::function). It lives beside the
-    /// scene: clones share it, and what writes the mechanism as text refuses it.
+    /// scene: clones share it, and what writes the mechanism as text refuses it. Its name is that of no other column: [`check`](Self::check).
     pub fn add_function(
         &mut self,
         name: &str,
@@ -249,11 +257,15 @@ impl Mechanism {
     /// Cost: the text is read again.
     ///
     /// # Errors
-    /// As [`get`](Self::get). A number that cannot be meant is refused by [`check`](Self::check).
+    /// As [`get`](Self::get), and a number that is not finite. One that cannot be meant is refused by [`check`](Self::check).
     pub fn set(&mut self, path: &str, value: impl Into<Number>) -> Result<&mut Self, PathError> {
         let file = self.data().map_err(PathError::NotWritten)?;
         let fault = |fault| PathError::Path { path: path.to_owned(), fault };
-        let file = file.with_number(path, &value.into()).map_err(fault)?;
+        let value = value.into();
+        if !value.to_f64().is_finite() {
+            return Err(PathError::NotFinite { path: path.to_owned() });
+        }
+        let file = file.with_number(path, &value).map_err(fault)?;
         let functions = core::mem::take(&mut self.functions);
         let fresh = Self::of_file(file).map_err(PathError::Refused);
         *self = Self { functions, ..fresh? };
@@ -282,15 +294,22 @@ impl Mechanism {
         scene.map_err(|error| {
             let file = self.file.as_ref().filter(|_| !self.is_changed);
             let place = file.map(|file| file.place(error.entry, error.field));
-            SceneError::new(error, &self.scene, place)
+            SceneError::new(error, &self.scene, self.columns(), place)
         })
+    }
+
+    /// Names of all outputs, those that are code last. Where there are no others the joints are recorded.
+    fn columns(&self) -> impl Iterator<Item = &String> {
+        let Scene { outputs, joints, .. } = &self.scene;
+        let joints = if outputs.is_empty() { &joints[..] } else { &[] };
+        let data = outputs.iter().map(|o| &o.name).chain(joints.iter().map(|joint| &joint.name));
+        data.chain(self.functions.iter().map(|f| &f.name))
     }
 
     /// Outputs that are code have names of their own.
     fn check_functions(&self) -> Result<(), RefusedScene> {
-        let outputs = self.scene.outputs.iter().map(|output| &output.name);
-        let names: Vec<&String> = outputs.chain(self.functions.iter().map(|f| &f.name)).collect();
-        for (i, name) in names.iter().enumerate().skip(self.scene.outputs.len()) {
+        let names: Vec<&String> = self.columns().collect();
+        for (i, name) in names.iter().enumerate().skip(names.len() - self.functions.len()) {
             let fault = match names[..i].iter().position(|n| n == name) {
                 Some(first) => SceneFault::DuplicateName(first),
                 None if name.is_empty() || *name == "t" => SceneFault::ReservedName,

@@ -38,6 +38,9 @@ impl Mechanism {
 
     /// Starts from an equilibrium that was found: what is simulated or run from now on begins there, with the initial velocities of the
     /// mechanism.
+    ///
+    /// Each start seeks it anew by [`Search::Down`](crate::Search::Down), as the key `start` of a scene: an unstable one that
+    /// [`Search::Near`](crate::Search::Near) found is left.
     pub fn start_from(&mut self, _rest: &StaticEquilibrium) -> &mut Self {
         self.scene_mut().start = Start::Equilibrium;
         self

@@ -10,6 +10,7 @@ use super::view::View;
 use crate::checkpoint::CheckpointError;
 use crate::names::Names;
 use crate::stop::StopError;
+use mbs_core::model::Owner;
 use mbs_core::scene::{EffectId, GuideId, JointId};
 use std::sync::Arc;
 
@@ -214,18 +215,44 @@ impl Simulation {
     }
 
     /// Puts the mechanism into another state: coordinates and rates of these joints hold exactly, the rest follows by the least
-    /// mass-weighted change from the reference configuration. The clock stays; energies and work are counted anew, and inputs keep their
-    /// values.
+    /// mass-weighted change from the reference configuration. `[].into()` holds nothing. The clock stays; energies and work are counted
+    /// anew, and inputs keep their values.
     ///
     /// # Errors
-    /// States that the joints do not allow; the simulation is then as it was.
+    /// States that the joints do not allow, a wrong number of numbers, a joint that comes twice, a number that is not finite; the simulation
+    /// is then as it was.
     pub fn set_state(
         &mut self,
         joints: &[(JointId, Coordinates, Coordinates)],
     ) -> Result<(), SimulationError> {
+        self.check_state(joints)?;
         let started = self.inner.start(Some(joints), self.time());
         started.map_err(|error| self.stopped(error))?;
         self.inputs.renew(&mut *self.inner)
+    }
+
+    /// Each joint once, with all its coordinates or none, and its rates likewise, finite.
+    fn check_state(
+        &self,
+        joints: &[(JointId, Coordinates, Coordinates)],
+    ) -> Result<(), SimulationError> {
+        for (i, (joint, values, rates)) in joints.iter().enumerate() {
+            let n = self.values(*joint).len();
+            let (message, hint) = if joints[..i].iter().any(|(other, ..)| other == joint) {
+                ("the joint comes twice".to_owned(), "name it once")
+            } else if let Some(x) = [values, rates].into_iter().find(|x| ![0, n].contains(&x.len()))
+            {
+                let message = format!("{} numbers for a joint that has {n} coordinates", x.len());
+                (message, "give all its numbers, or none")
+            } else if values.iter().chain(rates.iter()).any(|x| !x.is_finite()) {
+                ("a number of the state is not finite".to_owned(), "give finite numbers")
+            } else {
+                continue;
+            };
+            let (name, _) = self.names.of(Owner::Joint(joint.index()));
+            return Err(SimulationError::new("state-refused", message, hint).about(name));
+        }
+        Ok(())
     }
 
     /// Starts anew at time zero, with the inputs of the mechanism.

@@ -34,14 +34,14 @@ impl Run {
         Self::default()
     }
 
-    /// By this method.
+    /// By this method. A [`duration`](Self::duration) that was given stays where the method has none.
     #[must_use]
-    pub fn method(mut self, method: Method) -> Self {
-        self.method = method;
-        self
+    pub fn method(self, method: Method) -> Self {
+        let duration = method.duration.or(self.method.duration);
+        Self { method: Method { duration, ..method } }
     }
 
-    /// For so long [s], in place of the mechanism's duration.
+    /// For so long [s], in place of the mechanism's duration; left out in both, 1 s.
     #[must_use]
     pub fn duration(mut self, duration: f64) -> Self {
         self.method.duration = Some(duration);
@@ -140,7 +140,8 @@ impl Work for Watched<'_, '_> {
 
 /// What every formulation, integrator and step costs and gives on a mechanism, against a reference that is not under test.
 ///
-/// Cost: many runs. Empty lists of the options mean all there are; short lists and a short duration make it quick.
+/// Cost: many runs. Empty lists of the options mean all there are; short lists and a short duration make it quick. The reference needs the
+/// feature `dd`, and an empty list of precisions `f32` too; both are on by default.
 ///
 /// # Errors
 /// [`SimulationError`] for a mechanism that is refused or has a part in code, and where no method serves as the reference. Runs that fail
@@ -185,7 +186,7 @@ pub fn equilibrium(
     found.map_err(|error| SimulationError::stopped(error, 0.0, &Names::new(&scene)))
 }
 
-/// Frequencies and damping ratios of the motion about an equilibrium.
+/// Frequencies and damping ratios of the motion about an equilibrium of this mechanism, which is sought again as it was found.
 ///
 /// # Errors
 /// [`SimulationError`] where the motion cannot be linearised.

@@ -1,5 +1,6 @@
 //! Many runs of a mechanism with other numbers.
 
+use super::error::PathError;
 use super::failure::SimulationError;
 use super::mechanism::Mechanism;
 use crate::settings::Method;
@@ -29,6 +30,8 @@ pub struct Sweep {
     text: String,
     method: Method,
     threads: Option<NonZeroUsize>,
+    /// The first path with a value that is not finite.
+    not_finite: Option<String>,
 }
 
 impl Sweep {
@@ -46,7 +49,7 @@ impl Sweep {
 
     fn of(combine: &str) -> Self {
         let text = format!("[sweep]\n{combine}\n");
-        Self { text, method: Method::default(), threads: None }
+        Self { text, method: Method::default(), threads: None, not_finite: None }
     }
 
     /// That of a file, as `mbs sweep` reads it.
@@ -55,7 +58,8 @@ impl Sweep {
     /// Where it cannot be read. What it says is checked by [`sweep`].
     pub fn read(path: impl AsRef<Path>) -> Result<Self, SimulationError> {
         let file = SceneFile::read(path)?;
-        Ok(Self { text: file.text().to_owned(), method: Method::default(), threads: None })
+        let text = file.text().to_owned();
+        Ok(Self { text, method: Method::default(), threads: None, not_finite: None })
     }
 
     /// Varies a number by its path, as [`Mechanism::set`] names it; the path is the name of its column too.
@@ -65,8 +69,11 @@ impl Sweep {
         path: &str,
         values: impl IntoIterator<Item = N>,
     ) -> Self {
-        let texts = values.into_iter().map(|value| value.into().to_string());
-        let texts: Vec<String> = texts.collect();
+        let values: Vec<Number> = values.into_iter().map(Into::into).collect();
+        if values.iter().any(|value| !value.to_f64().is_finite()) {
+            self.not_finite.get_or_insert_with(|| path.to_owned());
+        }
+        let texts: Vec<String> = values.iter().map(Number::to_string).collect();
         // text of JSON is text of TOML
         let path = serde_json::Value::from(path);
         self.text +=
@@ -95,8 +102,8 @@ pub struct SweepResult {
 }
 
 impl SweepResult {
-    /// Names of the columns: `member`, the paths that were varied, what became of each run, and of each output the last, the least and the
-    /// largest value, as in the table of `mbs sweep`.
+    /// Names of the columns: `member`, the paths that were varied, what became of each run, and of each output the last value (`NAME`), the
+    /// least (`NAME.min`) and the largest (`NAME.max`), as in the table of `mbs sweep`.
     #[must_use]
     pub fn names(&self) -> &[String] {
         self.columns.header()
@@ -148,6 +155,9 @@ impl SweepResult {
 /// [`SimulationError`] for a path or a value that is refused, with its place in the sweep; for a mechanism that has a part in code.
 pub fn sweep(m: &Mechanism, sweep: &Sweep) -> Result<SweepResult, SimulationError> {
     m.check()?;
+    if let Some(path) = sweep.not_finite.clone() {
+        return Err(PathError::NotFinite { path }.into());
+    }
     let file = SceneFile::parse(&sweep.text, "sweep")?;
     let study = Study::new(m.current()?, &file, &sweep.method)?;
     let rows = study.rows(sweep.threads)?;

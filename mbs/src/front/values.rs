@@ -1,5 +1,6 @@
 //! What a simulation is read by: plain arrays, in SI units and global axes.
 
+use core::fmt::{self, Debug, Formatter};
 use core::ops::Deref;
 use mbs_core::Real;
 use mbs_core::control::Accepted;
@@ -8,7 +9,7 @@ use mbs_core::outputs::Instant;
 use mbs_core::scene::EffectId;
 
 /// Coordinates of a joint, at most six [rad, m].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Clone, Copy, PartialEq, Default)]
 pub struct Coordinates {
     values: [f64; 6],
     count: usize,
@@ -26,8 +27,16 @@ impl Coordinates {
     }
 }
 
+impl Debug for Coordinates {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        (**self).fmt(f)
+    }
+}
+
+/// More than six numbers are refused by the compiler.
 impl<const N: usize> From<[f64; N]> for Coordinates {
     fn from(values: [f64; N]) -> Self {
+        const { assert!(N <= 6, "a joint has six coordinates at most") }
         Self::new(values)
     }
 }

@@ -52,7 +52,7 @@ impl<'a> From<&Self> for View<'a> {
 
 /// Sees a run go, sets its inputs, and may end it. Does nothing by default.
 ///
-/// An error stops the run with that reason; [`ControlFlow::Break`] ends it without one.
+/// An error stops the run with that reason; [`SimulationError::new`] makes one of your own. [`ControlFlow::Break`] ends it without one.
 ///
 /// # Examples
 /// ```

@@ -16,7 +16,8 @@ impl Method {
         Self { formulation: Some(formulation.name().to_owned()), ..Self::default() }
     }
 
-    /// With this integrator. Default: the trapezoidal rule.
+    /// With this integrator. Default: the trapezoidal rule. Those of first order (`rk4`, `rk54`, `rk853`, `gbs`, `radau5`) are of relative
+    /// coordinates: where no formulation is named they take `recursive`.
     #[must_use]
     pub fn integrator(self, integrator: IntegratorKind) -> Self {
         Self { integrator: Some(integrator.name().to_owned()), ..self }
@@ -41,10 +42,28 @@ impl Method {
         Self { tolerance: Some(tolerance), ..self }
     }
 
-    /// What chooses the length of the steps. Default: nothing, all are as long as asked for.
+    /// What chooses the length of the steps. Default: nothing, all are as long as asked for. Lengths only shrink unless
+    /// [`step_max`](Self::step_max) lets them grow.
+    ///
+    /// ```
+    /// use mbs::{Method, StepRule};
+    /// let method = Method::default().control(StepRule::Error).error_tolerance(1e-7).step(1e-4).step_max(1e-2);
+    /// ```
     #[must_use]
     pub fn control(self, control: StepRule) -> Self {
         Self { step_control: Some(control.name().to_owned()), ..self }
+    }
+
+    /// Largest step of a controlled length [s]. Default: the step.
+    #[must_use]
+    pub fn step_max(self, dt: f64) -> Self {
+        Self { step_max: Some(dt), ..self }
+    }
+
+    /// Error of a step by its estimate, relative to the scene's length, where [`StepRule::Error`] chooses the length. Default: 1e-6.
+    #[must_use]
+    pub fn error_tolerance(self, error: f64) -> Self {
+        Self { error_tolerance: Some(error), ..self }
     }
 
     /// Threads that share the work of a step: the results are the same to the bit. Default: 1.

@@ -30,6 +30,7 @@ mod random;
 mod readings;
 mod realtime;
 mod reference;
+mod states;
 mod studies;
 mod sweep;
 mod threads;

@@ -148,13 +148,19 @@ fn an_observer_ends_a_run_and_its_rows_stay() {
     let whole = run(&arm.mechanism, &Run::new()).expect("it runs");
     let not_finite: fn(&mut RunInputs<'_>) -> _ = |i| i.set(InputId::new(0), f64::NAN);
     let unknown: fn(&mut RunInputs<'_>) -> _ = |i| i.set(InputId::new(7), 0.0);
+    let own: fn(&mut RunInputs<'_>) -> _ = |_| Err(SimulationError::new("too-hot", "hot", "wait"));
     let none: fn(&mut RunInputs<'_>) -> _ = |_| Ok(());
-    for (by, is_break) in [(not_finite, false), (unknown, false), (none, true)] {
+    let refused = Some("input-refused");
+    for (by, code) in
+        [(not_finite, refused), (unknown, refused), (own, Some("too-hot")), (none, None)]
+    {
+        let is_break = code.is_none();
         let mut ends = Ends { at: 0.1, by, is_break, stop: None };
         let result = run_with(&arm.mechanism, &Run::new(), &mut [&mut ends]).expect("it starts");
-        let code = (!is_break).then_some("input-refused");
         assert_eq!(result.stop.as_ref().map(Error::code), code);
         assert_eq!(ends.stop.as_deref(), code);
+        let hint = result.stop.as_ref().and_then(Error::hint);
+        assert_eq!(hint.as_deref() == Some("wait"), code == Some("too-hot"));
         assert_eq!(result.summary.completed, is_break);
         assert!((result.summary.end_time - 0.1).abs() < 1e-12);
         let n = result.table.len();
@@ -213,7 +219,15 @@ fn outputs_in_code_are_shared_by_clones_and_have_no_text() {
     assert!(result.table.column("twice").is_some());
     // names are unique, and what is not finite is said
     m.add_function("tip", |_: &View<'_>| 0.0);
-    assert!(m.check().expect_err("a name twice").to_string().contains("name"));
+    let twice = m.check().expect_err("a name twice").to_string();
+    assert!(twice.starts_with("`name` of output 3, `tip`, repeats"), "{twice}");
+    // without outputs the joints are the columns
+    let mut m = Mechanism::planar("pendulum");
+    let bob = m.add(Body::rod([0.0, 0.0], [1.0, 0.0], 1.0));
+    m.add(Joint::revolute([GROUND, bob], [0.0, 0.0]).named("pivot"));
+    m.add_function("pivot", |_: &View<'_>| 0.0);
+    let twice = m.check().expect_err("a name twice").to_string();
+    assert!(twice.contains("`pivot`, repeats"), "{twice}");
     let mut m = arm().mechanism;
     m.add_function("late", |now: &View<'_>| if now.time() < 0.1 { 0.0 } else { f64::NAN });
     let result = run(&m, &Run::new()).expect("it starts");

@@ -56,6 +56,35 @@ fn a_sweep_says_what_it_refuses_and_which_runs_fail() {
 }
 
 #[test]
+fn the_duration_of_a_run_outlives_its_method() {
+    let m = pendulum();
+    let end = |options: &Run| run(&m, options).expect("it runs").summary.end_time;
+    assert_eq!(end(&Run::new().duration(0.1).method(Method::default())), 0.1);
+    assert_eq!(end(&Run::new().method(Method::default()).duration(0.1)), 0.1);
+    let of_method = Method { duration: Some(0.05), ..Method::default() };
+    assert_eq!(end(&Run::new().duration(0.1).method(of_method)), 0.05);
+    assert_eq!(end(&Run::new()), 0.2);
+}
+
+#[test]
+fn numbers_that_are_none_are_refused_by_their_path() {
+    let mut m = pendulum();
+    for bad in [f64::NAN, f64::INFINITY] {
+        let error = m.set("body.bob.mass", bad).expect_err("no number");
+        assert_eq!((error.code(), m.get("body.bob.mass")), ("not-finite", Ok(1.0)));
+        let error = sweep(&m, &Sweep::grid().vary("body.bob.mass", [1.0, bad]));
+        let error = error.expect_err("no number");
+        assert_eq!((error.code(), error.place()), ("not-finite", None));
+        assert!(error.to_string().contains("body.bob.mass"), "{error}");
+    }
+    // a file is named once
+    let error =
+        Mechanism::parse("[scene]\nname = \"p\"\ndimension = 2\ngravty = 1").expect_err("no key");
+    let text = mbs::SimulationError::from(error).to_string();
+    assert!(text.starts_with("scene:4:1: "), "{text}");
+}
+
+#[test]
 fn a_comparison_in_code_ranks_the_methods_that_were_asked_for() {
     let options = Compare {
         formulations: vec![FormulationKind::Index3, FormulationKind::Recursive],

@@ -76,7 +76,10 @@ impl TreeError {
                 ("no-coordinates", hint, no_coordinates("carries nothing"))
             }
             Kind::Length(what, expected, found) => {
-                let hint = "make q as long as `coordinates`, all others as `velocities`";
+                let hint = match *what {
+                    "motions" => "follow a simulation of the mechanism that the tree is of",
+                    _ => "make q as long as `coordinates`, all others as `velocities`",
+                };
                 let message = format!("{what} has {found} numbers, and the tree {expected}");
                 ("wrong-length", hint, message)
             }
