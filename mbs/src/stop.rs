@@ -55,9 +55,9 @@ pub enum StopError {
         /// Code of its error.
         code: &'static str,
         /// What it says.
-        message: String,
+        message: Box<str>,
         /// What to try; empty where it does not say.
-        hint: String,
+        hint: Box<str>,
     },
     /// An output whose value is not finite.
     Output {

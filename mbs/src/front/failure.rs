@@ -82,7 +82,7 @@ impl SimulationError {
             Some(stop) => stop.clone(),
             None => {
                 let Parts { code, message, hint, .. } = *self.0;
-                StopError::Observer { code, message, hint }
+                StopError::Observer { code, message: message.into(), hint: hint.into() }
             }
         }
     }

@@ -105,8 +105,8 @@ impl<T: Real, const D: usize> Columns<T, D> for FunctionColumns<'_, T, D> {
         }
         *readings = Some(seen.into_readings());
         bad.map_or(Ok(()), |name| {
-            let message = format!("output `{name}` is code, and gives no finite number");
-            let hint = "change the function, or end the run before".to_owned();
+            let message = format!("output `{name}` is code, and gives no finite number").into();
+            let hint = "change the function, or end the run before".into();
             Err(StopError::Observer { code: "output-not-finite", message, hint })
         })
     }
