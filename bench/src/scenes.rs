@@ -80,8 +80,8 @@ impl<const D: usize, T: Real> Prepared<D, T> {
         let mut start =
             assemble(&scene, &model, |p| Multifrontal::analyse(p, analyse), &mut solver)
                 .map_err(|e| e.to_string())?;
-        if scene.start == Start::Equilibrium {
-            mbs::equilibrium_start(&scene, &model, mbs::Search::Down, &mut solver, &mut start)
+        if let Some(search) = mbs::Search::of_start(scene.start) {
+            mbs::equilibrium_start(&scene, &model, search, &mut solver, &mut start)
                 .map_err(|e| e.to_string())?;
         }
         let (dt, n_steps) = steps(&scene);

@@ -9,6 +9,11 @@ use mbs_core::Real;
 use mbs_core::control::Accepted;
 use mbs_core::step::{InputError, StepError};
 
+/// Roundings of the time at the end of a stretch that are nothing, where they are less than the share of its length: times of `f32`
+/// round by more than short steps last.
+const ROUNDINGS: f64 = 32.0;
+const SHARE: f64 = 1e-5;
+
 /// Sees a run go, sets inputs on the way, and may end it. Does nothing by default.
 ///
 /// What an observer returns as an error stops the run with that reason; [`ControlFlow::Break`] ends it without one.
@@ -197,8 +202,6 @@ pub(crate) struct Stretch<T> {
     pub(crate) fixed: Option<Fixed<T>>,
     /// The run ends with it.
     pub(crate) is_last: bool,
-    /// What is left and no longer than this is no step [s].
-    pub(crate) least: T,
 }
 
 /// Steps of fixed length.
@@ -214,7 +217,7 @@ pub(crate) struct Fixed<T> {
 impl<T: Real> Stretch<T> {
     /// To an instant, in steps whose length is controlled or which fill it.
     pub(crate) fn to(to: T) -> Self {
-        Self { to, fixed: None, is_last: false, least: T::ZERO }
+        Self { to, fixed: None, is_last: false }
     }
 
     /// The stretch, in one step of this length where it is given [s].
@@ -261,6 +264,11 @@ pub(crate) fn drive<T: Real, const D: usize>(
     Ok(())
 }
 
+/// What is left of a stretch of this length up to `to` [s] that is no step: the clock can hardly tell it from nothing.
+fn remainder<T: Real>(to: T, length: T) -> T {
+    (to * T::EPSILON * T::from_f64(ROUNDINGS)).min(length * T::from_f64(SHARE))
+}
+
 /// Steps over one stretch; says whether to go on.
 fn along<T: Real, const D: usize>(
     plant: &mut impl Plant<T, D>,
@@ -269,10 +277,11 @@ fn along<T: Real, const D: usize>(
     observer: &mut (impl StepObserver<T, D> + ?Sized),
 ) -> Result<ControlFlow<()>, StopError> {
     let mut j = 0;
+    let least = remainder(stretch.to, stretch.to - plant.shown().state().t);
     loop {
         let left = stretch.to - plant.shown().state().t;
         let rest = stretch.fixed.map_or(left, |fixed| fixed.dt.0);
-        if stretch.fixed.is_none() && left <= stretch.least {
+        if stretch.fixed.is_none() && left <= least {
             plant.set_time(stretch.to);
             break;
         }
@@ -282,7 +291,7 @@ fn along<T: Real, const D: usize>(
         let left = stretch.to - plant.shown().state().t;
         let ends = match stretch.fixed {
             Some(fixed) => j == fixed.n,
-            None => accepted.is_last || left <= stretch.least,
+            None => accepted.is_last || left <= least,
         };
         if let Some(t) = stretch.known(j).or(ends.then_some(stretch.to)) {
             plant.set_time(t);

@@ -7,7 +7,7 @@ use crate::stop::StopError;
 use crate::tilt;
 use mbs_core::model::Model;
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{Scene, Start};
+use mbs_core::scene::Scene;
 use mbs_core::start::{Assembled, assemble};
 use mbs_core::{Cliques, Real};
 use mbs_linear::Equilibrium;
@@ -28,10 +28,10 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
     /// # Errors
     /// [`StopError`] when there is no model, no consistent start or no equilibrium.
     pub(crate) fn new(scene: &Scene<T>) -> Result<Self, StopError> {
-        if scene.start == Start::Equilibrium {
-            return Ok(Self::settled(scene, Search::Down)?.0);
+        match Search::of_start(scene.start) {
+            Some(search) => Ok(Self::settled(scene, search)?.0),
+            None => Self::assembled(scene),
         }
-        Self::assembled(scene)
     }
 
     /// Builds the model of a scene, and starts it from an equilibrium with the scene's initial velocities.

@@ -27,9 +27,6 @@ use summary::{contact, energy_summary, not_started, plain_summary};
 
 pub use outcome::Outcome;
 
-/// Roundings of the time at the end that are nothing.
-const LAST_ROUNDINGS: f64 = 32.0;
-
 /// Runs a checked scene to its end, or to where it stops, before an observer; `&mut ()` is none.
 pub fn run<T: Real, const D: usize>(
     scene: &Scene<T>,
@@ -155,11 +152,7 @@ impl<'a, T: Real, const D: usize> Run<'a, T, D> {
         let (settings, lengths, done) = (record.settings, record.lengths, record.done);
         let end = lengths.duration;
         let is_controlled = simulation.is_controlled();
-        let whole = is_controlled.then(|| {
-            // What is left may be less than the clock can tell.
-            let least = end * T::EPSILON * T::from_f64(LAST_ROUNDINGS);
-            Stretch { is_last: true, least, ..Stretch::to(end) }
-        });
+        let whole = is_controlled.then(|| Stretch { is_last: true, ..Stretch::to(end) });
         let n = if is_controlled { 0 } else { settings.n_steps() };
         let stretches = (done + 1..=n).map(|k| step(settings, &lengths, k)).chain(whole);
         record.begin();

@@ -10,7 +10,7 @@ use mbs_core::algebra::{norm, rotation_vector};
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{Dimension, Joint, JointId, Output, Quantity, Scene};
+use mbs_core::scene::{Dimension, Joint, JointId, Output, Quantity, Scene, Start};
 use mbs_core::start::{Assembled, restart};
 use mbs_core::{Cliques, Real, SpdSolver};
 use mbs_linear::{
@@ -37,6 +37,27 @@ pub enum Search {
     Down,
     /// By Newton's method from the start, to the one nearby, stable or not.
     Near,
+}
+
+impl Search {
+    /// How a scene with this start seeks its equilibrium; nothing where it starts from its initial conditions.
+    #[must_use]
+    pub fn of_start(start: Start) -> Option<Self> {
+        match start {
+            Start::Initial => None,
+            Start::Equilibrium => Some(Self::Down),
+            Start::EquilibriumNear => Some(Self::Near),
+        }
+    }
+
+    /// The start of a scene that seeks its equilibrium so.
+    #[must_use]
+    pub fn start(self) -> Start {
+        match self {
+            Self::Down => Start::Equilibrium,
+            Self::Near => Start::EquilibriumNear,
+        }
+    }
 }
 
 /// Moves a state to a static equilibrium, at rest and with guides at their values at the start. What only motion makes does not act:

@@ -63,8 +63,10 @@ pub enum Start {
     /// The reference configuration with the initial conditions.
     #[default]
     Initial,
-    /// The static equilibrium, with the velocities of the initial conditions.
+    /// The static equilibrium downhill, a stable one, with the velocities of the initial conditions.
     Equilibrium,
+    /// The static equilibrium nearby, stable or not, with the same velocities.
+    EquilibriumNear,
 }
 
 /// A rigid body.

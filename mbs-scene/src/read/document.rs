@@ -261,7 +261,8 @@ fn read_start(header: &Fields<'_>) -> Read<Start> {
     match header.word("start")? {
         ("initial", _) => Ok(Start::Initial),
         ("equilibrium", _) => Ok(Start::Equilibrium),
-        word => header.unknown_word("start", word, &["initial", "equilibrium"]),
+        ("equilibrium-near", _) => Ok(Start::EquilibriumNear),
+        word => header.unknown_word("start", word, &["initial", "equilibrium", "equilibrium-near"]),
     }
 }
 

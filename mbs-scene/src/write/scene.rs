@@ -226,8 +226,10 @@ impl Writer<'_> {
         keys.push("dimension", Node::Number(scene.dimension.count().to_string()));
         keys.push_some("gravity", scene.gravity.as_ref().map(|g| self.vector(g)));
         keys.push("duration", &scene.duration);
-        if scene.start == Start::Equilibrium {
-            keys.push("start", "equilibrium");
+        match scene.start {
+            Start::Initial => {}
+            Start::Equilibrium => keys.push("start", "equilibrium"),
+            Start::EquilibriumNear => keys.push("start", "equilibrium-near"),
         }
         keys
     }

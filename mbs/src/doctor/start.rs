@@ -97,7 +97,7 @@ pub(super) fn findings<const D: usize>(
 fn asks(scene: &Scene<f64>) -> bool {
     let holds = |i: &mbs_core::scene::InitialCondition<f64>| matches!(&i.target, InitialTarget::Joint { value: Some(v), .. } if v.iter().any(|x| x.abs() > 0.0));
     let drives = |guide: &mbs_core::scene::Guide<f64>| !matches!(guide.law, Motion::Ramp { .. });
-    scene.start == mbs_core::scene::Start::Equilibrium
+    scene.start != mbs_core::scene::Start::Initial
         || scene.initials.iter().any(holds)
         || scene.guides.iter().any(drives)
 }

@@ -11,7 +11,7 @@ use crate::precision::{ReadScene, Source};
 use crate::settings::{Method, Settings};
 use crate::statics::StaticEquilibrium;
 use mbs_core::Real;
-use mbs_core::scene::{Scene, Start};
+use mbs_core::scene::Scene;
 use std::borrow::Cow;
 
 impl Mechanism {
@@ -36,13 +36,10 @@ impl Mechanism {
         Ok(Tree::new(&self.resolve_scene()?)?)
     }
 
-    /// Starts from an equilibrium that was found: what is simulated or run from now on begins there, with the initial velocities of the
-    /// mechanism.
-    ///
-    /// Each start seeks it anew by [`Search::Down`](crate::Search::Down), as the key `start` of a scene: an unstable one that
-    /// [`Search::Near`](crate::Search::Near) found is left.
-    pub fn start_from(&mut self, _rest: &StaticEquilibrium) -> &mut Self {
-        self.scene_mut().start = Start::Equilibrium;
+    /// Starts from an equilibrium of this mechanism: what is simulated or run from now on begins there, with the initial velocities of the
+    /// mechanism. Each start seeks it anew, from the same configuration and in the same way.
+    pub fn start_from(&mut self, rest: &StaticEquilibrium) -> &mut Self {
+        self.scene_mut().start = rest.search.start();
         self
     }
 

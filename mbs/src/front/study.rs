@@ -97,6 +97,7 @@ pub fn run_with(
     observers: &mut [&mut dyn Observer],
 ) -> Result<RunResult, SimulationError> {
     let (read, settings, scene) = m.prepared(&options.method)?;
+    settings.check_step(&scene, &options.method)?;
     let names = Names::new(&scene);
     let inputs = Inputs::new(&scene);
     let functions = m.functions();

@@ -1,8 +1,9 @@
 //! What is read of a simulation between steps, in every formulation, against what it must be by definition.
 
+use core::f64::consts::PI;
 use mbs::{
-    Body, BodyId, Effect, FormulationKind, GROUND, InitialCondition, Joint, Mechanism, Method,
-    Number, Output, Simulation,
+    Body, BodyId, Effect, EquilibriumOptions, FormulationKind, GROUND, InitialCondition, Joint,
+    Mechanism, Method, Number, Output, Search, Simulation, StepRule, equilibrium,
 };
 use mbs_testkit::apart;
 
@@ -217,4 +218,35 @@ fn single_precision_arrives_at_times_that_it_cannot_write() {
         assert_eq!(sim.advance_to(f64::from(k) * 0.1).expect("it is there").steps, 0);
     }
     assert_eq!(steps, 5000);
+}
+
+#[test]
+fn a_run_starts_from_the_equilibrium_that_was_found_stable_or_not() {
+    let mut m = Mechanism::planar("pendulum");
+    m.set_gravity([0.0, -9.81]).set_duration(0.1);
+    let bob = m.add(Body::planar([0.1, 1.0], 1.0, 0.1));
+    let pivot = m.add(Joint::revolute([GROUND, bob], [0.0, 0.0]));
+    for (search, angle) in [(Search::Near, 0.1_f64.atan()), (Search::Down, 0.1_f64.atan() - PI)] {
+        let rest = equilibrium(&m, &EquilibriumOptions { search }).expect("there are two");
+        let mut there = m.clone();
+        let sim = there.start_from(&rest).simulate(&Method::default()).expect("it starts");
+        // the search ends where forces are 1e-10 of the weight
+        let off = (sim.value(pivot) - angle).rem_euclid(2.0 * PI);
+        assert!(off.min(2.0 * PI - off) < 1e-8, "{search:?}: {}", sim.value(pivot));
+        let again = Mechanism::parse(&there.to_toml().expect("data")).expect("a scene");
+        assert_eq!(again, there);
+    }
+}
+
+#[test]
+fn controlled_steps_leave_no_remainder() {
+    let mut m = Mechanism::planar("arm that turns by itself");
+    let arm = m.add(Body::rod([0.0, 0.0], [1.0, 0.0], 1.0));
+    m.add(Joint::revolute([GROUND, arm], [0.0, 0.0]).start(0.0, 0.1));
+    let method = Method::default().control(StepRule::Error).step(1e-3);
+    let mut sim = m.simulate(&method).expect("it starts");
+    // steps are as long as they may be: a hundred each time, whatever their sum rounds to
+    for k in 1..=20 {
+        assert_eq!(sim.step(0.1).expect("it steps").steps, 100, "call {k}");
+    }
 }
