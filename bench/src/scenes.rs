@@ -3,7 +3,7 @@
 use mbs_core::integrator::Integrator;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
-use mbs_core::scene::{Scene, Start};
+use mbs_core::scene::Scene;
 use mbs_core::start::assemble;
 use mbs_core::{Cliques, Real};
 use mbs_scene::{Family, SceneFile, generate};
