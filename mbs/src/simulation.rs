@@ -244,7 +244,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
 
     /// Kinetic energy, potential energy, and work of dampers, guides and courses since the start [J].
     ///
-    /// Cost: in natural coordinates an evaluation of the model, with its memory.
+    /// Cost: before the first step an evaluation of the model, with its memory.
     pub fn energies(&self) -> [f64; 3] {
         energies_at(&*self.formulation, &self.model, &self.state)
     }
@@ -291,15 +291,15 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 }
 
-/// The energies at a state, whatever a formulation has evaluated last: nothing yet, or a state before other inputs.
+/// The energies at a state; where no step led to it, the formulation has not evaluated its terms there.
 fn energies_at<T: Real, const D: usize>(
     formulation: &dyn Formulation<T, D>,
     model: &NaturalModel<T, D>,
     state: &State<T>,
 ) -> [f64; 3] {
     match formulation.terms() {
-        Some(_) => energies(model, state, None),
-        None => formulation.energies(model, state),
+        Some(_) if state.dt == T::ZERO => energies(model, state, None),
+        _ => formulation.energies(model, state),
     }
 }
 

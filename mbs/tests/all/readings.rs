@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 use mbs::{
     Body, BodyId, Effect, EquilibriumOptions, FormulationKind, GROUND, InitialCondition, Joint,
-    Mechanism, Method, Number, Output, Search, Simulation, StepRule, equilibrium,
+    Mechanism, Method, Number, Output, Search, Simulation, equilibrium,
 };
 use mbs_testkit::apart;
 
@@ -235,18 +235,5 @@ fn a_run_starts_from_the_equilibrium_that_was_found_stable_or_not() {
         assert!(off.min(2.0 * PI - off) < 1e-8, "{search:?}: {}", sim.value(pivot));
         let again = Mechanism::parse(&there.to_toml().expect("data")).expect("a scene");
         assert_eq!(again, there);
-    }
-}
-
-#[test]
-fn controlled_steps_leave_no_remainder() {
-    let mut m = Mechanism::planar("arm that turns by itself");
-    let arm = m.add(Body::rod([0.0, 0.0], [1.0, 0.0], 1.0));
-    m.add(Joint::revolute([GROUND, arm], [0.0, 0.0]).start(0.0, 0.1));
-    let method = Method::default().control(StepRule::Error).step(1e-3);
-    let mut sim = m.simulate(&method).expect("it starts");
-    // steps are as long as they may be: a hundred each time, whatever their sum rounds to
-    for k in 1..=20 {
-        assert_eq!(sim.step(0.1).expect("it steps").steps, 100, "call {k}");
     }
 }
