@@ -23,7 +23,14 @@ pub(crate) fn read(fields: &Fields<'_>) -> Read<Output<Number>> {
     };
     let word = fields.get("quantity").map(|_| fields.word("quantity")).transpose()?;
     let word = word.unwrap_or((first.name, fields.header));
-    let kind = rows.iter().find(|row| row.name == word.0).unwrap_or(first).target;
+    let unknown = || {
+        let known: Vec<_> = rows.iter().map(|row| row.name).collect();
+        fields.unknown_word("quantity", word, &known)
+    };
+    // before keys are missed that another quantity has
+    let Some(kind) = rows.iter().find(|row| row.name == word.0).map(|row| row.target) else {
+        return unknown();
+    };
     fields.allow(&keys(kind.keys()), &keys(&every))?;
     let owner = fields.need(kind.keys()[0])?;
     let body = || fields.context.moving_body(owner);
@@ -32,10 +39,7 @@ pub(crate) fn read(fields: &Fields<'_>) -> Read<Output<Number>> {
         TargetKind::Body => Target::Body(body()?),
         TargetKind::Joint => Target::Joint(fields.context.joint(owner)?),
     };
-    let Some(quantity) = Quantity::of(word.0, target) else {
-        let known: Vec<_> = rows.iter().map(|row| row.name).collect();
-        return fields.unknown_word("quantity", word, &known);
-    };
+    let Some(quantity) = Quantity::of(word.0, target) else { return unknown() };
     Ok(Output { name: fields.name()?, quantity })
 }
 

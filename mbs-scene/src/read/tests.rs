@@ -279,6 +279,9 @@ fn types_counts_and_missing_keys_have_places() {
         "body = \"ground\"\nat = [2.0, 0.0]\nvelocity",
     );
     refused(&e, "36:8", "the ground does not move", "name a body");
+    // the word, not a key that the nearest quantity has no use for
+    let e = spoiled("at = [2.0, 0.0]\nquantity = \"position\"", "quantity = \"angular-velocty\"");
+    refused(&e, "68:12", "unknown quantity `angular-velocty`", "`angular-velocity`");
     let e = spoiled("duration = 10.0", "duration = = 10.0");
     assert_eq!((e.place().line, e.place().column), (5, 12), "{e}");
     assert!(matches!(e.fault(), ReadFault::Syntax { .. }));
