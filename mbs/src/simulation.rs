@@ -298,7 +298,12 @@ fn energies_at<T: Real, const D: usize>(
     state: &State<T>,
 ) -> [f64; 3] {
     match formulation.terms() {
-        Some(_) if state.dt == T::ZERO => energies(model, state, None),
+        Some(_) if state.dt == T::ZERO => {
+            // what is set for the next step does not act yet
+            let mut now = state.clone();
+            now.inputs.clone_from(&state.applied);
+            energies(model, &now, None)
+        }
         _ => formulation.energies(model, state),
     }
 }

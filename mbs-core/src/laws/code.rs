@@ -27,8 +27,8 @@ pub struct Measured {
     pub input: [f64; 3],
 }
 
-/// What a [`ForceLaw`] gives. Derivatives are those of `force`, and steer iterations alone: where they are left at zero, stiff laws need
-/// more iterations or smaller steps.
+/// What a [`ForceLaw`] gives. Derivatives are those of `force`. In steps they steer iterations alone: where they are left at zero, stiff laws
+/// need more iterations or smaller steps. The search for an equilibrium takes them for the law's own.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Force {
     /// Pulls the ends together, or turns or moves a joint's second body backwards, when positive [N, N m].
@@ -44,7 +44,8 @@ pub struct Force {
 /// A force law with data of its own, along the line of two points or on the coordinate of a joint.
 ///
 /// It sees and gives doubles: in a run of 32 digits 16 of them are the law's. A number that is infinite or NaN ends the step with
-/// [`StepError::Law`](crate::step::StepError::Law).
+/// [`StepError::Law`](crate::step::StepError::Law). For its energy it is also asked at no rate, a little beside the value and the time: its
+/// numbers are finite there too.
 ///
 /// # Examples
 /// ```

@@ -99,9 +99,8 @@ impl<T: Real, const D: usize> Columns<T, D> for FunctionColumns<'_, T, D> {
         let seen = Seen::new(scene.clone(), now, known);
         let mut bad = None;
         for (to, function) in out.iter_mut().zip(*functions) {
-            let value = function.code.evaluate(&View::new(&seen, names));
-            *to = T::from_f64(value);
-            bad = bad.or((!value.is_finite()).then_some(&function.name));
+            *to = T::from_f64(function.code.evaluate(&View::new(&seen, names)));
+            bad = bad.or((!to.is_finite()).then_some(&function.name));
         }
         *readings = Some(seen.into_readings());
         bad.map_or(Ok(()), |name| {

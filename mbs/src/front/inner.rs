@@ -32,11 +32,13 @@ pub(crate) trait Inner: Sink + Debug + Send + Sync {
     fn watch_events(&mut self) -> Result<(), StopError>;
     /// Length of the steps that the method asks for [s].
     fn length(&self) -> f64;
-    /// Rounding of its numbers, relative.
-    fn epsilon(&self) -> f64;
+    /// A time as its clock shows it [s], and the rounding of its numbers, relative.
+    fn rounded(&self, time: f64) -> (f64, f64);
     fn is_controlled(&self) -> bool;
-    /// Advances by `dt` [s]; `to` is the time at its end where that is known.
-    fn step(&mut self, dt: f64, to: Option<f64>) -> Result<StepReport, StopError>;
+    /// Advances by `dt` [s], or by what is left; `to` is the time at the end where that is known.
+    fn step(&mut self, dt: Option<f64>, to: Option<f64>) -> Result<StepReport, StopError>;
+    /// Does a joint follow a guide?
+    fn is_guided(&self) -> bool;
     /// Starts anew with these coordinates and rates of joints, or as the scene says, at a time [s].
     fn start(
         &mut self,
@@ -116,22 +118,32 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
         self.settings.step_max
     }
 
-    fn step(&mut self, dt: f64, to: Option<f64>) -> Result<StepReport, StopError> {
+    fn step(&mut self, dt: Option<f64>, to: Option<f64>) -> Result<StepReport, StopError> {
         let Self { seen: Seen { scene, simulation, readings }, settings, clock, contacts } = self;
-        let (length, now) = (exact(scene, dt), simulation.state().t);
+        let (now, to) = (simulation.state().t, to.map(|to| exact::<T>(scene, to)));
+        let left = to.map_or(T::ZERO, |to| to - now);
+        let (dt, length) = match dt {
+            Some(dt) => (dt, exact(scene, dt)),
+            None => (left.to_f64(), left),
+        };
         let end = clock.advance(now, (dt, length));
-        let end = to.map_or(end, |to| exact(scene, to));
+        let end = to.unwrap_or(end);
         let readings = readings.get_mut().unwrap_or_else(PoisonError::into_inner);
         let fixed = (!simulation.is_controlled()).then_some(length);
         let mut watch = Watch { readings, contacts, sum: StepReport::default() };
-        let stretch = Stretch::to(end).in_one(fixed);
+        // an interrupt ends a call between its steps, not behind its last
+        let stretch = Stretch { is_last: true, ..Stretch::to(end).in_one(fixed) };
         drive(simulation, [stretch], &settings.interrupt, &mut watch)?;
         clock.land(end);
         Ok(watch.sum)
     }
 
-    fn epsilon(&self) -> f64 {
-        T::EPSILON.to_f64()
+    fn rounded(&self, time: f64) -> (f64, f64) {
+        (exact::<T>(&self.seen.scene, time).to_f64(), T::EPSILON.to_f64())
+    }
+
+    fn is_guided(&self) -> bool {
+        !self.seen.scene.guides.is_empty()
     }
 
     fn is_controlled(&self) -> bool {
@@ -155,7 +167,14 @@ impl<T: Real, const D: usize> Inner for Typed<T, D> {
             scene.start = Start::Initial;
         }
         let mut fresh = Self::new(scene, &self.settings)?;
-        fresh.seen.simulation.set_time(exact(own, t));
+        let t = exact(own, t);
+        if t != T::ZERO {
+            // what follows time is that of now
+            let simulation = &mut fresh.seen.simulation;
+            simulation.set_time(t);
+            simulation.resume().map_err(|error| simulation.explain(error))?;
+            fresh.seen.readings = Mutex::new(Readings::new(own, simulation)?);
+        }
         // the scene's own conditions are those of a later reset
         fresh.seen.scene = own.clone();
         fresh.contacts = self.contacts.take();

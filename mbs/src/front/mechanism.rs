@@ -266,9 +266,8 @@ impl Mechanism {
             return Err(PathError::NotFinite { path: path.to_owned() });
         }
         let file = file.with_number(path, &value).map_err(fault)?;
-        let functions = core::mem::take(&mut self.functions);
-        let fresh = Self::of_file(file).map_err(PathError::Refused);
-        *self = Self { functions, ..fresh? };
+        let fresh = Self::of_file(file).map_err(PathError::Refused)?;
+        *self = Self { functions: core::mem::take(&mut self.functions), ..fresh };
         Ok(self)
     }
 

@@ -92,6 +92,7 @@ where
     }
 
     fn effect_force(&self, effect: usize) -> Result<Wrench, StopError> {
+        assert!(effect < self.scene.effects.len(), "an effect of another mechanism");
         self.read().effect(effect, (&self.scene, self.simulation.borrow()))
     }
 

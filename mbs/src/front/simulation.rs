@@ -17,8 +17,9 @@ use std::sync::Arc;
 /// A step that is shorter than the others by less than this ratio is as long as they are, and its end is rounded.
 const SAME_LENGTH: f64 = 1e-9;
 
-/// Roundings of a time that a sum and its end may differ by.
+/// Roundings of a time that a sum and its end may differ by, as long as they are no more than the share of a step.
 const TIME_ROUNDINGS: f64 = 4.0;
+const SHARE: f64 = 1e-3;
 
 /// A mechanism in motion: stepped by hand, read between steps, and cloned to try something and throw the copy away.
 ///
@@ -88,7 +89,7 @@ impl Simulation {
                 "write a number larger than zero",
             ));
         }
-        self.inner.step(dt, None).map_err(|error| self.stopped(error))
+        self.inner.step(Some(dt), None).map_err(|error| self.stopped(error))
     }
 
     /// Advances to `time` [s] by steps of the method's length, the last one shorter where they do not fit; at once where the method controls
@@ -98,11 +99,10 @@ impl Simulation {
     /// As for [`step`](Self::step); one before now is refused.
     pub fn advance_to(&mut self, time: f64) -> Result<StepReport, SimulationError> {
         let (from, h) = (self.time(), self.inner.length());
-        let span = time - from;
+        let (there, epsilon) = self.inner.rounded(time);
+        let span = there - from;
         let mut sum = StepReport::default();
-        // short numbers tell times no better than to their rounding
-        let rounding = TIME_ROUNDINGS * self.inner.epsilon() * time.abs();
-        if span.abs() <= rounding {
+        if span == 0.0 {
             return Ok(sum);
         }
         if !(span > 0.0 && span.is_finite()) {
@@ -114,14 +114,16 @@ impl Simulation {
             ));
         }
         if self.inner.is_controlled() {
-            return self.inner.step(span, Some(time)).map_err(|error| self.stopped(error));
+            return self.inner.step(None, Some(time)).map_err(|error| self.stopped(error));
         }
+        // times of short numbers round, by more than short steps last where they are late
+        let rounding = (TIME_ROUNDINGS * epsilon * there.abs()).min(SHARE * h);
         let slack = SAME_LENGTH * (span + h) + rounding;
         loop {
-            let rest = time - self.time();
+            let rest = there - self.time();
             let is_last = rest <= h + slack;
             let is_full = !is_last || (rest - h).abs() <= slack;
-            let (dt, to) = (if is_full { h } else { rest }, is_last.then_some(time));
+            let (dt, to) = (is_full.then_some(h), is_last.then_some(time));
             let report = self.inner.step(dt, to).map_err(|error| self.stopped(error))?;
             sum.join_report(&report);
             if is_last {
@@ -219,13 +221,18 @@ impl Simulation {
     /// anew, and inputs keep their values.
     ///
     /// # Errors
-    /// States that the joints do not allow, a wrong number of numbers, a joint that comes twice, a number that is not finite; the simulation
-    /// is then as it was.
+    /// States that the joints do not allow, a wrong number of numbers, a joint that comes twice, a number that is not finite; after time zero a
+    /// mechanism with guides, whose joints are assembled where guides begin. The simulation is then as it was.
     pub fn set_state(
         &mut self,
         joints: &[(JointId, Coordinates, Coordinates)],
     ) -> Result<(), SimulationError> {
         self.check_state(joints)?;
+        if self.inner.is_guided() && self.time() != 0.0 {
+            let message = "guided joints are assembled where their guides begin, at time zero";
+            let hint = "reset the simulation first, or restore a snapshot";
+            return Err(SimulationError::new("state-refused", message, hint));
+        }
         let started = self.inner.start(Some(joints), self.time());
         started.map_err(|error| self.stopped(error))?;
         self.inputs.renew(&mut *self.inner)

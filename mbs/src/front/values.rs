@@ -208,7 +208,7 @@ impl StepReport {
         self.steps += u64::from(report.steps);
         self.iterations += u64::from(report.iterations);
         self.factorizations += u64::from(report.factorizations);
-        self.rejected += u64::from(accepted.rejected + report.rejected);
+        self.rejected += u64::from(report.rejected);
         self.join(report.violation.map(Real::to_f64));
     }
 

@@ -7,6 +7,7 @@
 use super::record::Record;
 use super::{Outcome, Run};
 use crate::driver::{Fixed, Plant, StepObserver, Stretch, drive, multiple};
+use crate::interrupt::Interrupt;
 use crate::realtime::summary;
 use crate::recorder::Keep;
 use crate::settings::Settings;
@@ -226,8 +227,14 @@ impl<T: Real, const D: usize> Work for Paced<'_, T, D> {
         record.level = record.level.map(|lowest| lowest.max(level));
         let stretch = self.period(task.index + 1);
         self.record.begin_step();
-        let interrupt = &self.record.settings.interrupt;
-        drive(&mut self.ladder, [stretch], interrupt, &mut self.record)?;
+        let never = Interrupt::default();
+        drive(&mut self.ladder, [stretch], &never, &mut self.record)?;
+        let is_last = task.index + 1 == self.track.periods;
+        if !is_last && self.record.settings.interrupt.is_set() {
+            let stop = StopError::Interrupted;
+            self.record.end(&self.ladder.simulation, Some(&stop));
+            return Err(stop);
+        }
         Ok(ControlFlow::Continue(()))
     }
 }
