@@ -1,15 +1,11 @@
 //! Outputs that are code.
 
-use super::readings::Readings;
-use super::seen::Seen;
-use super::view::View;
-use crate::names::Names;
+use super::view::{Sight, View};
 use crate::run::Columns;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use core::fmt::{self, Debug, Formatter};
 use mbs_core::Real;
-use mbs_core::scene::Scene;
 use mbs_scene::{Channel, Component};
 use std::sync::Arc;
 
@@ -71,11 +67,8 @@ impl Debug for Function {
 
 /// Those of a mechanism, as columns of a run.
 pub(super) struct FunctionColumns<'a, T: Real, const D: usize> {
-    pub(super) scene: Arc<Scene<T>>,
-    pub(super) names: &'a Names,
+    pub(super) sight: Sight<'a, T, D>,
     pub(super) functions: &'a [Function],
-    /// Made at the first row.
-    pub(super) readings: Option<Readings<T, D>>,
 }
 
 impl<T: Real, const D: usize> Columns<T, D> for FunctionColumns<'_, T, D> {
@@ -87,22 +80,17 @@ impl<T: Real, const D: usize> Columns<T, D> for FunctionColumns<'_, T, D> {
     }
 
     fn follow(&mut self, now: &Simulation<T, D>) -> Result<(), StopError> {
-        self.readings.as_mut().map_or(Ok(()), |readings| readings.follow(now))
+        self.sight.follow(now)
     }
 
     fn write(&mut self, now: &Simulation<T, D>, out: &mut [T]) -> Result<(), StopError> {
-        let Self { scene, names, functions, readings } = self;
-        let known = match readings.take() {
-            Some(known) => known,
-            None => Readings::new(scene, now)?,
-        };
-        let seen = Seen::new(scene.clone(), now, known);
         let mut bad = None;
-        for (to, function) in out.iter_mut().zip(*functions) {
-            *to = T::from_f64(function.code.evaluate(&View::new(&seen, names)));
-            bad = bad.or((!to.is_finite()).then_some(&function.name));
-        }
-        *readings = Some(seen.into_readings());
+        self.sight.show(now, |view| {
+            for (to, function) in out.iter_mut().zip(self.functions) {
+                *to = T::from_f64(function.code.evaluate(view));
+                bad = bad.or((!to.is_finite()).then_some(&function.name));
+            }
+        })?;
         bad.map_or(Ok(()), |name| {
             let message = format!("output `{name}` is code, and gives no finite number").into();
             let hint = "change the function, or end the run before".into();

@@ -5,7 +5,7 @@ use super::function::{Function, FunctionColumns};
 use super::inputs::Inputs;
 use super::mechanism::Mechanism;
 use super::table::Table;
-use super::view::{Observed, Observer};
+use super::view::{Observed, Observer, Sight};
 use crate::compare::{self, Earlier, Request as Compare};
 use crate::modes::{Modes, Place};
 use crate::names::Names;
@@ -18,7 +18,6 @@ use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_scene::RunSummary;
 use mbs_scene::compare::Comparison;
-use std::sync::Arc;
 
 /// What is asked of a run: a method, how long, and what else.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -128,14 +127,18 @@ impl Work for Watched<'_, '_> {
 
     fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome {
         let Self { settings, names, inputs, observers, functions } = self;
-        let mut observed = Observed::<T, D>::new((scene, names), inputs, observers);
-        let observer: &mut dyn typed::StepObserver<T, D> =
-            if observed.is_empty() { &mut () } else { &mut observed };
+        let sight = || Sight::<T, D>::new(scene, names);
+        let mut observed;
+        let observer: &mut dyn typed::StepObserver<T, D> = if observers.is_empty() {
+            &mut ()
+        } else {
+            observed = Observed::new(sight(), inputs, observers);
+            &mut observed
+        };
         if functions.is_empty() {
             return typed::run(scene, settings, observer);
         }
-        let scene_ = Arc::new(scene.clone());
-        let mut columns = FunctionColumns { scene: scene_, names, functions, readings: None };
+        let mut columns = FunctionColumns { sight: sight(), functions };
         run_columns(scene, settings, observer, &mut columns)
     }
 }

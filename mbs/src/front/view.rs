@@ -194,29 +194,55 @@ impl Pending {
     }
 }
 
-/// Observers of a run in `f64`, as one observer of it in its scalar and dimension.
-pub(super) struct Observed<'a, 'b, T: Real, const D: usize> {
+/// What is read of a run for its views: made at the first one, and followed from then on.
+pub(super) struct Sight<'a, T: Real, const D: usize> {
     scene: Arc<Scene<T>>,
     names: &'a Names,
+    readings: Option<Readings<T, D>>,
+}
+
+impl<'a, T: Real, const D: usize> Sight<'a, T, D> {
+    pub(super) fn new(scene: &Scene<T>, names: &'a Names) -> Self {
+        Self { scene: Arc::new(scene.clone()), names, readings: None }
+    }
+
+    /// A step was made.
+    pub(super) fn follow(&mut self, now: &Simulation<T, D>) -> Result<(), StopError> {
+        self.readings.as_mut().map_or(Ok(()), |readings| readings.follow(now))
+    }
+
+    /// Shows the present instant.
+    pub(super) fn show<R>(
+        &mut self,
+        now: &Simulation<T, D>,
+        show: impl FnOnce(&View<'_>) -> R,
+    ) -> Result<R, StopError> {
+        let known = match self.readings.take() {
+            Some(known) => known,
+            None => Readings::new(&self.scene, now)?,
+        };
+        let seen = Seen::new(self.scene.clone(), now, known);
+        let shown = show(&View::new(&seen, self.names));
+        self.readings = Some(seen.into_readings());
+        Ok(shown)
+    }
+}
+
+/// Observers of a run in `f64`, as one observer of it in its scalar and dimension.
+pub(super) struct Observed<'a, 'b, T: Real, const D: usize> {
+    sight: Sight<'a, T, D>,
     inputs: Inputs,
     pending: Pending,
     observers: &'a mut [&'b mut dyn Observer],
-    /// Made before the first step.
-    readings: Option<Readings<T, D>>,
 }
 
 impl<'a, 'b, T: Real, const D: usize> Observed<'a, 'b, T, D> {
     pub(super) fn new(
-        (scene, names): (&Scene<T>, &'a Names),
+        sight: Sight<'a, T, D>,
         inputs: Inputs,
         observers: &'a mut [&'b mut dyn Observer],
     ) -> Self {
-        let (scene, pending) = (Arc::new(scene.clone()), Pending::default());
-        Self { scene, names, inputs, pending, observers, readings: None }
-    }
-
-    pub(super) fn is_empty(&self) -> bool {
-        self.observers.is_empty()
+        Self { sight, inputs, pending: Pending::default(), observers }
     }
 
     /// Shows each observer the present instant.
@@ -225,19 +251,14 @@ impl<'a, 'b, T: Real, const D: usize> Observed<'a, 'b, T, D> {
         now: &Simulation<T, D>,
         mut show: impl FnMut(&mut dyn Observer, &View<'_>, RunInputs<'_>) -> Result<(), SimulationError>,
     ) -> Result<(), StopError> {
-        let Self { scene, names, inputs, pending, observers, readings } = self;
-        let known = match readings.take() {
-            Some(known) => known,
-            None => Readings::new(scene, now)?,
-        };
-        let seen = Seen::new(scene.clone(), now, known);
-        let view = View::new(&seen, names);
-        let shown = observers.iter_mut().try_for_each(|observer| {
-            let inputs = RunInputs { inputs: &mut *inputs, pending: &mut *pending };
-            show(&mut **observer, &view, inputs)
+        let Self { sight, inputs, pending, observers } = self;
+        let shown = sight.show(now, |view| {
+            observers.iter_mut().try_for_each(|observer| {
+                let inputs = RunInputs { inputs: &mut *inputs, pending: &mut *pending };
+                show(&mut **observer, view, inputs)
+            })
         });
-        *readings = Some(seen.into_readings());
-        shown.map_err(|error| error.into_stop())
+        shown?.map_err(|error| error.into_stop())
     }
 }
 
@@ -253,9 +274,7 @@ impl<T: Real, const D: usize> typed::StepObserver<T, D> for Observed<'_, '_, T, 
         accepted: &Accepted<T>,
         _: bool,
     ) -> Result<ControlFlow<()>, StopError> {
-        if let Some(readings) = &mut self.readings {
-            readings.follow(now)?;
-        }
+        self.sight.follow(now)?;
         let mut report = StepReport::default();
         report.add(accepted);
         let mut flow = ControlFlow::Continue(());
@@ -268,7 +287,7 @@ impl<T: Real, const D: usize> typed::StepObserver<T, D> for Observed<'_, '_, T, 
     }
 
     fn end(&mut self, now: &Simulation<T, D>, stop: Option<&StopError>) {
-        let (t, names) = (now.state().t.to_f64(), self.names);
+        let (t, names) = (now.state().t.to_f64(), self.sight.names);
         let stop = stop.map(|stop| SimulationError::stopped(stop.clone(), t, names));
         // nothing is left to stop
         let _ = self.show(now, |observer, now, _| {
