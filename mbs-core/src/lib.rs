@@ -6,13 +6,9 @@ extern crate alloc;
 
 #[cfg(feature = "alloc")]
 pub mod actions;
-pub mod algebra;
-pub mod blocks;
 #[cfg(feature = "alloc")]
 pub mod cluster;
 pub mod control;
-#[cfg(feature = "alloc")]
-pub mod dense;
 pub mod effects;
 pub mod elements;
 #[cfg(feature = "alloc")]
@@ -28,12 +24,8 @@ pub mod laws;
 pub mod model;
 #[cfg(feature = "alloc")]
 pub mod natural;
-pub mod ode;
 #[cfg(feature = "alloc")]
 pub mod outputs;
-pub mod real;
-#[cfg(feature = "alloc")]
-pub mod refined;
 pub mod rigid;
 #[cfg(feature = "alloc")]
 pub mod saddle;
@@ -41,8 +33,10 @@ pub mod scene;
 #[cfg(feature = "alloc")]
 pub mod start;
 pub mod step;
-pub mod team;
 
-pub use blocks::{BlockSource, Cliques, FactorError, SpdSolver, SymmetricSolver};
-pub use real::Real;
-pub use team::{Alone, Team};
+pub use mbs_math::{
+    Alone, BlockSource, Cliques, FactorError, Real, SpdSolver, SymmetricSolver, Team,
+};
+pub use mbs_math::{algebra, blocks, ode, real, team};
+#[cfg(feature = "alloc")]
+pub use mbs_math::{dense, refined};

@@ -3,7 +3,6 @@
 pub mod ensemble;
 pub mod team;
 
-pub use mbs_sparse::{Multifrontal, Options as SparseOptions, Ordering};
 pub use team::{Pool, ThreadTeam, Threads};
 
 /// Threads that are of use at most: those beyond the processors wait for each other. A few more are let be, so that a small machine can

@@ -1,6 +1,6 @@
 //! Teams: every piece of work is done once, panics come through, and nothing is left behind.
 
-use mbs_core::team::{self, Alone, Team};
+use mbs_math::team::{self, Alone, Team};
 use mbs_parallel::{Pool, ThreadTeam, Threads};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};

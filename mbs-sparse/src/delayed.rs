@@ -12,8 +12,8 @@ use crate::part;
 use crate::plan::{Front, Plan, column};
 use crate::share::{Direction, Sweep};
 use crate::tasks::{Owned, Task};
-use mbs_core::dense::front::{self, Places, Tally, Thresholds};
-use mbs_core::{Real, Team};
+use mbs_math::dense::front::{self, Places, Tally, Thresholds};
+use mbs_math::{Real, Team};
 
 /// A plan with what delayed pivots need.
 #[derive(Debug, Clone)]

@@ -7,7 +7,7 @@
 //!
 //! The classes come from refining one class by every clique in turn, which is exact and linear in the cliques' length.
 
-use mbs_core::Cliques;
+use mbs_math::Cliques;
 
 /// Lists of indices, one after the other: list `i` is `items[start[i]..start[i + 1]]`.
 #[derive(Debug, Clone, Default)]

@@ -21,11 +21,11 @@ use crate::options::{Counters, Options};
 use crate::plan::plan;
 use crate::scatter::Scatter;
 use crate::share::Vectors;
-use mbs_core::blocks::{Inertia, Weakest};
-use mbs_core::dense::front::{Tally, Thresholds};
-use mbs_core::dense::scaling::{self, larger, measure_rows};
-use mbs_core::team::{Alone, Team, on_elements, on_stretches};
-use mbs_core::{BlockSource, Cliques, FactorError, Real, SymmetricSolver};
+use mbs_math::blocks::{Inertia, Weakest};
+use mbs_math::dense::front::{Tally, Thresholds};
+use mbs_math::dense::scaling::{self, larger, measure_rows};
+use mbs_math::team::{Alone, Team, on_elements, on_stretches};
+use mbs_math::{BlockSource, Cliques, FactorError, Real, SymmetricSolver};
 use std::convert::Infallible;
 
 /// Multifrontal L D L^T with pivoting: analysed once, factored many times, by one thread or by a team.

@@ -11,8 +11,8 @@
 //! the compiler; the diagonal of L_11 holds 1 / d.
 
 use crate::plan::column;
-use mbs_core::Real;
-use mbs_core::dense::panel::subtract_products;
+use mbs_math::Real;
+use mbs_math::dense::panel::subtract_products;
 
 /// Pivots eliminated together.
 pub(crate) const BLOCK: usize = 6;

@@ -21,6 +21,6 @@ pub use indefinite::Indefinite;
 pub use multifrontal::Multifrontal;
 pub use options::{Counters, Options, Ordering, Pivoting};
 
-pub use mbs_core::{
+pub use mbs_math::{
     Alone, BlockSource, Cliques, FactorError, Real, SpdSolver, SymmetricSolver, Team,
 };

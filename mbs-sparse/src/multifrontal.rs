@@ -11,8 +11,8 @@ use crate::plan::{Plan, plan};
 use crate::scatter::Scatter;
 use crate::share::{Factor, Numbers, Vectors};
 use crate::sweep;
-use mbs_core::team::{Alone, Team, on_stretches};
-use mbs_core::{BlockSource, Cliques, FactorError, Real, SpdSolver};
+use mbs_math::team::{Alone, Team, on_stretches};
+use mbs_math::{BlockSource, Cliques, FactorError, Real, SpdSolver};
 
 /// Multifrontal L D L^T: analysed once, factored many times without allocation, by one thread or by a team.
 #[derive(Debug, Clone)]

@@ -5,7 +5,7 @@
 
 use crate::graph::index;
 use crate::plan::column;
-use mbs_core::Real;
+use mbs_math::Real;
 
 /// Where a packed triangle of k unknowns lands in a packed front of f unknowns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

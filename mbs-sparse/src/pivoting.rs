@@ -7,8 +7,8 @@
 
 use crate::kernel::{BadPivot, checked_inverse};
 use crate::plan::column;
-use mbs_core::Real;
-use mbs_core::dense::front::swap;
+use mbs_math::Real;
+use mbs_math::dense::front::swap;
 
 /// Eliminates the first `d.len()` unknowns of the packed front `a` of `f` unknowns; `taken[k]` receives the row
 /// that became pivot `k`. On failure the row at fault is in `taken` too.

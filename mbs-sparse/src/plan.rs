@@ -13,8 +13,8 @@ use crate::options::{Counters, Options, Ordering};
 use crate::part::{self, Part, Place, place_of, triangle};
 use crate::tasks::{Tasks, tasks};
 use crate::tree::{self, Fronts};
-use mbs_core::Cliques;
-pub(crate) use mbs_core::dense::front::column;
+use mbs_math::Cliques;
+pub(crate) use mbs_math::dense::front::column;
 use std::collections::HashMap;
 use std::ops::Range;
 

@@ -9,8 +9,8 @@
 
 use crate::graph::{Lists, index};
 use crate::plan::Plan;
-use mbs_core::blocks::combine;
-use mbs_core::{BlockSource, Real, Team};
+use mbs_math::blocks::combine;
+use mbs_math::{BlockSource, Real, Team};
 
 /// Elements of a stretch: some microseconds of work.
 const ELEMENTS: usize = 128;

@@ -15,7 +15,7 @@ use crate::pivoting::eliminate_largest;
 use crate::plan::{Front, Opening, Plan, column};
 use crate::sweep;
 use crate::tasks::{Owned, Storage, Task};
-use mbs_core::{BlockSource, FactorError, Real, Team};
+use mbs_math::{BlockSource, FactorError, Real, Team};
 use std::convert::Infallible;
 
 /// The numbers of a factorisation that belong to neighbouring tasks with all below.

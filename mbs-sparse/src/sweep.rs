@@ -9,8 +9,8 @@
 
 use crate::kernel::BLOCK;
 use crate::plan::column;
-use mbs_core::Real;
-use mbs_core::dense::panel::subtract;
+use mbs_math::Real;
+use mbs_math::dense::panel::subtract;
 
 /// Forward sweep through the packed front `a` that eliminates `p` unknowns, from place `first` of `y` on.
 pub(crate) fn forward<T: Real>(mut a: &[T], y: &mut [T], (first, p): (usize, usize), rows: &[u32]) {

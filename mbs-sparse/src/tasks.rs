@@ -12,7 +12,7 @@
 use crate::graph::{Lists, index};
 use crate::plan::{Front, column};
 use crate::tree::NONE;
-use mbs_core::Team;
+use mbs_math::Team;
 use std::ops::Range;
 
 /// No task has more tasks above it than this: the stack of a thread is not infinite.

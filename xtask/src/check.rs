@@ -12,7 +12,8 @@ use crate::summary::{LeftOut, Outcome, Summary};
 use std::process::{Command, ExitCode};
 
 /// Crates with features, and the sets of them that must build on the host.
-const FEATURES: [(&str, &[&str]); 5] = [
+const FEATURES: [(&str, &[&str]); 6] = [
+    ("mbs-math", &["", "alloc"]),
     // Of the effects: laws with tables, laws that share a file, laws of both kinds, and all without scenes.
     (
         "mbs-core",

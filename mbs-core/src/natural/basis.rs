@@ -12,10 +12,9 @@
 
 use super::sharing::{Entity, EntityKind};
 use crate::Real;
-use crate::algebra::{Coef, Vector, across, cross, inverse, norm};
+use crate::algebra::{Coef, Matrix, Vector, across, cross, inverse, norm};
 use crate::cluster::Cluster;
 use alloc::vec::Vec;
-use nalgebra::SMatrix;
 
 /// Smallest share of a candidate direction that must be new for it to enter a basis.
 pub const INDEPENDENCE: f64 = 0.2;
@@ -38,7 +37,7 @@ enum Frame<T: Real> {
     /// Two points of a rod.
     Rod { origin: Vector<T, 3>, along: Vector<T, 3> },
     /// Origin (subtracted before D is formed) and D^-1.
-    Spatial { origin: Vector<T, 3>, inverse: SMatrix<T, 4, 4> },
+    Spatial { origin: Vector<T, 3>, inverse: Matrix<T, 4> },
 }
 
 impl<T: Real> Basis<T> {
@@ -120,7 +119,7 @@ impl<T: Real> Basis<T> {
             chosen.push(own_direction(unit, entities));
             units.push(unit);
         }
-        let mut d = SMatrix::<T, 4, 4>::zeros();
+        let mut d = Matrix::<T, 4>::zeros();
         for (k, &e) in chosen.iter().enumerate() {
             let is_point = entities[e].kind == EntityKind::Point;
             let v = if is_point { entities[e].at - at } else { entities[e].at };
@@ -211,7 +210,7 @@ impl<T: Real> Basis<T> {
             Frame::Spatial { origin, inverse } => {
                 let r = c - origin;
                 let half_trace = (inertia[(0, 0)] + inertia[(1, 1)] + inertia[(2, 2)]) * T::HALF;
-                let mut j = SMatrix::<T, 4, 4>::zeros();
+                let mut j = Matrix::<T, 4>::zeros();
                 for i in 0..3 {
                     for k in 0..3 {
                         let s = if i == k { half_trace } else { T::ZERO } - inertia[(i, k)];

@@ -3,13 +3,10 @@
 mod small;
 
 mod codes;
-mod double_double;
 mod effect_table;
 mod effects;
-mod eighth;
 mod elements;
 mod events;
-mod extrapolation;
 mod joints;
 mod least;
 mod model;

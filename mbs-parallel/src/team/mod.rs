@@ -1,7 +1,7 @@
 //! Teams of threads for the work of one step: [`Pool`] on rayon, [`ThreadTeam`] with a queue of crossbeam, and [`Threads`], a thread team
 //! or none, chosen at run time.
 //!
-//! All of them give the same bits: how work is cut is none of their business ([`mbs_core::team`]).
+//! All of them give the same bits: how work is cut is none of their business ([`mbs_math::team`]).
 
 mod job;
 mod pool;
@@ -10,7 +10,7 @@ mod thread_team;
 pub use pool::Pool;
 pub use thread_team::ThreadTeam;
 
-use mbs_core::team::{Alone, Team};
+use mbs_math::team::{Alone, Team};
 
 /// A team chosen at run time.
 #[derive(Debug, Clone, Default)]

@@ -1,6 +1,6 @@
 //! A team on rayon.
 
-use mbs_core::team::Team;
+use mbs_math::team::Team;
 use std::sync::Arc;
 
 /// Threads of a rayon pool of its own; the program's global pool is left alone.

@@ -2,9 +2,9 @@
 //! singular matrices that are named.
 
 use crate::common::{Random, Saddle, Sum};
-use mbs_core::blocks::Inertia;
-use mbs_core::dense::Dense;
-use mbs_core::dense::front::Thresholds;
+use mbs_math::blocks::Inertia;
+use mbs_math::dense::Dense;
+use mbs_math::dense::front::Thresholds;
 use mbs_sparse::{Indefinite, Options, Real, SymmetricSolver};
 use proptest::prelude::*;
 

@@ -6,8 +6,8 @@
 #![allow(clippy::print_stdout, reason = "what is measured is shown with --nocapture")]
 
 use crate::common::{Random, Sum};
-use mbs_core::real::DoubleDouble as Pair;
-use mbs_core::refined::{ALL, Refined, RefinementError};
+use mbs_math::real::DoubleDouble as Pair;
+use mbs_math::refined::{ALL, Refined, RefinementError};
 use mbs_sparse::{BlockSource, Cliques, Multifrontal, Options, Real, SpdSolver};
 
 /// Masses, and rows with a penalty.

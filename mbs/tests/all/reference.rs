@@ -11,7 +11,8 @@ use crate::common;
 use crate::common::{Bench, FORMULATIONS, distance, steps, worst};
 use mbs::StopError;
 use mbs::augmented::{Augmented, Form, Options, Projection, StepError};
-use mbs::parallel::{Multifrontal, Threads};
+use mbs::parallel::Threads;
+use mbs::sparse::Multifrontal;
 
 /// Errors at a step and at half of it have this ratio in a method of order 2; higher orders of the step make the rest.
 const SECOND_ORDER: core::ops::Range<f64> = 3.7..4.3;

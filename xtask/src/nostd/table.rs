@@ -13,6 +13,8 @@ pub(crate) struct Build {
 
 /// The builds; those of a crate stand together, from the least features to the most.
 const BUILDS: &[Build] = &[
+    Build { package: "mbs-math", features: &[], is_alloc: false },
+    Build { package: "mbs-math", features: &["alloc"], is_alloc: true },
     Build { package: "mbs-core", features: &[], is_alloc: false },
     Build { package: "mbs-core", features: &["effects"], is_alloc: false },
     Build { package: "mbs-core", features: &["alloc"], is_alloc: true },
@@ -56,7 +58,8 @@ mod tests {
     fn the_first_target_has_every_set_and_the_others_the_ends_of_each_crate() {
         assert_eq!(of(TARGETS[0]).count(), BUILDS.len());
         let ends: Vec<_> = of(TARGETS[1]).map(|b| (b.package, b.features)).collect();
-        assert_eq!(ends[..2], [("mbs-core", &[][..]), ("mbs-core", &["alloc", "effects"][..])]);
+        assert_eq!(ends[..2], [("mbs-math", &[][..]), ("mbs-math", &["alloc"][..])]);
+        assert_eq!(ends[2..4], [("mbs-core", &[][..]), ("mbs-core", &["alloc", "effects"][..])]);
         assert!(ends.contains(&("mbs-linear", &[])));
         assert_eq!(ends.last(), Some(&("mbs-nostd", &["mbs-core/effects"][..])));
     }

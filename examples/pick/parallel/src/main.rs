@@ -11,7 +11,8 @@ use mbs_core::scene::{BodyId, Scene};
 use mbs_core::start::assemble;
 use mbs_core::step::Step;
 use mbs_core::{Alone, Team};
-use mbs_parallel::{ThreadTeam, Multifrontal, SparseOptions};
+use mbs_parallel::ThreadTeam;
+use mbs_sparse::{Multifrontal, Options as SparseOptions};
 
 const PENDULUMS: usize = 100;
 

@@ -1,9 +1,9 @@
 //! The method 8(5,3): its conditions in 32 digits, its order, its estimate, and that it takes less than the pair 5(4) for many digits.
 
 use core::convert::Infallible;
-use mbs_core::Real;
-use mbs_core::ode::{Adaptive, EndState, Method, Options, Rates, Tableau};
-use mbs_core::real::DoubleDouble as Pair;
+use mbs_math::Real;
+use mbs_math::ode::{Adaptive, EndState, Method, Options, Rates, Tableau};
+use mbs_math::real::DoubleDouble as Pair;
 
 /// The coefficients are printed with 28 digits at least.
 const PRINTED: f64 = 1e-27;

@@ -1,9 +1,9 @@
 //! Extrapolation of the midpoint rule: its order, its counts, and how far its digits go.
 
 use core::convert::Infallible;
-use mbs_core::Real;
-use mbs_core::ode::{Adaptive, EndState, Extrapolation, Method, Options, Rates};
-use mbs_core::real::DoubleDouble as Pair;
+use mbs_math::Real;
+use mbs_math::ode::{Adaptive, EndState, Extrapolation, Method, Options, Rates};
+use mbs_math::real::DoubleDouble as Pair;
 
 /// y = (cos t, −sin t), which counts how often its rates are asked for.
 struct Oscillator(u64);

@@ -7,8 +7,8 @@
 )]
 
 use dashu_float::{FBig, round::mode::HalfEven};
-use mbs_core::Real;
-use mbs_core::real::DoubleDouble;
+use mbs_math::Real;
+use mbs_math::real::DoubleDouble;
 use proptest::prelude::*;
 
 type Big = FBig<HalfEven, 2>;

@@ -105,7 +105,7 @@ impl<T: Real> Coef<T> {
 
 /// Reads D numbers at `at`.
 #[inline(always)]
-pub(crate) fn load<T: Real, const D: usize>(x: &[T], at: u32) -> Vector<T, D> {
+pub fn load<T: Real, const D: usize>(x: &[T], at: u32) -> Vector<T, D> {
     let at = at as usize;
     let x = &x[at..at + D];
     Vector::from_fn(|i, _| x[i])
@@ -113,7 +113,7 @@ pub(crate) fn load<T: Real, const D: usize>(x: &[T], at: u32) -> Vector<T, D> {
 
 /// Writes D numbers at `at`.
 #[inline(always)]
-pub(crate) fn store<T: Real, const D: usize>(x: &mut [T], at: u32, y: &Vector<T, D>) {
+pub fn store<T: Real, const D: usize>(x: &mut [T], at: u32, y: &Vector<T, D>) {
     let at = at as usize;
     let x = &mut x[at..at + D];
     for i in 0..D {
@@ -123,7 +123,7 @@ pub(crate) fn store<T: Real, const D: usize>(x: &mut [T], at: u32, y: &Vector<T,
 
 /// Adds D numbers at `at`.
 #[inline(always)]
-pub(crate) fn add_to<T: Real, const D: usize>(x: &mut [T], at: usize, y: &Vector<T, D>) {
+pub fn add_to<T: Real, const D: usize>(x: &mut [T], at: usize, y: &Vector<T, D>) {
     let x = &mut x[at..at + D];
     for i in 0..D {
         x[i] += y[i];
@@ -131,7 +131,7 @@ pub(crate) fn add_to<T: Real, const D: usize>(x: &mut [T], at: usize, y: &Vector
 }
 
 /// The unit vector along axis `i`.
-pub(crate) fn unit<T: Real>(i: usize) -> Vector<T, 3> {
+pub fn unit<T: Real>(i: usize) -> Vector<T, 3> {
     let mut e = Vector::<T, 3>::zeros();
     e[i] = T::ONE;
     e
@@ -140,14 +140,14 @@ pub(crate) fn unit<T: Real>(i: usize) -> Vector<T, 3> {
 /// A vector of the plane or of space, in space.
 #[cfg(feature = "alloc")]
 #[inline(always)]
-pub(crate) fn raised<T: Real, const D: usize>(x: &Vector<T, D>) -> Vector<T, 3> {
+pub fn raised<T: Real, const D: usize>(x: &Vector<T, D>) -> Vector<T, 3> {
     Vector::from_fn(|i, _| if i < D { x[i] } else { T::ZERO })
 }
 
 /// What the plane or space has of a vector of space.
 #[cfg(feature = "alloc")]
 #[inline(always)]
-pub(crate) fn lowered<T: Real, const D: usize>(x: &Vector<T, 3>) -> Vector<T, D> {
+pub fn lowered<T: Real, const D: usize>(x: &Vector<T, 3>) -> Vector<T, D> {
     Vector::from_fn(|i, _| x[i])
 }
 
@@ -159,7 +159,7 @@ pub fn norm<T: Real, const D: usize>(x: &Vector<T, D>) -> T {
 /// The unit vector along a vector that is not zero, however long: where its square leaves the range of the scalar, it is first taken
 /// in shares of its largest component.
 #[cfg(feature = "alloc")]
-pub(crate) fn along<T: Real>(x: &Vector<T, 3>) -> Vector<T, 3> {
+pub fn along<T: Real>(x: &Vector<T, 3>) -> Vector<T, 3> {
     let size = norm_inf(x.as_slice());
     let is_usual = size > T::from_f64(1e-15) && size < T::from_f64(1e15);
     // not a product with 1/size, which overflows for the smallest
