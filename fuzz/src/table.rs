@@ -3,11 +3,12 @@
 
 use crate::{Dice, damage, mutated};
 use mbs::Method;
-use mbs::compare::check_table;
 use mbs::core::scene::Scene;
 use mbs::export::ladder;
-use mbs::scene_file::{Channel, SceneFile};
-use mbs::sweep::{Study, StudyError};
+use mbs::record::Channel;
+use mbs::scene_file::SceneFile;
+use mbs_study::compare::check_table;
+use mbs_study::sweep::{Study, StudyError};
 
 /// Rows of a table of references.
 const ROWS: usize = 12;

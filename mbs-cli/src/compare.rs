@@ -6,10 +6,11 @@ use crate::say::{say, warn};
 use crate::{STOPPED, files, signals};
 use clap::Args;
 use indicatif::ProgressBar;
-use mbs::compare::{CompareError, Earlier, JournalError, Request, Watch, compare};
 use mbs::folder::{Folder, WriteError, id};
-use mbs::scene_file::compare::{Comparison, Status, comparison_page, write_comparison};
 use mbs::{FORMULATIONS, FormulationKind, PRECISIONS, Precision};
+use mbs_report::comparison_page;
+use mbs_study::compare::results::{Comparison, Status, write_comparison};
+use mbs_study::compare::{CompareError, Earlier, JournalError, Request, Watch, compare};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -257,7 +258,11 @@ fn tell(
             wrote = format!("\nwrote compare.csv, compare.json and compare.html to {out}\n");
         }
     }
-    let text = if arguments.json { object } else { comparison.report().text() + &wrote };
+    let text = if arguments.json {
+        object
+    } else {
+        mbs_report::compare::report(comparison).text() + &wrote
+    };
     say(&text, status)
 }
 

@@ -5,8 +5,9 @@ use crate::say::say;
 use crate::{STOPPED, files, signals};
 use clap::Args;
 use mbs::core::scene::Entry;
-use mbs::doctor::{Checkup, Effort, Severity, examine, report, to_json};
 use mbs::{Method, Precision};
+use mbs_report::diagnosis;
+use mbs_study::doctor::{Checkup, Effort, Severity, examine, to_json};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -80,7 +81,7 @@ fn tell(begun: &files::Begun, checkup: &Checkup, arguments: &Arguments) -> ExitC
     let command = if arguments.still { "doctor --still" } else { "doctor" };
     let provenance = files::provenance((command, &arguments.scene), &options, settings);
     let line = |entry: Entry, key: &str| Some(document.place(entry, key).line);
-    let (page, mut text) = report(scene, checkup, &line, provenance);
+    let (page, mut text) = diagnosis(scene, checkup, &line, provenance);
     let mut object = to_json(checkup, &line).to_string();
     let mut status = match checkup.worst() {
         Some(Severity::Fault) => ExitCode::from(STOPPED),

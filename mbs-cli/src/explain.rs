@@ -5,10 +5,10 @@ use crate::run::unplanned;
 use crate::say::{say, warn};
 use crate::{NO_PAIRS, STOPPED, files, signals};
 use clap::Args;
-use mbs::auto::{Goal, Processor, plan, time};
-use mbs::explain::{Effort, explain_document, report};
-use mbs::scene_file::Explanation;
 use mbs::{Method, words};
+use mbs_study::auto::{Goal, Processor, plan, time};
+use mbs_study::explain::Explanation;
+use mbs_study::explain::{Effort, explain_document};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -99,7 +99,7 @@ fn tell(begun: &files::Begun, explanation: &Explanation, arguments: &Arguments) 
         ("deadline", arguments.deadline.map(|x| x.to_string())),
     ];
     let provenance = files::provenance(("explain", &arguments.scene), &options, &begun.settings);
-    let report = report(explanation, provenance);
+    let report = mbs_report::explanation(explanation, provenance);
     let error = explanation.error.as_ref();
     let mut status = if error.is_some() { ExitCode::from(STOPPED) } else { ExitCode::SUCCESS };
     let (mut object, mut wrote) = (explanation.to_json(), String::new());

@@ -4,7 +4,9 @@ use crate::refusal::Refusal;
 use crate::say::warn;
 use mbs::core::scene::{Entry, Scene};
 use mbs::folder::{Folder, WriteError, id, write_file};
-use mbs::scene_file::{PilotReport, Provenance, SceneFile, format::significant};
+use mbs::record::{PilotReport, Provenance};
+use mbs::scene_file::SceneFile;
+use mbs::scene_file::format::significant;
 use mbs::{Method, Settings, SettingsError};
 use std::fs::File;
 use std::io::{self, Read};
@@ -205,7 +207,7 @@ pub(crate) fn write_choice(
 ) -> Result<(), WriteError> {
     let text = serde_json::to_string_pretty(choice).unwrap_or_default();
     part.table("choice.json", |sink| writeln!(sink, "{text}"))?;
-    part.table("choice.csv", |sink| mbs::scene_file::write_choice(sink, choice))
+    part.table("choice.csv", |sink| mbs::record::write_choice(sink, choice))
 }
 
 /// The system's words without the number of the error.

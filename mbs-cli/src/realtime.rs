@@ -7,7 +7,8 @@ use mbs::folder::{Part, WriteError};
 use mbs::realtime::{
     Degrade, OVERRUNS, Overrun, Pacing, PacingError, Recovery, SystemClock, run_document,
 };
-use mbs::scene_file::{RunSummary, SceneFile, write_overruns};
+use mbs::record::{RunSummary, write_overruns};
+use mbs::scene_file::SceneFile;
 use mbs::{Outcome, Settings};
 
 /// Options of a paced run.

@@ -7,12 +7,14 @@ use crate::say::{say, warn};
 use crate::{STOPPED, files, keep, named, realtime, signals, table, unbuilt};
 use clap::Args;
 use indicatif::ProgressBar;
-use mbs::auto::{Clock, Goal, Plan, PlanError, Processor, plan, run_plan, time};
-use mbs::estimate::estimate;
 use mbs::folder::{Folder, WriteError};
 use mbs::realtime::Pacing;
-use mbs::scene_file::{Provenance, RunError, SceneFile, format::significant};
+use mbs::record::{Provenance, RunError};
+use mbs::scene_file::SceneFile;
+use mbs::scene_file::format::significant;
 use mbs::{CHECKPOINT, Method, Outcome, Precision, Settings, StopError, run_document_kept, words};
+use mbs_study::auto::{Clock, Goal, Plan, PlanError, Processor, plan, run_plan, time};
+use mbs_study::estimate::estimate;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -375,7 +377,7 @@ fn write_files(
     if let Some(choice) = chosen.and_then(|chosen| chosen.evidence.as_ref()) {
         files::write_choice(&mut part, choice)?;
     }
-    part.page("run.html", &outcome.page(provenance))?;
+    part.page("run.html", &mbs_report::page(&outcome.record(provenance)))?;
     part.finish("run.json", &outcome.summary.to_json())
 }
 

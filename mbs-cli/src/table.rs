@@ -1,6 +1,7 @@
 //! The short table at the end of a run.
 
-use mbs::scene_file::{RunSummary, format::significant};
+use mbs::record::RunSummary;
+use mbs::scene_file::format::significant;
 use mbs::{Outcome, words};
 use std::fmt::Write;
 use std::path::Path;

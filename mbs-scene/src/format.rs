@@ -43,11 +43,49 @@ pub fn shortest(x: f64) -> String {
 }
 
 /// Rounds to so many significant digits, which shortens the decimal text.
-pub(crate) fn rounded(x: f64, digits: usize) -> f64 {
+#[must_use]
+pub fn rounded(x: f64, digits: usize) -> f64 {
     if !x.is_finite() {
         return x;
     }
     format!("{x:.*e}", digits.saturating_sub(1)).parse().unwrap_or(x)
+}
+
+/// Three significant digits, for messages.
+#[must_use]
+pub fn few(x: f64) -> String {
+    significant(rounded(x, 3))
+}
+
+/// A size for a table: four digits, and a plain zero.
+#[must_use]
+pub fn size(x: f64) -> String {
+    if x == 0.0 { "0".to_owned() } else { format!("{x:.3e}") }
+}
+
+/// A time span for a table.
+#[must_use]
+pub fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s >= 1.0 => format!("{s:.2} s"),
+        s if s >= 1e-3 => format!("{:.2} ms", s * 1e3),
+        s => format!("{:.1} us", s * 1e6),
+    }
+}
+
+/// A count with its noun, of which there may be many.
+#[must_use]
+pub fn counted(n: usize, noun: &str) -> String {
+    if n == 1 {
+        return format!("1 {noun}");
+    }
+    match noun.split_once(" of ") {
+        Some((head, rest)) => format!("{n} {head}s of {rest}"),
+        None => match noun.strip_suffix('y') {
+            Some(stem) => format!("{n} {stem}ies"),
+            None => format!("{n} {noun}s"),
+        },
+    }
 }
 
 #[cfg(test)]
@@ -64,5 +102,13 @@ mod tests {
     fn numbers_are_short_and_never_lose_their_size() {
         let texts = [-0.0, 1.0, -2.5e-5, 123_456_789.4, 1e12, f64::NAN].map(significant);
         assert_eq!(texts, ["0", "1", "-2.5e-5", "123456789", "1e12", "NaN"]);
+    }
+
+    #[test]
+    fn nouns_have_their_plurals() {
+        assert_eq!(counted(1, "body"), "1 body");
+        assert_eq!(counted(0, "body"), "0 bodies");
+        assert_eq!(counted(2, "degree of freedom"), "2 degrees of freedom");
+        assert_eq!(counted(3, "equation"), "3 equations");
     }
 }

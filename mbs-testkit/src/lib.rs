@@ -6,6 +6,7 @@ mod dense;
 pub mod effects;
 pub mod quantities;
 pub mod random;
+pub mod repository;
 pub mod retell;
 pub mod scenes;
 mod start;

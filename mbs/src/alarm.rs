@@ -11,14 +11,15 @@ const PATIENCE: u32 = 10;
 
 /// Steps in a row after which the invariant was off.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Alarm {
+pub struct Alarm {
     /// Share of the energy turned over that it may be off by.
     share: f64,
     off: u32,
 }
 
 impl Alarm {
-    pub(crate) fn new(share: f64) -> Self {
+    /// Of a limit, as a fraction of the exchanged energy.
+    pub fn new(share: f64) -> Self {
         Self { share, off: 0 }
     }
 
@@ -28,7 +29,7 @@ impl Alarm {
     }
 
     /// Has the invariant drifted too far after this step?
-    pub(crate) fn rings<T: Real, const D: usize>(
+    pub fn rings<T: Real, const D: usize>(
         &mut self,
         simulation: &Simulation<T, D>,
         is_last: bool,
@@ -37,7 +38,7 @@ impl Alarm {
     }
 
     /// The same, with another reason for which steps in a row may be off.
-    pub(crate) fn rings_for<T: Real, const D: usize>(
+    pub fn rings_for<T: Real, const D: usize>(
         &mut self,
         simulation: &Simulation<T, D>,
         is_last: bool,

@@ -11,7 +11,7 @@ use mbs_core::scene::Scene;
 
 /// Measures and reactions of a scene.
 #[derive(Debug, Clone)]
-pub(crate) struct Channels<T: Real, const D: usize> {
+pub struct Channels<T: Real, const D: usize> {
     measures: Measures<T, D>,
     reactions: Option<Reactions<T, D>>,
     /// Joints whose reaction is an output and was not unique at some row.
@@ -22,7 +22,11 @@ pub(crate) struct Channels<T: Real, const D: usize> {
 }
 
 impl<T: Real, const D: usize> Channels<T, D> {
-    pub(crate) fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, StopError> {
+    /// Those of a scene.
+    ///
+    /// # Errors
+    /// [`StopError`] for an output that cannot be measured.
+    pub fn new(scene: &Scene<T>, model: &NaturalModel<T, D>) -> Result<Self, StopError> {
         let measures = Measures::new(scene, model).map_err(|e| StopError::Start(e.into()))?;
         let reactions = Reactions::<T, D>::needed(scene)
             .then(|| Reactions::new(scene, model))
@@ -45,7 +49,7 @@ impl<T: Real, const D: usize> Channels<T, D> {
     }
 
     /// Exchanges what reactions are made of: the same scene with other effects has others.
-    pub(crate) fn exchange(&mut self, reactions: &mut Option<Reactions<T, D>>) {
+    pub fn exchange(&mut self, reactions: &mut Option<Reactions<T, D>>) {
         core::mem::swap(&mut self.reactions, reactions);
     }
 
@@ -63,7 +67,7 @@ impl<T: Real, const D: usize> Channels<T, D> {
     ///
     /// # Errors
     /// [`StopError::Step`] with the joint whose turns are not known.
-    pub(crate) fn track(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
+    pub fn track(&mut self, simulation: &Simulation<T, D>) -> Result<(), StopError> {
         let state = simulation.state();
         if simulation.has_own_coordinates() {
             self.measures.track_with(state, |joint, number| simulation.coordinate(joint, number));
@@ -76,7 +80,7 @@ impl<T: Real, const D: usize> Channels<T, D> {
     ///
     /// # Errors
     /// [`StopError::Output`] for one that is not finite, as the acceleration of a point beyond all measure.
-    pub(crate) fn write(&mut self, state: &State<T>, out: &mut [T]) -> Result<(), StopError> {
+    pub fn write(&mut self, state: &State<T>, out: &mut [T]) -> Result<(), StopError> {
         if let Some(reactions) = &mut self.reactions {
             reactions.update(state);
             for &joint in &self.asked {
@@ -92,12 +96,12 @@ impl<T: Real, const D: usize> Channels<T, D> {
     }
 
     /// Number of components of each channel.
-    pub(crate) fn lengths(&self) -> impl Iterator<Item = usize> + '_ {
+    pub fn lengths(&self) -> impl Iterator<Item = usize> + '_ {
         self.measures.lengths()
     }
 
     /// Names of the joints whose reaction was not unique.
-    pub(crate) fn not_unique(&self, scene: &Scene<T>) -> Vec<String> {
+    pub fn not_unique(&self, scene: &Scene<T>) -> Vec<String> {
         self.not_unique.iter().map(|&j| scene.joints[j].name.clone()).collect()
     }
 }

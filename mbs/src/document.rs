@@ -2,7 +2,7 @@
 
 use crate::checkpoint::{Checkpoint, CheckpointError, Keeping};
 use crate::driver::StepObserver;
-use crate::precision::{PrecisionError, ReadScene, Work};
+use crate::precision::{PrecisionError, ReadScene, SceneWork};
 use crate::run::{Outcome, run, run_kept};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
@@ -31,7 +31,7 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Listener<'_> {
 /// A run.
 pub(crate) struct Plain<'a>(pub(crate) &'a mut dyn FnMut(f64), pub(crate) &'a Settings);
 
-impl Work for Plain<'_> {
+impl SceneWork for Plain<'_> {
     type Done = Outcome;
 
     fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome {
@@ -42,7 +42,7 @@ impl Work for Plain<'_> {
 /// A run that is kept, or goes on.
 struct InParts<'a>(Listener<'a>, &'a Settings, Option<&'a Checkpoint>, Option<&'a mut Keeping>);
 
-impl Work for InParts<'_> {
+impl SceneWork for InParts<'_> {
     type Done = Result<Outcome, CheckpointError>;
 
     fn done<T: Real, const D: usize>(mut self, scene: &Scene<T>) -> Self::Done {

@@ -159,13 +159,13 @@ impl<T: Real, const D: usize> Deref for StepInputs<'_, T, D> {
     }
 }
 
-/// Whether a run goes on.
-pub(crate) fn goes_on(yes: bool) -> ControlFlow<()> {
+/// Continues a run on a condition, else ends it.
+pub fn continue_if(yes: bool) -> ControlFlow<()> {
     if yes { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
 }
 
 /// What the loop steps: a simulation, or several in turn of which one is shown.
-pub(crate) trait Plant<T: Real, const D: usize> {
+pub trait Plant<T: Real, const D: usize> {
     /// The simulation that steps.
     fn stepped(&mut self) -> &mut Simulation<T, D>;
 
@@ -195,33 +195,34 @@ impl<T: Real, const D: usize> Plant<T, D> for Simulation<T, D> {
 
 /// Simulated time up to an instant at which a step has to end.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Stretch<T> {
+pub struct Stretch<T> {
     /// Its end [s].
-    pub(crate) to: T,
+    pub to: T,
     /// Steps of fixed length; else as many as their control makes.
-    pub(crate) fixed: Option<Fixed<T>>,
+    pub fixed: Option<Fixed<T>>,
     /// The run ends with it.
-    pub(crate) is_last: bool,
+    pub is_last: bool,
 }
 
 /// Steps of fixed length.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Fixed<T> {
-    pub(crate) n: u64,
+pub struct Fixed<T> {
+    /// Number of steps.
+    pub n: u64,
     /// Time before the first, in the digits of the run and in `f64` [s].
-    pub(crate) from: (T, f64),
+    pub from: (T, f64),
     /// Their length [s].
-    pub(crate) dt: (T, f64),
+    pub dt: (T, f64),
 }
 
 impl<T: Real> Stretch<T> {
     /// To an instant, in steps whose length is controlled or which fill it.
-    pub(crate) fn to(to: T) -> Self {
+    pub fn to(to: T) -> Self {
         Self { to, fixed: None, is_last: false }
     }
 
     /// The stretch, in one step of this length where it is given [s].
-    pub(crate) fn in_one(self, dt: Option<T>) -> Self {
+    pub fn in_one(self, dt: Option<T>) -> Self {
         let fixed = |dt: T| Fixed { n: 1, from: (T::ZERO, 0.0), dt: (dt, dt.to_f64()) };
         Self { fixed: dt.map(fixed), ..self }
     }
@@ -244,7 +245,7 @@ pub(crate) fn multiple<T: Real>(t: (T, f64), k: u64, h: (T, f64)) -> T {
 ///
 /// # Errors
 /// Why it stopped.
-pub(crate) fn drive<T: Real, const D: usize>(
+pub fn drive<T: Real, const D: usize>(
     plant: &mut impl Plant<T, D>,
     stretches: impl IntoIterator<Item = Stretch<T>>,
     interrupt: &Interrupt,

@@ -1,10 +1,10 @@
 //! The stick figure of a scene: which points are drawn and what lines join them.
 
 use crate::checkpoint::tape::{Tape, Told, holds};
+use crate::record::{Animation, Polyline, Trace};
 use mbs_core::Real;
 use mbs_core::natural::{Affine, NaturalModel};
 use mbs_core::scene::{BodyId, Dimension, Inertia, Joint, Quantity, Scene, Translation};
-use mbs_scene::{Animation, Polyline, Trace};
 
 /// Pictures kept of a run at most.
 const MOST_FRAMES: f64 = 600.0;

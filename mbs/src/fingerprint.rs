@@ -35,7 +35,7 @@ impl fmt::Write for Fingerprint {
 }
 
 /// Of some bytes.
-pub(crate) fn fingerprint(bytes: &[u8]) -> u64 {
+pub fn fingerprint(bytes: &[u8]) -> u64 {
     let mut all = Fingerprint::new();
     all.add(bytes);
     all.get()

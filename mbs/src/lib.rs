@@ -1,18 +1,14 @@
 #![doc = include_str!("../README.md")]
 
 mod alarm;
-pub mod auto;
+mod changes;
 mod channels;
 mod checkpoint;
 mod choice;
-pub mod compare;
 mod control;
 mod digits;
-pub mod doctor;
 mod document;
 mod driver;
-pub mod estimate;
-pub mod explain;
 pub mod export;
 mod figure;
 mod fingerprint;
@@ -20,13 +16,13 @@ pub mod folder;
 mod friction;
 mod front;
 mod interrupt;
-mod journal;
 mod methods;
 mod modes;
 mod names;
 mod precision;
 mod ready;
 pub mod realtime;
+pub mod record;
 mod recorder;
 mod rest;
 mod run;
@@ -34,7 +30,6 @@ mod settings;
 mod simulation;
 mod statics;
 mod stop;
-pub mod sweep;
 mod tilt;
 mod tree;
 pub mod words;
@@ -42,7 +37,6 @@ pub mod words;
 pub use mbs_augmented as augmented;
 pub use mbs_classical as classical;
 pub use mbs_core as core;
-pub use mbs_doctor as joint_level;
 pub use mbs_linear as linear;
 pub use mbs_parallel as parallel;
 pub use mbs_recursive as recursive;
@@ -52,7 +46,6 @@ pub use mbs_statespace as statespace;
 
 pub use checkpoint::{Checkpoint, CheckpointError, FILE as CHECKPOINT, Keeping};
 pub use choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES, StepRule};
-pub use compare::Request as Compare;
 pub use document::{run_document, run_document_kept};
 pub use front::tree::{Matrix, Tree, TreeError, TreeErrorKind, TreeRange};
 pub use front::{
@@ -60,8 +53,7 @@ pub use front::{
     Error, FunctionId, Guide, Id, InitialCondition, InputId, InputInfo, InputOwner, Joint,
     Mechanism, Observer, Output, OutputFunction, Part, PathError, PointMotion, Pose, Run,
     RunInputs, RunResult, SceneError, Simulation, SimulationError, Sizes, Snapshot, StepReport,
-    Sweep, SweepResult, Table, UnknownName, View, Wrench, compare, equilibrium, modes, run,
-    run_with, sweep,
+    Table, UnknownName, View, Wrench, equilibrium, modes, run, run_with,
 };
 pub use interrupt::Interrupt;
 pub use mbs_core::formulation::{Formulation, SwitchError};
@@ -82,6 +74,24 @@ pub use statics::{Moved, Search, StaticEquilibrium, equilibrium_start, find_equi
 pub use stop::{INTERRUPTED, StopError};
 pub use tilt::AlmostDependent;
 pub use tree::{InSpace, Plane};
+
+/// What the studies of mbs-study share with this crate; no part of its interface.
+#[doc(hidden)]
+pub mod inside {
+    pub use crate::alarm::Alarm;
+    pub use crate::changes::OutputRanges;
+    pub use crate::channels::Channels;
+    pub use crate::driver::{Fixed, Stretch, continue_if, drive};
+    pub use crate::fingerprint::fingerprint;
+    pub use crate::precision::{ReadScene, SceneWork, in_space, not_built_hint};
+    pub use crate::ready::AssembledScene;
+    pub use crate::recorder::Keep;
+    pub use crate::run::{run_keeping, step};
+    pub use crate::settings::DEFAULT_STEP;
+    pub use crate::settings::way::{is_too_long, too_long};
+    pub use crate::simulation::rank;
+    pub use crate::tilt::notes;
+}
 
 /// A scene in one scalar and dimension: for those who write generic code.
 pub mod typed {

@@ -10,8 +10,7 @@ use crate::statics::{Search, find_equilibrium, left_out_json, workspace};
 use crate::stop::StopError;
 use core::f64::consts::TAU;
 use mbs_core::scene::{Dimension, Scene};
-use mbs_doctor::{Matrix, singular_values};
-use mbs_linear::{Equilibrium, Instant, Linear, LinearOptions, linearise};
+use mbs_linear::{Equilibrium, Instant, Linear, LinearOptions, Matrix, linearise, singular_values};
 use serde_json::{Value, json};
 
 /// About which state.

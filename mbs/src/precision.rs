@@ -14,7 +14,7 @@ use mbs_scene::{ReadError, SceneFile};
 use std::borrow::Cow;
 
 /// What is done with a scene in the digits and the dimensions of its run.
-pub(crate) trait Work {
+pub trait SceneWork {
     /// What comes of it.
     type Done;
 
@@ -25,7 +25,7 @@ pub(crate) trait Work {
 }
 
 /// What has a scene in every precision.
-pub(crate) trait Source {
+pub trait Source {
     /// Why it has none in one.
     type Error: From<PrecisionError>;
 
@@ -47,7 +47,7 @@ impl Source for SceneFile {
 
 /// A scene in one precision.
 #[derive(Debug)]
-pub(crate) enum ReadScene<'a> {
+pub enum ReadScene<'a> {
     /// Double precision.
     F64(Box<Cow<'a, Scene<f64>>>),
     /// Single precision.
@@ -60,7 +60,10 @@ pub(crate) enum ReadScene<'a> {
 
 impl<'a> ReadScene<'a> {
     /// The scene as it was read in `f64`, or read anew from its document in another precision.
-    pub(crate) fn new(
+    ///
+    /// # Errors
+    /// [`PrecisionError`] where it is not built, or the text is no scene in it.
+    pub fn new(
         (document, scene): (&SceneFile, &'a Scene<f64>),
         precision: Precision,
     ) -> Result<Self, PrecisionError> {
@@ -68,7 +71,10 @@ impl<'a> ReadScene<'a> {
     }
 
     /// The same of any source that has the scene in `f64`.
-    pub(crate) fn of<S: Source>(
+    ///
+    /// # Errors
+    /// Those of the source, and a precision that is not built.
+    pub fn of<S: Source>(
         source: &S,
         scene: Cow<'a, Scene<f64>>,
         precision: Precision,
@@ -86,7 +92,7 @@ impl<'a> ReadScene<'a> {
     }
 
     /// The same for as long as one likes.
-    pub(crate) fn into_owned(self) -> ReadScene<'static> {
+    pub fn into_owned(self) -> ReadScene<'static> {
         match self {
             Self::F64(scene) => ReadScene::F64(Box::new(Cow::Owned(scene.into_owned()))),
             #[cfg(feature = "f32")]
@@ -97,7 +103,7 @@ impl<'a> ReadScene<'a> {
     }
 
     /// Does the work in the scene's precision and dimension.
-    pub(crate) fn work<W: Work>(&self, work: W) -> W::Done {
+    pub fn work<W: SceneWork>(&self, work: W) -> W::Done {
         match self {
             Self::F64(scene) => in_space(&***scene, work),
             #[cfg(feature = "f32")]
@@ -108,7 +114,7 @@ impl<'a> ReadScene<'a> {
     }
 
     /// Does the work in a number of the hardware; nothing in pairs of doubles, for which such work is not compiled.
-    pub(crate) fn work_in_hardware<W: Work>(&self, work: W) -> Option<W::Done> {
+    pub fn work_in_hardware<W: SceneWork>(&self, work: W) -> Option<W::Done> {
         match self {
             Self::F64(scene) => Some(in_space(&***scene, work)),
             #[cfg(feature = "f32")]
@@ -120,7 +126,7 @@ impl<'a> ReadScene<'a> {
 }
 
 /// Does the work in the dimension of the scene.
-pub(crate) fn in_space<T: Real, W: Work>(scene: &Scene<T>, work: W) -> W::Done
+pub fn in_space<T: Real, W: SceneWork>(scene: &Scene<T>, work: W) -> W::Done
 where
     Plane<2>: InSpace<T>,
     Plane<3>: InSpace<T>,
@@ -174,7 +180,7 @@ impl PrecisionError {
 }
 
 /// How to get a precision that was left out.
-pub(crate) fn not_built_hint(precision: Precision) -> String {
+pub fn not_built_hint(precision: Precision) -> String {
     format!("build with the feature `{}`, which is on by default", precision.name())
 }
 

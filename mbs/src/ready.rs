@@ -15,10 +15,13 @@ use mbs_sparse::Multifrontal;
 
 /// A model, its solver, and its consistent start.
 #[derive(Debug, Clone)]
-pub(crate) struct AssembledScene<T: Real, const D: usize> {
-    pub(crate) model: NaturalModel<T, D>,
-    pub(crate) solver: Multifrontal<T>,
-    pub(crate) start: Assembled<T>,
+pub struct AssembledScene<T: Real, const D: usize> {
+    /// Its model in natural coordinates.
+    pub model: NaturalModel<T, D>,
+    /// The solver of its start.
+    pub solver: Multifrontal<T>,
+    /// Its start.
+    pub start: Assembled<T>,
     rank: Option<usize>,
 }
 
@@ -27,7 +30,7 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
     ///
     /// # Errors
     /// [`StopError`] when there is no model, no consistent start or no equilibrium.
-    pub(crate) fn new(scene: &Scene<T>) -> Result<Self, StopError> {
+    pub fn new(scene: &Scene<T>) -> Result<Self, StopError> {
         match Search::of_start(scene.start) {
             Some(search) => Ok(Self::settled(scene, search)?.0),
             None => Self::assembled(scene),
@@ -38,10 +41,7 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
     ///
     /// # Errors
     /// As for [`new`](Self::new).
-    pub(crate) fn settled(
-        scene: &Scene<T>,
-        search: Search,
-    ) -> Result<(Self, Equilibrium<T>), StopError> {
+    pub fn settled(scene: &Scene<T>, search: Search) -> Result<(Self, Equilibrium<T>), StopError> {
         let mut ready = Self::assembled(&without_rates(scene.clone()))?;
         let Self { model, solver, start, .. } = &mut ready;
         let found = equilibrium_start(scene, model, search, solver, start)?;
@@ -52,7 +52,7 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
     ///
     /// # Errors
     /// [`StopError::Start`] when there is no model or no consistent start, [`StopError::AlmostDependent`] for an axis that is off.
-    pub(crate) fn assembled(scene: &Scene<T>) -> Result<Self, StopError> {
+    pub fn assembled(scene: &Scene<T>) -> Result<Self, StopError> {
         let model = NaturalModel::new(scene).map_err(|e| StopError::Start(e.into()))?;
         if let Some(tilt) = tilt::almost_dependent::<T, D>(scene) {
             return Err(StopError::AlmostDependent(tilt));
@@ -65,7 +65,7 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
     }
 
     /// Coordinates, constraints, and their rank at the start, which is found once.
-    pub(crate) fn sizes(&mut self) -> [usize; 3] {
+    pub fn sizes(&mut self) -> [usize; 3] {
         let Self { model, start, rank, .. } = self;
         let rank = *rank.get_or_insert_with(|| simulation::rank(model, &start.state));
         [model.n_unknowns(), model.n_constraints(), rank]

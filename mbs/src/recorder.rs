@@ -3,13 +3,14 @@
 
 use crate::checkpoint::tape::{Tape, Told, holds};
 use crate::digits::is_finer;
+use crate::record::{
+    Channel, ChannelSeries, ControlSummary, EnergySeries, IterationSeries, StepRow, StepSeries,
+    ViolationSeries, ViolationSummary,
+};
 use crate::words::limit_names;
 use mbs_core::Real;
 use mbs_core::real::DoubleDouble;
-use mbs_scene::{
-    Channel, ChannelSeries, ControlSummary, EnergySeries, IterationSeries, StepRow, StepSeries,
-    ViolationSeries, ViolationSummary, format::full,
-};
+use mbs_scene::format::full;
 
 /// Rows kept at most (and one more for the end); twice as many where the number of steps is not known before.
 pub(crate) const MOST_ROWS: u64 = 10_000;
@@ -55,7 +56,7 @@ pub(crate) struct Recorder {
 
 /// Which rows of a run stay in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Keep {
+pub enum Keep {
     /// All: for files and pages.
     Rows,
     /// The last: for a row in a table of many runs.

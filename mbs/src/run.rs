@@ -11,6 +11,7 @@ pub(crate) use paced::{Rung, Track, paced};
 use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Keeping};
 use crate::driver::{StepObserver, Stretch, drive, multiple};
 use crate::names::Names;
+use crate::record::{Channel, ControlSummary, Outputs, RunRecord, RunSummary};
 use crate::recorder::Keep;
 use crate::settings::{Lengths, Settings};
 use crate::simulation::Simulation;
@@ -20,7 +21,6 @@ use core::time::Duration;
 use kept::Kept;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
-use mbs_scene::{Channel, ControlSummary, Outputs, RunRecord, RunSummary};
 pub(crate) use record::Columns;
 use record::Record;
 use summary::{contact, energy_summary, not_started, plain_summary};
@@ -37,7 +37,7 @@ pub fn run<T: Real, const D: usize>(
 }
 
 /// [`run`], with all rows and pictures, or with the last row and no picture.
-pub(crate) fn run_keeping<T: Real, const D: usize>(
+pub fn run_keeping<T: Real, const D: usize>(
     scene: &Scene<T>,
     settings: &Settings,
     observer: &mut dyn StepObserver<T, D>,
@@ -87,7 +87,7 @@ pub fn run_kept<T: Real, const D: usize>(
 }
 
 /// Step `k` of a run, from 1: of fixed length, or an interval over which lengths are controlled. The last one ends with the run.
-pub(crate) fn step<T: Real>(settings: &Settings, lengths: &Lengths<T>, k: u64) -> Stretch<T> {
+pub fn step<T: Real>(settings: &Settings, lengths: &Lengths<T>, k: u64) -> Stretch<T> {
     let (h, end) = (settings.step_max, settings.duration);
     let &Lengths { step_max, duration, .. } = lengths;
     let at = |k| multiple((T::ZERO, 0.0), k, (step_max, h));

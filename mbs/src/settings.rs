@@ -8,15 +8,16 @@ use crate::digits::is_finer;
 use crate::interrupt::Interrupt;
 use crate::methods::{FORMULATIONS, FormulationKind, PenaltyUse};
 use crate::precision::{PrecisionError, not_built_hint};
+use crate::record::PilotReport;
 use mbs_core::Real;
 use mbs_core::control::EnergyRule;
 use mbs_core::scene::{Scene, SceneError, SolverTable};
-use mbs_scene::{PilotReport, format::significant};
+use mbs_scene::format::significant;
 
 /// Steps of a run at most: at a microsecond each they take eleven days.
 const MOST_STEPS: f64 = 1e12;
 /// Step when neither scene nor command line gives one [s].
-pub(crate) const DEFAULT_STEP: f64 = 1e-3;
+pub const DEFAULT_STEP: f64 = 1e-3;
 
 /// Error of a step by its estimate when neither gives one, relative to the scene's length.
 const DEFAULT_ERROR: f64 = 1e-6;

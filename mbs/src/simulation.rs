@@ -48,7 +48,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// The same of a scene that is ready.
-    pub(crate) fn of(
+    #[doc(hidden)]
+    pub fn of(
         scene: &Scene<T>,
         settings: &Settings,
         mut ready: AssembledScene<T, D>,
@@ -250,7 +251,8 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 
     /// The same, taken anew: what watching the invariant costs in each step.
-    pub(crate) fn watched_energies(&mut self) -> [f64; 3] {
+    #[doc(hidden)]
+    pub fn watched_energies(&mut self) -> [f64; 3] {
         self.formulation.watch();
         self.formulation.energies(&self.model, &self.state)
     }
@@ -350,7 +352,7 @@ fn size<T: Real>(x: [T; 3]) -> f64 {
 }
 
 /// Rank of the constraints at a state.
-pub(crate) fn rank<T: Real, const D: usize>(model: &NaturalModel<T, D>, state: &State<T>) -> usize {
+pub fn rank<T: Real, const D: usize>(model: &NaturalModel<T, D>, state: &State<T>) -> usize {
     let mut terms = model.terms();
     model.set_inputs(state.t, state, &mut terms);
     model.evaluate(&state.q, &mut terms);

@@ -3,6 +3,7 @@
 use crate::channels::Channels;
 use crate::modes::{eigenvalues, neutral_directions};
 use crate::ready::AssembledScene;
+use crate::record::Channel;
 use crate::rest::{LeftOut, at_rest, left_out};
 use crate::simulation::rank;
 use crate::stop::StopError;
@@ -17,7 +18,6 @@ use mbs_linear::{
     Equilibrium, Instant, LinearOptions, Options, Saddle, Workspace, equilibrium, equilibrium_near,
     linearise,
 };
-use mbs_scene::Channel;
 use mbs_sparse::{Indefinite, Multifrontal};
 use serde_json::{Map, Value, json};
 

@@ -5,8 +5,9 @@ mod step;
 use self::step::{step_hint, write_step};
 use crate::names::Names;
 use crate::tilt::AlmostDependent;
-use crate::words::few;
+use mbs_scene::format::few;
 
+use crate::record::RunError;
 use mbs_core::actions::ActionError;
 use mbs_core::laws::code::Codes;
 use mbs_core::model::Owner;
@@ -17,7 +18,6 @@ use mbs_core::start::AssemblyError;
 use mbs_core::step::StepError;
 use mbs_linear::{EquilibriumError, LinearError};
 use mbs_recursive::TreeError;
-use mbs_scene::RunError;
 
 /// The code of what was interrupted.
 pub const INTERRUPTED: &str = "interrupted";
@@ -135,7 +135,8 @@ impl StopError {
     }
 
     /// A scene without a tree.
-    pub(crate) fn tree(error: TreeError) -> Self {
+    #[doc(hidden)]
+    pub fn tree(error: TreeError) -> Self {
         let owner = match error {
             TreeError::GuideCut { joint } | TreeError::EffectCut { joint, .. } => {
                 Some(Owner::Joint(joint))

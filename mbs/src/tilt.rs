@@ -1,12 +1,12 @@
 //! Axes that are almost parallel, or almost across each other: what is said of them, and when a scene is refused for them.
 
-use crate::words::few;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Scene;
 use mbs_core::scene::align::{DOUBTFUL, MEANT, Tilt, align, tilts};
 use mbs_core::start::constraint_rank;
 use mbs_core::{Cliques, Real};
+use mbs_scene::format::few;
 
 /// An axis whose tilt alone holds what would move without it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,7 +38,7 @@ impl core::fmt::Display for AlmostDependent {
 }
 
 /// What is said of the axes that are taken as parallel, or as across each other, though they are off by a little.
-pub(crate) fn notes<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
+pub fn notes<T: Real>(scene: &Scene<T>) -> Vec<(usize, String)> {
     let note = |tilt: &Tilt<T>| {
         let [joint, other] = [tilt.joint, tilt.other].map(|j| &scene.joints[j].name);
         let angle = few(tilt.angle.to_f64());

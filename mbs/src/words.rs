@@ -2,23 +2,13 @@
 
 use crate::choice::IntegratorKind;
 use crate::methods::ROUNDINGS;
+use crate::record::{Contact, ControlSummary, ErrorEstimate, RunError, RunSummary};
 use crate::settings::Settings;
 use mbs_core::Real;
 use mbs_core::control::Limit;
 use mbs_core::scene::{Body, BodyId, Inertia, Scene};
-use mbs_scene::{
-    Contact, ControlSummary, ErrorEstimate, RunError, RunSummary, format::significant,
-};
-
-/// Three significant digits: the size is what matters.
-#[must_use]
-pub fn few(x: f64) -> String {
-    rounded(x, 3)
-}
-
-fn rounded(x: f64, digits: usize) -> String {
-    significant(format!("{x:.*e}", digits - 1).parse().unwrap_or(x))
-}
+pub use mbs_scene::format::{duration, few, size};
+use mbs_scene::format::{rounded, significant};
 
 /// What kept a step from being longer, as it stands in files.
 pub(crate) fn limit_name(limit: Limit) -> &'static str {
@@ -131,7 +121,7 @@ fn contacts(s: &RunSummary) -> Option<String> {
     }
     let one = |c: &Contact| {
         let end = c.end.map_or_else(String::new, |end| format!(" ({end})"));
-        format!("`{}`{end} {} at {} s", c.effect, c.event, rounded(c.time, 6))
+        format!("`{}`{end} {} at {} s", c.effect, c.event, significant(rounded(c.time, 6)))
     };
     let mut text = s.contacts.iter().take(FIRST).map(one).collect::<Vec<_>>().join(", ");
     let more = s.contacts.len().saturating_sub(FIRST) as u64 + s.contacts_left_out;
@@ -139,12 +129,6 @@ fn contacts(s: &RunSummary) -> Option<String> {
         text += &format!(", and {more} more");
     }
     Some(text)
-}
-
-/// A size for a table: four digits, and a plain zero.
-#[must_use]
-pub fn size(x: f64) -> String {
-    if x == 0.0 { "0".to_owned() } else { format!("{x:.3e}") }
 }
 
 /// The largest violation at the three levels, for a table.
@@ -156,18 +140,9 @@ pub fn violation(s: &RunSummary) -> String {
     format!("{position} m, {velocity} m/s, {acceleration} m/s^2 (or rad)")
 }
 
-/// A time span for a table.
-#[must_use]
-pub fn duration(seconds: f64) -> String {
-    match seconds {
-        s if s >= 1.0 => format!("{s:.2} s"),
-        s if s >= 1e-3 => format!("{:.2} ms", s * 1e3),
-        s => format!("{:.1} us", s * 1e6),
-    }
-}
-
 /// When and where a run stopped, why, and what to try, in one sentence each.
-pub(crate) fn stop_text(error: &RunError) -> String {
+#[must_use]
+pub fn stop_text(error: &RunError) -> String {
     format!("{}: {}. Hint: {}.", stopped_at(error), error.message, error.hint)
 }
 

@@ -1,30 +1,7 @@
-//! Files out: CSV rows as the run goes, JSON at its end.
+//! A scene as text: TOML, and serde both ways.
 
-mod alias;
-mod choice;
-mod csv;
-mod estimate;
-mod explanation;
-mod json;
-mod realtime;
 mod scene;
 mod serde;
-#[cfg(test)]
-mod tests;
 pub(crate) mod toml;
 
-pub use choice::{
-    Candidate, Fallback, PilotReference, PilotReport, SecondLook, TrialEntry, write_choice,
-};
-pub use csv::{CsvWriter, append_steps, write_steps};
-pub use estimate::ErrorEstimate;
-pub use explanation::{
-    ControllerStep, EffectCost, EffectCosts, EffectEntry, Explanation, GuideEntry, JointsByKind,
-    LargestStep, MissingEffect, OutputChange, Relative, SearchEnd, Simulated, Sizes, ThinRod,
-};
-pub use json::{
-    Contact, ControlSummary, EnergySummary, MethodChoice, Outputs, RunError, RunSummary,
-    ViolationSummary,
-};
-pub use realtime::{Degraded, MarginSummary, Overrun, RealtimeSummary, Times, write_overruns};
 pub use scene::{WriteError, to_toml};

@@ -1,8 +1,8 @@
 //! The rows of a run in its files, as it goes.
 
+use crate::record::{Channel, ControlSummary, CsvWriter, append_steps, write_steps};
 use crate::recorder::Recorder;
 use mbs_core::real::DoubleDouble;
-use mbs_scene::{Channel, ControlSummary, CsvWriter, append_steps, write_steps};
 use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::Path;

@@ -10,7 +10,8 @@ mod part;
 
 pub use part::{Part, WriteError, write_file};
 
-pub(crate) use part::write_whole;
+#[doc(hidden)]
+pub use part::write_whole;
 
 use crate::fingerprint::Fingerprint;
 use core::fmt::{self, Display, Formatter};

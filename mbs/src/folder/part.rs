@@ -156,7 +156,10 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 
 /// Replaces a file of a directory that one process writes by another that is whole: after a kill or a crash it has the old bytes or the new
 /// ones. Until then they are in [`PART`].
-pub(crate) fn write_whole(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), WriteError> {
+///
+/// # Errors
+/// [`WriteError`] with the path.
+pub fn write_whole(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), WriteError> {
     let (part, path) = (folder.join(PART), folder.join(name));
     let beside = part.join(name);
     // where it cannot be made nothing can be written in it

@@ -3,12 +3,10 @@
 use super::error::{Error, PathError, SceneError};
 use super::tree::TreeError;
 use crate::checkpoint::CheckpointError;
-use crate::compare::{CompareError, JournalError};
 use crate::names::Names;
 use crate::precision::PrecisionError;
 use crate::settings::SettingsError;
-use crate::stop::{INTERRUPTED, StopError};
-use crate::sweep::StudyError;
+use crate::stop::StopError;
 use core::fmt::{self, Display, Formatter};
 use mbs_core::step::InputError;
 use mbs_parallel::ensemble::EnsembleError;
@@ -48,7 +46,9 @@ impl SimulationError {
         Self(Box::new(Parts { code, message, time, joint, body, hint, place, cause }))
     }
 
-    fn with_cause(mut self, cause: impl core::error::Error + Send + Sync + 'static) -> Self {
+    /// The same, with the typed error behind it.
+    #[must_use]
+    pub fn with_cause(mut self, cause: impl core::error::Error + Send + Sync + 'static) -> Self {
         self.0.cause = Some(Box::new(cause));
         self
     }
@@ -179,34 +179,9 @@ macro_rules! from {
 
 from!(SceneError, TreeError, ReadError, WriteError, PathError);
 
-impl From<StudyError> for SimulationError {
-    fn from(error: StudyError) -> Self {
-        match error {
-            StudyError::Read(error) => Self::of(error),
-            StudyError::Settings(error) => error.into(),
-            other => {
-                let hint = "leave the option out, or do not vary the number";
-                Self::new("sweep-refused", &other, hint).with_cause(other)
-            }
-        }
-    }
-}
-
 impl From<EnsembleError> for SimulationError {
     fn from(error: EnsembleError) -> Self {
         Self::new("settings-refused", error, "write a smaller number").with_cause(error)
-    }
-}
-
-impl From<CompareError> for SimulationError {
-    fn from(error: CompareError) -> Self {
-        let code = match error {
-            CompareError::Read(error) => return error.into(),
-            CompareError::Journal(JournalError::Interrupted) => INTERRUPTED,
-            CompareError::NoReference(_) => "no-reference",
-            _ => "settings-refused",
-        };
-        Self::new(code, &error, error.hint()).with_cause(error)
     }
 }
 

@@ -1,12 +1,13 @@
 //! Outputs that are code.
 
 use super::view::{Sight, View};
+use crate::record::Channel;
 use crate::run::Columns;
 use crate::simulation::Simulation;
 use crate::stop::StopError;
 use core::fmt::{self, Debug, Formatter};
 use mbs_core::Real;
-use mbs_scene::{Channel, Component};
+use mbs_scene::Component;
 use std::sync::Arc;
 
 /// An output of the user's own: a number that is read of a mechanism at an instant. Closures over a [`View`] are such functions.

@@ -8,7 +8,7 @@ use super::values::{Coordinates, StepReport};
 use crate::checkpoint::CheckpointError;
 use crate::checkpoint::tape::{Eye, Pen, Tape, holds};
 use crate::driver::{StepObserver, Stretch, drive};
-use crate::precision::Work;
+use crate::precision::SceneWork;
 use crate::settings::{Settings, exact};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
@@ -235,7 +235,7 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Watch<'_, T, D> {
 /// Building a simulation in the precision of its settings.
 pub(super) struct Built<'a>(pub(super) &'a Settings);
 
-impl Work for Built<'_> {
+impl SceneWork for Built<'_> {
     type Done = Result<Box<dyn Inner>, StopError>;
 
     fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done {

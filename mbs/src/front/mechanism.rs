@@ -91,7 +91,7 @@ impl Mechanism {
     /// # Errors
     /// [`WriteError`] where a part is code, or refers to a part that is not there.
     pub fn to_toml(&self) -> Result<String, WriteError> {
-        Ok(self.current()?.text().to_owned())
+        Ok(self.to_file()?.text().to_owned())
     }
 
     /// Writes the scene file of this mechanism.
@@ -338,8 +338,11 @@ impl Mechanism {
         names.find(is_free).unwrap_or_default()
     }
 
-    /// The file that says what this mechanism is now.
-    pub(super) fn current(&self) -> Result<SceneFile, WriteError> {
+    /// The scene file of this mechanism as it is now.
+    ///
+    /// # Errors
+    /// [`WriteError`] where a part of it is code.
+    pub fn to_file(&self) -> Result<SceneFile, WriteError> {
         match self.functions.first() {
             Some(function) => Err(WriteError::InCode(format!("output `{}`", function.name))),
             None => self.data(),
@@ -358,7 +361,7 @@ impl Mechanism {
 
 impl Serialize for Mechanism {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.current().map_err(serde::ser::Error::custom)?.serialize(serializer)
+        self.to_file().map_err(serde::ser::Error::custom)?.serialize(serializer)
     }
 }
 

@@ -14,7 +14,6 @@ mod seen;
 mod simulate;
 mod simulation;
 mod study;
-mod sweep;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -29,8 +28,7 @@ pub use inputs::{InputId, InputInfo, InputOwner};
 pub use mechanism::Mechanism;
 pub use part::{Id, Part};
 pub use simulation::{Simulation, Snapshot};
-pub use study::{EquilibriumOptions, Run, RunResult, compare, equilibrium, modes, run, run_with};
-pub use sweep::{Sweep, SweepResult, sweep};
+pub use study::{EquilibriumOptions, Run, RunResult, equilibrium, modes, run, run_with};
 pub use table::Table;
 pub use values::{
     BodyMotion, Components, ContactEvent, Coordinates, Energies, PointMotion, Pose, Sizes,

@@ -6,18 +6,16 @@ use super::inputs::Inputs;
 use super::mechanism::Mechanism;
 use super::table::Table;
 use super::view::{Observed, Observer, Sight};
-use crate::compare::{self, Earlier, Request as Compare};
 use crate::modes::{Modes, Place};
 use crate::names::Names;
-use crate::precision::Work;
+use crate::precision::SceneWork;
+use crate::record::RunSummary;
 use crate::run::{Outcome, run_columns};
 use crate::settings::{Method, Settings};
 use crate::statics::{Search, StaticEquilibrium};
 use crate::typed;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
-use mbs_scene::RunSummary;
-use mbs_scene::compare::Comparison;
 
 /// What is asked of a run: a method, how long, and what else.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -122,7 +120,7 @@ struct Watched<'a, 'b> {
     functions: &'a [Function],
 }
 
-impl Work for Watched<'_, '_> {
+impl SceneWork for Watched<'_, '_> {
     type Done = Outcome;
 
     fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome {
@@ -141,34 +139,6 @@ impl Work for Watched<'_, '_> {
         let mut columns = FunctionColumns { sight: sight(), functions };
         run_columns(scene, settings, observer, &mut columns)
     }
-}
-
-/// What every formulation, integrator and step costs and gives on a mechanism, against a reference that is not under test.
-///
-/// Cost: many runs. Empty lists of the options mean all there are; short lists and a short duration make it quick. The reference needs the
-/// feature `dd`, and an empty list of precisions `f32` too; both are on by default.
-///
-/// # Errors
-/// [`SimulationError`] for a mechanism that is refused or has a part in code, and where no method serves as the reference. Runs that fail
-/// are results.
-///
-/// # Examples
-/// ```no_run
-/// use mbs::{Compare, FormulationKind, Mechanism, compare};
-/// let m = Mechanism::read("scenes/double-pendulum.toml")?;
-/// let formulations = vec![FormulationKind::Index3, FormulationKind::Recursive];
-/// let found = compare(&m, &Compare { formulations, duration: Some(1.0), ..Compare::default() })?;
-/// for method in &found.methods {
-///     for run in &method.runs {
-///         println!("{}: step {} s, error {:?}", method.name, run.setting, run.error);
-///     }
-/// }
-/// # Ok::<(), mbs::SimulationError>(())
-/// ```
-pub fn compare(m: &Mechanism, options: &Compare) -> Result<Comparison, SimulationError> {
-    m.check()?;
-    let document = m.current()?;
-    Ok(compare::compare(&document, options, None, (None, Earlier::default()), &mut ())?)
 }
 
 /// How an equilibrium is searched.

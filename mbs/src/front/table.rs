@@ -1,7 +1,7 @@
 //! Rows of a run as columns: contiguous arrays by name.
 
 use crate::checkpoint::write_rows;
-use mbs_scene::Channel;
+use crate::record::Channel;
 use std::io;
 
 /// Time and the components of all outputs, at each recorded instant.

@@ -6,7 +6,7 @@ use super::measure::measured;
 use super::{Degrade, Overrun, Pace, Pacer, Pacing};
 use crate::choice::StepRule;
 use crate::digits::is_finer;
-use crate::precision::{ReadScene, Work};
+use crate::precision::{ReadScene, SceneWork};
 use crate::run::{Outcome, Rung, Track, paced};
 use crate::settings::Settings;
 use core::time::Duration;
@@ -42,7 +42,7 @@ struct Paced<'a> {
     clock: &'a mut dyn Clock,
 }
 
-impl Work for Paced<'_> {
+impl SceneWork for Paced<'_> {
     type Done = Result<Outcome, PacingError>;
 
     fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Self::Done {

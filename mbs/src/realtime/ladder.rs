@@ -1,13 +1,13 @@
 //! Levels below the full scene, and whether a running scene can change to them.
 
 use super::error::PacingError;
+use crate::record::Degraded;
 use crate::run::{Rung, Track};
 use crate::settings::Settings;
 use crate::simulation::Simulation;
 use mbs_core::Real;
 use mbs_core::formulation::SwitchError;
 use mbs_core::scene::Scene;
-use mbs_scene::Degraded;
 
 /// The word for longer steps.
 const STEPS: &str = "steps";

@@ -12,14 +12,14 @@
 use super::error::PacingError;
 use super::ladder::Sought;
 use super::{Pace, Pacer};
-use crate::explain::changes::Outputs;
+use crate::changes::OutputRanges;
+use crate::record::OutputChange;
 use crate::run::{Outcome, Rung, Track, paced};
 use crate::settings::Settings;
 use core::cell::Cell;
 use core::time::Duration;
 use mbs_core::Real;
 use mbs_realtime::{Clock, SystemClock};
-use mbs_scene::OutputChange;
 use std::time::Instant;
 
 /// Time for everything [s], about.
@@ -170,7 +170,7 @@ fn run_all<T: Real, const D: usize>(
         }
     }
     let Some((full, others)) = trials.split_first_mut() else { return trials };
-    let outputs = full.outcome.as_ref().map(|outcome| Outputs::new(sought.scene, outcome));
+    let outputs = full.outcome.as_ref().map(|outcome| OutputRanges::new(sought.scene, outcome));
     for other in others {
         let saves = full.best().zip(other.best()).map(|([full, _], [less, _])| 1.0 - less / full);
         other.rung.told.saves = saves;

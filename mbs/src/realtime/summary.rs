@@ -1,8 +1,8 @@
 //! What a pacer has measured, as it stands in files.
 
+use crate::record::{Degraded, MarginSummary, Overrun as Logged, RealtimeSummary, Times};
 use crate::run::{Rung, Track};
 use mbs_realtime::{Action, Entry, Overrun, Pacer, Spread};
-use mbs_scene::{Degraded, MarginSummary, Overrun as Logged, RealtimeSummary, Times};
 
 /// Policies as they are written.
 pub const OVERRUNS: [(&str, Overrun); 3] =

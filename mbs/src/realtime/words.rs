@@ -1,12 +1,13 @@
 //! What is said about a paced run: rows of a summary, and a note.
 
-use crate::words::{duration, few};
-use mbs_scene::{Degraded, RealtimeSummary, format::significant};
+use crate::record::{Degraded, RealtimeSummary};
+use mbs_scene::format::significant;
+use mbs_scene::format::{duration, few};
 
 /// Rows of the summary of a run: labels, and values with their units.
 #[must_use]
 pub fn rows(s: &RealtimeSummary) -> Vec<(&'static str, String)> {
-    let spread = |of: &mbs_scene::Times| {
+    let spread = |of: &crate::record::Times| {
         let [p50, p99, max] = [of.p50, of.p99, of.max].map(duration);
         format!("{p50}, {p99}, {max}")
     };

@@ -4,12 +4,12 @@ use super::Run;
 use super::record::{Counts, Record};
 use crate::checkpoint::tape::{Tape, Told, holds};
 use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Keeping, Kind, whole};
+use crate::record::ControlSummary;
 use crate::simulation::Simulation;
 use core::time::Duration;
 use cpu_time::{ProcessTime, ThreadTime};
 use mbs_core::Real;
 use mbs_core::outputs::{Instant, MOST_INSTANTS};
-use mbs_scene::ControlSummary;
 
 /// How a run is kept, and what it belongs to.
 #[derive(Debug)]

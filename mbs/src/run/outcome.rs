@@ -1,10 +1,10 @@
 //! What a run gives: its summary, and what its files are made of.
 
 use crate::checkpoint::write_rows;
+use crate::record::{Channel, ErrorEstimate, Provenance, RunRecord, RunSummary, StepSeries};
 use crate::stop::StopError;
 use crate::words::summary_rows;
 use mbs_core::real::DoubleDouble;
-use mbs_scene::{Channel, ErrorEstimate, Provenance, RunRecord, RunSummary, StepSeries};
 use std::io;
 
 /// What a run gives.
@@ -38,7 +38,7 @@ impl Outcome {
     /// # Errors
     /// Those of the sink.
     pub fn write_steps(&self, sink: impl io::Write) -> io::Result<()> {
-        mbs_scene::write_steps(sink, &self.steps)
+        crate::record::write_steps(sink, &self.steps)
     }
 
     /// The steps of the rows.
@@ -47,11 +47,10 @@ impl Outcome {
         &self.steps
     }
 
-    /// The page, with how the run was made.
+    /// What a page of the run shows, with how the run was made.
     #[must_use]
-    pub fn page(&self, provenance: Provenance) -> String {
-        let record = RunRecord { provenance, ..self.record.clone() };
-        mbs_scene::page(&record)
+    pub fn record(&self, provenance: Provenance) -> RunRecord {
+        RunRecord { provenance, ..self.record.clone() }
     }
 
     /// The rows: time and all components of all channels.
@@ -66,7 +65,8 @@ impl Outcome {
     }
 
     /// Takes an estimate of the errors; warnings become notes.
-    pub(crate) fn take_estimate(&mut self, estimate: ErrorEstimate) {
+    #[doc(hidden)]
+    pub fn take_estimate(&mut self, estimate: ErrorEstimate) {
         self.record.notes.extend(estimate.warnings.iter().cloned());
         self.summary.estimate = Some(estimate);
         self.record.summary = summary_rows(&self.summary);

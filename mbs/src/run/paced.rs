@@ -9,6 +9,7 @@ use super::{Outcome, Run};
 use crate::driver::{Fixed, Plant, StepObserver, Stretch, drive, multiple};
 use crate::interrupt::Interrupt;
 use crate::realtime::summary;
+use crate::record::{Channel, Degraded};
 use crate::recorder::Keep;
 use crate::settings::Settings;
 use crate::simulation::Simulation;
@@ -22,7 +23,7 @@ use mbs_core::outputs::Reactions;
 use mbs_core::scene::Scene;
 use mbs_core::step::StepError;
 use mbs_realtime::{Clock, Pacer, Task, Work};
-use mbs_scene::{Channel, Component, Degraded};
+use mbs_scene::Component;
 
 /// The column that says at which level a row was simulated.
 const LEVEL: &str = "realtime-level";

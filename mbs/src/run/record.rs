@@ -6,6 +6,7 @@ use crate::channels::Channels;
 use crate::driver::StepObserver;
 use crate::figure::Figure;
 use crate::friction::Frictions;
+use crate::record::{Channel, ControlSummary, RealtimeSummary, StepRow};
 use crate::recorder::{Keep, Recorder, StepMark};
 use crate::settings::{Lengths, Settings};
 use crate::simulation::Simulation;
@@ -17,7 +18,6 @@ use mbs_core::Real;
 use mbs_core::control::Accepted;
 use mbs_core::outputs::Contacts;
 use mbs_core::scene::Scene;
-use mbs_scene::{Channel, ControlSummary, RealtimeSummary, StepRow};
 use std::time::Instant;
 
 #[derive(Debug, Default)]

@@ -2,6 +2,7 @@
 
 use super::Outcome;
 use crate::names::Names;
+use crate::record::{Channel, Contact, EnergySummary, RunRecord, RunSummary, StepSeries};
 use crate::settings::Settings;
 use crate::stop::StopError;
 use crate::words::{stop_text, summary_rows};
@@ -9,7 +10,6 @@ use mbs_core::Real;
 use mbs_core::control::Invariant;
 use mbs_core::outputs;
 use mbs_core::scene::Scene;
-use mbs_scene::{Channel, Contact, EnergySummary, RunRecord, RunSummary, StepSeries};
 
 /// An instant with the effect's name.
 pub(super) fn contact<T: Real>(scene: &Scene<T>, instant: &outputs::Instant) -> Contact {

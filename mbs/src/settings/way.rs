@@ -2,9 +2,10 @@
 
 use super::{Settings, SettingsError};
 use crate::choice::{IntegratorKind, StepRule};
+use crate::record::MethodChoice;
 use crate::settings::Method;
 use mbs_core::scene::Scene;
-use mbs_scene::{MethodChoice, format::significant};
+use mbs_scene::format::significant;
 
 /// A step that is longer than the run by less than this share is that of the run, written in fewer digits.
 const SAME_LENGTH: f64 = 1e-9;
@@ -15,12 +16,12 @@ pub(super) fn is_controlled(integrator: IntegratorKind, rule: StepRule) -> bool 
 }
 
 /// Is a step [s] longer than the run?
-pub(crate) fn is_too_long(step: f64, duration: f64) -> bool {
+pub fn is_too_long(step: f64, duration: f64) -> bool {
     step > duration * (1.0 + SAME_LENGTH)
 }
 
 /// Says so.
-pub(crate) fn too_long(step: f64, duration: f64) -> String {
+pub fn too_long(step: f64, duration: f64) -> String {
     format!(
         "the step of {} s is longer than the run of {} s",
         significant(step),
@@ -52,7 +53,7 @@ impl Settings {
         }
         match (self.integrator.controls_its_step(), self.tolerance) {
             (true, Some(tolerance)) => {
-                format!("{way} with a tolerance of {}", crate::words::few(tolerance))
+                format!("{way} with a tolerance of {}", mbs_scene::format::few(tolerance))
             }
             (true, None) => format!("{way} with steps of its own"),
             _ if self.rule != StepRule::Fixed => format!("{way} with steps of controlled length"),
@@ -65,7 +66,7 @@ impl Settings {
     pub fn chosen(&self) -> Option<MethodChoice> {
         let (formulation, ran) = (self.formulation.name().to_owned(), self.way());
         if let Some(choice) = &self.choice {
-            let mut reasons = crate::auto::reasons(choice);
+            let mut reasons = choice.reasons();
             let is_first =
                 choice.fallbacks.is_empty() && choice.candidates.iter().any(|c| c.rank.is_some());
             if !is_first {

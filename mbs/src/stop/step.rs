@@ -1,7 +1,7 @@
 //! Steps that could not be made, in words.
 
-use crate::words::few;
 use mbs_core::step::StepError;
+use mbs_scene::format::few;
 
 /// What happened; what to try is the hint's.
 pub(super) fn write_step(error: &StepError, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {

@@ -21,7 +21,7 @@ fn published(what: &str, ours: f64, theirs: f64) {
 fn static_equilibrium_is_the_published_one() {
     let still = StaticEquilibrium::new(&common::scene("iltis-equilibrium"), mbs::Search::Down)
         .expect("it rests");
-    let find = |list: &[(mbs::scene_file::Channel, Vec<f64>)], name: &str| {
+    let find = |list: &[(mbs::record::Channel, Vec<f64>)], name: &str| {
         let found = list.iter().find(|(channel, _)| channel.name == name);
         found.unwrap_or_else(|| panic!("no {name}")).1.clone()
     };

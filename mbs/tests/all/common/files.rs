@@ -1,7 +1,6 @@
 //! Files of the repository and of a run, for the tests of the library and of the command.
 
-use mbs::core::scene::Scene;
-use mbs::scene_file::SceneFile;
+pub(crate) use mbs_testkit::repository::path;
 use std::path::{Path, PathBuf};
 
 /// Scenes of the repository, without those of vehicles.
@@ -22,18 +21,6 @@ pub(crate) const SCENES: [&str; 15] = [
     "tree-30",
     "andrews",
 ];
-
-/// Path of a scene of the repository.
-pub(crate) fn path(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(format!("{name}.toml"))
-}
-
-/// Reads a scene of the repository.
-pub(crate) fn scene(name: &str) -> Scene<f64> {
-    let bytes = std::fs::read(path(name)).expect("the scene is in the repository");
-    let document = SceneFile::from_bytes(&bytes, name).unwrap_or_else(|e| panic!("{}", e.render()));
-    document.scene().unwrap_or_else(|e| panic!("{}", e.render()))
-}
 
 /// An empty directory for one test.
 pub(crate) fn scratch(name: &str) -> PathBuf {

@@ -2,31 +2,17 @@
 pub(crate) mod files;
 pub(crate) mod oracle;
 
-pub(crate) use files::{SCENES, path, scene};
+pub(crate) use files::{SCENES, path};
 use mbs::augmented::StepReport;
-use mbs::auto::Clock;
 use mbs::core::natural::Affine;
 use mbs::core::scene::{BodyId, Scene};
 use mbs::typed::Simulation;
 use mbs::{Method, Settings, StopError};
+pub(crate) use mbs_testkit::repository::scene;
 pub(crate) use mbs_testkit::{allocations, random};
 
 /// The augmented formulations, by name.
 pub(crate) const FORMULATIONS: [&str; 2] = ["index-3", "index-1"];
-
-/// A clock that counts work: the same on every machine, so that a choice and an estimate are too.
-#[derive(Default)]
-pub(crate) struct CountedClock(f64);
-
-impl Clock for CountedClock {
-    fn seconds(&mut self) -> f64 {
-        self.0
-    }
-
-    fn worked(&mut self, nominal: f64) {
-        self.0 += nominal;
-    }
-}
 
 /// Settings of a scene with formulation and step; without a step, the scene's own.
 pub(crate) fn settings(scene: &Scene<f64>, formulation: &str, step: Option<f64>) -> Settings {

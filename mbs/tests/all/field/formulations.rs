@@ -1,11 +1,10 @@
 //! What single formulations stopped at: sizes, light pieces, friction, axes that are almost parallel.
 
-use super::{field, read, text};
+use super::{field, tilted};
 use crate::common::random::tree;
 use crate::common::{Bench, settings};
 use mbs::core::scene::{BodyId, Dimension, Effect, EffectKind, Friction, Inertia, JointId, Scene};
 use mbs::core::step::StepError;
-use mbs::doctor::{Effort, Severity, examine};
 use mbs::{Method, Settings, StopError};
 
 /// Formulations in natural coordinates with steps of fixed length.
@@ -160,13 +159,6 @@ fn explicit_steps_that_pass_over_a_friction_stop_and_name_it() {
     assert!(error.message.starts_with("`brake`"), "{}", error.message);
 }
 
-/// The four-bar whose third axis is off by so many radians.
-fn tilted(angle: f64) -> Scene<f64> {
-    let text = text("11-axis-off-by-1e-7");
-    let axis = format!("axis = [{}, 0, {}]", angle.sin(), angle.cos());
-    read(&text.replace("axis = [9.999999999999982e-08, 0, 0.999999999999995]", &axis), "tilted")
-}
-
 #[test]
 fn an_axis_that_is_off_by_a_millionth_runs_as_the_parallel_one_with_a_note() {
     let straight = centres::<3>(&tilted(0.0), "index-3", (1e-3, 200)).expect("it runs");
@@ -205,18 +197,4 @@ fn an_axis_that_is_off_by_more_is_refused_with_the_axis_that_mends_it() {
     let mut open = tilted(1e-4);
     open.joints.retain(|joint| joint.name != "D");
     assert!(centres::<3>(&open, "index-3", (1e-3, 5)).is_ok());
-}
-
-#[test]
-fn the_doctor_names_the_axis_that_is_off() {
-    let effort = Effort { positions: 0, seconds: 1.0 };
-    for (angle, code, severity) in
-        [(1e-7, "axis-off", Severity::Note), (1e-4, "almost-dependent", Severity::Fault)]
-    {
-        let scene = tilted(angle);
-        let checkup = examine(&scene, &settings(&scene, "index-3", None), &effort);
-        let found = checkup.findings.iter().find(|f| f.code == code && f.severity == severity);
-        let found = found.unwrap_or_else(|| panic!("{angle:e}: {:?}", checkup.findings));
-        assert_eq!(found.joints, [2], "{angle:e}");
-    }
 }

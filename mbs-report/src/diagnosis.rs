@@ -1,0 +1,324 @@
+//! A checkup for people: findings in sentences, and the tables behind them.
+
+use crate::report::{Report, Section};
+use core::fmt::Write;
+use mbs::record::Provenance;
+use mbs_core::scene::{Entry, Scene};
+use mbs_scene::format::significant;
+use mbs_scene::format::{counted, few, size};
+use mbs_study::doctor::{Checkup, Finding, labels};
+use mbs_study::redundancy::UNCERTAIN;
+
+/// Ways and turns below this are rounding [m or rad].
+const ROUNDING: f64 = 1e-12;
+
+/// Where an entry's key stands in the scene file.
+type Line<'a> = &'a dyn Fn(Entry, &str) -> Option<usize>;
+
+/// The page of a checkup, and its text for a terminal.
+#[must_use]
+pub fn report(
+    scene: &Scene<f64>,
+    checkup: &Checkup,
+    line: Line<'_>,
+    provenance: Provenance,
+) -> (Report, String) {
+    let mut sections = vec![findings(checkup, line), what(checkup)];
+    sections.extend(sets(checkup));
+    sections.push(reactions(checkup));
+    sections.extend(loops(checkup));
+    sections.extend(motion(checkup));
+    sections.extend(start(scene, checkup));
+    let title = format!("{}: {}", checkup.scene, verdict(checkup));
+    let report = Report { title, error: None, sections, provenance };
+    let text = report.text() + &told(checkup, line);
+    (report, text)
+}
+
+/// The whole in a few words.
+fn verdict(c: &Checkup) -> String {
+    let count = |severity| c.findings.iter().filter(|f| f.severity == severity).count();
+    let kinds = [
+        (mbs_study::doctor::Severity::Fault, "fault"),
+        (mbs_study::doctor::Severity::Doubt, "doubt"),
+        (mbs_study::doctor::Severity::Note, "note"),
+    ];
+    let parts: Vec<String> = kinds
+        .into_iter()
+        .map(|(severity, noun)| (count(severity), noun))
+        .filter(|(n, _)| *n > 0)
+        .map(|(n, noun)| counted(n, noun))
+        .collect();
+    if parts.is_empty() { "nothing found".to_owned() } else { parts.join(", ") }
+}
+
+/// Findings as sentences, for a terminal.
+fn told(c: &Checkup, line: Line<'_>) -> String {
+    let mut out = String::new();
+    for finding in &c.findings {
+        let place = place(finding, line).map_or_else(String::new, |l| format!(", line {l}"));
+        // Writing into a String has nothing to fail on.
+        let _ = writeln!(out, "\n{}: {}{place}", finding.severity.name(), finding.code);
+        wrap(&mut out, &finding.message, "  ");
+        if !finding.remedy.is_empty() {
+            wrap(&mut out, &format!("mend: {}", finding.remedy), "  ");
+        }
+    }
+    out
+}
+
+fn wrap(out: &mut String, text: &str, indent: &str) {
+    const WIDTH: usize = 110;
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        if !line.is_empty() && line.chars().count() + word.chars().count() >= WIDTH {
+            let _ = writeln!(out, "{indent}{line}");
+            line.clear();
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line += word;
+    }
+    let _ = writeln!(out, "{indent}{line}");
+}
+
+fn place(finding: &Finding, line: Line<'_>) -> Option<usize> {
+    finding.place.and_then(|(entry, key)| line(entry, key))
+}
+
+fn findings(c: &Checkup, line: Line<'_>) -> Section {
+    let row = |f: &Finding| {
+        vec![
+            f.severity.name().to_owned(),
+            f.code.to_owned(),
+            place(f, line).map_or_else(String::new, |l| l.to_string()),
+            f.message.clone(),
+            f.remedy.clone(),
+        ]
+    };
+    Section {
+        title: "Findings".to_owned(),
+        head: ["", "code", "line", "what was found", "what would mend it"]
+            .map(str::to_owned)
+            .to_vec(),
+        rows: c.findings.iter().map(row).collect(),
+        is_detail: true,
+        ..Section::default()
+    }
+}
+
+fn row(label: &str, value: String) -> Vec<String> {
+    vec![label.to_owned(), value]
+}
+
+fn what(c: &Checkup) -> Section {
+    let level = &c.joint_level;
+    let [rows, columns, rank] = level.sizes;
+    let natural = c.natural.map_or("no start".to_owned(), |[n, m, r]| {
+        format!("{n} coordinates, {m} constraints of rank {r}{}", redundant(m - r))
+    });
+    let gap = match (level.gap.is_finite(), level.gap < UNCERTAIN) {
+        (false, _) => "no loop".to_owned(),
+        (true, false) => format!("{}, certain", few(level.gap)),
+        (true, true) => format!("{}, uncertain", few(level.gap)),
+    };
+    let least = if level.gap.is_finite() { few(level.least) } else { "no loop".to_owned() };
+    Section {
+        title: "What it is".to_owned(),
+        rows: vec![
+            row("degrees of freedom", c.dof().to_string()),
+            row("natural coordinates", natural),
+            row(
+                "whole bodies",
+                format!(
+                    "{columns} velocities, {rows} equations of joints and guides of rank {rank}{}",
+                    redundant(rows - rank)
+                ),
+            ),
+            row("gap of the rank", gap),
+            row("smallest singular value that counts", least),
+        ],
+        ..Section::default()
+    }
+}
+
+fn redundant(n: usize) -> String {
+    if n == 0 { String::new() } else { format!(" ({n} redundant)") }
+}
+
+fn sets(c: &Checkup) -> Option<Section> {
+    let row = |set: &mbs_study::redundancy::Set| {
+        let joints: Vec<&str> = set.members.iter().map(|m| c.joints[m.joint].as_str()).collect();
+        let kind = if set.is_exact { set.nature.name() } else { "almost" };
+        vec![set.redundant.to_string(), kind.to_owned(), joints.join(", ")]
+    };
+    (!c.joint_level.sets.is_empty()).then(|| Section {
+        title: "Dependent sets".to_owned(),
+        head: ["redundant", "holds", "joints"].map(str::to_owned).to_vec(),
+        rows: c.joint_level.sets.iter().map(row).collect(),
+        ..Section::default()
+    })
+}
+
+fn reactions(c: &Checkup) -> Section {
+    let labels = labels(c.dimension);
+    let open = |components: &Vec<bool>| {
+        let open = labels.iter().zip(components).filter(|(_, unique)| !**unique);
+        open.map(|(l, _)| *l).collect::<Vec<_>>().join(", ")
+    };
+    let all = c.unique.iter().enumerate().map(|(j, of)| (j, open(of)));
+    let some: Vec<(usize, String)> = all.filter(|(_, open)| !open.is_empty()).collect();
+    let rows = if some.is_empty() {
+        vec![row("all joints", "every component is determined by the motion".to_owned())]
+    } else {
+        let told = |(j, open): &(usize, String)| {
+            let value = format!("not unique: {open}{}", directions(c, *j));
+            row(&c.joints[*j], value)
+        };
+        let mut rows: Vec<_> = some.iter().map(told).collect();
+        if c.unique.len() > some.len() {
+            rows.push(row("all others", "every component is determined by the motion".to_owned()));
+        }
+        rows
+    };
+    let caption = if some.is_empty() {
+        String::new()
+    } else {
+        "Components in global axes at the start. A run gives the smallest reactions and marks those that are not unique."
+            .to_owned()
+    };
+    Section { title: "Reactions".to_owned(), rows, caption, ..Section::default() }
+}
+
+/// Whatever the axes: how many forces and moments of a joint are open.
+fn directions(c: &Checkup, joint: usize) -> String {
+    let exact = c.joint_level.sets.iter().filter(|set| set.is_exact);
+    let member = exact.flat_map(|set| &set.members).find(|m| m.joint == joint);
+    member.map_or_else(String::new, |m| {
+        let [forces, moments, both] = m.open;
+        let noun = |n: usize, noun| (n > 0).then(|| counted(n, noun));
+        let parts: Vec<String> =
+            [noun(forces, "force"), noun(moments, "moment")].into_iter().flatten().collect();
+        let coupled = if both < forces + moments { ", coupled" } else { "" };
+        format!(" ({}{coupled})", parts.join(" and "))
+    })
+}
+
+fn loops(c: &Checkup) -> Option<Section> {
+    const MOST: usize = 40;
+    let row = |lap: &mbs_study::redundancy::Loop| {
+        let joints: Vec<&str> = lap.joints.iter().map(|&j| c.joints[j].as_str()).collect();
+        let sign =
+            |corner: &mbs_study::redundancy::Corner| match (corner.has_sign, corner.turn < 0.0) {
+                (false, _) => 'o',
+                (true, true) => '-',
+                (true, false) => '+',
+            };
+        let nearest = lap.corners.iter().min_by(|a, b| a.distance().total_cmp(&b.distance()));
+        vec![
+            joints.join(", "),
+            lap.corners.iter().map(sign).collect(),
+            nearest.map_or("no corner".to_owned(), |n| {
+                format!("{:.2} deg at {}", n.distance().to_degrees(), c.joints[n.joint])
+            }),
+        ]
+    };
+    let more = c.loops.len().saturating_sub(MOST);
+    let more =
+        if more > 0 { format!(" {more} more loops are in the JSON.") } else { String::new() };
+    (!c.loops.is_empty()).then(|| Section {
+        title: "Loops".to_owned(),
+        head: ["joints", "branch", "nearest to a straight line"].map(str::to_owned).to_vec(),
+        rows: c.loops.iter().take(MOST).map(row).collect(),
+        caption: format!(
+            "A sign for each corner of three places: the side to which the loop turns there about the joint's axis (o: no axis). \
+             Two branches meet where a corner is straight.{more}"
+        ),
+        ..Section::default()
+    })
+}
+
+fn motion(c: &Checkup) -> Option<Section> {
+    let m = c.motion.as_ref()?;
+    let mut rows = vec![row(
+        "looked at",
+        format!(
+            "{} up to t = {} s, run by {}",
+            counted(usize::try_from(m.positions).unwrap_or(usize::MAX), "position"),
+            significant(m.reached),
+            m.formulation
+        ),
+    )];
+    for near in &m.nearest {
+        let joints: Vec<&str> = near.joints.iter().map(|&j| c.joints[j].as_str()).collect();
+        rows.push(row(
+            "nearest singular position",
+            format!(
+                "{} at t = {} s ({} at the start): {}",
+                few(near.sigma),
+                few(near.time),
+                few(near.sigma_at_start),
+                joints.join(", ")
+            ),
+        ));
+    }
+    rows.extend(changes(c, &m.corners));
+    if m.nearest.is_empty() {
+        rows.push(row("nearest singular position", "no loop, none".to_owned()));
+    }
+    Some(Section {
+        title: "Along the motion".to_owned(),
+        rows,
+        caption: "Distance to a singular position: the smallest singular value of a part's equations over the largest; zero is singular. \
+                  A crank that turns fully changes the side of its corners twice in each turn; a change elsewhere is a change of branch."
+            .to_owned(),
+        ..Section::default()
+    })
+}
+
+/// Corners that changed their side, those at the same time together.
+fn changes(c: &Checkup, corners: &[mbs_study::doctor::LinearMotion]) -> Vec<Vec<String>> {
+    let mut changed: Vec<(f64, usize)> =
+        corners.iter().filter_map(|s| Some((s.changed?, s.joint))).collect();
+    changed.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    changed.dedup();
+    let together = changed.chunk_by(|a, b| a.0.total_cmp(&b.0).is_eq());
+    let told = |of: &[(f64, usize)]| {
+        let joints: Vec<&str> = of.iter().map(|(_, j)| c.joints[*j].as_str()).collect();
+        let corner =
+            if of.len() == 1 { "a corner changed its side" } else { "corners changed sides" };
+        row(corner, format!("t = {} s: {}", few(of[0].0), joints.join(", ")))
+    };
+    together.map(told).collect()
+}
+
+fn start(scene: &Scene<f64>, c: &Checkup) -> Option<Section> {
+    let s = c.start.as_ref()?;
+    let [position, velocity, acceleration] = s.residual.map(size);
+    let farthest = |i: usize| {
+        let of = (0..s.bodies.len()).max_by(|&a, &b| s.bodies[a][i].total_cmp(&s.bodies[b][i]));
+        of.map_or((0.0, String::new()), |b| (s.bodies[b][i], format!("`{}`", scene.bodies[b].name)))
+    };
+    let ([way, turn], [far, turned]) = {
+        let (a, b) = (farthest(0), farthest(1));
+        ([a.0, b.0], [a.1, b.1])
+    };
+    let moved = if way > ROUNDING || turn > ROUNDING {
+        format!("up to {} m ({far}), {} rad ({turned})", few(way), few(turn))
+    } else {
+        "nothing".to_owned()
+    };
+    Some(Section {
+        title: "The start".to_owned(),
+        rows: vec![
+            row("left open before assembly", format!("{} m (or rad)", size(s.residual_before))),
+            row("moved by assembly", moved),
+            row(
+                "left open after it",
+                format!("{position} m, {velocity} m/s, {acceleration} m/s^2 (or rad)"),
+            ),
+        ],
+        ..Section::default()
+    })
+}

@@ -1,0 +1,13 @@
+#![doc = include_str!("../README.md")]
+
+pub mod compare;
+mod diagnosis;
+mod explanation;
+mod page;
+mod report;
+
+pub use compare::comparison_page;
+pub use diagnosis::report as diagnosis;
+pub use explanation::report as explanation;
+pub use page::page;
+pub use report::{Report, Section};

@@ -1,0 +1,216 @@
+//! What is wanted of a run: an error, a deadline, or both; and why that may be refused.
+
+use core::fmt::{self, Display, Formatter};
+use mbs::Method;
+use mbs::Precision;
+
+/// What `auto` is to reach.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Goal {
+    /// Largest error of the outputs over the run, each in its scale, as `mbs compare` takes it.
+    pub error: Option<f64>,
+    /// The run is made in frames of this length [s], each computed within the same time.
+    pub deadline: Option<f64>,
+}
+
+/// A goal that cannot be meant.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum GoalError {
+    /// An error that is not between 0 and 1.
+    Error(f64),
+    /// An error that numbers of the run cannot tell: the error, and their precision.
+    TooFine(f64, Precision),
+    /// A deadline that is not a positive time.
+    Deadline(f64),
+    /// A deadline longer than the run: deadline and duration [s].
+    TooLong(f64, f64),
+    /// An option that is chosen for the goal.
+    Chosen(&'static str),
+    /// An integrator that controls its own steps has no bound for one.
+    OwnSteps,
+    /// Nothing is left to choose from.
+    NoCandidate,
+    /// The chosen method and one in other coordinates differ by this, beside the ranges of the outputs.
+    Differs(f64),
+}
+
+/// Options that the choice decides.
+type Given = (&'static str, fn(&Method) -> bool);
+const DECIDED: [Given; 6] = [
+    ("--step", |o| o.step.is_some()),
+    ("--step-max", |o| o.step_max.is_some()),
+    ("--step-control", |o| o.step_control.is_some()),
+    ("--energy-tolerance", |o| o.energy_tolerance.is_some()),
+    ("--error-tolerance", |o| o.error_tolerance.is_some()),
+    ("--tolerance", |o| o.tolerance.is_some()),
+];
+
+impl Goal {
+    /// Is anything wanted?
+    #[must_use]
+    pub fn is_some(&self) -> bool {
+        self.error.is_some() || self.deadline.is_some()
+    }
+
+    /// Refuses what cannot be meant, beside other options and a run of `duration` [s] in some precision.
+    ///
+    /// # Errors
+    /// [`GoalError`].
+    pub fn check(
+        &self,
+        overrides: &Method,
+        (duration, precision): (f64, Precision),
+    ) -> Result<(), GoalError> {
+        if let Some(error) = self.error.filter(|e| !(*e > 0.0 && *e < 1.0)) {
+            return Err(GoalError::Error(error));
+        }
+        if let Some(error) = self.error.filter(|e| *e < finest(precision)) {
+            return Err(GoalError::TooFine(error, precision));
+        }
+        if let Some(deadline) = self.deadline {
+            if !(deadline > 0.0 && deadline.is_finite()) {
+                return Err(GoalError::Deadline(deadline));
+            }
+            if deadline > duration {
+                return Err(GoalError::TooLong(deadline, duration));
+            }
+        }
+        match DECIDED.into_iter().find(|(_, is_given)| is_given(overrides)) {
+            Some((option, _)) => Err(GoalError::Chosen(option)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A time with or without its unit: `0.001`, `1ms`, `500us`, `2s` [s].
+///
+/// # Errors
+/// What to write instead.
+pub fn time(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let units = [("ms", 1e-3), ("us", 1e-6), ("ns", 1e-9), ("s", 1.0)];
+    let unit = units.into_iter().find_map(|(unit, size)| Some((text.strip_suffix(unit)?, size)));
+    let (number, size) = unit.unwrap_or((text, 1.0));
+    number.trim().parse::<f64>().map(|x| x * size).map_err(|_| {
+        "write seconds, or a number with s, ms or us, such as 0.001, 1ms or 500us".to_owned()
+    })
+}
+
+/// The distance of neighbouring numbers: errors below it are not told, whatever the method.
+fn finest(precision: Precision) -> f64 {
+    match precision {
+        Precision::F32 => f64::from(f32::EPSILON),
+        Precision::F64 => f64::EPSILON,
+        Precision::DoubleDouble => f64::EPSILON * f64::EPSILON,
+    }
+}
+
+impl GoalError {
+    /// What to do about it.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::TooFine(_, Precision::F32) => "write 1e-6 or more, or leave --precision out",
+            Self::TooFine(..) => {
+                "write 1e-13 or more; runs with more digits are those of --precision dd, with --integrator gbs and a --tolerance"
+            }
+            Self::Error(_) => {
+                "write an error relative to each output's range, more than 0 and less than 1, such as 1e-4"
+            }
+            Self::Deadline(_) => "write a time longer than zero, such as 1ms",
+            Self::TooLong(..) => "write a shorter deadline, or a longer --duration",
+            Self::Chosen(_) => {
+                "leave it out: it is chosen for the required error or the deadline; --formulation, --integrator and --precision narrow the choice"
+            }
+            Self::OwnSteps => "leave --integrator out, or take rk4 or an implicit one",
+            Self::NoCandidate => "leave --formulation or --integrator out",
+            Self::Differs(_) => {
+                "one of the two is wrong: run it with --formulation index-3 and with --formulation recursive, and report the scene"
+            }
+        }
+    }
+}
+
+impl Display for GoalError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let few = mbs_scene::format::few;
+        match self {
+            Self::Error(x) => {
+                write!(
+                    f,
+                    "the required error must be more than 0 and less than 1, but is {}",
+                    few(*x)
+                )
+            }
+            Self::TooFine(x, precision) => write!(
+                f,
+                "the required error of {x:e} is below the resolution of {}: neighbouring numbers differ by {:.1e}",
+                precision.name(),
+                finest(*precision)
+            ),
+            Self::Deadline(x) => {
+                write!(f, "the deadline must be a time longer than zero, but is {} s", few(*x))
+            }
+            Self::TooLong(deadline, duration) => write!(
+                f,
+                "the deadline of {} s is longer than the run of {} s",
+                few(*deadline),
+                few(*duration)
+            ),
+            Self::Chosen(option) => {
+                write!(f, "{option} cannot be given beside --error or --deadline")
+            }
+            Self::OwnSteps => {
+                write!(
+                    f,
+                    "rk54, rk853, gbs and radau5 choose their own steps: no deadline can be kept with them"
+                )
+            }
+            Self::NoCandidate => {
+                write!(f, "no method goes with this formulation and this integrator")
+            }
+            Self::Differs(apart) => write!(
+                f,
+                "relative and natural coordinates disagree by {} of an output's range, more than both can err by",
+                few(*apart)
+            ),
+        }
+    }
+}
+
+impl core::error::Error for GoalError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_read_with_their_units_and_minutes_are_not_guessed() {
+        let read = |text: &str| time(text).unwrap();
+        for (text, seconds) in [("0.001", 1e-3), ("1ms", 1e-3), ("500 us", 5e-4), ("2s", 2.0)] {
+            assert!((read(text) - seconds).abs() < 1e-15, "{text}");
+        }
+        for text in ["1m", "fast", "", "1 h", "ms"] {
+            assert!(time(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_meant_is_refused() {
+        let none = Method::default();
+        let error =
+            |e: f64| Goal { error: Some(e), deadline: None }.check(&none, (10.0, Precision::F64));
+        for e in [0.0, -1e-3, 1.0, 20.0, f64::NAN, f64::INFINITY] {
+            assert!(matches!(error(e), Err(GoalError::Error(_))), "{e}");
+        }
+        assert_eq!(error(1e-4), Ok(()));
+        let deadline =
+            |d: f64| Goal { error: None, deadline: Some(d) }.check(&none, (10.0, Precision::F64));
+        assert!(matches!(deadline(-1.0), Err(GoalError::Deadline(_))));
+        assert!(matches!(deadline(20.0), Err(GoalError::TooLong(..))));
+        let given = Method { step: Some(1e-3), ..Method::default() };
+        let both = Goal { error: Some(1e-3), deadline: Some(1e-3) };
+        assert_eq!(both.check(&given, (10.0, Precision::F64)), Err(GoalError::Chosen("--step")));
+    }
+}

@@ -1,0 +1,212 @@
+//! From a goal to a run: the ranked settings, and what happens where the first of them stops.
+
+use super::{Clock, Goal, GoalError, Pick, Pilot, Task, bench, instants, methods};
+use crate::compare::method::MethodCase;
+use cpu_time::ThreadTime;
+use mbs::Names;
+use mbs::Outcome;
+use mbs::PrecisionError;
+use mbs::StopError;
+use mbs::inside::ReadScene;
+use mbs::record::{Fallback, PilotReport};
+use mbs::run_document;
+use mbs::{Method, Settings};
+use mbs_core::scene::Scene;
+use mbs_scene::SceneFile;
+use std::time::Instant;
+
+/// Settings to run with, in the order in which they are tried.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// The ranking; `≥ 1`.
+    pub ranked: Vec<Settings>,
+}
+
+impl Plan {
+    /// What runs first.
+    ///
+    /// # Panics
+    /// Never: a plan has at least one.
+    #[must_use]
+    pub fn first(&self) -> &Settings {
+        &self.ranked[0]
+    }
+}
+
+/// The processor's clock: CPU time of this thread, or wall time where threads share the work.
+#[derive(Debug)]
+pub enum Processor {
+    /// CPU time of this thread.
+    Thread(ThreadTime),
+    /// Time on the wall.
+    Wall(Instant),
+}
+
+impl Processor {
+    /// For a run with this number of threads.
+    #[must_use]
+    pub fn new(threads: usize) -> Self {
+        if threads > 1 { Self::Wall(Instant::now()) } else { Self::Thread(ThreadTime::now()) }
+    }
+}
+
+impl Clock for Processor {
+    fn seconds(&mut self) -> f64 {
+        match self {
+            Self::Thread(clock) => clock.elapsed().as_secs_f64(),
+            Self::Wall(clock) => clock.elapsed().as_secs_f64(),
+        }
+    }
+}
+
+/// Why there is no plan.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// The goal cannot be meant.
+    Goal(GoalError),
+    /// The scene cannot be had in the precision asked for.
+    Read(PrecisionError),
+}
+
+impl PlanError {
+    /// The refusal with its hint.
+    #[must_use]
+    pub fn render(&self) -> String {
+        match self {
+            Self::Goal(error) => format!("error: {error}\nhint: {}", error.hint()),
+            Self::Read(error) => error.render(),
+        }
+    }
+}
+
+/// Decides how a scene is run: as the settings say where nothing is wanted, else by a pilot.
+///
+/// # Errors
+/// A goal that cannot be meant beside these options; a scene that is none in the precision asked for.
+pub fn plan(
+    (document, scene): (&SceneFile, &Scene<f64>),
+    (base, settings): (&Method, Settings),
+    goal: Goal,
+    clock: &mut dyn Clock,
+) -> Result<Plan, PlanError> {
+    if !goal.is_some() {
+        return Ok(Plan { ranked: vec![settings] });
+    }
+    goal.check(base, (settings.duration, settings.precision)).map_err(PlanError::Goal)?;
+    let methods = methods(scene, base, &settings, &goal).map_err(PlanError::Goal)?;
+    let instants = instants(settings.duration, &goal);
+    let task = Task { base, settings: &settings, goal, instants };
+    let read = ReadScene::new((document, scene), settings.precision).map_err(PlanError::Read)?;
+    let (picks, choice) = read.work(Pilot { task: &task, methods: &methods, clock });
+    if let Some(look) = choice.second_look.as_ref().filter(|look| look.differs) {
+        let apart = look.distance.unwrap_or(f64::INFINITY);
+        return Err(PlanError::Goal(GoalError::Differs(apart)));
+    }
+    Ok(Plan { ranked: ranked(scene, &task, (&picks, &methods), &choice) })
+}
+
+/// Settings of the picks; where there is none, those that were there, which will say why nothing runs.
+fn ranked(
+    scene: &Scene<f64>,
+    task: &Task<'_>,
+    (picks, methods): (&[Pick], &[MethodCase]),
+    choice: &PilotReport,
+) -> Vec<Settings> {
+    let of = |pick: &Pick| {
+        let settings =
+            bench::settings(scene, task.base, &pick.method, (pick.setting, task.instants));
+        Some(Settings {
+            asked: task.settings.asked.clone(),
+            choice: Some(Box::new(choice.clone())),
+            duration: task.settings.duration,
+            ..settings.ok()?
+        })
+    };
+    let blind = if picks.is_empty() { blind(task, choice, methods) } else { Vec::new() };
+    let mut ranked: Vec<Settings> = picks.iter().chain(&blind).filter_map(of).collect();
+    if ranked.is_empty() {
+        let choice = Some(Box::new(choice.clone()));
+        ranked.push(Settings { choice, ..task.settings.clone() });
+    }
+    ranked
+}
+
+/// Where the pilot has got nowhere: every method that starts, in the order of its candidates, with the step of the scene, or a
+/// tolerance of a hundredth of the wanted error.
+fn blind(task: &Task<'_>, choice: &PilotReport, methods: &[MethodCase]) -> Vec<Pick> {
+    let starts = |m: &&MethodCase| {
+        let same = choice.candidates.iter().find(|c| c.method == m.name());
+        same.is_none_or(|c| c.trials.iter().all(|t| t.reached > 0.0))
+    };
+    let place = |m: &MethodCase| choice.candidates.iter().position(|c| c.method == m.name());
+    let mut left: Vec<&MethodCase> = methods.iter().filter(starts).collect();
+    left.sort_by_key(|m| place(m));
+    let setting = |m: &MethodCase| match m.is_fixed() {
+        true => task.goal.deadline.unwrap_or(f64::INFINITY).min(task.settings.step),
+        false => 0.01 * task.goal.error.unwrap_or(super::ACCURATE),
+    };
+    left.into_iter().map(|m| Pick { method: *m, setting: setting(m) }).collect()
+}
+
+/// Runs a plan: where a run stops, the next of the ranking is tried, and the choice says so. Where none gets to the end, the one
+/// that got furthest is given.
+///
+/// # Errors
+/// As for [`run_document`].
+pub fn run_plan(
+    (document, scene): (&SceneFile, &Scene<f64>),
+    plan: &Plan,
+    reached: &mut dyn FnMut(f64),
+) -> Result<(Outcome, Settings), PrecisionError> {
+    run_ranked(plan, Names::new(scene), |settings| {
+        run_document((document, scene), settings, reached)
+    })
+}
+
+/// [`run_plan`] with what a run is.
+pub(super) fn run_ranked(
+    plan: &Plan,
+    names: Names,
+    mut run: impl FnMut(&Settings) -> Result<Outcome, PrecisionError>,
+) -> Result<(Outcome, Settings), PrecisionError> {
+    let mut lost: Vec<Fallback> = Vec::new();
+    let mut furthest: Option<(Outcome, Settings)> = None;
+    for settings in &plan.ranked {
+        let mut settings = settings.clone();
+        if let Some(choice) = &mut settings.choice {
+            choice.fallbacks.clone_from(&lost);
+        }
+        let outcome = run(&settings)?;
+        let Some(error) = &outcome.error else { return Ok((outcome, settings)) };
+        if *error == StopError::Interrupted {
+            return Ok((outcome, settings));
+        }
+        let report = error.report(outcome.summary.end_time, &names);
+        lost.push(Fallback {
+            method: method_name(&settings),
+            code: report.code,
+            message: report.message,
+            time: report.time,
+            cpu_seconds: outcome.summary.cpu_seconds,
+        });
+        let end = outcome.summary.end_time;
+        if furthest.as_ref().is_none_or(|(other, _)| end > other.summary.end_time) {
+            furthest = Some((outcome, settings));
+        }
+    }
+    match furthest {
+        Some(both) => Ok(both),
+        None => {
+            let settings = plan.first().clone();
+            run(&settings).map(|outcome| (outcome, settings))
+        }
+    }
+}
+
+fn method_name(settings: &Settings) -> String {
+    match settings.integrator {
+        mbs::IntegratorKind::Trapezoidal => settings.formulation.name().to_owned(),
+        other => format!("{} {}", settings.formulation.name(), other.name()),
+    }
+}

@@ -1,0 +1,155 @@
+//! What a scene's structure says before anything is run: who cannot run it, and what makes it dear.
+
+use crate::compare::method::MethodCase;
+use mbs::FormulationKind;
+use mbs::Names;
+use mbs::StopError;
+use mbs::inside::AssembledScene;
+use mbs::{InSpace, Plane};
+use mbs_core::Real;
+use mbs_core::effects::Value;
+use mbs_core::scene::{BodyId, Effect, Scene};
+use mbs_recursive::TreeModel;
+
+/// Steps of an explicit method in each period of the stiffest spring, roughly.
+const STEPS_A_PERIOD: f64 = 2.0;
+
+/// Steps that make explicit methods dear.
+const STIFF: f64 = 3000.0;
+
+/// What is known of a scene without a step.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Structure {
+    pub(crate) dimension: usize,
+    pub(crate) bodies: usize,
+    /// Coordinates, constraints, their rank, in natural coordinates.
+    pub(crate) natural: Option<[usize; 3]>,
+    /// Cut joints of the tree, or why there is none.
+    pub(crate) loops: Result<usize, String>,
+    pub(crate) guides: usize,
+    /// Bumpers, limits and tires.
+    pub(crate) contacts: usize,
+    /// The highest frequency of a spring on the masses beside it, roughly [rad/s].
+    pub(crate) frequency: f64,
+    pub(crate) duration: f64,
+}
+
+/// Looks at a scene that runs for `duration` [s].
+pub(crate) fn structure<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    duration: f64,
+    ready: Option<&mut AssembledScene<T, D>>,
+) -> Structure
+where
+    Plane<D>: InSpace<T>,
+{
+    let natural = ready.map(AssembledScene::sizes);
+    let tree = TreeModel::<T, <Plane<D> as InSpace<T>>::Space>::new(scene);
+    let loops = tree.map(|tree| tree.cut_joints().count());
+    let enabled = || scene.effects.iter().filter(|effect| effect.enabled);
+    let is_contact = |effect: &&Effect<T>| effect.kind.row().is_one_sided;
+    Structure {
+        dimension: D,
+        bodies: scene.bodies.len(),
+        natural,
+        loops: loops.map_err(|e| StopError::tree(e).report(0.0, &Names::new(scene)).message),
+        guides: scene.guides.len(),
+        contacts: enabled().filter(is_contact).count(),
+        frequency: enabled().map(|effect| frequency(scene, effect)).fold(0.0, f64::max),
+        duration,
+    }
+}
+
+/// omega = sqrt(k (1/m1 + 1/m2)) of a spring along a line [rad/s].
+fn frequency<T: Real>(scene: &Scene<T>, effect: &Effect<T>) -> f64 {
+    let of = |body: &BodyId| match body {
+        BodyId::Body(i) => scene.bodies.get(*i).map_or(0.0, |body| 1.0 / body.mass.to_f64()),
+        BodyId::Ground => 0.0,
+    };
+    let (mut mobility, mut stiffness) = (0.0, 0.0_f64);
+    for (field, value) in effect.kind.row().fields.iter().zip(effect.kind.values()) {
+        match value {
+            Value::Bodies(bodies) => mobility = bodies.iter().map(of).sum::<f64>(),
+            Value::Number(k) if field.key == "stiffness" => stiffness = k.to_f64(),
+            Value::Six(k) if field.key == "stiffness" => {
+                stiffness = k[..3].iter().map(|k| k.to_f64()).fold(0.0, f64::max);
+            }
+            _ => {}
+        }
+    }
+    let square = stiffness * mobility;
+    if square.is_finite() { square.max(0.0).sqrt() } else { 0.0 }
+}
+
+impl Structure {
+    /// Why a method cannot run the scene.
+    pub(crate) fn refuses(&self, method: &MethodCase) -> Option<String> {
+        let formulation = method.formulation.row();
+        match (&self.loops, self.natural) {
+            (Err(why), _) if formulation.relative => Some(why.clone()),
+            (_, Some([_, rows, rank])) if !formulation.redundant && rank < rows => Some(format!(
+                "{} of {rows} constraints are redundant: their multipliers are not unique",
+                rows - rank
+            )),
+            _ => None,
+        }
+    }
+
+    /// Place in the order of trials: those of high order first, where no spring is too stiff for them; relative coordinates before
+    /// others; what takes about the same steps as another, but more work in each, last.
+    pub(crate) fn promise(&self, method: &MethodCase) -> usize {
+        let steps = STEPS_A_PERIOD * self.frequency * self.duration / core::f64::consts::TAU;
+        let is_stiff = steps > STIFF;
+        let is_controlled = !method.is_fixed();
+        match (method.formulation.row().relative, method.integrator.is_explicit()) {
+            (true, true) if !is_stiff => usize::from(!is_controlled),
+            (true, true) => 6,
+            (true, false) => 3 - usize::from(is_controlled),
+            _ if method.formulation == FormulationKind::DEFAULT => 5 - usize::from(is_controlled),
+            _ => 7,
+        }
+    }
+
+    /// Sentences about it.
+    pub(crate) fn words(&self) -> Vec<String> {
+        let mut words = vec![format!(
+            "{} in {} dimensions",
+            if self.bodies == 1 { "1 body".to_owned() } else { format!("{} bodies", self.bodies) },
+            self.dimension
+        )];
+        if let Some([n, rows, rank]) = self.natural {
+            let redundant = match rows - rank {
+                0 => "none redundant".to_owned(),
+                k => format!("{k} redundant"),
+            };
+            words.push(format!(
+                "{} freedoms: {n} natural coordinates, {rows} constraints, {redundant}",
+                n - rank
+            ));
+        }
+        words.push(match &self.loops {
+            Ok(0) => "a tree: relative coordinates need no constraints".to_owned(),
+            Ok(1) => "one loop is cut in relative coordinates".to_owned(),
+            Ok(n) => format!("{n} loops are cut in relative coordinates"),
+            Err(why) => format!("no relative coordinates: {why}"),
+        });
+        if self.guides > 0 {
+            words.push(format!("{} guided", self.guides));
+        }
+        if self.contacts > 0 {
+            words.push(format!(
+                "{} bumpers, limits or tires: contact comes and goes",
+                self.contacts
+            ));
+        }
+        if self.frequency > 0.0 {
+            let steps = STEPS_A_PERIOD * self.frequency * self.duration / core::f64::consts::TAU;
+            words.push(format!(
+                "its stiffest spring turns at about {} rad/s: explicit integrators need {} steps or more",
+                mbs_scene::format::few(self.frequency),
+                mbs_scene::format::few(steps.ceil().max(1.0))
+            ));
+        }
+        words
+    }
+}

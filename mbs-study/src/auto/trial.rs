@@ -1,0 +1,87 @@
+//! What the choice asks of a run, and what a run gives: the border between choosing, which is counted and compared, and running.
+
+use crate::compare::method::MethodCase;
+use mbs::record::RunError;
+
+/// Outputs at the instants after the start.
+pub(crate) type Rows = Vec<Vec<f64>>;
+
+/// What a trial is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Aim {
+    /// Outputs at all instants.
+    Rows,
+    /// Those, and the time of every step.
+    Steps,
+    /// The time of the whole, as it is without recording.
+    Time,
+}
+
+/// How long a trial may take [s].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Time {
+    pub(crate) most: f64,
+    /// So long where it goes at a pace that brings it to its end by then.
+    pub(crate) at_last: f64,
+}
+
+impl Time {
+    /// No longer than that.
+    pub(crate) fn strictly(most: f64) -> Self {
+        Self { most, at_last: most }
+    }
+
+    /// Is a trial given up that has taken so long for a share of the span?
+    pub(crate) fn is_over(&self, seconds: f64, reached: f64) -> bool {
+        seconds > self.most && (seconds > self.at_last || seconds > reached * self.at_last)
+    }
+}
+
+/// A run of the pilot.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Trial {
+    pub(crate) rows: Rows,
+    /// CPU time of its steps [s].
+    pub(crate) seconds: f64,
+    pub(crate) steps: u64,
+    /// Share of the span that was reached.
+    pub(crate) reached: f64,
+    /// The slowest step [s], where each was timed.
+    pub(crate) slowest: Option<f64>,
+    pub(crate) end: End,
+}
+
+/// Steps per row, as a quotient, up to which the rows are what holds them.
+const HELD: [u64; 2] = [5, 4];
+
+impl Trial {
+    /// Are its steps those between the instants of its rows? A finer tolerance costs nothing until it asks for shorter ones.
+    pub(crate) fn is_held(&self) -> bool {
+        HELD[1] * self.steps <= HELD[0] * self.rows.len() as u64
+    }
+}
+
+/// How a trial ended.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum End {
+    /// At the end of the span.
+    Done,
+    /// It took longer than it was given.
+    GivenUp,
+    /// It stopped.
+    Stopped(RunError),
+    /// It did not start: no setting helps.
+    NotStarted(RunError),
+}
+
+/// Runs trials. Whoever chooses knows time by this only, so that a choice can be made on any clock.
+pub(crate) trait Bench {
+    /// Runs the span with a setting, for no longer than is given.
+    fn trial(&mut self, method: &MethodCase, setting: f64, aim: Aim, time: Time) -> Trial;
+
+    /// Seconds since the pilot began, by the clock of the trials.
+    fn spent(&mut self) -> f64;
+
+    /// Largest distance of outputs at the same instants, each in its scale over the first.
+    fn distance(&self, reference: &Rows, rows: &Rows) -> f64;
+}

@@ -1,0 +1,50 @@
+//! CPU times of single steps: their classes, and what most of them stay below.
+
+use crate::compare::results::StepTimes;
+use mbs_realtime::nearest_rank;
+
+/// Classes of a decade.
+const PER_DECADE: f64 = 10.0;
+
+/// Sorts times of steps [s] into classes; `reading` [s] is what reading the clock takes.
+pub(super) fn step_times(mut times: Vec<f64>, reading: f64) -> Option<StepTimes> {
+    // the clock has ticks: no step takes less than one
+    const TICK: f64 = 1e-9;
+    for time in &mut times {
+        *time = (*time - reading).max(TICK);
+    }
+    times.sort_by(f64::total_cmp);
+    let max = *times.last()?;
+    let mut classes: Vec<(i32, u64)> = Vec::new();
+    for time in &times {
+        #[allow(clippy::cast_possible_truncation, reason = "a small number")]
+        let class = (time.log10() * PER_DECADE + 1e-9).floor() as i32;
+        match classes.last_mut() {
+            Some((of, count)) if *of == class => *count += 1,
+            _ => classes.push((class, 1)),
+        }
+    }
+    let edge = |class: i32| 10_f64.powf(f64::from(class) / PER_DECADE);
+    Some(StepTimes {
+        p50: *nearest_rank(&times, 50)?,
+        p99: *nearest_rank(&times, 99)?,
+        max,
+        classes: classes.into_iter().map(|(class, count)| (edge(class), count)).collect(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn classes_count_every_step_and_percentiles_are_of_the_sorted_times() {
+        let times = (1..=200).rev().map(|i| f64::from(i) * 1e-6).collect();
+        let found = step_times(times, 0.0).unwrap();
+        assert_eq!(found.classes.iter().map(|(_, n)| n).sum::<u64>(), 200);
+        assert!((found.p50 - 1e-4).abs() < 1e-12 && (found.p99 - 1.98e-4).abs() < 1e-12);
+        assert!((found.max - 2e-4).abs() < 1e-12);
+        assert!(found.classes.windows(2).all(|pair| pair[0].0 < pair[1].0));
+        assert_eq!(step_times(vec![], 0.0), None);
+    }
+}

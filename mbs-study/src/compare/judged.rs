@@ -1,0 +1,129 @@
+//! What `mbs run --error` would choose on the scene, held against what all methods were measured to take.
+
+use super::reference::Known;
+use super::store::Store;
+use super::{CompareError, Study, Watch};
+use crate::auto::{Goal, Pick, Pilot, Processor, Task, methods};
+use crate::compare::results::{Comparison, JudgedChoice, MethodRuns, Status};
+use mbs::inside::in_space;
+use mbs::{Method, Settings};
+
+/// A chosen run is timed so often.
+const TURNS: u32 = 9;
+/// Where choices stand in the progress bar.
+const DONE: f64 = 0.96;
+
+impl Study<'_> {
+    /// A choice for each error that is ranked: its pilot, the run it chose, and how that compares with the best of all.
+    pub(super) fn choices(
+        &self,
+        (comparison, known): (&mut Comparison, &Known),
+        store: &mut Store,
+        watch: &mut impl Watch,
+    ) -> Result<(), CompareError> {
+        if !self.request.choices {
+            return Ok(());
+        }
+        comparison.digest(&self.request.errors);
+        for (level, &error) in self.request.errors.iter().enumerate() {
+            watch.doing(DONE, "choice by measurement");
+            let best = Rival::new(comparison, level);
+            let key = format!("choice {error:e}");
+            let run = || {
+                let choice = self.choice(error, known, best.as_ref());
+                serde_json::to_value(choice).unwrap_or_default()
+            };
+            let value = store.get(&key, run).map_err(CompareError::Journal)?;
+            comparison.choices.push(serde_json::from_value(value).unwrap_or_default());
+        }
+        Ok(())
+    }
+
+    fn choice(&self, error: f64, known: &Known, best: Option<&Rival>) -> JudgedChoice {
+        let mut judged = JudgedChoice { error, ..JudgedChoice::default() };
+        judged.best_method = best.map(|best| best.runs.name.clone());
+        let scene = &self.scenes.double;
+        let instants = super::Instants { count: known.rows.len(), ..self.instants };
+        let duration = Some(instants.time(instants.count));
+        let base = Method {
+            formulation: Some("auto".into()),
+            duration,
+            interrupt: self.request.interrupt.clone(),
+            ..Method::default()
+        };
+        let Ok(settings) = Settings::new(scene, &base) else { return judged };
+        let goal = Goal { error: Some(error), deadline: None };
+        let Ok(mut methods) = methods(scene, &base, &settings, &goal) else { return judged };
+        methods.retain(|m| self.methods.contains(m));
+        let task = Task { base: &base, settings: &settings, goal, instants };
+        let pilot = Pilot { task: &task, methods: &methods, clock: &mut Processor::new(1) };
+        let (picks, choice) = in_space(scene, pilot);
+        judged.pilot_seconds = choice.pilot_seconds;
+        for (pick, candidate) in picks.iter().zip(&choice.candidates) {
+            judged.method = pick.method.name();
+            judged.setting = pick.setting;
+            judged.predicted_seconds = candidate.seconds;
+            judged.predicted_error = candidate.error;
+            match self.chosen_run(pick, known, best) {
+                Ok(held) => {
+                    judged.true_error = held.true_error;
+                    judged.cpu_seconds = held.seconds;
+                    judged.best_seconds = held.best_seconds;
+                    judged.over_best = held.seconds.zip(held.best_seconds).map(|(a, b)| a / b);
+                    break;
+                }
+                Err(why) => judged.stopped.push(format!("{}: {why}", pick.method.name())),
+            }
+        }
+        judged
+    }
+
+    /// A chosen run, timed by turns with the runs of the best of all beside the error: what slows the machine for a while slows both.
+    fn chosen_run(&self, pick: &Pick, known: &Known, best: Option<&Rival>) -> Result<Held, String> {
+        let (settings, course) = self.course(&pick.method, pick.setting, known)?;
+        let recorded = self.scenes.recorded(&settings, &course, f64::from(u16::MAX));
+        if recorded.entry.status != Status::Completed {
+            return Err(recorded.entry.failure.map_or_else(String::new, |e| e.code));
+        }
+        let true_error = known.errors(&recorded.rows).map(|[largest, _]| largest);
+        let mut seconds = None::<f64>;
+        let mut best = best.cloned();
+        for turn in 0..TURNS {
+            let time = self.scenes.timed(&settings, &course, turn);
+            seconds = seconds.into_iter().chain(time).reduce(f64::min);
+            let Some(Rival { method, runs, .. }) = &mut best else { continue };
+            for run in &mut runs.runs {
+                let (settings, course) = self.course(&self.methods[*method], run.setting, known)?;
+                run.cpu_seconds.extend(self.scenes.timed(&settings, &course, turn));
+            }
+        }
+        let best_seconds = best.and_then(|best| best.runs.seconds_at(best.error, best.instants));
+        Ok(Held { true_error, seconds, best_seconds })
+    }
+}
+
+/// True error and least CPU time of a chosen run [s], and of the best at the wanted error [s].
+struct Held {
+    true_error: Option<f64>,
+    seconds: Option<f64>,
+    best_seconds: Option<f64>,
+}
+
+/// The best of all methods at an error, with its runs beside that error alone, not timed yet.
+#[derive(Clone)]
+struct Rival {
+    method: usize,
+    runs: MethodRuns,
+    error: f64,
+    instants: u64,
+}
+
+impl Rival {
+    fn new(comparison: &Comparison, level: usize) -> Option<Self> {
+        let level = comparison.ranking.get(level)?;
+        let best = level.ranks.iter().min_by(|a, b| a.seconds.total_cmp(&b.seconds))?;
+        let method = comparison.methods.iter().position(|m| m.name == best.method)?;
+        let runs = comparison.methods[method].beside_alone(level.error);
+        Some(Self { method, runs, error: level.error, instants: comparison.instants as u64 })
+    }
+}

@@ -1,0 +1,152 @@
+//! Where index-3 and index-1 converge: short runs over step and fixed penalty.
+
+use super::course::Course;
+use super::ladder::{Instants, count, work};
+use super::pass::Scenes;
+use super::reference::Known;
+use crate::compare::results::{Cell, ConvergenceMap, Status};
+use mbs::FormulationKind;
+use mbs::Precision;
+use mbs::{Method, Settings};
+
+/// Penalties.
+pub(super) const PENALTIES: [f64; 7] = [1e3, 1e5, 1e7, 1e9, 1e11, 1e13, 1e15];
+/// Steps beside that of the scene, to the nearest that fits.
+const STEPS: [f64; 7] = [10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01];
+/// The longest step is made about so many times.
+const LONGEST_STEPS: f64 = 20.0;
+/// Iterations of a step, roughly.
+const ITERATIONS: f64 = 3.0;
+
+/// What is mapped.
+#[derive(Debug, Clone)]
+pub(super) struct Plan {
+    /// The first instants of the comparison.
+    pub(super) instants: Instants,
+    /// Steps between two instants, from the longest step.
+    pub(super) between: Vec<u64>,
+    pub(super) formulations: Vec<FormulationKind>,
+    pub(super) precisions: Vec<Precision>,
+}
+
+impl Plan {
+    /// A map for each of the formulations and precisions; fewer steps, then none, where it would take more than `most` [s,
+    /// nominal] with so many unknowns.
+    pub(super) fn new(
+        (instants, of_scene): (Instants, f64),
+        (formulations, precisions): (Vec<FormulationKind>, Vec<Precision>),
+        (unknowns, most): (usize, f64),
+    ) -> Self {
+        let mut between: Vec<u64> =
+            STEPS.iter().map(|factor| instants.steps_between(factor * of_scene)).collect();
+        between.dedup();
+        let longest = instants.interval / float(between[0]);
+        let wanted = (LONGEST_STEPS * longest / instants.interval).ceil().max(1.0);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+        let mut n = (wanted as usize).min(instants.count);
+        let maps = count(formulations.len() * precisions.len() * PENALTIES.len());
+        let cost = |n: usize, between: &[u64]| {
+            let steps: u64 = between.iter().sum();
+            work(steps, unknowns) * ITERATIONS * count(n) * maps
+        };
+        while cost(n, &between) > most && n > 1 {
+            n = n.div_ceil(2);
+        }
+        while cost(n, &between) > most && !between.is_empty() {
+            between.pop();
+        }
+        Self { instants: Instants { count: n, ..instants }, between, formulations, precisions }
+    }
+
+    /// Steps [s].
+    pub(super) fn steps(&self) -> Vec<f64> {
+        self.between.iter().map(|n| self.instants.interval / float(*n)).collect()
+    }
+
+    /// The formulations and precisions, each with a map.
+    pub(super) fn which(&self) -> impl Iterator<Item = (FormulationKind, Precision)> {
+        let precisions = &self.precisions;
+        self.formulations.iter().flat_map(|&f| precisions.iter().map(move |&p| (f, p)))
+    }
+
+    /// One map, from its cells by steps between two instants and penalty.
+    pub(super) fn map<E>(
+        &self,
+        (formulation, precision): (FormulationKind, Precision),
+        mut cell: impl FnMut(u64, f64) -> Result<Cell, E>,
+    ) -> Result<ConvergenceMap, E> {
+        let mut row = |penalty| -> Result<Vec<Cell>, E> {
+            self.between.iter().map(|&between| cell(between, penalty)).collect()
+        };
+        Ok(ConvergenceMap {
+            formulation: formulation.name().to_owned(),
+            precision: precision.name().to_owned(),
+            span: self.instants.time(self.instants.count),
+            unit: formulation.scene_penalty().unwrap_or_default().to_owned(),
+            steps: self.steps(),
+            penalties: PENALTIES.to_vec(),
+            cells: PENALTIES.into_iter().map(&mut row).collect::<Result<_, E>>()?,
+        })
+    }
+
+    /// One cell, for at most so many seconds.
+    pub(super) fn cell(
+        &self,
+        scenes: &Scenes,
+        known: &Known,
+        (formulation, precision): (FormulationKind, Precision),
+        (between, penalty): (u64, f64),
+        most: f64,
+    ) -> Cell {
+        let step = self.instants.interval / float(between);
+        let overrides = Method {
+            formulation: Some(formulation.name().to_owned()),
+            integrator: Some("trapezoidal".to_owned()),
+            precision: Some(precision.name().to_owned()),
+            step: Some(step),
+            step_max: Some(step),
+            step_control: Some("fixed".to_owned()),
+            penalty: Some(penalty),
+            ..Method::default()
+        };
+        let Ok(settings) = Settings::new(&scenes.double, &overrides) else {
+            return Cell { failure: "settings-refused".to_owned(), ..Cell::default() };
+        };
+        let course = Course { instants: self.instants, between: Some(between) };
+        let recorded = scenes.recorded(&settings, &course, most);
+        let entry = recorded.entry;
+        let failure = match entry.failure {
+            Some(error) => error.code,
+            None if recorded.is_given_up => "took too long".to_owned(),
+            None => String::new(),
+        };
+        let known = Known { rows: known.rows[..self.instants.count].to_vec(), ..known.clone() };
+        let is_done = entry.status == Status::Completed && failure.is_empty();
+        let error = known.errors(&recorded.rows).filter(|_| is_done).map(|[most, _]| most);
+        #[allow(clippy::cast_precision_loss, reason = "a mean")]
+        let iterations = entry.iterations as f64 / entry.steps.max(1) as f64;
+        Cell { error, iterations, failure }
+    }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
+fn float(n: u64) -> f64 {
+    n as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_map_is_made_smaller_where_it_would_take_long() {
+        let instants = Instants { count: 200, interval: 0.05 };
+        let which =
+            || (vec![FormulationKind::Index3, FormulationKind::Index1], vec![Precision::F64]);
+        let plan = Plan::new((instants, 1e-3), which(), (6, 60.0));
+        assert_eq!((plan.instants.count, plan.between.len()), (4, 7));
+        assert!((plan.steps()[0] - 1e-2).abs() < 1e-12);
+        let smaller = Plan::new((instants, 1e-3), which(), (6000, 1.0));
+        assert!(smaller.instants.count == 1 && smaller.between.len() < 7, "{smaller:?}");
+    }
+}

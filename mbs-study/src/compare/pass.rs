@@ -1,0 +1,298 @@
+//! One run of a scene: recorded, with its steps timed one by one, or timed as a whole.
+
+use super::clocked::step_times;
+use super::course::Course;
+use super::ladder::work;
+use super::layout::moved;
+use crate::compare::results::{Energy, RunEntry, Status};
+use core::ops::ControlFlow;
+use core::time::Duration;
+use cpu_time::ThreadTime;
+use mbs::Interrupt;
+use mbs::Names;
+use mbs::Precision;
+use mbs::PrecisionError;
+use mbs::Settings;
+use mbs::StopError;
+use mbs::inside::Alarm;
+use mbs::inside::Channels;
+use mbs::inside::{ReadScene, SceneWork};
+use mbs::inside::{continue_if, drive};
+use mbs::record::Channel;
+use mbs::typed::Simulation;
+use mbs::typed::StepObserver;
+use mbs_core::Real;
+use mbs_core::control::Accepted;
+use mbs_core::scene::Scene;
+use mbs_scene::SceneFile;
+
+/// Runs shorter than this are repeated within one timing, and the least of them is taken [s].
+const SHORT: f64 = 0.01;
+/// But not more often.
+const MOST_FRESH: u32 = 10;
+/// Steps that an integrator with a control of its own may try between two instants: no clock is read within, and one that finds no
+/// way past a kink of a force in 32 digits would go on for hours.
+const MOST_OWN_STEPS: u32 = 2000;
+
+/// A scene in the precisions that run.
+#[derive(Debug)]
+pub(super) struct Scenes {
+    pub(super) double: Scene<f64>,
+    read: Vec<(Precision, ReadScene<'static>)>,
+    n_columns: usize,
+    /// What ends all runs from outside.
+    pub(super) interrupt: Interrupt,
+}
+
+/// What a recorded run leaves behind.
+#[derive(Debug, Default)]
+pub(super) struct Recorded {
+    /// All components of all channels at the instants reached.
+    pub(super) rows: Vec<Vec<f64>>,
+    /// Everything but errors and times of the whole.
+    pub(super) entry: RunEntry,
+    /// Its work, the same every time [s, nominal].
+    pub(super) work: f64,
+    /// It was given up: it took longer than allowed.
+    pub(super) is_given_up: bool,
+    /// It did not even start.
+    pub(super) is_not_started: bool,
+}
+
+impl Scenes {
+    /// Reads the scene in `f64` and in each precision that is named; runs are of these.
+    pub(super) fn new(
+        document: &SceneFile,
+        precisions: &[Precision],
+    ) -> Result<Self, PrecisionError> {
+        let double = document.scene::<f64>()?;
+        let read = |precision: Precision| {
+            let scene = ReadScene::new((document, &double), precision)?;
+            Ok((precision, scene.into_owned()))
+        };
+        let others = precisions.iter().copied().filter(|&precision| precision != Precision::F64);
+        let precisions = [Precision::F64].into_iter().chain(others);
+        let read = precisions.map(read).collect::<Result<_, PrecisionError>>()?;
+        let n_columns = Channel::of_scene(&double).iter().map(|c| c.components.len()).sum();
+        Ok(Self { double, read, n_columns, interrupt: Interrupt::default() })
+    }
+
+    fn of(&self, precision: Precision) -> Option<&ReadScene<'static>> {
+        self.read.iter().find(|(of, _)| *of == precision).map(|(_, scene)| scene)
+    }
+
+    /// Settings of a run that ends with all the others.
+    fn interruptible(&self, settings: &Settings) -> Settings {
+        Settings { interrupt: self.interrupt.clone(), ..settings.clone() }
+    }
+
+    /// Runs and records, for at most so many seconds of CPU time.
+    pub(super) fn recorded(&self, settings: &Settings, course: &Course, most: f64) -> Recorded {
+        let Some(scene) = self.of(settings.precision) else {
+            return Recorded { is_not_started: true, ..Recorded::default() };
+        };
+        let settings = &self.interruptible(settings);
+        scene.work(ToRecord { settings, course, n_columns: self.n_columns, most })
+    }
+
+    /// CPU time of the steps from a fresh start [s]; the least of several where they take little. Each turn finds other places in
+    /// memory.
+    pub(super) fn timed(&self, settings: &Settings, course: &Course, turn: u32) -> Option<f64> {
+        let settings = &self.interruptible(settings);
+        self.of(settings.precision)?.work(ToTime { settings, course, turn })
+    }
+}
+
+/// A run that is timed.
+struct ToTime<'a> {
+    settings: &'a Settings,
+    course: &'a Course,
+    turn: u32,
+}
+
+impl SceneWork for ToTime<'_> {
+    type Done = Option<f64>;
+
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Option<f64> {
+        timed::<T, D>(scene, self.settings, self.course, self.turn)
+    }
+}
+
+/// A run that is recorded.
+struct ToRecord<'a> {
+    settings: &'a Settings,
+    course: &'a Course,
+    n_columns: usize,
+    most: f64,
+}
+
+impl SceneWork for ToRecord<'_> {
+    type Done = Recorded;
+
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Recorded {
+        recorded::<T, D>(scene, self.settings, self.course, (self.n_columns, self.most))
+    }
+}
+
+fn timed<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    course: &Course,
+    turn: u32,
+) -> Option<f64> {
+    let (mut least, mut sum) = (None::<f64>, 0.0);
+    for k in 0..MOST_FRESH {
+        let seconds = moved(turn * MOST_FRESH + k, || {
+            let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
+            let clock = ThreadTime::now();
+            drive(&mut simulation, course.stretches(), &settings.interrupt, &mut ()).ok()?;
+            Some(clock.elapsed().as_secs_f64())
+        })?;
+        least = Some(least.map_or(seconds, |least| least.min(seconds)));
+        sum += seconds;
+        if sum >= SHORT {
+            break;
+        }
+    }
+    least
+}
+
+fn recorded<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    course: &Course,
+    (n_columns, most): (usize, f64),
+) -> Recorded {
+    let started = Simulation::<T, D>::new(scene, settings).and_then(|simulation| {
+        let channels = Channels::new(scene, simulation.model())?;
+        Ok((simulation, channels))
+    });
+    let (mut simulation, channels) = match started {
+        Ok(both) => both,
+        Err(error) => {
+            let failure = Some(error.report(0.0, &Names::new(scene)));
+            let entry = RunEntry { status: Status::Failed, failure, ..RunEntry::default() };
+            return Recorded { entry, is_not_started: true, ..Recorded::default() };
+        }
+    };
+    simulation.formulation_mut().set_max_steps(MOST_OWN_STEPS);
+    let mut recorder = Recorder {
+        channels,
+        alarm: Alarm::new(settings.energy_alarm),
+        row: vec![T::ZERO; n_columns],
+        rows: Vec::new(),
+        most: Duration::from_secs_f64(most),
+        violation: simulation.start.residual.map(Real::to_f64),
+        steps: 0,
+        iterations: 0,
+        reached: 0.0,
+        times: Vec::new(),
+        is_given_up: false,
+        last: Duration::ZERO,
+        start: ThreadTime::now(),
+    };
+    let end = drive(&mut simulation, course.stretches(), &settings.interrupt, &mut recorder);
+    recorder.finish(&simulation, end.err(), &Names::new(scene))
+}
+
+/// Records a run.
+struct Recorder<T: Real, const D: usize> {
+    channels: Channels<T, D>,
+    alarm: Alarm,
+    row: Vec<T>,
+    rows: Vec<Vec<f64>>,
+    most: Duration,
+    violation: [f64; 3],
+    steps: u64,
+    iterations: u64,
+    reached: f64,
+    times: Vec<f64>,
+    is_given_up: bool,
+    /// When the step began that is made next.
+    last: Duration,
+    start: ThreadTime,
+}
+
+impl<T: Real, const D: usize> StepObserver<T, D> for Recorder<T, D> {
+    fn step(
+        &mut self,
+        simulation: &Simulation<T, D>,
+        accepted: &Accepted<T>,
+        is_last: bool,
+    ) -> Result<ControlFlow<()>, StopError> {
+        let now = self.start.elapsed();
+        let report = &accepted.attempt.report;
+        let steps = report.steps.max(1);
+        self.times.push((now - self.last).as_secs_f64() / f64::from(steps));
+        self.steps += u64::from(steps);
+        self.iterations += u64::from(report.iterations);
+        self.reached = simulation.state().t.to_f64();
+        for (most, v) in self.violation.iter_mut().zip(report.violation) {
+            *most = most.max(v.to_f64());
+        }
+        self.channels.track(simulation)?;
+        let stop = self.alarm.rings(simulation, is_last);
+        self.last = self.start.elapsed();
+        stop.map_or(Ok(continue_if(true)), Err)
+    }
+
+    fn instant(&mut self, simulation: &Simulation<T, D>) -> Result<ControlFlow<()>, StopError> {
+        self.channels.write(simulation.state(), &mut self.row)?;
+        self.rows.push(self.row.iter().copied().map(Real::to_f64).collect());
+        self.last = self.start.elapsed();
+        self.is_given_up = self.last > self.most;
+        Ok(continue_if(!self.is_given_up))
+    }
+}
+
+impl<T: Real, const D: usize> Recorder<T, D> {
+    fn finish(
+        self,
+        simulation: &Simulation<T, D>,
+        stop: Option<StopError>,
+        names: &Names,
+    ) -> Recorded {
+        let invariant = simulation.invariant();
+        let finite = |x: f64| x.is_finite().then_some(x);
+        let [coordinates, constraints, _] = simulation.sizes();
+        #[allow(clippy::cast_precision_loss, reason = "a mean")]
+        let mean_step = if self.steps > 0 { self.reached / self.steps as f64 } else { 0.0 };
+        let entry = RunEntry {
+            status: if stop.is_some() { Status::Failed } else { Status::Completed },
+            failure: stop.map(|error| error.report(self.reached, names)),
+            steps: self.steps,
+            mean_step,
+            iterations: self.iterations,
+            clocked_seconds: self.times.iter().sum(),
+            energy: Energy {
+                max_error: finite(invariant.max_error()),
+                turned_over: finite(invariant.turned_over()),
+                drift: finite(invariant.drift()),
+                scatter: finite(invariant.scatter()),
+            },
+            violation: self.violation.map(|v| if v.is_finite() { v } else { f64::MAX }),
+            step_times: step_times(self.times, reading()),
+            ..RunEntry::default()
+        };
+        Recorded {
+            rows: self.rows,
+            work: work(self.iterations, coordinates + constraints),
+            entry,
+            is_given_up: self.is_given_up,
+            is_not_started: false,
+        }
+    }
+}
+
+/// CPU time of reading the clock: the middle of many.
+fn reading() -> f64 {
+    let clock = ThreadTime::now();
+    let mut times: Vec<Duration> = (0..101)
+        .map(|_| {
+            let before = clock.elapsed();
+            clock.elapsed() - before
+        })
+        .collect();
+    times.sort();
+    times[times.len() / 2].as_secs_f64()
+}

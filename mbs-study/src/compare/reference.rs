@@ -1,0 +1,363 @@
+//! What errors are taken against: a run that is not under test, in two accuracies, beside another formulation.
+
+use super::ladder::{Instants, count};
+use super::table::Table;
+use crate::compare::results::{CrossCheck, OutputScale, Reference, output_scales, row_distance};
+use mbs::record::Channel;
+use mbs_scene::format::significant;
+
+/// The reference is well known at an instant if its uncertainty so far is less than this share of the least error ranked.
+const KNOWN: f64 = 3.0;
+/// At least this share of the instants is compared, as well as they are known.
+const LEAST_SHARE: f64 = 0.1;
+/// Another formulation agrees if it is no further away than so many times what both can tell.
+const AGREES: f64 = 3.0;
+/// A table is refuted by formulations that are further from it than so many times what both can tell.
+const FAR: f64 = 10.0;
+/// A check that tells no more than this checks nothing.
+const TELLS: f64 = 1e-2;
+
+/// Rows at the instants after the start.
+pub(super) type Rows = Vec<Vec<f64>>;
+
+/// A solution with an estimate of its own accuracy: rows, and less accurate ones by the same means.
+#[derive(Debug, Clone)]
+pub(super) struct Pair {
+    pub(super) method: String,
+    pub(super) rows: Rows,
+    pub(super) coarse: Rows,
+}
+
+impl Pair {
+    /// Extrapolates a method of second order from three runs, each with half the step of the one before.
+    ///
+    /// ```text
+    /// y = (4 y(h/2) − y(h)) / 3
+    /// ```
+    pub(super) fn richardson(method: String, [long, half, quarter]: [&Rows; 3]) -> Self {
+        let of = |long: &Rows, short: &Rows| -> Rows {
+            let row = |(a, b): (&Vec<f64>, &Vec<f64>)| {
+                a.iter().zip(b).map(|(a, b)| b + (b - a) / 3.0).collect()
+            };
+            long.iter().zip(short).map(row).collect()
+        };
+        Self { method, rows: of(half, quarter), coarse: of(long, half) }
+    }
+}
+
+/// The reference as the comparison uses it.
+#[derive(Debug, Clone)]
+pub(super) struct Known {
+    /// Rows at the instants, where they are known.
+    pub(super) rows: Vec<Option<Vec<f64>>>,
+    pub(super) scales: Vec<OutputScale>,
+    pub(super) report: Reference,
+    pub(super) notes: Vec<String>,
+    /// A table that formulations which agree are far from.
+    pub(super) is_refuted: bool,
+}
+
+impl Known {
+    /// From a table. Columns that it has not are not compared.
+    pub(super) fn of_table(
+        table: Table,
+        name: &str,
+        (channels, length): (&[Channel], f64),
+    ) -> Self {
+        let given: Rows = table.rows.iter().flatten().cloned().collect();
+        let mut scales = output_scales(channels, &given, length);
+        let (mut uncertainty, mut notes) = (0.0_f64, Vec::new());
+        for scale in &mut scales {
+            scale.columns.retain(|&c| table.has[c]);
+            match scale.scale {
+                Some(size) if !scale.columns.is_empty() => {
+                    let digits = scale.columns.iter().map(|&c| table.digits[c]);
+                    uncertainty = uncertainty.max(digits.fold(0.0, f64::max) / size);
+                }
+                _ => scale.scale = None,
+            }
+        }
+        let missing = table.rows.iter().filter(|row| row.is_none()).count();
+        if missing > 0 {
+            let of = table.rows.len();
+            notes.push(format!("the table has {} of the {of} instants", of - missing));
+        }
+        let report = Reference {
+            kind: "table".to_owned(),
+            method: format!("table {name}, {} rows", given.len()),
+            uncertainty,
+            ..Reference::default()
+        };
+        Self { rows: table.rows, scales, report, notes, is_refuted: false }
+    }
+
+    /// Holds a table against two solutions by different formulations. It is verified where both agree with it, within what they and
+    /// its digits tell; it is refuted where they agree with each other and miss it by far.
+    pub(super) fn verify(&mut self, name: &str, pairs: &[Pair], instants: &Instants) {
+        let [a, b, ..] = pairs else {
+            let note = "the reference is NOT verified: it is taken as given, since no two formulations run the scene to the end";
+            self.notes.push(note.to_owned());
+            return;
+        };
+        let distance = |x: &[f64], y: &[f64]| row_distance(&self.scales, x, y)[0];
+        let (mut apart, mut largest, mut is_near) = (0.0_f64, 0.0_f64, true);
+        let mut seen = 0;
+        let mut miss: Option<(usize, f64)> = None;
+        for (k, row) in self.rows.iter().enumerate() {
+            let of = |rows: &Rows| rows.get(k).cloned();
+            let all = (of(&a.rows), of(&a.coarse), of(&b.rows), of(&b.coarse));
+            let (Some(best), Some(coarse), Some(other), Some(rough)) = all else { break };
+            for (x, y) in [(&best, &coarse), (&other, &rough), (&best, &other)] {
+                apart = apart.max(distance(x, y));
+            }
+            // beyond that the motion is not known, chaotic ones for instance
+            if !(apart <= TELLS) {
+                break;
+            }
+            let Some(row) = row else { continue };
+            let d = distance(row, &best);
+            let told = self.report.uncertainty + apart;
+            (seen, largest) = (seen + 1, largest.max(d));
+            is_near &= d <= AGREES * told;
+            if d > FAR * told && miss.is_none_or(|(_, most)| d > most) {
+                miss = Some((k, d));
+            }
+        }
+        self.report.cross_check = Some(CrossCheck::new(&a.method, largest, apart));
+        self.report.is_verified = seen > 0 && is_near;
+        self.is_refuted = miss.is_some();
+        if let Some((k, _)) = miss {
+            let note = format!(
+                "the reference is NOT verified: {} and {} agree to {apart:.1e}, and differ from {name} by {} at {} s; no method is \
+                 compared with it",
+                a.method,
+                b.method,
+                self.largest_miss(k, &a.rows[k]),
+                significant(instants.time(k + 1))
+            );
+            self.notes.push(note);
+        } else if !self.report.is_verified {
+            self.notes.push(doubt(self.report.cross_check.as_ref()));
+        }
+    }
+
+    /// The largest distance of a row from what the table says, as a number with its unit and output.
+    fn largest_miss(&self, k: usize, row: &[f64]) -> String {
+        let Some(known) = &self.rows[k] else { return String::new() };
+        let each = self.scales.iter().flat_map(|scale| {
+            let size = scale.scale.unwrap_or(f64::INFINITY);
+            scale.columns.iter().map(move |&c| (scale, c, size))
+        });
+        let share = |c: usize, size: f64| (known[c] - row[c]).abs() / size;
+        let worst = each.max_by(|a, b| share(a.1, a.2).total_cmp(&share(b.1, b.2)));
+        let Some((scale, c, _)) = worst else { return String::new() };
+        let far = mbs_scene::format::few((known[c] - row[c]).abs());
+        format!("{far} {} of `{}`", scale.unit, scale.output)
+    }
+
+    /// From runs; `check` is the other formulation. `least` is the least error that is to be ranked.
+    pub(super) fn of_runs(
+        best: &Pair,
+        check: Option<&Pair>,
+        (channels, length): (&[Channel], f64),
+        (instants, least): (&Instants, f64),
+    ) -> Self {
+        let all = best.rows.len();
+        let scales = output_scales(channels, &best.rows, length);
+        let parted = distances(&scales, &best.rows, &best.coarse);
+        let n = known(&parted, least / KNOWN);
+        // ranges of what is compared, not of what follows
+        let scales =
+            if n < all { output_scales(channels, &best.rows[..n], length) } else { scales };
+        let rows = &best.rows[..n];
+        let largest = |other: &Rows| {
+            distances(&scales, rows, &other[..n.min(other.len())]).last().copied().unwrap_or(0.0)
+        };
+        // rows are in `f64`, however many digits the run has
+        let uncertainty = largest(&best.coarse).max(f64::EPSILON);
+        let mut notes = Vec::new();
+        let cross_check = check.map(|check| {
+            let (n, m) = (n.min(check.rows.len()), n.min(check.coarse.len()));
+            let apart = distances(&scales, &check.rows[..n], &check.coarse[..m]);
+            let uncertainty = apart.last().copied().unwrap_or(f64::INFINITY);
+            CrossCheck::new(&check.method, largest(&check.rows), uncertainty)
+        });
+        let is_verified = cross_check.as_ref().is_some_and(|check| {
+            let told = check.own_uncertainty.max(uncertainty);
+            check.own_uncertainty <= TELLS && check.difference <= AGREES * told
+        });
+        if !is_verified {
+            notes.push(doubt(cross_check.as_ref()));
+        }
+        let known_until = (n < all).then(|| instants.time(n));
+        if let Some(t) = known_until {
+            notes.push(format!(
+                "the two runs of the reference part: after {} s they are further apart than a third of the least error ranked; \
+                 compared is what comes before",
+                significant(t)
+            ));
+        }
+        let report = Reference {
+            kind: "computed".to_owned(),
+            method: best.method.clone(),
+            uncertainty,
+            cross_check,
+            known_until,
+            is_verified,
+        };
+        let rows = rows.iter().cloned().map(Some).collect();
+        Self { rows, scales, report, notes, is_refuted: false }
+    }
+
+    /// Largest error, and root of the mean square, of rows at the same instants; nothing where they are not all there or not
+    /// finite.
+    pub(super) fn errors(&self, rows: &[Vec<f64>]) -> Option<[f64; 2]> {
+        if rows.len() < self.rows.len() {
+            return None;
+        }
+        let (mut largest, mut squares, mut n) = (0.0_f64, 0.0, 0);
+        for (known, row) in self.rows.iter().zip(rows) {
+            let Some(known) = known else { continue };
+            let [most, rms] = row_distance(&self.scales, known, row);
+            if !most.is_finite() {
+                return None;
+            }
+            largest = largest.max(most);
+            squares += rms * rms;
+            n += 1;
+        }
+        Some([largest, (squares / count(n.max(1))).sqrt()])
+    }
+}
+
+fn doubt(check: Option<&CrossCheck>) -> String {
+    match check {
+        None => "the reference is NOT verified: no other formulation runs the scene to the end"
+            .to_owned(),
+        Some(check) if check.own_uncertainty > TELLS => format!(
+            "the reference is NOT verified: the check itself has an uncertainty of {:.1e}",
+            check.own_uncertainty
+        ),
+        Some(check) => format!(
+            "the reference is NOT verified: {} is {:.1e} away, more than the uncertainty of both",
+            check.method, check.difference
+        ),
+    }
+}
+
+/// Largest distance so far at each instant.
+fn distances(scales: &[OutputScale], a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<f64> {
+    let mut largest = 0.0_f64;
+    let distances = a.iter().zip(b).map(|(a, b)| {
+        let [d, _] = row_distance(scales, a, b);
+        largest = if d.is_nan() { f64::INFINITY } else { largest.max(d) };
+        largest
+    });
+    distances.collect()
+}
+
+/// How many instants are compared: those before the two runs part, but not less than a share, for which a larger distance is put
+/// up with.
+fn known(parted: &[f64], bound: f64) -> usize {
+    let all = parted.len();
+    let within = |bound: f64| parted.iter().take_while(|d| **d <= bound).count();
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a share of a count"
+    )]
+    let least = ((count(all) * LEAST_SHARE).ceil() as usize).max(1);
+    let mut bound = bound;
+    while within(bound) < least && bound < 1.0 {
+        bound *= 10.0;
+    }
+    within(bound).max(least.min(all))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mbs_scene::Component;
+
+    fn channels() -> Vec<Channel> {
+        let component = Component { label: String::new(), unit: "rad".into() };
+        vec![Channel { name: "a".into(), components: vec![component] }]
+    }
+
+    /// sin t at instants, wrong by `error`.
+    fn rows(n: usize, error: impl Fn(f64) -> f64) -> Rows {
+        (1..=n).map(|k| 0.1 * k as f64).map(|t| vec![t.sin() + error(t)]).collect()
+    }
+
+    const INSTANTS: Instants = Instants { count: 100, interval: 0.1 };
+
+    fn pair(error: impl Fn(f64) -> f64, coarse: impl Fn(f64) -> f64) -> Pair {
+        Pair { method: "x".into(), rows: rows(100, error), coarse: rows(100, coarse) }
+    }
+
+    fn of(best: &Pair, check: Option<&Pair>) -> Known {
+        Known::of_runs(best, check, (&channels(), 1.0), (&INSTANTS, 1e-6))
+    }
+
+    #[test]
+    fn extrapolation_removes_the_error_of_second_order() {
+        let run = |h: f64| rows(100, move |t| h * h * t + h.powi(4));
+        let pair = Pair::richardson("x".into(), [&run(0.1), &run(0.05), &run(0.025)]);
+        let exact = rows(100, |_| 0.0);
+        let error = |rows: &Rows| {
+            rows.iter().zip(&exact).map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f64::max)
+        };
+        assert!(error(&pair.rows) < 3e-6 && error(&pair.coarse) < 4e-5);
+        assert!(error(&pair.rows) < error(&pair.coarse) / 10.0);
+    }
+
+    #[test]
+    fn the_reference_is_cut_where_its_two_runs_part_and_says_so() {
+        let chaos = |t: f64| 1e-12 * f64::exp(3.0 * t);
+        let known = of(&pair(|_| 0.0, chaos), Some(&pair(|_| 1e-9, |_| 2e-9)));
+        // 1e-12 e^(3 t) over a range of about two is 3.3e-7 at t = 4.5
+        let until = known.report.known_until.unwrap();
+        assert!((4.2..4.8).contains(&until), "{until}");
+        assert!(known.report.is_verified && known.report.uncertainty <= 1e-6 / 3.0);
+        assert_eq!(known.notes.len(), 1);
+        assert_eq!(known.errors(&rows(100, |_| 0.0)).unwrap()[0].to_bits(), 0.0_f64.to_bits());
+        assert_eq!(known.errors(&rows(10, |_| 0.0)), None);
+    }
+
+    #[test]
+    fn a_table_is_verified_or_refuted_by_formulations_that_agree() {
+        let table = |error: f64| {
+            let rows = rows(100, |_| error).into_iter().map(Some).collect();
+            let table = Table { rows, digits: vec![5e-7], has: vec![true] };
+            Known::of_table(table, "ref.csv", (&channels(), 1.0))
+        };
+        let pairs = [pair(|_| 0.0, |_| 1e-9), pair(|_| 1e-9, |_| 2e-9)];
+        let held = |error: f64, pairs: &[Pair]| {
+            let mut known = table(error);
+            known.verify("ref.csv", pairs, &INSTANTS);
+            known
+        };
+        let good = held(4e-7, &pairs);
+        assert!(good.report.is_verified && !good.is_refuted && good.notes.is_empty());
+        let invented = held(0.3, &pairs);
+        assert!(!invented.report.is_verified && invented.is_refuted);
+        let note = &invented.notes[0];
+        assert!(note.contains("NOT verified: x and x agree to 5.0e-10"), "{note}");
+        assert!(note.contains("differ from ref.csv by 0.3 rad of `a` at"), "{note}");
+        // formulations that do not agree refute nothing, and verify nothing
+        let apart = held(0.3, &[pair(|_| 0.0, |_| 1e-9), pair(|_| 0.1, |_| 0.1)]);
+        assert!(!apart.report.is_verified && !apart.is_refuted && apart.notes.len() == 1);
+        assert!(!held(0.0, &pairs[..1]).report.is_verified, "one alone verifies nothing");
+    }
+
+    #[test]
+    fn a_check_that_disagrees_or_tells_nothing_does_not_verify() {
+        let good = pair(|_| 0.0, |_| 1e-10);
+        let off = of(&good, Some(&pair(|_| 1e-3, |_| 1.0001e-3)));
+        assert!(!off.report.is_verified && off.notes[0].contains("away"), "{:?}", off.notes);
+        let blind = of(&good, Some(&pair(|_| 0.0, |_| 0.1)));
+        assert!(!blind.report.is_verified && blind.notes[0].contains("has an uncertainty"));
+        assert!(!of(&good, None).report.is_verified);
+        assert!(of(&good, Some(&pair(|_| 1e-8, |_| 2e-8))).report.is_verified);
+    }
+}

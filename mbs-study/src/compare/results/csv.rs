@@ -1,0 +1,121 @@
+//! The runs of a comparison as a table.
+
+use super::data::{Comparison, RunEntry, Status};
+use mbs_scene::format::shortest;
+use std::io;
+
+const HEADER: [&str; 26] = [
+    "method",
+    "formulation",
+    "integrator",
+    "control",
+    "precision",
+    "setting",
+    "status",
+    "code",
+    "message",
+    "time_reached",
+    "steps",
+    "mean_step",
+    "iterations",
+    "error",
+    "error_rms",
+    "below_reference",
+    "cpu_seconds",
+    "repeats",
+    "energy_max_error",
+    "energy_drift",
+    "energy_scatter",
+    "violation_position",
+    "violation_velocity",
+    "violation_acceleration",
+    "step_seconds_p99",
+    "step_seconds_max",
+];
+
+/// Writes a row for each run: what became of it, its error, its CPU time. What was not measured is empty.
+///
+/// # Errors
+/// Those of the sink.
+pub fn write_comparison(sink: impl io::Write, comparison: &Comparison) -> io::Result<()> {
+    let mut out = csv::Writer::from_writer(sink);
+    out.write_record(HEADER)?;
+    for method in &comparison.methods {
+        for run in &method.runs {
+            let of = [&method.name, &method.formulation, &method.integrator, &method.control];
+            let mut row: Vec<String> = of.into_iter().cloned().collect();
+            row.push(method.precision.clone());
+            row.extend(cells(run, comparison.compared));
+            out.write_record(&row)?;
+        }
+    }
+    out.flush()
+}
+
+fn cells(run: &RunEntry, end: f64) -> Vec<String> {
+    let number = |x: Option<f64>| x.map(shortest).unwrap_or_default();
+    let made = run.status != Status::NotRun;
+    let of_run = |x: f64| number(made.then_some(x));
+    let (status, code, message, reached) = match (run.status, &run.failure) {
+        (Status::Completed, _) => ("completed", "", String::new(), Some(end)),
+        (Status::Failed, Some(e)) => ("failed", e.code.as_str(), e.message.clone(), Some(e.time)),
+        (Status::Failed, None) => ("failed", "", String::new(), None),
+        (Status::NotRun, _) => ("not-run", "", run.not_run.clone().unwrap_or_default(), None),
+    };
+    let times = run.step_times.as_ref();
+    let mut cells = vec![shortest(run.setting), status.to_owned(), code.to_owned(), message];
+    cells.extend([
+        number(reached),
+        run.steps.to_string(),
+        of_run(run.mean_step),
+        run.iterations.to_string(),
+        number(run.error),
+        number(run.error_rms),
+        run.is_below_reference.to_string(),
+        number(run.cpu_least),
+        run.cpu_seconds.len().to_string(),
+        number(run.energy.max_error),
+        number(run.energy.drift),
+        number(run.energy.scatter),
+    ]);
+    cells.extend(run.violation.map(of_run));
+    cells.extend([number(times.map(|t| t.p99)), number(times.map(|t| t.max))]);
+    cells
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::results::MethodRuns;
+    use mbs::record::RunError;
+
+    #[test]
+    fn a_failure_stands_beside_the_others_with_its_reason() {
+        let failure = RunError {
+            code: "rank-lost".into(),
+            message: "a, b".into(),
+            time: 0.5,
+            ..RunError::default()
+        };
+        let failed = RunEntry {
+            setting: 1e-3,
+            status: Status::Failed,
+            failure: Some(failure),
+            ..RunEntry::default()
+        };
+        let runs =
+            vec![failed, RunEntry { not_run: Some("too long".into()), ..RunEntry::default() }];
+        let methods =
+            vec![MethodRuns { name: "classical, f64".into(), runs, ..MethodRuns::default() }];
+        let mut text = Vec::new();
+        write_comparison(&mut text, &Comparison { methods, ..Comparison::default() }).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines.len(), 3);
+        assert!(
+            lines[1].starts_with("\"classical, f64\",,,,,0.001,failed,rank-lost,\"a, b\",0.5,0,"),
+            "{text}"
+        );
+        assert!(lines[2].contains(",not-run,,too long,"), "{text}");
+    }
+}

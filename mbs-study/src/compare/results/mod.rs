@@ -1,0 +1,16 @@
+//! What a comparison of methods says: orders, times at an error, ranks; as data, JSON and CSV.
+
+mod csv;
+mod data;
+mod digest;
+mod fit;
+mod front;
+mod rank;
+mod scale;
+
+pub use csv::write_comparison;
+pub use data::{
+    Cell, Comparison, ConvergenceMap, CrossCheck, Energy, Fit, JudgedChoice, MethodRuns, Origin,
+    OutputScale, Rank, RankLevel, Reference, RunEntry, Status, StepTimes,
+};
+pub use scale::{output_scales, row_distance};

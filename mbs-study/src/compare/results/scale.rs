@@ -1,0 +1,100 @@
+//! How far outputs are from a reference, beside what they are.
+
+use super::data::OutputScale;
+use mbs::record::Channel;
+
+/// The scale of an output is at least this share of the largest range of its unit.
+const FLOOR: f64 = 1e-3;
+
+/// The scales of all channels: the components of one unit of a channel share the largest of their ranges over the reference, but
+/// at least a thousandth of the largest range of an output of that unit; in lengths at least a thousandth of the scene's
+/// length [m], in angles of a radian.
+#[must_use]
+pub fn output_scales(channels: &[Channel], rows: &[Vec<f64>], length: f64) -> Vec<OutputScale> {
+    let mut scales: Vec<OutputScale> = Vec::new();
+    let mut column = 0;
+    for channel in channels {
+        let first = scales.len();
+        for component in &channel.components {
+            let range = range(rows, column);
+            match scales[first..].iter_mut().find(|scale| scale.unit == component.unit) {
+                Some(scale) => {
+                    scale.columns.push(column);
+                    scale.range = scale.range.max(range);
+                }
+                None => scales.push(OutputScale {
+                    output: channel.name.clone(),
+                    unit: component.unit.clone(),
+                    scale: None,
+                    range,
+                    columns: vec![column],
+                }),
+            }
+            column += 1;
+        }
+    }
+    let ranges: Vec<(String, f64)> = scales.iter().map(|s| (s.unit.clone(), s.range)).collect();
+    for scale in &mut scales {
+        let least = match scale.unit.as_str() {
+            "m" => length,
+            "rad" => 1.0,
+            _ => 0.0,
+        };
+        let same = ranges.iter().filter(|(unit, _)| *unit == scale.unit);
+        let largest = same.fold(least, |most, (_, range)| most.max(*range));
+        let size = scale.range.max(FLOOR * largest);
+        scale.scale = (size > 0.0 && size.is_finite()).then_some(size);
+    }
+    scales
+}
+
+fn range(rows: &[Vec<f64>], column: usize) -> f64 {
+    let values = || rows.iter().filter_map(|row| row.get(column).copied());
+    let low = values().fold(f64::INFINITY, f64::min);
+    let high = values().fold(f64::NEG_INFINITY, f64::max);
+    if low <= high { high - low } else { 0.0 }
+}
+
+/// Largest distance and root of the mean square of two rows of components, in their scales; NaN if one is.
+#[must_use]
+pub fn row_distance(scales: &[OutputScale], a: &[f64], b: &[f64]) -> [f64; 2] {
+    let (mut largest, mut squares, mut n) = (0.0_f64, 0.0, 0.0);
+    for scale in scales {
+        let Some(size) = scale.scale else { continue };
+        for &c in &scale.columns {
+            let (Some(x), Some(y)) = (a.get(c), b.get(c)) else { continue };
+            let d = (x - y).abs() / size;
+            largest = if d.is_nan() { d } else { largest.max(d) };
+            squares += d * d;
+            n += 1.0;
+            if largest.is_nan() {
+                return [f64::NAN; 2];
+            }
+        }
+    }
+    [largest, if n > 0.0 { libm::sqrt(squares / n) } else { 0.0 }]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mbs_core::outputs::Component;
+
+    fn channel(name: &str, units: &[&str]) -> Channel {
+        let component = |unit: &&str| Component { label: String::new(), unit: (*unit).to_owned() };
+        Channel { name: name.to_owned(), components: units.iter().map(component).collect() }
+    }
+
+    #[test]
+    fn components_of_a_unit_share_the_largest_range_and_what_stands_still_has_a_floor() {
+        let channels = [channel("tip", &["m", "m"]), channel("post", &["m"]), channel("f", &["N"])];
+        let rows = vec![vec![0.0, 1.0, 7.0, 0.0], vec![4.0, 2.0, 7.0, 0.0]];
+        let scales = output_scales(&channels, &rows, 0.5);
+        let sizes: Vec<_> = scales.iter().map(|s| s.scale).collect();
+        assert_eq!(sizes, [Some(4.0), Some(FLOOR * 4.0), None]);
+        assert_eq!(scales[0].columns, [0, 1]);
+        let [largest, rms] = row_distance(&scales, &rows[0], &[0.4, 1.0, 7.0, 9.0]);
+        assert!((largest - 0.1).abs() < 1e-12 && (rms - 0.1 / f64::sqrt(3.0)).abs() < 1e-12);
+        assert!(row_distance(&scales, &rows[0], &[0.4, f64::NAN, 7.0, 9.0])[0].is_nan());
+    }
+}

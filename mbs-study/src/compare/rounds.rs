@@ -1,0 +1,109 @@
+//! Times of whole runs, by turns, until they are known well enough.
+
+use super::reference::Known;
+use super::store::Store;
+use super::{CompareError, Study, Watch};
+use crate::compare::results::{Comparison, RunEntry, Status};
+
+/// The three least times of a run differ by no more than this share where it is known well enough.
+const SETTLED: f64 = 0.005;
+/// So many times the repeats asked for, those that decide the ranking are timed at least and at most.
+const ROUNDS: [u32; 2] = [3, 8];
+/// Where the rounds stand in the progress bar.
+const SHARE: [f64; 2] = [0.35, 0.6];
+
+impl Study<'_> {
+    /// Times every completed run: in rounds over all, there and back, so that what disturbs a while meets all alike; then again
+    /// those that decide the ranking, until their three least times meet.
+    pub(super) fn time(
+        &self,
+        comparison: &mut Comparison,
+        known: &Known,
+        store: &mut Store,
+        watch: &mut impl Watch,
+    ) -> Result<(), CompareError> {
+        let repeats = self.request.repeats;
+        for round in 0..repeats * ROUNDS[1] {
+            let errors = &self.request.errors;
+            let mut jobs = match round {
+                _ if round < repeats => completed(comparison),
+                _ if round < repeats * ROUNDS[0] => comparison.decisive(errors),
+                _ => unsettled(comparison, errors),
+            };
+            if jobs.is_empty() {
+                break;
+            }
+            if round % 2 == 1 {
+                jobs.reverse();
+            }
+            for (n, &(m, r)) in jobs.iter().enumerate() {
+                let part = super::ladder::count(n) / super::ladder::count(jobs.len());
+                let usual = repeats * ROUNDS[0];
+                let share = ((f64::from(round) + part) / f64::from(usual)).min(1.0);
+                let doing = format!("timing, round {} of {usual}", round + 1);
+                watch.doing(SHARE[0] + SHARE[1] * share, &doing);
+                let method = &self.methods[m];
+                let run = &mut comparison.methods[m].runs[r];
+                let key = format!("time {round} {} {:e}", method.name(), run.setting);
+                let setting = run.setting;
+                let time = || {
+                    let course = self.course(method, setting, known).ok();
+                    course
+                        .and_then(|(settings, course)| self.scenes.timed(&settings, &course, round))
+                        .into()
+                };
+                let value = store.get(&key, time).map_err(CompareError::Journal)?;
+                run.cpu_seconds.extend(value.as_f64());
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The completed runs, by method and run.
+fn completed(comparison: &Comparison) -> Vec<(usize, usize)> {
+    let methods = comparison.methods.iter().enumerate();
+    let runs = methods.flat_map(|(m, method)| {
+        let runs = method.runs.iter().enumerate();
+        runs.filter(|(_, run)| run.status == Status::Completed).map(move |(r, _)| (m, r))
+    });
+    runs.collect()
+}
+
+/// The runs that decide the ranking at some errors, and are not known well enough.
+fn unsettled(comparison: &Comparison, errors: &[f64]) -> Vec<(usize, usize)> {
+    let is_apart = |run: &RunEntry| {
+        let mut times = run.cpu_seconds.clone();
+        times.sort_by(f64::total_cmp);
+        times.get(2).is_none_or(|third| *third > (1.0 + SETTLED) * times[0])
+    };
+    let mut runs = comparison.decisive(errors);
+    runs.retain(|&(m, r)| is_apart(&comparison.methods[m].runs[r]));
+    runs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::results::MethodRuns;
+
+    #[test]
+    fn decisive_runs_are_timed_until_their_three_least_times_are_close() {
+        let run = |status, error, times: &[f64]| RunEntry {
+            status,
+            error: Some(error),
+            cpu_seconds: times.to_vec(),
+            ..RunEntry::default()
+        };
+        let runs = vec![
+            run(Status::Completed, 1e-1, &[1.0, 3.0, 1.004, 1.002]),
+            run(Status::Failed, 1.0, &[]),
+            run(Status::Completed, 1e-3, &[1.0, 1.001, 1.3]),
+            run(Status::Completed, 1e-5, &[1.0, 1.001]),
+        ];
+        let methods = vec![MethodRuns { runs, ..MethodRuns::default() }];
+        let comparison = Comparison { methods, ..Comparison::default() };
+        assert_eq!(completed(&comparison), [(0, 0), (0, 2), (0, 3)]);
+        assert_eq!(unsettled(&comparison, &[1e-2]), [(0, 2)]);
+    }
+}

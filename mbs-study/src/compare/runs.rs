@@ -1,0 +1,208 @@
+//! The recorded runs of every method, from the coarsest setting on.
+
+use super::course::Course;
+use super::ladder::Instants;
+use super::method::MethodCase;
+use super::reference::Known;
+use super::store::Store;
+use super::{CompareError, Study, Watch};
+use crate::compare::results::{MethodRuns, RunEntry, Status};
+use mbs::FormulationKind;
+use serde_json::{Value, json};
+
+/// Errors below this are good enough to tell that finer settings bring no more.
+const GOOD: f64 = 1e-2;
+/// So many finer settings without a smaller error end the refinement.
+const NO_BETTER: u32 = 2;
+/// Share of all work that recording is, for the progress bar.
+const RECORDING: f64 = 0.3;
+
+/// What is known of a method while its settings are refined.
+#[derive(Debug, Default)]
+struct Refined {
+    /// Work and CPU time of the last run that was completed, with its setting.
+    last: Option<(f64, f64, f64)>,
+    best: Option<f64>,
+    no_better: u32,
+    /// Steps, iterations and errors, to the bit, of the last run that was completed: a setting that changes none of them is held by the
+    /// instants of the results, and says nothing of finer ones.
+    same: Option<[u64; 4]>,
+    /// Nothing finer is run; why.
+    over: Option<String>,
+}
+
+impl Study<'_> {
+    pub(super) fn runs(
+        &self,
+        known: &Known,
+        store: &mut Store,
+        watch: &mut impl Watch,
+    ) -> Result<Vec<MethodRuns>, CompareError> {
+        let mut all = Vec::new();
+        for (i, method) in self.methods.iter().enumerate() {
+            let share = super::ladder::count(i) / super::ladder::count(self.methods.len());
+            watch.doing(0.05 + RECORDING * share, &method.name());
+            let settings = if method.is_fixed() { &self.steps } else { &self.tolerances };
+            let mut refined = Refined::default();
+            let mut runs = Vec::new();
+            for &setting in settings {
+                runs.push(self.one(method, setting, known, (&mut refined, store))?);
+            }
+            all.push(MethodRuns {
+                name: method.name(),
+                formulation: method.formulation.name().to_owned(),
+                look: FormulationKind::listed().position(|f| f == method.formulation).unwrap_or(0),
+                integrator: method.integrator.name().to_owned(),
+                control: method.control().to_owned(),
+                precision: method.precision.name().to_owned(),
+                runs,
+                ..MethodRuns::default()
+            });
+        }
+        Ok(all)
+    }
+
+    /// A run, or why it is not made.
+    fn one(
+        &self,
+        method: &MethodCase,
+        setting: f64,
+        known: &Known,
+        (refined, store): (&mut Refined, &mut Store),
+    ) -> Result<RunEntry, CompareError> {
+        if refined.over.is_none() {
+            refined.over = self.too_long(method, setting, refined);
+        }
+        if let Some(why) = &refined.over {
+            return Ok(RunEntry { setting, not_run: Some(why.clone()), ..RunEntry::default() });
+        }
+        let key = format!("run {} {setting:e}", method.name());
+        let value = store.get(&key, || self.recorded(method, setting, known));
+        let value = value.map_err(CompareError::Journal)?;
+        let entry = value.get("entry").cloned().unwrap_or_default();
+        let entry = serde_json::from_value::<RunEntry>(entry).unwrap_or_default();
+        let work = value.get("work").and_then(Value::as_f64).unwrap_or_default();
+        if value.get("is_not_started").and_then(Value::as_bool) == Some(true) {
+            refined.over = Some("it does not start with any setting".to_owned());
+        }
+        if entry.not_run.is_some() {
+            refined.over.clone_from(&entry.not_run);
+        }
+        refined.take(&entry, work);
+        Ok(entry)
+    }
+
+    /// Why a setting is not run: by the work of the one before, and in the last resort by its CPU time.
+    fn too_long(&self, method: &MethodCase, setting: f64, refined: &Refined) -> Option<String> {
+        if refined.no_better >= NO_BETTER {
+            return Some(format!("{NO_BETTER} finer settings in a row were no better"));
+        }
+        let (work, seconds, before) = refined.last?;
+        let growth = method.growth(before / setting);
+        let is_given = match method.is_fixed() {
+            true => !self.request.steps.is_empty(),
+            false => !self.request.tolerances.is_empty(),
+        };
+        let would =
+            |seconds: f64| format!("it would take about {:.1e} s of CPU time", seconds * growth);
+        let is_long = seconds * growth > self.request.time_limit;
+        let is_much = !is_given && work * growth > self.most_work;
+        (is_long || is_much).then(|| would(seconds))
+    }
+
+    fn recorded(&self, method: &MethodCase, setting: f64, known: &Known) -> Value {
+        let (settings, course) = match self.course(method, setting, known) {
+            Ok(both) => both,
+            Err(text) => {
+                let not_run = Some(format!("refused: {text}"));
+                return json!({ "entry": RunEntry { setting, not_run, ..RunEntry::default() } });
+            }
+        };
+        let limit = self.request.time_limit;
+        let recorded = self.scenes.recorded(&settings, &course, limit);
+        let mut entry = RunEntry { setting, ..recorded.entry };
+        if recorded.is_given_up {
+            entry.status = Status::NotRun;
+            entry.not_run = Some(format!("given up after {limit} s of CPU time"));
+        }
+        if entry.status == Status::Completed {
+            let errors = known.errors(&recorded.rows);
+            entry.error = errors.map(|[largest, _]| largest);
+            entry.error_rms = errors.map(|[_, rms]| rms);
+        }
+        json!({
+            "entry": entry,
+            "work": recorded.work,
+            "is_not_started": recorded.is_not_started,
+        })
+    }
+
+    /// Settings and course of a run over what is compared.
+    pub(super) fn course(
+        &self,
+        method: &MethodCase,
+        setting: f64,
+        known: &Known,
+    ) -> Result<(mbs::Settings, Course), String> {
+        let instants = Instants { count: known.rows.len(), ..self.instants };
+        let between = method.is_fixed().then(|| instants.steps_between(setting));
+        #[allow(clippy::cast_precision_loss, reason = "a count of steps")]
+        let step = between.map_or(self.of_scene, |n| instants.interval / n as f64);
+        let settings = self.settings(method, setting, step)?;
+        Ok((settings, Course { instants, between }))
+    }
+}
+
+impl Refined {
+    fn take(&mut self, entry: &RunEntry, work: f64) {
+        if entry.status != Status::Completed {
+            return;
+        }
+        self.last = Some((work, entry.clocked_seconds, entry.setting));
+        let Some(error) = entry.error else { return };
+        let bits = |x: Option<f64>| x.map_or(0, f64::to_bits);
+        let same = [entry.steps, entry.iterations, bits(entry.error), bits(entry.error_rms)];
+        if self.same.replace(same) == Some(same) {
+            return;
+        }
+        match self.best {
+            Some(best) if error >= best => self.no_better += u32::from(best < GOOD),
+            _ => {
+                self.best = Some(error);
+                self.no_better = 0;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_finer_settings_that_are_no_better_end_the_refinement_once_the_error_is_small() {
+        let mut refined = Refined::default();
+        let mut take = |error| {
+            let entry =
+                RunEntry { status: Status::Completed, error: Some(error), ..RunEntry::default() };
+            refined.take(&entry, 1.0);
+            refined.no_better
+        };
+        assert_eq!([0.5, 0.6, 0.7, 0.4].map(&mut take), [0, 0, 0, 0]);
+        assert_eq!([1e-3, 2e-3, 1e-4, 3e-4, 2e-4].map(&mut take), [0, 1, 0, 1, 2]);
+    }
+
+    #[test]
+    fn settings_that_change_no_step_do_not_end_the_refinement() {
+        let mut refined = Refined::default();
+        let mut take = |steps, error| {
+            let status = Status::Completed;
+            let entry = RunEntry { status, steps, error: Some(error), ..RunEntry::default() };
+            refined.take(&entry, 1.0);
+            refined.no_better
+        };
+        let held = [(102, 1.4e-6), (102, 1.4e-6), (102, 1.4e-6), (105, 9.7e-8), (105, 9.7e-8)];
+        assert_eq!(held.map(|(steps, error)| take(steps, error)), [0; 5]);
+        assert_eq!([(200, 2e-7), (400, 3e-7)].map(|(n, e)| take(n, e)), [1, 2]);
+    }
+}

@@ -1,0 +1,245 @@
+//! A reference from a table: a CSV file with the times and outputs of `run.csv`, of a closed form, say.
+
+use super::ladder::Instants;
+use core::fmt::{self, Display, Formatter};
+use mbs::record::Channel;
+
+/// A row belongs to an instant if it misses it by less than this share of the run.
+const SAME_TIME: f64 = 1e-9;
+
+/// A table that cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum TableError {
+    /// It is no CSV, or cannot be read.
+    Unreadable(String),
+    /// Its first column is not `t`.
+    NoTime,
+    /// None of its columns is an output of the scene.
+    NoOutput,
+    /// It has no rows.
+    Empty,
+    /// A column that is no output of the scene, and those that are.
+    UnknownColumn(String, Vec<String>),
+    /// A cell that is no finite number: line and column name.
+    NotANumber(u64, String),
+    /// A time that is not later than the one before: line.
+    Order(u64),
+    /// A time before the start or after the end of the run: line, the time, and the duration, as texts.
+    Beyond(u64, String, String),
+    /// None of its times is one of the instants; their distance, as text.
+    NoInstant(String),
+}
+
+/// What the table says.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Table {
+    /// Values of all columns at each instant that it has; NaN where it has not the column.
+    pub(super) rows: Vec<Option<Vec<f64>>>,
+    /// Half a unit of the last digit of each column, in the root of the mean square.
+    pub(super) digits: Vec<f64>,
+    /// Which columns it has.
+    pub(super) has: Vec<bool>,
+}
+
+/// Reads a table for the outputs of a scene at some instants, with times up to the end of the scene's own run [s].
+pub(super) fn read(
+    text: &str,
+    channels: &[Channel],
+    (instants, duration): (&Instants, f64),
+) -> Result<Table, TableError> {
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
+    let unreadable = |error: csv::Error| TableError::Unreadable(error.to_string());
+    let header = reader.headers().map_err(unreadable)?.clone();
+    if header.get(0) != Some("t") {
+        return Err(TableError::NoTime);
+    }
+    let columns: Vec<String> = channels.iter().flat_map(Channel::columns).collect();
+    let place: Vec<Option<usize>> =
+        columns.iter().map(|name| header.iter().position(|cell| cell == name)).collect();
+    if place.iter().all(Option::is_none) {
+        return Err(TableError::NoOutput);
+    }
+    if let Some(cell) = header.iter().skip(1).find(|cell| !columns.iter().any(|c| c == cell)) {
+        return Err(TableError::UnknownColumn(cell.to_owned(), columns));
+    }
+    let mut table = Table {
+        rows: vec![None; instants.count],
+        digits: vec![0.0; columns.len()],
+        has: place.iter().map(Option::is_some).collect(),
+    };
+    let (mut last, mut given) = (f64::NEG_INFINITY, 0.0);
+    for record in reader.records() {
+        let record = record.map_err(unreadable)?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let number = |i: usize| {
+            let cell = record.get(i).unwrap_or_default();
+            let name = header.get(i).unwrap_or_default().to_owned();
+            let value = cell.parse::<f64>().ok().filter(|x| x.is_finite());
+            value.map(|x| (x, cell)).ok_or(TableError::NotANumber(line, name))
+        };
+        let t = number(0)?.0;
+        if t <= last {
+            return Err(TableError::Order(line));
+        }
+        let end = duration.max(instants.time(instants.count));
+        if t < 0.0 || t > end * (1.0 + SAME_TIME) {
+            let [t, end] = [t, end].map(mbs_scene::format::significant);
+            return Err(TableError::Beyond(line, t, end));
+        }
+        last = t;
+        let (mut row, mut halves) = (vec![f64::NAN; columns.len()], vec![0.0; columns.len()]);
+        for (c, i) in place.iter().enumerate() {
+            let Some(i) = *i else { continue };
+            let (value, cell) = number(i)?;
+            row[c] = value;
+            halves[c] = half_unit(cell);
+        }
+        let Some(k) = instant(t, instants) else { continue };
+        given += 1.0;
+        table.digits.iter_mut().zip(&halves).for_each(|(sum, half)| *sum += half * half);
+        table.rows[k] = Some(row);
+    }
+    if last < 0.0 {
+        return Err(TableError::Empty);
+    }
+    if table.rows.iter().all(Option::is_none) {
+        return Err(TableError::NoInstant(mbs_scene::format::significant(instants.interval)));
+    }
+    table.digits.iter_mut().for_each(|sum| *sum = (*sum / given).sqrt());
+    Ok(table)
+}
+
+/// The instant at time `t` [s], from 0 for the first after the start.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "checked to be in range"
+)]
+fn instant(t: f64, instants: &Instants) -> Option<usize> {
+    let k = (t / instants.interval).round();
+    if !(k >= 1.0 && k <= super::ladder::count(instants.count)) {
+        return None;
+    }
+    let end = instants.time(instants.count);
+    ((t - k * instants.interval).abs() <= SAME_TIME * end).then_some(k as usize - 1)
+}
+
+/// Half a unit of the last digit of a decimal number.
+fn half_unit(text: &str) -> f64 {
+    let (digits, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    let after_point = digits.split_once('.').map_or(0, |(_, after)| after.len());
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    0.5 * 10_f64.powi(exponent - i32::try_from(after_point).unwrap_or(i32::MAX))
+}
+
+impl TableError {
+    /// What to do about it.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        let hint = match self {
+            Self::UnknownColumn(name, known) => {
+                let suggestion = mbs_scene::nearest_name(name, known, "outputs");
+                return format!("{suggestion}; or leave the column out");
+            }
+            Self::NoInstant(_) => {
+                "give rows at those times; the last instant is the end of the run"
+            }
+            Self::Order(_) => "sort the rows by time and keep one row per time",
+            Self::Beyond(..) => {
+                "leave out what is not of the run, or give the scene a longer duration"
+            }
+            Self::NotANumber(..) => "write a finite decimal number, or leave the row out",
+            _ => {
+                "write it as run.csv: `t`, then outputs as `name` or `name.x`, a row for each time"
+            }
+        };
+        hint.to_owned()
+    }
+}
+
+impl Display for TableError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unreadable(why) => write!(f, "the reference table cannot be read: {why}"),
+            Self::NoTime => write!(f, "the first column of the reference table is not `t`"),
+            Self::NoOutput => write!(f, "the reference table has none of the scene's outputs"),
+            Self::NotANumber(line, column) => {
+                write!(
+                    f,
+                    "line {line} of the reference table has no finite number in column `{column}`"
+                )
+            }
+            Self::Empty => write!(f, "the reference table has no rows"),
+            Self::UnknownColumn(name, _) => {
+                write!(f, "line 1 of the reference table: `{name}` is no output of the scene")
+            }
+            Self::Order(line) => {
+                write!(f, "line {line} of the reference table is not later than the line before")
+            }
+            Self::Beyond(line, t, end) => {
+                write!(
+                    f,
+                    "line {line} of the reference table is at {t} s, and the run is from 0 to {end} s"
+                )
+            }
+            Self::NoInstant(interval) => write!(
+                f,
+                "no time of the reference table is an instant of the comparison, a multiple of {interval} s"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for TableError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mbs_scene::Component;
+
+    fn channels() -> Vec<Channel> {
+        let part = |label: &str| Component { label: label.into(), unit: "m".into() };
+        vec![Channel { name: "tip".into(), components: vec![part("x"), part("y")] }]
+    }
+
+    const INSTANTS: Instants = Instants { count: 4, interval: 0.5 };
+
+    #[test]
+    fn a_table_may_have_some_instants_and_some_columns() {
+        let text = "t, tip.y\n0,0\n0.5,-1.25\n0.7,3\n2.0,1.5e-3\n";
+        let table = read(text, &channels(), (&INSTANTS, 2.0)).unwrap();
+        let given: Vec<bool> = table.rows.iter().map(Option::is_some).collect();
+        assert_eq!(given, [true, false, false, true]);
+        assert_eq!(table.rows[3].as_ref().unwrap()[1].to_bits(), 1.5e-3_f64.to_bits());
+        assert_eq!(table.has, [false, true]);
+        // 0.005 and 0.00005, in the root of the mean square
+        let expected = 0.005 * (0.5_f64 * 1.0001).sqrt();
+        assert!((table.digits[1] - expected).abs() < 1e-15, "{:?}", table.digits);
+    }
+
+    #[test]
+    fn what_cannot_be_used_is_said() {
+        let refused = |text: &str| read(text, &channels(), (&INSTANTS, 3.0)).unwrap_err();
+        assert_eq!(refused("time,tip.x\n"), TableError::NoTime);
+        assert_eq!(refused("t,x\n0.5,1\n"), TableError::NoOutput);
+        assert_eq!(refused("t,tip.x\n0.5,one\n"), TableError::NotANumber(2, "tip.x".into()));
+        for number in ["NaN", "inf", ""] {
+            let found = refused(&format!("t,tip.x\n0.5,1\n0.7,{number}\n1.0,1\n"));
+            assert_eq!(found, TableError::NotANumber(3, "tip.x".into()), "at no instant either");
+        }
+        assert_eq!(refused("t,tip.x\n0.6,1\n"), TableError::NoInstant("0.5".into()));
+        assert_eq!(refused("t,tip.x\n"), TableError::Empty);
+        assert_eq!(refused("t,tip.x\n1.0,1\n0.5,1\n"), TableError::Order(3));
+        assert_eq!(refused("t,tip.x\n0.5,1\n0.5,1\n"), TableError::Order(3));
+        assert_eq!(
+            refused("t,tip.x\n0.5,1\n3.5,1\n"),
+            TableError::Beyond(3, "3.5".into(), "3".into())
+        );
+        assert!(matches!(refused("t,tip.x\n-0.5,1\n"), TableError::Beyond(2, ..)));
+        assert!(read("t,tip.x\n0.5,1\n3.0,1\n", &channels(), (&INSTANTS, 3.0)).is_ok());
+        let unknown = refused("t,tip.x,tip.yy\n0.5,1,2\n");
+        assert!(matches!(&unknown, TableError::UnknownColumn(name, _) if name == "tip.yy"));
+        assert!(unknown.hint().starts_with("did you mean `tip.y`?"), "{}", unknown.hint());
+    }
+}

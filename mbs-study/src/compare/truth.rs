@@ -1,0 +1,196 @@
+//! Makes the reference: by candidates, the best first.
+
+use super::ladder::count;
+use super::method::{Control, MethodCase};
+use super::reference::{Known, Pair, Rows};
+use super::store::Store;
+use super::{CompareError, Study, course::Course, table};
+use crate::compare::results::Status;
+use mbs::FormulationKind;
+use mbs::Settings;
+use mbs::{IntegratorKind, Precision};
+use serde_json::{Value, json};
+
+/// A run of the reference may take so many times what others may; the dearest kind is tried for no longer than they.
+const PATIENCE: f64 = 10.0;
+const SHORT_PATIENCE: f64 = 1.0;
+/// Tolerances of the reference's two runs, the best pair first.
+const TOLERANCES: [[f64; 2]; 3] = [[1e-13, 1e-12], [1e-11, 1e-10], [1e-9, 1e-8]];
+/// The same in double-double.
+const PAIR_TOLERANCES: [[f64; 2]; 1] = [[1e-20, 1e-18]];
+/// Steps of the check beside that of the scene; each is halved twice. A third of the work of all runs is not exceeded.
+const STEPS: [f64; 4] = [0.125, 0.25, 0.5, 1.0];
+/// An integrator that controls its error, in a precision; the tolerances of its two runs, and how long they may take.
+type Way<'a> = ((IntegratorKind, Precision), (&'a [[f64; 2]], f64));
+const ORDINARY: (IntegratorKind, Precision) = (IntegratorKind::Rk54, Precision::F64);
+
+impl Study<'_> {
+    /// The reference: a table where one is given; else runs.
+    pub(super) fn known(
+        &self,
+        table: Option<(&str, &str)>,
+        store: &mut Store,
+    ) -> Result<Known, CompareError> {
+        let of = (&self.channels[..], self.length());
+        if let Some((name, text)) = table {
+            let duration = self.scenes.double.duration;
+            let table = table::read(text, &self.channels, (&self.instants, duration));
+            let mut known = Known::of_table(table.map_err(CompareError::Table)?, name, of);
+            // a table is held against runs before runs are held against it
+            let (pairs, _) =
+                self.pairs(&[(ORDINARY, (&TOLERANCES[1..], SHORT_PATIENCE))], store)?;
+            known.verify(name, &pairs, &self.instants);
+            return Ok(known);
+        }
+        let least = self.request.errors.iter().copied().fold(1e-2, f64::min);
+        let dear = (IntegratorKind::Extrapolation, Precision::DoubleDouble);
+        let kinds: [Way<'_>; 2] = [
+            (dear, (&PAIR_TOLERANCES[..], SHORT_PATIENCE)),
+            (ORDINARY, (&TOLERANCES[..], PATIENCE)),
+        ];
+        let (pairs, why) = self.pairs(&kinds, store)?;
+        let Some(best) = pairs.first() else { return Err(CompareError::NoReference(why)) };
+        Ok(Known::of_runs(best, pairs.get(1), of, (&self.instants, least)))
+    }
+
+    /// Two solutions by different formulations, as far as there are: relative coordinates by the first of some ways that goes to the
+    /// end, then natural ones; and why the last one that failed did.
+    fn pairs(
+        &self,
+        kinds: &[Way<'_>],
+        store: &mut Store,
+    ) -> Result<(Vec<Pair>, String), CompareError> {
+        let mut why = String::from("none was tried");
+        let mut pairs = Vec::new();
+        for &(kind, how) in kinds {
+            if pairs.is_empty()
+                && let Some(pair) = self.own_control(kind, how, store, &mut why)?
+            {
+                pairs.push(pair);
+            }
+        }
+        let checks = FormulationKind::references().into_iter().filter(|f| !f.row().relative);
+        for formulation in checks {
+            if pairs.len() < 2
+                && let Some(pair) = self.extrapolated(formulation, store, &mut why)?
+            {
+                pairs.push(pair);
+            }
+        }
+        Ok((pairs, why))
+    }
+
+    /// Relative coordinates with an explicit integrator that controls its error, at two tight tolerances.
+    fn own_control(
+        &self,
+        (integrator, precision): (IntegratorKind, Precision),
+        (tolerances, patience): (&[[f64; 2]], f64),
+        store: &mut Store,
+        why: &mut String,
+    ) -> Result<Option<Pair>, CompareError> {
+        let method = MethodCase {
+            formulation: FormulationKind::RELATIVE,
+            integrator,
+            control: Control::Own,
+            precision,
+        };
+        for &[fine, coarse] in tolerances {
+            // The cheaper run first: where it fails, the other is spared.
+            let coarse_rows = self.reference_run(&method, (coarse, patience), store, why)?;
+            let Some(coarse_rows) = coarse_rows else { continue };
+            if let Some(rows) = self.reference_run(&method, (fine, patience), store, why)? {
+                let method =
+                    format!("{}, at tolerances {fine:.0e} and {coarse:.0e}", method.name());
+                return Ok(Some(Pair { method, rows, coarse: coarse_rows }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// A formulation with the trapezoidal rule at three steps, extrapolated.
+    fn extrapolated(
+        &self,
+        formulation: FormulationKind,
+        store: &mut Store,
+        why: &mut String,
+    ) -> Result<Option<Pair>, CompareError> {
+        let method = MethodCase {
+            formulation,
+            integrator: IntegratorKind::Trapezoidal,
+            control: Control::Fixed,
+            precision: Precision::F64,
+        };
+        let most = self.request.budget / 20.0;
+        let affordable = |factor: &&f64| {
+            let shortest = self.of_scene * **factor / 4.0;
+            let steps = self.instants.steps_between(shortest) * self.instants.count as u64;
+            super::ladder::work(3 * steps, self.unknowns()) <= most
+        };
+        let factor = STEPS.iter().find(affordable).copied().unwrap_or(1.0);
+        let between = self.instants.steps_between(self.of_scene * factor);
+        let mut runs: Vec<Rows> = Vec::new();
+        for halvings in 0..3 {
+            let step = self.instants.interval / count((between as usize) << halvings);
+            match self.reference_run(&method, (step, PATIENCE), store, why)? {
+                Some(rows) => runs.push(rows),
+                None => return Ok(None),
+            }
+        }
+        let h = mbs_scene::format::significant(self.instants.interval / count(between as usize));
+        let name = format!(
+            "{}, f64, extrapolated from steps of {h} s, a half and a quarter",
+            formulation.name()
+        );
+        let [a, b, c] = &runs[..] else { return Ok(None) };
+        Ok(Some(Pair::richardson(name, [a, b, c])))
+    }
+
+    /// The rows of a run that goes to the end.
+    fn reference_run(
+        &self,
+        method: &MethodCase,
+        (setting, patience): (f64, f64),
+        store: &mut Store,
+        why: &mut String,
+    ) -> Result<Option<Rows>, CompareError> {
+        let key = format!("reference {} {setting:e}", method.name());
+        let value = store.get(&key, || self.reference_value(method, setting, patience));
+        let value = value.map_err(CompareError::Journal)?;
+        if let Some(text) = value.get("stopped").and_then(Value::as_str) {
+            *why = format!("{}, {text}", method.name());
+            return Ok(None);
+        }
+        let rows = value.get("rows").cloned().unwrap_or_default();
+        Ok(serde_json::from_value::<Rows>(rows).ok())
+    }
+
+    fn reference_value(&self, method: &MethodCase, setting: f64, patience: f64) -> Value {
+        let step = if method.is_fixed() { setting } else { self.of_scene };
+        let settings = match self.settings(method, setting, step) {
+            Ok(settings) => settings,
+            Err(text) => return json!({ "stopped": text }),
+        };
+        let between = method.is_fixed().then(|| self.instants.steps_between(setting));
+        let course = Course { instants: self.instants, between };
+        let recorded = self.scenes.recorded(&settings, &course, patience * self.request.time_limit);
+        match (&recorded.entry.failure, recorded.entry.status) {
+            (Some(error), _) => {
+                json!({ "stopped": format!("at t = {} s: {}", error.time, error.message) })
+            }
+            (None, Status::Completed) if !recorded.is_given_up => json!({ "rows": recorded.rows }),
+            _ => json!({ "stopped": "it took longer than the reference may" }),
+        }
+    }
+
+    /// The settings of a run, over the whole duration.
+    pub(super) fn settings(
+        &self,
+        method: &MethodCase,
+        setting: f64,
+        step: f64,
+    ) -> Result<Settings, String> {
+        let mut overrides = method.overrides(setting, step, self.instants.interval);
+        overrides.duration = Some(self.duration);
+        Settings::new(&self.scenes.double, &overrides).map_err(|error| error.to_string())
+    }
+}

@@ -1,0 +1,137 @@
+//! One thing that was found.
+
+use mbs_core::scene::{Entry, Scene};
+
+/// How bad a finding is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Worth knowing: nothing is wrong with it.
+    Note,
+    /// Perhaps not what was meant, or a matter of rounding; the scene runs.
+    Doubt,
+    /// The scene has no start, or its run stops.
+    Fault,
+}
+
+impl Severity {
+    /// The word in JSON and text.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Note => "note",
+            Self::Doubt => "doubt",
+            Self::Fault => "fault",
+        }
+    }
+}
+
+/// What a finding is about, in the order of the report.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Topic {
+    /// Rank and freedoms.
+    Rank,
+    /// Dependent sets of constraints.
+    Dependence,
+    /// Branches and singular positions.
+    Motion,
+    /// Masses and inertias.
+    Masses,
+    /// Units.
+    Units,
+    /// Places.
+    Places,
+    /// The start.
+    Start,
+}
+
+impl Topic {
+    /// The word in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rank => "rank",
+            Self::Dependence => "dependence",
+            Self::Motion => "motion",
+            Self::Masses => "masses",
+            Self::Units => "units",
+            Self::Places => "places",
+            Self::Start => "start",
+        }
+    }
+}
+
+/// One thing that was found, with all joints and bodies it is about.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// How bad.
+    pub severity: Severity,
+    /// A short fixed word for programs.
+    pub code: &'static str,
+    /// What it is about.
+    pub topic: Topic,
+    /// What was found, in one or two sentences.
+    pub message: String,
+    /// What would mend it; may be empty for a note.
+    pub remedy: String,
+    /// Joints, by their indices.
+    pub joints: Vec<usize>,
+    /// Bodies, by their indices.
+    pub bodies: Vec<usize>,
+    /// Place in the scene: the entry and its key.
+    pub place: Option<(Entry, &'static str)>,
+}
+
+impl Finding {
+    /// A finding without joints, bodies and place.
+    pub(super) fn new(
+        severity: Severity,
+        (topic, code): (Topic, &'static str),
+        message: String,
+        remedy: impl Into<String>,
+    ) -> Self {
+        Self {
+            severity,
+            code,
+            topic,
+            message,
+            remedy: remedy.into(),
+            joints: Vec::new(),
+            bodies: Vec::new(),
+            place: None,
+        }
+    }
+
+    /// About these joints; its place is the first of them.
+    pub(super) fn joints(mut self, joints: Vec<usize>) -> Self {
+        self.place = self.place.or(joints.first().map(|&j| (Entry::Joint(j), "name")));
+        self.joints = joints;
+        self
+    }
+
+    /// About these bodies; its place is the first of them.
+    pub(super) fn bodies(mut self, bodies: Vec<usize>) -> Self {
+        self.place = self.place.or(bodies.first().map(|&b| (Entry::Body(b), "name")));
+        self.bodies = bodies;
+        self
+    }
+
+    /// At this place.
+    pub(super) fn at(mut self, entry: Entry, key: &'static str) -> Self {
+        self.place = Some((entry, key));
+        self
+    }
+}
+
+/// Names of joints in quotes: all of them.
+pub(super) fn joint_names(scene: &Scene<f64>, joints: &[usize]) -> String {
+    quoted(joints.iter().map(|&j| scene.joints[j].name.as_str()))
+}
+
+/// Names of bodies in quotes: all of them.
+pub(super) fn body_names(scene: &Scene<f64>, bodies: &[usize]) -> String {
+    quoted(bodies.iter().map(|&b| scene.bodies[b].name.as_str()))
+}
+
+fn quoted<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}

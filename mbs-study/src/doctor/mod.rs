@@ -1,0 +1,232 @@
+//! What is wrong or doubtful with a scene, by names, with what would mend it.
+//!
+//! Rank, dependent sets, reactions and loops are looked at on the joint level ([`mbs_doctor`]), at the assembled start and at
+//! positions of a run; what natural coordinates make of it, and which formulations take a step, is tried.
+
+mod finding;
+mod json;
+mod masses;
+mod methods;
+mod motion;
+mod places;
+mod sets;
+mod sound;
+mod start;
+mod units;
+
+pub use finding::{Finding, Severity, Topic};
+pub use json::{labels, to_json};
+pub use methods::Attempt;
+pub use motion::{LinearMotion, Motion, Nearest};
+pub use start::Moved;
+
+use crate::redundancy::{
+    Diagnosis, Drive, Linkage, Loop, Massless, Rank, diagnose, drives, loops, reference,
+};
+use mbs::Names;
+use mbs::Settings;
+use mbs::StopError;
+use mbs::inside::AssembledScene;
+use mbs::inside::rank;
+use mbs::typed::Simulation;
+use mbs_core::Cliques;
+use mbs_core::model::{Model, State};
+use mbs_core::natural::NaturalModel;
+use mbs_core::rigid::RigidMotion;
+use mbs_core::scene::{Dimension, Scene};
+use mbs_core::start::Assembled;
+
+/// How much may be looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Positions along the motion. `0`: the motion is left out.
+    pub positions: u64,
+    /// Time for the motion [s]; what lies beyond it is said to be not looked at. `> 0`.
+    pub seconds: f64,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self { positions: 400, seconds: 20.0 }
+    }
+}
+
+/// Everything the doctor found.
+#[derive(Debug, Clone)]
+pub struct Checkup {
+    /// The scene's name.
+    pub scene: String,
+    /// 2 or 3.
+    pub dimension: usize,
+    /// Names of the joints and bodies, for what follows.
+    pub joints: Vec<String>,
+    /// Names of the bodies.
+    pub bodies: Vec<String>,
+    /// What was found, the worst first, then in the order of the topics.
+    pub findings: Vec<Finding>,
+    /// Coordinates, constraints and their rank in natural coordinates; nothing without a start.
+    pub natural: Option<[usize; 3]>,
+    /// On the joint level: bodies whole, joints by their equations.
+    pub joint_level: Diagnosis,
+    /// Does it stand at the assembled start? Else at the reference configuration.
+    pub is_at_start: bool,
+    /// Whose reaction is determined in which components: [Fx, Fy, Mz] or all six, in global axes.
+    pub unique: Vec<Vec<bool>>,
+    /// The loops with their corners.
+    pub loops: Vec<Loop>,
+    /// Joints of parts with one freedom, with their share of the motion.
+    pub drives: Vec<Drive>,
+    /// Motions without mass; nothing where the scene is too large.
+    pub massless: Option<Vec<Massless>>,
+    /// Which formulations take a step, where something is dependent.
+    pub methods: Vec<Attempt>,
+    /// What was seen along the motion.
+    pub motion: Option<Motion>,
+    /// Residual of what was written before assembly, and how far it moved each body.
+    pub start: Option<Moved>,
+}
+
+impl Checkup {
+    /// The worst that was found.
+    #[must_use]
+    pub fn worst(&self) -> Option<Severity> {
+        self.findings.iter().map(|f| f.severity).max()
+    }
+
+    /// Freedoms: of the natural model, which has none for the idle spin of a rod; without a start those of the joint level.
+    #[must_use]
+    pub fn dof(&self) -> usize {
+        match self.natural {
+            Some([coordinates, _, rank]) => coordinates - rank,
+            None => self.joint_level.sizes[1] - self.joint_level.sizes[2],
+        }
+    }
+}
+
+/// A start: the model, its assembled state, and where the bodies are.
+struct Begun<const D: usize> {
+    model: NaturalModel<f64, D>,
+    start: Assembled<f64>,
+    poses: Vec<RigidMotion<f64>>,
+}
+
+/// Examines a checked scene.
+///
+/// Cost: two assemblies; for each part with loops some singular value decompositions of its m equations in n velocities, 20 m n²
+/// operations each, as many as positions along the motion; and that run itself.
+#[must_use]
+pub fn examine(scene: &Scene<f64>, settings: &Settings, effort: &Effort) -> Checkup {
+    match scene.dimension {
+        Dimension::Planar => in_space::<2>(scene, settings, effort),
+        Dimension::Spatial => in_space::<3>(scene, settings, effort),
+    }
+}
+
+fn in_space<const D: usize>(scene: &Scene<f64>, settings: &Settings, effort: &Effort) -> Checkup {
+    let mut findings = Vec::new();
+    let begun = begin::<D>(scene);
+    let linkage = Linkage::new(scene);
+    let rest = reference(scene);
+    let poses = begun.as_ref().map_or(&rest, |b| &b.poses);
+    let joint_level = diagnose(&linkage, poses);
+    let massless = crate::redundancy::massless(scene, &linkage, poses);
+    let natural = begun
+        .as_ref()
+        .ok()
+        .map(|b| [b.model.n_unknowns(), b.model.n_constraints(), rank(&b.model, &b.start.state)]);
+    sets::findings(scene, &joint_level, natural, &mut findings);
+    sound::findings(scene, (&joint_level, natural), massless.as_deref(), &mut findings);
+    masses::findings(scene, massless.as_deref(), &mut findings);
+    units::findings(scene, &mut findings);
+    places::findings(scene, &mut findings);
+    start::tilts(scene, &mut findings);
+    let is_dependent = joint_level.sets.iter().any(|set| set.is_exact)
+        || natural.is_some_and(|[_, constraints, rank]| rank < constraints);
+    let (mut methods, mut motion, mut start) = (Vec::new(), None, None);
+    match &begun {
+        Err(error) => start::no_start(scene, error, &mut findings),
+        Ok(begun) => {
+            start = Some(start::findings(scene, begun, &mut findings));
+            if is_dependent {
+                methods = methods::try_all::<D>(scene, settings);
+                methods::findings(&methods, &mut findings);
+            }
+            if effort.positions > 0 {
+                let seen = motion::watch::<D>(scene, settings, (&linkage, effort));
+                motion::findings((scene, &linkage), &seen, &mut findings);
+                motion = Some(seen);
+            } else if let Err(error) = Simulation::<f64, D>::new(scene, settings) {
+                // the formulation may refuse what natural coordinates start
+                start::no_start(scene, &error, &mut findings);
+            }
+        }
+    }
+    findings.sort_by(|a, b| b.severity.cmp(&a.severity).then(a.topic.cmp(&b.topic)));
+    Checkup {
+        scene: scene.name.clone(),
+        dimension: D,
+        joints: scene.joints.iter().map(|j| j.name.clone()).collect(),
+        bodies: scene.bodies.iter().map(|b| b.name.clone()).collect(),
+        findings,
+        natural,
+        unique: unique(&linkage, &joint_level),
+        loops: loops(&linkage, poses),
+        drives: shares(&linkage, poses),
+        joint_level,
+        is_at_start: begun.is_ok(),
+        massless,
+        methods,
+        motion,
+        start,
+    }
+}
+
+/// Assembles, and settles where the scene asks for it.
+fn begin<const D: usize>(scene: &Scene<f64>) -> Result<Begun<D>, StopError> {
+    let AssembledScene { model, start, .. } = AssembledScene::new(scene)?;
+    let poses = places(scene, &model, &start.state);
+    Ok(Begun { model, start, poses })
+}
+
+/// Where the bodies are at a state.
+fn places<const D: usize>(
+    scene: &Scene<f64>,
+    model: &NaturalModel<f64, D>,
+    state: &State<f64>,
+) -> Vec<RigidMotion<f64>> {
+    (0..scene.bodies.len()).map(|b| model.motion(scene, b, state)).collect()
+}
+
+/// Components of the joints' reactions that are determined: all, but for what stands in a dependent set.
+fn unique(linkage: &Linkage, diagnosis: &Diagnosis) -> Vec<Vec<bool>> {
+    let n = linkage.freedoms();
+    let n_joints = linkage.parts.iter().flat_map(|p| &p.joints).max().map_or(0, |j| j + 1);
+    let mut unique = vec![vec![true; n]; n_joints];
+    for member in diagnosis.sets.iter().filter(|s| s.is_exact).flat_map(|s| &s.members) {
+        for (all, here) in unique[member.joint].iter_mut().zip(&member.is_unique) {
+            *all &= here;
+        }
+    }
+    unique
+}
+
+fn shares(linkage: &Linkage, poses: &[RigidMotion<f64>]) -> Vec<Drive> {
+    const SMALL: usize = 60;
+    let parts = linkage.parts.iter().filter(|p| p.has_loop() && p.joints.len() <= SMALL);
+    let of = |part| {
+        let rank = Rank::of(&linkage.jacobian(part, poses).matrix);
+        rank.map_or(Vec::new(), |rank| drives(linkage, part, poses, &rank))
+    };
+    parts.flat_map(of).collect()
+}
+
+/// A failed start or run as words.
+fn stopped(scene: &Scene<f64>, error: &StopError, time: f64) -> (String, &'static str) {
+    let report = error.report(time, &Names::new(scene));
+    let whose = match (&report.joint, &report.body) {
+        (Some(joint), _) => format!(" (joint `{joint}`)"),
+        (None, Some(body)) => format!(" (body `{body}`)"),
+        (None, None) => String::new(),
+    };
+    (format!("{}{whose}", report.message), error.hint())
+}

@@ -1,0 +1,134 @@
+//! Dependent sets as findings, and the words for their remedy.
+
+use super::finding::{Finding, Severity, Topic, body_names, joint_names};
+use crate::redundancy::{Diagnosis, JointChange, Nature, Remedy, Set};
+use mbs_core::scene::Scene;
+use mbs_scene::format::counted;
+use mbs_scene::format::few;
+
+/// One finding per set.
+pub(super) fn findings(
+    scene: &Scene<f64>,
+    diagnosis: &Diagnosis,
+    natural: Option<[usize; 3]>,
+    findings: &mut Vec<Finding>,
+) {
+    for set in &diagnosis.sets {
+        let joints: Vec<usize> = set.members.iter().map(|m| m.joint).collect();
+        let (severity, code) = match (set.is_exact, set.nature) {
+            (false, _) => (Severity::Doubt, "almost-dependent"),
+            (true, Nature::Singular) => (Severity::Doubt, "singular-start"),
+            (true, _) => (Severity::Doubt, "dependent-set"),
+        };
+        let finding = Finding::new(
+            severity,
+            (Topic::Dependence, code),
+            message(scene, set),
+            remedy(scene, set),
+        );
+        findings.push(finding.joints(joints));
+    }
+    let exact: usize = diagnosis.sets.iter().filter(|s| s.is_exact).map(|s| s.redundant).sum();
+    if let Some([_, constraints, rank]) = natural
+        && exact > constraints - rank
+    {
+        let hidden = exact - (constraints - rank);
+        let message = format!(
+            "shared points and axes hide {} of {exact}: the natural coordinates have {} left",
+            counted(hidden, "redundant equation"),
+            constraints - rank
+        );
+        let told = (Topic::Dependence, "hidden-by-sharing");
+        findings.push(Finding::new(Severity::Note, told, message, ""));
+    }
+}
+
+fn message(scene: &Scene<f64>, set: &Set) -> String {
+    let joints: Vec<usize> = set.members.iter().map(|m| m.joint).collect();
+    let names = joint_names(scene, &joints);
+    let follows = if set.redundant == 1 { "follows" } else { "follow" };
+    let equations = counted(set.redundant, "equation");
+    let guides: Vec<usize> = set.members.iter().filter(|m| m.guide).map(|m| m.joint).collect();
+    let guided = if guides.is_empty() {
+        String::new()
+    } else {
+        format!(" The guides of {} are among them.", joint_names(scene, &guides))
+    };
+    if !set.is_exact {
+        return format!(
+            "the equations of {names} almost depend on each other ({equations}, to {}): forces within the set may grow {}-fold{guided}",
+            few(set.sigma),
+            few(1.0 / set.sigma)
+        );
+    }
+    let nature = match set.nature {
+        Nature::Structural => "in every position near by: the mechanism is built so",
+        Nature::Singular => {
+            "at the start only: it is a singular position, where branches of the motion may meet"
+        }
+        Nature::Both => "at the start; fewer in other positions",
+        Nature::Rigid => "and nothing in the set can move, so that no other position decides",
+        Nature::Untried => "at the start; no other position was reached to compare with",
+    };
+    format!("{equations} of {names} {follows} from the others of the set, {nature}.{guided}")
+}
+
+fn remedy(scene: &Scene<f64>, set: &Set) -> String {
+    match (&set.remedy, set.nature, set.is_exact) {
+        (Some(remedy), _, true) => words(scene, remedy),
+        (Some(remedy), _, false) => {
+            format!("give places and axes with all their digits; or {}", words(scene, remedy))
+        }
+        (None, Nature::Singular, _) => {
+            "start a little away from this position with an [[initial]] value, or run it: index-3 and index-1 pass it".to_owned()
+        }
+        (None, _, false) => "give places and axes with all their digits".to_owned(),
+        (None, ..) if of_one_pair(scene, set) => {
+            "replace these joints, all between the same two bodies, by one that allows what they allow together: two balls by a revolute joint through both".to_owned()
+        }
+        (None, ..) if set.members.iter().any(|m| m.guide) => {
+            "leave one of the guides out, or a joint that repeats another".to_owned()
+        }
+        (None, ..) => "leave a joint or a body out that repeats another".to_owned(),
+    }
+}
+
+/// Are all joints of a set between the same two bodies?
+fn of_one_pair(scene: &Scene<f64>, set: &Set) -> bool {
+    let pair = |m: &crate::redundancy::Member| {
+        let mut bodies = scene.joints[m.joint].bodies;
+        bodies.sort_unstable();
+        bodies
+    };
+    set.members.iter().all(|m| pair(m) == pair(&set.members[0]))
+}
+
+/// What would be changed, in one sentence.
+pub(super) fn words(scene: &Scene<f64>, remedy: &Remedy) -> String {
+    let joint = |change: &JointChange| {
+        let name = &scene.joints[change.joint].name;
+        let was = scene.joints[change.joint].kind.name();
+        match (change.kind, change.axis) {
+            (kind, _) if kind.is_free() => format!("leave `{name}` out"),
+            (kind, Some(axis)) => {
+                let [x, y, z] = axis.map(few);
+                format!(
+                    "make `{name}` {} instead of {was}, with its second axis along [{x}, {y}, {z}]",
+                    kind.name()
+                )
+            }
+            (kind, None) => format!("make `{name}` {} instead of {was}", kind.name()),
+        }
+    };
+    if let Some(body) = remedy.body {
+        let joints: Vec<usize> = remedy.changes.iter().map(|c| c.joint).collect();
+        return format!(
+            "leave body {} out with {}; all else moves as before",
+            body_names(scene, &[body]),
+            joint_names(scene, &joints)
+        );
+    }
+    let changes: Vec<String> = remedy.changes.iter().map(joint).collect();
+    let least = if remedy.is_smallest { "; fewer joints do not suffice" } else { "" };
+    format!("{}: the motion stays, and every reaction is determined{least}", changes.join(" and "))
+}

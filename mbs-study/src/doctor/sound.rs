@@ -1,0 +1,76 @@
+//! Rank and freedoms as findings: an uncertain rank, counts that differ, nothing that moves.
+
+use super::finding::{Finding, Severity, Topic, body_names};
+use crate::redundancy::{Diagnosis, Massless, UNCERTAIN};
+use mbs_core::scene::{BodyId, Scene};
+use mbs_scene::format::counted;
+use mbs_scene::format::few;
+
+pub(super) fn findings(
+    scene: &Scene<f64>,
+    (diagnosis, natural): (&Diagnosis, Option<[usize; 3]>),
+    massless: Option<&[Massless]>,
+    findings: &mut Vec<Finding>,
+) {
+    if diagnosis.gap < UNCERTAIN {
+        let message = format!(
+            "the rank is uncertain: between what counts and what does not lies a factor of {}",
+            few(diagnosis.gap)
+        );
+        let remedy = "give places and axes with all their digits, or start in another position";
+        let told = (Topic::Rank, "uncertain-rank");
+        findings.push(Finding::new(Severity::Doubt, told, message, remedy));
+    }
+    for &joint in &diagnosis.too_large {
+        let message = format!(
+            "the loops that `{}` belongs to are too many for singular values: they were not looked at",
+            scene.joints[joint].name
+        );
+        let told = (Topic::Rank, "too-large");
+        findings.push(Finding::new(Severity::Note, told, message, "").joints(vec![joint]));
+    }
+    if let Some([coordinates, _, rank]) = natural {
+        differs(diagnosis, coordinates - rank, massless, findings);
+        if coordinates == rank && scene.guides.is_empty() && !scene.bodies.is_empty() {
+            let [_, velocities, held] = diagnosis.sizes;
+            let message = format!(
+                "no degree of freedom is left and nothing is guided: nothing moves ({} of the bodies, of which the joints hold {held})",
+                counted(velocities, "velocity")
+            );
+            let remedy = "if it is to move, leave a joint out, or take a kind that allows more";
+            let told = (Topic::Rank, "no-freedom");
+            findings.push(Finding::new(Severity::Note, told, message, remedy));
+        }
+    }
+    let is_held = |b: &usize| scene.joints.iter().any(|j| j.bodies.contains(&BodyId::Body(*b)));
+    let free: Vec<usize> = (0..scene.bodies.len()).filter(|b| !is_held(b)).collect();
+    if !free.is_empty() {
+        let message =
+            format!("no joint holds {}: free in all directions", body_names(scene, &free));
+        let told = (Topic::Rank, "free-body");
+        findings.push(Finding::new(Severity::Note, told, message, "").bodies(free));
+    }
+}
+
+/// The same freedoms must come out in natural coordinates, but for idle spins.
+fn differs(
+    diagnosis: &Diagnosis,
+    dof: usize,
+    massless: Option<&[Massless]>,
+    findings: &mut Vec<Finding>,
+) {
+    let [_, columns, rank] = diagnosis.sizes;
+    let (Some(massless), true) = (massless, diagnosis.too_large.is_empty()) else { return };
+    let idle = massless.iter().filter(|m| m.is_idle_spin).count();
+    let joint_level = columns - rank;
+    // A rod's idle spin is a coordinate where other joints ask for its axes.
+    if (joint_level - idle.min(joint_level)..=joint_level).contains(&dof) {
+        return;
+    }
+    let message = format!(
+        "whole bodies and joints have {}, natural coordinates {dof}: the position is singular for one of them, or a rank is uncertain",
+        counted(joint_level, "degree of freedom")
+    );
+    let remedy = "start a little away from this position with an [[initial]] value";
+    findings.push(Finding::new(Severity::Doubt, (Topic::Rank, "freedoms-differ"), message, remedy));
+}

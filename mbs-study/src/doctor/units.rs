@@ -1,0 +1,188 @@
+//! Numbers that look like another unit: told only where the evidence is strong, as warnings that always come are not read.
+
+use super::finding::{Finding, Severity, Topic, body_names};
+use mbs_core::cluster::{mass_properties, scene_length};
+use mbs_core::scene::{
+    BodyId, EffectKind, Entry, Freedom, InitialTarget, JointId, Motion, Scene, SpringDamper,
+};
+use mbs_scene::format::few;
+
+/// Mass over the cube of the size [kg/m^3]: a slender rod of a metre and a kilogram has 1, a block of steel 8000.
+const DENSITIES: [f64; 2] = [1e-6, 1e8];
+/// Radius of gyration over size beyond which an inertia is in another unit: a rod has 0.29.
+const GYRATION: f64 = 30.0;
+/// Lengths of a spring at rest and in place differ by less.
+const LENGTHS: f64 = 100.0;
+/// Frequency that no part of a machine has [rad/s].
+const FASTEST: f64 = 1e7;
+
+pub(super) fn findings(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
+    gravity(scene, findings);
+    bodies(scene, findings);
+    angles(scene, findings);
+    for effect in 0..scene.effects.len() {
+        findings.extend(spring(scene, effect));
+    }
+}
+
+fn doubt(code: &'static str, message: String, remedy: &str) -> Finding {
+    Finding::new(Severity::Doubt, (Topic::Units, code), message, remedy)
+}
+
+fn gravity(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
+    let Some(g) = scene.gravity else { return };
+    let size = g.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let unit = match size {
+        x if (9_000.0..11_000.0).contains(&x) => "mm/s^2",
+        x if (900.0..1_100.0).contains(&x) => "cm/s^2",
+        x if (31.0..33.5).contains(&x) => "ft/s^2",
+        _ => return,
+    };
+    let message = format!("gravity of {} looks like {unit}, not m/s^2", few(size));
+    let remedy = "write lengths in m, masses in kg, gravity in m/s^2: tolerances are in SI units";
+    findings.push(doubt("gravity-unit", message, remedy).at(Entry::Scene, "gravity"));
+}
+
+/// Largest distance of a joint's place or a rod's end from the centre.
+fn size(scene: &Scene<f64>, body: usize) -> f64 {
+    let (_, center, _) = mass_properties(scene, body);
+    let me = BodyId::Body(body);
+    let mut size = 0.0_f64;
+    for joint in &scene.joints {
+        for (of, point) in joint.bodies.iter().zip(joint.points) {
+            if *of == me {
+                size = size.max((mbs_core::algebra::Vector::from(point) - center).norm());
+            }
+        }
+    }
+    if let mbs_core::scene::Inertia::Rod { from, .. } = scene.bodies[body].inertia {
+        size = size.max((mbs_core::algebra::Vector::from(from) - center).norm());
+    }
+    size
+}
+
+fn bodies(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
+    let length = scene_length(scene);
+    let mut densities = Vec::new();
+    let mut large = Vec::new();
+    for b in 0..scene.bodies.len() {
+        let (mass, _, inertia) = mass_properties(scene, b);
+        if !(mass > 0.0) {
+            continue;
+        }
+        let size = size(scene, b);
+        if size > 0.0 {
+            densities.push(mass / size.powi(3));
+        }
+        let gyration = (inertia.trace() / mass).sqrt();
+        if gyration > GYRATION * if size > 0.0 { size } else { length } && gyration > 3.0 * length {
+            large.push(b);
+        }
+    }
+    if !large.is_empty() {
+        let message = format!(
+            "the inertia of {} belongs to a body much larger than the places of its joints",
+            body_names(scene, &large)
+        );
+        let remedy = "write inertias in kg m^2: 1 kg mm^2 is 1e-6 kg m^2, 1 g mm^2 is 1e-9";
+        findings.push(doubt("inertia-unit", message, remedy).bodies(large));
+    }
+    densities.sort_by(f64::total_cmp);
+    let Some(&median) = densities.get(densities.len() / 2) else { return };
+    let told = match median {
+        x if x < DENSITIES[0] => "lengths look like millimetres, or masses like tonnes",
+        x if x > DENSITIES[1] => "lengths look like kilometres, or masses like grams",
+        _ => return,
+    };
+    let message = format!(
+        "half of the bodies have less or more than {} kg per cubic metre: {told}",
+        few(median)
+    );
+    let remedy = "write lengths in m and masses in kg";
+    findings.push(doubt("size-or-mass-unit", message, remedy).at(Entry::Scene, "name"));
+}
+
+/// More than a turn, and a round number of degrees.
+fn like_degrees(x: f64) -> bool {
+    let steps = x / 5.0;
+    x.abs() > core::f64::consts::TAU && x.abs() <= 720.0 && (steps - steps.round()).abs() < 1e-9
+}
+
+fn is_turn(freedom: Freedom) -> bool {
+    matches!(freedom, Freedom::Turn(_))
+}
+
+fn angles(scene: &Scene<f64>, findings: &mut Vec<Finding>) {
+    let kind = |joint: JointId| scene.joints[joint].kind;
+    let turns = |joint: JointId| kind(joint).single(scene.dimension).is_some_and(is_turn);
+    let mut tell = |x: f64, entry: Entry, key: &'static str| {
+        let message = format!("{} rad is more than a turn and looks like degrees", few(x));
+        let remedy = format!("write {} for {} degrees", few(x.to_radians()), few(x));
+        findings.push(doubt("angle-unit", message, &remedy).at(entry, key));
+    };
+    for (i, initial) in scene.initials.iter().enumerate() {
+        if let InitialTarget::Joint { joint, value: Some(value), .. } = &initial.target {
+            let numbers = kind(*joint).numbered(scene.dimension).filter(|(_, f)| is_turn(*f));
+            let values = numbers.filter_map(|(number, _)| value.get(number).copied());
+            values.filter(|x| like_degrees(*x)).for_each(|x| tell(x, Entry::Initial(i), "value"));
+        }
+    }
+    for (i, guide) in scene.guides.iter().enumerate() {
+        if let Motion::Sine { amplitude, .. } = guide.law
+            && turns(guide.joint)
+            && like_degrees(amplitude)
+        {
+            tell(amplitude, Entry::Guide(i), "amplitude");
+        }
+    }
+    for (i, effect) in scene.effects.iter().enumerate().filter(|(_, e)| e.enabled) {
+        match &effect.kind {
+            EffectKind::TorsionSpring(spring) if like_degrees(spring.free_value) => {
+                tell(spring.free_value, Entry::Effect(i), "free_value");
+            }
+            EffectKind::Limit(stop) if turns(stop.joint) && like_degrees(stop.upper) => {
+                tell(stop.upper, Entry::Effect(i), "upper");
+            }
+            _ => {}
+        }
+    }
+}
+
+/// A spring whose length at rest is far from its length in place, or whose frequency no machine has.
+fn spring(scene: &Scene<f64>, index: usize) -> Option<Finding> {
+    let effect = &scene.effects[index];
+    let EffectKind::SpringDamper(spring) = &effect.kind else { return None };
+    let &SpringDamper { bodies, points, stiffness, free_length, .. } = spring;
+    if !effect.enabled {
+        return None;
+    }
+    let gap = [0, 1, 2].map(|i| points[1][i] - points[0][i]);
+    let length = gap.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if length > 0.0 && free_length > LENGTHS * length {
+        let message = format!(
+            "spring `{}` is {} m long without tension and {} m in place: looks like millimetres",
+            effect.name,
+            few(free_length),
+            few(length)
+        );
+        let finding = doubt("spring-length-unit", message, "write free_length in m");
+        return Some(finding.at(Entry::Effect(index), "free_length"));
+    }
+    let mass = bodies.iter().filter_map(|body| match body {
+        BodyId::Body(b) => Some(mass_properties(scene, *b).0),
+        BodyId::Ground => None,
+    });
+    let lightest = mass.filter(|m| *m > 0.0).fold(f64::INFINITY, f64::min);
+    let frequency = (stiffness / lightest).sqrt();
+    (frequency > FASTEST).then(|| {
+        let message = format!(
+            "spring `{}` on {} kg swings with {} rad/s: no part of a machine is that stiff",
+            effect.name,
+            few(lightest),
+            few(frequency)
+        );
+        let remedy =
+            "write stiffness in N/m (1 N/mm is 1000 N/m); use a joint for what does not give";
+        doubt("stiffness-unit", message, remedy).at(Entry::Effect(index), "stiffness")
+    })
+}

@@ -1,0 +1,274 @@
+//! A second look at the motion of a run: the same scene by another method, compared at some of the run's rows.
+
+use super::stiffness::shortest_period;
+use crate::auto::Clock;
+use core::ops::ControlFlow;
+use mbs::Interrupt;
+use mbs::Names;
+use mbs::Settings;
+use mbs::StopError;
+use mbs::inside::Alarm;
+use mbs::inside::AssembledScene;
+use mbs::inside::Channels;
+use mbs::inside::{Stretch, continue_if, drive};
+use mbs::typed::Simulation;
+use mbs::typed::StepObserver;
+use mbs_core::scene::Scene;
+use mbs_core::step::StepError;
+use mbs_sparse::Multifrontal;
+
+/// A look is given up when it has taken this share of its time and is behind by the second factor, which goes down to one: the first steps search
+/// for their length.
+const PROBE: f64 = 0.1;
+const BEHIND: f64 = 1.5;
+/// States at which the stiffest force is looked for.
+const STATES: usize = 5;
+/// Turn between two measurements at most [rad]: measured angles know no more than half a circle.
+const TURN: f64 = 1.5;
+/// Steps between two measurements that a look of controlled steps has in any case, and beside them those that the run had there.
+const FEW_STEPS: f64 = 64.0;
+
+/// How a look ended.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum End {
+    /// It saw the whole run.
+    Whole,
+    /// It would take too long.
+    Late,
+    /// It stopped; when and why.
+    Stopped(f64, String),
+    /// It did not start; why.
+    NotStarted(String),
+}
+
+/// How fast the motion is for the steps of the run.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Pace {
+    /// The largest turn of a body in a step [rad], and the body.
+    pub(super) turn: (f64, usize),
+    /// The least number of steps in a period of the stiffest force.
+    pub(super) steps_per_period: Option<f64>,
+}
+
+impl Pace {
+    /// Takes what another look saw.
+    pub(super) fn take(&mut self, other: &Self) {
+        if other.turn.0 > self.turn.0 {
+            self.turn = other.turn;
+        }
+        let both = self.steps_per_period.into_iter().chain(other.steps_per_period);
+        self.steps_per_period = both.reduce(f64::min);
+    }
+}
+
+/// What a look saw.
+#[derive(Debug)]
+pub(super) struct Seen {
+    /// The largest difference of each component.
+    pub(super) differences: Vec<f64>,
+    /// How fast the motion is for the steps of the run.
+    pub(super) pace: Pace,
+    /// CPU time [s].
+    pub(super) seconds: f64,
+    pub(super) end: End,
+}
+
+/// What is looked at.
+pub(super) struct Look<'a, const D: usize> {
+    pub(super) scene: &'a Scene<f64>,
+    pub(super) ready: &'a AssembledScene<f64, D>,
+    /// Time and components of each row of the run.
+    pub(super) rows: &'a [(f64, Vec<f64>)],
+    /// Steps of the run.
+    pub(super) n_steps: f64,
+    /// The run's step at a time [s]; zero where its integrator controls it.
+    pub(super) step_at: &'a dyn Fn(f64) -> f64,
+}
+
+impl<const D: usize> Look<'_, D> {
+    /// Looks with these settings at these rows, in steps of about `step` [s] where their length is fixed, for no longer than `most` [s].
+    pub(super) fn at(
+        &self,
+        settings: &Settings,
+        (instants, step): (&[usize], Option<f64>),
+        (clock, most): (&mut dyn Clock, f64),
+    ) -> Seen {
+        let n = self.rows.first().map_or(0, |(_, row)| row.len());
+        let mut seen = Seen {
+            differences: vec![0.0; n],
+            pace: Pace::default(),
+            seconds: 0.0,
+            end: End::Whole,
+        };
+        let begun = clock.seconds();
+        let end = match self.start(settings) {
+            Ok((simulation, channels)) => {
+                let mut time = |share: f64| {
+                    if settings.interrupt.is_set() {
+                        return true;
+                    }
+                    let spent = clock.seconds() - begun;
+                    let taken = spent / most;
+                    let behind = BEHIND + (1.0 - BEHIND) * taken;
+                    taken > 1.0 || (taken > PROBE && taken > behind * share)
+                };
+                let alarm = Alarm::new(settings.energy_alarm);
+                let solver = self.ready.solver.clone();
+                let eye = Eye { look: self, simulation, channels, alarm, step, solver };
+                eye.follow(instants, &mut seen, &mut time)
+            }
+            Err(error) => Err(End::NotStarted(error.report(0.0, &Names::new(self.scene)).message)),
+        };
+        seen.end = end.err().unwrap_or(End::Whole);
+        seen.seconds = clock.seconds() - begun;
+        seen
+    }
+
+    fn start(
+        &self,
+        settings: &Settings,
+    ) -> Result<(Simulation<f64, D>, Channels<f64, D>), StopError> {
+        let simulation = Simulation::<f64, D>::of(self.scene, settings, self.ready.clone())?;
+        let channels = Channels::new(self.scene, simulation.model())?;
+        Ok((simulation, channels))
+    }
+
+    /// Length of the run [s].
+    fn span(&self) -> f64 {
+        self.rows.last().map_or(0.0, |(t, _)| *t)
+    }
+}
+
+/// A look on its way.
+struct Eye<'a, const D: usize> {
+    look: &'a Look<'a, D>,
+    simulation: Simulation<f64, D>,
+    channels: Channels<f64, D>,
+    alarm: Alarm,
+    step: Option<f64>,
+    solver: Multifrontal<f64>,
+}
+
+impl<const D: usize> Eye<'_, D> {
+    fn follow(
+        mut self,
+        instants: &[usize],
+        seen: &mut Seen,
+        is_late: &mut impl FnMut(f64) -> bool,
+    ) -> Result<(), End> {
+        let mut row = vec![0.0; seen.differences.len()];
+        let span = self.look.span();
+        let mut rate = self.turning(0.0, &mut seen.pace);
+        for (k, &i) in instants.iter().enumerate() {
+            if k.is_multiple_of(instants.len().div_ceil(STATES)) {
+                self.stiffness(&mut seen.pace);
+            }
+            let (t, values) = &self.look.rows[i];
+            self.reach((*t, rate), *t >= span, is_late)?;
+            rate = self.turning(*t, &mut seen.pace);
+            let written = self.channels.write(self.simulation.state(), &mut row);
+            written.map_err(|error| stopped(self.look.scene, &self.simulation, &error))?;
+            for ((most, a), b) in seen.differences.iter_mut().zip(&row).zip(values) {
+                *most = most.max((a - b).abs());
+            }
+            if *t < span && is_late(t / span) {
+                return Err(End::Late);
+            }
+        }
+        Ok(())
+    }
+
+    /// Steps to a time [s]; bodies turn at a rate [rad/s].
+    fn reach(
+        &mut self,
+        (to, rate): (f64, f64),
+        is_last: bool,
+        is_late: &mut impl FnMut(f64) -> bool,
+    ) -> Result<(), End> {
+        let (from, span) = (self.simulation.state().t, self.look.span());
+        let rest = to - from;
+        let pieces = match self.step {
+            Some(step) => (rest / step).round().max(1.0),
+            None => (rest * rate / TURN).ceil().clamp(1.0, self.look.n_steps.max(1.0)),
+        };
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+        let (count, most) =
+            (pieces as u64, (FEW_STEPS + self.look.n_steps * rest / span).min(1e6) as u32);
+        if self.step.is_none() {
+            self.simulation.formulation_mut().set_max_steps(most);
+        }
+        #[allow(clippy::cast_precision_loss, reason = "a small count")]
+        let end = |j: u64| if j == count { to } else { from + rest * (j as f64 / pieces) };
+        let piece = |j| Stretch { is_last: is_last && j == count, ..Stretch::to(end(j)) };
+        let Self { look, simulation, channels, alarm, step, .. } = self;
+        let mut glance = Glance { channels, alarm, is_late, to: (to, is_last), span, late: false };
+        let stretches = (1..=count).map(piece);
+        match drive(simulation, stretches, &Interrupt::default(), &mut glance) {
+            Ok(()) if glance.late => Err(End::Late),
+            Ok(()) => Ok(()),
+            Err(StopError::Step(StepError::StepTooSmall { .. }, _)) if step.is_none() => {
+                Err(End::Late)
+            }
+            Err(stop) => Err(stopped(look.scene, simulation, &stop)),
+        }
+    }
+
+    /// The largest angular velocity of a body [rad/s]; keeps the largest turn in a step of the run.
+    fn turning(&self, t: f64, most: &mut Pace) -> f64 {
+        let (model, state) = (self.simulation.model(), self.simulation.state());
+        let step = (self.look.step_at)(t);
+        let mut largest: f64 = 0.0;
+        for body in 0..self.look.scene.bodies.len() {
+            let omega = model.motion(self.look.scene, body, state).omega;
+            let rate = omega.iter().fold(0.0, |sum: f64, x| sum.hypot(*x));
+            largest = largest.max(rate);
+            if rate * step > most.turn.0 {
+                most.turn = (rate * step, body);
+            }
+        }
+        largest
+    }
+
+    /// Keeps the least number of steps in a period of the stiffest force.
+    fn stiffness(&mut self, most: &mut Pace) {
+        let (model, state) = (self.simulation.model(), self.simulation.state());
+        let step = (self.look.step_at)(state.t);
+        let period = shortest_period(model, &mut self.solver, state);
+        let steps_per_period = period.map(|period| period / step).filter(|n| n.is_finite());
+        most.take(&Pace { steps_per_period, ..Pace::default() });
+    }
+}
+
+/// How a look ends that stops.
+fn stopped<const D: usize>(
+    scene: &Scene<f64>,
+    simulation: &Simulation<f64, D>,
+    error: &StopError,
+) -> End {
+    let t = simulation.state().t;
+    End::Stopped(t, error.report(t, &Names::new(scene)).message)
+}
+
+/// Sees the pieces of a look up to a row.
+struct Glance<'a, F, const D: usize> {
+    channels: &'a mut Channels<f64, D>,
+    alarm: &'a mut Alarm,
+    is_late: &'a mut F,
+    /// Time of the row [s]; does the look end with it?
+    to: (f64, bool),
+    span: f64,
+    late: bool,
+}
+
+impl<F: FnMut(f64) -> bool, const D: usize> StepObserver<f64, D> for Glance<'_, F, D> {
+    fn instant(&mut self, now: &Simulation<f64, D>) -> Result<ControlFlow<()>, StopError> {
+        self.channels.track(now)?;
+        let t = now.state().t;
+        let (to, is_last) = self.to;
+        if let Some(stop) = self.alarm.rings(now, is_last && t >= to) {
+            return Err(stop);
+        }
+        self.late = t < to && (self.is_late)(t / self.span);
+        Ok(continue_if(!self.late))
+    }
+}

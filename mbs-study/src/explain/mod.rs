@@ -1,0 +1,162 @@
+//! What a scene simulates, what it does not, and the price of each effect, measured by leaving it out.
+//!
+//! ```text
+//! share = 1 − (CPU time per step without it) / (CPU time per step with all effects)
+//! ```
+
+mod absent;
+mod explanation;
+mod price;
+mod reach;
+mod simulated;
+mod timing;
+
+pub use explanation::{
+    ControllerStep, EffectCost, EffectCosts, EffectEntry, Explanation, GuideEntry, JointsByKind,
+    LargestStep, MissingEffect, Relative, SearchEnd, Simulated, Sizes, ThinRod,
+};
+
+use mbs::Names;
+use mbs::PrecisionError;
+use mbs::Settings;
+use mbs::StepRule;
+use mbs::StopError;
+use mbs::inside::{ReadScene, SceneWork};
+use mbs::typed::Simulation;
+use mbs::{InSpace, Plane};
+use mbs_core::Real;
+use mbs_core::scene::Scene;
+use mbs_scene::SceneFile;
+
+/// How much may be measured. A scene that asks for more is measured over a shorter part of its run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Steps of a timed run at most. `≥ 1`.
+    pub timed_steps: u64,
+    /// How often each is timed, one after the other in turn. `≥ 2`, so that there is a spread.
+    pub repeats: u32,
+    /// Time for everything [s]; what no time is left for is said to be not measured. `> 0`.
+    pub seconds: f64,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self { timed_steps: 2000, repeats: 5, seconds: 10.0 }
+    }
+}
+
+/// Explains a scene in the precision of its settings: as it was read in `f64`, or read anew from its document. Nothing in pairs of
+/// doubles: prices are those of numbers of the hardware.
+///
+/// The same as [`explain`]; programs that take what precision comes compile it only once.
+///
+/// # Errors
+/// [`PrecisionError`] where the scene cannot be had in that precision.
+pub fn explain_document(
+    document: (&SceneFile, &Scene<f64>),
+    settings: &Settings,
+    effort: &Effort,
+) -> Result<Option<Explanation>, PrecisionError> {
+    let read = ReadScene::new(document, settings.precision)?;
+    Ok(read.work_in_hardware(Explained { settings, effort }))
+}
+
+/// An explanation.
+struct Explained<'a> {
+    settings: &'a Settings,
+    effort: &'a Effort,
+}
+
+impl SceneWork for Explained<'_> {
+    type Done = Explanation;
+
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Explanation
+    where
+        Plane<D>: InSpace<T>,
+    {
+        explain::<T, D>(scene, self.settings, self.effort)
+    }
+}
+
+/// Explains a checked scene.
+///
+/// Cost: the sizes take two assemblies; the prices about `effort.seconds`, less for small scenes.
+pub fn explain<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    effort: &Effort,
+) -> Explanation
+where
+    Plane<D>: InSpace<T>,
+{
+    let explanation = Explanation {
+        scene: scene.name.clone(),
+        formulation: settings.asked.clone(),
+        chosen: settings.chosen(),
+        choice: crate::auto::candidates::<T, D>(scene, settings),
+        integrator: settings.integrator.name().to_owned(),
+        precision: settings.precision.name().to_owned(),
+        dimension: scene.dimension.count(),
+        step: settings.step,
+        duration: settings.duration,
+        simulated: simulated::simulated::<T, D>(scene, settings),
+        effects: effects(scene),
+        absent: absent::absent(scene),
+        ..Explanation::default()
+    };
+    // A scene without a start has no prices.
+    if let Err(error) = start::<T, D>(scene, settings) {
+        let error = Some(error.report(0.0, &Names::new(scene)));
+        return Explanation { error, ..explanation };
+    }
+    // Runs are compared row by row: their steps are fixed.
+    let fixed = Settings { rule: StepRule::Fixed, step_max: settings.step, ..settings.clone() };
+    let settings = if settings.rule == StepRule::Fixed { settings } else { &fixed };
+    let (prices, error) = price::prices::<T, D>(scene, settings, effort);
+    Explanation { prices: Some(prices), error, ..explanation }
+}
+
+/// Can the run start, outputs and all?
+fn start<T: Real, const D: usize>(scene: &Scene<T>, settings: &Settings) -> Result<(), StopError>
+where
+    Plane<D>: InSpace<T>,
+{
+    let simulation = Simulation::<T, D>::new(scene, settings)?;
+    mbs::inside::Channels::new(scene, simulation.model()).map(drop)
+}
+
+fn effects<T: Real>(scene: &Scene<T>) -> Vec<EffectEntry> {
+    let entry = |effect: &mbs_core::scene::Effect<T>| EffectEntry {
+        name: effect.name.clone(),
+        kind: effect.kind.name().to_owned(),
+        enabled: effect.enabled,
+    };
+    scene.effects.iter().map(entry).collect()
+}
+
+/// The scene with some effects switched off.
+fn without<T: Real>(scene: &Scene<T>, effects: &[usize]) -> Scene<T> {
+    let mut scene = scene.clone();
+    for &i in effects {
+        scene.effects[i].enabled = false;
+    }
+    scene
+}
+
+/// The run of a scene as `mbs run` makes it, over another duration or with another step.
+fn outcome<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    (times_step, duration): (f64, f64),
+) -> mbs::Outcome
+where
+    Plane<D>: InSpace<T>,
+{
+    let settings = Settings {
+        step: settings.step * times_step,
+        step_max: settings.step_max * times_step,
+        duration,
+        ..settings.clone()
+    };
+    mbs::typed::run::<T, D>(scene, &settings, &mut ())
+}

@@ -1,0 +1,43 @@
+//! The largest step with which a run completes, by doubling.
+
+use super::outcome;
+use crate::explain::{LargestStep, SearchEnd};
+use mbs::Settings;
+use mbs::{InSpace, Plane};
+use mbs_core::Real;
+use mbs_core::scene::Scene;
+
+/// Doublings at most: 64 times the step.
+const MOST_DOUBLINGS: i32 = 6;
+/// A run has so many steps at least.
+const FEWEST_STEPS: f64 = 10.0;
+
+/// Doubles the step until the run over `duration` stops. `completes` says whether it does with the given step.
+pub(super) fn largest_step<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    (duration, completes): (f64, bool),
+    has_time: &impl Fn() -> bool,
+) -> LargestStep
+where
+    Plane<D>: InSpace<T>,
+{
+    if !completes {
+        return LargestStep { step: None, end: SearchEnd::Stops };
+    }
+    let h = settings.step_max;
+    let found = |k: i32, end| LargestStep { step: Some(h * f64::powi(2.0, k)), end };
+    for k in 1..=MOST_DOUBLINGS {
+        let times = f64::powi(2.0, k);
+        if h * times * FEWEST_STEPS > duration * (1.0 + 1e-9) {
+            return found(k - 1, SearchEnd::Limit);
+        }
+        if !has_time() {
+            return found(k - 1, SearchEnd::NotMeasured);
+        }
+        if !outcome::<T, D>(scene, settings, (times, duration)).summary.completed {
+            return found(k - 1, SearchEnd::Stops);
+        }
+    }
+    found(MOST_DOUBLINGS, SearchEnd::Limit)
+}

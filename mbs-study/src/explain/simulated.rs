@@ -1,0 +1,113 @@
+//! What is simulated: bodies, joints, guides, and the sizes of the model in both kinds of coordinates.
+
+use crate::explain::{
+    ControllerStep, GuideEntry, JointsByKind, Relative, Simulated, Sizes, ThinRod,
+};
+use mbs::FormulationKind;
+use mbs::IntegratorKind;
+use mbs::Names;
+use mbs::Settings;
+use mbs::StopError;
+use mbs::typed::Simulation;
+use mbs::{InSpace, Plane};
+use mbs_core::Real;
+use mbs_core::natural::NaturalModel;
+use mbs_core::scene::{BodyId, Dimension, Inertia, JointKind, Motion, Scene};
+use mbs_nostd::export::Gathered;
+use mbs_nostd::{Bounds, bound};
+use mbs_recursive::{TreeModel, TreeState};
+
+/// Takes stock of a scene.
+pub(super) fn simulated<T: Real, const D: usize>(scene: &Scene<T>, settings: &Settings) -> Simulated
+where
+    Plane<D>: InSpace<T>,
+{
+    let sizes = |formulation| {
+        let settings = Settings {
+            formulation,
+            integrator: IntegratorKind::Trapezoidal,
+            penalty: None,
+            ..settings.clone()
+        };
+        Simulation::<T, D>::new(scene, &settings).map(|simulation| Sizes::new(simulation.sizes()))
+    };
+    let natural = sizes(FormulationKind::DEFAULT).ok();
+    let relative =
+        sizes(FormulationKind::RELATIVE).and_then(|sizes| relative::<T, D>(scene, sizes));
+    let (relative, relative_error) = match relative {
+        Ok(relative) => (Some(relative), None),
+        Err(error) => (None, Some(error.report(0.0, &Names::new(scene)))),
+    };
+    Simulated {
+        bodies: scene.bodies.iter().map(|body| body.name.clone()).collect(),
+        joints: joints(scene),
+        guides: guides(scene),
+        gravity: scene.gravity.map(|g| g[..D].iter().map(|x| x.to_f64()).collect()),
+        dof: natural.map(|sizes| sizes.dof),
+        natural,
+        relative,
+        relative_error,
+        rods: rods::<T, D>(scene),
+    }
+}
+
+fn relative<T: Real, const D: usize>(scene: &Scene<T>, sizes: Sizes) -> Result<Relative, StopError>
+where
+    Plane<D>: InSpace<T>,
+{
+    let tree = TreeModel::<T, <Plane<D> as InSpace<T>>::Space>::new(scene);
+    let tree = tree.map_err(StopError::tree)?;
+    let cut_joints: Vec<_> =
+        tree.cut_joints().map(|joint| scene.joints[joint].name.clone()).collect();
+    let rest = TreeState::at_rest(&tree);
+    let gathered = Gathered::new(&tree, &rest, &[]);
+    let bound = bound::step(&gathered.model(), Bounds::default());
+    let controller = ControllerStep {
+        products: bound.products,
+        sums: bound.sums,
+        quotients: bound.quotients,
+        roots: bound.roots,
+        turns: bound.turns,
+        instructions: [false, true].map(|is_double| bound.instructions(is_double)),
+    };
+    Ok(Relative { sizes, loops: cut_joints.len(), cut_joints, controller })
+}
+
+fn joints<T>(scene: &Scene<T>) -> Vec<JointsByKind> {
+    let group = |kind: JointKind| {
+        let joints = scene.joints.iter().filter(|joint| joint.kind == kind);
+        let names = joints.map(|joint| joint.name.clone()).collect();
+        JointsByKind { kind: kind.name().to_owned(), names }
+    };
+    JointKind::ALL.map(group).into_iter().filter(|group| !group.names.is_empty()).collect()
+}
+
+fn guides<T>(scene: &Scene<T>) -> Vec<GuideEntry> {
+    let entry = |guide: &mbs_core::scene::Guide<T>| GuideEntry {
+        joint: scene.joints[guide.joint].name.clone(),
+        law: match guide.law {
+            Motion::Table { .. } => "table",
+            Motion::Sine { .. } => "sine",
+            Motion::Input(_) => "input",
+            Motion::Ramp { .. } => "ramp",
+        }
+        .to_owned(),
+    };
+    scene.guides.iter().map(entry).collect()
+}
+
+/// Thin rods in space; in the plane there is no rotation about a rod.
+fn rods<T: Real, const D: usize>(scene: &Scene<T>) -> Vec<ThinRod> {
+    let is_rod = |inertia: &Inertia<T>| matches!(inertia, Inertia::Rod { .. });
+    if scene.dimension == Dimension::Planar || !scene.bodies.iter().any(|b| is_rod(&b.inertia)) {
+        return Vec::new();
+    }
+    let Ok(model) = NaturalModel::<T, D>::new(scene) else { return Vec::new() };
+    let bodies = scene.bodies.iter().enumerate().filter(|(_, body)| is_rod(&body.inertia));
+    bodies
+        .map(|(i, body)| ThinRod {
+            body: body.name.clone(),
+            idle_spin_carried: model.has_full_rotation(BodyId::Body(i)),
+        })
+        .collect()
+}

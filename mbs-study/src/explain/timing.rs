@@ -1,0 +1,142 @@
+//! CPU time per step, the least of several interleaved repeats.
+
+use cpu_time::ThreadTime;
+use mbs::Settings;
+use mbs::typed::Simulation;
+use mbs::{InSpace, Plane};
+use mbs_core::Real;
+use mbs_core::scene::Scene;
+
+/// Steps fewer than these are no measure.
+const FEWEST_STEPS: u64 = 10;
+/// Steps of a trial run at most, and its time [s].
+const TRIAL: (u64, f64) = (200, 0.05);
+
+/// Times of one scene over the repeats.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Times(Vec<f64>);
+
+impl Times {
+    /// The least [s per step].
+    pub(super) fn best(&self) -> Option<f64> {
+        self.0.iter().copied().min_by(f64::total_cmp)
+    }
+
+    /// How far the second best is from the best, as a share of it.
+    pub(super) fn noise(&self) -> Option<f64> {
+        let mut sorted = self.0.clone();
+        sorted.sort_by(f64::total_cmp);
+        let [best, next] = *sorted.first_chunk()?;
+        (best > 0.0).then(|| (next - best) / best)
+    }
+}
+
+/// Times every scene for `n` steps from its start, `repeats` rounds in turn, so that what disturbs a while meets all alike.
+pub(super) fn interleaved<T: Real, const D: usize>(
+    scenes: &[Scene<T>],
+    settings: &Settings,
+    (n, repeats): (u64, u32),
+) -> Vec<Times>
+where
+    Plane<D>: InSpace<T>,
+{
+    let mut times = vec![Times::default(); scenes.len()];
+    for _ in 0..repeats {
+        for (scene, times) in scenes.iter().zip(&mut times) {
+            times.0.extend(once::<T, D>(scene, settings, n));
+        }
+    }
+    times
+}
+
+/// CPU time per step; nothing where there is no start or the run stops at once.
+fn once<T: Real, const D: usize>(scene: &Scene<T>, settings: &Settings, n: u64) -> Option<f64>
+where
+    Plane<D>: InSpace<T>,
+{
+    let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
+    let clock = ThreadTime::now();
+    let done = steps(&mut simulation, settings.step_max, n, || true);
+    let seconds = clock.elapsed().as_secs_f64();
+    (done >= FEWEST_STEPS.min(n)).then(|| seconds / count(done))
+}
+
+/// CPU time per step of watching the energy invariant, the least of the repeats: the energies of one state, taken again and
+/// again.
+pub(super) fn monitor<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+    (n, repeats): (u64, u32),
+) -> Option<f64>
+where
+    Plane<D>: InSpace<T>,
+{
+    let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
+    simulation.advance(T::from_f64(settings.step)).ok()?;
+    let mut invariant = *simulation.invariant();
+    let once = |_| {
+        let clock = ThreadTime::now();
+        for k in 0..n {
+            let energies = core::hint::black_box(&mut simulation).watched_energies();
+            core::hint::black_box(invariant.change(energies));
+            invariant.mark(count(k), energies);
+        }
+        clock.elapsed().as_secs_f64() / count(n.max(1))
+    };
+    (0..repeats).map(once).min_by(f64::total_cmp)
+}
+
+/// CPU time that the start takes, and that of a step, roughly [s].
+pub(super) fn trial<T: Real, const D: usize>(
+    scene: &Scene<T>,
+    settings: &Settings,
+) -> Option<[f64; 2]>
+where
+    Plane<D>: InSpace<T>,
+{
+    let clock = ThreadTime::now();
+    let mut simulation = Simulation::<T, D>::new(scene, settings).ok()?;
+    let start = clock.elapsed().as_secs_f64();
+    let clock = ThreadTime::now();
+    let goes_on = || clock.elapsed().as_secs_f64() < TRIAL.1;
+    let n = TRIAL.0.min(settings.n_steps());
+    let done = steps(&mut simulation, settings.step_max, n, goes_on);
+    Some([start, clock.elapsed().as_secs_f64() / count(done.max(1))])
+}
+
+/// Steps until `n`, a failure or a word; gives the number of those made.
+fn steps<T: Real, const D: usize>(
+    simulation: &mut Simulation<T, D>,
+    h: f64,
+    n: u64,
+    goes_on: impl Fn() -> bool,
+) -> u64
+where
+    Plane<D>: InSpace<T>,
+{
+    let dt = T::from_f64(h);
+    for k in 0..n {
+        if !goes_on() || simulation.step(dt).is_err() {
+            return k;
+        }
+        simulation.set_time(T::from_f64(count(k + 1) * h));
+    }
+    n
+}
+
+#[allow(clippy::cast_precision_loss, reason = "step counts stay far below 2^53")]
+pub(super) fn count(n: u64) -> f64 {
+    n as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_noise_is_the_distance_of_the_two_best() {
+        let times = Times(vec![3.0, 2.0, 9.0, 2.5]);
+        assert_eq!((times.best(), times.noise()), (Some(2.0), Some(0.25)));
+        assert_eq!((Times::default().best(), Times(vec![1.0]).noise()), (None, None));
+    }
+}

@@ -1,0 +1,193 @@
+//! Studies of a mechanism that take many runs of it.
+
+use crate::compare::results::Comparison;
+use crate::compare::{self, Earlier, Request as Compare};
+use crate::sweep::{Columns, Row, Study};
+use core::num::NonZeroUsize;
+use mbs::{Mechanism, Method, Number, PathError, SimulationError};
+use mbs_scene::SceneFile;
+use std::io;
+use std::path::Path;
+
+/// What every formulation, integrator and step costs and gives on a mechanism, against a reference that is not under test.
+///
+/// Cost: many runs. Empty lists of the options mean all there are; short lists and a short duration make it quick. The reference needs the
+/// feature `dd`, and an empty list of precisions `f32` too; both are on by default.
+///
+/// # Errors
+/// [`SimulationError`] for a mechanism that is refused or has a part in code, and where no method serves as the reference. Runs that fail
+/// are results.
+///
+/// # Examples
+/// ```no_run
+/// use mbs::{FormulationKind, Mechanism};
+/// use mbs_study::{Compare, compare};
+/// let m = Mechanism::read("scenes/double-pendulum.toml")?;
+/// let formulations = vec![FormulationKind::Index3, FormulationKind::Recursive];
+/// let found = compare(&m, &Compare { formulations, duration: Some(1.0), ..Compare::default() })?;
+/// for method in &found.methods {
+///     for run in &method.runs {
+///         println!("{}: step {} s, error {:?}", method.name, run.setting, run.error);
+///     }
+/// }
+/// # Ok::<(), mbs::SimulationError>(())
+/// ```
+pub fn compare(m: &Mechanism, options: &Compare) -> Result<Comparison, SimulationError> {
+    m.check()?;
+    let document = m.to_file()?;
+    Ok(compare::compare(&document, options, None, (None, Earlier::default()), &mut ())?)
+}
+
+/// Numbers of a mechanism that are varied, and how their values are combined.
+///
+/// ```
+/// use mbs::{Body, GROUND, Joint, Mechanism};
+/// use mbs_study::{Sweep, sweep};
+/// let mut m = Mechanism::planar("pendulum");
+/// m.set_gravity([0.0, -9.81]).set_duration(0.5);
+/// let bob = m.add(Body::planar([1.0, 0.0], 1.0, 0.0).named("bob"));
+/// m.add(Joint::revolute([GROUND, bob], [0.0, 0.0]).named("pivot"));
+/// let runs = sweep(&m, &Sweep::grid().vary("body.bob.center.0", [0.5, 1.0, 2.0]))?;
+/// let angles = runs.column("pivot").unwrap();
+/// // a longer pendulum falls more slowly
+/// assert!(angles[0] < angles[1] && angles[1] < angles[2]);
+/// # Ok::<(), mbs::SimulationError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sweep {
+    text: String,
+    method: Method,
+    threads: Option<NonZeroUsize>,
+    /// The first path with a value that is not finite.
+    not_finite: Option<String>,
+}
+
+impl Sweep {
+    /// Each value with each; the last path changes fastest.
+    #[must_use]
+    pub fn grid() -> Self {
+        Self::of("combine = \"grid\"")
+    }
+
+    /// The first values together, then the second ones, and so on: all paths have as many.
+    #[must_use]
+    pub fn zip() -> Self {
+        Self::of("combine = \"zip\"")
+    }
+
+    fn of(combine: &str) -> Self {
+        let text = format!("[sweep]\n{combine}\n");
+        Self { text, method: Method::default(), threads: None, not_finite: None }
+    }
+
+    /// That of a file, as `mbs sweep` reads it.
+    ///
+    /// # Errors
+    /// Where it cannot be read. What it says is checked by [`sweep`].
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, SimulationError> {
+        let file = SceneFile::read(path)?;
+        let text = file.text().to_owned();
+        Ok(Self { text, method: Method::default(), threads: None, not_finite: None })
+    }
+
+    /// Varies a number by its path, as [`Mechanism::set`] names it; the path is the name of its column too.
+    #[must_use]
+    pub fn vary<N: Into<Number>>(
+        mut self,
+        path: &str,
+        values: impl IntoIterator<Item = N>,
+    ) -> Self {
+        let values: Vec<Number> = values.into_iter().map(Into::into).collect();
+        if values.iter().any(|value| !value.to_f64().is_finite()) {
+            self.not_finite.get_or_insert_with(|| path.to_owned());
+        }
+        let texts: Vec<String> = values.iter().map(Number::to_string).collect();
+        // text of JSON is text of TOML
+        let path = serde_json::Value::from(path);
+        self.text +=
+            &format!("\n[[vary]]\nname = {path}\npath = {path}\nvalues = [{}]\n", texts.join(", "));
+        self
+    }
+
+    /// Runs by this method; what it leaves open is the mechanism's.
+    #[must_use]
+    pub fn method(self, method: Method) -> Self {
+        Self { method, ..self }
+    }
+
+    /// On so many threads, at least one; left out, on all processors.
+    #[must_use]
+    pub fn threads(self, n: usize) -> Self {
+        Self { threads: NonZeroUsize::new(n.max(1)), ..self }
+    }
+}
+
+/// What the runs of a sweep gave, in the order of its members.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepResult {
+    columns: Columns,
+    rows: Vec<Row>,
+}
+
+impl SweepResult {
+    /// Names of the columns: `member`, the paths that were varied, what became of each run, and of each output the last value (`NAME`), the
+    /// least (`NAME.min`) and the largest (`NAME.max`), as in the table of `mbs sweep`.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        self.columns.header()
+    }
+
+    /// The numbers of a column, one for each run; NaN where a run did not come to one.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<Vec<f64>> {
+        let place = self.names().iter().position(|n| n == name)?;
+        let number = |row| self.columns.cells(row)[place].parse().unwrap_or(f64::NAN);
+        Some(self.rows.iter().map(number).collect())
+    }
+
+    /// The runs that were not completed: member from 0, code and message.
+    pub fn failures(&self) -> impl Iterator<Item = (usize, &str, &str)> {
+        self.rows.iter().filter_map(|row| {
+            let (code, message) = row.failure.as_ref()?;
+            Some((row.member, &**code, &**message))
+        })
+    }
+
+    /// Number of runs.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Without runs?
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// Writes it as `mbs sweep` writes `table.csv`.
+    ///
+    /// # Errors
+    /// Those of the sink.
+    pub fn write_csv(&self, sink: impl io::Write) -> io::Result<()> {
+        let rows: Vec<_> = self.rows.iter().map(|row| self.columns.cells(row)).collect();
+        self.columns.write_csv(sink, rows.iter())
+    }
+}
+
+/// Runs a mechanism with all values of a sweep, side by side. A run that fails is a row of its own.
+///
+/// The rows do not depend on the number of threads.
+///
+/// # Errors
+/// [`SimulationError`] for a path or a value that is refused, with its place in the sweep; for a mechanism that has a part in code.
+pub fn sweep(m: &Mechanism, sweep: &Sweep) -> Result<SweepResult, SimulationError> {
+    m.check()?;
+    if let Some(path) = sweep.not_finite.clone() {
+        return Err(PathError::NotFinite { path }.into());
+    }
+    let file = SceneFile::parse(&sweep.text, "sweep")?;
+    let study = Study::new(m.to_file()?, &file, &sweep.method)?;
+    let rows = study.rows(sweep.threads)?;
+    Ok(SweepResult { columns: study.columns().clone(), rows })
+}

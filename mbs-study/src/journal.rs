@@ -1,0 +1,186 @@
+//! A journal: a head line, then one line for each finished job in the order of completion.
+//!
+//! A line counts once its line end is written. What a kill left of a line is cut off, and its job runs again.
+
+use core::fmt::{self, Display, Formatter};
+use mbs::inside::fingerprint;
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::Path;
+
+/// What a journal is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Kind {
+    /// Name of the file.
+    pub(crate) file: &'static str,
+    /// First word of its head.
+    pub(crate) title: &'static str,
+    /// What it has the results of, with its article.
+    pub(crate) of: [&'static str; 2],
+    /// What the hashes of its head are of, in order.
+    pub(crate) hashes: &'static [&'static str],
+}
+
+/// What a journal belongs to: version, and hashes of what its results depend on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Head {
+    kind: Kind,
+    cells: Vec<String>,
+}
+
+/// An open journal, locked for this process.
+#[derive(Debug)]
+pub(crate) struct Journal {
+    file: File,
+}
+
+/// A journal that cannot be used.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum JournalError {
+    /// It has the results of another sweep, say, as the first text calls it; the second says what has changed.
+    Other([&'static str; 2]),
+    /// The file of the first name is no journal of what the second says.
+    NotAJournal([&'static str; 2]),
+    /// Another process is writing it; of what it is.
+    Busy(&'static str),
+    /// What it is of was interrupted: it has what was finished before.
+    Interrupted,
+    /// It cannot be read or written.
+    Io(io::Error),
+}
+
+impl Head {
+    /// Of results that depend on these texts.
+    pub(crate) fn new(kind: Kind, texts: &[&str]) -> Self {
+        let mut cells = vec![kind.title.to_owned(), env!("CARGO_PKG_VERSION").to_owned()];
+        cells.extend(texts.iter().map(|text| hash(text)));
+        Self { kind, cells }
+    }
+
+    fn line(&self) -> String {
+        self.cells.join(",") + "\n"
+    }
+
+    /// Is a journal with this first line ours?
+    fn check(&self, line: &str) -> Result<(), JournalError> {
+        let found: Vec<&str> = line.split(',').collect();
+        if found.len() != self.cells.len() || found[0] != self.kind.title {
+            return Err(self.not_ours());
+        }
+        let what = |i: usize| match i {
+            1 => "the version of mbs",
+            i => self.kind.hashes.get(i - 2).copied().unwrap_or("something"),
+        };
+        match (1..found.len()).find(|&i| found[i] != self.cells[i]) {
+            Some(i) => Err(JournalError::Other([self.kind.of[1], what(i)])),
+            None => Ok(()),
+        }
+    }
+
+    fn not_ours(&self) -> JournalError {
+        JournalError::NotAJournal([self.kind.file, self.kind.of[0]])
+    }
+}
+
+impl Journal {
+    /// Opens the journal of a directory, or begins it, and gives the lines that are whole.
+    pub(crate) fn open(
+        out: &Path,
+        head: &Head,
+        anew: bool,
+    ) -> Result<(Self, Vec<Vec<String>>), JournalError> {
+        let path = out.join(head.kind.file);
+        let mut options = OpenOptions::new();
+        let mut file = options.read(true).write(true).create(true).truncate(false).open(path)?;
+        // a file system without locks has none to lose
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            return Err(JournalError::Busy(head.kind.of[0]));
+        }
+        let mut bytes = Vec::new();
+        if !anew {
+            file.read_to_end(&mut bytes)?;
+        }
+        let whole = bytes.iter().rposition(|&byte| byte == b'\n').map_or(0, |end| end + 1);
+        // a head that was torn is begun again, anything else is not ours to overwrite
+        if whole == 0 && !head.line().as_bytes().starts_with(&bytes) {
+            return Err(head.not_ours());
+        }
+        let text = String::from_utf8_lossy(&bytes[..whole]);
+        let mut lines = Vec::new();
+        if let Some((first, rest)) = text.split_once('\n') {
+            head.check(first)?;
+            lines = read_lines(rest);
+        }
+        file.set_len(whole as u64)?;
+        file.seek(SeekFrom::End(0))?;
+        if whole == 0 {
+            file.write_all(head.line().as_bytes())?;
+        }
+        Ok((Self { file }, lines))
+    }
+
+    /// Appends a line, in one write.
+    pub(crate) fn append<S: AsRef<[u8]>>(&mut self, cells: &[S]) -> io::Result<()> {
+        let mut line = csv::Writer::from_writer(Vec::new());
+        line.write_record(cells)?;
+        let line = line.into_inner().map_err(|error| io::Error::other(error.to_string()))?;
+        self.file.write_all(&line)
+    }
+}
+
+/// The cells of each line.
+fn read_lines(text: &str) -> Vec<Vec<String>> {
+    let mut reader = csv::ReaderBuilder::new();
+    let lines = text.lines().filter_map(|line| {
+        let mut reader = reader.has_headers(false).flexible(true).from_reader(line.as_bytes());
+        let record = reader.records().next()?.ok()?;
+        Some(record.iter().map(str::to_owned).collect())
+    });
+    lines.collect()
+}
+
+/// A short text that tells a changed text.
+pub(crate) fn hash(text: &str) -> String {
+    format!("{:016x}", fingerprint(text.as_bytes()))
+}
+
+impl JournalError {
+    /// What to do about it.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Other(_) => "give another directory with --out, or begin anew with --restart",
+            Self::NotAJournal(_) => "give another directory with --out, or remove the file",
+            Self::Busy(_) => "wait for it, or give another directory with --out",
+            Self::Interrupted => {
+                "start it again to go on: what is finished is kept in the directory"
+            }
+            Self::Io(_) => "give a directory that can be made or written with --out",
+        }
+    }
+}
+
+impl Display for JournalError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Other([of, what]) => {
+                write!(f, "the directory has the results of {of}: {what} has changed")
+            }
+            Self::NotAJournal([file, of]) => {
+                write!(f, "`{file}` in the directory is not the journal of {of}")
+            }
+            Self::Busy(of) => write!(f, "another process is running {of} in the directory"),
+            Self::Interrupted => write!(f, "interrupted by a signal"),
+            Self::Io(error) => write!(f, "the journal cannot be used: {error}"),
+        }
+    }
+}
+
+impl core::error::Error for JournalError {}
+
+impl From<io::Error> for JournalError {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}

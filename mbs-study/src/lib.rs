@@ -1,0 +1,15 @@
+#![doc = include_str!("../README.md")]
+
+pub mod auto;
+pub mod compare;
+pub mod doctor;
+mod error;
+pub mod estimate;
+pub mod explain;
+mod front;
+mod journal;
+pub mod redundancy;
+pub mod sweep;
+
+pub use compare::Request as Compare;
+pub use front::{Sweep, SweepResult, compare, sweep};

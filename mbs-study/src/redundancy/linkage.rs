@@ -1,0 +1,205 @@
+//! Joints as rows on the twists of whole bodies: nothing is shared, so that no redundancy hides.
+//!
+//! ```text
+//! row of direction (f, m) at the joint's place p:   f·(v₂(p) − v₁(p)) + m·(ω₂ − ω₁) = 0
+//! on a body with centre c, unknowns (v, ℓ ω):       ± [f;  (m + (p − c) × f) / ℓ]
+//! ```
+//!
+//! ℓ is the size of the part that the joint belongs to, and moments are unit forces at the lever ℓ, so that all rows and columns
+//! are of order one whatever the unit of length. Masses stand outside: rank is a matter of geometry, and bodies may have none.
+
+use super::Vector;
+use super::parts::{Part, parts};
+use mbs_core::algebra::cross;
+use mbs_core::cluster::mass_properties;
+use mbs_core::outputs::{JointWrenches, Wrench};
+use mbs_core::rigid::RigidMotion;
+use mbs_core::scene::align::aligned;
+use mbs_core::scene::{BodyId, Dimension, Joint, JointKind, Scene};
+use mbs_linear::Matrix;
+use std::ops::Range;
+
+/// Where the bodies of a scene are.
+pub type Poses = [RigidMotion<f64>];
+
+/// The bodies of a scene in its reference configuration, at rest.
+#[must_use]
+pub fn reference(scene: &Scene<f64>) -> Vec<RigidMotion<f64>> {
+    (0..scene.bodies.len()).map(|b| RigidMotion::at_rest(mass_properties(scene, b).1)).collect()
+}
+
+/// One joint.
+#[derive(Debug, Clone)]
+pub(crate) struct Link {
+    pub(crate) joint: Joint<f64>,
+    pub(crate) is_guided: bool,
+    transmission: JointWrenches<f64>,
+}
+
+impl Link {
+    pub(crate) fn new(joint: &Joint<f64>, dimension: Dimension, is_guided: bool) -> Self {
+        let transmission = JointWrenches::new(joint, dimension, is_guided, 1.0);
+        Self { joint: joint.clone(), is_guided, transmission }
+    }
+
+    pub(crate) fn n_rows(&self) -> usize {
+        self.transmission.n_directions()
+    }
+
+    /// Its directions at a pose; moments are unit forces at `length` [m].
+    pub(crate) fn wrenches(&self, at: &Poses, length: f64) -> Vec<Wrench<f64>> {
+        let turned = self.joint.bodies.map(|body| pose(at, body).rotation);
+        let mut all = Vec::with_capacity(self.n_rows());
+        let take = |mut w: Wrench<f64>| {
+            w.moment *= length;
+            all.push(w);
+        };
+        self.transmission.directions(|i| self.place(at, i), [&turned[0], &turned[1]], take);
+        all
+    }
+
+    /// Its place on its first or second body [m].
+    pub(crate) fn place(&self, at: &Poses, i: usize) -> Vector {
+        let reference = Vector::from(self.joint.points[i]);
+        pose(at, self.joint.bodies[i]).point(&reference)[0]
+    }
+}
+
+/// The pose of a body; the ground stays.
+pub(crate) fn pose(at: &Poses, body: BodyId) -> RigidMotion<f64> {
+    match body {
+        BodyId::Ground => RigidMotion::at_rest(Vector::zeros()),
+        BodyId::Body(b) => at[b],
+    }
+}
+
+/// A scene as bodies with six (three) freedoms each and joints that take some of them.
+#[derive(Debug, Clone)]
+pub struct Linkage {
+    pub(crate) dimension: Dimension,
+    pub(crate) n_bodies: usize,
+    pub(crate) links: Vec<Link>,
+    /// What can depend on each other: see [`Part`].
+    pub parts: Vec<Part>,
+}
+
+/// Rows of a part on the twists of its bodies.
+#[derive(Debug, Clone)]
+pub struct Jacobian {
+    /// One row per direction, six (three) columns per body.
+    pub matrix: Matrix,
+    /// Rows of each joint, in the order of [`Part::joints`].
+    pub rows: Vec<Range<usize>>,
+    /// The direction of each row.
+    pub wrenches: Vec<Wrench<f64>>,
+}
+
+impl Linkage {
+    /// Takes a scene that passed its check. Cost: in proportion to bodies and joints.
+    #[must_use]
+    pub fn new(scene: &Scene<f64>) -> Self {
+        let scene = &*aligned(scene);
+        let is_guided = |j| scene.guides.iter().any(|guide| guide.joint.index() == j);
+        let joints = scene.joints.iter().enumerate();
+        let links = joints.map(|(j, x)| Link::new(x, scene.dimension, is_guided(j))).collect();
+        let mut linkage = Self {
+            dimension: scene.dimension,
+            n_bodies: scene.bodies.len(),
+            links,
+            parts: Vec::new(),
+        };
+        linkage.parts = parts(&linkage, &reference(scene));
+        linkage
+    }
+
+    /// Freedoms of a body without joints.
+    #[must_use]
+    pub fn freedoms(&self) -> usize {
+        match self.dimension {
+            Dimension::Planar => 3,
+            Dimension::Spatial => 6,
+        }
+    }
+
+    /// Rows of all joints, and freedoms of all bodies.
+    #[must_use]
+    pub fn sizes(&self) -> [usize; 2] {
+        let rows = self.links.iter().map(Link::n_rows).sum();
+        [rows, self.n_bodies * self.freedoms()]
+    }
+
+    /// Equations of a joint; with its guide's.
+    ///
+    /// # Panics
+    /// If there is no such joint.
+    #[must_use]
+    pub fn n_rows(&self, joint: usize) -> usize {
+        self.links[joint].n_rows()
+    }
+
+    /// The kind of a joint.
+    ///
+    /// # Panics
+    /// If there is no such joint.
+    #[must_use]
+    pub fn kind(&self, joint: usize) -> JointKind {
+        self.links[joint].joint.kind
+    }
+
+    /// The rows of a part at a pose.
+    #[must_use]
+    pub fn jacobian(&self, part: &Part, at: &Poses) -> Jacobian {
+        self.jacobian_of(part, &part.joints.iter().map(|&j| &self.links[j]).collect::<Vec<_>>(), at)
+    }
+
+    /// The same with other joints in the places of those of the part.
+    pub(crate) fn jacobian_of(&self, part: &Part, links: &[&Link], at: &Poses) -> Jacobian {
+        let f = self.freedoms();
+        let (mut rows, mut wrenches) = (Vec::new(), Vec::new());
+        for link in links {
+            let first = wrenches.len();
+            wrenches.extend(link.wrenches(at, part.length));
+            rows.push(first..wrenches.len());
+        }
+        let mut matrix = Matrix::zeros(wrenches.len(), part.bodies.len() * f);
+        for (link, range) in links.iter().zip(&rows) {
+            let place = link.place(at, 1);
+            for (body, sign) in link.joint.bodies.into_iter().zip([-1.0, 1.0]) {
+                let BodyId::Body(b) = body else { continue };
+                let Ok(column) = part.bodies.binary_search(&b) else { continue };
+                for row in range.clone() {
+                    let w = &wrenches[row];
+                    let moment = w.moment + cross(&(place - at[b].position), &w.force);
+                    let entries = self.components(&w.force, &(moment / part.length));
+                    for (i, x) in entries.into_iter().take(f).enumerate() {
+                        matrix[(row, column * f + i)] = sign * x;
+                    }
+                }
+            }
+        }
+        Jacobian { matrix, rows, wrenches }
+    }
+
+    /// What counts of a force and a moment: [Fx, Fy, Mz] or all six.
+    pub(crate) fn components(&self, force: &Vector, moment: &Vector) -> [f64; 6] {
+        match self.dimension {
+            Dimension::Planar => [force[0], force[1], moment[2], 0.0, 0.0, 0.0],
+            Dimension::Spatial => [force[0], force[1], force[2], moment[0], moment[1], moment[2]],
+        }
+    }
+
+    /// The bodies of a part moved by small twists (v, ℓ ω).
+    pub(crate) fn moved(&self, part: &Part, at: &mut Poses, twists: &[f64]) {
+        for (&b, x) in part.bodies.iter().zip(twists.chunks_exact(self.freedoms())) {
+            let (v, turn) = match self.dimension {
+                Dimension::Planar => (Vector::new(x[0], x[1], 0.0), Vector::new(0.0, 0.0, x[2])),
+                Dimension::Spatial => {
+                    (Vector::new(x[0], x[1], x[2]), Vector::new(x[3], x[4], x[5]))
+                }
+            };
+            let body = &mut at[b];
+            body.position += v;
+            body.rotation = mbs_core::algebra::rotation(&(turn / part.length)) * body.rotation;
+        }
+    }
+}

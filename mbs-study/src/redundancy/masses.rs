@@ -1,0 +1,149 @@
+//! Motions that the joints allow and no mass resists.
+//!
+//! ```text
+//! J V = 0,   R = [√m (c-rows of V);  √I R_bᵀ (ω-rows of V)],   massless motions: the null space of R
+//! ```
+//!
+//! R is scaled by the mean mass of the bodies and their size, so that the rank does not depend on units.
+
+use super::Vector;
+use super::linkage::{Linkage, Poses};
+use super::parts::Part;
+use super::rank::Rank;
+use mbs_core::cluster::mass_properties;
+use mbs_core::scene::{Inertia, Scene};
+use mbs_linear::Matrix;
+use mbs_linear::Svd;
+
+/// A motion without kinetic energy.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Massless {
+    /// Bodies that move in it.
+    pub bodies: Vec<usize>,
+    /// Is it the turning of slender rods about themselves, and nothing else? Such a spin has no effect.
+    pub is_idle_spin: bool,
+}
+
+/// Columns that are small enough to be looked at.
+const LARGEST: usize = 600;
+/// Entries below this are zero.
+const ZERO: f64 = 1e-6;
+/// Energy below this share of the mean body's is none: R holds roots of masses.
+const LEAST: f64 = 1e-7;
+
+/// Massless motions of a scene at a pose; `None` where it is too large. Spins of rods come first, each alone.
+///
+/// Cost: two decompositions of the rows of all joints, where some body has a direction without inertia; else in proportion to
+/// the bodies.
+#[must_use]
+pub fn massless(scene: &Scene<f64>, linkage: &Linkage, at: &Poses) -> Option<Vec<Massless>> {
+    let n = scene.bodies.len();
+    let roots: Vec<_> = (0..n).map(|b| roots(scene, b, at)).collect();
+    let is_light = |root: &Matrix| Rank::of(root).is_none_or(|r| r.sizes[2] < 6);
+    let f = linkage.freedoms();
+    if f == 6 && !roots.iter().any(is_light) {
+        return Some(Vec::new());
+    }
+    if n * f > LARGEST {
+        return None;
+    }
+    let all =
+        Part { joints: (0..scene.joints.len()).collect(), bodies: (0..n).collect(), length: 1.0 };
+    let free = Rank::of(&linkage.jacobian(&all, at).matrix)?.free;
+    let scale = mean(scene);
+    let r = energy(&roots, linkage, &free, scale);
+    let rank = cut(&r)?;
+    if rank.n_columns() == 0 {
+        return Some(Vec::new());
+    }
+    let motions = free.times(&rank);
+    Some(told(scene, linkage, at, &motions))
+}
+
+/// √M of a body as a 6 x 6 matrix on (v, ω) in global axes.
+fn roots(scene: &Scene<f64>, body: usize, at: &Poses) -> Matrix {
+    let (mass, _, inertia) = mass_properties(scene, body);
+    let turned = at[body].rotation * inertia * at[body].rotation.transpose();
+    let mut root = Matrix::zeros(6, 6);
+    for i in 0..3 {
+        root[(i, i)] = mass.sqrt();
+    }
+    let square = Matrix::from_fn(3, 3, |i, j| turned[(i, j)]);
+    if let Some(Svd { u, sigma, .. }) = Svd::new(&square) {
+        for i in 0..3 {
+            for j in 0..3 {
+                root[(3 + i, 3 + j)] = sigma[i].sqrt() * u[(j, i)];
+            }
+        }
+    }
+    root
+}
+
+/// Mean mass and inertia of those that have some; one where none has.
+fn mean(scene: &Scene<f64>) -> [f64; 2] {
+    let bodies: Vec<_> = (0..scene.bodies.len()).map(|b| mass_properties(scene, b)).collect();
+    let mean = |values: Vec<f64>| {
+        #[allow(clippy::cast_precision_loss, reason = "a count")]
+        let n = values.len() as f64;
+        if values.is_empty() { 1.0 } else { values.iter().sum::<f64>() / n }
+    };
+    let some = |x: &f64| *x > 0.0;
+    let masses = bodies.iter().map(|b| b.0).filter(some).collect();
+    let inertias = bodies.iter().map(|b| b.2.trace() / 3.0).filter(some).collect();
+    [mean(masses), mean(inertias)]
+}
+
+/// Root of the energy of the free motions, one row per direction of a body.
+fn energy(roots: &[Matrix], linkage: &Linkage, free: &Matrix, scale: [f64; 2]) -> Matrix {
+    let f = linkage.freedoms();
+    let place = |i: usize| if f == 6 { i } else { [0, 1, 5][i] };
+    Matrix::from_fn(roots.len() * 6, free.n_columns(), |row, j| {
+        let (b, i) = (row / 6, row % 6);
+        let scale = if i < 3 { scale[0] } else { scale[1] }.sqrt();
+        (0..f).map(|k| roots[b][(i, place(k))] * free[(b * f + k, j)]).sum::<f64>() / scale
+    })
+}
+
+/// Basis of the null space of R.
+fn cut(r: &Matrix) -> Option<Matrix> {
+    if r.n_columns() == 0 {
+        return Some(Matrix::zeros(0, 0));
+    }
+    let Svd { sigma, v, .. } = Svd::new(r)?;
+    Some(v.columns_from(sigma.iter().filter(|&&s| s > LEAST).count()))
+}
+
+/// Idle spins of rods, and what is left of the motions besides.
+fn told(scene: &Scene<f64>, linkage: &Linkage, at: &Poses, motions: &Matrix) -> Vec<Massless> {
+    let f = linkage.freedoms();
+    let mut found = Vec::new();
+    let mut spins = Vec::new();
+    for (b, body) in scene.bodies.iter().enumerate() {
+        let Inertia::Rod { from, to } = body.inertia else { continue };
+        if f == 3 || !(body.mass > 0.0) {
+            continue;
+        }
+        let d = at[b].rotation * (Vector::from(to) - Vector::from(from));
+        let d = d / d.norm();
+        let mut spin = Matrix::zeros(scene.bodies.len() * f, 1);
+        (0..3).for_each(|i| spin[(b * f + 3 + i, 0)] = d[i]);
+        // A spin is idle if it is one of the motions.
+        let left = spin.minus(&motions.times(&motions.transpose().times(&spin)));
+        if (0..left.n_rows()).all(|i| left[(i, 0)].abs() <= ZERO) {
+            found.push(Massless { bodies: vec![b], is_idle_spin: true });
+            spins.push(spin);
+        }
+    }
+    let mut rest = motions.clone();
+    for spin in &spins {
+        rest = rest.minus(&spin.times(&spin.transpose().times(&rest)));
+    }
+    let Some(Svd { u, sigma, .. }) = Svd::thin(&rest) else { return found };
+    let k = sigma.iter().filter(|&&s| s > 0.5).count();
+    if k > 0 {
+        let moves = |b: &usize| (0..k).any(|j| (0..f).any(|i| u[(b * f + i, j)].abs() > ZERO));
+        let bodies = (0..scene.bodies.len()).filter(moves).collect();
+        found.push(Massless { bodies, is_idle_spin: false });
+    }
+    found
+}

@@ -1,0 +1,24 @@
+//! Dependent constraint equations of a mechanism, as sets of joints, and remedies.
+
+mod decompose;
+mod linkage;
+mod loops;
+mod masses;
+mod parts;
+mod perturb;
+mod rank;
+mod remedy;
+mod residual;
+mod sets;
+
+pub use linkage::{Jacobian, Linkage, Poses, reference};
+pub use loops::{Corner, Drive, Loop, drives, loops};
+pub use masses::{Massless, massless};
+pub use parts::Part;
+pub use perturb::Nature;
+pub use rank::{Rank, UNCERTAIN};
+pub use remedy::{JointChange, Remedy};
+pub use sets::{Diagnosis, Member, Set, diagnose};
+
+/// Vectors of space in double precision.
+type Vector = mbs_core::algebra::Vector<f64, 3>;

@@ -1,0 +1,146 @@
+//! Is a dependency there in every position, or only in this one?
+//!
+//! The part is kicked along a random admissible motion and brought back onto its joints by Levenberg and Marquardt's method with
+//! the damping |r| (Yamashita and Fukushima 2001: quadratic convergence though rows repeat each other). Dependent in every
+//! position thus reached: structural. Independent there: the first position is singular.
+
+use super::linkage::{Linkage, Poses};
+use super::parts::Part;
+use super::rank::Rank;
+use super::residual::residuals;
+use mbs_core::rigid::RigidMotion;
+use mbs_linear::Matrix;
+use mbs_linear::Svd;
+
+/// Where a dependency holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Nature {
+    /// In every position near by: the mechanism is built so.
+    Structural,
+    /// In this position alone: it is singular.
+    Singular,
+    /// Some of it in every position, more in this one.
+    Both,
+    /// It cannot be told: nothing can move.
+    Rigid,
+    /// It was not tried: too large, or no position near by was found.
+    Untried,
+}
+
+impl Nature {
+    /// The word in JSON.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Structural => "structural",
+            Self::Singular => "singular-position",
+            Self::Both => "both",
+            Self::Rigid => "rigid",
+            Self::Untried => "untried",
+        }
+    }
+}
+
+/// Kicks in different directions.
+const KICKS: u64 = 3;
+/// Length of a kick: radians, and shares of the part's length.
+const KICK: f64 = 0.1;
+/// Sweeps allowed to come back.
+const MAX_SWEEPS: usize = 60;
+/// Residual that meets the joints, over the part's length.
+const MET: f64 = 1e-13;
+/// Residual that is accepted when it does not fall any more.
+const ACCEPTED: f64 = 1e-11;
+/// Entries of a matrix that is small enough to be tried.
+const LARGEST: usize = 100_000;
+
+/// Positions near `at` that meet the joints of a part; empty where there is none.
+pub(crate) fn neighbours(
+    linkage: &Linkage,
+    part: &Part,
+    (at, rank): (&Poses, &Rank),
+) -> Option<Vec<Vec<RigidMotion<f64>>>> {
+    if rank.sizes[0] * rank.sizes[1] > LARGEST {
+        return None;
+    }
+    let mut random = 0x9E37_79B9_7F4A_7C15_u64;
+    let mut found = Vec::new();
+    for kick in 0..2 * KICKS {
+        if found.len() as u64 == KICKS || rank.free.n_columns() == 0 {
+            break;
+        }
+        let weights: Vec<f64> = (0..rank.free.n_columns()).map(|_| draw(&mut random)).collect();
+        let mut twist = combine(&rank.free, &weights);
+        let largest = twist.iter().fold(0.0_f64, |l, x| l.max(x.abs()));
+        // What fails is tried again nearer by.
+        let size = KICK * part.length / (1 + kick / KICKS) as f64;
+        twist.iter_mut().for_each(|x| *x *= size / largest);
+        let mut there = at.to_vec();
+        linkage.moved(part, &mut there, &twist);
+        if close(linkage, part, at, &mut there) && distance(part, at, &there) > 1e-2 * size {
+            found.push(there);
+        }
+    }
+    Some(found)
+}
+
+/// Brings poses onto the joints of a part; says whether that was reached.
+fn close(linkage: &Linkage, part: &Part, met: &Poses, at: &mut [RigidMotion<f64>]) -> bool {
+    let measure = |at: &Poses| -> Vec<f64> {
+        let links = part.joints.iter().map(|&j| &linkage.links[j]);
+        let rows = links.flat_map(|link| residuals(link, (part, linkage.dimension), met, at));
+        rows.map(|r| r / part.length).collect()
+    };
+    let mut r = measure(at);
+    for _ in 0..MAX_SWEEPS {
+        let size = r.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if size <= MET {
+            return true;
+        }
+        let jacobian = linkage.jacobian(part, at);
+        let Some(Svd { u, sigma, v }) = Svd::thin(&jacobian.matrix) else { return false };
+        // δ = −V Σ (Σ² + |r|)⁻¹ Uᵀ r
+        let mut twist = vec![0.0; jacobian.matrix.n_columns()];
+        for k in 0..sigma.len() {
+            let share: f64 = u.column(k).iter().zip(&r).map(|(u, r)| u * r).sum();
+            let weight = -share * sigma[k] / (sigma[k] * sigma[k] + size) * part.length;
+            for (i, x) in twist.iter_mut().enumerate() {
+                *x += weight * v[(i, k)];
+            }
+        }
+        linkage.moved(part, at, &twist);
+        let left = measure(at);
+        let after = left.iter().map(|x| x * x).sum::<f64>().sqrt();
+        r = left;
+        if !(after < size) && size <= ACCEPTED {
+            return true;
+        }
+    }
+    false
+}
+
+/// Largest way of a centre, or turn times the part's length [m].
+fn distance(part: &Part, from: &Poses, to: &Poses) -> f64 {
+    let of = |&b: &usize| {
+        let way = (to[b].position - from[b].position).norm();
+        let turn =
+            mbs_core::algebra::rotation_vector(&(to[b].rotation * from[b].rotation.transpose()));
+        way.max(turn.norm() * part.length)
+    };
+    part.bodies.iter().map(of).fold(0.0, f64::max)
+}
+
+fn combine(basis: &Matrix, weights: &[f64]) -> Vec<f64> {
+    let entry = |i| weights.iter().enumerate().map(|(j, w)| w * basis[(i, j)]).sum();
+    (0..basis.n_rows()).map(entry).collect()
+}
+
+/// xorshift64*, in (-1, 1): the same on every machine.
+fn draw(state: &mut u64) -> f64 {
+    *state ^= *state >> 12;
+    *state ^= *state << 25;
+    *state ^= *state >> 27;
+    #[allow(clippy::cast_precision_loss, reason = "53 bits")]
+    let x = (state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64;
+    x / (1_u64 << 52) as f64 - 1.0
+}

@@ -1,0 +1,338 @@
+//! The fewest joints to change so that nothing depends any more and nothing else moves.
+//!
+//! ```text
+//! a joint of another kind transmits W' ⊂ W;   C: the directions of W that it gives up
+//! what is left of the null space:   { y : C N y = 0 }
+//! mended without new freedoms  ⇔  C N has independent rows (each takes a redundancy) and as many as columns
+//! ```
+//!
+//! Combinations of one, two and three joints are tried in the order of the scene; where more are needed, joints are taken one by
+//! one, each as large a step as there is. What is found is tested on the joints themselves: their rank must be the same, and all
+//! their rows must count.
+
+use super::Vector;
+use super::decompose::{Group, ZERO};
+use super::linkage::{Jacobian, Link, Linkage, Poses};
+use super::parts::Part;
+use super::rank::Rank;
+use super::sets::dimension;
+use mbs_core::outputs::Wrench;
+use mbs_core::scene::{Axis, BodyId, Dimension, Freedom, Joint, JointKind};
+use mbs_linear::Matrix;
+
+/// One joint with another kind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointChange {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Its new kind; `Free`: leave it out.
+    pub kind: JointKind,
+    /// The second axis that a universal joint needs, in the reference configuration.
+    pub axis: Option<[f64; 3]>,
+}
+
+/// Changes that make all equations of a set independent and leave the motion as it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Remedy {
+    /// One change per joint.
+    pub changes: Vec<JointChange>,
+    /// A body that is left out, with the joints above.
+    pub body: Option<usize>,
+    /// Was every smaller number of joints tried in vain?
+    pub is_smallest: bool,
+}
+
+/// A change, and what it takes from the null space: one row per direction given up.
+struct Choice {
+    change: JointChange,
+    link: Link,
+    place: usize,
+    taken: Vec<Vec<f64>>,
+}
+
+/// Combinations of joints that are tried.
+const MOST_TRIED: usize = 200_000;
+
+/// Searches a remedy for a group of dependent joints at a position.
+pub(crate) fn remedy(
+    linkage: &Linkage,
+    (part, at): (&Part, &Poses),
+    (jacobian, null): (&Jacobian, &Matrix),
+    group: &Group,
+) -> Option<Remedy> {
+    let mut options = Vec::new();
+    for &place in &group.places {
+        options.extend(options_of(linkage, (part, at), (jacobian, null), place));
+    }
+    let k = group.redundant;
+    let told = |chosen: Vec<usize>, is_smallest| {
+        let found: Vec<&Choice> = chosen.into_iter().map(|i| &options[i]).collect();
+        holds(linkage, (part, at), group, &found).then(|| Remedy {
+            changes: found.iter().map(|o| o.change.clone()).collect(),
+            body: None,
+            is_smallest,
+        })
+    };
+    search(&options, k)
+        .and_then(|chosen| told(chosen, true))
+        .or_else(|| without_a_body(linkage, (part, at), group))
+        .or_else(|| told(greedy(&options, k)?, false))
+}
+
+/// A body that can be left out with all its joints: a third crank of a parallelogram carries nothing that others do not.
+fn without_a_body(linkage: &Linkage, (part, at): (&Part, &Poses), group: &Group) -> Option<Remedy> {
+    let links: Vec<(usize, &Link)> =
+        group.places.iter().map(|&i| (part.joints[i], &linkage.links[part.joints[i]])).collect();
+    let sizes = |links: &[&Link], bodies: &[usize]| {
+        let part = Part { bodies: bodies.to_vec(), ..part.clone() };
+        Rank::of(&linkage.jacobian_of(&part, links, at).matrix).map(|rank| rank.sizes)
+    };
+    let mut bodies: Vec<usize> =
+        links.iter().flat_map(|(_, l)| l.joint.bodies).filter_map(index).collect();
+    bodies.sort_unstable();
+    bodies.dedup();
+    let all: Vec<&Link> = links.iter().map(|(_, l)| *l).collect();
+    let [_, n, rank] = sizes(&all, &bodies)?;
+    for &body in bodies.iter().rev() {
+        let touches = |link: &Link| link.joint.bodies.contains(&BodyId::Body(body));
+        let is_inside = (0..linkage.links.len())
+            .filter(|&j| touches(&linkage.links[j]))
+            .all(|j| links.iter().any(|(joint, _)| *joint == j));
+        let left: Vec<&Link> = all.iter().copied().filter(|link| !touches(link)).collect();
+        let others: Vec<usize> = bodies.iter().copied().filter(|&b| b != body).collect();
+        if !is_inside || left.is_empty() {
+            continue;
+        }
+        let Some([rows, columns, after]) = sizes(&left, &others) else { continue };
+        if rows == after && columns - after == n - rank {
+            let joints = links.iter().filter(|(_, link)| touches(link));
+            let change = |(joint, _): &(usize, &Link)| JointChange {
+                joint: *joint,
+                kind: JointKind::Free,
+                axis: None,
+            };
+            return Some(Remedy {
+                changes: joints.map(change).collect(),
+                body: Some(body),
+                is_smallest: false,
+            });
+        }
+    }
+    None
+}
+
+fn index(body: BodyId) -> Option<usize> {
+    if let BodyId::Body(b) = body { Some(b) } else { None }
+}
+
+/// The gentler kinds that a joint may be replaced by, those with the fewest freedoms first: they let move what it does and more, about the
+/// axes that it has. A second axis to turn about is found.
+fn gentler(joint: &Joint<f64>, dimension: Dimension) -> Vec<JointKind> {
+    let own = joint.kind.freedoms(dimension);
+    let fits = |kind: &JointKind| {
+        let freedoms = kind.freedoms(dimension);
+        let lets = |freedom: &Freedom| match freedom {
+            Freedom::Turn(_) => freedoms.contains(freedom) || freedoms.contains(&Freedom::Ball),
+            Freedom::Slide(_) | Freedom::Ball => freedoms.contains(freedom),
+        };
+        let needed = kind.needs_axes(dimension);
+        let is_found = takes_second_axis(*kind, dimension);
+        let is_placed = (!needed[0] || joint.axes[0].is_some()) && (!needed[1] || is_found);
+        let is_allowed = dimension == Dimension::Spatial || !kind.is_spatial_only();
+        let is_joint = !joint.kind.is_link() && !kind.is_link();
+        // a bearing is not replaced by what neither holds its place nor its axis
+        let is_near = kind.translation(dimension) == joint.kind.translation(dimension)
+            || kind.rotation(dimension) == joint.kind.rotation(dimension);
+        let is_gentler = is_joint
+            && is_near
+            && kind.n_coordinates(dimension) > joint.kind.n_coordinates(dimension)
+            && own.iter().all(lets);
+        kind.is_free() || is_allowed && is_placed && is_gentler
+    };
+    let mut kinds: Vec<JointKind> = JointKind::ALL.into_iter().rev().filter(fits).collect();
+    kinds.sort_by_key(|kind| kind.n_coordinates(dimension));
+    kinds
+}
+
+/// Does the kind turn about a second axis?
+fn takes_second_axis(kind: JointKind, dimension: Dimension) -> bool {
+    kind.freedoms(dimension).contains(&Freedom::Turn(Axis::Second))
+}
+
+fn options_of(
+    linkage: &Linkage,
+    (part, at): (&Part, &Poses),
+    (jacobian, null): (&Jacobian, &Matrix),
+    place: usize,
+) -> Vec<Choice> {
+    let index = part.joints[place];
+    let link = &linkage.links[index];
+    let rows = jacobian.rows[place].clone();
+    let own = &jacobian.wrenches[rows.clone()];
+    let mut options = Vec::new();
+    for kind in gentler(&link.joint, linkage.dimension) {
+        let axis = if takes_second_axis(kind, linkage.dimension) {
+            let Some(axis) = open_moment(link, at, (own, rows.start), null) else { continue };
+            Some(axis)
+        } else {
+            None
+        };
+        let mut joint = Joint { kind, ..link.joint.clone() };
+        if axis.is_some() {
+            joint.axes[1] = axis;
+        }
+        // A guide needs the one coordinate that it drives.
+        if link.is_guided {
+            continue;
+        }
+        let new = Link::new(&joint, linkage.dimension, false);
+        let kept = new.wrenches(at, part.length);
+        let taken = given_up(linkage, part.length, own, &kept);
+        let rows = taken.iter().map(|weights| {
+            let entry =
+                |j| weights.iter().enumerate().map(|(i, w)| w * null[(rows.start + i, j)]).sum();
+            (0..null.n_columns()).map(entry).collect::<Vec<f64>>()
+        });
+        let taken: Vec<_> = rows.collect();
+        // Directions given up that are determined would leave a new freedom.
+        if !taken.is_empty() && independent(&taken) {
+            options.push(Choice {
+                change: JointChange { joint: index, kind, axis },
+                link: new,
+                place,
+                taken,
+            });
+        }
+    }
+    options
+}
+
+/// The direction of the moment that is most open at a joint, in the reference configuration.
+fn open_moment(
+    link: &Link,
+    at: &Poses,
+    (own, first): (&[Wrench<f64>], usize),
+    null: &Matrix,
+) -> Option<[f64; 3]> {
+    let moment = |j| {
+        let rows = own.iter().enumerate();
+        rows.fold(Vector::zeros(), |m, (i, w)| m + w.moment * null[(first + i, j)])
+    };
+    let moments = (0..null.n_columns()).map(moment);
+    let largest = moments.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+    let size = largest.norm();
+    let turned = super::linkage::pose(at, link.joint.bodies[1]).rotation;
+    (size > ZERO).then(|| (turned.transpose() * largest / size).into())
+}
+
+/// An orthonormal basis of what `own` spans and `kept` does not, in weights of `own`.
+fn given_up(
+    linkage: &Linkage,
+    length: f64,
+    own: &[Wrench<f64>],
+    kept: &[Wrench<f64>],
+) -> Vec<Vec<f64>> {
+    let entries = |w: &Wrench<f64>| linkage.components(&w.force, &(w.moment / length));
+    let own: Vec<[f64; 6]> = own.iter().map(entries).collect();
+    // The directions of a joint are orthonormal, so that weights are products.
+    let weights = |w: &Wrench<f64>| {
+        let x = entries(w);
+        own.iter().map(|o| o.iter().zip(&x).map(|(a, b)| a * b).sum()).collect::<Vec<f64>>()
+    };
+    let n = own.len();
+    let kept: Vec<Vec<f64>> = kept.iter().map(weights).collect();
+    let kept = Matrix::from_fn(n, kept.len(), |i, j| kept[j][i]);
+    let Some(rank) = Rank::of(&kept) else { return Vec::new() };
+    let rest = &rank.null;
+    (0..rest.n_columns()).map(|j| (0..n).map(|i| rest[(i, j)]).collect()).collect()
+}
+
+fn stacked(rows: &[&Vec<f64>]) -> Matrix {
+    Matrix::from_fn(rows.len(), rows.first().map_or(0, |r| r.len()), |i, j| rows[i][j])
+}
+
+fn independent(rows: &[Vec<f64>]) -> bool {
+    dimension(&stacked(&rows.iter().collect::<Vec<_>>())) == rows.len()
+}
+
+/// The first combination of one, two or three joints that takes all k redundancies.
+fn search(options: &[Choice], k: usize) -> Option<Vec<usize>> {
+    let mut tried = 0;
+    for size in 1..=3 {
+        let mut chosen = Vec::new();
+        if let Some(found) = extend(options, (k, size), 0, &mut chosen, &mut tried) {
+            return Some(found);
+        }
+        if tried >= MOST_TRIED {
+            break;
+        }
+    }
+    None
+}
+
+fn extend(
+    options: &[Choice],
+    (k, size): (usize, usize),
+    from: usize,
+    chosen: &mut Vec<usize>,
+    tried: &mut usize,
+) -> Option<Vec<usize>> {
+    let rows: usize = chosen.iter().map(|&i| options[i].taken.len()).sum();
+    if chosen.len() == size {
+        *tried += 1;
+        return (rows == k && takes(options, chosen) == k).then(|| chosen.clone());
+    }
+    for i in from..options.len() {
+        let is_taken = chosen.iter().any(|&c| options[c].place == options[i].place);
+        if is_taken || rows + options[i].taken.len() > k || *tried >= MOST_TRIED {
+            continue;
+        }
+        chosen.push(i);
+        let found = extend(options, (k, size), i + 1, chosen, tried);
+        chosen.pop();
+        if found.is_some() {
+            return found;
+        }
+    }
+    None
+}
+
+/// How many redundancies some changes take together.
+fn takes(options: &[Choice], chosen: &[usize]) -> usize {
+    let rows: Vec<&Vec<f64>> = chosen.iter().flat_map(|&i| &options[i].taken).collect();
+    dimension(&stacked(&rows))
+}
+
+/// Joint by joint, each time the change that takes most and leaves no freedom.
+fn greedy(options: &[Choice], k: usize) -> Option<Vec<usize>> {
+    let mut chosen = Vec::new();
+    let mut taken = 0;
+    while taken < k {
+        let step = |i: &usize| options[*i].taken.len();
+        let fits = |i: &usize| {
+            let is_new = chosen.iter().all(|&c: &usize| options[c].place != options[*i].place);
+            let with: Vec<usize> = chosen.iter().copied().chain([*i]).collect();
+            is_new && takes(options, &with) == taken + step(i)
+        };
+        let best = (0..options.len()).filter(fits).max_by_key(|i| (step(i), usize::MAX - i))?;
+        taken += options[best].taken.len();
+        chosen.push(best);
+    }
+    Some(chosen)
+}
+
+/// The rank with the changes made, over the joints of the group: the same, and of all rows.
+fn holds(linkage: &Linkage, (part, at): (&Part, &Poses), group: &Group, found: &[&Choice]) -> bool {
+    let rank = |changed: bool| {
+        let link = |&place: &usize| {
+            let change = found.iter().find(|o| changed && o.place == place);
+            change.map_or(&linkage.links[part.joints[place]], |o| &o.link)
+        };
+        let links: Vec<&Link> = group.places.iter().map(link).collect();
+        Rank::of(&linkage.jacobian_of(part, &links, at).matrix).map(|rank| rank.sizes)
+    };
+    match (rank(false), rank(true)) {
+        (Some([_, _, before]), Some([rows, _, after])) => before == after && rows == after,
+        _ => false,
+    }
+}

@@ -1,0 +1,83 @@
+//! How far a pose is from meeting the joints, one number for each row; its derivative along a twist is the row.
+//!
+//! ```text
+//! force f:   f·(p₂ − p₁)   (distance: length − L)
+//! moment m:  m·e,   e = a₁ × a₂ (common axis),   ½ Σ u₁ₖ × u₂ₖ (no turning, or a guide's angle),   −(a·b − cos) n (universal)
+//! ```
+//!
+//! Angles are counted from a pose that meets the joints: guides stay where they stood.
+
+use super::Vector;
+use super::linkage::{Link, Poses, pose};
+use super::parts::Part;
+use mbs_core::algebra::{cross, norm, rotation_vector};
+use mbs_core::scene::{Axis, Dimension, Freedom, Rotation};
+
+/// Residuals of a joint's rows [m, and angles times the part's length]; `met` is a pose that meets them.
+pub(crate) fn residuals(
+    link: &Link,
+    (part, dimension): (&Part, Dimension),
+    met: &Poses,
+    at: &Poses,
+) -> Vec<f64> {
+    let wrenches = link.wrenches(at, part.length);
+    let guide = wrenches.len() - usize::from(link.is_guided);
+    let opened = offset(link, at);
+    let row = |(i, w): (usize, &mbs_core::outputs::Wrench<f64>)| {
+        let is_guide = i >= guide;
+        if w.force != Vector::zeros() {
+            let [now, then] = [opened, offset(link, met)];
+            let is_distance = link.joint.kind.is_link();
+            return match (is_guide, is_distance, i) {
+                (false, true, 0) => norm(&now) - norm(&then),
+                // A guide's slide, and that of a hinged link along its hinge, stay as they were.
+                (true, ..) | (false, true, _) => {
+                    w.force.dot(&now) - along(link, dimension, met, &then)
+                }
+                // The places coincide, or slide along what f is across.
+                _ => w.force.dot(&now),
+            };
+        }
+        w.moment.dot(&turned(link, dimension, met, at, is_guide))
+    };
+    wrenches.iter().enumerate().map(row).collect()
+}
+
+/// p₂ − p₁.
+fn offset(link: &Link, at: &Poses) -> Vector {
+    link.place(at, 1) - link.place(at, 0)
+}
+
+/// The slide of a pose along the axis that a guide drives, or of the hinge.
+fn along(link: &Link, dimension: Dimension, at: &Poses, offset: &Vector) -> f64 {
+    let driven = link.joint.kind.single(dimension).and_then(Freedom::axis);
+    let axis = link.joint.direction(driven.unwrap_or(Axis::First));
+    (pose(at, link.joint.bodies[0]).rotation * axis).dot(offset)
+}
+
+/// The angle by which the bodies are turned against what the joint allows.
+fn turned(link: &Link, dimension: Dimension, met: &Poses, at: &Poses, is_guide: bool) -> Vector {
+    let [first, second] = link.joint.bodies.map(|body| pose(at, body).rotation);
+    match link.joint.kind.rotation(dimension) {
+        _ if is_guide => {
+            let [first_met, second_met] = link.joint.bodies.map(|body| pose(met, body).rotation);
+            // What the relative rotation has changed by, in present axes of the first body.
+            let change = first * (first_met.transpose() * second_met);
+            rotation_vector(&(second * change.transpose()))
+        }
+        Rotation::About(axis) => {
+            let axis = link.joint.direction(axis);
+            cross(&(first * axis), &(second * axis))
+        }
+        Rotation::Universal(axes) => {
+            let [a, b] = axes.map(|axis| link.joint.direction(axis));
+            let [x, y] = [first * a, second * b];
+            let n = cross(&x, &y);
+            n * ((a.dot(&b) - x.dot(&y)) / n.dot(&n))
+        }
+        Rotation::Fixed | Rotation::Free => (0..3).fold(Vector::zeros(), |e, k| {
+            let [u, w] = [first, second].map(|r| r.column(k).into_owned());
+            e + cross(&u, &w) * 0.5
+        }),
+    }
+}

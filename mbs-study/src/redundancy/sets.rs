@@ -1,0 +1,201 @@
+//! Dependent sets of joints, with what each joint of them leaves open.
+
+use super::decompose::{Group, ZERO, groups};
+use super::linkage::{Jacobian, Linkage, Poses};
+use super::parts::Part;
+use super::perturb::{Nature, neighbours};
+use super::rank::Rank;
+use super::remedy::{Remedy, remedy};
+use mbs_core::rigid::RigidMotion;
+use mbs_linear::Matrix;
+use mbs_linear::singular_values;
+
+/// A joint of a dependent set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Member {
+    /// Index of the joint.
+    pub joint: usize,
+    /// Directions of its reaction that nothing determines: forces, moments about its place, and both together.
+    pub open: [usize; 3],
+    /// Which components of its reaction are determined: [Fx, Fy, Mz], or all six, in global axes.
+    pub is_unique: Vec<bool>,
+    /// Is its guide among the dependent equations?
+    pub guide: bool,
+}
+
+/// Joints whose equations depend on each other, none of which can be left out of the set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Set {
+    /// Its joints, in the order of the scene.
+    pub members: Vec<Member>,
+    /// How many equations follow from the others.
+    pub redundant: usize,
+    /// In every position, or in this one.
+    pub nature: Nature,
+    /// Does it follow to the last digits? Else almost: it would if the numbers of the scene had some digits more, or less.
+    pub is_exact: bool,
+    /// The largest singular value that was taken as zero, over the largest [-].
+    pub sigma: f64,
+    /// What would mend it, where that was found.
+    pub remedy: Option<Remedy>,
+}
+
+/// What the joints of a scene do at a position.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnosis {
+    /// Equations of all joints, freedoms of all bodies without joints, rank.
+    pub sizes: [usize; 3],
+    /// Smallest gap between singular values that count and those that do not [-].
+    pub gap: f64,
+    /// Smallest singular value that counts, over the largest of its part [-].
+    pub least: f64,
+    /// Dependent sets, in the order of their first joints.
+    pub sets: Vec<Set>,
+    /// Parts that are too large to be looked at, by their first joints.
+    pub too_large: Vec<usize>,
+}
+
+/// Entries of a matrix whose singular values are taken: some ten seconds.
+const LARGEST: usize = 4_000_000;
+
+/// Finds the dependent sets of a mechanism at a position that meets its joints.
+///
+/// Cost: about 20 m n² operations for a part of m equations and n freedoms, ten times as many where it has dependent sets.
+#[must_use]
+pub fn diagnose(linkage: &Linkage, at: &Poses) -> Diagnosis {
+    let [rows, freedoms] = linkage.sizes();
+    let mut all = Diagnosis {
+        sizes: [rows, freedoms, rows],
+        gap: f64::INFINITY,
+        least: 1.0,
+        sets: Vec::new(),
+        too_large: Vec::new(),
+    };
+    for part in linkage.parts.iter().filter(|part| part.has_loop()) {
+        let jacobian = linkage.jacobian(part, at);
+        let size = jacobian.matrix.n_rows() * jacobian.matrix.n_columns();
+        let rank = if size > LARGEST { None } else { Rank::of(&jacobian.matrix) };
+        let Some(rank) = rank else {
+            all.too_large.push(part.joints[0]);
+            continue;
+        };
+        all.sizes[2] -= rank.redundant();
+        all.gap = all.gap.min(rank.gap());
+        all.least = all.least.min(rank.least());
+        let found = Found { linkage, part, at, jacobian, rank };
+        all.sets.extend(found.sets());
+    }
+    all.sets.sort_by_key(|set| (!set.is_exact, set.members[0].joint));
+    all
+}
+
+/// A part with its rank.
+struct Found<'a> {
+    linkage: &'a Linkage,
+    part: &'a Part,
+    at: &'a Poses,
+    jacobian: Jacobian,
+    rank: Rank,
+}
+
+impl Found<'_> {
+    fn sets(&self) -> Vec<Set> {
+        let exact = groups(&self.jacobian, &self.rank.null);
+        let almost = self.rank.almost_null().map(|null| (groups(&self.jacobian, &null), null));
+        let near = if exact.is_empty() {
+            Some(Vec::new())
+        } else {
+            neighbours(self.linkage, self.part, (self.at, &self.rank))
+        };
+        let is_new = |group: &&Group| !exact.contains(group);
+        let sets =
+            exact.iter().map(|group| self.set(group, &self.rank.null, true, near.as_deref()));
+        let mut sets: Vec<Set> = sets.collect();
+        if let Some((groups, null)) = &almost {
+            let groups = groups.iter().filter(is_new);
+            sets.extend(groups.map(|group| self.set(group, null, false, None)));
+        }
+        sets
+    }
+
+    fn set(
+        &self,
+        group: &Group,
+        null: &Matrix,
+        is_exact: bool,
+        near: Option<&[Vec<RigidMotion<f64>>]>,
+    ) -> Set {
+        let nature = near.map_or(Nature::Untried, |near| self.nature(group, near));
+        let member = |&place: &usize| self.member(place, null);
+        let first = self.rank.sizes[0] - null.n_columns();
+        let may_mend = matches!(nature, Nature::Structural | Nature::Rigid | Nature::Both);
+        Set {
+            members: group.places.iter().map(member).collect(),
+            redundant: group.redundant,
+            nature,
+            is_exact,
+            sigma: self.rank.sigma.get(first).map_or(0.0, |s| s / self.rank.sigma[0]),
+            remedy: (may_mend || !is_exact)
+                .then(|| remedy(self.linkage, (self.part, self.at), (&self.jacobian, null), group))
+                .flatten(),
+        }
+    }
+
+    /// By the rank of the group's rows alone, at other positions.
+    fn nature(&self, group: &Group, near: &[Vec<RigidMotion<f64>>]) -> Nature {
+        if self.rank.free.n_columns() == 0 {
+            return Nature::Rigid;
+        }
+        let redundant = |at: &Vec<RigidMotion<f64>>| {
+            let jacobian = self.linkage.jacobian(self.part, at);
+            let rows: Vec<usize> =
+                group.places.iter().flat_map(|&i| jacobian.rows[i].clone()).collect();
+            let n = jacobian.matrix.n_columns();
+            let own = Matrix::from_fn(rows.len(), n, |i, j| jacobian.matrix[(rows[i], j)]);
+            Rank::of(&own).map_or(group.redundant, |rank| rank.redundant())
+        };
+        match near.iter().map(redundant).min() {
+            None => Nature::Untried,
+            Some(0) => Nature::Singular,
+            Some(left) if left < group.redundant => Nature::Both,
+            Some(_) => Nature::Structural,
+        }
+    }
+
+    /// What a joint's reaction leaves open: the span of its wrenches in the null space.
+    fn member(&self, place: usize, null: &Matrix) -> Member {
+        let Jacobian { rows, wrenches, .. } = &self.jacobian;
+        let joint = self.part.joints[place];
+        let link = &self.linkage.links[joint];
+        let range = rows[place].clone();
+        let k = null.n_columns();
+        let mut span = Matrix::zeros(6, k);
+        for row in range.clone() {
+            let w = &wrenches[row];
+            let entries = self.linkage.components(&w.force, &(w.moment / self.part.length));
+            for (i, x) in entries.into_iter().enumerate() {
+                for j in 0..k {
+                    span[(i, j)] += x * null[(row, j)];
+                }
+            }
+        }
+        let n = self.linkage.freedoms();
+        let n_forces = n / 3 + 1;
+        let forces = Matrix::from_fn(n_forces, k, |i, j| span[(i, j)]);
+        let moments = Matrix::from_fn(n - n_forces, k, |i, j| span[(n_forces + i, j)]);
+        let is_zero = |i| (0..k).all(|j| span[(i, j)].abs() <= ZERO);
+        let touches = |row| (0..k).any(|j| null[(row, j)].abs() > ZERO);
+        Member {
+            joint,
+            open: [&forces, &moments, &span].map(dimension),
+            is_unique: (0..n).map(is_zero).collect(),
+            guide: link.is_guided && range.last().is_some_and(touches),
+        }
+    }
+}
+
+/// Dimension of the column space of a matrix whose entries are of order one or zero.
+pub(crate) fn dimension(matrix: &Matrix) -> usize {
+    let sigma = singular_values(matrix).unwrap_or_default();
+    sigma.iter().filter(|&&s| s > ZERO).count()
+}

@@ -1,0 +1,110 @@
+//! One member of a sweep: from the varied scene to its row.
+
+use core::time::Duration;
+use cpu_time::ThreadTime;
+use mbs::Outcome;
+use mbs::inside::Keep;
+use mbs::inside::run_keeping;
+use mbs::inside::{ReadScene, SceneWork};
+use mbs::{Method, Settings};
+use mbs_core::Real;
+use mbs_core::scene::Scene;
+use mbs_scene::{SceneFile, SweepFile};
+
+/// What a member leaves behind.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// The member, from 0.
+    pub member: usize,
+    /// Decimal texts of the varied numbers.
+    pub values: Vec<String>,
+    /// Code and message of a run that was not completed.
+    pub failure: Option<(String, String)>,
+    /// What was measured; nothing where the run did not start.
+    pub measured: Option<MemberValues>,
+    /// CPU time of the whole member, reading to the last step [s].
+    pub cpu_seconds: f64,
+}
+
+/// Numbers of a run that started.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MemberValues {
+    /// Time reached [s].
+    pub end_time: f64,
+    /// Steps.
+    pub steps: u64,
+    /// Largest error of the energy invariant [J].
+    pub energy: f64,
+    /// Largest violation of the constraints: positions, velocities, accelerations.
+    pub violation: [f64; 3],
+    /// Each component of each channel at the end, and its least and largest value over the rows of the run.
+    pub outputs: Vec<[f64; 3]>,
+}
+
+impl Row {
+    /// Of a member that did not start.
+    pub(super) fn failed(member: usize, values: Vec<String>, code: &str, message: &str) -> Self {
+        let failure = Some((code.to_owned(), message.to_owned()));
+        Self { member, values, failure, measured: None, cpu_seconds: 0.0 }
+    }
+}
+
+/// Runs a member.
+pub(super) fn run(scene: &SceneFile, sweep: &SweepFile, overrides: &Method, member: usize) -> Row {
+    let cpu = ThreadTime::try_now();
+    let document = sweep.member(scene, member);
+    let values = sweep.values(member).map(str::to_owned).collect();
+    let row = run_in(&document, overrides, member, values);
+    let cpu = cpu.and_then(|cpu| cpu.try_elapsed()).unwrap_or(Duration::ZERO);
+    Row { cpu_seconds: cpu.as_secs_f64(), ..row }
+}
+
+fn run_in(document: &SceneFile, overrides: &Method, member: usize, values: Vec<String>) -> Row {
+    let refused = |values, code, error: &dyn core::fmt::Display| {
+        Row::failed(member, values, code, &error.to_string())
+    };
+    let scene = match document.scene() {
+        Ok(scene) => scene,
+        Err(error) => return refused(values, "scene-refused", &error),
+    };
+    let settings = match Settings::new(&scene, overrides) {
+        Ok(settings) => settings,
+        Err(error) => return refused(values, "settings-refused", &error),
+    };
+    let outcome = match ReadScene::new((document, &scene), settings.precision) {
+        Ok(read) => match read.work_in_hardware(Last(&settings)) {
+            Some(outcome) => outcome,
+            None => return refused(values, "settings-refused", &"sweeps run in f64 or f32"),
+        },
+        Err(error) => return refused(values, "scene-refused", &error),
+    };
+    let summary = &outcome.summary;
+    let failure = summary.error.as_ref().map(|error| (error.code.clone(), error.message.clone()));
+    let measured = measured(&outcome);
+    Row { member, values, failure, measured, cpu_seconds: 0.0 }
+}
+
+/// A run of which the last row is kept.
+struct Last<'a>(&'a Settings);
+
+impl SceneWork for Last<'_> {
+    type Done = Outcome;
+
+    fn done<T: Real, const D: usize>(self, scene: &Scene<T>) -> Outcome {
+        run_keeping::<T, D>(scene, self.0, &mut (), Keep::Last)
+    }
+}
+
+fn measured(outcome: &Outcome) -> Option<MemberValues> {
+    let summary = &outcome.summary;
+    let (_, last) = outcome.rows().last()?;
+    let ranges = outcome.ranges().iter();
+    let violation = &summary.violation;
+    Some(MemberValues {
+        end_time: summary.end_time,
+        steps: summary.steps,
+        energy: summary.energy.max_error,
+        violation: [violation.position, violation.velocity, violation.acceleration],
+        outputs: last.iter().zip(ranges).map(|(&x, &[least, most])| [x, least, most]).collect(),
+    })
+}

@@ -1,0 +1,370 @@
+//! Sweeps: many runs of one scene with varied numbers, over threads, with one table that outlives a kill.
+//!
+//! A [`Study`] is a scene with its sweep, checked; [`Study::run`] runs the members that the journal of a directory lacks, and
+//! writes the table when all are there.
+
+mod member;
+#[cfg(feature = "parquet")]
+mod parquet;
+mod table;
+#[cfg(test)]
+mod tests;
+
+pub use crate::journal::JournalError;
+pub use member::Row;
+pub use table::{Columns, Failures};
+
+use crate::journal::{Head, Journal, Kind};
+use core::fmt::{self, Display, Formatter};
+use core::num::NonZeroUsize;
+use core::ops::ControlFlow;
+use mbs::Precision;
+use mbs::folder::{PART, WriteError, write_whole};
+use mbs::record::Channel;
+use mbs::{Method, Settings, SettingsError};
+use mbs_parallel::ensemble::{Ensemble, EnsembleError, Panicked, available};
+use mbs_parallel::most_threads;
+use mbs_scene::{ReadError, SceneFile, SweepFile};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// The journal of a sweep.
+const KIND: Kind = Kind {
+    file: "sweep.journal",
+    title: "mbs sweep journal",
+    of: ["a sweep", "another sweep"],
+    hashes: &["the scene", "the sweep", "an option"],
+};
+
+/// A scene with its sweep, checked and ready to run.
+#[derive(Debug)]
+pub struct Study {
+    scene: SceneFile,
+    sweep: SweepFile,
+    overrides: Method,
+    settings: Settings,
+    columns: Columns,
+    head: Head,
+}
+
+/// A study that is refused.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// By the scene or the sweep, with the place in the file.
+    Read(ReadError),
+    /// By the settings.
+    Settings(SettingsError),
+    /// An override of a number that the sweep varies; the path of the number.
+    Varied(&'static str),
+    /// By the precision: members run in numbers of the hardware.
+    Pairs,
+}
+
+/// Why the members could not be run, or their table not be written.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum SweepError {
+    /// No threads.
+    Threads(EnsembleError),
+    /// The journal cannot be used.
+    Journal(JournalError),
+    /// A file cannot be written.
+    Write(WriteError),
+    /// It was interrupted after so many of its members; these are in the journal.
+    Interrupted([usize; 2]),
+}
+
+/// How a sweep went.
+#[derive(Debug)]
+pub struct Report {
+    /// Members of the sweep.
+    pub members: usize,
+    /// Members whose run was completed.
+    pub completed: usize,
+    /// Members that an earlier start of the same sweep had finished.
+    pub resumed: usize,
+    /// The others, by code.
+    pub failures: Failures,
+    /// Threads that ran members.
+    pub threads: usize,
+    /// Time from the first member to the table [s].
+    pub wall_seconds: f64,
+    /// CPU time of the members that ran now [s].
+    pub cpu_seconds: f64,
+    /// The tables written.
+    pub tables: Vec<PathBuf>,
+    /// Why a table could not be written; the journal has all members.
+    pub lost: Option<WriteError>,
+}
+
+/// Called as members finish; does nothing by default.
+pub trait Watch {
+    /// `done` of `members` are finished, `failed` of them failed.
+    fn finished(&mut self, done: usize, failed: usize, members: usize) {
+        let _ = (done, failed, members);
+    }
+}
+
+impl Watch for () {}
+
+/// Numbers that callers may override, with their paths in a scene.
+type Given = (&'static str, fn(&Method) -> bool);
+const GIVEN: [Given; 7] = [
+    ("solver.step", |o| o.step.is_some()),
+    ("solver.step_max", |o| o.step_max.is_some()),
+    ("solver.tolerance", |o| o.tolerance.is_some()),
+    ("solver.penalty", |o| o.penalty.is_some()),
+    ("solver.error_tolerance", |o| o.error_tolerance.is_some()),
+    ("solver.energy_alarm", |o| o.energy_alarm.is_some()),
+    ("scene.duration", |o| o.duration.is_some()),
+];
+
+impl Study {
+    /// Reads a sweep of a scene and tries its values.
+    ///
+    /// Cost: the scene is read once for each value of a list, and a few times for each range.
+    ///
+    /// # Errors
+    /// What the scene, the sweep or the settings refuse. What shows only when values meet is left to the members.
+    pub fn new(
+        scene: SceneFile,
+        sweep: &SceneFile,
+        overrides: &Method,
+    ) -> Result<Self, StudyError> {
+        let data = scene.scene::<f64>().map_err(StudyError::Read)?;
+        let settings = Settings::new(&data, overrides).map_err(StudyError::Settings)?;
+        if settings.precision == Precision::DoubleDouble {
+            return Err(StudyError::Pairs);
+        }
+        let columns = Columns::new(&Channel::of_scene(&data));
+        let options = format!("{overrides:?}");
+        let head = Head::new(KIND, &[scene.text(), sweep.text(), &options]);
+        let sweep = SweepFile::read(sweep, &scene, columns.taken()).map_err(StudyError::Read)?;
+        let varied = |path: &str| sweep.varies(&scene, path);
+        if let Some((path, _)) = GIVEN.into_iter().find(|(p, is)| is(overrides) && varied(p)) {
+            return Err(StudyError::Varied(path));
+        }
+        let check = sweep.check(&scene, |scene| match Settings::new(scene, overrides) {
+            Err(error @ SettingsError::NotPositive { .. }) => {
+                Err((error.to_string(), error.hint()))
+            }
+            _ => Ok(()),
+        });
+        check.map_err(StudyError::Read)?;
+        let columns = columns.with_parameters(sweep.names());
+        Ok(Self { scene, sweep, overrides: overrides.clone(), settings, columns, head })
+    }
+
+    /// Number of members.
+    #[must_use]
+    pub fn n_members(&self) -> usize {
+        self.sweep.n_members()
+    }
+
+    /// The columns of the table.
+    #[must_use]
+    pub fn columns(&self) -> &Columns {
+        &self.columns
+    }
+
+    /// The settings of the scene as it is written.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Runs one member, from 0, on this thread.
+    #[must_use]
+    pub fn member(&self, index: usize) -> Row {
+        member::run(&self.scene, &self.sweep, &self.overrides, index)
+    }
+
+    /// Runs the members that are not in the journal of `out` over threads (left out: all processors), and writes the table.
+    /// With `anew` an earlier journal is thrown away, whatever its sweep.
+    ///
+    /// Rows do not depend on the number of threads, but for their CPU time. A finished member is in the journal before the
+    /// next result is looked at: killing the process loses the members under way.
+    ///
+    /// # Errors
+    /// No threads; a journal of another scene, sweep or version, or in use; a directory that cannot be written; an interruption.
+    pub fn run(
+        &self,
+        out: &Path,
+        threads: Option<NonZeroUsize>,
+        anew: bool,
+        watch: &mut impl Watch,
+    ) -> Result<Report, SweepError> {
+        self.run_jobs(out, threads, anew, watch, |i| self.member(i))
+    }
+
+    /// Runs all members over threads (left out: all processors), without files; rows in the order of the members.
+    ///
+    /// # Errors
+    /// The system gives no threads.
+    pub fn rows(&self, threads: Option<NonZeroUsize>) -> Result<Vec<Row>, EnsembleError> {
+        let all: Vec<usize> = (0..self.n_members()).collect();
+        let mut rows = BTreeMap::new();
+        self.ensemble(threads, all.len())?.run(
+            &all,
+            |i| self.member(i),
+            |i, row| {
+                rows.insert(i, row.unwrap_or_else(|panic| self.panicked(i, &panic)));
+                ControlFlow::Continue(())
+            },
+        );
+        Ok(rows.into_values().collect())
+    }
+
+    /// Threads for so many members.
+    fn ensemble(&self, threads: Option<NonZeroUsize>, n: usize) -> Result<Ensemble, EnsembleError> {
+        let most = NonZeroUsize::new(n.min(most_threads())).unwrap_or(NonZeroUsize::MIN);
+        Ensemble::new(Some(threads.unwrap_or_else(available).min(most)))
+    }
+
+    /// [`Self::run`] with what a member is.
+    fn run_jobs(
+        &self,
+        out: &Path,
+        threads: Option<NonZeroUsize>,
+        anew: bool,
+        watch: &mut impl Watch,
+        job: impl Fn(usize) -> Row + Sync,
+    ) -> Result<Report, SweepError> {
+        let clock = Instant::now();
+        let lost = |error, name: &str| {
+            SweepError::Write(WriteError { path: out.join(name), bytes: 0, error })
+        };
+        std::fs::create_dir_all(out).map_err(|error| lost(error, ""))?;
+        let (mut journal, lines) = Journal::open(out, &self.head, anew)?;
+        let mut rows = whole_rows(lines, self.columns.len(), self.n_members());
+        let resumed = rows.len();
+        let todo: Vec<usize> = (0..self.n_members()).filter(|i| !rows.contains_key(i)).collect();
+        let ensemble = self.ensemble(threads, todo.len()).map_err(SweepError::Threads)?;
+        let mut failed = rows.values().filter(|row| !self.columns.is_completed(row)).count();
+        let mut cpu_seconds = 0.0;
+        let mut written = Ok(());
+        watch.finished(rows.len(), failed, self.n_members());
+        ensemble.run(&todo, job, |i, row: Result<Row, Panicked>| {
+            // what was cut short is no result
+            if self.overrides.interrupt.is_set() {
+                return ControlFlow::Break(());
+            }
+            let row = row.unwrap_or_else(|panic| self.panicked(i, &panic));
+            cpu_seconds += row.cpu_seconds;
+            let cells = self.columns.cells(&row);
+            written = journal.append(&cells);
+            if written.is_err() {
+                return ControlFlow::Break(());
+            }
+            failed += usize::from(row.failure.is_some());
+            rows.insert(i, cells);
+            watch.finished(rows.len(), failed, self.n_members());
+            ControlFlow::Continue(())
+        });
+        written.map_err(|error| lost(error, KIND.file))?;
+        if rows.len() < self.n_members() && self.overrides.interrupt.is_set() {
+            return Err(SweepError::Interrupted([rows.len(), self.n_members()]));
+        }
+        let (tables, lost) = match self.write(out, &rows) {
+            Ok(tables) => (tables, None),
+            Err(error) => (Vec::new(), Some(error)),
+        };
+        Ok(Report {
+            members: rows.len(),
+            completed: rows.len() - failed,
+            resumed,
+            failures: self.columns.failures(rows.values()),
+            threads: ensemble.threads().get(),
+            wall_seconds: clock.elapsed().as_secs_f64(),
+            cpu_seconds,
+            tables,
+            lost,
+        })
+    }
+
+    /// The row of a member that panicked.
+    fn panicked(&self, index: usize, panic: &Panicked) -> Row {
+        let values = self.sweep.values(index).map(str::to_owned).collect();
+        Row::failed(index, values, "panicked", &panic.to_string())
+    }
+
+    /// Writes the tables: what stands in their place is always whole.
+    fn write(
+        &self,
+        out: &Path,
+        rows: &BTreeMap<usize, Vec<String>>,
+    ) -> Result<Vec<PathBuf>, WriteError> {
+        let put = |name: &str, bytes: std::io::Result<Vec<u8>>| {
+            let path = out.join(name);
+            let failed = |error| WriteError { path: path.clone(), bytes: 0, error };
+            let done = bytes.map_err(failed).and_then(|bytes| write_whole(out, name, &bytes));
+            done.map(|()| path.clone())
+        };
+        let mut csv = Vec::new();
+        let written = self.columns.write_csv(&mut csv, rows.values());
+        #[allow(unused_mut, reason = "with the feature `parquet` there are two")]
+        let mut tables = vec![put("table.csv", written.map(|()| csv))?];
+        #[cfg(feature = "parquet")]
+        {
+            let mut table = Vec::new();
+            let written = parquet::write(&mut table, &self.columns, rows);
+            tables.push(put("table.parquet", written.map(|()| table))?);
+        }
+        let _ = std::fs::remove_dir(out.join(PART));
+        Ok(tables)
+    }
+}
+
+/// Rows by member: those that have all their cells; others are of members that run again.
+fn whole_rows(
+    lines: Vec<Vec<String>>,
+    n_cells: usize,
+    n_members: usize,
+) -> BTreeMap<usize, Vec<String>> {
+    let rows = lines.into_iter().filter_map(|cells| {
+        let member = cells.first()?.parse::<usize>().ok()?.checked_sub(1)?;
+        (cells.len() == n_cells && member < n_members).then_some((member, cells))
+    });
+    rows.collect()
+}
+
+impl From<JournalError> for SweepError {
+    fn from(error: JournalError) -> Self {
+        match error {
+            JournalError::Io(error) => {
+                Self::Write(WriteError { path: PathBuf::from(KIND.file), bytes: 0, error })
+            }
+            other => Self::Journal(other),
+        }
+    }
+}
+
+impl Display for StudyError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Read(error) => write!(f, "{error}"),
+            Self::Settings(error) => write!(f, "{error}"),
+            Self::Varied(path) => write!(f, "the sweep varies `{path}`, which is given as well"),
+            Self::Pairs => write!(f, "a sweep runs in `f32` or `f64`, not in `dd`"),
+        }
+    }
+}
+
+impl Display for SweepError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Threads(error) => write!(f, "{error}"),
+            Self::Journal(error) => write!(f, "{error}"),
+            Self::Write(error) => write!(f, "{error}"),
+            Self::Interrupted([done, members]) => write!(
+                f,
+                "interrupted by a signal: {done} of {members} members are finished and kept"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for StudyError {}
+impl core::error::Error for SweepError {}

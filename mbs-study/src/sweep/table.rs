@@ -1,0 +1,136 @@
+//! The table of a sweep: its columns, and rows as texts.
+
+use super::member::Row;
+use mbs::record::Channel;
+use mbs_scene::format::shortest;
+use std::collections::BTreeMap;
+use std::io;
+
+/// Members that failed, by code: how many, and the first of them with its message; members count from 1.
+pub type Failures = BTreeMap<String, (usize, usize, String)>;
+
+/// The columns of a table: `member`, the varied numbers, what became of the run, the channels, `cpu_seconds`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Columns {
+    header: Vec<String>,
+    n_parameters: usize,
+}
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(not(feature = "parquet"), allow(dead_code, reason = "CSV has no types"))]
+pub(super) enum Kind {
+    Count,
+    Number,
+    Flag,
+    Text,
+}
+
+const FIRST: &str = "member";
+const LAST: &str = "cpu_seconds";
+/// Between the varied numbers and the channels.
+const RUN: [(&str, Kind); 9] = [
+    ("completed", Kind::Flag),
+    ("error", Kind::Text),
+    ("message", Kind::Text),
+    ("end_time", Kind::Number),
+    ("steps", Kind::Count),
+    ("energy_max_error", Kind::Number),
+    ("violation_position", Kind::Number),
+    ("violation_velocity", Kind::Number),
+    ("violation_acceleration", Kind::Number),
+];
+
+impl Columns {
+    /// Of a scene's channels, without parameters.
+    pub(super) fn new(channels: &[Channel]) -> Self {
+        let mut header = vec![FIRST.to_owned()];
+        header.extend(RUN.map(|(name, _)| name.to_owned()));
+        for column in channels.iter().flat_map(Channel::columns) {
+            header.extend([format!("{column}.min"), format!("{column}.max")]);
+            header.insert(header.len() - 2, column);
+        }
+        header.push(LAST.to_owned());
+        Self { header, n_parameters: 0 }
+    }
+
+    /// Names that are taken.
+    pub(super) fn taken(&self) -> &[String] {
+        &self.header
+    }
+
+    pub(super) fn with_parameters<'a>(mut self, names: impl Iterator<Item = &'a str>) -> Self {
+        let names: Vec<String> = names.map(str::to_owned).collect();
+        self.n_parameters = names.len();
+        self.header.splice(1..1, names);
+        self
+    }
+
+    /// The names of the columns.
+    #[must_use]
+    pub fn header(&self) -> &[String] {
+        &self.header
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.header.len()
+    }
+
+    #[cfg(feature = "parquet")]
+    pub(super) fn kind(&self, column: usize) -> Kind {
+        let of_run = column.checked_sub(1 + self.n_parameters).and_then(|i| RUN.get(i));
+        match of_run {
+            Some((_, kind)) => *kind,
+            None if column == 0 => Kind::Count,
+            None => Kind::Number,
+        }
+    }
+
+    /// A row as it stands in journal and table; what was not measured is empty. Members count from 1.
+    #[must_use]
+    pub fn cells(&self, row: &Row) -> Vec<String> {
+        let mut cells = vec![(row.member + 1).to_string()];
+        cells.extend_from_slice(&row.values);
+        let (code, message) = row.failure.clone().unwrap_or_default();
+        let message = message.replace(char::is_control, " ");
+        cells.extend([row.failure.is_none().to_string(), code, message]);
+        if let Some(measured) = &row.measured {
+            cells.extend([shortest(measured.end_time), measured.steps.to_string()]);
+            cells.extend([measured.energy].into_iter().chain(measured.violation).map(shortest));
+            cells.extend(measured.outputs.iter().flatten().map(|x| shortest(*x)));
+        }
+        cells.resize(self.len() - 1, String::new());
+        cells.push(shortest(row.cpu_seconds));
+        cells
+    }
+
+    /// Was the run of a row completed?
+    pub(super) fn is_completed(&self, cells: &[String]) -> bool {
+        cells.get(self.n_parameters + 1).is_some_and(|cell| cell == "true")
+    }
+
+    /// The rows that failed, by code.
+    pub(super) fn failures<'a>(&self, rows: impl Iterator<Item = &'a Vec<String>>) -> Failures {
+        let mut failures = Failures::new();
+        for row in rows.filter(|row| !self.is_completed(row)) {
+            let cell = |i: usize| row.get(i).cloned().unwrap_or_default();
+            let first = (0, cell(0).parse().unwrap_or_default(), cell(self.n_parameters + 3));
+            failures.entry(cell(self.n_parameters + 2)).or_insert(first).0 += 1;
+        }
+        failures
+    }
+
+    /// Writes header and rows as CSV.
+    pub(crate) fn write_csv<'a>(
+        &self,
+        sink: impl io::Write,
+        rows: impl Iterator<Item = &'a Vec<String>>,
+    ) -> io::Result<()> {
+        let mut out = csv::Writer::from_writer(sink);
+        out.write_record(&self.header)?;
+        for row in rows {
+            out.write_record(row)?;
+        }
+        out.flush()
+    }
+}

@@ -1,0 +1,139 @@
+//! The choice by measurement on real scenes. What is timed is not asserted: whatever is chosen must keep what was wanted.
+
+use crate::clock::CountedClock;
+use mbs::scene_file::SceneFile;
+use mbs::{Method, Settings};
+use mbs_core::scene::Scene;
+use mbs_study::auto::{Goal, Plan, plan, run_plan};
+
+fn file(name: &str) -> String {
+    format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn read(name: &str) -> (SceneFile, Scene<f64>) {
+    let text = std::fs::read_to_string(file(name)).expect("the scene is there");
+    let document = SceneFile::parse(&text, name).expect("it is a document");
+    let scene = document.scene::<f64>().expect("it is a scene");
+    (document, scene)
+}
+
+fn planned(name: &str, base: &Method, goal: Goal) -> Plan {
+    let (document, scene) = read(name);
+    let settings = Settings::new(&scene, base).expect("the settings go together");
+    plan((&document, &scene), (base, settings), goal, &mut CountedClock::default())
+        .expect("the goal can be meant")
+}
+
+fn error(e: f64) -> Goal {
+    Goal { error: Some(e), deadline: None }
+}
+
+#[test]
+fn on_a_clock_that_counts_work_a_choice_is_the_same_every_time() {
+    for name in ["double-pendulum", "slider-crank", "hammer-blow"] {
+        let base = Method { formulation: Some("auto".into()), ..Method::default() };
+        let plans = [0, 1].map(|_| planned(name, &base, error(1e-3)));
+        assert_eq!(plans[0], plans[1], "{name}");
+        let choice = plans[0].first().choice.as_ref().unwrap();
+        assert!(choice.candidates.iter().any(|c| c.trials.len() > 1), "{name}: {choice:?}");
+    }
+}
+
+#[test]
+fn the_wanted_error_is_kept_on_the_pendulum_against_its_closed_form() {
+    let table = std::fs::read_to_string(file("references/simple-pendulum").replace("toml", "csv"));
+    let table = table.unwrap();
+    let last: Vec<f64> =
+        table.lines().last().unwrap().split(',').map(|cell| cell.parse().unwrap()).collect();
+    for wanted in [1e-2, 1e-4, 1e-6] {
+        let (document, scene) = read("simple-pendulum");
+        let base = Method::default();
+        let settings = Settings::new(&scene, &base).unwrap();
+        let clock = &mut CountedClock::default();
+        let plan = plan((&document, &scene), (&base, settings), error(wanted), clock).unwrap();
+        let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
+        let (t, row) = outcome.rows().last().unwrap();
+        assert!((t - last[0]).abs() < 1e-9 && outcome.error.is_none());
+        // the error of each coordinate beside its own range, as it is wanted
+        let share = |k: usize| {
+            let column = || outcome.rows().iter().map(|(_, row)| row[k]);
+            let range = column().fold(f64::MIN, f64::max) - column().fold(f64::MAX, f64::min);
+            (row[k] - last[1 + k]).abs() / range
+        };
+        let off = share(0).max(share(1));
+        assert!(off <= 2.0 * wanted, "{wanted}: {off} with {:?}", settings.formulation);
+    }
+}
+
+#[test]
+fn structure_leaves_out_what_cannot_run_and_says_why() {
+    let plan = planned("spatial-four-bar", &Method::default(), error(1e-2));
+    let choice = plan.first().choice.clone().unwrap();
+    let classical = choice.candidates.iter().filter(|c| c.formulation == "classical");
+    for candidate in classical {
+        let why = candidate.out.clone().unwrap();
+        assert!(candidate.trials.is_empty() && why.contains("redundant"), "{why}");
+    }
+    assert!(choice.structure.iter().any(|s| s.contains("one loop")), "{:?}", choice.structure);
+}
+
+#[test]
+fn a_formulation_that_is_asked_for_is_kept_and_the_rest_is_chosen() {
+    let base = Method { formulation: Some("recursive".into()), ..Method::default() };
+    let plan = planned("double-pendulum", &base, error(1e-3));
+    assert!(plan.ranked.iter().all(|s| s.formulation == mbs::FormulationKind::Recursive));
+    assert_eq!(plan.first().asked, "recursive");
+    let base = Method { integrator: Some("hht".into()), ..Method::default() };
+    let plan = planned("quarter-car", &base, error(1e-2));
+    assert!(plan.ranked.iter().all(|s| s.integrator == mbs::IntegratorKind::Hht));
+}
+
+#[test]
+fn where_the_first_stops_the_next_runs_and_the_choice_says_so() {
+    // relative coordinates at small steps stop at the four-bar's singular position, index-3 passes it
+    let (document, scene) = read("four-bar");
+    let base = Method::default();
+    let settings = Settings::new(&scene, &base).unwrap();
+    let of = |formulation: &str| {
+        let overrides =
+            Method { formulation: Some(formulation.into()), step: Some(1e-3), ..base.clone() };
+        let choice = plan(
+            (&document, &scene),
+            (&base, settings.clone()),
+            error(1e-2),
+            &mut CountedClock::default(),
+        );
+        let choice = choice.unwrap().first().choice.clone();
+        Settings { choice, ..Settings::new(&scene, &overrides).unwrap() }
+    };
+    let plan = Plan { ranked: vec![of("recursive"), of("index-3")] };
+    let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
+    assert!(outcome.summary.completed);
+    assert_eq!(settings.formulation, mbs::FormulationKind::Index3);
+    let lost = &outcome.summary.chosen.unwrap().evidence.unwrap().fallbacks;
+    assert_eq!((lost.len(), lost[0].code.as_str()), (1, "violated"));
+    // none gets to the end: the one that got furthest is told
+    let plan = Plan { ranked: vec![of("recursive"), of("state-space")] };
+    let (outcome, _) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
+    assert!(!outcome.summary.completed && outcome.summary.end_time > 3.0);
+}
+
+#[test]
+fn with_a_deadline_a_frame_is_a_whole_number_of_steps() {
+    let goal = Goal { error: None, deadline: Some(0.01) };
+    let plan = planned("quarter-car", &Method::default(), goal);
+    for settings in &plan.ranked {
+        let steps = 0.01 / settings.step;
+        assert!((steps - steps.round()).abs() < 1e-9 && steps >= 1.0, "{steps}");
+        assert!(!settings.integrator.controls_its_step());
+        assert_eq!(settings.rule, mbs::StepRule::Fixed);
+    }
+}
+
+#[test]
+fn without_a_goal_nothing_is_measured_and_auto_is_index_3() {
+    let plan = planned("double-pendulum", &Method::default(), Goal::default());
+    assert_eq!((plan.ranked.len(), plan.first().formulation), (1, mbs::FormulationKind::Index3));
+    assert!(plan.first().choice.is_none());
+    assert!(plan.first().chosen().unwrap().evidence.is_none());
+}

@@ -1,0 +1,258 @@
+//! What a run says of its own accuracy.
+
+use crate::clock::CountedClock;
+use mbs::core::scene::{Dimension, Scene};
+use mbs::record::ErrorEstimate;
+use mbs::scene_file::SceneFile;
+use mbs::{Method, Outcome, Settings};
+use mbs_study::auto::{Goal, plan, run_plan};
+use mbs_study::estimate::estimate;
+use mbs_testkit::repository::{field, read, text};
+
+/// An error is stated if it is no more than so many times the estimate; estimates are of the size of the errors if the median of the
+/// quotients lies between its inverse and the second.
+const STATED: f64 = 3.0;
+const MEDIAN: f64 = 10.0;
+/// Rounding of a result in an error-controlled run, relative.
+const CONTROLLED: f64 = 1e-6;
+
+fn run(scene: &Scene<f64>, overrides: &Method) -> (Settings, Outcome) {
+    let settings = Settings::new(scene, overrides).expect("the settings are built");
+    let outcome = match scene.dimension {
+        Dimension::Planar => mbs::typed::run::<f64, 2>(scene, &settings, &mut ()),
+        Dimension::Spatial => mbs::typed::run::<f64, 3>(scene, &settings, &mut ()),
+    };
+    assert!(outcome.error.is_none(), "{:?}", outcome.error);
+    (settings, outcome)
+}
+
+fn by(formulation: &str, integrator: &str, tolerance: Option<f64>) -> Method {
+    let [formulation, integrator] = [formulation, integrator].map(|name| Some(name.to_owned()));
+    Method { formulation, integrator, tolerance, ..Method::default() }
+}
+
+/// Nominal seconds that an estimate may take: more than it needs.
+const ENOUGH: f64 = 10.0;
+
+/// A default run with its estimate.
+fn estimated(scene: &Scene<f64>) -> (Outcome, ErrorEstimate) {
+    let (settings, mut outcome) = run(scene, &Method::default());
+    let before = outcome.rows().to_vec();
+    estimate(scene, &settings, &mut outcome, (&mut CountedClock::default(), ENOUGH));
+    assert_eq!(before, outcome.rows(), "an estimate changes no result");
+    let estimate = outcome.summary.estimate.clone().expect("an estimate, or why there is none");
+    (outcome, estimate)
+}
+
+fn errors(estimate: &ErrorEstimate) -> Vec<f64> {
+    let outputs = estimate.outputs.as_ref().unwrap_or_else(|| panic!("{estimate:?}"));
+    outputs.0.iter().flat_map(|(_, errors)| errors.iter().copied()).collect()
+}
+
+/// True errors over the estimates, of all components.
+fn ratios(scene: &Scene<f64>) -> Vec<f64> {
+    let (outcome, estimate) = estimated(scene);
+    let (_, reference) = run(scene, &by("recursive", "rk853", Some(1e-12)));
+    let error = |c: usize| {
+        let rows = outcome.rows().iter().zip(reference.rows());
+        rows.map(|((_, a), (_, b))| (a[c] - b[c]).abs()).fold(0.0, f64::max)
+    };
+    errors(&estimate).iter().enumerate().map(|(c, estimate)| error(c) / estimate).collect()
+}
+
+#[test]
+fn a_default_run_of_a_light_wrist_states_the_error_that_it_has() {
+    let (outcome, estimate) = estimated(&field("09-light-wrist"));
+    let joint = outcome.summary.outputs.0.iter().position(|(name, _)| name == "joint6").unwrap();
+    let true_error = (outcome.summary.outputs.0[joint].1[0] - -2.659_858_416).abs();
+    let stated = estimate.outputs.unwrap().0[joint].1[0];
+    assert!(stated > 0.5 * true_error && stated < 2.0 * true_error, "{stated} for {true_error}");
+}
+
+#[test]
+fn an_error_controlled_run_of_a_light_wrist_has_the_right_values() {
+    let scene = field("09-light-wrist");
+    let (_, outcome) = run(&scene, &by("recursive", "rk853", Some(1e-10)));
+    let right = [
+        ("joint1", 4.236_464_485),
+        ("joint4", -0.859_316_134),
+        ("joint6", -2.659_858_416),
+        ("finger_joint1", 6.052_611_540),
+    ];
+    for (name, value) in right {
+        let found = outcome.summary.outputs.0.iter().find(|(n, _)| n == name).unwrap().1[0];
+        assert!((found - value).abs() < CONTROLLED * value.abs(), "{name}: {found}");
+    }
+}
+
+#[test]
+fn a_run_whose_step_does_not_resolve_its_motion_says_so() {
+    let (outcome, estimate) = estimated(&field("09-fast-rotor"));
+    let is_said = outcome.notes().iter().any(|note| note.contains("does not resolve its motion"));
+    assert!(is_said, "{:?}", outcome.notes());
+    assert!(estimate.turn_per_step.is_some_and(|turn| turn > 0.5), "{estimate:?}");
+}
+
+#[test]
+fn twenty_arms_with_light_wrists_state_errors_of_the_size_that_they_have() {
+    let mut all = Vec::new();
+    for seed in 1..=20 {
+        all.extend(ratios(&arm(seed)));
+    }
+    all.sort_by(f64::total_cmp);
+    let below = all.iter().filter(|ratio| **ratio <= STATED).count();
+    assert!(100 * below >= 95 * all.len(), "{all:?}");
+    let median = all[all.len() / 2];
+    assert!((1.0 / MEDIAN..MEDIAN).contains(&median), "{median}");
+}
+
+#[test]
+fn a_spring_too_stiff_for_the_step_is_said() {
+    let scene = "[scene]\nname = \"stiff\"\ndimension = 2\nduration = 0.5\n\n\
+        [[body]]\nname = \"a\"\nmass = 1.0\ncenter = [0.1, 0.0]\ninertia = 0.01\n\n\
+        [[joint]]\nname = \"s\"\nkind = \"prismatic\"\nbodies = [\"ground\", \"a\"]\nat = [0.0, 0.0]\naxis = [1.0, 0.0]\n\n\
+        [[effect]]\nname = \"k\"\nkind = \"spring-damper\"\nbodies = [\"ground\", \"a\"]\npoints = [[-1.0, 0.0], [0.1, 0.0]]\n\
+        stiffness = 1.0e6\nfree_length = 1.1\n\n\
+        [[initial]]\njoint = \"s\"\nvalue = 0.001\n";
+    let (outcome, estimate) = estimated(&read(scene, "stiff"));
+    // 2 pi / sqrt(k / m) = 6.28 ms
+    let steps = estimate.steps_per_period.expect("a period");
+    assert!((steps - core::f64::consts::TAU).abs() < 0.1, "{steps}");
+    assert!(outcome.notes().iter().any(|note| note.contains("stiffest force")));
+    let ratios = ratios(&read(scene, "stiff"));
+    assert!(ratios.iter().all(|r| *r < STATED), "{ratios:?}");
+}
+
+#[test]
+fn a_run_that_stops_has_no_estimate_and_says_why() {
+    let scene = field("09-light-wrist");
+    let overrides = Method { energy_alarm: Some(1e-9), ..Method::default() };
+    let settings = Settings::new(&scene, &overrides).unwrap();
+    let mut outcome = mbs::typed::run::<f64, 3>(&scene, &settings, &mut ());
+    estimate(&scene, &settings, &mut outcome, (&mut CountedClock::default(), ENOUGH));
+    let estimate = outcome.summary.estimate.unwrap();
+    assert_eq!(estimate.missing.as_deref(), Some("the run stopped before its end"));
+}
+
+/// The light wrist with other masses of its last links, and let go from another state.
+fn arm(seed: u32) -> Scene<f64> {
+    let mut state = u64::from(seed);
+    let mut random = |low: f64, high: f64| {
+        // Knuth's multiplier: the high bits are random enough for masses
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * f64::from((state >> 33) as u32) / f64::from(u32::MAX >> 1)
+    };
+    let (mut scale, mut out) = (1.0, String::new());
+    for line in text("09-light-wrist").lines() {
+        let number = |key: &str| line.strip_prefix(key).and_then(|x| x.trim().parse::<f64>().ok());
+        if let Some(name) = line.strip_prefix("name = ") {
+            let is_light = ["link6", "link7", "hand", "finger"].iter().any(|n| name.contains(n));
+            scale = if is_light { random(0.3, 1.0) } else { 1.0 };
+        }
+        let line = if let Some(mass) = number("mass = ") {
+            format!("mass = {}", scale * mass)
+        } else if let Some(list) = line.strip_prefix("inertia = [") {
+            let numbers = list.trim_end_matches(']').split(',').map(|x| x.trim().parse::<f64>());
+            let scaled: Vec<_> =
+                numbers.map(|x| format!("{:e}", scale * x.expect("a number"))).collect();
+            format!("inertia = [{}]", scaled.join(", "))
+        } else if let Some(value) = number("value = ") {
+            format!("value = {}", value * random(0.5, 1.5))
+        } else if let Some(rate) = number("rate = ") {
+            format!("rate = {}", rate * random(-2.0, 2.0))
+        } else {
+            line.to_owned()
+        };
+        out += &line;
+        out.push('\n');
+    }
+    read(&out, "arm")
+}
+
+/// All formulations.
+const FORMULATIONS: [&str; 6] =
+    ["index-3", "index-1", "multi-index", "classical", "state-space", "recursive"];
+/// Ten times what the trapezoidal rule errs by in directions that turn at 8.4 rad/s, (w h)²/12 at 1 ms, relative.
+const AT_A_MILLISECOND: f64 = 6e-5;
+
+/// The last value of an output's components.
+fn last(outcome: &Outcome, name: &str) -> Vec<f64> {
+    let found = outcome.summary.outputs.0.iter().find(|(n, _)| n == name);
+    found.unwrap_or_else(|| panic!("no output {name}")).1.clone()
+}
+
+#[test]
+fn a_torque_acts_on_the_angle_of_a_planar_free_joint() {
+    let scene = field("17-torque-on-planar-free-joint");
+    for formulation in FORMULATIONS {
+        let (_, outcome) = run(&scene, &by(formulation, "trapezoidal", None));
+        let rates = last(&outcome, "j_rate");
+        let rate = rates.last().copied().unwrap_or_default();
+        assert!((rate - 8.4).abs() < AT_A_MILLISECOND * 8.4, "{formulation}: {rate}");
+    }
+}
+
+#[test]
+fn a_torque_acts_on_the_angle_of_a_cylindrical_joint_whose_bodies_stand_in_reverse() {
+    let scene = field("17-torque-on-reversed-cylindrical");
+    for formulation in FORMULATIONS {
+        let (_, outcome) = run(&scene, &by(formulation, "trapezoidal", None));
+        for (rate, right) in last(&outcome, "j_rate").iter().zip([1.661_124_909, 5.317_300_217]) {
+            assert!(
+                (rate - right).abs() < AT_A_MILLISECOND * right,
+                "{formulation}: {rate} for {right}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_choice_by_measurement_is_right_or_refused_where_coordinates_disagree() {
+    let cases = [
+        ("17-torque-on-planar-free-joint", 2, 8.4),
+        ("17-torque-on-reversed-cylindrical", 1, 5.317_300_217),
+    ];
+    for (name, component, right) in cases {
+        let document = SceneFile::parse(&text(name), name).expect("it is a document");
+        let scene = document.scene::<f64>().expect("it is a scene");
+        let base = Method::default();
+        let settings = Settings::new(&scene, &base).expect("the settings go together");
+        let goal = Goal { error: Some(1e-4), deadline: None };
+        let clock = &mut CountedClock::default();
+        let Ok(plan) = plan((&document, &scene), (&base, settings), goal, clock) else { continue };
+        let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
+        let rate = last(&outcome, "j_rate")[component];
+        let limit = 1e-3 * right;
+        assert!((rate - right).abs() < limit, "{name}: {rate} by {:?}", settings.formulation);
+    }
+}
+
+#[test]
+fn a_choice_for_a_vehicle_that_jumps_sees_its_landing_and_keeps_its_error() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/iltis-jump.toml");
+    let document = SceneFile::parse(&std::fs::read_to_string(path).unwrap(), path).unwrap();
+    let scene = document.scene::<f64>().expect("it is a scene");
+    let base = Method { formulation: Some("auto".to_owned()), ..Method::default() };
+    let settings = Settings::new(&scene, &base).expect("the settings go together");
+    let goal = Goal { error: Some(1e-2), deadline: None };
+    let plan =
+        plan((&document, &scene), (&base, settings), goal, &mut CountedClock::default()).unwrap();
+    let (outcome, settings) = run_plan((&document, &scene), &plan, &mut |_| {}).unwrap();
+    let exact = Method { step: Some(0.05), ..by("recursive", "rk853", Some(1e-10)) };
+    let (_, reference) = run(&scene, &exact);
+    let chassis = |row: &[f64]| [row[0], row[2]];
+    let mut compared = 0;
+    for (t, row) in outcome.rows() {
+        let same = reference.rows().iter().find(|(other, _)| (other - t).abs() < 1e-9);
+        let Some((_, right)) = same else { continue };
+        compared += 1;
+        for (a, b) in chassis(row).into_iter().zip(chassis(right)) {
+            // the chassis goes 50 m far, and its channel has one range
+            assert!((a - b).abs() < 2.0 * 1e-2 * 50.0, "{t} s: {a} for {b} by {settings:?}");
+        }
+    }
+    assert!(compared > 100, "{compared}");
+    let choice = plan.first().choice.as_ref().expect("a choice");
+    assert!((choice.span - 10.0).abs() < 1e-9, "it saw {} s", choice.span);
+}

@@ -1,0 +1,5 @@
+//! Dependent constraint equations of mechanisms in code, and of random ones.
+
+mod mechanisms;
+mod random;
+mod support;

@@ -1,0 +1,113 @@
+//! How far the outputs of two runs are apart.
+
+use crate::record::{Channel, OutputChange};
+use crate::run::Outcome;
+use mbs_core::Real;
+use mbs_core::cluster::scene_length;
+use mbs_core::scene::Scene;
+
+/// What is smaller than this share of the size of its unit is rounding, or the tolerance of the iteration.
+const ROUNDING: f64 = 1e-9;
+
+/// The outputs of the run with all effects.
+#[derive(Debug)]
+pub struct OutputRanges<'a> {
+    run: &'a Outcome,
+    parts: Vec<Part>,
+}
+
+/// The components of a channel that have one unit.
+#[derive(Debug)]
+struct Part {
+    channel: String,
+    unit: String,
+    columns: Vec<usize>,
+    /// The largest range of a component.
+    range: f64,
+    /// What is not larger is rounding.
+    floor: f64,
+}
+
+impl<'a> OutputRanges<'a> {
+    /// Those of a run.
+    pub fn new<T: Real>(scene: &Scene<T>, run: &'a Outcome) -> Self {
+        let mut parts: Vec<Part> = Vec::new();
+        let mut column = 0;
+        for channel in &Channel::of_scene(scene) {
+            let first = parts.len();
+            for component in &channel.components {
+                match parts[first..].iter_mut().find(|part| part.unit == component.unit) {
+                    Some(part) => part.columns.push(column),
+                    None => parts.push(Part {
+                        channel: channel.name.clone(),
+                        unit: component.unit.clone(),
+                        columns: vec![column],
+                        range: 0.0,
+                        floor: 0.0,
+                    }),
+                }
+                column += 1;
+            }
+        }
+        let mut outputs = Self { run, parts };
+        outputs.measure(scene_length(scene).to_f64());
+        outputs
+    }
+
+    /// Ranges, and the sizes of units: the largest value of an output, but a length has at least the scene's, an angle one.
+    fn measure(&mut self, length: f64) {
+        let rows = self.run.rows();
+        let extremes = |part: &Part| {
+            let mut largest = [0.0_f64; 2];
+            for &c in &part.columns {
+                let values = || rows.iter().map(|(_, row)| row[c]);
+                let [low, high] = [
+                    values().fold(f64::INFINITY, f64::min),
+                    values().fold(f64::NEG_INFINITY, f64::max),
+                ];
+                largest = [largest[0].max(high - low), largest[1].max(high.abs()).max(low.abs())];
+            }
+            largest
+        };
+        let found: Vec<[f64; 2]> = self.parts.iter().map(extremes).collect();
+        let units: Vec<String> = self.parts.iter().map(|part| part.unit.clone()).collect();
+        for (part, [range, _]) in self.parts.iter_mut().zip(&found) {
+            let same = units.iter().zip(&found).filter(|(unit, _)| **unit == part.unit);
+            let least = match part.unit.as_str() {
+                "m" => length,
+                "rad" => 1.0,
+                _ => 0.0,
+            };
+            part.range = *range;
+            part.floor = ROUNDING * same.map(|(_, [_, size])| *size).fold(least, f64::max);
+        }
+    }
+
+    /// The largest differences of the rows that both runs have.
+    pub fn changes(&self, other: &Outcome) -> Vec<OutputChange> {
+        let pairs = || {
+            let pairs = self.run.rows().iter().zip(other.rows());
+            pairs.take_while(|(a, b)| a.0.total_cmp(&b.0).is_eq())
+        };
+        let change = |part: &Part| {
+            let mut largest = 0.0;
+            for ((_, a), (_, b)) in pairs() {
+                largest = part.columns.iter().fold(largest, |x, &c| larger(x, (a[c] - b[c]).abs()));
+            }
+            OutputChange {
+                output: part.channel.clone(),
+                unit: part.unit.clone(),
+                largest,
+                range: part.range,
+                relative: (part.range > part.floor).then(|| largest / part.range),
+                is_rounding: largest <= part.floor,
+            }
+        };
+        self.parts.iter().map(change).collect()
+    }
+}
+
+/// The larger of two; a NaN stays one.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
+}

@@ -1,0 +1,315 @@
+//! What a choice by measurement was made of: who could run, what the pilot measured of each, who was chosen.
+
+use super::alias;
+use mbs_scene::format::{duration, few, rounded, shortest, significant};
+use serde::Serialize;
+use std::io;
+
+/// The evidence of a choice.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct PilotReport {
+    /// Wanted error of the outputs, each in its scale.
+    pub error: Option<f64>,
+    /// Time for each frame of that length [s].
+    pub deadline: Option<f64>,
+    /// What the scene is, one sentence each.
+    pub structure: Vec<String>,
+    /// Length of the run that the pilot looked at [s].
+    pub span: f64,
+    /// Number of instants at which errors were taken.
+    pub instants: usize,
+    /// CPU time of the pilot, and what it was allowed [s].
+    pub pilot_seconds: f64,
+    /// What it was allowed [s].
+    pub pilot_budget: f64,
+    /// What errors were taken against, and how well that is known.
+    pub reference: Option<PilotReference>,
+    /// How far the chosen one is from index-3, where it is in relative coordinates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub second_look: Option<SecondLook>,
+    /// All that were considered: the chosen one first, then by predicted CPU time, then those that are out.
+    pub candidates: Vec<Candidate>,
+    /// Candidates that were chosen and stopped in the run.
+    pub fallbacks: Vec<Fallback>,
+    /// What the reader should know.
+    pub notes: Vec<String>,
+}
+
+/// A comparison of the chosen candidate with one in other coordinates, which shares no model with it.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct SecondLook {
+    /// Largest distance of the outputs, each in its scale.
+    pub distance: Option<f64>,
+    /// What the look itself errs by.
+    pub own_error: Option<f64>,
+    /// The distance cannot be an error of either: the models differ.
+    pub differs: bool,
+}
+
+/// The most accurate run of the pilot.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct PilotReference {
+    /// Candidate.
+    pub method: String,
+    /// Step [s], or tolerance.
+    pub setting: f64,
+    /// Its own error, by the distance of its coarser neighbour.
+    pub uncertainty: f64,
+}
+
+/// A way to run the scene.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Candidate {
+    /// 1 for the chosen one; nothing for those that are out.
+    pub rank: Option<usize>,
+    /// Name: formulation, integrator and control, precision.
+    pub method: String,
+    /// Formulation.
+    pub formulation: String,
+    /// Integrator.
+    pub integrator: String,
+    /// What chooses the steps: `fixed`, `error`, `energy`; `own` with an integrator that controls its own.
+    pub control: String,
+    /// Step [s], or tolerance, that it needs.
+    pub setting: Option<f64>,
+    /// CPU time of the whole run with it [s], predicted.
+    pub seconds: Option<f64>,
+    /// That over the same of the chosen one.
+    #[serde(flatten, serialize_with = "alias::over_chosen")]
+    pub over_chosen: Option<f64>,
+    /// Error with it, predicted.
+    pub error: Option<f64>,
+    /// The slowest step of its trials [s], where steps were timed one by one.
+    pub slowest_step: Option<f64>,
+    /// What the prediction stands on.
+    #[serde(flatten, serialize_with = "alias::basis")]
+    pub basis: String,
+    /// Why it is out.
+    #[serde(flatten, serialize_with = "alias::out")]
+    pub out: Option<String>,
+    /// What was measured.
+    pub trials: Vec<TrialEntry>,
+}
+
+/// A run of the pilot.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct TrialEntry {
+    /// Step [s], or tolerance.
+    pub setting: f64,
+    /// CPU time [s].
+    pub seconds: f64,
+    /// Steps made.
+    pub steps: u64,
+    /// Share of the span that was reached.
+    pub reached: f64,
+    /// Error against the reference, or by its own neighbour.
+    pub error: Option<f64>,
+    /// `completed`, `given up`, or the code of what stopped it.
+    pub outcome: String,
+}
+
+/// A candidate that stopped in the run.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Fallback {
+    /// Candidate.
+    pub method: String,
+    /// Code of what stopped it.
+    pub code: String,
+    /// Message of what stopped it.
+    pub message: String,
+    /// When [s].
+    pub time: f64,
+    /// CPU time that was lost [s].
+    pub cpu_seconds: f64,
+}
+
+/// Candidates that are named beside the chosen one [-]: more make a line too long to read.
+const MAX_NAMED: usize = 3;
+/// Head of the table of candidates.
+const HEAD: [&str; 6] = ["", "candidate", "step or tolerance", "CPU time", "error", "why"];
+
+impl PilotReport {
+    /// Why, one sentence each.
+    #[must_use]
+    pub fn reasons(&self) -> Vec<String> {
+        let choice = self;
+        let mut reasons = Vec::new();
+        let placed = || choice.candidates.iter().filter(|c| c.rank.is_some());
+        let Some(first) = placed().next() else {
+            return vec!["nothing was left to choose".to_owned()];
+        };
+        let number = |x: Option<f64>| x.map_or_else(|| "?".to_owned(), few);
+        let seconds = |c: &Candidate| c.seconds.map_or_else(|| "?".to_owned(), duration);
+        let setting = |c: &Candidate| match c.control.as_str() {
+            "fixed" => format!("steps of {} s", number(c.setting)),
+            _ => format!("a tolerance of {}", number(c.setting)),
+        };
+        let wanted = match (choice.error, choice.deadline) {
+            (Some(error), Some(deadline)) => {
+                format!("for an error of {} in frames of {} s", few(error), few(deadline))
+            }
+            (Some(error), None) => format!("for an error of {}", few(error)),
+            _ => "as asked".to_owned(),
+        };
+        reasons.push(format!(
+            "{wanted}: {} with {} takes about {} of CPU time with an error of {} ({})",
+            first.method,
+            setting(first),
+            seconds(first),
+            number(first.error),
+            first.basis
+        ));
+        if let (Some(deadline), Some(slowest)) = (choice.deadline, first.slowest_step) {
+            let steps = (deadline / first.setting.unwrap_or(deadline)).round();
+            reasons.push(format!(
+                "{} steps a frame, the slowest of {}: at most {} of the {} that a frame has",
+                few(steps),
+                duration(slowest),
+                duration(steps * slowest),
+                duration(deadline)
+            ));
+        }
+        let others =
+            placed().skip(1).filter(|c| c.error <= choice.error.map(|e| 1.001 * e)).take(MAX_NAMED);
+        let others: Vec<String> = others
+            .map(|c| format!("{} {:.2} times as long", c.method, c.over_chosen.unwrap_or(f64::NAN)))
+            .collect();
+        if !others.is_empty() {
+            reasons.push(format!("the others: {}", others.join(", ")));
+        }
+        let trials: usize = choice.candidates.iter().map(|c| c.trials.len()).sum();
+        reasons.push(format!(
+            "{trials} trials over the first {} s at {} instants took {}",
+            few(choice.span),
+            choice.instants,
+            duration(choice.pilot_seconds)
+        ));
+        reasons.extend(choice.second_look.as_ref().map(second_look));
+        reasons.extend(choice.notes.iter().cloned());
+        reasons.extend(choice.fallbacks.iter().map(fallback));
+        reasons
+    }
+
+    /// The candidates as a table, its head first.
+    #[must_use]
+    pub fn table(&self) -> Vec<Vec<String>> {
+        let number = |x: Option<f64>, unit: &str| {
+            x.map_or_else(|| "-".to_owned(), |x| format!("{}{unit}", significant(rounded(x, 3))))
+        };
+        let row = |c: &Candidate| {
+            let why = match (&c.out, c.over_chosen) {
+                (Some(why), _) => why.clone(),
+                (None, Some(times)) if c.rank != Some(1) => {
+                    format!("{times:.2} times the chosen one; {}", c.basis)
+                }
+                _ => c.basis.clone(),
+            };
+            vec![
+                c.rank.map_or_else(|| "out".to_owned(), |rank| rank.to_string()),
+                c.method.clone(),
+                number(c.setting, if c.control == "fixed" { " s" } else { "" }),
+                number(c.seconds, " s"),
+                c.error.map_or_else(|| "-".to_owned(), |e| format!("{e:.1e}")),
+                why,
+            ]
+        };
+        let head = HEAD.map(str::to_owned).to_vec();
+        core::iter::once(head).chain(self.candidates.iter().map(row)).collect()
+    }
+}
+
+const COLUMNS: [&str; 14] = [
+    "rank",
+    "method",
+    "formulation",
+    "integrator",
+    "control",
+    "setting",
+    "predicted_cpu_seconds",
+    "predicted_error",
+    "out",
+    "trial_setting",
+    "trial_cpu_seconds",
+    "trial_reached",
+    "trial_error",
+    "trial_outcome",
+];
+
+/// Writes a row for each trial of each candidate; one without trials has a row of its own.
+///
+/// # Errors
+/// Those of the sink.
+pub fn write_choice(sink: impl io::Write, choice: &PilotReport) -> io::Result<()> {
+    let mut out = csv::Writer::from_writer(sink);
+    out.write_record(COLUMNS)?;
+    let number = |x: Option<f64>| x.map(shortest).unwrap_or_default();
+    for c in &choice.candidates {
+        let of_candidate = [
+            c.rank.map(|rank| rank.to_string()).unwrap_or_default(),
+            c.method.clone(),
+            c.formulation.clone(),
+            c.integrator.clone(),
+            c.control.clone(),
+            number(c.setting),
+            number(c.seconds),
+            number(c.error),
+            c.out.clone().unwrap_or_default(),
+        ];
+        let of_trial = |t: &TrialEntry| {
+            let numbers = [Some(t.setting), Some(t.seconds), Some(t.reached), t.error].map(number);
+            numbers.into_iter().chain([t.outcome.clone()])
+        };
+        if c.trials.is_empty() {
+            let none = core::iter::repeat_n(String::new(), COLUMNS.len() - of_candidate.len());
+            out.write_record(of_candidate.iter().cloned().chain(none))?;
+        }
+        for trial in &c.trials {
+            out.write_record(of_candidate.iter().cloned().chain(of_trial(trial)))?;
+        }
+    }
+    out.flush()
+}
+
+/// How far another model is from the chosen one.
+fn second_look(look: &SecondLook) -> String {
+    let distance = look.distance.map_or_else(|| "?".to_owned(), few);
+    let own = look.own_error.map_or_else(
+        || "but nothing is known of its own error".to_owned(),
+        |error| format!("and errs by {} itself", few(error)),
+    );
+    format!("index-3, which shares no model with it, differs by {distance}, {own}")
+}
+
+/// A candidate that stopped in the run.
+fn fallback(lost: &Fallback) -> String {
+    format!(
+        "{} came before and stopped at {} s: {} ({}); {} of CPU time lost",
+        lost.method,
+        few(lost.time),
+        lost.message,
+        lost.code,
+        duration(lost.cpu_seconds)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_trial_has_a_row_and_a_candidate_without_trials_has_one() {
+        let trial =
+            TrialEntry { setting: 0.5, outcome: "completed".into(), ..TrialEntry::default() };
+        let chosen = Candidate { rank: Some(1), trials: vec![trial; 2], ..Candidate::default() };
+        let out = Candidate { out: Some("no tree".into()), ..Candidate::default() };
+        let choice = PilotReport { candidates: vec![chosen, out], ..PilotReport::default() };
+        let mut sink = Vec::new();
+        write_choice(&mut sink, &choice).unwrap();
+        let text = String::from_utf8(sink).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines.len(), 4);
+        assert!(lines[1].starts_with("1,") && lines[1].ends_with("completed"), "{text}");
+        assert!(lines[3].contains("no tree"), "{text}");
+        assert_eq!(choice.table().len(), 3);
+    }
+}

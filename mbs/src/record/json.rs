@@ -1,0 +1,223 @@
+//! JSON: the summary of a run, with the keys of the scene format.
+
+use super::choice::PilotReport;
+use super::estimate::ErrorEstimate;
+use super::realtime::RealtimeSummary;
+use super::series::StepRow;
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+/// The summary of a run: one JSON object. Numbers that are not finite are written as `null`.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+pub struct RunSummary {
+    /// Name of the scene.
+    pub scene: String,
+    /// Formulation as asked, `auto` included.
+    pub formulation: String,
+    /// Integrator that ran.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub integrator: String,
+    /// `f32`, `f64`, `dd`.
+    pub precision: String,
+    /// 2 or 3.
+    pub dimension: usize,
+    /// Coordinates of the formulation that ran.
+    pub coordinates: usize,
+    /// Constraint rows of the formulation that ran.
+    pub constraints: usize,
+    /// Rank of their Jacobian at the start.
+    pub constraint_rank: usize,
+    /// Coordinates minus rank.
+    pub dof: usize,
+    /// Step as asked [s].
+    pub step: f64,
+    /// Steps done.
+    pub steps: u64,
+    /// The whole duration was reached.
+    pub completed: bool,
+    /// Why it was not.
+    pub error: Option<RunError>,
+    /// Time reached [s].
+    pub end_time: f64,
+    /// CPU time of all threads from the first step to the last; of a paced run the time of its periods by the clock [s].
+    pub cpu_seconds: f64,
+    /// Time reached over the time it took.
+    pub real_time_factor: f64,
+    /// The slowest step [s].
+    pub worst_step_seconds: f64,
+    /// Newton iterations.
+    pub iterations: u64,
+    /// Factorisations.
+    pub factorizations: u64,
+    /// Energy invariant.
+    pub energy: EnergySummary,
+    /// Largest constraint violation.
+    pub violation: ViolationSummary,
+    /// What the control of the step size did; absent where steps are fixed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub control: Option<ControlSummary>,
+    /// How the run kept up with the clock; absent where it was not paced.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub realtime: Option<RealtimeSummary>,
+    /// Channels at `end_time`.
+    pub outputs: Outputs,
+    /// The same as texts of 32 digits, where the run had them: most readers of JSON keep no more than 17.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub digits: Option<Outputs<String>>,
+    /// How accurate the outputs are; absent where no estimate was made.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub estimate: Option<ErrorEstimate>,
+    /// What `auto` chose and why.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub chosen: Option<MethodChoice>,
+    /// Joints whose reaction is not unique; the smallest one is given.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub not_unique: Vec<String>,
+    /// When bumpers, limits and tires made and broke contact, in order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub contacts: Vec<Contact>,
+    /// How many more there were than are listed.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub contacts_left_out: u64,
+}
+
+/// A contact made or broken.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+pub struct Contact {
+    /// When, interpolated within the step [s].
+    pub time: f64,
+    /// Name of the effect.
+    pub effect: String,
+    /// `lower` or `upper` end of a limit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end: Option<&'static str>,
+    /// `made` or `broken`.
+    pub event: &'static str,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "what serde asks for")]
+fn is_zero(n: &u64) -> bool {
+    *n == 0
+}
+
+/// Why a run stopped early.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct RunError {
+    /// Short fixed word for programs, such as `not-converged`.
+    pub code: String,
+    /// One sentence.
+    pub message: String,
+    /// Time reached [s].
+    pub time: f64,
+    /// Name of the joint concerned.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub joint: Option<String>,
+    /// Name of the body concerned.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub body: Option<String>,
+    /// What to try.
+    pub hint: String,
+}
+
+/// The energy invariant Pi = T + V - work of non-conservative forces and guides, in joules.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+pub struct EnergySummary {
+    /// Pi at the start.
+    pub initial: f64,
+    /// Largest |Pi(t) - Pi(0)| over every step.
+    pub max_error: f64,
+    /// |Pi - Pi(0)| at the end.
+    pub final_error: f64,
+    /// Largest kinetic energy, plus the work done without regard to its sign: what errors compare with.
+    pub turned_over: f64,
+    /// Root of the mean square of its changes from step to step.
+    pub scatter: f64,
+    /// Slope of the straight line through its errors, by least squares [W].
+    pub drift: f64,
+}
+
+/// What the control of the step size did.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+pub struct ControlSummary {
+    /// `energy`, `energy-printed`, `error` or `both`.
+    pub rule: &'static str,
+    /// Steps kept.
+    pub accepted: u64,
+    /// Trials rejected, or shortened to end at an event.
+    pub rejected: u64,
+    /// The shortest step [s].
+    pub smallest_step: f64,
+    /// The longest [s].
+    pub largest_step: f64,
+    /// Changes of the index, both ways.
+    pub index_changes: u64,
+    /// Steps in index-1.
+    pub index_1_steps: u64,
+    /// Steps that ended at an event.
+    pub events: u64,
+}
+
+impl ControlSummary {
+    /// Counts a step.
+    pub fn take(&mut self, step: &StepRow) {
+        self.accepted += 1;
+        self.rejected += u64::from(step.rejected);
+        self.largest_step = self.largest_step.max(step.length);
+        let is_first = self.accepted == 1;
+        self.smallest_step =
+            if is_first { step.length } else { self.smallest_step.min(step.length) };
+        self.index_1_steps += u64::from(step.index == Some(1));
+        self.events += u64::from(step.limit == Some("event"));
+    }
+}
+
+/// Largest residuals over every step.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+pub struct ViolationSummary {
+    /// Position level [m or rad].
+    pub position: f64,
+    /// Velocity level [m/s or rad/s].
+    pub velocity: f64,
+    /// Acceleration level [m/s^2 or rad/s^2].
+    pub acceleration: f64,
+}
+
+/// What `auto` chose.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+pub struct MethodChoice {
+    /// Formulation that ran.
+    pub formulation: String,
+    /// Formulation, integrator, and step or tolerance that ran.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub ran: String,
+    /// Why, one sentence each.
+    pub reasons: Vec<String>,
+    /// What was measured; absent where nothing was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub evidence: Option<PilotReport>,
+}
+
+/// Channels by name, in order; one number is written as a number, several as a list.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Outputs<V = f64>(pub Vec<(String, Vec<V>)>);
+
+impl<V: Serialize> Serialize for Outputs<V> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (name, values) in &self.0 {
+            match values.as_slice() {
+                [one] => map.serialize_entry(name, one)?,
+                several => map.serialize_entry(name, several)?,
+            }
+        }
+        map.end()
+    }
+}
+
+impl RunSummary {
+    /// One JSON object in indented form, without a line end.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        // all keys are texts and the sink is memory: serialisation has nothing to fail on
+        serde_json::to_string_pretty(self).unwrap_or_default()
+    }
+}

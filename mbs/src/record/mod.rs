@@ -1,0 +1,29 @@
+//! What a run leaves behind: plain data, and its rows and objects in files.
+
+#[doc(hidden)]
+pub mod alias;
+mod change;
+mod choice;
+mod csv;
+mod estimate;
+mod json;
+mod realtime;
+mod series;
+#[cfg(test)]
+mod tests;
+
+pub use change::OutputChange;
+pub use choice::{
+    Candidate, Fallback, PilotReference, PilotReport, SecondLook, TrialEntry, write_choice,
+};
+pub use csv::{CsvWriter, append_steps, write_steps};
+pub use estimate::ErrorEstimate;
+pub use json::{
+    Contact, ControlSummary, EnergySummary, MethodChoice, Outputs, RunError, RunSummary,
+    ViolationSummary,
+};
+pub use realtime::{Degraded, MarginSummary, Overrun, RealtimeSummary, Times, write_overruns};
+pub use series::{
+    Animation, Channel, ChannelSeries, EnergySeries, IterationSeries, Polyline, Provenance,
+    RunRecord, StepRow, StepSeries, Trace, ViolationSeries,
+};

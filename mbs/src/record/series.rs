@@ -1,0 +1,249 @@
+//! What a run leaves behind, as plain data: channels, pictures, energies, counts.
+
+use super::json::ControlSummary;
+use mbs_core::outputs::Component;
+use mbs_core::scene::{Output, Scene};
+
+/// A recorded channel: its name and its components.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Channel {
+    /// Name, unique among the channels.
+    pub name: String,
+    /// Components in the order of the record; one for a number.
+    pub components: Vec<Component>,
+}
+
+impl Channel {
+    /// The channels of a scene: its outputs, or every joint coordinate when it names none.
+    ///
+    /// Vectors have components `x`, `y`, `z`; joints with several coordinates `1`, `2`, ...; reactions
+    /// `Fx`, `Fy`, `Mz` or `Fx`, `Fy`, `Fz`, `Mx`, `My`, `Mz`.
+    ///
+    /// # Panics
+    /// If an output points to a joint that is not there; [`Scene::check`] refuses those.
+    #[must_use]
+    pub fn of_scene<T: Clone>(scene: &Scene<T>) -> Vec<Self> {
+        let channel = |output: Output<T>| Self {
+            components: output.quantity.components(scene),
+            name: output.name,
+        };
+        scene.channels().into_iter().map(channel).collect()
+    }
+
+    /// The names of its columns: `name`, or `name.x`, `name.y`, ...
+    pub fn columns(&self) -> impl Iterator<Item = String> + '_ {
+        self.components.iter().map(|component| {
+            if component.label.is_empty() {
+                return self.name.clone();
+            }
+            format!("{}.{}", self.name, component.label)
+        })
+    }
+}
+
+/// Everything the page of a run shows. Series may have any number of points; the page thins them.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct RunRecord {
+    /// Name of the scene.
+    pub scene: String,
+    /// How the run was made.
+    pub provenance: Provenance,
+    /// Recorded channels.
+    pub channels: Vec<ChannelSeries>,
+    /// Pictures of the motion.
+    pub animation: Option<Animation>,
+    /// Energies.
+    pub energy: Option<EnergySeries>,
+    /// Constraint violation.
+    pub violation: Option<ViolationSeries>,
+    /// Newton iterations.
+    pub iterations: Option<IterationSeries>,
+    /// Lengths of the steps, where they are controlled.
+    pub steps: Option<StepSeries>,
+    /// Rows of the summary table: label and value.
+    pub summary: Vec<(String, String)>,
+    /// What the user should know, such as redundant constraints.
+    pub notes: Vec<String>,
+    /// The table of a choice by measurement, its head first.
+    pub choice: Vec<Vec<String>>,
+    /// When and why the run stopped early: what follows after "The run stopped".
+    pub error: Option<String>,
+}
+
+/// How a run was made; empty texts are left out.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Provenance {
+    /// The command line that makes the run again.
+    pub command: String,
+    /// `f32`, `f64`, `dd`.
+    pub precision: String,
+    /// Formulation that ran.
+    pub formulation: String,
+    /// Integrator that ran.
+    pub integrator: String,
+    /// Step with its unit.
+    pub step: String,
+    /// Version or commit.
+    pub version: String,
+    /// Processor.
+    pub cpu: String,
+}
+
+impl Provenance {
+    /// Label and text of each that is not empty.
+    pub fn rows(&self) -> impl Iterator<Item = [&str; 2]> {
+        let rows = [
+            ["command", self.command.as_str()],
+            ["precision", &self.precision],
+            ["formulation", &self.formulation],
+            ["integrator", &self.integrator],
+            ["step", &self.step],
+            ["version", &self.version],
+            ["processor", &self.cpu],
+        ];
+        rows.into_iter().filter(|[_, value]| !value.is_empty())
+    }
+}
+
+/// A channel over time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChannelSeries {
+    /// Name and components.
+    pub channel: Channel,
+    /// Times [s].
+    pub times: Vec<f64>,
+    /// One series per component, each as long as `times`.
+    pub values: Vec<Vec<f64>>,
+}
+
+/// A stick figure over time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Animation {
+    /// 2 or 3: how many numbers a point has.
+    pub dimension: usize,
+    /// The direction that points up in the picture of a spatial scene; zero: +z.
+    pub up: [f64; 3],
+    /// Times of the frames [s].
+    pub times: Vec<f64>,
+    /// Frames: the numbers of all points, one after the other [m].
+    pub frames: Vec<Vec<f64>>,
+    /// What is drawn between the points.
+    pub bodies: Vec<Polyline>,
+    /// Points of the ground [m]; planar scenes leave the third number zero.
+    pub ground: Vec<[f64; 3]>,
+    /// Fixed straight guides: a place [m] and a direction.
+    pub rails: Vec<[[f64; 3]; 2]>,
+    /// Points whose path is drawn.
+    pub traces: Vec<Trace>,
+}
+
+/// A body as lines between moving points.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Polyline {
+    /// Name of the body.
+    pub name: String,
+    /// Chains of point indices; a chain of one point is a dot.
+    pub chains: Vec<Vec<usize>>,
+}
+
+/// The path of a point.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Trace {
+    /// Name, for the legend.
+    pub name: String,
+    /// Index of the point in a frame.
+    pub point: usize,
+}
+
+/// Energies over time [J].
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct EnergySeries {
+    /// Times [s].
+    pub times: Vec<f64>,
+    /// Kinetic energy T.
+    pub kinetic: Vec<f64>,
+    /// Potential energy V.
+    pub potential: Vec<f64>,
+    /// Pi(t) - Pi(0) of the invariant Pi = T + V - work.
+    pub invariant_error: Vec<f64>,
+}
+
+/// Largest residual at the three levels over time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ViolationSeries {
+    /// Times [s].
+    pub times: Vec<f64>,
+    /// Position level [m or rad].
+    pub position: Vec<f64>,
+    /// Velocity level [m/s or rad/s].
+    pub velocity: Vec<f64>,
+    /// Acceleration level [m/s^2 or rad/s^2].
+    pub acceleration: Vec<f64>,
+}
+
+/// Newton iterations per step.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct IterationSeries {
+    /// Ends of the steps [s].
+    pub times: Vec<f64>,
+    /// Iterations of each step.
+    pub counts: Vec<u32>,
+}
+
+/// The steps that a run made.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StepSeries {
+    /// Ends of the steps [s].
+    pub times: Vec<f64>,
+    /// Pi(t) - Pi(0) there [J].
+    pub energy_errors: Vec<f64>,
+    /// Each step.
+    pub rows: Vec<StepRow>,
+    /// Counts over all steps, those that are not kept among them.
+    pub totals: ControlSummary,
+}
+
+/// A step; or several in a row where they are thinned: the shortest, and the largest of the rest.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StepRow {
+    /// Length [s].
+    pub length: f64,
+    /// 1 or 3, in formulations that have an index.
+    pub index: Option<u8>,
+    /// Iterations.
+    pub iterations: u32,
+    /// Trials before it that were rejected.
+    pub rejected: u32,
+    /// Change of the invariant in it [J].
+    pub energy_change: f64,
+    /// Energy that the penalties held after the first correction [J].
+    pub penalty_energy: f64,
+    /// Estimate of its error, relative to the scene's length.
+    pub error_estimate: Option<f64>,
+    /// What kept the next step from being longer: `max`, `energy`, `error`, `event`, `contact`, `failure`.
+    pub limit: Option<&'static str>,
+}
+
+impl StepRow {
+    /// This step together with one before it that is not kept.
+    #[must_use]
+    pub fn after(&self, before: &Self) -> Self {
+        if before.length == 0.0 {
+            return self.clone();
+        }
+        let change = [self.energy_change, before.energy_change];
+        Self {
+            length: if self.length > 0.0 { self.length.min(before.length) } else { before.length },
+            index: self.index.min(before.index),
+            iterations: self.iterations.max(before.iterations),
+            rejected: self.rejected + before.rejected,
+            energy_change: if change[0].abs() < change[1].abs() { change[1] } else { change[0] },
+            penalty_energy: self.penalty_energy.max(before.penalty_energy),
+            error_estimate: [self, before]
+                .iter()
+                .filter_map(|row| row.error_estimate)
+                .reduce(f64::max),
+            limit: self.limit.or(before.limit),
+        }
+    }
+}
