@@ -11,6 +11,7 @@
 
 use crate::linkage::Jacobian;
 use crate::matrix::Matrix;
+use crate::svd::singular_values;
 use mbs_core::cluster::root;
 
 /// Entries of P below this are zero: what rounding of σ > 1e-9 leaves.
@@ -55,6 +56,12 @@ pub(crate) fn groups(jacobian: &Jacobian, null: &Matrix) -> Vec<Group> {
         Group { places, redundant }
     };
     found.into_iter().map(group).collect()
+}
+
+/// Dimension of the column space of a matrix whose entries are of order one or zero.
+pub(crate) fn dimension(matrix: &Matrix) -> usize {
+    let sigma = singular_values(matrix).unwrap_or_default();
+    sigma.iter().filter(|&&s| s > ZERO).count()
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod decompose;
+mod link;
 mod linkage;
 mod loops;
 mod masses;
@@ -13,7 +14,8 @@ mod residual;
 mod sets;
 mod svd;
 
-pub use linkage::{Jacobian, Linkage, Poses, reference};
+pub use link::Poses;
+pub use linkage::{Jacobian, Linkage, reference};
 pub use loops::{Corner, Drive, Loop, drives, loops};
 pub use masses::{Massless, massless};
 pub use matrix::Matrix;

@@ -10,7 +10,8 @@
 //! point, and passes from one branch to the other there.
 
 use crate::Vector;
-use crate::linkage::{Linkage, Poses, pose};
+use crate::link::{Poses, pose};
+use crate::linkage::Linkage;
 use crate::parts::Part;
 use crate::rank::Rank;
 use mbs_core::algebra::cross;

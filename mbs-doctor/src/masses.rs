@@ -7,7 +7,8 @@
 //! R is scaled by the mean mass of the bodies and their size, so that the rank does not depend on units.
 
 use crate::Vector;
-use crate::linkage::{Linkage, Poses};
+use crate::link::Poses;
+use crate::linkage::Linkage;
 use crate::matrix::Matrix;
 use crate::parts::Part;
 use crate::rank::Rank;

@@ -4,7 +4,8 @@
 //! the damping |r| (Yamashita and Fukushima 2001: quadratic convergence though rows repeat each other). Dependent in every
 //! position thus reached: structural. Independent there: the first position is singular.
 
-use crate::linkage::{Linkage, Poses};
+use crate::link::Poses;
+use crate::linkage::Linkage;
 use crate::matrix::Matrix;
 use crate::parts::Part;
 use crate::rank::Rank;

@@ -11,12 +11,12 @@
 //! their rows must count.
 
 use crate::Vector;
-use crate::decompose::{Group, ZERO};
-use crate::linkage::{Jacobian, Link, Linkage, Poses};
+use crate::decompose::{Group, ZERO, dimension};
+use crate::link::{Link, Poses};
+use crate::linkage::{Jacobian, Linkage};
 use crate::matrix::Matrix;
 use crate::parts::Part;
 use crate::rank::Rank;
-use crate::sets::dimension;
 use mbs_core::outputs::Wrench;
 use mbs_core::scene::{Axis, BodyId, Dimension, Freedom, Joint, JointKind};
 
@@ -221,7 +221,7 @@ fn open_moment(
     let moments = (0..null.n_columns()).map(moment);
     let largest = moments.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
     let size = largest.norm();
-    let turned = crate::linkage::pose(at, link.joint.bodies[1]).rotation;
+    let turned = crate::link::pose(at, link.joint.bodies[1]).rotation;
     (size > ZERO).then(|| (turned.transpose() * largest / size).into())
 }
 

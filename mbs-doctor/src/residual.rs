@@ -8,7 +8,7 @@
 //! Angles are counted from a pose that meets the joints: guides stay where they stood.
 
 use crate::Vector;
-use crate::linkage::{Link, Poses, pose};
+use crate::link::{Link, Poses, pose};
 use crate::parts::Part;
 use mbs_core::algebra::{cross, norm, rotation_vector};
 use mbs_core::scene::{Axis, Dimension, Freedom, Rotation};

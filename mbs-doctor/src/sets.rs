@@ -1,13 +1,13 @@
 //! Dependent sets of joints, with what each joint of them leaves open.
 
-use crate::decompose::{Group, ZERO, groups};
-use crate::linkage::{Jacobian, Linkage, Poses};
+use crate::decompose::{Group, ZERO, dimension, groups};
+use crate::link::Poses;
+use crate::linkage::{Jacobian, Linkage};
 use crate::matrix::Matrix;
 use crate::parts::Part;
 use crate::perturb::{Nature, neighbours};
 use crate::rank::Rank;
 use crate::remedy::{Remedy, remedy};
-use crate::svd::singular_values;
 use mbs_core::rigid::RigidMotion;
 
 /// A joint of a dependent set.
@@ -192,10 +192,4 @@ impl Found<'_> {
             guide: link.is_guided && range.last().is_some_and(touches),
         }
     }
-}
-
-/// Dimension of the column space of a matrix whose entries are of order one or zero.
-pub(crate) fn dimension(matrix: &Matrix) -> usize {
-    let sigma = singular_values(matrix).unwrap_or_default();
-    sigma.iter().filter(|&&s| s > ZERO).count()
 }
