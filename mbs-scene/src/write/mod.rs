@@ -6,6 +6,7 @@ mod csv;
 mod estimate;
 mod explanation;
 mod json;
+mod outputs;
 mod realtime;
 mod scene;
 mod serde;
@@ -13,6 +14,7 @@ mod serde;
 mod tests;
 pub(crate) mod toml;
 
+pub use crate::record::ControlSummary;
 pub use choice::{
     Candidate, Fallback, PilotReference, PilotReport, SecondLook, TrialEntry, write_choice,
 };
@@ -22,9 +24,7 @@ pub use explanation::{
     ControllerStep, EffectCost, EffectCosts, EffectEntry, Explanation, GuideEntry, JointsByKind,
     LargestStep, MissingEffect, OutputChange, Relative, SearchEnd, Simulated, Sizes, ThinRod,
 };
-pub use json::{
-    Contact, ControlSummary, EnergySummary, MethodChoice, Outputs, RunError, RunSummary,
-    ViolationSummary,
-};
+pub use json::{Contact, EnergySummary, MethodChoice, RunError, RunSummary, ViolationSummary};
+pub use outputs::Outputs;
 pub use realtime::{Degraded, MarginSummary, Overrun, RealtimeSummary, Times, write_overruns};
 pub use scene::{WriteError, to_toml};
