@@ -1,10 +1,10 @@
 //! `mbs equilibrium SCENE` and `mbs modes SCENE`.
 
-use crate::STOPPED;
 use crate::files::{folder, scene as load};
 use crate::refusal::Refusal;
 use crate::run::stopped;
 use crate::say::{say, warn};
+use crate::status::STOPPED;
 use crate::table::{counted, fixed};
 use clap::{Args, ValueEnum};
 use mbs::core::scene::Scene;

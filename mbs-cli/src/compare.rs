@@ -3,7 +3,8 @@
 use crate::bar::{bar, ticks};
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
-use crate::{STOPPED, files, signals};
+use crate::status::STOPPED;
+use crate::{files, signals};
 use clap::Args;
 use indicatif::ProgressBar;
 use mbs::folder::{Folder, WriteError, id};

@@ -2,7 +2,8 @@
 
 use crate::refusal::Refusal;
 use crate::say::say;
-use crate::{STOPPED, files, signals};
+use crate::status::STOPPED;
+use crate::{files, signals};
 use clap::Args;
 use mbs::core::scene::Entry;
 use mbs::{Method, Precision};

@@ -1,9 +1,11 @@
 //! `mbs explain SCENE`.
 
+use crate::precision::NO_PAIRS;
 use crate::refusal::Refusal;
 use crate::run::unplanned;
 use crate::say::{say, warn};
-use crate::{NO_PAIRS, STOPPED, files, signals};
+use crate::status::STOPPED;
+use crate::{files, signals};
 use clap::Args;
 use mbs::{Method, words};
 use mbs_study::auto::{Goal, Processor, plan, time};

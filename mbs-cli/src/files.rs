@@ -1,7 +1,7 @@
 //! Scene files in, result files out, and what to say when that fails.
 
 use crate::refusal::Refusal;
-use crate::say::warn;
+use crate::say::{plain, warn};
 use mbs::core::scene::{Entry, Scene};
 use mbs::folder::{Folder, WriteError, id, write_file};
 use mbs::record::{PilotReport, Provenance};
@@ -208,10 +208,4 @@ pub(crate) fn write_choice(
     let text = serde_json::to_string_pretty(choice).unwrap_or_default();
     part.table("choice.json", |sink| writeln!(sink, "{text}"))?;
     part.table("choice.csv", |sink| mbs::record::write_choice(sink, choice))
-}
-
-/// The system's words without the number of the error.
-pub(crate) fn plain(error: &io::Error) -> String {
-    let text = error.to_string();
-    text.split(" (os error").next().unwrap_or_default().to_lowercase()
 }

@@ -1,8 +1,9 @@
 //! `mbs generate FAMILY`.
 
+use crate::files;
 use crate::refusal::Refusal;
 use crate::say::{out, warn};
-use crate::{STOPPED, files};
+use crate::status::STOPPED;
 use clap::{Args, ValueEnum};
 use mbs::scene_file::{Family, GenerateError, SceneFile, generate};
 use std::path::PathBuf;

@@ -130,7 +130,7 @@ impl Kept {
         if let Some(keeping) = &self.keeping
             && let Some(error) = keeping.failure()
         {
-            let (path, error) = (keeping.path(), crate::files::plain(error));
+            let (path, error) = (keeping.path(), crate::say::plain(error));
             warn(&format!(
                 "warning: the last checkpoint could not be written: cannot write to `{}`: {error}",
                 path.display()

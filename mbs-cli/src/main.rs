@@ -12,17 +12,20 @@ mod export;
 mod files;
 mod generate;
 mod keep;
+mod precision;
 mod realtime;
 mod refusal;
 mod run;
 mod say;
 mod signals;
+mod status;
 mod sweep;
 mod table;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Parser, Subcommand};
-use mbs::{Precision, PrecisionError};
+use mbs::Precision;
+use precision::{NO_PAIRS, named, unbuilt};
 use refusal::{Refusal, usage};
 use std::process::ExitCode;
 
@@ -68,19 +71,6 @@ enum Command {
     /// Run a scene with many varied numbers, into one table; the same command continues a killed sweep.
     Sweep(sweep::Arguments),
 }
-
-/// Commands other than `run` and `compare` compute in numbers of the hardware.
-const NO_PAIRS: [&str; 2] = ["precision `dd` is for `mbs run`", "leave --precision out"];
-
-/// Set by a caller that builds what is missing: then a precision that this build lacks is no message, only an exit status.
-const BUILDER: &str = "MBS_BUILDER";
-/// Exit status of a build that lacks the precision asked for.
-const UNBUILT: u8 = 3;
-
-/// Exit status of a refusal.
-pub(crate) const REFUSED: u8 = 1;
-/// Exit status of a run that stopped.
-pub(crate) const STOPPED: u8 = 2;
 
 fn main() -> ExitCode {
     signals::outlive_limits();
@@ -135,11 +125,6 @@ impl Command {
     }
 }
 
-/// The precision of a name, where it is one.
-fn named(name: &Option<String>) -> Option<Precision> {
-    Precision::ALL.into_iter().find(|p| Some(p.name()) == name.as_deref())
-}
-
 /// Help and version, which are no refusals, or what is wrong with the arguments.
 fn unparsed(error: &clap::Error) -> ExitCode {
     let text = error.render();
@@ -164,12 +149,4 @@ fn hint(error: &clap::Error) -> Option<String> {
         _ => return None,
     };
     std::path::Path::new(word).exists().then(|| format!("to run a scene, write `mbs run {word}`"))
-}
-
-/// Says which precision this build lacks, to whom does not build it himself.
-pub(crate) fn unbuilt(precision: Precision) -> ExitCode {
-    if std::env::var_os(BUILDER).is_none() {
-        Refusal::scene(&PrecisionError::NotBuilt(precision)).report();
-    }
-    ExitCode::from(UNBUILT)
 }

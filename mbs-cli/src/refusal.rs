@@ -1,7 +1,7 @@
 //! What a command says where it does nothing: text for people, and with `--json` an object for programs.
 
 use crate::say::{say, warn};
-use crate::{REFUSED, STOPPED};
+use crate::status::{REFUSED, STOPPED};
 use core::fmt::Display;
 use mbs::folder::{FolderError, WriteError};
 use mbs::scene_file::{Place, ReadError};
@@ -59,7 +59,7 @@ impl Refusal {
                 Self::new("out-busy", format!("`{out}`: {error}"), error.hint())
             }
             FolderError::Io(io) => {
-                let message = format!("cannot write to `{out}`: {}", crate::files::plain(io));
+                let message = format!("cannot write to `{out}`: {}", crate::say::plain(io));
                 Self::new("out-unwritable", message, error.hint())
             }
             other => {

@@ -2,9 +2,11 @@
 
 use crate::bar::{bar, ticks};
 use crate::files::Begun;
+use crate::precision::{named, unbuilt};
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
-use crate::{STOPPED, files, keep, named, realtime, signals, table, unbuilt};
+use crate::status::STOPPED;
+use crate::{files, keep, realtime, signals, table};
 use clap::Args;
 use indicatif::ProgressBar;
 use mbs::folder::{Folder, WriteError};

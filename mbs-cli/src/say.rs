@@ -1,7 +1,7 @@
 //! What is written to standard output and to standard error, and what becomes of it.
 
-use crate::STOPPED;
-use std::io::{ErrorKind, Write};
+use crate::status::STOPPED;
+use std::io::{self, ErrorKind, Write};
 use std::process::ExitCode;
 
 /// Writes a result to standard output, and gives the exit status: that of the command, unless the result could not be written. Then it goes
@@ -28,7 +28,7 @@ pub(crate) fn out(text: &str) -> Result<(), String> {
     match writeln!(sink, "{text}").and_then(|()| sink.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(format!(
             "error: cannot write to standard output: {}\nhint: make room, or give another place",
-            crate::files::plain(&error)
+            plain(&error)
         )),
         _ => Ok(()),
     }
@@ -37,4 +37,10 @@ pub(crate) fn out(text: &str) -> Result<(), String> {
 /// Writes to standard error; where that is closed or full there is no reader left.
 pub(crate) fn warn(text: &str) {
     let _ = writeln!(std::io::stderr(), "{}", text.trim_end());
+}
+
+/// The system's words without the number of the error.
+pub(crate) fn plain(error: &io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or_default().to_lowercase()
 }

@@ -3,7 +3,8 @@
 use crate::bar::bar;
 use crate::refusal::Refusal;
 use crate::say::{say, warn};
-use crate::{STOPPED, files, signals, table};
+use crate::status::STOPPED;
+use crate::{files, signals, table};
 use clap::Args;
 use indicatif::ProgressBar;
 use mbs::scene_file::SceneFile;

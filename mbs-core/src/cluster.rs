@@ -2,7 +2,7 @@
 
 use crate::Real;
 use crate::algebra::{Matrix, Vector, norm};
-use crate::scene::{BodyId, Inertia, Scene};
+use crate::scene::{BodyId, Inertia, Scene, steiner};
 use alloc::vec;
 use alloc::vec::Vec;
 
@@ -89,27 +89,7 @@ pub fn root(parent: &mut [usize], mut i: usize) -> usize {
 
 /// Mass, centre and inertia about the centre of one body.
 pub fn mass_properties<T: Real>(scene: &Scene<T>, body: usize) -> (T, Vector<T, 3>, Matrix<T, 3>) {
-    let body = &scene.bodies[body];
-    let center = Vector::from(body.center);
-    let mut inertia = Matrix::<T, 3>::zeros();
-    match body.inertia {
-        Inertia::Planar(i) => inertia[(2, 2)] = i,
-        Inertia::Spatial([xx, yy, zz, xy, yz, zx]) => {
-            inertia = Matrix::<T, 3>::new(xx, xy, zx, xy, yy, yz, zx, yz, zz);
-        }
-        Inertia::Rod { from, to } => {
-            let (from, to) = (Vector::from(from), Vector::from(to));
-            let d = to - from;
-            inertia = steiner(body.mass / T::from_f64(12.0), &d);
-            return (body.mass, (from + to) * T::HALF, inertia);
-        }
-    }
-    (body.mass, center, inertia)
-}
-
-/// Inertia of a point mass: m (d.d 1 - d d^T).
-fn steiner<T: Real>(mass: T, d: &Vector<T, 3>) -> Matrix<T, 3> {
-    (Matrix::<T, 3>::identity() * d.dot(d) - d * d.transpose()) * mass
+    scene.bodies[body].mass_properties()
 }
 
 fn merge<T: Real>(scene: &Scene<T>, bodies: Vec<usize>) -> Cluster<T> {

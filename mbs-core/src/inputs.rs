@@ -2,7 +2,7 @@
 
 use crate::Real;
 use crate::laws::guide;
-use crate::scene::{Motion, Scene, Signal, TableEnds};
+use crate::scene::{Guide, Motion, Signal, TableEnds};
 use crate::step::InputError;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -18,8 +18,8 @@ pub struct Prescribed<T> {
 
 impl<T: Real> Prescribed<T> {
     /// The guides of a scene, and no course.
-    pub(crate) fn new(scene: &Scene<T>) -> Self {
-        let guides = scene.guides.iter().map(|guide| GuideInput::new(&guide.law)).collect();
+    pub(crate) fn new(guides: &[Guide<T>]) -> Self {
+        let guides = guides.iter().map(|guide| GuideInput::new(&guide.law)).collect();
         Self { guides, courses: Vec::new() }
     }
 

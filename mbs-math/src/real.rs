@@ -15,6 +15,7 @@ mod decimal;
 mod double_double;
 mod functions;
 mod lanes;
+mod pair;
 mod show;
 mod transforms;
 mod wide;

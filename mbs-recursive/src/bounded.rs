@@ -13,13 +13,14 @@
 
 use crate::at::{Outside, at_mut, copy};
 use crate::evaluate::{Level, accelerations, accelerations_ahead, respond};
+use crate::fault::{Fault, failure};
 use crate::loads::{Reach, check_rotations};
-use crate::mechanism::{Counts, Inputs, Mechanism, Store};
+use crate::mechanism::{Counts, Inputs, Mechanism, Start, Store};
 use crate::options::{Closure, Options};
-use crate::passes::{Fault, kinematics};
+use crate::passes::kinematics;
 use crate::project::advance;
 use crate::space::Space;
-use crate::trapezoidal::{Start, failure, reach_end};
+use crate::trapezoidal::reach_end;
 use mbs_core::Real;
 use mbs_core::algebra::norm_inf;
 use mbs_core::step::{OptionError, StepError, largest_or_nan};

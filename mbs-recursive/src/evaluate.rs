@@ -11,13 +11,14 @@
 //! ε = 1/α, bias + 2 μ Ω Φ̇ + Ω² Φ in place of the bias, and one sweep.
 
 use crate::at::{Outside, at, at_mut, copy};
+use crate::fault::Fault;
 use crate::inverse;
 use crate::link::Condensed;
 use crate::loads::Reach;
 use crate::loops::{Regularisation, index};
 use crate::mechanism::{Mechanism, Store};
 use crate::options::{Closure, Options};
-use crate::passes::{self, Fault};
+use crate::passes;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

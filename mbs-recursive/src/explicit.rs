@@ -10,14 +10,15 @@
 
 use crate::at::Outside;
 use crate::evaluate::{Level, accelerations, is_redundant, is_tight};
+use crate::fault::failure;
 use crate::ledger;
 use crate::link::{Kind, Link};
 use crate::loads::check_rotations;
-use crate::mechanism::{Counts, Inputs, Mechanism, Store};
+use crate::mechanism::{Counts, Inputs, Mechanism, Start, Store};
 use crate::options::{Closure, Options};
 use crate::project::{self, project};
 use crate::space::{Numbers, Space};
-use crate::trapezoidal::{Start, failure, violations};
+use crate::trapezoidal::violations;
 use mbs_core::Real;
 use mbs_core::ode::{self, Adaptive, EndState, Method, OdeError, Rates};
 use mbs_core::step::{StepError, StepReport, Stop};

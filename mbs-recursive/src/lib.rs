@@ -14,6 +14,7 @@ mod cut;
 mod error;
 mod evaluate;
 pub mod explicit;
+mod fault;
 #[cfg(feature = "alloc")]
 mod formulation;
 #[cfg(feature = "alloc")]

@@ -102,3 +102,16 @@ impl<'a, T: Real, S: Space<T>> Store<'a, T, S> {
         }
     }
 }
+
+/// The state that a step starts from.
+#[derive(Debug, Clone, Copy)]
+pub struct Start<'a, T> {
+    /// Time [s].
+    pub t: T,
+    /// Coordinates.
+    pub z: &'a [T],
+    /// Velocities.
+    pub v: &'a [T],
+    /// Accelerations.
+    pub a: &'a [T],
+}

@@ -10,39 +10,14 @@
 //! inertias and forces are shifted to the parent's origin on the way in. p = −Q̂. Loops join in at their common ancestors
 //! (`loops`), where the source has one derivation by hand for each mechanism.
 
+pub use crate::fault::Fault;
+
 use crate::at::{Outside, at, at_mut};
 use crate::joint::{self, NoInertia};
 use crate::link::{Condensed, Kind, Link, Placed};
-use crate::loops::{self, LoopStore, Loops, RankLost, Regularisation, index};
+use crate::loops::{self, LoopStore, Loops, Regularisation, index};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
-
-/// What stops a pass.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Fault<T> {
-    /// The tables do not fit each other.
-    Outside,
-    /// A joint meets no inertia.
-    NoInertia(NoInertia<T>),
-    /// The regularised rows of loops cannot be factored.
-    RankLost(RankLost<T>),
-    /// The equations of loops do not come to their level.
-    Unreached {
-        /// 0 position, 1 velocity, 2 acceleration.
-        level: u8,
-        /// The row that is violated most.
-        row: u32,
-        /// What is left.
-        violation: T,
-    },
-}
-
-impl<T> From<Outside> for Fault<T> {
-    #[inline(always)]
-    fn from(_: Outside) -> Self {
-        Self::Outside
-    }
-}
 
 /// First pass, outward: places, velocities and velocity products.
 ///

@@ -14,12 +14,13 @@
 
 use crate::at::{Outside, at, at_mut, part, part_mut};
 use crate::evaluate::{note_rank, respond};
+use crate::fault::Fault;
 use crate::inverse::spread_each;
 use crate::link::{Kind, Link};
 use crate::loops::index;
 use crate::mechanism::{Mechanism, Store};
 use crate::options::Options;
-use crate::passes::{Fault, kinematics};
+use crate::passes::kinematics;
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
 

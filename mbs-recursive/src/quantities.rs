@@ -8,6 +8,7 @@
 
 use crate::at::own;
 use crate::evaluate::{Level, accelerations_under};
+use crate::fault::failure;
 use crate::inverse;
 use crate::loops::Loops;
 use crate::mechanism::Mechanism;
@@ -15,7 +16,6 @@ use crate::options::Options;
 use crate::passes::kinematics;
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
-use crate::trapezoidal::failure;
 use crate::tree::TreeModel;
 use core::ops::Range;
 use mbs_core::Real;

@@ -3,6 +3,7 @@
 use crate::at::own;
 use crate::error::TreeError;
 use crate::evaluate::{Level, accelerations};
+use crate::fault::failure;
 use crate::graph::Branch;
 use crate::inverse;
 use crate::joint::write;
@@ -13,7 +14,6 @@ use crate::passes::kinematics;
 use crate::project::{project, rounding};
 use crate::space::{Numbers, Space};
 use crate::state::{TreeState, Workspace};
-use crate::trapezoidal::failure;
 use crate::tree::{Part, Seat, TreeModel, parts};
 use alloc::vec;
 use alloc::vec::Vec;

@@ -10,6 +10,7 @@ use crate::tree::TreeModel;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
+use mbs_core::inputs::Prescribed;
 use mbs_core::ode::{Adaptive, Extrapolation, Radau, Tableau, rk4_scratch};
 
 /// Position, velocity and acceleration of a tree at a time.
@@ -83,6 +84,13 @@ impl<T: Real> TreeState<T> {
         self.lambda.copy_from_slice(&other.lambda);
         self.work = other.work;
         self.power = other.power;
+    }
+}
+
+impl<T: Real, S: Space<T>> TreeModel<T, S> {
+    /// The inputs that are set in a state, with the functions of time.
+    pub(crate) fn inputs<'a>(&'a self, state: &'a TreeState<T>) -> (&'a Prescribed<T>, &'a [T]) {
+        (&self.prescribed, &state.inputs)
     }
 }
 

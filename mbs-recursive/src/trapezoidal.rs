@@ -15,13 +15,15 @@
 //! Differs from the source: increments in place of hats, which round less; rotations are quaternions, q exp(δ); positions and
 //! velocities are projected on the loops afterwards, and the accelerations are those of the projected state.
 
+pub use crate::mechanism::Start;
+
 use crate::at::{Outside, at, at_mut, copy};
 use crate::evaluate::{Level, accelerations, accelerations_ahead, is_redundant, note_rank};
+use crate::fault::failure;
 use crate::loads::{Reach, check_rotations};
 use crate::mechanism::{Inputs, Mechanism, Store};
 use crate::mixing::Mixing;
 use crate::options::{Closure, Options};
-use crate::passes::Fault;
 use crate::project::{advance, project, rounding};
 use crate::space::Space;
 use mbs_core::Real;
@@ -33,19 +35,6 @@ use mbs_core::step::{StepError, StepReport, Stop, largest, largest_or_nan};
 const STALLED: u32 = 4;
 /// Mixed iterates that leave over so many times what the last did begin anew, without mixing.
 const LOST: f64 = 4.0;
-
-/// The state that a step starts from.
-#[derive(Debug, Clone, Copy)]
-pub struct Start<'a, T> {
-    /// Time [s].
-    pub t: T,
-    /// Coordinates.
-    pub z: &'a [T],
-    /// Velocities.
-    pub v: &'a [T],
-    /// Accelerations.
-    pub a: &'a [T],
-}
 
 /// Makes one step of length `dt` [s] from a start with its auxiliary accelerations: the end is in `s.z`, `s.v`, `s.zdd`, `s.lambda`.
 ///
@@ -237,25 +226,4 @@ pub(crate) fn violations<T: Real, S: Space<T>>(
         }
     }
     largest
-}
-
-/// The fault of a pass as the error of a step.
-pub(crate) fn failure<T: Real, S: Space<T>>(m: &Mechanism<'_, T, S>, fault: Fault<T>) -> StepError {
-    let freedom = |link: u32| m.links.get(link as usize).map_or(u32::MAX, |link| link.v);
-    match fault {
-        Fault::Outside => StepError::Tables,
-        Fault::NoInertia(fault) if fault.pivot.is_finite() => {
-            StepError::Singular(mbs_core::FactorError {
-                unknown: freedom(fault.link),
-                pivot: fault.pivot.to_f64(),
-            })
-        }
-        Fault::NoInertia(fault) => StepError::NotFinite { unknown: freedom(fault.link) },
-        Fault::RankLost(fault) => {
-            StepError::RankLost { row: fault.row, pivot: fault.pivot.to_f64() }
-        }
-        Fault::Unreached { level, row, violation } => {
-            StepError::Violated { level, violation: violation.to_f64(), row }
-        }
-    }
 }

@@ -2,17 +2,17 @@
 
 use crate::at::own;
 use crate::error::TreeError;
+use crate::fault::Fault;
 use crate::graph::{Branch, span};
 use crate::link::{Condensed, Kind, Link, Placed};
 use crate::loads::Load;
 use crate::loops::{LoopStore, Loops, Regularisation, index};
 use crate::mechanism::{Inputs, Mechanism};
 use crate::order::Order;
-use crate::passes::{self, Fault};
+use crate::passes;
 use crate::plan::Plan;
 use crate::rows::{Loop, Row};
 use crate::space::{Numbers, Space};
-use crate::state::TreeState;
 use crate::told::Told;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -351,11 +351,6 @@ impl<T: Real, S: Space<T>> TreeModel<T, S> {
     #[must_use]
     pub fn prescribed(&self) -> &Prescribed<T> {
         &self.prescribed
-    }
-
-    /// The inputs that are set in a state, with the functions of time.
-    pub(crate) fn inputs<'a>(&'a self, state: &'a TreeState<T>) -> (&'a Prescribed<T>, &'a [T]) {
-        (&self.prescribed, &state.inputs)
     }
 
     /// Number of freedoms of the tree: a ball has three, a free body six (in the plane three), a guided joint none.

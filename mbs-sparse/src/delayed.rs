@@ -8,8 +8,9 @@
 //! known by its place in the storage of a vector: that of a delayed one lies in the storage of a task below, which belongs to
 //! every task that it can come to.
 
+use crate::front::{Front, column};
 use crate::part;
-use crate::plan::{Front, Plan, column};
+use crate::plan::Plan;
 use crate::share::{Direction, Sweep};
 use crate::tasks::{Owned, Task};
 use mbs_math::dense::front::{self, Places, Tally, Thresholds};

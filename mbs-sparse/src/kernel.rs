@@ -10,7 +10,7 @@
 //! The triangle that remains is a packed front itself, so the next block starts from there. Block sizes are known to
 //! the compiler; the diagonal of L_11 holds 1 / d.
 
-use crate::plan::column;
+use crate::front::column;
 use mbs_math::Real;
 use mbs_math::dense::panel::subtract_products;
 

@@ -2,6 +2,7 @@
 
 mod delayed;
 mod dissection;
+mod front;
 mod graph;
 mod indefinite;
 mod kernel;

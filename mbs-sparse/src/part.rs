@@ -3,8 +3,8 @@
 //! Most parts have one of a few sizes, multiples of the two or three coordinates of a point: with these the compiler knows
 //! the lengths of all loops, which are too short to pay for anything else.
 
+use crate::front::column;
 use crate::graph::index;
-use crate::plan::column;
 use mbs_math::Real;
 
 /// Where a packed triangle of k unknowns lands in a packed front of f unknowns.

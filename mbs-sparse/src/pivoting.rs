@@ -5,8 +5,8 @@
 //!                           d_k = a_kk,   l_k = a_k / d_k,   a_ij <- a_ij - l_ik d_k l_jk     (i >= j > k)
 //! ```
 
+use crate::front::column;
 use crate::kernel::{BadPivot, checked_inverse};
-use crate::plan::column;
 use mbs_math::Real;
 use mbs_math::dense::front::swap;
 

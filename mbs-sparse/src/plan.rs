@@ -8,51 +8,14 @@
 //! ```
 
 use crate::dissection;
+use crate::front::{Front, Opening, column};
 use crate::graph::{self, Lists, index};
 use crate::options::{Counters, Options, Ordering};
 use crate::part::{self, Part, Place, place_of, triangle};
 use crate::tasks::{Tasks, tasks};
 use crate::tree::{self, Fronts};
 use mbs_math::Cliques;
-pub(crate) use mbs_math::dense::front::column;
 use std::collections::HashMap;
-use std::ops::Range;
-
-/// What a front holds before anything is added to it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Opening {
-    /// Zeros.
-    Zeros,
-    /// The block of its first element, which has all its unknowns in its order.
-    Written,
-    /// The block of its first element, which has all its unknowns in another order.
-    Permuted,
-    /// Zeros, for elements that are all small: they are added together.
-    Gathered,
-}
-
-/// One dense step of the elimination.
-#[derive(Debug, Clone)]
-pub(crate) struct Front {
-    /// Unknowns eliminated here.
-    pub(crate) p: usize,
-    /// Unknowns of the front.
-    pub(crate) f: usize,
-    /// Start in the array of all fronts.
-    pub(crate) offset: usize,
-    /// Place of the first pivot in the elimination order.
-    pub(crate) first: usize,
-    /// Places of the remaining rows in the list of all rows.
-    pub(crate) rows: Range<usize>,
-    /// How its first numbers come.
-    pub(crate) opening: Opening,
-    /// Place of the first pivot in the own vector of its task.
-    pub(crate) at: usize,
-    /// Its elements in the list of all elements.
-    pub(crate) elements: Range<usize>,
-    /// Its children in the list of all children.
-    pub(crate) children: Range<usize>,
-}
 
 /// The result of the analysis.
 #[derive(Debug, Clone, Default)]

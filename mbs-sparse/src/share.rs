@@ -8,11 +8,12 @@
 //!
 //! Every sum has one order, that of the plan. Parts are cut with `split_at_mut`, so two tasks cannot meet in a number.
 
+use crate::front::{Front, Opening, column};
 use crate::kernel::{self, BadPivot};
 use crate::options::Pivoting;
 use crate::part;
 use crate::pivoting::eliminate_largest;
-use crate::plan::{Front, Opening, Plan, column};
+use crate::plan::Plan;
 use crate::sweep;
 use crate::tasks::{Owned, Storage, Task};
 use mbs_math::{BlockSource, FactorError, Real, Team};

@@ -7,8 +7,8 @@
 //!
 //! The pivots of a front stand together in `y`, its other unknowns where `rows` says; L_11 has 1 / d on its diagonal.
 
+use crate::front::column;
 use crate::kernel::BLOCK;
-use crate::plan::column;
 use mbs_math::Real;
 use mbs_math::dense::panel::subtract;
 

@@ -9,8 +9,8 @@
 //! Where the tree is cut follows from its structure and [`Options::grain`](crate::Options::grain) alone, never from the number
 //! of threads. Children come together in their order. A plan that is one task is worked through front by front.
 
+use crate::front::{Front, column};
 use crate::graph::{Lists, index};
-use crate::plan::{Front, column};
 use crate::tree::NONE;
 use mbs_math::Team;
 use std::ops::Range;

@@ -1,6 +1,6 @@
 //! Inputs that were set since the last step, taken into the state that the next one begins with.
 
-use crate::step::select_pivots;
+use crate::pivots::select_pivots;
 use crate::workspace::Workspace;
 use mbs_core::model::{Load, Model, State, System, Tangent};
 use mbs_core::step::{StepError, add_response, has_new_inputs, load_at};

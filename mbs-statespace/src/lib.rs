@@ -12,6 +12,7 @@ mod history;
 mod inputs;
 mod jacobian;
 mod options;
+mod pivots;
 mod place;
 mod step;
 mod workspace;

@@ -14,6 +14,7 @@
 
 use crate::inputs::take_inputs;
 use crate::options::{Coordinates, Options, PivotChange};
+use crate::pivots::select_pivots;
 use crate::workspace::Workspace;
 use mbs_core::algebra::norm_inf;
 use mbs_core::integrator::{Rule, is_far};
@@ -114,25 +115,6 @@ fn predict<T: Real, M: Model<T>>(
     if is_far(step_scale(model.team(), rule.dt, &s.a[..n]), length) {
         rule.hold_back(T::ONE, [&mut w.dq[..n], &mut w.v, &mut w.a], &s.a_aux);
     }
-}
-
-/// Chooses independent coordinates at the start of the step. The rank found at the start of the motion must stand.
-///
-/// Rank is a matter of positions that fulfil the constraints: elsewhere rows that repeat each other need not.
-pub(crate) fn select_pivots<T: Real, M: Model<T>>(
-    model: &M,
-    s: &State<T>,
-    w: &mut Workspace<T>,
-) -> Result<(), StepError> {
-    model.set_inputs(s.t, s, &mut w.terms);
-    w.dq.fill(T::ZERO);
-    w.evaluate(model, s);
-    w.is_stale = true;
-    w.choose_columns()?;
-    w.is_stale = false;
-    w.check_pivots()?;
-    w.usual = w.usual.max(w.pivots.smallest);
-    Ok(())
 }
 
 /// The Newton loop in the independent coordinates. Leaves q, v, a consistent and lambda in balance with them.

@@ -1,59 +1,30 @@
 //! From the effects of a scene to actions: each kind says what it does by these means.
 
-use super::{Action, ActionError, Actions, Seat, Tables};
+use super::{Action, Actions, Seat};
 use crate::Real;
 use crate::algebra::{Vector, norm};
 use crate::effects::laws::{CodeBodyLaw, CodeLaw};
-use crate::inputs::{Prescribed, SignalInput};
+use crate::inputs::SignalInput;
 use crate::laws::Part;
 use crate::laws::body::BodyLaw;
 use crate::laws::code::{BodyLaw as BodyCode, Code, ForceLaw};
 use crate::laws::scalar::Law;
-use crate::scene::{BodyId, Dimension, Freedom, JointId, Scene, Signal};
-use alloc::vec::Vec;
-
-impl<T: Real> Actions<T> {
-    /// The actions of the enabled effects of a checked scene.
-    ///
-    /// # Errors
-    /// [`ActionError::LeftOut`] for an enabled effect whose Cargo feature is off.
-    pub fn new(scene: &Scene<T>) -> Result<Self, ActionError> {
-        let mut compiler = Compiler {
-            scene,
-            effect: 0,
-            roads: None,
-            clock: None,
-            actions: Self {
-                list: Vec::new(),
-                prescribed: Prescribed::new(scene),
-                tables: Tables::empty(),
-            },
-        };
-        for (effect, e) in scene.effects.iter().enumerate().filter(|(_, e)| e.enabled) {
-            if let Some((feature, false)) = e.kind.row().feature {
-                return Err(ActionError::LeftOut { effect, feature });
-            }
-            compiler.effect = effect;
-            e.kind.actions(&mut compiler);
-        }
-        Ok(compiler.actions)
-    }
-}
+use crate::scene::{BodyId, Dimension, Freedom, JointId, Signal, Surroundings};
 
 /// What the kinds of effect add their actions to.
 pub(crate) struct Compiler<'a, T> {
-    pub(crate) scene: &'a Scene<T>,
-    effect: usize,
+    pub(crate) among: Surroundings<'a, T>,
+    pub(super) effect: usize,
     /// Features of the left and the right track, and the course of a moving road, once a tire asks.
     pub(super) roads: Option<([Part; 2], Option<u32>)>,
     /// The course of time itself, once a law asks.
-    clock: Option<u32>,
+    pub(super) clock: Option<u32>,
     pub(crate) actions: Actions<T>,
 }
 
 impl<T: Real> Compiler<'_, T> {
     pub(crate) fn is_planar(&self) -> bool {
-        self.scene.dimension == Dimension::Planar
+        self.among.dimension == Dimension::Planar
     }
 
     pub(crate) fn push(&mut self, action: Action<T>) {
@@ -131,15 +102,15 @@ impl<T: Real> Compiler<'_, T> {
 
     /// A law about the one axis that a joint turns about: the scene's check refuses others.
     pub(crate) fn angle(&mut self, id: JointId, law: impl Into<Option<Law<T>>>) {
-        if let Some((_, axis)) = self.scene.joints[id].kind.turn(self.scene.dimension) {
+        if let Some((_, axis)) = self.among.joints[id.index()].kind.turn(self.among.dimension) {
             self.act(law, |law| Action::Angle { joint: id.index(), axis, law });
         }
     }
 
     /// A law of a joint's one coordinate: the scene's check refuses joints with none or several.
     pub(crate) fn on_joint(&mut self, id: JointId, law: impl Into<Option<Law<T>>>) {
-        let joint = &self.scene.joints[id];
-        match joint.kind.single(self.scene.dimension) {
+        let joint = &self.among.joints[id.index()];
+        match joint.kind.single(self.among.dimension) {
             Some(Freedom::Slide(axis)) => {
                 let direction = direction_of(joint.direction(axis).into());
                 self.along(joint.bodies, joint.points, direction, law);

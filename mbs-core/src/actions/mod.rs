@@ -5,6 +5,7 @@
 
 mod compile;
 mod error;
+mod from_scene;
 mod road;
 mod tables;
 

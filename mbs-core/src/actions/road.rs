@@ -14,7 +14,7 @@ impl<T: Real> Compiler<'_, T> {
         if let Some(roads) = self.roads {
             return roads;
         }
-        let road = &self.scene.road;
+        let road = self.among.road;
         let left = self.features(&road.left);
         let right = if road.left == road.right { left } else { self.features(&road.right) };
         let travel = (!road.speed.is_zero()).then(|| self.input(SignalInput::travel(road.speed)));

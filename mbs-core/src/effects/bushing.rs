@@ -33,7 +33,7 @@ mod data {
             let (bodies, k, c) = (self.bodies, &self.stiffness, &self.damping);
             let acts = |i: usize| !(k[i].is_zero() && c[i].is_zero());
             let law = |i| SpringDamperLaw { stiffness: k[i], damping: c[i], free: T::ZERO };
-            for i in (0..to.scene.dimension.count()).filter(|&i| acts(i)) {
+            for i in (0..to.among.dimension.count()).filter(|&i| acts(i)) {
                 to.along(bodies, [self.at; 2], unit(i).into(), law(i));
             }
             if to.is_planar() {

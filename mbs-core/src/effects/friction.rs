@@ -131,7 +131,7 @@ mod data {
         const LAW: &'static str = "g(q̇) q̇/√(q̇² + e²) + v q̇, g = C + (S - C)/(1 + (q̇/s)²)";
         const ABSENT: Option<[&'static str; 2]> = Some(["friction", "no friction in joints"]);
 
-        fn check(&self, _: &Scene<T>, place: Place) -> Result<(), SceneError> {
+        fn check(&self, _: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
             if self.r#static >= self.coulomb {
                 return Ok(());
             }

@@ -4,7 +4,7 @@ use super::{EffectData, EffectKind, Field, Value};
 use crate::Real;
 use crate::actions::Compiler;
 use crate::scene::check::Place;
-use crate::scene::{BodyId, Scene, SceneError};
+use crate::scene::{BodyId, SceneError, Surroundings};
 use alloc::vec::Vec;
 
 /// What a kind of effect does, and what it says of itself.
@@ -31,7 +31,7 @@ pub(crate) trait EffectModel<T: Real>: EffectData<T> {
     ///
     /// # Errors
     /// [`SceneError`] with the key.
-    fn check(&self, _scene: &Scene<T>, _place: Place) -> Result<(), SceneError> {
+    fn check(&self, _among: Surroundings<'_, T>, _place: Place) -> Result<(), SceneError> {
         Ok(())
     }
 
@@ -207,9 +207,9 @@ macro_rules! kinds {
                 }
             }
 
-            pub(crate) fn check(&self, scene: &Scene<T>, place: Place) -> Result<(), SceneError> {
+            pub(crate) fn check(&self, among: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
                 match self {
-                    $(Self::$Kind(kind) => kind.check(scene, place),)*
+                    $(Self::$Kind(kind) => kind.check(among, place),)*
                 }
             }
 

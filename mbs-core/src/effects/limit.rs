@@ -112,7 +112,7 @@ mod data {
         const IS_ONE_SIDED: bool = true;
         const ENDS: &'static [&'static str] = &["lower", "upper"];
 
-        fn check(&self, _: &Scene<T>, place: Place) -> Result<(), SceneError> {
+        fn check(&self, _: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
             if self.lower < self.upper {
                 return Ok(());
             }

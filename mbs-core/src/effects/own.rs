@@ -128,16 +128,16 @@ mod data {
         fn name(&self) -> &'static str {
             "own"
         }
-        fn check(&self, scene: &Scene<T>, place: Place) -> Result<(), SceneError> {
+        fn check(&self, among: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
             place.signal(&self.course)?;
             match self.law {
                 UserLaw::Length { bodies, points, .. } => {
-                    check_pair(scene, bodies, place)?;
+                    check_pair(among, bodies, place)?;
                     place.apart("points", points)
                 }
-                UserLaw::Joint { joint, .. } => single_coordinate(scene, joint, place),
+                UserLaw::Joint { joint, .. } => single_coordinate(among, joint, place),
                 UserLaw::Body { body, at, axis, .. } => {
-                    known_body(scene, body, place)?;
+                    known_body(among, body, place)?;
                     place.vector("at", at)?;
                     place.axis("axis", axis)
                 }

@@ -59,7 +59,6 @@ pub use data::SpeedHold;
 #[cfg(feature = "alloc")]
 mod data {
     use super::SpeedHoldLaw;
-    use crate::cluster::mass_properties;
     use crate::effects::data::*;
 
     effect! {
@@ -84,7 +83,7 @@ mod data {
         fn actions(&self, to: &mut Compiler<'_, T>) {
             let &Self { body, direction, speed, gain, limit } = self;
             let Some(index) = body.index() else { return };
-            let at = mass_properties(to.scene, index).1.into();
+            let at = to.among.bodies[index].mass_properties().1.into();
             let axis = crate::actions::direction_of(direction);
             to.on_body((body, at), axis, SpeedHoldLaw { speed, gain, limit });
         }

@@ -1,7 +1,7 @@
 //! What the list of effects is made into: modules, names, the enums of laws, and the enum of kinds with its dispatch.
 
-/// Makes a list of effects.
-macro_rules! effects {
+/// Modules and kinds of a list of effects.
+macro_rules! kinds {
     ($(
         $Kind:ident in $module:ident $gate:tt
         $(tension $Tension:ident($TensionLaw:ident $(<$TS:ident>)?) = $tension_tag:literal)?
@@ -17,11 +17,20 @@ macro_rules! effects {
         pub use kinds::*;
         #[cfg(feature = "alloc")]
         kind::kinds! { $($Kind $module $gate),* }
+    };
+}
 
+/// The laws of a list of effects.
+macro_rules! laws {
+    ($(
+        $Kind:ident in $module:ident $gate:tt
+        $(tension $Tension:ident($TensionLaw:ident $(<$TS:ident>)?) = $tension_tag:literal)?
+        $(body $Body:ident($BodyLaw:ident $(<$BS:ident>)?) = $body_tag:literal)?;
+    )*) => {
         /// The laws, as tables of controllers name them.
         pub mod laws {
-            $($(pub use super::$module::$TensionLaw;)?)*
-            $($(pub use super::$module::$BodyLaw;)?)*
+            $($(pub use super::super::$module::$TensionLaw;)?)*
+            $($(pub use super::super::$module::$BodyLaw;)?)*
         }
 
         /// A law along a length or about an angle.
@@ -31,13 +40,13 @@ macro_rules! effects {
             $($(
                 #[cfg $gate]
                 #[doc = concat!("[`", stringify!($TensionLaw), "`](laws::", stringify!($TensionLaw), ").")]
-                $Tension($module::$TensionLaw $(<$TS>)?),
+                $Tension(super::$module::$TensionLaw $(<$TS>)?),
             )?)*
         }
 
-        $($(impl<T> From<$module::$TensionLaw $(<$TS>)?> for Option<Law<T>> {
+        $($(impl<T> From<super::$module::$TensionLaw $(<$TS>)?> for Option<Law<T>> {
             /// `None` where the Cargo feature of its effect is off.
-            fn from(law: $module::$TensionLaw $(<$TS>)?) -> Self {
+            fn from(law: super::$module::$TensionLaw $(<$TS>)?) -> Self {
                 #[cfg $gate]
                 return Some(Law::$Tension(law));
                 #[cfg(not $gate)]
@@ -92,13 +101,13 @@ macro_rules! effects {
             $($(
                 #[cfg $gate]
                 #[doc = concat!("[`", stringify!($BodyLaw), "`](laws::", stringify!($BodyLaw), ").")]
-                $Body($module::$BodyLaw $(<$BS>)?),
+                $Body(super::$module::$BodyLaw $(<$BS>)?),
             )?)*
         }
 
-        $($(impl<T> From<$module::$BodyLaw $(<$BS>)?> for Option<BodyLaw<T>> {
+        $($(impl<T> From<super::$module::$BodyLaw $(<$BS>)?> for Option<BodyLaw<T>> {
             /// `None` where the Cargo feature of its effect is off.
-            fn from(law: $module::$BodyLaw $(<$BS>)?) -> Self {
+            fn from(law: super::$module::$BodyLaw $(<$BS>)?) -> Self {
                 #[cfg $gate]
                 return Some(BodyLaw::$Body(law));
                 #[cfg(not $gate)]
@@ -220,4 +229,4 @@ macro_rules! tags {
     };
 }
 
-pub(super) use {dispatch, effects, feature_of, method, tags};
+pub(super) use {dispatch, feature_of, kinds, laws, method, tags};

@@ -41,9 +41,9 @@ mod data {
         const NEEDS_ROAD: bool = true;
 
         /// An axis where side force or rolling resistance asks for one; nothing across in the plane.
-        fn check(&self, scene: &Scene<T>, place: Place) -> Result<(), SceneError> {
+        fn check(&self, among: Surroundings<'_, T>, place: Place) -> Result<(), SceneError> {
             let side = self.side.as_ref();
-            if scene.dimension.count() == 2 {
+            if among.dimension.count() == 2 {
                 if side.is_some() {
                     return place.fault("side", SceneFault::NeedsSpatial);
                 }
@@ -70,7 +70,7 @@ mod data {
                 side: self.side,
                 road: roads[usize::from(self.center[1] < T::ZERO && !to.is_planar())],
                 travel,
-                up: to.scene.dimension.count() - 1,
+                up: to.among.dimension.count() - 1,
                 leans: self.axis.is_some() && !to.is_planar(),
             };
             let axis = self.axis.map_or_else(|| unit(2).into(), crate::actions::direction_of);

@@ -1,167 +1,9 @@
-//! Roads: heights over x, the same across it.
-//!
-//! ```text
-//! rise    slope 0 -> s -> 0, linear over the rounding r at both ends, s = height / (length - r)
-//! bump    A (1 - cos(2 pi (x - x0) / L))
-//! ```
+//! Roads: heights over x, the same across it; those of all parts add up.
 
-use super::entry::entry;
-use super::{Part, Supplies, guide};
+pub use super::feature::{Feature, Height};
+
+use super::{Part, Supplies};
 use crate::Real;
-
-/// A part of a road; heights of all parts add up.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Feature<T> {
-    /// The same height everywhere [m].
-    Flat(T),
-    /// A slope with rounded corners, level before and after.
-    Rise {
-        /// Where it begins [m].
-        start: T,
-        /// Its length along x [m].
-        length: T,
-        /// Its height [m].
-        height: T,
-        /// Length of each rounded corner, at most half the length [m].
-        rounding: T,
-    },
-    /// amplitude (1 - cos(2 pi (x - start) / length)), once.
-    Bump {
-        /// Where it begins [m].
-        start: T,
-        /// Its length along x [m].
-        length: T,
-        /// Half its height [m].
-        amplitude: T,
-    },
-    /// Natural cubic spline through a part of the knots, level outside.
-    Spline(Part),
-}
-
-entry!(Feature enum {
-    0 Flat { 0 height },
-    1 Rise { start start, length length, height height, rounding rounding },
-    2 Bump { start start, length length, amplitude amplitude },
-    3 Spline { 0 part },
-});
-
-/// A height and its first two derivatives by x.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Height<T> {
-    /// [m].
-    pub value: T,
-    /// [-].
-    pub slope: T,
-    /// [1/m].
-    pub curvature: T,
-}
-
-impl<T: Real> Feature<T> {
-    /// The height at `x`.
-    fn at(&self, x: T, knots: (&[[T; 2]], &[T])) -> Height<T> {
-        match *self {
-            Self::Flat(value) => Height { value, ..Height::default() },
-            Self::Rise { start, length, height, rounding } => {
-                rise([length, height, rounding], x - start)
-            }
-            Self::Bump { start, length, amplitude } => {
-                let u = x - start;
-                if !(u > T::ZERO && u < length) {
-                    return Height::default();
-                }
-                let k = T::TWO * T::PI / length;
-                let (sin, cos) = (k * u).sin_cos();
-                Height {
-                    value: amplitude * (T::ONE - cos),
-                    slope: amplitude * k * sin,
-                    curvature: amplitude * k * k * cos,
-                }
-            }
-            Self::Spline(part) => {
-                let m = guide::spline(part.of(knots.0), part.of(knots.1), x);
-                Height { value: m.value, slope: m.rate, curvature: m.acceleration }
-            }
-        }
-    }
-
-    /// Where its pieces meet, each other or the level road.
-    pub(super) fn ends(&self, knots: (&[[T; 2]], &[T])) -> [Option<T>; 4] {
-        match *self {
-            Self::Flat(_) => [None; 4],
-            Self::Rise { start, length, rounding, .. } => {
-                let end = start + length;
-                [start, start + rounding, end - rounding, end].map(Some)
-            }
-            Self::Bump { start, length, .. } => [Some(start), Some(start + length), None, None],
-            Self::Spline(part) => {
-                let table = part.of(knots.0);
-                let ends = [table.first(), table.last()].map(|knot| knot.map(|knot| knot[0]));
-                [ends[0], ends[1], None, None]
-            }
-        }
-    }
-
-    /// A bound of h'' between two places; `None`: level there.
-    fn hollow(&self, [lower, upper]: [T; 2], knots: (&[[T; 2]], &[T])) -> Option<T> {
-        let within = |start: T, length: T| start <= upper && start + length >= lower;
-        match *self {
-            Self::Flat(_) => None,
-            Self::Rise { start, length, height, rounding } => {
-                within(start, length).then(|| height.abs() / ((length - rounding) * rounding))
-            }
-            Self::Bump { start, length, amplitude } => within(start, length).then(|| {
-                let k = T::TWO * T::PI / length;
-                amplitude.abs() * k * k
-            }),
-            Self::Spline(part) => spline_hollow(part.of(knots.0), part.of(knots.1), [lower, upper]),
-        }
-    }
-}
-
-/// Change of slope at the end of a table that is no hollow [-].
-const LEVEL: f64 = 1e-6;
-
-/// The largest curvature of the knots about a range; where the table rises from its end there, a bound that none exceeds.
-fn spline_hollow<T: Real>(table: &[[T; 2]], curvatures: &[T], [lower, upper]: [T; 2]) -> Option<T> {
-    let (first, last) = (table.first()?[0], table.last()?[0]);
-    if !(first <= upper && last >= lower) || table.len() < 2 {
-        return None;
-    }
-    let rise = |x| guide::spline(table, curvatures, x).rate;
-    let kink = T::from_f64(LEVEL);
-    if (first >= lower && rise(first) > kink) || (last <= upper && rise(last) < -kink) {
-        return Some(T::ONE / T::EPSILON);
-    }
-    let from = table.partition_point(|knot| knot[0] <= lower).saturating_sub(1);
-    let to = table.partition_point(|knot| knot[0] < upper) + 1;
-    let about = curvatures.get(from..to.min(curvatures.len()))?;
-    Some(about.iter().fold(T::ZERO, |most, &c| most.max(c)))
-}
-
-/// A rise of length, height and rounding at the distance `u` from its start.
-fn rise<T: Real>([length, height, rounding]: [T; 3], u: T) -> Height<T> {
-    let level = |value| Height { value, ..Height::default() };
-    if !(u > T::ZERO) {
-        return level(T::ZERO);
-    }
-    if u >= length {
-        return level(height);
-    }
-    let slope = height / (length - rounding);
-    let corner = |u: T| slope * u * u * T::HALF / rounding;
-    if u < rounding {
-        Height { value: corner(u), slope: slope * u / rounding, curvature: slope / rounding }
-    } else if u > length - rounding {
-        let rest = length - u;
-        Height {
-            value: height - corner(rest),
-            slope: slope * rest / rounding,
-            curvature: -slope / rounding,
-        }
-    } else {
-        Height { value: slope * (u - rounding * T::HALF), slope, curvature: T::ZERO }
-    }
-}
 
 /// Height of a road at `x`.
 pub fn height<T: Real>(road: Part, supplies: &Supplies<'_, T>, x: T) -> Height<T> {
@@ -194,6 +36,8 @@ pub fn hollow<T: Real>(
 
 #[cfg(all(test, feature = "tire"))]
 mod tests {
+    use super::super::feature::spline_hollow;
+    use super::super::guide;
     use super::*;
 
     const ROAD: [Feature<f64>; 3] = [

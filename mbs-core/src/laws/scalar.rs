@@ -30,7 +30,7 @@ pub struct Measure<T> {
 }
 
 /// A law along a length or about an angle. [`Law`] is one of all that there are.
-pub trait TensionLaw<T: Real>: Entry<T> + Copy + Into<Option<Law<T>>> {
+pub trait TensionLaw<T: Real>: Entry<T> + Copy {
     /// Tension and its tangents at a value and its rate.
     fn evaluate(&self, value: T, rate: T, supplies: &Supplies<'_, T>) -> Measure<T>;
 

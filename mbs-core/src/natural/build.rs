@@ -1,10 +1,8 @@
-//! From a scene to a [`NaturalModel`]: sharing, bases, rigid-body rows, joint rows, effects.
+//! What a model is built of: sharing, bases, rigid-body rows; then joint rows and effects.
 
 use super::basis::{Basis, Combination};
 use super::draft::{Constants, GroupDraft, RowDraft};
 use super::error::ModelError;
-use super::finish::finish;
-use super::model::NaturalModel;
 use super::rigid::rigid_rows;
 use super::rods::Rods;
 use super::sharing::{Entity, EntityKind, Sharing};
@@ -13,34 +11,11 @@ use crate::actions::Actions;
 use crate::algebra::Vector;
 use crate::cluster::{Clusters, scene_length};
 use crate::model::Owner;
-use crate::scene::align::aligned;
 use crate::scene::{BodyId, Dimension, Scene};
 use alloc::vec::Vec;
 
 /// Dependent entities that share an element with their body; each further one is an element of its own.
 const TOGETHER: usize = 2;
-
-impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// Builds the smallest natural-coordinate model of a scene.
-    ///
-    /// # Errors
-    /// [`ModelError`] when the scene's dimension is not D, or a body's data leave a point undefined.
-    pub fn new(scene: &Scene<T>) -> Result<Self, ModelError> {
-        if scene.dimension.count() != D {
-            return Err(ModelError::Dimension);
-        }
-        let scene = &*aligned(scene);
-        let actions = Actions::new(scene)?;
-        let mut builder = Builder::new(scene, &actions)?;
-        builder.add_bodies();
-        for joint in 0..scene.joints.len() {
-            builder.add_joint(joint);
-        }
-        builder.add_guides();
-        builder.add_effects(&actions.list)?;
-        Ok(finish(builder, actions))
-    }
-}
 
 /// Everything known while a model is built.
 pub(super) struct Builder<'a, T: Real> {
@@ -57,7 +32,7 @@ pub(super) struct Builder<'a, T: Real> {
 }
 
 impl<'a, T: Real> Builder<'a, T> {
-    fn new(scene: &'a Scene<T>, actions: &Actions<T>) -> Result<Self, ModelError> {
+    pub(super) fn new(scene: &'a Scene<T>, actions: &Actions<T>) -> Result<Self, ModelError> {
         let length = scene_length(scene);
         let clusters = Clusters::new(scene);
         let Sharing { mut entities, of_cluster: shared } = Sharing::new(scene, &clusters, length);
@@ -108,7 +83,7 @@ impl<'a, T: Real> Builder<'a, T> {
     }
 
     /// One group for each cluster: mass, gravity, rigid-body rows, dependent points.
-    fn add_bodies(&mut self) {
+    pub(super) fn add_bodies(&mut self) {
         let zero = self.constant(Vector::zeros(), EntityKind::Direction)[0].0;
         let rigid = rigid_rows((&self.bases, &self.shared), &self.entities, zero);
         for (c, rows) in rigid.into_iter().enumerate() {
@@ -119,7 +94,7 @@ impl<'a, T: Real> Builder<'a, T> {
             if let Some(g) = self.scene.gravity {
                 let weight = Vector::<T, 3>::from(g) * cluster.mass;
                 for (e, coef) in basis.point(&cluster.center) {
-                    group.forces.push((e, super::finish::lifted(coef, &weight)));
+                    group.forces.push((e, super::draft::lifted(coef, &weight)));
                 }
             }
             group.rows = rows;

@@ -199,3 +199,9 @@ pub(crate) fn difference<T: Real>(a: &Combination<T>, b: &Combination<T>) -> Com
     result.retain(|(_, c)| !c.is_zero());
     result
 }
+
+/// C^T F in three dimensions (planar coefficients turn the first two components).
+pub(crate) fn lifted<T: Real>(c: Coef<T>, f: &Vector<T, 3>) -> Vector<T, 3> {
+    let c = c.conj();
+    Vector::<T, 3>::new(f[0] * c.re - f[1] * c.im, f[0] * c.im + f[1] * c.re, f[2] * c.re)
+}

@@ -5,7 +5,7 @@ use super::build::Builder;
 use super::draft::{EffectDraft, GroupDraft, RowDraft};
 use super::element::{DENSE, ROOM};
 use super::forces::{BodyTorque, Gauge, MeasureElement, PointForce};
-use super::group::{Group, packed};
+use super::group::{Group, index, packed};
 use super::merge::merged;
 use super::model::NaturalModel;
 use super::motion::carriers;
@@ -23,19 +23,6 @@ use crate::model::Owner;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// An index as stored in tables. A model of four thousand million entries does not fit any memory.
-#[allow(clippy::cast_possible_truncation, reason = "tables are shorter than 2^32")]
-pub(crate) fn index(i: usize) -> u32 {
-    debug_assert!(u32::try_from(i).is_ok());
-    i as u32
-}
-
-/// C^T F in three dimensions (planar coefficients turn the first two components).
-pub(crate) fn lifted<T: Real>(c: Coef<T>, f: &Vector<T, 3>) -> Vector<T, 3> {
-    let c = c.conj();
-    Vector::<T, 3>::new(f[0] * c.re - f[1] * c.im, f[0] * c.im + f[1] * c.re, f[2] * c.re)
-}
-
 /// Numbers and lays out everything.
 pub(super) fn finish<T: Real, const D: usize>(
     builder: Builder<'_, T>,
@@ -52,7 +39,7 @@ pub(super) fn finish<T: Real, const D: usize>(
     number_measures(&mut model);
     model.angles.sort_by_key(|&(owner, _)| effect_of(owner));
     model.marks = model.marks();
-    model.touches = Touches::of(&model);
+    model.touches = Touches::of::<D>(&model.groups, &model.slots, &model.reach);
     model.is_whole = is_whole(&model);
     model.is_small = model.groups.iter().all(|g| g.clique.len() <= ROOM);
     let owners = (&model.clusters, bases.as_slice(), shared.as_slice());

@@ -6,7 +6,7 @@
 //! torque tau on a spatial body:     Q = 1/2 sum_i (tau x u_i) on its three orthonormal directions u_i
 //! ```
 
-use super::rotation::rotation;
+use super::rotation::{rotation, unwrap};
 use crate::Real;
 use crate::algebra::{Vector, cross, lowered, norm, raised};
 use crate::elements::{Span, Term, combine};
@@ -155,17 +155,6 @@ fn angle<T: Real, const D: usize>(
     }
     let rate = (w2 * c - w1 * s).dot(&py) + across.dot(&wy);
     (unwrap(s.atan2(c), last), rate)
-}
-
-/// The angle that differs from `angle` by whole turns and is nearest to `last`.
-pub fn unwrap<T: Real>(angle: T, last: T) -> T {
-    let turn = T::TWO * T::PI;
-    let mut unwrapped = angle;
-    let gap = (last - unwrapped) / turn;
-    // Rounding to the nearest whole number, without a floor function in the scalar trait.
-    let whole = T::from_f64(libm::round(gap.to_f64()));
-    unwrapped += whole * turn;
-    unwrapped
 }
 
 /// Local forces of a torque on a spatial body.

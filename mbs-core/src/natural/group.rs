@@ -168,3 +168,10 @@ pub(crate) fn add_curvature<T: Real, const D: usize>(
         block[packed(k, i, j + 1)] -= c.im;
     }
 }
+
+/// An index as stored in tables. A model of four thousand million entries does not fit any memory.
+#[allow(clippy::cast_possible_truncation, reason = "tables are shorter than 2^32")]
+pub(crate) fn index(i: usize) -> u32 {
+    debug_assert!(u32::try_from(i).is_ok());
+    i as u32
+}

@@ -3,14 +3,12 @@
 use super::basis::Basis;
 use super::forces::{BodyTorque, MeasureElement, PointForce};
 use super::group::Group;
-use super::motion::Carried;
 use super::on_body::BodyElement;
-use super::parts::Mark;
 use super::reach::Reach;
 use super::touches::Touches;
 use crate::Real;
 use crate::actions::Tables;
-use crate::algebra::Coef;
+use crate::algebra::{Coef, Vector};
 use crate::blocks::Cliques;
 use crate::cluster::Clusters;
 use crate::elements::{Distance, Dot, Guided, Linear, Term};
@@ -113,4 +111,40 @@ impl<T: Real, const D: usize> NaturalModel<T, D> {
     pub fn n_elements_by_kind(&self) -> [usize; 4] {
         [self.distances.len(), self.dots.len(), self.linears.len(), self.guided.len()]
     }
+}
+
+/// An unknown entity with one of the bodies that carry it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Carried<T: Real> {
+    /// Its first coordinate.
+    pub(super) at: u32,
+    /// Index of the body.
+    pub(super) body: usize,
+    pub(super) is_point: bool,
+    pub(super) reference: Vector<T, 3>,
+}
+
+impl<T: Real> Carried<T> {
+    /// The first coordinate of a point.
+    pub(super) fn point(&self) -> Option<usize> {
+        self.is_point.then_some(self.at as usize)
+    }
+}
+
+/// The first of everything that belongs to a group and those after it.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Mark {
+    pub(super) group: usize,
+    pub(super) row: usize,
+    pub(super) jacobian: usize,
+    pub(super) force: usize,
+    pub(super) distance: usize,
+    pub(super) dot: usize,
+    pub(super) linear: usize,
+    pub(super) guided: usize,
+    pub(super) measure: usize,
+    pub(super) body_element: usize,
+    pub(super) body_measure: usize,
+    pub(super) point_force: usize,
+    pub(super) torque: usize,
 }

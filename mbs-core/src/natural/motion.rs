@@ -1,33 +1,14 @@
 //! Natural coordinates written from the motions of the bodies, for formulations with other coordinates.
 
 use super::basis::Basis;
-use super::model::NaturalModel;
+use super::model::{Carried, NaturalModel};
 use super::sharing::{Entity, EntityKind};
 use crate::Real;
-use crate::algebra::Vector;
 use crate::blocks::Cliques;
 use crate::cluster::Clusters;
 use crate::model::{Model, State, Terms};
 use crate::rigid::RigidMotion;
 use alloc::vec::Vec;
-
-/// An unknown entity with one of the bodies that carry it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Carried<T: Real> {
-    /// Its first coordinate.
-    at: u32,
-    /// Index of the body.
-    body: usize,
-    is_point: bool,
-    reference: Vector<T, 3>,
-}
-
-impl<T: Real> Carried<T> {
-    /// The first coordinate of a point.
-    pub(super) fn point(&self) -> Option<usize> {
-        self.is_point.then_some(self.at as usize)
-    }
-}
 
 /// One carrier for each unknown entity: the first body that has it.
 pub(super) fn carriers<T: Real>(

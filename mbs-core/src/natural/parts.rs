@@ -8,7 +8,7 @@
 //! Where it is cut depends on the number of groups alone.
 
 use super::group::Group;
-use super::model::NaturalModel;
+use super::model::{Mark, NaturalModel};
 use crate::Real;
 use crate::elements::{Distance, Dot, Guided, Linear, Span};
 use crate::laws::scalar::Measure;
@@ -18,24 +18,6 @@ use core::ops::Range;
 
 /// Groups of a part: some ten microseconds of evaluation.
 const GROUPS: usize = 64;
-
-/// The first of everything that belongs to a group and those after it.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Mark {
-    group: usize,
-    pub(super) row: usize,
-    pub(super) jacobian: usize,
-    force: usize,
-    distance: usize,
-    dot: usize,
-    linear: usize,
-    guided: usize,
-    measure: usize,
-    body_element: usize,
-    pub(super) body_measure: usize,
-    point_force: usize,
-    torque: usize,
-}
 
 /// Neighbouring groups: from one mark to another.
 #[derive(Debug, Clone, Copy)]
@@ -144,7 +126,7 @@ fn shifted(span: Span, by: usize) -> Span {
 
 #[inline(always)]
 fn narrow(i: usize) -> u32 {
-    super::finish::index(i)
+    super::group::index(i)
 }
 
 impl<'a, T> Out<'a, T> {

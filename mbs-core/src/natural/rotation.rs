@@ -7,7 +7,6 @@
 //!
 //! Within half a turn w is that of the matrix; beyond, it goes on from the last one.
 
-use super::forces::unwrap;
 use crate::Real;
 use crate::algebra::{
     Matrix, Vector, add_to, cross, lowered, norm, raised, rotation_gradient, rotation_vector,
@@ -53,4 +52,15 @@ pub(super) fn rotation<T: Real, const D: usize>(
         }
     }
     (w[number], rate)
+}
+
+/// The angle that differs from `angle` by whole turns and is nearest to `last`.
+pub fn unwrap<T: Real>(angle: T, last: T) -> T {
+    let turn = T::TWO * T::PI;
+    let mut unwrapped = angle;
+    let gap = (last - unwrapped) / turn;
+    // Rounding to the nearest whole number, without a floor function in the scalar trait.
+    let whole = T::from_f64(libm::round(gap.to_f64()));
+    unwrapped += whole * turn;
+    unwrapped
 }

@@ -4,8 +4,8 @@
 //! rate_r = sum over the unknown entities e that row r touches of g_re . x_e
 //! ```
 
-use super::finish::index;
-use super::model::NaturalModel;
+use super::group::{Group, index};
+use super::reach::Reach;
 use crate::Real;
 use alloc::vec::Vec;
 
@@ -28,11 +28,11 @@ pub(super) struct Touches {
 
 impl Touches {
     /// Of the rows of a model that has all its groups.
-    pub(super) fn of<T: Real, const D: usize>(model: &NaturalModel<T, D>) -> Self {
+    pub(super) fn of<const D: usize>(groups: &[Group], slots: &[u32], reach: &[Reach]) -> Self {
         let mut touches = Self { start: Vec::from([0]), list: Vec::new() };
-        for group in &model.groups {
-            let slots = &group.slots.of(&model.slots)[..group.n_unknown as usize];
-            for (k, reach) in group.rows.of(&model.reach).iter().enumerate() {
+        for group in groups {
+            let slots = &group.slots.of(slots)[..group.n_unknown as usize];
+            for (k, reach) in group.rows.of(reach).iter().enumerate() {
                 let row = group.jacobian as usize + k * group.width as usize;
                 for (e, &slot) in slots.iter().enumerate() {
                     if reach.pair().is_none_or(|pair| pair.contains(&(e * D))) {

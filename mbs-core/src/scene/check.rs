@@ -9,15 +9,16 @@ mod effect;
 mod joint;
 mod motion;
 mod output;
+mod reference;
 mod road;
 #[cfg(test)]
 mod tests;
 mod vector;
 
 use crate::Real;
-use crate::scene::{BodyId, Dimension, Entry, Scene, SceneError, SceneFault};
+use crate::scene::{Entry, Scene, SceneError, SceneFault};
 use alloc::vec::Vec;
-pub(crate) use effect::{known_body, single_coordinate};
+pub(crate) use reference::{check_pair, known_body, single_coordinate};
 pub(crate) use vector::Place;
 
 impl<T: Real> Scene<T> {
@@ -132,14 +133,6 @@ impl<T: Real> Scene<T> {
         }
         Ok(())
     }
-
-    /// The index is in range, or the reference is the ground.
-    fn knows(&self, body: BodyId) -> bool {
-        match body {
-            BodyId::Ground => true,
-            BodyId::Body(i) => i < self.bodies.len(),
-        }
-    }
 }
 
 /// Names are there, free and different. Cost: a sort, so that scenes of many bodies stay cheap.
@@ -159,24 +152,4 @@ fn unique<'a>(
         }
     }
     Ok(())
-}
-
-/// The entry's two bodies exist and differ.
-pub(crate) fn check_pair<T: Real>(
-    scene: &Scene<T>,
-    bodies: [BodyId; 2],
-    place: Place,
-) -> Result<(), SceneError> {
-    if !bodies.into_iter().all(|body| scene.knows(body)) {
-        return place.fault("bodies", SceneFault::UnknownReference);
-    }
-    if bodies[0] == bodies[1] {
-        return place.fault("bodies", SceneFault::SameBody);
-    }
-    Ok(())
-}
-
-/// A planar scene.
-fn is_planar(dimension: Dimension) -> bool {
-    dimension == Dimension::Planar
 }

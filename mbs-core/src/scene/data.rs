@@ -1,61 +1,8 @@
 //! Bodies, joints, initial conditions and guides.
 
-use crate::scene::{BodyId, Dimension, Effect, JointId, JointKind, Output, Road, SolverTable};
+use crate::scene::{BodyId, Dimension, JointId, JointKind, Road};
 use alloc::string::String;
 use alloc::vec::Vec;
-
-/// A mechanism and what is asked of it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Scene<T> {
-    /// Name for reports.
-    pub name: String,
-    /// Planar or spatial.
-    pub dimension: Dimension,
-    /// Acceleration of gravity [m/s^2]; `None`: no gravity and no gravity code.
-    pub gravity: Option<[T; 3]>,
-    /// Length of the run [s].
-    pub duration: T,
-    /// The bodies; the ground is not among them.
-    pub bodies: Vec<Body<T>>,
-    /// The joints.
-    pub joints: Vec<Joint<T>>,
-    /// What holds exactly at the start; the rest follows.
-    pub initials: Vec<InitialCondition<T>>,
-    /// Kinematic guidance of joint coordinates.
-    pub guides: Vec<Guide<T>>,
-    /// The road of tires; empty: level ground at height zero.
-    pub road: Road<T>,
-    /// What the run starts from.
-    pub start: Start,
-    /// Opt-in effects. Those with `enabled: false` are not built.
-    pub effects: Vec<Effect<T>>,
-    /// Channels; empty: every joint coordinate.
-    pub outputs: Vec<Output<T>>,
-    /// What the scene asks of the solver.
-    pub solver: SolverTable<T>,
-}
-
-impl<T: Default> Scene<T> {
-    /// A scene of that name, dimension and duration [s], without gravity and with nothing in it.
-    #[must_use]
-    pub fn empty(name: &str, dimension: Dimension, duration: T) -> Self {
-        Self {
-            name: String::from(name),
-            dimension,
-            gravity: None,
-            duration,
-            bodies: Vec::new(),
-            joints: Vec::new(),
-            initials: Vec::new(),
-            guides: Vec::new(),
-            road: Road::default(),
-            start: Start::default(),
-            effects: Vec::new(),
-            outputs: Vec::new(),
-            solver: SolverTable::default(),
-        }
-    }
-}
 
 /// What a run starts from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -190,4 +137,13 @@ pub enum Motion<T> {
         /// Rate [rad/s or m/s].
         rate: T,
     },
+}
+
+/// What an effect acts among.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Surroundings<'a, T> {
+    pub(crate) dimension: Dimension,
+    pub(crate) bodies: &'a [Body<T>],
+    pub(crate) joints: &'a [Joint<T>],
+    pub(crate) road: &'a Road<T>,
 }

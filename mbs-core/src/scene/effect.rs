@@ -1,21 +1,8 @@
-//! Opt-in effects, as data.
+//! What effects are described by: signals, axes, laws of users, polynomials and roads.
 
-use crate::effects::EffectKind;
 use crate::laws::own::{UserBodyLaw, UserScalarLaw};
 use crate::scene::{BodyId, JointId};
-use alloc::string::String;
 use alloc::vec::Vec;
-
-/// An opt-in effect.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Effect<T> {
-    /// Unique name among the effects (given, or `effect-N`).
-    pub name: String,
-    /// Switched off when false: then nothing of it is built.
-    pub enabled: bool,
-    /// What it does.
-    pub kind: EffectKind<T>,
-}
 
 /// A constant, or a table over time (linear between the points, the end values held outside).
 #[derive(Debug, Clone, PartialEq)]

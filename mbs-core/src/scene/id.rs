@@ -2,10 +2,6 @@
 //!
 //! A handle is the place of an entry in its list. The kinds are types of their own, so that a joint is not passed for a body.
 
-use crate::scene::{Effect, Guide, InitialCondition, Joint, Output};
-use alloc::vec::Vec;
-use core::ops::{Index, IndexMut};
-
 /// A body by its place in `scene.bodies`, or the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum BodyId {
@@ -39,7 +35,7 @@ impl BodyId {
 }
 
 macro_rules! handle {
-    ($(#[$text:meta])* $name:ident of $entry:ident) => {
+    ($(#[$text:meta])* $name:ident) => {
         $(#[$text])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub struct $name(usize);
@@ -57,25 +53,11 @@ macro_rules! handle {
                 self.0
             }
         }
-
-        impl<T> Index<$name> for Vec<$entry<T>> {
-            type Output = $entry<T>;
-
-            fn index(&self, id: $name) -> &$entry<T> {
-                &self[id.0]
-            }
-        }
-
-        impl<T> IndexMut<$name> for Vec<$entry<T>> {
-            fn index_mut(&mut self, id: $name) -> &mut $entry<T> {
-                &mut self[id.0]
-            }
-        }
     };
 }
 
-handle!(/** A joint by its place in `scene.joints`. */ JointId of Joint);
-handle!(/** An initial condition by its place in `scene.initials`. */ InitialId of InitialCondition);
-handle!(/** A guide by its place in `scene.guides`. */ GuideId of Guide);
-handle!(/** An effect by its place in `scene.effects`. */ EffectId of Effect);
-handle!(/** An output by its place in `scene.outputs`. */ OutputId of Output);
+handle!(/** A joint by its place in `scene.joints`. */ JointId);
+handle!(/** An initial condition by its place in `scene.initials`. */ InitialId);
+handle!(/** A guide by its place in `scene.guides`. */ GuideId);
+handle!(/** An effect by its place in `scene.effects`. */ EffectId);
+handle!(/** An output by its place in `scene.outputs`. */ OutputId);

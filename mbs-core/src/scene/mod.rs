@@ -23,13 +23,17 @@ mod error;
 mod fault;
 #[cfg(feature = "alloc")]
 mod id;
+#[cfg(feature = "alloc")]
+mod inertia;
 mod joint;
+#[cfg(feature = "alloc")]
+mod mechanism;
 #[cfg(feature = "alloc")]
 mod number;
 #[cfg(feature = "alloc")]
-mod output;
-#[cfg(feature = "alloc")]
 mod resolve;
+#[cfg(feature = "alloc")]
+mod solver;
 
 #[cfg(feature = "alloc")]
 pub use crate::effects::{EffectKind, kinds::*};
@@ -40,13 +44,15 @@ pub use axes::transverse;
 #[cfg(feature = "alloc")]
 pub use build::StartedJoint;
 #[cfg(feature = "alloc")]
+pub(crate) use data::Surroundings;
+#[cfg(feature = "alloc")]
 pub use data::{
-    Body, Guide, Inertia, InitialCondition, InitialTarget, Joint, Motion, Scene, Start, TableEnds,
+    Body, Guide, Inertia, InitialCondition, InitialTarget, Joint, Motion, Start, TableEnds,
 };
 pub use dimension::Dimension;
 #[cfg(feature = "alloc")]
 pub use effect::{
-    AxisFrame, CalspanCoefficients, Effect, PolynomialPiece, Road, RoadFeature, Signal, UserLaw,
+    AxisFrame, CalspanCoefficients, PolynomialPiece, Road, RoadFeature, Signal, UserLaw,
 };
 #[cfg(feature = "alloc")]
 pub use error::{Entry, SceneError};
@@ -54,8 +60,12 @@ pub use error::{Entry, SceneError};
 pub use fault::SceneFault;
 #[cfg(feature = "alloc")]
 pub use id::{BodyId, EffectId, GROUND, GuideId, InitialId, JointId, OutputId};
+#[cfg(feature = "alloc")]
+pub(crate) use inertia::steiner;
 pub use joint::{Axis, Freedom, JOINTS, JointForm, JointKind, Rotation, Translation};
+#[cfg(feature = "alloc")]
+pub use mechanism::{Effect, Output, Scene};
 #[cfg(feature = "alloc")]
 pub use number::{Number, Vector3};
 #[cfg(feature = "alloc")]
-pub use output::{Output, SolverTable};
+pub use solver::SolverTable;

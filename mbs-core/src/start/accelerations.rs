@@ -1,7 +1,7 @@
 //! The last level: accelerations and multipliers by the index-1 equations.
 
-use super::assemble::{MAX_SWEEPS, RAISE, raises};
 use super::error::AssemblyError;
+use super::problem::{MAX_SWEEPS, RAISE, raises};
 use super::weak::{SIEVES, TILT};
 use crate::Real;
 use crate::algebra::norm_inf;

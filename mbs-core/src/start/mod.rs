@@ -19,6 +19,7 @@ mod positions;
 mod problem;
 mod rank;
 mod sparse_rank;
+mod sweeps;
 mod velocities;
 mod weak;
 

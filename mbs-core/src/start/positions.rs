@@ -7,11 +7,11 @@
 //!
 //! The stages choose the branch of the assembly only; where they are cut does not enter the result.
 
-use super::assemble::{Assembly, MAX_SWEEPS, SLOW, raises};
 use super::error::AssemblyError;
 use super::hold::StartRow;
 use super::place::Placement;
-use super::problem::Level;
+use super::problem::{Level, MAX_SWEEPS, SLOW, raises};
+use super::sweeps::Assembly;
 use crate::Real;
 use crate::actions::{Action, Actions};
 use crate::blocks::{Cliques, SpdSolver};

@@ -16,6 +16,13 @@ use crate::natural::NaturalModel;
 use alloc::vec;
 use alloc::vec::Vec;
 
+/// Sweeps allowed at each level and stage.
+pub(super) const MAX_SWEEPS: u32 = 60;
+/// Factor on all penalties after a slow sweep: long chains of light links hardly feel some combinations of rows.
+pub(super) const RAISE: f64 = 30.0;
+/// A sweep that leaves more than this share of a residual is slow.
+pub(super) const SLOW: f64 = 0.3;
+
 /// Is it at least double precision?
 fn is_fine<T: Real>() -> bool {
     T::EPSILON < T::from_f64(1e-12)
@@ -175,7 +182,7 @@ impl<'a, T: Real, const D: usize> Problem<'a, T, D> {
 
     /// Raises all penalties after a slow sweep.
     pub(super) fn raise_penalties(&mut self) {
-        let factor = T::from_f64(super::assemble::RAISE);
+        let factor = T::from_f64(RAISE);
         self.alpha *= factor;
         self.penalty.iter_mut().for_each(|p| *p *= factor);
     }
@@ -263,4 +270,9 @@ impl<T: Real, const D: usize> BlockSource<T> for Sweep<'_, '_, T, D> {
             }
         }
     }
+}
+
+/// How often penalties may be raised: in double precision to 1e9 effective masses, in single precision to 15,000.
+pub(super) fn raises<T: Real>() -> u32 {
+    if T::EPSILON < T::from_f64(1e-12) { 2 } else { 1 }
 }

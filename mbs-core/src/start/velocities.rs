@@ -1,8 +1,8 @@
 //! The smallest velocities that meet all rates: a linear problem, whose matrix is factored once.
 
-use super::assemble::{Assembly, MAX_SWEEPS, SLOW, raises};
 use super::error::AssemblyError;
-use super::problem::Level;
+use super::problem::{Level, MAX_SWEEPS, SLOW, raises};
+use super::sweeps::Assembly;
 use crate::Real;
 use crate::blocks::{Cliques, SpdSolver};
 use crate::model::{Model, State};

@@ -10,8 +10,8 @@
 //!
 //! The residual of a true contradiction has sigma = 0, so that nothing but rounding is accepted.
 
-use super::assemble::Assembly;
 use super::problem::Level;
+use super::sweeps::Assembly;
 use crate::Real;
 use crate::algebra::norm_inf;
 use crate::blocks::SpdSolver;

@@ -17,15 +17,9 @@
 //! Afterwards the columns of L stand below D^-1; a pair has its B^-1 in the triangle of its two columns.
 
 use super::panel::Panel;
+pub use super::panel::column;
 use crate::Real;
 use crate::blocks::{FactorError, Inertia, Weakest};
-
-/// Start of column `j` in a packed front of `f` unknowns.
-#[inline(always)]
-#[must_use]
-pub fn column(f: usize, j: usize) -> usize {
-    j * (2 * f + 1 - j) / 2
-}
 
 /// When a pivot is good enough.
 #[derive(Debug, Clone, Copy, PartialEq)]

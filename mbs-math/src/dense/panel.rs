@@ -4,7 +4,6 @@
 //! a_j <- a_j - sum_m  d_m l_jm l_m          pivots m of the panel, together: each column is read and written once
 //! ```
 
-use super::front::column;
 use crate::Real;
 use core::ops::Range;
 
@@ -135,4 +134,11 @@ fn subtract_rows<T: Real, const M: usize, const R: usize>(
     for lane in 0..R {
         target[lane] -= sum[lane];
     }
+}
+
+/// Start of column `j` in a packed front of `f` unknowns.
+#[inline(always)]
+#[must_use]
+pub fn column(f: usize, j: usize) -> usize {
+    j * (2 * f + 1 - j) / 2
 }

@@ -1,6 +1,6 @@
 //! Methods with error control, over given lengths of time.
 
-use super::{Method, OdeError, Rates, StepControl, method};
+use super::{Method, OdeError, Options, Rates, StepControl, method};
 use crate::Real;
 
 /// A step below this many roundings of the time is refused.
@@ -14,34 +14,6 @@ const STILL: f64 = 0.1;
 const FORETOLD: u32 = 10_000;
 /// The last step to the end may be this much longer than planned, so that no sliver remains.
 const LAST_STEP: f64 = 1.01;
-
-/// What the caller chooses.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Options<'a, T> {
-    /// Tolerance as a share of a component's value. `≥ 0`.
-    pub relative: T,
-    /// Tolerance as a share of a component's size. `≥ 0`; not both zero.
-    pub absolute: T,
-    /// Size of each component, in its own unit `> 0`; one for those that are not given.
-    pub sizes: &'a [T],
-    /// No step is longer [s]. `> 0`.
-    pub max_step: T,
-    /// Steps that one call may try.
-    pub max_steps: u32,
-}
-
-impl<T: Real> Options<'_, T> {
-    /// The same relative and absolute tolerance, sizes of one, steps of any length, a million of them.
-    pub fn new(tolerance: T) -> Self {
-        Self {
-            relative: tolerance,
-            absolute: tolerance,
-            sizes: &[],
-            max_step: T::from_f64(f64::INFINITY),
-            max_steps: 1_000_000,
-        }
-    }
-}
 
 /// What the hook did to the state at the end of an accepted step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,6 +1,6 @@
-//! What the control of the step asks of a method, and the size of an error.
+//! What the control of the step asks of a method, what its caller chooses, and the size of an error.
 
-use super::{Options, Rates};
+use super::Rates;
 use crate::Real;
 
 /// A one-step method that estimates its own error: an embedded pair, or an extrapolation.
@@ -94,4 +94,32 @@ fn size_by<T: Real>(
         sum += share * share + end[k] * T::ZERO;
     }
     if n == 0 { T::ZERO } else { (sum / T::from_f64(n as f64)).sqrt() }
+}
+
+/// What the caller chooses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options<'a, T> {
+    /// Tolerance as a share of a component's value. `≥ 0`.
+    pub relative: T,
+    /// Tolerance as a share of a component's size. `≥ 0`; not both zero.
+    pub absolute: T,
+    /// Size of each component, in its own unit `> 0`; one for those that are not given.
+    pub sizes: &'a [T],
+    /// No step is longer [s]. `> 0`.
+    pub max_step: T,
+    /// Steps that one call may try.
+    pub max_steps: u32,
+}
+
+impl<T: Real> Options<'_, T> {
+    /// The same relative and absolute tolerance, sizes of one, steps of any length, a million of them.
+    pub fn new(tolerance: T) -> Self {
+        Self {
+            relative: tolerance,
+            absolute: tolerance,
+            sizes: &[],
+            max_step: T::from_f64(f64::INFINITY),
+            max_steps: 1_000_000,
+        }
+    }
 }

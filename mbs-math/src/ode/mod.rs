@@ -24,11 +24,11 @@ mod tableau;
 #[cfg(test)]
 mod tests;
 
-pub use adaptive::{Adaptive, AdaptiveHistory, Counts, EndState, Options};
+pub use adaptive::{Adaptive, AdaptiveHistory, Counts, EndState};
 pub use control::StepControl;
 pub use error::OdeError;
 pub use extrapolation::Extrapolation;
-pub use method::Method;
+pub use method::{Method, Options};
 #[cfg(feature = "alloc")]
 pub use radau::{Radau, RadauHistory};
 pub use rk4::{rk4_scratch, rk4_step};

@@ -27,8 +27,8 @@ use num_traits::{One, Zero};
 /// A number of about 32 digits: the unevaluated sum hi + lo of two `f64`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct DoubleDouble {
-    hi: f64,
-    lo: f64,
+    pub(super) hi: f64,
+    pub(super) lo: f64,
 }
 
 impl DoubleDouble {
@@ -233,48 +233,5 @@ impl One for DoubleDouble {
     #[inline]
     fn one() -> Self {
         Self::ONE
-    }
-}
-
-impl super::Real for DoubleDouble {
-    const ZERO: Self = Self::ZERO;
-    const ONE: Self = Self::ONE;
-    const HALF: Self = Self::from_f64(0.5);
-    const TWO: Self = Self::from_f64(2.0);
-    const EPSILON: Self = Self::EPSILON;
-    const PI: Self = Self::PI;
-
-    #[inline]
-    fn from_f64(x: f64) -> Self {
-        Self::from_f64(x)
-    }
-    fn from_decimal(text: &str) -> Option<Self> {
-        super::decimal::read(text)
-    }
-    #[inline]
-    fn to_f64(self) -> f64 {
-        self.hi
-    }
-    #[inline]
-    fn parts(self) -> [f64; 2] {
-        [self.hi, self.lo]
-    }
-    #[inline]
-    fn from_parts([hi, lo]: [f64; 2]) -> Self {
-        Self { hi, lo }
-    }
-    #[inline]
-    fn sqrt(self) -> Self {
-        super::functions::sqrt(self)
-    }
-    fn sin_cos(self) -> (Self, Self) {
-        super::functions::sin_cos(self)
-    }
-    fn atan2(self, x: Self) -> Self {
-        super::functions::atan2(self, x)
-    }
-    #[inline]
-    fn is_finite(self) -> bool {
-        self.hi.is_finite()
     }
 }

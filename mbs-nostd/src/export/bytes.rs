@@ -1,35 +1,13 @@
 //! A model as bytes, as `Tables::read` reads them.
 
 use crate::model::Model;
-use crate::record::{Axes, Record};
+use crate::record::{Axes, Bytes, Record};
 use crate::tables::HEAD;
 use alloc::vec::Vec;
 use mbs_core::Real;
 use mbs_core::laws::entry::{Entry, EntryWriter};
 
-/// Bytes being written.
-#[derive(Debug, Clone, Default)]
-pub struct Bytes {
-    bytes: Vec<u8>,
-    is_single: bool,
-}
-
 impl Bytes {
-    /// Adds some.
-    pub(crate) fn put(&mut self, bytes: &[u8]) {
-        self.bytes.extend_from_slice(bytes);
-    }
-
-    /// Adds a real number, in the precision of the text.
-    #[allow(clippy::cast_possible_truncation, reason = "the nearest number of this precision")]
-    pub(crate) fn put_real(&mut self, x: f64) {
-        if self.is_single {
-            self.put(&(x as f32).to_le_bytes());
-        } else {
-            self.put(&x.to_le_bytes());
-        }
-    }
-
     /// A list of what laws refer to.
     fn entries<T: Real + Record, X: Entry<T>>(&mut self, list: &[X]) -> bool {
         list.len().write(self) && list.iter().all(|entry| entry.numbers(self))

@@ -4,7 +4,8 @@ mod bytes;
 mod gather;
 mod source;
 
-pub use bytes::{Bytes, bytes};
+pub use crate::record::Bytes;
+pub use bytes::bytes;
 pub use gather::{Gathered, needs};
 pub use source::source;
 pub(crate) use source::{Source, close, name, open};

@@ -1,9 +1,11 @@
 //! Force laws and their tables, whose numbers mbs-core lists.
 
+#[cfg(feature = "export")]
+use super::Bytes;
 use super::{Reader, Record};
 use crate::check::LoadError;
 #[cfg(feature = "export")]
-use crate::export::{Bytes, Source};
+use crate::export::Source;
 #[cfg(feature = "export")]
 use alloc::string::String;
 use mbs_core::Real;

@@ -10,7 +10,7 @@ macro_rules! record_struct {
                 Ok($name { $($field: $crate::record::Record::read(from)?),* })
             }
             #[cfg(feature = "export")]
-            fn write(&self, to: &mut $crate::export::Bytes) -> bool {
+            fn write(&self, to: &mut $crate::record::Bytes) -> bool {
                 $($crate::record::Record::write(&self.$field, to))&&*
             }
             #[cfg(feature = "export")]
@@ -47,7 +47,7 @@ macro_rules! record_enum {
             }
             #[cfg(feature = "export")]
             #[allow(unreachable_patterns, unused_variables, reason = "some effects may be left out")]
-            fn write(&self, to: &mut $crate::export::Bytes) -> bool {
+            fn write(&self, to: &mut $crate::record::Bytes) -> bool {
                 match self {
                     $(
                         $(#[$meta])*

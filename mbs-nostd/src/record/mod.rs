@@ -5,11 +5,15 @@
 //! variants     a u32, then their fields
 //! ```
 
+#[cfg(feature = "export")]
+mod bytes;
 mod laws;
 mod macros;
 mod numbers;
 mod tables;
 
+#[cfg(feature = "export")]
+pub use bytes::Bytes;
 pub use numbers::Axes;
 
 use crate::check::LoadError;
@@ -63,7 +67,7 @@ pub trait Record: Sized {
 
     /// Writes it as bytes; false if it cannot be written.
     #[cfg(feature = "export")]
-    fn write(&self, to: &mut crate::export::Bytes) -> bool;
+    fn write(&self, to: &mut Bytes) -> bool;
 
     /// Writes it as an expression of Rust.
     #[cfg(feature = "export")]

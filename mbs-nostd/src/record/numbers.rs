@@ -1,9 +1,9 @@
 //! Numbers, places, and what is made of a few of them.
 
+#[cfg(feature = "export")]
+use super::Bytes;
 use super::{Reader, Record};
 use crate::check::LoadError;
-#[cfg(feature = "export")]
-use crate::export::Bytes;
 #[cfg(feature = "export")]
 use alloc::{format, string::String};
 use mbs_core::Real;

@@ -9,14 +9,15 @@
 mod gauge;
 mod instant;
 mod on_body;
+mod reach;
 mod rotation;
 mod tangent;
 
 pub use gauge::Gauge;
 pub use instant::Instant;
 pub use on_body::OnBody;
+pub use reach::Reach;
 pub(crate) use rotation::check_rotations;
-pub use tangent::Reach;
 
 use crate::at::{Outside, at_mut};
 use crate::link::Condensed;

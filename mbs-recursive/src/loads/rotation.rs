@@ -4,10 +4,10 @@
 
 use super::{Gauge, Instant, Load};
 use crate::at::{Outside, at};
+use crate::fault::failure;
 use crate::link::Kind;
-use crate::mechanism::{Inputs, Mechanism, Store};
+use crate::mechanism::{Inputs, Mechanism, Start, Store};
 use crate::space::Space;
-use crate::trapezoidal::{Start, failure};
 use mbs_core::Real;
 use mbs_core::algebra::{Vector, norm};
 use mbs_core::effects::bushing;

@@ -13,44 +13,11 @@
 //! left: it contracts, for M + 2 κ diag(w wᵀ) − κ (w₁ − w₂)(w₁ − w₂)ᵀ is positive definite.
 //! Accelerations that no longer change feel none of this: only the way there depends on κ.
 
-use super::{Instant, Load};
+use super::{Instant, Load, Reach};
 use crate::at::{Outside, at, at_mut};
 use crate::link::{Condensed, Kind};
 use crate::space::{Numbers, Space};
 use mbs_core::Real;
-use mbs_core::laws::scalar::Measure;
-
-/// How far accelerations reach within a step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reach<T> {
-    /// β h²: what they do to places [s^2].
-    pub place: T,
-    /// γ h: what they do to rates [s].
-    pub speed: T,
-}
-
-impl<T: Real> Reach<T> {
-    /// κ, not below zero.
-    #[inline]
-    fn weight(self, measure: &Measure<T>) -> T {
-        (self.place * measure.stiffness + self.speed * measure.damping).max(T::ZERO)
-    }
-
-    /// A tension with the unit wrench `w` on a link that was to have the acceleration `a`.
-    #[inline]
-    pub(super) fn resist<S: Space<T>>(
-        self,
-        c: &mut Condensed<T, S>,
-        (w, a): (&S::Motion, &S::Motion),
-        measure: &Measure<T>,
-    ) {
-        let weight = self.weight(measure);
-        c.force += *w * (measure.tension - weight * w.dot(a));
-        if weight > T::ZERO {
-            c.inertia = S::reduced(&c.inertia, w, -weight);
-        }
-    }
-}
 
 impl<T: Real, S: Space<T>> Load<T, S> {
     /// Adds the load's forces as [`apply`](Self::apply) does, and how they answer to accelerations that differ from `zdd` of the

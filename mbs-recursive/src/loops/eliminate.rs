@@ -2,8 +2,8 @@
 
 use super::{LoopStore, Loops, RankLost, Regularisation, index, inner};
 use crate::at::{Outside, apart, at, at_mut, part, part_mut, range};
+use crate::fault::Fault;
 use crate::link::Condensed;
-use crate::passes::Fault;
 use crate::plan::{Coupling, End, Update};
 use crate::rows::Loop;
 use crate::space::{Numbers, Space};

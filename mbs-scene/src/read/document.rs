@@ -1,24 +1,15 @@
 //! A scene file as read, before the precision of the run is known.
 
-use crate::read::fields::{Context, Fields, Read};
-use crate::read::names::Names;
 use crate::read::tree::{self, Item, Member, Node, Span};
-use crate::read::{Place, ReadError, ReadFault, body, effect, joint, motion, output, road};
-use mbs_core::Real;
-use mbs_core::scene::{Dimension, Entry, Number, Scene, SceneError, SceneFault, Start};
-use std::collections::BTreeMap;
+use crate::read::{Place, ReadError, ReadFault};
 
 /// A scene file: syntax tree, text and name. Numbers are still decimal text.
 #[derive(Debug, Clone, Default)]
 pub struct SceneFile {
-    file: String,
-    text: String,
-    root: Vec<Member>,
+    pub(super) file: String,
+    pub(super) text: String,
+    pub(super) root: Vec<Member>,
 }
-
-const TABLES: [&str; 9] =
-    ["scene", "body", "joint", "initial", "guide", "effect", "road", "solver", "output"];
-const SCENE_KEYS: [&str; 5] = ["name", "dimension", "gravity", "duration", "start"];
 
 impl SceneFile {
     /// Reads the text of a scene file; `file` is the name that messages show.
@@ -49,92 +40,6 @@ impl SceneFile {
                 let place = Place::of(&text, &(good..good));
                 Err(ReadError::new(file, place, ReadFault::NotUtf8))
             }
-        }
-    }
-
-    /// The scene in the precision `T`, checked: every number is the one of `T` nearest to its decimal text.
-    ///
-    /// # Errors
-    /// The first thing in the file that is unknown, missing, or cannot be meant, with its place.
-    pub fn scene<T: Real>(&self) -> Result<Scene<T>, ReadError> {
-        self.numbers()?.resolve().map_err(|error| self.meaning(error))
-    }
-
-    /// The scene with its numbers as they are written; [`Scene::resolve`] checks it in a precision.
-    ///
-    /// # Errors
-    /// The first thing in the file that is unknown, missing, or of another form, with its place.
-    pub fn numbers(&self) -> Result<Scene<Number>, ReadError> {
-        let (bodies, joints) = (self.names("body"), self.names("joint"));
-        // the dimension is not known yet; nothing dimensional is read before it is
-        let dimension = Dimension::Planar;
-        let context = Context { document: self, dimension, bodies: &bodies, joints: &joints };
-        self.check_tables(&context)?;
-        self.refuse_duplicates(bodies.list(), Entry::Body)?;
-        self.refuse_duplicates(joints.list(), Entry::Joint)?;
-        let Some(item) = self.top("scene") else {
-            return context.fault(&(0..0), ReadFault::Missing { key: "[scene]" });
-        };
-        let dimension = read_dimension(&context.table(item, "a table: [scene]")?)?;
-        let context = Context { dimension, ..context };
-        let header = context.table(item, "a table: [scene]")?;
-        header.allow(&SCENE_KEYS, &[])?;
-        let body_data = self.entries(&context, "body", |_, fields| body::read(fields))?;
-        let centers: Vec<[Number; 3]> = body_data.iter().map(|body| body.center.clone()).collect();
-        Ok(Scene {
-            name: self.scene_name(&header)?,
-            dimension,
-            gravity: header.get("gravity").map(|item| context.vector(item)).transpose()?,
-            duration: header.number("duration")?,
-            bodies: body_data,
-            joints: self.entries(&context, "joint", |_, fields| joint::read(fields, &centers))?,
-            initials: self
-                .entries(&context, "initial", |_, fields| motion::read_initial(fields))?,
-            guides: self.entries(&context, "guide", |_, fields| motion::read_guide(fields))?,
-            road: match self.top("road") {
-                Some(item) => road::read(&context.table(item, "a table: [road]")?)?,
-                None => Default::default(),
-            },
-            start: read_start(&header)?,
-            effects: self.entries(&context, "effect", effect::read)?,
-            outputs: self.entries(&context, "output", |_, fields| output::read(fields))?,
-            solver: match self.top("solver") {
-                Some(item) => output::read_solver(&context.table(item, "a table: [solver]")?)?,
-                None => Default::default(),
-            },
-        })
-    }
-
-    /// The place of a key's value, of the entry's header when the key is not written, or of the file's start.
-    #[must_use]
-    pub fn place(&self, entry: Entry, field: &str) -> Place {
-        Place::of(&self.text, self.item(entry, field).map_or(&(0..0), |item| &item.span))
-    }
-
-    /// A key's value, or the entry when the key is not written.
-    fn item<'a>(&'a self, entry: Entry, field: &str) -> Option<&'a Item> {
-        let entries = |table: &str, i: usize| match &self.top(table)?.node {
-            Node::List(items) => items.get(i),
-            _ => None,
-        };
-        let road = |track: &str, i| road::item_of(self.top("road")?, track, i);
-        let item = match entry {
-            Entry::Scene => self.top("scene"),
-            Entry::Solver => self.top("solver"),
-            Entry::Road => self.top("road"),
-            Entry::RoadLeft(i) => road("left", i),
-            Entry::RoadRight(i) => road("right", i),
-            Entry::Body(i) => entries("body", i),
-            Entry::Joint(i) => entries("joint", i),
-            Entry::Initial(i) => entries("initial", i),
-            Entry::Guide(i) => entries("guide", i),
-            Entry::Effect(i) => entries("effect", i),
-            Entry::Output(i) => entries("output", i),
-        };
-        let value = |members: &'a [Member]| members.iter().find(|m| m.key == field);
-        match &item?.node {
-            Node::Table(members) => value(members).map(|m| &m.item).or(item),
-            _ => item,
         }
     }
 
@@ -173,108 +78,5 @@ impl SceneFile {
 
     pub(crate) fn top(&self, key: &str) -> Option<&Item> {
         self.root.iter().find(|member| member.key == key).map(|member| &member.item)
-    }
-
-    /// Names of bodies or joints as far as they are texts; the rest is refused when the entry is read.
-    fn names(&self, key: &str) -> Names {
-        let Some(Item { node: Node::List(items), .. }) = self.top(key) else {
-            return Names::default();
-        };
-        let name = |item: &Item| match &item.node {
-            Node::Table(members) => members.iter().find(|m| m.key == "name").and_then(|m| {
-                if let Node::Text(text) = &m.item.node { Some(text.clone()) } else { None }
-            }),
-            _ => None,
-        };
-        Names::new(items.iter().map(|item| name(item).unwrap_or_default()).collect())
-    }
-
-    /// Names are told apart before they are referred to: else a repeated name reads as an unknown one.
-    fn refuse_duplicates(&self, names: &[String], entry: fn(usize) -> Entry) -> Read<()> {
-        let mut seen = BTreeMap::new();
-        for (i, name) in names.iter().enumerate().filter(|(_, name)| !name.is_empty()) {
-            if let Some(first) = seen.insert(name, i) {
-                let fault = SceneFault::DuplicateName(first);
-                return Err(self.meaning(SceneError { entry: entry(i), field: "name", fault }));
-            }
-        }
-        Ok(())
-    }
-
-    /// A fault of the scene at its place in the file.
-    ///
-    /// Also for scenes that were changed after reading (by a command line) and checked again.
-    #[must_use]
-    pub fn meaning(&self, error: SceneError) -> ReadError {
-        let item = self.item(error.entry, error.field);
-        let row = match (item, row(error.fault)) {
-            (Some(Item { node: Node::List(rows), .. }), Some(i)) => rows.get(i),
-            _ => None,
-        };
-        let place = Place::of(&self.text, row.or(item).map_or(&(0..0), |item| &item.span));
-        ReadError::new(&self.file, place, ReadFault::Scene(error))
-    }
-
-    pub(crate) fn entries<'a, R>(
-        &'a self,
-        context: &Context<'a>,
-        key: &'static str,
-        read: impl Fn(usize, &Fields<'a>) -> Read<R>,
-    ) -> Read<Vec<R>> {
-        let Some(item) = self.top(key) else { return Ok(Vec::new()) };
-        context
-            .list(item, "a list of tables, each under a header in double brackets like [[body]]")?
-            .iter()
-            .enumerate()
-            .map(|(i, item)| read(i, &context.table(item, "a table")?))
-            .collect()
-    }
-
-    fn check_tables(&self, context: &Context<'_>) -> Read<()> {
-        Fields { context: *context, header: &(0..0), members: &self.root }.allow(&TABLES, &[])
-    }
-
-    /// The name as written, else the file's name without directories and ending.
-    fn scene_name(&self, header: &Fields<'_>) -> Read<String> {
-        if header.get("name").is_some() {
-            return header.name();
-        }
-        let file = self.file.rsplit(['/', '\\']).next().unwrap_or_default();
-        Ok(file.strip_suffix(".toml").unwrap_or(file).to_owned())
-    }
-}
-
-fn read_dimension(header: &Fields<'_>) -> Read<Dimension> {
-    let item = header.need("dimension")?;
-    match &item.node {
-        Node::Number(text) if text == "2" => Ok(Dimension::Planar),
-        Node::Number(text) if text == "3" => Ok(Dimension::Spatial),
-        Node::Number(text) => header.unknown_word("dimension", (text, &item.span), &["2", "3"]),
-        _ => header.number("dimension").map(|_| Dimension::Planar),
-    }
-}
-
-fn read_start(header: &Fields<'_>) -> Read<Start> {
-    if header.get("start").is_none() {
-        return Ok(Start::Initial);
-    }
-    match header.word("start")? {
-        ("initial", _) => Ok(Start::Initial),
-        ("equilibrium", _) => Ok(Start::Equilibrium),
-        ("equilibrium-near", _) => Ok(Start::EquilibriumNear),
-        word => header.unknown_word("start", word, &["initial", "equilibrium", "equilibrium-near"]),
-    }
-}
-
-/// The row of a list that a fault speaks about.
-fn row(fault: SceneFault) -> Option<usize> {
-    match fault {
-        SceneFault::TableOrder(row)
-        | SceneFault::TableSlope { row, .. }
-        | SceneFault::PointOrder(row)
-        | SceneFault::PieceRange(row)
-        | SceneFault::PieceGap(row)
-        | SceneFault::PieceCoefficients { piece: row, .. } => Some(row),
-        _ => None,
     }
 }

@@ -1,8 +1,8 @@
 //! What can be wrong with a scene file.
 
-use crate::read::nearest::nearest;
-use crate::read::{Place, SweepFault, hints, units};
-use core::fmt::{self, Display, Formatter, Write};
+use crate::read::nearest::{listing, nearest_name};
+use crate::read::{Place, SweepFault, units};
+use core::fmt::{self, Display, Formatter};
 use mbs_core::scene::{Entry, SceneError, SceneFault};
 
 /// A refused scene file: the fault, its place, and what to do.
@@ -265,31 +265,4 @@ fn numbered(entry: Entry, index: usize) -> Entry {
             entry
         }
     }
-}
-
-/// What to say about a word that is not in a list: the nearest, or all.
-#[must_use]
-pub fn nearest_name<S: AsRef<str>>(found: &str, known: &[S], what: &str) -> String {
-    if let Some(hint) = hints::of_word(found, known) {
-        return hint;
-    }
-    match nearest(found, known) {
-        Some(name) => format!("did you mean `{name}`?"),
-        None => listing(known, what),
-    }
-}
-
-/// All names when they are few, else the first of them.
-fn listing<S: AsRef<str>>(known: &[S], what: &str) -> String {
-    const MOST: usize = 16;
-    if known.is_empty() {
-        return format!("there are no {what} yet");
-    }
-    let names: Vec<&str> = known.iter().take(MOST).map(AsRef::as_ref).collect();
-    let mut out = format!("{what}: {}", names.join(", "));
-    if known.len() > MOST {
-        // writing into a String does not fail
-        let _ = write!(out, " and {} more", known.len() - MOST);
-    }
-    out
 }

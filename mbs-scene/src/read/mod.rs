@@ -14,6 +14,7 @@ mod nearest;
 mod output;
 mod place;
 mod road;
+mod scene;
 mod sweep;
 #[cfg(test)]
 mod tests;
@@ -21,6 +22,7 @@ pub(crate) mod tree;
 mod units;
 
 pub use document::SceneFile;
-pub use error::{ReadError, ReadFault, nearest_name};
+pub use error::{ReadError, ReadFault};
+pub use nearest::nearest_name;
 pub use place::Place;
 pub use sweep::{SweepFault, SweepFile};

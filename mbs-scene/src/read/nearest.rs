@@ -1,5 +1,8 @@
 //! The nearest of several names, for "did you mean".
 
+use crate::read::hints;
+use std::fmt::Write;
+
 /// The name at the smallest edit distance, when it is near enough to be meant.
 pub(crate) fn nearest<'a, S: AsRef<str>>(found: &str, known: &'a [S]) -> Option<&'a str> {
     const LONGEST: usize = 64;
@@ -39,6 +42,33 @@ fn distance(a: &[char], b: &[char]) -> usize {
         previous = current;
     }
     previous[b.len()]
+}
+
+/// What to say about a word that is not in a list: the nearest, or all.
+#[must_use]
+pub fn nearest_name<S: AsRef<str>>(found: &str, known: &[S], what: &str) -> String {
+    if let Some(hint) = hints::of_word(found, known) {
+        return hint;
+    }
+    match nearest(found, known) {
+        Some(name) => format!("did you mean `{name}`?"),
+        None => listing(known, what),
+    }
+}
+
+/// All names when they are few, else the first of them.
+pub(super) fn listing<S: AsRef<str>>(known: &[S], what: &str) -> String {
+    const MOST: usize = 16;
+    if known.is_empty() {
+        return format!("there are no {what} yet");
+    }
+    let names: Vec<&str> = known.iter().take(MOST).map(AsRef::as_ref).collect();
+    let mut out = format!("{what}: {}", names.join(", "));
+    if known.len() > MOST {
+        // writing into a String does not fail
+        let _ = write!(out, " and {} more", known.len() - MOST);
+    }
+    out
 }
 
 #[cfg(test)]

@@ -10,33 +10,31 @@
 //! linked along rows and columns; an entry stands for what it is in the pattern even when its number is zero just now, so the
 //! order found holds for other numbers too.
 
-use super::{Elimination, Pattern, PivotSelection, index};
+use super::pattern::{Pattern, index};
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
 
-/// u: a pivot has at least this share of the largest entry left.
-const THRESHOLD: f64 = 0.3;
 /// Rows that are searched for one pivot.
 const SEARCHED: usize = 6;
 /// No entry, no row, no column.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
 /// One entry of the matrix that is eliminated.
 #[derive(Debug, Clone, Copy)]
-struct Entry<T> {
-    row: u32,
-    column: u32,
-    value: T,
-    next_in_row: u32,
+pub(super) struct Entry<T> {
+    pub(super) row: u32,
+    pub(super) column: u32,
+    pub(super) value: T,
+    pub(super) next_in_row: u32,
     next_in_column: u32,
 }
 
 /// Scratch of a choice.
 #[derive(Debug, Clone)]
 pub(super) struct Chooser<T> {
-    entries: Vec<Entry<T>>,
-    row_heads: Vec<u32>,
+    pub(super) entries: Vec<Entry<T>>,
+    pub(super) row_heads: Vec<u32>,
     column_heads: Vec<u32>,
     /// Entries left in each row and column.
     row_counts: Vec<u32>,
@@ -44,8 +42,8 @@ pub(super) struct Chooser<T> {
     /// Size of the largest entry left in each row.
     row_sizes: Vec<T>,
     /// The step at which a row or column was eliminated.
-    row_steps: Vec<u32>,
-    column_steps: Vec<u32>,
+    pub(super) row_steps: Vec<u32>,
+    pub(super) column_steps: Vec<u32>,
     /// Entry of the row at hand in each column.
     at: Vec<u32>,
 }
@@ -97,11 +95,11 @@ impl<T: Real> Chooser<T> {
     }
 
     /// The next entry along a row, from its head or after an entry.
-    fn along(&self, at: u32) -> Option<(u32, Entry<T>)> {
+    pub(super) fn along(&self, at: u32) -> Option<(u32, Entry<T>)> {
         (at != NONE).then(|| (at, self.entries[at as usize]))
     }
 
-    fn measure(&mut self, row: usize, (row_scale, column_scales): (T, &[T])) {
+    pub(super) fn measure(&mut self, row: usize, (row_scale, column_scales): (T, &[T])) {
         let (mut size, mut next) = (T::ZERO, self.row_heads[row]);
         while let Some((_, e)) = self.along(next) {
             let c = e.column as usize;
@@ -114,7 +112,7 @@ impl<T: Real> Chooser<T> {
     }
 
     /// The largest entry left: its row and size.
-    fn rest(&self) -> (u32, T) {
+    pub(super) fn rest(&self) -> (u32, T) {
         let mut best = (0, T::ZERO);
         for (r, (&size, &step)) in self.row_sizes.iter().zip(&self.row_steps).enumerate() {
             if step == NONE && size > best.1 {
@@ -125,7 +123,7 @@ impl<T: Real> Chooser<T> {
     }
 
     /// The next pivot, an entry of at least the size `least` that makes few new ones.
-    fn pivot(&self, least: T, (row_scales, column_scales): (&[T], &[T])) -> Option<u32> {
+    pub(super) fn pivot(&self, least: T, (row_scales, column_scales): (&[T], &[T])) -> Option<u32> {
         let is_open = |r: usize| self.row_steps[r] == NONE && self.row_sizes[r] >= least;
         let open = || (0..self.row_sizes.len()).filter(|&r| is_open(r));
         let shortest = open().map(|r| self.row_counts[r]).min()?;
@@ -212,93 +210,6 @@ impl<T: Real> Chooser<T> {
         while let Some((_, e)) = self.along(next) {
             self.at[e.column as usize] = NONE;
             next = e.next_in_row;
-        }
-    }
-}
-
-impl<T: Real> Elimination<T> {
-    /// Chooses pivots for the matrix `values` and notes the order; the factors are then those of [`refactor`](Self::refactor).
-    ///
-    /// Cost: the elimination once, and for each pivot a look at every row. Allocates only when the factors need more than
-    /// was reserved.
-    pub fn select_pivots(&mut self, values: &[T]) -> PivotSelection<T> {
-        let (m, n) = (self.pattern.n_rows(), self.pattern.n_columns);
-        self.scale_rows(values);
-        let scales = (&self.row_scales[..], &self.column_scales[..]);
-        let chooser = &mut self.chooser;
-        chooser.load(&self.pattern, values);
-        for r in 0..m {
-            chooser.measure(r, (scales.0[r], scales.1));
-        }
-        let tolerance = rank_tolerance::<T>(m.max(n));
-        let mut last = (0, T::ONE);
-        let mut rank = 0;
-        self.rows.clear();
-        self.unknowns.clear();
-        while rank < m.min(n) {
-            let (_, largest) = chooser.rest();
-            if !(largest > tolerance) {
-                break;
-            }
-            let Some(at) = chooser.pivot(largest * T::from_f64(THRESHOLD), scales) else { break };
-            let e = chooser.entries[at as usize];
-            let (r, c) = (e.row as usize, e.column as usize);
-            last = (e.row, e.value.abs() * scales.0[r] * scales.1[c]);
-            chooser.eliminate(at, index(rank), scales);
-            self.rows.push(e.row);
-            self.unknowns.push(e.column);
-            rank += 1;
-        }
-        let rest = chooser.rest();
-        self.rank = rank;
-        self.close_order();
-        self.refactor(values);
-        self.note_pivots();
-        PivotSelection { rank, last, rest }
-    }
-
-    /// The rows and columns that are left after the pivots, and the patterns of the factors.
-    pub(super) fn close_order(&mut self) {
-        let (m, n, chooser) = (self.pattern.n_rows(), self.pattern.n_columns, &self.chooser);
-        self.rows.extend((0..m).filter(|&r| chooser.row_steps[r] == NONE).map(index));
-        self.unknowns.extend((0..n).filter(|&c| chooser.column_steps[c] == NONE).map(index));
-        for (place, &column) in self.unknowns.iter().enumerate() {
-            self.places[column as usize] = index(place);
-        }
-        self.note_order();
-    }
-
-    /// D: rows of D J E have unit length; rows of zeros are left.
-    fn scale_rows(&mut self, values: &[T]) {
-        for (r, scale) in self.row_scales.iter_mut().enumerate() {
-            let square = self.pattern.row(r).fold(T::ZERO, |sum, t| {
-                let x = values[t] * self.column_scales[self.pattern.columns[t] as usize];
-                sum + x * x
-            });
-            *scale = if square > T::ZERO { T::ONE / square.sqrt() } else { T::ONE };
-        }
-    }
-
-    /// The patterns of L and U, read off the eliminated entries.
-    fn note_order(&mut self) {
-        self.lower.clear();
-        self.upper.clear();
-        for k in 0..self.rank {
-            let mut next = self.chooser.row_heads[self.rows[k] as usize];
-            while let Some((_, e)) = self.chooser.along(next) {
-                next = e.next_in_row;
-                let place = self.places[e.column as usize];
-                match (place as usize).cmp(&k) {
-                    core::cmp::Ordering::Less => self.lower.places.push(place),
-                    core::cmp::Ordering::Equal => {}
-                    core::cmp::Ordering::Greater => self.upper.places.push(place),
-                }
-            }
-            for triangle in [&mut self.lower, &mut self.upper] {
-                let start = triangle.starts[k] as usize;
-                triangle.places[start..].sort_unstable();
-                triangle.close_row();
-            }
         }
     }
 }

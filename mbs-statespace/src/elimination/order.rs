@@ -1,6 +1,7 @@
 //! The order of an elimination as plain data, and an elimination in an order that is given.
 
-use super::{Elimination, index};
+use super::Elimination;
+use super::pattern::index;
 use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;

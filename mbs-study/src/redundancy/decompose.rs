@@ -12,6 +12,7 @@
 use super::linkage::Jacobian;
 use mbs_core::cluster::root;
 use mbs_linear::Matrix;
+use mbs_linear::singular_values;
 
 /// Entries of P below this are zero: what rounding of σ > 1e-9 leaves.
 pub(crate) const ZERO: f64 = 1e-7;
@@ -57,6 +58,12 @@ pub(crate) fn groups(jacobian: &Jacobian, null: &Matrix) -> Vec<Group> {
     found.into_iter().map(group).collect()
 }
 
+/// Dimension of the column space of a matrix whose entries are of order one or zero.
+pub(crate) fn dimension(matrix: &Matrix) -> usize {
+    let sigma = singular_values(matrix).unwrap_or_default();
+    sigma.iter().filter(|&&s| s > ZERO).count()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -65,10 +72,8 @@ mod tests {
     #[test]
     fn groups_of_a_null_space_do_not_depend_on_its_basis() {
         // joints of two rows each; (1, 0, 1, 0, ...) on joints 0 and 1, (0, 0, 0, 0, 1, -2, 0, 1) on 2 and 3, 4 free
-        let zero = Wrench {
-            force: crate::redundancy::Vector::zeros(),
-            moment: crate::redundancy::Vector::zeros(),
-        };
+        let zero =
+            Wrench { force: super::super::Vector::zeros(), moment: super::super::Vector::zeros() };
         let rows = (0..5).map(|i| 2 * i..2 * i + 2).collect();
         let jacobian = Jacobian { matrix: Matrix::zeros(0, 0), rows, wrenches: vec![zero; 10] };
         let (a, b) = (0.5_f64.sqrt(), (1.0_f64 / 6.0).sqrt());

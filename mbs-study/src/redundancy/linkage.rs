@@ -9,68 +9,21 @@
 //! are of order one whatever the unit of length. Masses stand outside: rank is a matter of geometry, and bodies may have none.
 
 use super::Vector;
+use super::link::{Link, Poses};
 use super::parts::{Part, parts};
 use mbs_core::algebra::cross;
 use mbs_core::cluster::mass_properties;
-use mbs_core::outputs::{JointWrenches, Wrench};
+use mbs_core::outputs::Wrench;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::align::aligned;
-use mbs_core::scene::{BodyId, Dimension, Joint, JointKind, Scene};
+use mbs_core::scene::{BodyId, Dimension, JointKind, Scene};
 use mbs_linear::Matrix;
 use std::ops::Range;
-
-/// Where the bodies of a scene are.
-pub type Poses = [RigidMotion<f64>];
 
 /// The bodies of a scene in its reference configuration, at rest.
 #[must_use]
 pub fn reference(scene: &Scene<f64>) -> Vec<RigidMotion<f64>> {
     (0..scene.bodies.len()).map(|b| RigidMotion::at_rest(mass_properties(scene, b).1)).collect()
-}
-
-/// One joint.
-#[derive(Debug, Clone)]
-pub(crate) struct Link {
-    pub(crate) joint: Joint<f64>,
-    pub(crate) is_guided: bool,
-    transmission: JointWrenches<f64>,
-}
-
-impl Link {
-    pub(crate) fn new(joint: &Joint<f64>, dimension: Dimension, is_guided: bool) -> Self {
-        let transmission = JointWrenches::new(joint, dimension, is_guided, 1.0);
-        Self { joint: joint.clone(), is_guided, transmission }
-    }
-
-    pub(crate) fn n_rows(&self) -> usize {
-        self.transmission.n_directions()
-    }
-
-    /// Its directions at a pose; moments are unit forces at `length` [m].
-    pub(crate) fn wrenches(&self, at: &Poses, length: f64) -> Vec<Wrench<f64>> {
-        let turned = self.joint.bodies.map(|body| pose(at, body).rotation);
-        let mut all = Vec::with_capacity(self.n_rows());
-        let take = |mut w: Wrench<f64>| {
-            w.moment *= length;
-            all.push(w);
-        };
-        self.transmission.directions(|i| self.place(at, i), [&turned[0], &turned[1]], take);
-        all
-    }
-
-    /// Its place on its first or second body [m].
-    pub(crate) fn place(&self, at: &Poses, i: usize) -> Vector {
-        let reference = Vector::from(self.joint.points[i]);
-        pose(at, self.joint.bodies[i]).point(&reference)[0]
-    }
-}
-
-/// The pose of a body; the ground stays.
-pub(crate) fn pose(at: &Poses, body: BodyId) -> RigidMotion<f64> {
-    match body {
-        BodyId::Ground => RigidMotion::at_rest(Vector::zeros()),
-        BodyId::Body(b) => at[b],
-    }
 }
 
 /// A scene as bodies with six (three) freedoms each and joints that take some of them.
@@ -108,7 +61,7 @@ impl Linkage {
             links,
             parts: Vec::new(),
         };
-        linkage.parts = parts(&linkage, &reference(scene));
+        linkage.parts = parts(linkage.n_bodies, &linkage.links, &reference(scene));
         linkage
     }
 

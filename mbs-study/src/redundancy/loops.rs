@@ -10,7 +10,8 @@
 //! point, and passes from one branch to the other there.
 
 use super::Vector;
-use super::linkage::{Linkage, Poses, pose};
+use super::link::{Poses, pose};
+use super::linkage::Linkage;
 use super::parts::Part;
 use super::rank::Rank;
 use mbs_core::algebra::cross;

@@ -7,7 +7,8 @@
 //! R is scaled by the mean mass of the bodies and their size, so that the rank does not depend on units.
 
 use super::Vector;
-use super::linkage::{Linkage, Poses};
+use super::link::Poses;
+use super::linkage::Linkage;
 use super::parts::Part;
 use super::rank::Rank;
 use mbs_core::cluster::mass_properties;

@@ -1,6 +1,7 @@
 //! Dependent constraint equations of a mechanism, as sets of joints, and remedies.
 
 mod decompose;
+mod link;
 mod linkage;
 mod loops;
 mod masses;
@@ -11,7 +12,8 @@ mod remedy;
 mod residual;
 mod sets;
 
-pub use linkage::{Jacobian, Linkage, Poses, reference};
+pub use link::Poses;
+pub use linkage::{Jacobian, Linkage, reference};
 pub use loops::{Corner, Drive, Loop, drives, loops};
 pub use masses::{Massless, massless};
 pub use parts::Part;

@@ -4,7 +4,7 @@
 //! (Hopcroft and Tarjan 1973) are the parts: joints that hold a force among themselves with all bodies at rest form loops, and a
 //! loop stays within one component. A part of one joint is a bridge and always sound.
 
-use super::linkage::{Linkage, Poses, pose};
+use super::link::{Link, Poses, pose};
 use mbs_core::algebra::norm;
 use mbs_core::scene::BodyId;
 
@@ -28,15 +28,14 @@ impl Part {
 }
 
 /// Cost: in proportion to bodies and joints.
-pub(crate) fn parts(linkage: &Linkage, at: &Poses) -> Vec<Part> {
-    let n = linkage.n_bodies;
+pub(crate) fn parts(n: usize, links: &[Link], at: &Poses) -> Vec<Part> {
     let node = |body: BodyId| match body {
         BodyId::Ground => n,
         BodyId::Body(b) => b,
     };
     let mut edges = vec![Vec::new(); n + 1];
-    let links = linkage.links.iter().enumerate().filter(|(_, link)| link.n_rows() > 0);
-    for (j, link) in links {
+    let rigid = links.iter().enumerate().filter(|(_, link)| link.n_rows() > 0);
+    for (j, link) in rigid {
         let [a, b] = link.joint.bodies.map(node);
         edges[a].push((b, j));
         edges[b].push((a, j));
@@ -54,11 +53,11 @@ pub(crate) fn parts(linkage: &Linkage, at: &Poses) -> Vec<Part> {
         }
     }
     search.found.sort_unstable();
-    search.found.into_iter().map(|joints| part(linkage, joints, at)).collect()
+    search.found.into_iter().map(|joints| part(links, joints, at)).collect()
 }
 
-fn part(linkage: &Linkage, joints: Vec<usize>, at: &Poses) -> Part {
-    let links = || joints.iter().map(|&j| &linkage.links[j]);
+fn part(links: &[Link], joints: Vec<usize>, at: &Poses) -> Part {
+    let links = || joints.iter().map(|&j| &links[j]);
     let mut bodies: Vec<usize> = links()
         .flat_map(|link| link.joint.bodies)
         .filter_map(|body| if let BodyId::Body(b) = body { Some(b) } else { None })

@@ -4,7 +4,8 @@
 //! the damping |r| (Yamashita and Fukushima 2001: quadratic convergence though rows repeat each other). Dependent in every
 //! position thus reached: structural. Independent there: the first position is singular.
 
-use super::linkage::{Linkage, Poses};
+use super::link::Poses;
+use super::linkage::Linkage;
 use super::parts::Part;
 use super::rank::Rank;
 use super::residual::residuals;

@@ -11,11 +11,11 @@
 //! their rows must count.
 
 use super::Vector;
-use super::decompose::{Group, ZERO};
-use super::linkage::{Jacobian, Link, Linkage, Poses};
+use super::decompose::{Group, ZERO, dimension};
+use super::link::{Link, Poses};
+use super::linkage::{Jacobian, Linkage};
 use super::parts::Part;
 use super::rank::Rank;
-use super::sets::dimension;
 use mbs_core::outputs::Wrench;
 use mbs_core::scene::{Axis, BodyId, Dimension, Freedom, Joint, JointKind};
 use mbs_linear::Matrix;
@@ -221,7 +221,7 @@ fn open_moment(
     let moments = (0..null.n_columns()).map(moment);
     let largest = moments.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
     let size = largest.norm();
-    let turned = super::linkage::pose(at, link.joint.bodies[1]).rotation;
+    let turned = super::link::pose(at, link.joint.bodies[1]).rotation;
     (size > ZERO).then(|| (turned.transpose() * largest / size).into())
 }
 

@@ -8,7 +8,7 @@
 //! Angles are counted from a pose that meets the joints: guides stay where they stood.
 
 use super::Vector;
-use super::linkage::{Link, Poses, pose};
+use super::link::{Link, Poses, pose};
 use super::parts::Part;
 use mbs_core::algebra::{cross, norm, rotation_vector};
 use mbs_core::scene::{Axis, Dimension, Freedom, Rotation};

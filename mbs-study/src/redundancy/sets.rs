@@ -1,14 +1,14 @@
 //! Dependent sets of joints, with what each joint of them leaves open.
 
-use super::decompose::{Group, ZERO, groups};
-use super::linkage::{Jacobian, Linkage, Poses};
+use super::decompose::{Group, ZERO, dimension, groups};
+use super::link::Poses;
+use super::linkage::{Jacobian, Linkage};
 use super::parts::Part;
 use super::perturb::{Nature, neighbours};
 use super::rank::Rank;
 use super::remedy::{Remedy, remedy};
 use mbs_core::rigid::RigidMotion;
 use mbs_linear::Matrix;
-use mbs_linear::singular_values;
 
 /// A joint of a dependent set.
 #[derive(Debug, Clone, PartialEq)]
@@ -192,10 +192,4 @@ impl Found<'_> {
             guide: link.is_guided && range.last().is_some_and(touches),
         }
     }
-}
-
-/// Dimension of the column space of a matrix whose entries are of order one or zero.
-pub(crate) fn dimension(matrix: &Matrix) -> usize {
-    let sigma = singular_values(matrix).unwrap_or_default();
-    sigma.iter().filter(|&&s| s > ZERO).count()
 }

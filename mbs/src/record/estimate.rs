@@ -1,6 +1,6 @@
 //! How accurate a run is, as far as a second look at its motion tells.
 
-use super::json::Outputs;
+use super::outputs::Outputs;
 
 /// An estimate of the errors of a run's outputs.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]

@@ -2,9 +2,9 @@
 
 use super::choice::PilotReport;
 use super::estimate::ErrorEstimate;
+use super::outputs::Outputs;
 use super::realtime::RealtimeSummary;
-use super::series::StepRow;
-use serde::ser::{Serialize, SerializeMap, Serializer};
+use super::series::ControlSummary;
 
 /// The summary of a run: one JSON object. Numbers that are not finite are written as `null`.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
@@ -135,41 +135,6 @@ pub struct EnergySummary {
     pub drift: f64,
 }
 
-/// What the control of the step size did.
-#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
-pub struct ControlSummary {
-    /// `energy`, `energy-printed`, `error` or `both`.
-    pub rule: &'static str,
-    /// Steps kept.
-    pub accepted: u64,
-    /// Trials rejected, or shortened to end at an event.
-    pub rejected: u64,
-    /// The shortest step [s].
-    pub smallest_step: f64,
-    /// The longest [s].
-    pub largest_step: f64,
-    /// Changes of the index, both ways.
-    pub index_changes: u64,
-    /// Steps in index-1.
-    pub index_1_steps: u64,
-    /// Steps that ended at an event.
-    pub events: u64,
-}
-
-impl ControlSummary {
-    /// Counts a step.
-    pub fn take(&mut self, step: &StepRow) {
-        self.accepted += 1;
-        self.rejected += u64::from(step.rejected);
-        self.largest_step = self.largest_step.max(step.length);
-        let is_first = self.accepted == 1;
-        self.smallest_step =
-            if is_first { step.length } else { self.smallest_step.min(step.length) };
-        self.index_1_steps += u64::from(step.index == Some(1));
-        self.events += u64::from(step.limit == Some("event"));
-    }
-}
-
 /// Largest residuals over every step.
 #[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
 pub struct ViolationSummary {
@@ -194,23 +159,6 @@ pub struct MethodChoice {
     /// What was measured; absent where nothing was.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub evidence: Option<PilotReport>,
-}
-
-/// Channels by name, in order; one number is written as a number, several as a list.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Outputs<V = f64>(pub Vec<(String, Vec<V>)>);
-
-impl<V: Serialize> Serialize for Outputs<V> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(self.0.len()))?;
-        for (name, values) in &self.0 {
-            match values.as_slice() {
-                [one] => map.serialize_entry(name, one)?,
-                several => map.serialize_entry(name, several)?,
-            }
-        }
-        map.end()
-    }
 }
 
 impl RunSummary {

@@ -7,6 +7,7 @@ mod choice;
 mod csv;
 mod estimate;
 mod json;
+mod outputs;
 mod realtime;
 mod series;
 #[cfg(test)]
@@ -18,12 +19,10 @@ pub use choice::{
 };
 pub use csv::{CsvWriter, append_steps, write_steps};
 pub use estimate::ErrorEstimate;
-pub use json::{
-    Contact, ControlSummary, EnergySummary, MethodChoice, Outputs, RunError, RunSummary,
-    ViolationSummary,
-};
+pub use json::{Contact, EnergySummary, MethodChoice, RunError, RunSummary, ViolationSummary};
+pub use outputs::Outputs;
 pub use realtime::{Degraded, MarginSummary, Overrun, RealtimeSummary, Times, write_overruns};
 pub use series::{
-    Animation, Channel, ChannelSeries, EnergySeries, IterationSeries, Polyline, Provenance,
-    RunRecord, StepRow, StepSeries, Trace, ViolationSeries,
+    Animation, Channel, ChannelSeries, ControlSummary, EnergySeries, IterationSeries, Polyline,
+    Provenance, RunRecord, StepRow, StepSeries, Trace, ViolationSeries,
 };

@@ -1,6 +1,5 @@
 //! What a run leaves behind, as plain data: channels, pictures, energies, counts.
 
-use super::json::ControlSummary;
 use mbs_core::outputs::Component;
 use mbs_core::scene::{Output, Scene};
 
@@ -245,5 +244,40 @@ impl StepRow {
                 .reduce(f64::max),
             limit: self.limit.or(before.limit),
         }
+    }
+}
+
+/// What the control of the step size did.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+pub struct ControlSummary {
+    /// `energy`, `energy-printed`, `error` or `both`.
+    pub rule: &'static str,
+    /// Steps kept.
+    pub accepted: u64,
+    /// Trials rejected, or shortened to end at an event.
+    pub rejected: u64,
+    /// The shortest step [s].
+    pub smallest_step: f64,
+    /// The longest [s].
+    pub largest_step: f64,
+    /// Changes of the index, both ways.
+    pub index_changes: u64,
+    /// Steps in index-1.
+    pub index_1_steps: u64,
+    /// Steps that ended at an event.
+    pub events: u64,
+}
+
+impl ControlSummary {
+    /// Counts a step.
+    pub fn take(&mut self, step: &StepRow) {
+        self.accepted += 1;
+        self.rejected += u64::from(step.rejected);
+        self.largest_step = self.largest_step.max(step.length);
+        let is_first = self.accepted == 1;
+        self.smallest_step =
+            if is_first { step.length } else { self.smallest_step.min(step.length) };
+        self.index_1_steps += u64::from(step.index == Some(1));
+        self.events += u64::from(step.limit == Some("event"));
     }
 }

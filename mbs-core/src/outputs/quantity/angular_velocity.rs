@@ -1,7 +1,8 @@
 //! Angular velocity of a body.
 
 use super::super::frame::Frame;
-use super::{ComponentForm, Instant, Maker, Measured, QuantityRow, TargetKind};
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::BodyId;
 

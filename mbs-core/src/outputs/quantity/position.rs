@@ -1,6 +1,7 @@
 //! Position of a material point.
 
-use super::{ComponentForm, Instant, Maker, Measured, QuantityRow, TargetKind};
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
 use crate::Real;
 use crate::natural::Affine;
 

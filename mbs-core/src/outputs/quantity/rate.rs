@@ -1,7 +1,8 @@
 //! Rates of a joint.
 
 use super::super::coordinate::Coordinate;
-use super::{ComponentForm, Instant, Maker, Measured, QuantityRow, TargetKind};
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::JointId;
 use alloc::vec::Vec;

@@ -1,6 +1,7 @@
 //! Reaction of a joint.
 
-use super::{ComponentForm, Instant, Maker, Measured, QuantityRow, TargetKind};
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::JointId;
 use core::marker::PhantomData;

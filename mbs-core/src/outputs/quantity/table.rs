@@ -103,7 +103,16 @@ macro_rules! quantities {
                 }
             }
         }
+    };
+}
 
+/// Constructors of outputs.
+macro_rules! constructors {
+    (
+        point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
+        body { $($(#[doc = $body_doc:literal])+ $Body:ident in $body:ident;)* }
+        joint { $($(#[doc = $joint_doc:literal])+ $Joint:ident in $joint:ident;)* }
+    ) => {
         impl Output<Number> {
             $(
                 $(#[doc = $point_doc])+
@@ -126,17 +135,26 @@ macro_rules! quantities {
                 }
             )*
         }
+    };
+}
 
+/// What reads each.
+macro_rules! channels {
+    (
+        point { $($(#[doc = $point_doc:literal])+ $Point:ident in $point:ident;)* }
+        body { $($(#[doc = $body_doc:literal])+ $Body:ident in $body:ident;)* }
+        joint { $($(#[doc = $joint_doc:literal])+ $Joint:ident in $joint:ident;)* }
+    ) => {
         /// What one channel reads.
         #[derive(Debug, Clone)]
-        pub(super) enum Channel<T: Real, const D: usize> {
-            $($Point($point::$Point<T, D>),)*
-            $($Body($body::$Body<T, D>),)*
-            $($Joint($joint::$Joint<T, D>),)*
+        pub(in crate::outputs) enum Channel<T: Real, const D: usize> {
+            $($Point(super::$point::$Point<T, D>),)*
+            $($Body(super::$body::$Body<T, D>),)*
+            $($Joint(super::$joint::$Joint<T, D>),)*
         }
 
         impl<T: Real, const D: usize> Channel<T, D> {
-            pub(super) fn new(quantity: &Quantity<T>, from: &mut Maker<'_, T, D>) -> Self {
+            pub(in crate::outputs) fn new(quantity: &Quantity<T>, from: &mut Maker<'_, T, D>) -> Self {
                 match *quantity {
                     $(Quantity::$Point { body, at } => {
                         Self::$Point(Measured::new(from.model.point(body, at), from))
@@ -146,7 +164,7 @@ macro_rules! quantities {
                 }
             }
 
-            pub(super) fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
+            pub(in crate::outputs) fn write(&self, now: &Instant<'_, T, D>, out: &mut [T]) {
                 match self {
                     $(Self::$Point(channel) => channel.write(now, out),)*
                     $(Self::$Body(channel) => channel.write(now, out),)*
@@ -157,4 +175,4 @@ macro_rules! quantities {
     };
 }
 
-pub(super) use quantities;
+pub(super) use {channels, constructors, quantities};

@@ -1,7 +1,8 @@
 //! Coordinates of a joint, which count turns.
 
 use super::super::coordinate::Coordinate;
-use super::{ComponentForm, Instant, Maker, Measured, QuantityRow, TargetKind};
+use super::kind::{Instant, Maker, Measured};
+use super::{ComponentForm, QuantityRow, TargetKind};
 use crate::Real;
 use crate::scene::JointId;
 use alloc::vec::Vec;

@@ -1,7 +1,6 @@
 //! Mass properties: what a rigid body can have. What is welded together is one body.
 
-use super::is_planar;
-use super::vector::Place;
+use super::vector::{Place, is_planar};
 use crate::Real;
 use crate::algebra::Matrix;
 use crate::cluster::{Clusters, mass_properties};

@@ -1,8 +1,6 @@
 //! Courses over time: constants and tables.
 
-use super::is_planar;
-use super::motion::check_times;
-use super::vector::Place;
+use super::vector::{Place, check_times, is_planar};
 use crate::Real;
 use crate::effects::SignalForm;
 use crate::scene::{SceneError, SceneFault, Signal};
@@ -33,5 +31,12 @@ pub(super) fn check<T: Real>(
             }
             check_times(rows.iter().map(|row| row.0), place)
         }
+    }
+}
+
+impl Place {
+    /// A signal of three free numbers.
+    pub(crate) fn signal<T: Real>(self, signal: &Signal<T>) -> Result<(), SceneError> {
+        check(signal, None, self)
     }
 }

@@ -1,7 +1,7 @@
 //! Joints: bodies, place and axes that fit the kind.
 
-use super::vector::{Place, is_parallel};
-use super::{check_pair, is_planar};
+use super::reference::check_pair;
+use super::vector::{Place, is_parallel, is_planar};
 use crate::Real;
 use crate::scene::{Joint, Scene, SceneError, SceneFault};
 
@@ -10,7 +10,7 @@ pub(super) fn check<T: Real>(
     joint: &Joint<T>,
     place: Place,
 ) -> Result<(), SceneError> {
-    check_pair(scene, joint.bodies, place)?;
+    check_pair(scene.surroundings(), joint.bodies, place)?;
     if is_planar(place.dimension) && joint.kind.is_spatial_only() {
         return place.fault("kind", SceneFault::NeedsSpatial);
     }

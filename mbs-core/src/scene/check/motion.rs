@@ -1,8 +1,7 @@
 //! Guides and initial conditions, and whether they agree.
 
-use super::effect::known_body;
-use super::is_planar;
-use super::vector::Place;
+use super::reference::known_body;
+use super::vector::{Place, check_times, is_planar};
 use crate::Real;
 use crate::inputs::GuideInput;
 use crate::laws::guide::{largest_rate, spline};
@@ -49,24 +48,6 @@ fn check_law<T: Real>(law: &Motion<T>, place: Place) -> Result<(), SceneError> {
         }
         Motion::Ramp { rate } => place.finite("ramp", *rate),
         Motion::Input(motion) => motion.iter().try_for_each(|x| place.finite("input", *x)),
-    }
-}
-
-/// At least one row; each time later than the one before.
-pub(super) fn check_times<T: Real>(
-    times: impl Iterator<Item = T>,
-    place: Place,
-) -> Result<(), SceneError> {
-    let mut previous = None;
-    for (row, time) in times.enumerate() {
-        if previous.is_some_and(|before| time <= before) {
-            return place.fault("table", SceneFault::TableOrder(row));
-        }
-        previous = Some(time);
-    }
-    match previous {
-        Some(_) => Ok(()),
-        None => place.fault("table", SceneFault::WrongCount { needed: 1, found: 0 }),
     }
 }
 
@@ -153,7 +134,7 @@ fn check_initial<T: Real>(
             Ok(())
         }
         InitialTarget::Body { body, velocity, angular_velocity } => {
-            let body = known_body(scene, *body, place)?;
+            let body = known_body(scene.surroundings(), *body, place)?;
             if velocity.is_none() && angular_velocity.is_none() {
                 return place.fault("velocity", SceneFault::Missing);
             }

@@ -1,6 +1,6 @@
 //! Output channels: references and places.
 
-use super::effect::known_body;
+use super::reference::known_body;
 use super::vector::Place;
 use crate::Real;
 use crate::outputs::{Quantity, Target};
@@ -13,10 +13,10 @@ pub(super) fn check<T: Real>(
 ) -> Result<(), SceneError> {
     match quantity.target() {
         Target::Point(body, at) => {
-            known_body(scene, body, place)?;
+            known_body(scene.surroundings(), body, place)?;
             place.vector("at", at)
         }
-        Target::Body(body) => known_body(scene, body, place).map(drop),
+        Target::Body(body) => known_body(scene.surroundings(), body, place).map(drop),
         Target::Joint(joint) => match scene.joints.get(joint.index()) {
             None => place.fault("joint", SceneFault::UnknownReference),
             Some(_) if quantity.components(scene).is_empty() => {

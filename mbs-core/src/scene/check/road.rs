@@ -1,7 +1,6 @@
 //! The road: its features, and whether every wheel can roll through its hollows.
 
-use super::is_planar;
-use super::vector::Place;
+use super::vector::{Place, is_planar};
 use crate::Real;
 use crate::laws::guide::spline_curvatures;
 use crate::scene::{EffectKind, Entry, Road, RoadFeature, Scene, SceneError, SceneFault};

@@ -1,6 +1,5 @@
 //! Checks of single numbers and vectors.
 
-use super::is_planar;
 use crate::Real;
 use crate::scene::{Dimension, Entry, SceneError, SceneFault};
 
@@ -79,4 +78,27 @@ pub(super) fn is_parallel<T: Real>(a: [T; 3], b: [T; 3]) -> bool {
 fn scaled<T: Real>(v: [T; 3]) -> [T; 3] {
     let size = largest(v);
     v.map(|x| x / size)
+}
+
+/// A planar scene.
+pub(super) fn is_planar(dimension: Dimension) -> bool {
+    dimension == Dimension::Planar
+}
+
+/// At least one row; each time later than the one before.
+pub(super) fn check_times<T: Real>(
+    times: impl Iterator<Item = T>,
+    place: Place,
+) -> Result<(), SceneError> {
+    let mut previous = None;
+    for (row, time) in times.enumerate() {
+        if previous.is_some_and(|before| time <= before) {
+            return place.fault("table", SceneFault::TableOrder(row));
+        }
+        previous = Some(time);
+    }
+    match previous {
+        Some(_) => Ok(()),
+        None => place.fault("table", SceneFault::WrongCount { needed: 1, found: 0 }),
+    }
 }

@@ -1,7 +1,7 @@
 //! What can be wrong with a sweep, beside what can be wrong with any file.
 
 use crate::format::significant;
-use crate::read::error::nearest_name;
+use crate::read::nearest::nearest_name;
 use core::fmt::{self, Display, Formatter};
 
 /// The faults of a sweep file.

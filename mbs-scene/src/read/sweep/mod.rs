@@ -1,6 +1,7 @@
 //! Sweep files: which numbers of a scene are varied, and how.
 
 mod fault;
+mod parameter;
 pub(in crate::read) mod path;
 mod reader;
 #[cfg(test)]
@@ -15,6 +16,7 @@ use crate::read::tree::Span;
 use crate::read::{ReadError, ReadFault, SceneFile};
 use fault::MOST_MEMBERS;
 use mbs_core::scene::{Scene, SceneFault};
+use parameter::{Combine, Parameter};
 use path::Address;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,34 +28,6 @@ pub struct SweepFile {
     parameters: Vec<Parameter>,
     places: Vec<PlaceOfScene>,
     n_members: usize,
-}
-
-/// How values of several parameters are combined.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Combine {
-    /// Each with each; the last parameter changes fastest.
-    Grid,
-    /// One to one.
-    Zip,
-    /// So many samples.
-    Latin(u32),
-}
-
-/// What `[[vary]]` says.
-#[derive(Debug, Clone)]
-struct Parameter {
-    name: String,
-    /// Of the name, or of the path where there is none.
-    span: Span,
-    /// Places that take the value, that of `path` first.
-    sets: Vec<(Address, Span)>,
-    /// Places that move by as much as `path` does.
-    shifts: Vec<(Address, Span)>,
-    texts: Vec<String>,
-    /// Of each value, or one for all.
-    value_spans: Vec<Span>,
-    /// Of a range, tried beside its values.
-    ends: Vec<(String, Span)>,
 }
 
 /// A number of the scene that members replace.

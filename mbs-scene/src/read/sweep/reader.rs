@@ -1,9 +1,10 @@
 //! Reading of a sweep file: `[sweep]` and `[[vary]]`.
 
+use super::SweepFault;
 use super::fault::MOST_MEMBERS;
+use super::parameter::{Combine, Parameter};
 use super::path::{self, Address};
 use super::values::Range;
-use super::{Combine, Parameter, SweepFault};
 use crate::read::fields::{Context, Fields, Read};
 use crate::read::names::Names;
 use crate::read::tree::{Item, Node, Span};

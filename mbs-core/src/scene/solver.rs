@@ -1,40 +1,7 @@
-//! Output channels and the scene's wishes for the solver.
+//! The scene's wishes for the solver.
 
-use crate::outputs::Quantity;
-use crate::scene::{Joint, JointId, Scene};
 use alloc::string::String;
 use alloc::vec::Vec;
-
-/// A channel: what is recorded, under which name.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Output<T> {
-    /// Unique name.
-    pub name: String,
-    /// What is measured.
-    pub quantity: Quantity<T>,
-}
-
-impl<T> Output<T> {
-    /// An output without a name.
-    #[must_use]
-    pub const fn new(quantity: Quantity<T>) -> Self {
-        Self { name: String::new(), quantity }
-    }
-}
-
-impl<T: Clone> Scene<T> {
-    /// Its outputs; where it names none, the coordinates of every joint that has some, under the joint's name.
-    #[must_use]
-    pub fn channels(&self) -> Vec<Output<T>> {
-        if !self.outputs.is_empty() {
-            return self.outputs.clone();
-        }
-        let moves = |joint: &Joint<T>| joint.kind.n_coordinates(self.dimension) > 0;
-        let joints = self.joints.iter().enumerate().filter(|(_, joint)| moves(joint));
-        let value = |index| Quantity::JointValue { joint: JointId::new(index) };
-        joints.map(|(i, joint)| Output { name: joint.name.clone(), quantity: value(i) }).collect()
-    }
-}
 
 /// The `[solver]` table: all optional; the command line overrides.
 #[derive(Debug, Clone, PartialEq, Default)]

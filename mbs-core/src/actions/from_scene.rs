@@ -1,0 +1,36 @@
+//! The actions of a scene: each of its effects adds its own.
+
+use super::compile::Compiler;
+use super::{ActionError, Actions, Tables};
+use crate::Real;
+use crate::inputs::Prescribed;
+use crate::scene::Scene;
+use alloc::vec::Vec;
+
+impl<T: Real> Actions<T> {
+    /// The actions of the enabled effects of a checked scene.
+    ///
+    /// # Errors
+    /// [`ActionError::LeftOut`] for an enabled effect whose Cargo feature is off.
+    pub fn new(scene: &Scene<T>) -> Result<Self, ActionError> {
+        let mut compiler = Compiler {
+            among: scene.surroundings(),
+            effect: 0,
+            roads: None,
+            clock: None,
+            actions: Self {
+                list: Vec::new(),
+                prescribed: Prescribed::new(&scene.guides),
+                tables: Tables::empty(),
+            },
+        };
+        for (effect, e) in scene.effects.iter().enumerate().filter(|(_, e)| e.enabled) {
+            if let Some((feature, false)) = e.kind.row().feature {
+                return Err(ActionError::LeftOut { effect, feature });
+            }
+            compiler.effect = effect;
+            e.kind.actions(&mut compiler);
+        }
+        Ok(compiler.actions)
+    }
+}

@@ -1,0 +1,160 @@
+//! What laws refer to by number: inputs and tables.
+
+use crate::Real;
+
+/// An entry of a table that belongs to a Cargo feature: none can be made where it is off.
+macro_rules! table_entry {
+    ($(#[$doc:meta])* $Name:ident = $Entry:ty, $feature:literal) => {
+        $(#[$doc])*
+        #[cfg(feature = $feature)]
+        pub type $Name<T> = $Entry;
+        $(#[$doc])*
+        #[cfg(not(feature = $feature))]
+        pub type $Name<T> = <core::marker::PhantomData<T> as super::entry::NoEntry>::Entry;
+    };
+}
+
+table_entry! {
+    /// A piece of a polynomial.
+    PieceEntry = super::polynomial::Piece<T>, "polynomial"
+}
+table_entry! {
+    /// A part of a road.
+    FeatureEntry = super::feature::Feature<T>, "tire"
+}
+table_entry! {
+    /// A point (x, z) of a road given by a table.
+    KnotEntry = [T; 2], "tire"
+}
+table_entry! {
+    /// The road's curvature there.
+    CurvatureEntry = T, "tire"
+}
+
+/// The tables of laws that never change.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LawTables<'a, T> {
+    /// Pieces of polynomials.
+    pub pieces: &'a [PieceEntry<T>],
+    /// Parts of roads.
+    pub features: &'a [FeatureEntry<T>],
+    /// Points of roads given by tables, and their curvatures.
+    pub knots: (&'a [KnotEntry<T>], &'a [CurvatureEntry<T>]),
+}
+
+/// What laws refer to by number: inputs at this instant, and tables that never change.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Supplies<'a, T> {
+    /// The vectors of the courses at this instant.
+    pub courses: &'a [[T; 3]],
+    /// Pieces of polynomials.
+    #[cfg(feature = "polynomial")]
+    pub pieces: &'a [super::polynomial::Piece<T>],
+    /// Parts of roads.
+    #[cfg(feature = "tire")]
+    pub features: &'a [super::feature::Feature<T>],
+    /// Points (x, z) of roads given by tables, and their curvatures.
+    #[cfg(feature = "tire")]
+    pub knots: (&'a [[T; 2]], &'a [T]),
+    /// Laws that are objects.
+    #[cfg(all(feature = "alloc", feature = "own-laws"))]
+    pub codes: Option<&'a super::code::Codes>,
+}
+
+impl<'a, T: Real> Supplies<'a, T> {
+    /// The vector of a course; zero where there is none.
+    #[inline(always)]
+    #[must_use]
+    pub fn course(&self, course: u32) -> [T; 3] {
+        self.courses.get(course as usize).copied().unwrap_or([T::ZERO; 3])
+    }
+
+    /// Courses alone.
+    #[must_use]
+    pub const fn courses(courses: &'a [[T; 3]]) -> Self {
+        Self {
+            courses,
+            #[cfg(feature = "polynomial")]
+            pieces: &[],
+            #[cfg(feature = "tire")]
+            features: &[],
+            #[cfg(feature = "tire")]
+            knots: (&[], &[]),
+            #[cfg(all(feature = "alloc", feature = "own-laws"))]
+            codes: None,
+        }
+    }
+
+    /// The same courses, with these tables.
+    #[inline(always)]
+    #[must_use]
+    pub const fn with(self, tables: LawTables<'a, T>) -> Self {
+        let _ = tables;
+        Self {
+            courses: self.courses,
+            #[cfg(feature = "polynomial")]
+            pieces: tables.pieces,
+            #[cfg(feature = "tire")]
+            features: tables.features,
+            #[cfg(feature = "tire")]
+            knots: tables.knots,
+            #[cfg(all(feature = "alloc", feature = "own-laws"))]
+            codes: self.codes,
+        }
+    }
+
+    /// The tables; empty ones of features that are off.
+    #[must_use]
+    pub const fn tables(&self) -> LawTables<'a, T> {
+        LawTables {
+            #[cfg(feature = "polynomial")]
+            pieces: self.pieces,
+            #[cfg(not(feature = "polynomial"))]
+            pieces: &[],
+            #[cfg(feature = "tire")]
+            features: self.features,
+            #[cfg(not(feature = "tire"))]
+            features: &[],
+            #[cfg(feature = "tire")]
+            knots: self.knots,
+            #[cfg(not(feature = "tire"))]
+            knots: (&[], &[]),
+        }
+    }
+
+    /// Pieces of polynomials; none without the feature.
+    #[inline(always)]
+    pub(crate) const fn pieces(&self) -> &'a [super::polynomial::Piece<T>] {
+        #[cfg(feature = "polynomial")]
+        return self.pieces;
+        #[cfg(not(feature = "polynomial"))]
+        &[]
+    }
+
+    /// Parts of roads; none without the feature.
+    #[inline(always)]
+    pub(crate) const fn features(&self) -> &'a [super::feature::Feature<T>] {
+        #[cfg(feature = "tire")]
+        return self.features;
+        #[cfg(not(feature = "tire"))]
+        &[]
+    }
+
+    /// Laws that are objects; none without the feature.
+    #[cfg(feature = "alloc")]
+    pub(crate) const fn codes(&self) -> Option<&'a super::code::Codes> {
+        #[cfg(feature = "own-laws")]
+        return self.codes;
+        #[cfg(not(feature = "own-laws"))]
+        None
+    }
+
+    /// Points of roads and their curvatures; none without the feature.
+    #[inline(always)]
+    pub(crate) const fn knots(&self) -> (&'a [[T; 2]], &'a [T]) {
+        #[cfg(feature = "tire")]
+        return self.knots;
+        #[cfg(not(feature = "tire"))]
+        (&[], &[])
+    }
+}

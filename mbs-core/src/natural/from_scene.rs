@@ -1,0 +1,32 @@
+//! From a scene to a [`NaturalModel`], in the order of the passes.
+
+use super::build::Builder;
+use super::error::ModelError;
+use super::finish::finish;
+use super::model::NaturalModel;
+use crate::Real;
+use crate::actions::Actions;
+use crate::scene::Scene;
+use crate::scene::align::aligned;
+
+impl<T: Real, const D: usize> NaturalModel<T, D> {
+    /// Builds the smallest natural-coordinate model of a scene.
+    ///
+    /// # Errors
+    /// [`ModelError`] when the scene's dimension is not D, or a body's data leave a point undefined.
+    pub fn new(scene: &Scene<T>) -> Result<Self, ModelError> {
+        if scene.dimension.count() != D {
+            return Err(ModelError::Dimension);
+        }
+        let scene = &*aligned(scene);
+        let actions = Actions::new(scene)?;
+        let mut builder = Builder::new(scene, &actions)?;
+        builder.add_bodies();
+        for joint in 0..scene.joints.len() {
+            builder.add_joint(joint);
+        }
+        builder.add_guides();
+        builder.add_effects(&actions.list)?;
+        Ok(finish(builder, actions))
+    }
+}

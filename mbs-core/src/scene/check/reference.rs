@@ -1,0 +1,61 @@
+//! Checks of what an entry refers to: its bodies and its joint.
+
+use super::vector::Place;
+use crate::scene::{BodyId, JointId, SceneError, SceneFault, Surroundings};
+
+/// The entry's two bodies exist and differ.
+pub(crate) fn check_pair<T>(
+    among: Surroundings<'_, T>,
+    bodies: [BodyId; 2],
+    place: Place,
+) -> Result<(), SceneError> {
+    let knows = |body: BodyId| body.index().is_none_or(|i| i < among.bodies.len());
+    if !bodies.into_iter().all(knows) {
+        return place.fault("bodies", SceneFault::UnknownReference);
+    }
+    if bodies[0] == bodies[1] {
+        return place.fault("bodies", SceneFault::SameBody);
+    }
+    Ok(())
+}
+
+pub(crate) fn known_body<T>(
+    among: Surroundings<'_, T>,
+    body: BodyId,
+    place: Place,
+) -> Result<usize, SceneError> {
+    let fault = match body.index() {
+        Some(index) if index < among.bodies.len() => return Ok(index),
+        Some(_) => SceneFault::UnknownReference,
+        None => SceneFault::NeedsMovingBody,
+    };
+    Err(SceneError { entry: place.entry, field: "body", fault })
+}
+
+pub(super) fn single_rotation<T>(
+    among: Surroundings<'_, T>,
+    joint: JointId,
+    place: Place,
+) -> Result<(), SceneError> {
+    let Some(joint) = among.joints.get(joint.index()) else {
+        return place.fault("joint", SceneFault::UnknownReference);
+    };
+    match joint.kind.n_rotations(among.dimension) {
+        1 => Ok(()),
+        n => place.fault("joint", SceneFault::NoSingleRotation(n)),
+    }
+}
+
+pub(crate) fn single_coordinate<T>(
+    among: Surroundings<'_, T>,
+    joint: JointId,
+    place: Place,
+) -> Result<(), SceneError> {
+    let Some(joint) = among.joints.get(joint.index()) else {
+        return place.fault("joint", SceneFault::UnknownReference);
+    };
+    match joint.kind.n_coordinates(among.dimension) {
+        1 => Ok(()),
+        n => place.fault("joint", SceneFault::NoSingleCoordinate(n)),
+    }
+}

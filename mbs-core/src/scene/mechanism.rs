@@ -1,0 +1,134 @@
+//! [`Scene`]: a mechanism and what is asked of it, with its effects and outputs; the entries of its lists by their handles.
+
+use crate::effects::EffectKind;
+use crate::outputs::Quantity;
+use crate::scene::{
+    Body, Dimension, EffectId, Guide, GuideId, InitialCondition, InitialId, Joint, JointId,
+    OutputId, Road, SolverTable, Start, Surroundings,
+};
+use alloc::string::String;
+use alloc::vec::Vec;
+use core::ops::{Index, IndexMut};
+
+/// A mechanism and what is asked of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene<T> {
+    /// Name for reports.
+    pub name: String,
+    /// Planar or spatial.
+    pub dimension: Dimension,
+    /// Acceleration of gravity [m/s^2]; `None`: no gravity and no gravity code.
+    pub gravity: Option<[T; 3]>,
+    /// Length of the run [s].
+    pub duration: T,
+    /// The bodies; the ground is not among them.
+    pub bodies: Vec<Body<T>>,
+    /// The joints.
+    pub joints: Vec<Joint<T>>,
+    /// What holds exactly at the start; the rest follows.
+    pub initials: Vec<InitialCondition<T>>,
+    /// Kinematic guidance of joint coordinates.
+    pub guides: Vec<Guide<T>>,
+    /// The road of tires; empty: level ground at height zero.
+    pub road: Road<T>,
+    /// What the run starts from.
+    pub start: Start,
+    /// Opt-in effects. Those with `enabled: false` are not built.
+    pub effects: Vec<Effect<T>>,
+    /// Channels; empty: every joint coordinate.
+    pub outputs: Vec<Output<T>>,
+    /// What the scene asks of the solver.
+    pub solver: SolverTable<T>,
+}
+
+impl<T: Default> Scene<T> {
+    /// A scene of that name, dimension and duration [s], without gravity and with nothing in it.
+    #[must_use]
+    pub fn empty(name: &str, dimension: Dimension, duration: T) -> Self {
+        Self {
+            name: String::from(name),
+            dimension,
+            gravity: None,
+            duration,
+            bodies: Vec::new(),
+            joints: Vec::new(),
+            initials: Vec::new(),
+            guides: Vec::new(),
+            road: Road::default(),
+            start: Start::default(),
+            effects: Vec::new(),
+            outputs: Vec::new(),
+            solver: SolverTable::default(),
+        }
+    }
+}
+
+/// An opt-in effect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Effect<T> {
+    /// Unique name among the effects (given, or `effect-N`).
+    pub name: String,
+    /// Switched off when false: then nothing of it is built.
+    pub enabled: bool,
+    /// What it does.
+    pub kind: EffectKind<T>,
+}
+
+/// A channel: what is recorded, under which name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Output<T> {
+    /// Unique name.
+    pub name: String,
+    /// What is measured.
+    pub quantity: Quantity<T>,
+}
+
+impl<T> Output<T> {
+    /// An output without a name.
+    #[must_use]
+    pub const fn new(quantity: Quantity<T>) -> Self {
+        Self { name: String::new(), quantity }
+    }
+}
+
+impl<T> Scene<T> {
+    /// What its effects act among.
+    pub(crate) fn surroundings(&self) -> Surroundings<'_, T> {
+        let Self { dimension, ref bodies, ref joints, ref road, .. } = *self;
+        Surroundings { dimension, bodies, joints, road }
+    }
+}
+
+impl<T: Clone> Scene<T> {
+    /// Its outputs; where it names none, the coordinates of every joint that has some, under the joint's name.
+    #[must_use]
+    pub fn channels(&self) -> Vec<Output<T>> {
+        if !self.outputs.is_empty() {
+            return self.outputs.clone();
+        }
+        let moves = |joint: &Joint<T>| joint.kind.n_coordinates(self.dimension) > 0;
+        let joints = self.joints.iter().enumerate().filter(|(_, joint)| moves(joint));
+        let value = |index| Quantity::JointValue { joint: JointId::new(index) };
+        joints.map(|(i, joint)| Output { name: joint.name.clone(), quantity: value(i) }).collect()
+    }
+}
+
+macro_rules! by_handle {
+    ($($id:ident of $entry:ident),*) => {$(
+        impl<T> Index<$id> for Vec<$entry<T>> {
+            type Output = $entry<T>;
+
+            fn index(&self, id: $id) -> &$entry<T> {
+                &self[id.index()]
+            }
+        }
+
+        impl<T> IndexMut<$id> for Vec<$entry<T>> {
+            fn index_mut(&mut self, id: $id) -> &mut $entry<T> {
+                &mut self[id.index()]
+            }
+        }
+    )*};
+}
+
+by_handle!(JointId of Joint, InitialId of InitialCondition, GuideId of Guide, EffectId of Effect, OutputId of Output);

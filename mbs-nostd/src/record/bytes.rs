@@ -1,0 +1,27 @@
+//! Bytes being written.
+
+use alloc::vec::Vec;
+
+/// Bytes being written.
+#[derive(Debug, Clone, Default)]
+pub struct Bytes {
+    pub(crate) bytes: Vec<u8>,
+    pub(crate) is_single: bool,
+}
+
+impl Bytes {
+    /// Adds some.
+    pub(crate) fn put(&mut self, bytes: &[u8]) {
+        self.bytes.extend_from_slice(bytes);
+    }
+
+    /// Adds a real number, in the precision of the text.
+    #[allow(clippy::cast_possible_truncation, reason = "the nearest number of this precision")]
+    pub(crate) fn put_real(&mut self, x: f64) {
+        if self.is_single {
+            self.put(&(x as f32).to_le_bytes());
+        } else {
+            self.put(&x.to_le_bytes());
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! One joint as rows on the twists of its bodies.
+
+use super::Vector;
+use mbs_core::outputs::{JointWrenches, Wrench};
+use mbs_core::rigid::RigidMotion;
+use mbs_core::scene::{BodyId, Dimension, Joint};
+
+/// Where the bodies of a scene are.
+pub type Poses = [RigidMotion<f64>];
+
+/// One joint.
+#[derive(Debug, Clone)]
+pub(crate) struct Link {
+    pub(crate) joint: Joint<f64>,
+    pub(crate) is_guided: bool,
+    transmission: JointWrenches<f64>,
+}
+
+impl Link {
+    pub(crate) fn new(joint: &Joint<f64>, dimension: Dimension, is_guided: bool) -> Self {
+        let transmission = JointWrenches::new(joint, dimension, is_guided, 1.0);
+        Self { joint: joint.clone(), is_guided, transmission }
+    }
+
+    pub(crate) fn n_rows(&self) -> usize {
+        self.transmission.n_directions()
+    }
+
+    /// Its directions at a pose; moments are unit forces at `length` [m].
+    pub(crate) fn wrenches(&self, at: &Poses, length: f64) -> Vec<Wrench<f64>> {
+        let turned = self.joint.bodies.map(|body| pose(at, body).rotation);
+        let mut all = Vec::with_capacity(self.n_rows());
+        let take = |mut w: Wrench<f64>| {
+            w.moment *= length;
+            all.push(w);
+        };
+        self.transmission.directions(|i| self.place(at, i), [&turned[0], &turned[1]], take);
+        all
+    }
+
+    /// Its place on its first or second body [m].
+    pub(crate) fn place(&self, at: &Poses, i: usize) -> Vector {
+        let reference = Vector::from(self.joint.points[i]);
+        pose(at, self.joint.bodies[i]).point(&reference)[0]
+    }
+}
+
+/// The pose of a body; the ground stays.
+pub(crate) fn pose(at: &Poses, body: BodyId) -> RigidMotion<f64> {
+    match body {
+        BodyId::Ground => RigidMotion::at_rest(Vector::zeros()),
+        BodyId::Body(b) => at[b],
+    }
+}
