@@ -1,0 +1,166 @@
+//! Table D1: the ill-conditioned corner of index-3, small steps with the printed form, with 16 and with 32 digits.
+//!
+//! The report guesses that words of 128 bits could cure it. Each run is one of the program `runner`, which has the printed form
+//! over every arithmetic; here is which runs there are, and what is made of them.
+
+mod outcome;
+mod told;
+
+use crate::bench;
+use crate::lab::Lab;
+use crate::lab::section::Section;
+use outcome::Run;
+use std::collections::BTreeSet;
+use std::time::Duration;
+use xtask::process;
+
+/// A run that takes longer is ended.
+const LIMIT: Duration = Duration::from_secs(300);
+/// Simulated time [s]: one swing of the double pendulum, one singular position of the four-bars, at 0.71 s.
+const SPAN: &str = "1";
+/// Steps are 10^-k s; the smallest ones are left out by `--quick`.
+const STEPS: [i32; 5] = [2, 3, 4, 5, 6];
+const QUICK: i32 = 4;
+
+/// A scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Scene {
+    file: &'static str,
+    what: &'static str,
+}
+
+const SCENES: [Scene; 2] = [
+    Scene { file: "double-pendulum", what: "Double pendulum: smooth motion" },
+    Scene { file: "two-four-bars", what: "Two four-bars: through a singular position" },
+];
+
+/// How the penalty is chosen for a step of 10^-k s.
+#[derive(Debug, Clone, Copy)]
+struct Ladder {
+    name: &'static str,
+    /// The exponent of alpha.
+    exponent: fn(i32) -> i32,
+}
+
+/// The report's fixed alpha; as it raises that where it does not converge, to 1e9 at 1e-4 s and 1e11 at 1e-5 s; and raised so
+/// fast that multipliers from zero converge at the singular position.
+const LADDERS: [Ladder; 3] = [
+    Ladder { name: "1e7", exponent: |_| 7 },
+    Ladder { name: "10/dt², 1e7 at least", exponent: |k| (2 * k + 1).max(7) },
+    Ladder { name: "10/dt⁴", exponent: |k| 4 * k + 1 },
+];
+
+/// How a run is made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Way {
+    name: &'static str,
+    form: &'static str,
+    digits: &'static str,
+}
+
+/// The printed form with 16 digits, with 32, and with the factor of the one and the residuals of the other; then ours.
+const WAYS: [Way; 6] = [
+    Way { name: "printed, f64", form: "printed", digits: "f64" },
+    Way { name: "printed, once", form: "printed", digits: "once" },
+    Way { name: "printed, refined", form: "printed", digits: "refined" },
+    Way { name: "printed, dd", form: "printed", digits: "dd" },
+    Way { name: "correction, f64", form: "correction", digits: "f64" },
+    DEFAULT,
+];
+const PRINTED: usize = 0;
+const REFINED: usize = 2;
+const PAIRS: usize = 3;
+const CORRECTION: usize = 4;
+/// Our default needs no alpha; it is run once for each step.
+const DEFAULT: Way = Way { name: "default, f64", form: "default", digits: "f64" };
+const OURS: usize = 5;
+
+/// A step with one penalty, in every way, in the order of [`WAYS`].
+#[derive(Debug, Clone)]
+struct Cell {
+    scene: Scene,
+    /// The step is 10^-k s, alpha 10^exponent.
+    k: i32,
+    exponent: i32,
+    runs: Vec<Run>,
+}
+
+impl Cell {
+    fn step(&self) -> f64 {
+        10_f64.powi(-self.k)
+    }
+
+    /// Is its penalty the one that this ladder chooses for its step?
+    fn is_on(&self, ladder: &Ladder) -> bool {
+        (ladder.exponent)(self.k) == self.exponent
+    }
+}
+
+/// Runs everything one after the other.
+///
+/// # Errors
+///
+/// Why something cannot be run at all.
+pub(crate) fn d1(lab: &Lab<'_>) -> Result<Section, String> {
+    let program = bench::built(&bench::Threads::up_to(1), lab.quick)?;
+    let run = |words: &[&str]| {
+        process::progress(&format!("D1 {}", words[1..].join(" ")));
+        Run::read(program.run(words, LIMIT))
+    };
+    let cells = cells(lab.quick, run);
+    process::write(&lab.folder.join("digits.csv"), &outcome::csv(&cells)?)?;
+    Ok(told::section(&cells))
+}
+
+/// All cells, by what `run` makes of the words for the program.
+fn cells(quick: bool, mut run: impl FnMut(&[&str]) -> Run) -> Vec<Cell> {
+    let mut cells = Vec::new();
+    for scene in SCENES {
+        let steps = || STEPS.into_iter().filter(|&k| !quick || k <= QUICK);
+        let mut made = |way: Way, k: i32, exponent: i32| {
+            let [step, alpha] = [format!("1e-{k}"), format!("1e{exponent}")];
+            run(&["digits", scene.file, way.form, way.digits, &step, SPAN, &alpha])
+        };
+        for k in steps() {
+            let ours = made(DEFAULT, k, 7);
+            let exponents: BTreeSet<_> = LADDERS.iter().map(|rule| (rule.exponent)(k)).collect();
+            for exponent in exponents {
+                let printed = WAYS[..OURS].iter().map(|&way| made(way, k, exponent));
+                let runs = printed.chain([ours.clone()]).collect();
+                cells.push(Cell { scene, k, exponent, runs });
+            }
+        }
+    }
+    cells
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn penalties_are_the_printed_ones_where_the_report_names_them() {
+        let raised = |k| (LADDERS[1].exponent)(k);
+        assert_eq!([2, 3, 4, 5].map(raised), [7, 7, 9, 11]);
+        assert_eq!(STEPS.map(|k| (LADDERS[0].exponent)(k)), [7; 5]);
+    }
+
+    #[test]
+    fn every_way_is_run_once_for_each_step_and_penalty_and_ours_once_for_each_step() {
+        let mut asked = Vec::new();
+        let cells = cells(true, |words| {
+            asked.push(words.join(" "));
+            Run::read(Err("not run".to_owned()))
+        });
+        // At 1e-2 and 1e-3 s two ladders meet.
+        assert_eq!(cells.len(), 2 * (2 + 2 + 3));
+        assert!(cells.iter().all(|cell| cell.runs.len() == WAYS.len()));
+        assert_eq!(asked.len(), 2 * ((2 + 2 + 3) * 5 + 3));
+        assert!(asked.contains(&"digits two-four-bars printed dd 1e-4 1 1e17".to_owned()));
+        assert_eq!([WAYS[PRINTED], WAYS[PAIRS]].map(|way| way.digits), ["f64", "dd"]);
+        assert_eq!(
+            (WAYS[REFINED].digits, WAYS[CORRECTION].form, WAYS[OURS]),
+            ("refined", "correction", DEFAULT)
+        );
+    }
+}
