@@ -1,6 +1,6 @@
 //! Short forms of jobs: texts that once broke something, and the first hard cases.
 
-use runner::fuzz::{self, trial};
+use runner::fuzz::trial::{self, trial};
 use runner::gauntlet::judge::{Verdict, judge};
 use runner::gauntlet::run::keep_panics;
 use runner::gauntlet::schedule::cases;
@@ -38,7 +38,7 @@ fn what_once_broke_is_refused_or_stops_with_a_reason() {
         let path = entry.unwrap().path();
         let text = std::fs::read(&path).unwrap();
         for turn in 0..3 {
-            if let fuzz::Verdict::Wrong(why) = trial(&text, turn) {
+            if let trial::Verdict::Wrong(why) = trial(&text, turn) {
                 panic!("{}: {why}", path.display());
             }
         }

@@ -1,9 +1,11 @@
 //! `cargo xtask choice`: does `mbs run --error` choose well? Every scene, at three errors, against the best of all methods.
 
+use crate::child::watched;
+use crate::tell;
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, Stdio};
+use std::process::Command;
 use xtask::command::built;
 use xtask::process;
 
@@ -45,20 +47,13 @@ impl Row {
     }
 }
 
-/// Measures all scenes, or those named; exit status 1 where fewer than nine in ten are good, or a choice stopped.
-pub(crate) fn choice(names: &[String]) -> ExitCode {
-    match run(names) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(why) => {
-            eprintln!("cargo xtask choice: {why}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
+/// Measures all scenes, or those named; says whether nine in ten are good and no choice stopped.
+///
+/// # Errors
+///
+/// Why nothing can be measured.
 #[allow(clippy::print_stdout, reason = "the table is what is asked for")]
-fn run(names: &[String]) -> Result<bool, String> {
+pub(crate) fn choice(names: &[String]) -> Result<bool, String> {
     let mbs = built()?;
     let (mut rows, mut failed, mut text) = (Vec::new(), Vec::new(), String::new());
     let folder = process::target_dir().join("choice");
@@ -72,7 +67,7 @@ fn run(names: &[String]) -> Result<bool, String> {
         // after each, so that a job that is cut off leaves what it has
         text = table(&rows) + &failed.join("\n");
         process::write(&folder.join("choice.txt"), text.as_bytes())?;
-        process::write(&folder.join("choice.csv"), csv(&rows).as_bytes())?;
+        process::write(&folder.join("choice.csv"), &csv(&rows)?)?;
     }
     process::progress("");
     println!("{text}");
@@ -97,11 +92,11 @@ fn measure(mbs: &Path, scene: &Path, name: &str) -> Result<Vec<Row>, String> {
     let mut command = Command::new(mbs);
     command.args(["compare", "--choice", "--json", "--no-maps", "--precision", "f64"]);
     command.args(["--error", ERRORS, "--repeats", "3"]).args(EFFORT).arg(scene);
-    let line = process::line(&command);
-    let output = command.stdin(Stdio::null()).stderr(Stdio::piped()).output();
-    let output = output.map_err(|e| format!("`{line}`: {e}"))?;
-    let value: Value = serde_json::from_slice(&output.stdout)
-        .map_err(|e| format!("`{line}`: {e}: {}", String::from_utf8_lossy(&output.stderr)))?;
+    let output = watched(&mut command, None)?.ok_or("a comparison without an end")?;
+    let value: Value = serde_json::from_slice(&output.stdout).map_err(|e| {
+        let errors = String::from_utf8_lossy(&output.stderr);
+        format!("`{}`: {e}: {errors}", process::line(&command))
+    })?;
     let choices = value.get("choices").and_then(Value::as_array).cloned().unwrap_or_default();
     Ok(choices.iter().map(|choice| row(choice, name)).collect())
 }
@@ -192,29 +187,25 @@ fn verdict(rows: &[Row]) -> bool {
     share >= SHARE && rows.iter().all(|r| r.stopped == 0)
 }
 
-fn csv(rows: &[Row]) -> String {
-    let mut text = String::from(
-        "scene,wanted_error,chosen,error,cpu_seconds,pilot_seconds,best,best_seconds,over_best,stopped\n",
-    );
+fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
     let number = |x: Option<f64>| x.map(|x| format!("{x:e}")).unwrap_or_default();
-    for r in rows {
+    let record = |r: &Row| {
         let (best, seconds) = r.best.clone().unzip();
-        let _ = writeln!(
-            text,
-            "{},{:e},\"{}\",{},{},{:e},\"{}\",{},{},{}",
-            r.scene,
-            r.error,
-            r.method,
+        vec![
+            r.scene.clone(),
+            number(Some(r.error)),
+            r.method.clone(),
             number(r.true_error),
             number(r.seconds),
-            r.pilot,
+            number(Some(r.pilot)),
             best.unwrap_or_default(),
             number(seconds),
             number(r.over_best()),
-            r.stopped
-        );
-    }
-    text
+            r.stopped.to_string(),
+        ]
+    };
+    let head = "scene,wanted_error,chosen,error,cpu_seconds,pilot_seconds,best,best_seconds,over_best,stopped";
+    tell::csv(head, rows.iter().map(record))
 }
 
 #[cfg(test)]

@@ -1,10 +1,11 @@
 //! `cargo xtask estimate`: are the errors that `mbs run` states those that it has? Every scene, against a run of order 8 with a tolerance near rounding.
 
+use crate::child::watched;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, Stdio};
+use std::process::Command;
 use xtask::command::built;
 use xtask::process;
 
@@ -31,20 +32,13 @@ struct Row {
     basis: Result<String, String>,
 }
 
-/// Measures all scenes, or those named; exit status 1 where the estimates are not of the size of the errors.
-pub(crate) fn estimate(names: &[String]) -> ExitCode {
-    match run(names) {
-        Ok(true) => ExitCode::SUCCESS,
-        Ok(false) => ExitCode::FAILURE,
-        Err(why) => {
-            eprintln!("cargo xtask estimate: {why}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
+/// Measures all scenes, or those named; says whether the estimates are of the size of the errors.
+///
+/// # Errors
+///
+/// Why nothing can be measured.
 #[allow(clippy::print_stdout, reason = "the table is what is asked for")]
-fn run(names: &[String]) -> Result<bool, String> {
+pub(crate) fn estimate(names: &[String]) -> Result<bool, String> {
     let mbs = built()?;
     let mut rows = Vec::new();
     for scene in crate::choice::scenes(names)? {
@@ -111,10 +105,7 @@ fn measure(mbs: &Path, scene: &Path, name: String) -> Result<Row, String> {
 fn command(mbs: &Path, scene: &Path, out: &Path, options: &[&str]) -> Result<bool, String> {
     let mut command = Command::new(mbs);
     command.arg("run").arg(scene).arg("--json").arg("--out").arg(out).args(options);
-    let line = process::line(&command);
-    let output = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
-    let output = output.output().map_err(|e| format!("`{line}`: {e}"))?;
-    Ok(output.status.success())
+    Ok(watched(&mut command, None)?.is_some_and(|output| output.status.success()))
 }
 
 /// Names of the columns after the time, and the rows by their times in nanoseconds.

@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitCode, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant, SystemTime};
 use xtask::process;
@@ -14,22 +14,13 @@ const MEMORY: u64 = 1 << 20;
 /// How often it is looked at.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// Tries texts for so long [s], so many from a seed on; exit status 1 where one is kept.
+/// Tries texts for so long [s], so many from a seed on.
+///
+/// # Errors
+///
+/// What broke, and where it is kept.
 #[allow(clippy::print_stdout, reason = "the counts are what is asked for")]
-pub(crate) fn fuzz(seconds: u64, seed: u64, count: u64) -> ExitCode {
-    match run(seconds, seed, count) {
-        Ok(told) => {
-            println!("{told}");
-            ExitCode::SUCCESS
-        }
-        Err(why) => {
-            eprintln!("cargo xtask fuzz: {why}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn run(seconds: u64, seed: u64, count: u64) -> Result<String, String> {
+pub(crate) fn fuzz(seconds: u64, seed: u64, count: u64) -> Result<(), String> {
     let program = process::tested("runner", "short")?;
     let folder = process::target_dir().join("fuzz");
     fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
@@ -43,7 +34,8 @@ fn run(seconds: u64, seed: u64, count: u64) -> Result<String, String> {
     let hung = watch(&mut child, &current, LIMIT)?;
     let out = child.wait_with_output().map_err(|e| e.to_string())?;
     if !hung && out.status.success() {
-        return Ok(String::from_utf8_lossy(&out.stdout).trim().to_owned());
+        println!("{}", String::from_utf8_lossy(&out.stdout).trim());
+        return Ok(());
     }
     let what = if hung { "hung".to_owned() } else { format!("ended with {}", out.status) };
     let kept = keep(&current, &folder)?;

@@ -2,6 +2,7 @@
 
 mod bench;
 mod chart;
+mod child;
 mod choice;
 mod counts;
 mod digits;
@@ -130,19 +131,32 @@ enum Job {
 }
 
 fn main() -> ExitCode {
-    match Cli::parse().job {
-        Job::Tables { quick, names } => tables::tables(quick, &names),
-        Job::Report { quick } => report::report(quick),
-        Job::Steps { quick, names } => steps::steps(quick, &names),
-        Job::Bench { threads, quick, scenes } => {
-            bench::bench(&bench::Asked { threads, quick, scenes })
+    match run(Cli::parse().job) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(why) => {
+            eprintln!("cargo xtask {}: {why}", std::env::args().nth(1).unwrap_or_default());
+            ExitCode::FAILURE
         }
-        Job::Choice { scenes } => choice::choice(&scenes),
-        Job::Estimate { scenes } => estimate::estimate(&scenes),
-        Job::Peers { quick, names } => peers::peers(quick, &names),
-        Job::Profile { keep, scenes } => profile::profile(keep, &scenes),
-        Job::Gauntlet { count, jobs } => gauntlet::gauntlet(count, jobs),
-        Job::Counts => counts::counts(),
-        Job::Fuzz { seconds, seed, count } => fuzz::fuzz(seconds, seed, count),
     }
+}
+
+/// Does a job; whether what it found is as it should be.
+fn run(job: Job) -> Result<bool, String> {
+    match job {
+        Job::Tables { quick, names } => tables::tables(quick, &names)?,
+        Job::Report { quick } => report::report(quick)?,
+        Job::Steps { quick, names } => drop(steps::run(quick, &names)?),
+        Job::Bench { threads, quick, scenes } => {
+            bench::run(&bench::Asked { threads, quick, scenes })?;
+        }
+        Job::Choice { scenes } => return choice::choice(&scenes),
+        Job::Estimate { scenes } => return estimate::estimate(&scenes),
+        Job::Peers { quick, names } => return peers::peers(quick, &names),
+        Job::Profile { keep, scenes } => profile::profile(keep, &scenes)?,
+        Job::Gauntlet { count, jobs } => return gauntlet::gauntlet(count, jobs),
+        Job::Counts => return counts::counts(),
+        Job::Fuzz { seconds, seed, count } => fuzz::fuzz(seconds, seed, count)?,
+    }
+    Ok(true)
 }

@@ -47,6 +47,37 @@ pub(crate) fn ratios([low, high]: [f64; 2]) -> String {
     }
 }
 
+/// A table as Markdown.
+pub(crate) fn markdown(
+    head: &[impl AsRef<str>],
+    rows: impl IntoIterator<Item = Vec<String>>,
+) -> String {
+    let head: Vec<&str> = head.iter().map(AsRef::as_ref).collect();
+    let mut text = format!("| {} |\n|{}\n", head.join(" | "), "---|".repeat(head.len()));
+    for row in rows {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "| {} |", row.join(" | "));
+    }
+    text
+}
+
+/// A table as CSV: its head, and its records.
+///
+/// # Errors
+///
+/// What the writer says.
+pub(crate) fn csv(
+    head: &str,
+    records: impl IntoIterator<Item = Vec<String>>,
+) -> Result<Vec<u8>, String> {
+    let mut out = csv::Writer::from_writer(Vec::new());
+    let head = head.split(',').map(str::to_owned).collect();
+    for record in [head].into_iter().chain(records) {
+        out.write_record(record).map_err(|e| e.to_string())?;
+    }
+    out.into_inner().map_err(|e| e.to_string())
+}
+
 /// Width of a page of text.
 pub(crate) const PAGE: usize = 100;
 

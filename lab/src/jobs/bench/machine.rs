@@ -38,7 +38,6 @@ impl Machine {
     pub(crate) fn told(&self) -> String {
         let processor =
             if self.processor.is_empty() { "processor not named" } else { &self.processor };
-        let load = self.load.map(|x| x.map_or("?".to_owned(), |x| format!("{x:.1}")));
         let busy = match self.is_busy() {
             Some(true) => {
                 "it was busy with other work, so that times are upper bounds, and teams waited for cores that others had"
@@ -46,10 +45,13 @@ impl Machine {
             Some(false) => "it was idle",
             None => "it does not tell whether it was busy",
         };
-        format!(
-            "Measured on {} cores ({processor}), load average {} before and {} after: {busy}.",
-            self.cores, load[0], load[1]
-        )
+        format!("Measured on {} cores ({processor}), {}: {busy}.", self.cores, self.load_told())
+    }
+
+    /// The load before and after.
+    pub(crate) fn load_told(&self) -> String {
+        let [before, after] = self.load.map(|x| x.map_or("?".to_owned(), |x| format!("{x:.1}")));
+        format!("load average {before} before and {after} after")
     }
 
     pub(crate) fn json(&self) -> Value {

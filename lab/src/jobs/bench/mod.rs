@@ -1,22 +1,20 @@
 //! `cargo xtask bench`: what a step costs in each formulation and scene, and what threads gain.
 
-mod child;
 mod machine;
 mod measured;
 mod papers;
+mod program;
 mod rows;
 mod tables;
 mod threads;
 
 use crate::lab::section::Section;
 use crate::page;
-use child::Program;
-pub(crate) use child::finish;
 pub(crate) use machine::Machine;
 pub(crate) use machine::{cores, processor};
 use measured::{Measured, Scene};
+use program::Program;
 use serde_json::Value;
-use std::process::ExitCode;
 use std::time::Duration;
 pub(crate) use threads::Threads;
 use xtask::process;
@@ -55,18 +53,7 @@ pub(crate) struct Asked {
     pub(crate) scenes: Vec<String>,
 }
 
-/// Measures the scenes, or those named, and writes text, JSON and HTML; exit status 1 where something cannot be run.
-pub(crate) fn bench(asked: &Asked) -> ExitCode {
-    match run(asked) {
-        Ok(_) => ExitCode::SUCCESS,
-        Err(why) => {
-            eprintln!("cargo xtask bench: {why}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-/// Builds the program, measures one scene after the other, and writes the files under `target/bench`.
+/// Builds the program, measures the scenes, or those named, one after the other, and writes text, JSON and HTML under `target/bench`.
 ///
 /// # Errors
 ///

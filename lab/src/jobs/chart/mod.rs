@@ -6,6 +6,7 @@ pub(crate) mod style;
 mod thin;
 
 use plotters::prelude::*;
+pub(crate) use scale::Kind;
 use scale::Scale;
 use style::{CURRENT, Style};
 
@@ -29,17 +30,6 @@ pub(crate) struct Axis {
     pub(crate) label: String,
     /// How numbers lie on it.
     pub(crate) kind: Kind,
-}
-
-/// How numbers lie on an axis.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Kind {
-    /// Evenly, over the span of the numbers.
-    Linear,
-    /// Evenly, and zero is there.
-    FromZero,
-    /// By their logarithm; what is not positive is left out.
-    Log,
 }
 
 /// Points that belong together.

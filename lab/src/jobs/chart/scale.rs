@@ -1,11 +1,21 @@
 //! One axis: where numbers lie on it, and which of them are written.
 
-use super::Kind;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use std::ops::Range;
 
 /// Room beyond the outermost numbers, as a share of the span.
 const MARGIN: f64 = 0.04;
+
+/// How numbers lie on an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Kind {
+    /// Evenly, over the span of the numbers.
+    Linear,
+    /// Evenly, and zero is there.
+    FromZero,
+    /// By their logarithm; what is not positive is left out.
+    Log,
+}
 
 /// An axis over a span of numbers.
 #[derive(Debug, Clone, PartialEq)]

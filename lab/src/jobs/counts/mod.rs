@@ -6,14 +6,14 @@
 
 mod callgrind;
 mod claims;
-mod json;
 
+use crate::tell;
 use callgrind::Case;
 pub(crate) use callgrind::missing as missing_valgrind;
 use claims::{Claim, Runs};
-use std::fs;
+use serde_json::{Value, json};
 use std::path::PathBuf;
-use std::process::{Command, ExitCode};
+use std::process::Command;
 use xtask::effects::{self, Listed};
 use xtask::process::{self, cargo};
 
@@ -27,29 +27,23 @@ fn cases() -> Vec<String> {
     effects::all().flat_map(Listed::cases).chain([GUIDE.to_owned()]).collect()
 }
 
-/// Runs the job by itself: prints the table, writes it as JSON.
+/// Counts, prints the table and writes it as JSON; says whether every claim holds.
+///
+/// # Errors
+///
+/// What could not be built or run.
 #[allow(clippy::print_stdout, reason = "the table is what this job is for")]
-pub(crate) fn counts() -> ExitCode {
+pub(crate) fn counts() -> Result<bool, String> {
     if let Some(left_out) = callgrind::missing("counts") {
-        eprintln!("counts did not run: {}\n{}", left_out.why, left_out.remedy);
-        return ExitCode::FAILURE;
+        return Err(format!("{}\n{}", left_out.why, left_out.remedy));
     }
-    let (runs, claims) = match count() {
-        Ok(done) => done,
-        Err(why) => {
-            eprintln!("counts failed: {why}");
-            return ExitCode::FAILURE;
-        }
-    };
+    let (runs, claims) = count()?;
     print!("{}\n{}", table(&runs), verdict(&claims));
+    let json = format!("{:#}\n", json(&runs, &claims));
+    process::write(&folder().join("counts.json"), json.as_bytes())?;
     let n: usize = claims.iter().map(|claim| claim.n_checked).sum();
     println!("{} cases, {n} comparisons", runs.full.len());
-    let path = folder().join("counts.json");
-    match fs::write(&path, json::text(&runs, &claims)) {
-        Ok(()) => eprintln!("\nwritten to {}", path.display()),
-        Err(e) => eprintln!("\n{}: {e}", path.display()),
-    }
-    if claims.iter().all(Claim::holds) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    Ok(claims.iter().all(Claim::holds))
 }
 
 /// Builds and runs.
@@ -100,6 +94,16 @@ fn folder() -> PathBuf {
     process::target_dir().join("counts")
 }
 
+/// The runs and the claims.
+fn json(runs: &Runs, claims: &[Claim]) -> Value {
+    let cases = |cases: &[Case]| -> Value {
+        cases.iter().map(|c| json!({ "case": c.name, "instructions": c.instructions })).collect()
+    };
+    let claim = |c: &Claim| json!({ "claim": c.text, "holds": c.holds(), "comparisons": c.n_checked, "against": c.against });
+    let claims: Value = claims.iter().map(claim).collect();
+    json!({ "all_effects": cases(&runs.full), "claims": claims, "no_effects": cases(&runs.lean), "steps": STEPS })
+}
+
 /// Instructions of a step: one row for each effect, one column for each formulation and dimension; left out / switched off / on.
 fn table(runs: &Runs) -> String {
     let mut columns: Vec<[&str; 2]> = Vec::new();
@@ -109,10 +113,7 @@ fn table(runs: &Runs) -> String {
             columns.push([formulation, dimension]);
         }
     }
-    let headings: Vec<_> = columns.iter().map(|column| column.join(", ")).collect();
-    let mut text = format!("| effect | {} |\n", headings.join(" | "));
-    text.push_str(&format!("|---|{}\n", "---|".repeat(columns.len())));
-    let mut push = |cases: &[Case], name: &str, effect: &str, switches: &[&str]| {
+    let row = |cases: &[Case], name: &str, effect: &str, switches: &[&str]| {
         let cell = |column: &[&str; 2]| {
             let count = |switch: &&str| {
                 let words = [column[0], column[1], effect, switch];
@@ -121,15 +122,16 @@ fn table(runs: &Runs) -> String {
             };
             switches.iter().map(count).collect::<Vec<_>>().join(" / ")
         };
-        let cells: Vec<_> = columns.iter().map(cell).collect();
-        text.push_str(&format!("| {name} | {} |\n", cells.join(" | ")));
+        [name.to_owned()].into_iter().chain(columns.iter().map(cell)).collect()
     };
-    push(&runs.lean, "none compiled", "spring-damper", &["out"]);
-    for effect in cases() {
+    let full = |effect: String| {
         let switches: &[&str] = if effect == GUIDE { &["on"] } else { &["out", "off", "on"] };
-        push(&runs.full, &effect, &effect, switches);
-    }
-    text
+        row(&runs.full, &effect, &effect, switches)
+    };
+    let lean = row(&runs.lean, "none compiled", "spring-damper", &["out"]);
+    let headings = columns.iter().map(|column| column.join(", "));
+    let head: Vec<_> = ["effect".to_owned()].into_iter().chain(headings).collect();
+    tell::markdown(&head, [lean].into_iter().chain(cases().into_iter().map(full)))
 }
 
 /// One line for each claim, then what contradicts it.

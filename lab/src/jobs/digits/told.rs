@@ -1,7 +1,7 @@
 //! The section: errors and prices side by side, a drawing for each scene, and what the runs say.
 
-use super::outcome::{self, Run};
-use super::{CORRECTION, Cell, LADDERS, OURS, PAIRS, PRINTED, REFINED, SCENES, WAYS};
+use super::cell::{self, CORRECTION, Cell, LADDERS, OURS, PAIRS, PRINTED, REFINED, SCENES, WAYS};
+use super::outcome::Run;
 use crate::chart::{Axis, Chart, Kind, Look, Series};
 use crate::lab::section::Section;
 use crate::tell::{ratio, ratios, step};
@@ -35,7 +35,7 @@ pub(super) fn section(cells: &[Cell]) -> Section {
             );
             section.figure(&chart, &caption);
         }
-        section.behind("Every run", &outcome::HEAD, outcome::rows(these.iter().copied()));
+        section.behind("Every run", &cell::HEAD, cell::rows(these.iter().copied()));
         judge(&mut section, scene.what, &these);
     }
     section
@@ -202,7 +202,7 @@ mod tests {
         assert_eq!(html.matches("no &lt;convergence&gt;").count(), 13 * 4);
         assert_eq!(html.matches("<figure>").count(), 2);
         assert!(!html.contains("NaN") && !html.contains("No drawing"));
-        let csv = String::from_utf8(outcome::csv(&made()).unwrap()).unwrap();
+        let csv = String::from_utf8(cell::csv(&made()).unwrap()).unwrap();
         assert_eq!(csv.lines().count(), 1 + 2 * 13 * WAYS.len());
     }
 }

@@ -90,7 +90,7 @@ mod tests {
     use super::*;
 
     /// A program that hangs in its second case and dies in its third.
-    const SCRIPT: &str = "#!/bin/sh\nk=$3\nwhile [ $k -lt $2 ]; do\n  echo \"begin $k a run\"\n  [ $k -eq 1 ] && exec sleep 30\n  [ $k -eq 2 ] && exit 7\n  echo \"{\\\"number\\\":$k}\"\n  k=$((k+$4))\ndone\n";
+    const SCRIPT: &str = "#!/bin/sh\nk=$4\nwhile [ $k -lt $3 ]; do\n  echo \"begin $k a run\"\n  [ $k -eq 1 ] && exec sleep 30\n  [ $k -eq 2 ] && exit 7\n  echo \"{\\\"number\\\":$k}\"\n  k=$((k+$5))\ndone\n";
 
     #[test]
     fn a_case_that_hangs_or_dies_is_told_and_the_others_are_run() {

@@ -1,6 +1,6 @@
 //! The programs under lab/peers: where they are, what they are asked, what they say.
 
-use crate::bench::finish;
+use crate::child::printed;
 use std::path::PathBuf;
 use std::process::Command;
 use std::time::Duration;
@@ -131,7 +131,7 @@ impl Who {
             Self::Radau => command.arg(self.needed()).arg(asked.number.to_string()),
             _ => command.args([asked.problem, &asked.n.to_string(), &asked.number.to_string()]),
         };
-        let text = finish(&mut command, Duration::from_secs(300))?;
+        let text = printed(&mut command, Duration::from_secs(300))?;
         let lines: Vec<Line> = text.lines().filter_map(Line::read).collect();
         if lines.is_empty() { Err(format!("no result: {}", text.trim())) } else { Ok(lines) }
     }

@@ -5,8 +5,7 @@ use super::lanes::{Lane, Measured};
 use super::problems::{ALGEBRAIC, DIGITS, Kind, LIMIT_ALGEBRAIC, limit_at};
 use super::programs::Who;
 use crate::lab::section::Section;
-use crate::tell::{error, paragraph, ratio};
-use std::fmt::Write;
+use crate::tell::{self, error, paragraph, ratio};
 
 /// A table: its head and its rows.
 type Table = (Vec<&'static str>, Vec<Vec<String>>);
@@ -209,36 +208,31 @@ pub(super) fn markdown(measured: &[Measured], remark: &str) -> String {
     let digits = measured.iter().filter(|m| m.problem.kind == Kind::Digits).map(at_digits);
     let tables = [beside(measured)].into_iter().chain(digits).chain([peers(measured)]);
     for (head, rows) in tables.filter(|(_, rows)| !rows.is_empty()) {
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "\n| {} |\n|{}", head.join(" | "), "---|".repeat(head.len()));
-        for row in rows {
-            let _ = writeln!(text, "| {} |", row.join(" | "));
-        }
+        text.push('\n');
+        text.push_str(&tell::markdown(&head, rows));
     }
     text
 }
 
 /// Every turn of every algorithm.
-pub(super) fn csv(measured: &[Measured]) -> String {
-    let mut text = String::from("problem,size,program,algorithm,turn,seconds,error,digits\n");
-    for m in measured {
-        for lane in &m.lanes {
-            let number = |x: Option<f64>| x.map(|x| format!("{x:e}")).unwrap_or_default();
-            let told = [number(lane.error.map(|[far, _]| far)), number(lane.digits)].join(",");
-            for (turn, seconds) in lane.seconds.iter().enumerate() {
-                let _ = writeln!(
-                    text,
-                    "{},{},{},{},{},{seconds:e},{told}",
-                    m.problem.name,
-                    m.problem.n,
-                    lane.who.name(),
-                    lane.algorithm,
-                    turn + 1
-                );
-            }
+pub(super) fn csv(measured: &[Measured]) -> Result<Vec<u8>, String> {
+    let number = |x: Option<f64>| x.map(|x| format!("{x:e}")).unwrap_or_default();
+    let mut records = Vec::new();
+    for (m, lane) in measured.iter().flat_map(|m| m.lanes.iter().map(move |lane| (m, lane))) {
+        for (turn, seconds) in (1..).zip(&lane.seconds) {
+            records.push(vec![
+                m.problem.name.to_owned(),
+                m.problem.n.to_string(),
+                lane.who.name().to_owned(),
+                lane.algorithm.clone(),
+                i32::to_string(&turn),
+                format!("{seconds:e}"),
+                number(lane.error.map(|[far, _]| far)),
+                number(lane.digits),
+            ]);
         }
     }
-    text
+    tell::csv("problem,size,program,algorithm,turn,seconds,error,digits", records)
 }
 
 #[cfg(test)]

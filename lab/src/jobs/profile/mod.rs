@@ -8,15 +8,16 @@ mod callgrind;
 mod parts;
 mod table;
 
-use crate::bench::{Machine, RUNNER, finish};
+use crate::bench::{Machine, RUNNER};
+use crate::child::printed;
 use crate::counts::missing_valgrind;
-use parts::{Part, Shares};
 use serde_json::Value;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode, Stdio};
+use std::process::{Command, Stdio};
 use std::time::Duration;
+use table::Profile;
 use xtask::process::{self, cargo, line, output};
 
 /// The five scenes of `scenes/` whose steps in index-3 take most time; the vehicle's steering ramps take as long as the last one, which
@@ -30,60 +31,13 @@ const LOOPS: &str =
 /// Longest run of the program [s].
 const LIMIT: Duration = Duration::from_secs(900);
 
-/// One scene.
-#[derive(Debug)]
-pub(crate) struct Profile {
-    /// What `runner bench profile told` says.
-    pub(crate) told: Value,
-    /// Instructions of all its steps.
-    pub(crate) shares: Shares,
-}
-
-impl Profile {
-    pub(crate) fn name(&self) -> &str {
-        self.told["scene"].as_str().unwrap_or_default()
-    }
-
-    /// A number of the line; not a number where there is none.
-    pub(crate) fn number(&self, key: &str) -> f64 {
-        self.told[key].as_f64().unwrap_or(f64::NAN)
-    }
-
-    /// A count of work in a step.
-    pub(crate) fn work(&self, key: &str) -> f64 {
-        self.told["work"][key].as_f64().unwrap_or(f64::NAN)
-    }
-
-    /// How many steps were looked at.
-    fn steps(&self) -> f64 {
-        self.number("to") - self.number("from")
-    }
-
-    /// Instructions of a part in a step.
-    pub(crate) fn instructions(&self, part: Part) -> f64 {
-        self.each(self.shares.parts.get(&part).copied().unwrap_or(0))
-    }
-
-    /// Of a step.
-    #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
-    pub(crate) fn each(&self, instructions: u64) -> f64 {
-        instructions as f64 / self.steps()
-    }
-}
-
 /// Profiles the scenes, or those named, and writes text and Markdown; `keep` puts the tables into docs/PROFILES.md.
-pub(crate) fn profile(keep: bool, names: &[String]) -> ExitCode {
-    match run(keep, names) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(why) => {
-            eprintln!("cargo xtask profile: {why}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
+///
+/// # Errors
+///
+/// Why nothing can be measured.
 #[allow(clippy::print_stdout, reason = "the tables are what is asked for")]
-fn run(keep: bool, names: &[String]) -> Result<(), String> {
+pub(crate) fn profile(keep: bool, names: &[String]) -> Result<(), String> {
     if let Some(left_out) = missing_valgrind("profile") {
         return Err(format!("{}\n{}", left_out.why, left_out.remedy));
     }
@@ -129,7 +83,7 @@ fn build() -> Result<PathBuf, String> {
 fn told(program: &Path, words: &[&str]) -> Result<Value, String> {
     let mut command = Command::new(program);
     command.args(["bench", "profile"]).args(words).current_dir(process::root());
-    let line = finish(&mut command, LIMIT)?;
+    let line = printed(&mut command, LIMIT)?;
     serde_json::from_str(&line).map_err(|e| format!("`{line}`: {e}"))
 }
 
@@ -163,7 +117,7 @@ fn counted(program: &Path, name: &str, steps: &str) -> Result<callgrind::Costs, 
         .arg(program)
         .args(["bench", "profile", "bare", name, steps])
         .current_dir(process::root());
-    finish(&mut command, LIMIT)?;
+    printed(&mut command, LIMIT)?;
     let bytes = fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     callgrind::costs(&String::from_utf8_lossy(&bytes))
 }
@@ -191,18 +145,15 @@ fn remark(machine: &Machine) -> String {
     let told = |what: Option<String>| what.unwrap_or_else(|| "?".to_owned());
     let rustc = told(version("rustc"));
     let rustc = rustc.split(" (").next().unwrap_or_default();
-    let load = machine.load.map(|x| x.map_or("?".to_owned(), |x| format!("{x:.1}")));
     format!(
-        "Steps {} to {} of each run, by `cargo xtask profile`. mbs {}, built for any x86-64, {rustc}, {}. {} cores ({}), load average {} \
-         before and {} after.",
+        "Steps {} to {} of each run, by `cargo xtask profile`. mbs {}, built for any x86-64, {rustc}, {}. {} cores ({}), {}.",
         WINDOW[0],
         WINDOW[1],
         told(process::commit()),
         told(version("valgrind")),
         machine.cores,
         machine.processor,
-        load[0],
-        load[1]
+        machine.load_told()
     )
 }
 

@@ -1,9 +1,50 @@
 //! The tables of a profile: a step beside its floor, its instructions by parts, and the functions that take most of them.
 
-use super::Profile;
-use super::parts::Part;
+use super::parts::{Part, Shares};
+use crate::tell;
 use serde_json::Value;
 use std::fmt::Write;
+
+/// One scene.
+#[derive(Debug)]
+pub(crate) struct Profile {
+    /// What `runner bench profile told` says.
+    pub(crate) told: Value,
+    /// Instructions of all its steps.
+    pub(crate) shares: Shares,
+}
+
+impl Profile {
+    pub(crate) fn name(&self) -> &str {
+        self.told["scene"].as_str().unwrap_or_default()
+    }
+
+    /// A number of the line; not a number where there is none.
+    pub(crate) fn number(&self, key: &str) -> f64 {
+        self.told[key].as_f64().unwrap_or(f64::NAN)
+    }
+
+    /// A count of work in a step.
+    pub(crate) fn work(&self, key: &str) -> f64 {
+        self.told["work"][key].as_f64().unwrap_or(f64::NAN)
+    }
+
+    /// How many steps were looked at.
+    fn steps(&self) -> f64 {
+        self.number("to") - self.number("from")
+    }
+
+    /// Instructions of a part in a step.
+    pub(crate) fn instructions(&self, part: Part) -> f64 {
+        self.each(self.shares.parts.get(&part).copied().unwrap_or(0))
+    }
+
+    /// Of a step.
+    #[allow(clippy::cast_precision_loss, reason = "counts far below 2^53")]
+    pub(crate) fn each(&self, instructions: u64) -> f64 {
+        instructions as f64 / self.steps()
+    }
+}
 
 /// Functions told of each scene.
 const FUNCTIONS: usize = 12;
@@ -142,10 +183,7 @@ fn row(profile: &Profile, cells: impl IntoIterator<Item = String>) -> Vec<String
 }
 
 fn grid(heading: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
-    let mut text = format!("| {} |\n|{}\n", heading.join(" | "), "---|".repeat(heading.len()));
-    rows.for_each(|row| text.push_str(&format!("| {} |\n", row.join(" | "))));
-    text.push('\n');
-    text
+    tell::markdown(heading, rows) + "\n"
 }
 
 fn counts(profile: &Profile) -> Vec<String> {
@@ -256,7 +294,6 @@ fn cliques(profile: &Profile) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::parts::Shares;
     use super::*;
     use serde_json::json;
 

@@ -9,27 +9,15 @@ use crate::mbs::{self, Mbs};
 use crate::{bench, steps, tables};
 use index::{Entry, Index};
 use std::path::Path;
-use std::process::ExitCode;
 use std::time::Instant;
 use xtask::{pages, process};
 
-/// Makes all pages under `target/report`; exit status 1 where something cannot be run, or does not come to what is listed.
-pub(crate) fn report(quick: bool) -> ExitCode {
-    match run(quick) {
-        Ok(surprises) if surprises.is_empty() => ExitCode::SUCCESS,
-        Ok(surprises) => {
-            eprintln!("cargo xtask report: not what is listed:\n{}", surprises.join("\n"));
-            ExitCode::FAILURE
-        }
-        Err(why) => {
-            eprintln!("cargo xtask report: {why}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-/// Makes the pages one after the other, and the index last.
-fn run(quick: bool) -> Result<Vec<String>, String> {
+/// Makes all pages under `target/report` one after the other, and the index last.
+///
+/// # Errors
+///
+/// Why something cannot be run, or what did not come to what is listed.
+pub(crate) fn report(quick: bool) -> Result<(), String> {
     let folder = process::target_dir().join("report");
     let mut index = Index::new(quick);
 
@@ -66,7 +54,7 @@ fn run(quick: bool) -> Result<Vec<String>, String> {
         let looked = index.files().map(|file| pages::look(browser, &folder.join(file)));
         surprises.extend(looked.filter_map(Result::err));
     }
-    Ok(surprises)
+    tables::listed(&surprises)
 }
 
 /// Compares all methods on a scene: its page, and its picture.

@@ -16,7 +16,6 @@ use crate::lab::section::{Section, item};
 use crate::lab::{self, Lab};
 use crate::mbs::Mbs;
 use crate::page;
-use std::process::ExitCode;
 use xtask::process;
 
 /// An experiment.
@@ -35,17 +34,6 @@ const EXPERIMENTS: [(&str, Experiment); 6] = [
 /// What holds for all of them.
 const REMARK: &str = "Energy error: largest error of the energy invariant over every step; its share is that of the energy turned \
     over, the largest kinetic energy plus the work done. CPU: of the stepping, the least of several runs in turn.";
-
-/// Runs the experiments, or those named, and writes them as text, CSV and HTML; exit status 1 where something cannot be run.
-pub(crate) fn steps(quick: bool, names: &[String]) -> ExitCode {
-    match run(quick, names) {
-        Ok(_) => ExitCode::SUCCESS,
-        Err(why) => {
-            eprintln!("cargo xtask steps: {why}");
-            ExitCode::FAILURE
-        }
-    }
-}
 
 /// Figures 6 and 7 of the report, and the runs behind them.
 ///

@@ -3,7 +3,7 @@
 use crate::lab::Run;
 use crate::lab::case::size;
 use crate::lab::section::Section;
-use crate::tell::{error, seconds, step};
+use crate::tell::{self, error, seconds, step};
 
 /// Columns that every table of runs has.
 pub(crate) const HEAD: [&str; 8] = [
@@ -56,17 +56,13 @@ pub(crate) fn told(number: Option<f64>, tell: impl Fn(f64) -> String) -> String 
 ///
 /// What the writer says.
 pub(crate) fn csv(sections: &[Section]) -> Result<Vec<u8>, String> {
-    let mut out = csv::Writer::from_writer(Vec::new());
-    let header = "experiment,scene,formulation,control,step_s,largest_step_s,tolerance,events,duration_s,energy_error_j,\
+    let head = "experiment,scene,formulation,control,step_s,largest_step_s,tolerance,events,duration_s,energy_error_j,\
         energy_error_share,true_error,cpu_s,steps,iterations,factorizations,rejected,smallest_step_used_s,\
         largest_step_used_s,index_changes,index_1_steps,steps_to_events,reason";
-    out.write_record(header.split(',')).map_err(|e| e.to_string())?;
-    for section in sections {
-        for run in &section.runs {
-            out.write_record(record(section.name, run)).map_err(|e| e.to_string())?;
-        }
-    }
-    out.into_inner().map_err(|e| e.to_string())
+    let records = |section: &'_ Section| -> Vec<_> {
+        section.runs.iter().map(|run| record(section.name, run)).collect()
+    };
+    tell::csv(head, sections.iter().flat_map(records))
 }
 
 /// One run, in the order of the header.

@@ -16,7 +16,6 @@ use crate::mbs::{Mbs, columns, scene};
 use crate::{bench, digits, grades, page, steps};
 use rows::Row;
 use std::path::Path;
-use std::process::ExitCode;
 use xtask::process;
 
 /// Runs with more steps than this are left out by `--quick`.
@@ -55,19 +54,25 @@ pub(crate) struct Tables {
     pub(crate) entries: usize,
 }
 
-/// Runs every entry of the tables, or of those named, and writes them as text, CSV and HTML; exit status 1 where something
-/// cannot be run, or does not come to what is listed.
-pub(crate) fn tables(quick: bool, names: &[String]) -> ExitCode {
-    match run(quick, names) {
-        Ok(tables) if tables.surprises.is_empty() => ExitCode::SUCCESS,
-        Ok(tables) => {
-            eprintln!("cargo xtask tables: not what is listed:\n{}", tables.surprises.join("\n"));
-            ExitCode::FAILURE
-        }
-        Err(why) => {
-            eprintln!("cargo xtask tables: {why}");
-            ExitCode::FAILURE
-        }
+/// Runs every entry of the tables, or of those named, and writes them as text, CSV and HTML.
+///
+/// # Errors
+///
+/// Why something cannot be run, or what did not come to what is listed.
+pub(crate) fn tables(quick: bool, names: &[String]) -> Result<(), String> {
+    listed(&run(quick, names)?.surprises)
+}
+
+/// Fails with what is not as it is listed.
+///
+/// # Errors
+///
+/// The surprises, where there are any.
+pub(crate) fn listed(surprises: &[String]) -> Result<(), String> {
+    if surprises.is_empty() {
+        Ok(())
+    } else {
+        Err(format!("not what is listed:\n{}", surprises.join("\n")))
     }
 }
 

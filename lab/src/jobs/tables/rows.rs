@@ -2,7 +2,7 @@
 
 use super::report::{Method, Printed, Table};
 use crate::mbs::outcome::{Figures, Outcome};
-use crate::tell::{error, seconds, step};
+use crate::tell::{self, error, seconds, step};
 
 /// One entry of a table: what was run, and what came of it.
 #[derive(Debug, Clone)]
@@ -109,27 +109,9 @@ fn time(x: f64) -> String {
 ///
 /// What the writer says.
 pub(crate) fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
-    let mut out = csv::Writer::from_writer(Vec::new());
-    let header = [
-        "table",
-        "scene",
-        "method",
-        "step_s",
-        "energy_error_j",
-        "energy_error_share",
-        "reference_channel",
-        "reference_distance",
-        "cpu_s",
-        "coordinates",
-        "constraints",
-        "freedoms",
-        "reason",
-        "report_row",
-        "report_error",
-        "report_cpu_s",
-    ];
-    out.write_record(header).map_err(|e| e.to_string())?;
-    for row in rows {
+    let head = "table,scene,method,step_s,energy_error_j,energy_error_share,\
+        reference_channel,reference_distance,cpu_s,coordinates,constraints,freedoms,reason,report_row,report_error,report_cpu_s";
+    let record = |row: &Row| {
         let exact = match &row.outcome {
             Outcome::Completed(f) => {
                 let exact = |x: f64| format!("{x:e}");
@@ -144,7 +126,7 @@ pub(crate) fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
             _ => Default::default(),
         };
         let [report_error, report_cpu] = row.report();
-        let record = [
+        [
             row.table.name,
             row.table.scene,
             row.method.name,
@@ -161,10 +143,11 @@ pub(crate) fn csv(rows: &[Row]) -> Result<Vec<u8>, String> {
             row.method.printed_name,
             &report_error,
             &report_cpu,
-        ];
-        out.write_record(record).map_err(|e| e.to_string())?;
-    }
-    out.into_inner().map_err(|e| e.to_string())
+        ]
+        .map(str::to_owned)
+        .to_vec()
+    };
+    tell::csv(head, rows.iter().map(record))
 }
 
 #[cfg(test)]

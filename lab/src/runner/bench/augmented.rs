@@ -1,10 +1,11 @@
 //! The augmented Lagrangian formulations: counts, orders of elimination, phases of a step, and what teams gain.
 
 use crate::bench::clocked::Clock;
+use crate::bench::faer_beside;
 use crate::bench::lane::{Lane, Method};
 use crate::bench::race::{Runner, race};
+use crate::bench::request::{Request, merge, say};
 use crate::bench::scenes::Prepared;
-use crate::bench::{Request, faer_beside, say};
 use mbs_parallel::{Pool, ThreadTeam};
 use mbs_sparse::{Counters, Multifrontal, Options, Ordering};
 use serde_json::{Value, json};
@@ -96,16 +97,6 @@ fn run(formulation: &str, lanes: &mut [Lane<'_>], seconds: f64) {
     }
 }
 
-/// Adds keys to a line; one that is there already keeps its value.
-pub(crate) fn merge<const N: usize>(line: &mut Value, more: [Value; N]) {
-    for more in more {
-        let (Value::Object(line), Value::Object(more)) = (&mut *line, more) else { continue };
-        for (key, value) in more {
-            line.entry(key).or_insert(value);
-        }
-    }
-}
-
 /// Counts of an order of elimination.
 fn order(name: &str, c: &Counters) -> Value {
     json!({
@@ -118,13 +109,6 @@ fn order(name: &str, c: &Counters) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn lines_are_merged_without_loss() {
-        let mut line = json!({ "a": 1 });
-        merge(&mut line, [json!({ "a": 2, "b": 3 }), json!(4)]);
-        assert_eq!(line, json!({ "a": 1, "b": 3 }));
-    }
 
     #[test]
     fn every_lane_steps_and_counts_alike() {

@@ -2,7 +2,8 @@
 //!
 //! Printed: fixed alpha, multipliers from zero, projections that solve for the vector itself [P1 (13), (19)], plain arithmetic.
 
-use crate::bench::{say, scenes};
+use crate::bench::request::say;
+use crate::bench::scenes;
 use mbs_augmented::{Options, Penalty, Workspace, index3};
 use mbs_core::Real;
 use mbs_core::model::{Model, State};

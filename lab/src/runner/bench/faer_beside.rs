@@ -6,11 +6,10 @@
 //! ours:   T = sum T_e = L D L^T,  x = T^-1 b               faer:  slot map: sum T_e into one matrix, L L^T, x = T^-1 b
 //! ```
 
-use crate::bench::augmented::merge;
 use crate::bench::faer_rival::Rival;
 use crate::bench::race::{Work, race};
+use crate::bench::request::{Request, merge, say};
 use crate::bench::scenes::Prepared;
-use crate::bench::{Request, say};
 use faer::sparse::linalg::SupernodalThreshold;
 use mbs_augmented::{Options, Penalty, Workspace, index3};
 use mbs_core::model::{Load, Model, State, System, Tangent, Terms};

@@ -1,8 +1,7 @@
 //! The time of a fork: two pieces of no work, joined.
 
-use crate::bench::augmented::merge;
 use crate::bench::race::{Runner, Timing, Work, race, timed};
-use crate::bench::{Request, say};
+use crate::bench::request::{Request, merge, say};
 use mbs_core::team::{Alone, Team};
 use mbs_parallel::{Pool, ThreadTeam};
 use serde_json::json;

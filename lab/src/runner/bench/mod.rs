@@ -27,15 +27,9 @@ mod scenes;
 mod tally;
 
 use mbs_core::scene::Dimension;
-use request::{Job, Request};
+use request::{Job, Request, say};
 use scenes::Prepared;
-use serde_json::{Value, json};
-
-/// One line of output.
-#[allow(clippy::print_stdout, reason = "the lines are what is asked for")]
-pub(crate) fn say(line: &Value) {
-    println!("{line}");
-}
+use serde_json::json;
 
 /// Does what the words ask for.
 ///

@@ -1,10 +1,9 @@
 //! Formulations as `mbs run` steps them: classical alone and with a crew, by turns; those without teams in one row each.
 
-use crate::bench::augmented::merge;
 use crate::bench::lane::Sums;
 use crate::bench::race::{Runner, Timing, race, timed};
+use crate::bench::request::{Request, merge, say};
 use crate::bench::scenes::steps;
-use crate::bench::{Request, say};
 use mbs::typed::Simulation;
 use mbs::{FormulationKind, Method, Settings};
 use mbs_core::scene::Scene;

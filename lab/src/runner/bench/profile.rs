@@ -9,9 +9,10 @@
 use crate::bench::clocked::{ClockedModel, ClockedSolver};
 use crate::bench::counted::Counted;
 use crate::bench::lane::Sums;
+use crate::bench::rates;
+use crate::bench::request::say;
 use crate::bench::scenes::{self, Prepared};
 use crate::bench::tally::Tally;
-use crate::bench::{rates, say};
 use cpu_time::ProcessTime;
 use mbs_augmented::{Options, Workspace, index3};
 use mbs_core::model::{Model, State, Terms};

@@ -1,6 +1,8 @@
-//! What the command line asks for.
+//! What the command line asks for, and the lines that answer it.
 //!
 //! Its test reaches no measurement, so that a test of this crate compiles no solver.
+
+use serde_json::Value;
 
 /// What is measured.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,9 +66,33 @@ fn job(places: &[String]) -> Result<Job, String> {
     }
 }
 
+/// One line of output.
+#[allow(clippy::print_stdout, reason = "the lines are what is asked for")]
+pub(crate) fn say(line: &Value) {
+    println!("{line}");
+}
+
+/// Adds keys to a line; one that is there already keeps its value.
+pub(crate) fn merge<const N: usize>(line: &mut Value, more: [Value; N]) {
+    for more in more {
+        let (Value::Object(line), Value::Object(more)) = (&mut *line, more) else { continue };
+        for (key, value) in more {
+            line.entry(key).or_insert(value);
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn lines_are_merged_without_loss() {
+        let mut line = json!({ "a": 1 });
+        merge(&mut line, [json!({ "a": 2, "b": 3 }), json!(4)]);
+        assert_eq!(line, json!({ "a": 1, "b": 3 }));
+    }
 
     #[test]
     fn arguments_are_a_job_and_options() {

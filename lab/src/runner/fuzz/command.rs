@@ -1,7 +1,10 @@
 //! `runner fuzz SECONDS SEED COUNT CORPUS.. CURRENT`: so many trials of scenes by seed, or for so long; each is written to the file `CURRENT` before it
 //! begins, so that who started this program knows what it was about when it stops or hangs. Exit status 1 where one is wrong.
 
-use super::{Verdict, scene, trial};
+use super::mechanism::mechanism;
+use super::mutate::mutated;
+use super::trial::{Verdict, trial};
+use mbs::scene_file::Dice;
 use std::io::Write;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -62,4 +65,21 @@ fn texts(folder: &Path, corpus: &mut Vec<String>) -> std::io::Result<()> {
         corpus.push(std::fs::read_to_string(path)?);
     }
     Ok(())
+}
+
+/// The scene of a seed: a random mechanism, or one of these with its text mutated.
+fn scene(seed: u64, corpus: &[String]) -> String {
+    let mut dice = Dice::new(seed);
+    match dice.below(4) {
+        0 => mechanism(&mut dice),
+        1 => {
+            let text = mechanism(&mut dice);
+            mutated(&text, corpus, &mut dice)
+        }
+        _ if corpus.is_empty() => mechanism(&mut dice),
+        _ => {
+            let text = dice.one_of(corpus).clone();
+            mutated(&text, corpus, &mut dice)
+        }
+    }
 }

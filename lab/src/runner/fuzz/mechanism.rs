@@ -1,8 +1,8 @@
 //! Random mechanisms: any joint between any two bodies, as if at random by someone who knows the format and no mechanics.
 
-use crate::fuzz::Dice;
 use mbs::FORMULATIONS;
 use mbs::core::scene::{Dimension, JointKind, Scene, SolverTable, TableEnds};
+use mbs::scene_file::Dice;
 use mbs::scene_file::to_toml;
 use mbs::{
     Body, BodyId, Effect, GROUND, Guide, InitialCondition, Joint, JointId, Motion, Number, Vector3,

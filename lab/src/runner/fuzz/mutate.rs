@@ -1,6 +1,6 @@
 //! Text that is nearly a scene: numbers, words and lines of one replaced, moved, doubled or taken from another.
 
-use crate::fuzz::Dice;
+use mbs::scene_file::Dice;
 
 /// Numbers that are hard to bear.
 const NUMBERS: [&str; 24] = [

@@ -1,11 +1,13 @@
 //! What is read beside a scene, with bytes and numbers changed: tables of references, sweeps, price lists. Each is refused with words, or
 //! read.
 
-use crate::fuzz::{Dice, damage, mutated};
+use crate::fuzz::mutate::mutated;
+use crate::fuzz::torn::damage;
 use mbs::Method;
 use mbs::compare::check_table;
 use mbs::core::scene::Scene;
 use mbs::export::ladder;
+use mbs::scene_file::Dice;
 use mbs::scene_file::{Channel, SceneFile};
 use mbs::sweep::{Study, StudyError};
 

@@ -1,7 +1,7 @@
 //! A checkpoint with bytes changed, cut off or added, and by turns with a checksum that holds: it is refused, or what goes on from it runs or stops with a reason.
 
-use crate::fuzz::Dice;
 use mbs::core::scene::{Dimension, Scene};
+use mbs::scene_file::Dice;
 use mbs::typed::Simulation;
 use mbs::{Method, Settings};
 

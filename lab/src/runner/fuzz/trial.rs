@@ -1,7 +1,9 @@
 //! A text through everything that a user's text goes through: reading, building, a few steps in every formulation and precision.
 
-use crate::fuzz::{Dice, tables, torn};
+use crate::fuzz::table::tables;
+use crate::fuzz::torn::torn;
 use mbs::core::scene::Scene;
+use mbs::scene_file::Dice;
 use mbs::scene_file::SceneFile;
 use mbs::{FormulationKind, Method, Settings};
 

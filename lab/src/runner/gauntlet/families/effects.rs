@@ -1,7 +1,7 @@
 //! Contacts, ends, latches, friction and stiffness.
 
 use super::bases::{chain, four_bar};
-use super::{case, decades, others, time, twin};
+use super::common::{case, decades, others, time, twin};
 use crate::gauntlet::case::{Case, Truth};
 use crate::gauntlet::draft::{Draft, Effect, GROUND};
 use crate::gauntlet::vector::plus;

@@ -1,8 +1,8 @@
 //! Constraints that say the same more than once.
 
 use super::bases::{any, four_bar};
+use super::common::{others, time, twin};
 use super::singular::pendulum;
-use super::{others, time, twin};
 use crate::gauntlet::case::Case;
 use crate::gauntlet::draft::{Draft, GROUND};
 use crate::gauntlet::vector::{Point, Turn, dot, plus};

@@ -1,7 +1,7 @@
 //! Small beside large: masses, units, frequencies, numbers of loops; and other axes.
 
 use super::bases::{any, chain, direction, four_bar, loop_on, spatial_chain};
-use super::{case, decades, others, time, twin};
+use super::common::{case, decades, others, time, twin};
 use crate::gauntlet::case::{Case, Image, Options, Truth};
 use crate::gauntlet::draft::{Draft, GROUND, Joint};
 use crate::gauntlet::text::text;

@@ -1,7 +1,7 @@
 //! Positions in which constraints lose rank, and those next to them.
 
 use super::bases::loop_on;
-use super::{decades, others, time, twin};
+use super::common::{decades, others, time, twin};
 use crate::gauntlet::case::Case;
 use crate::gauntlet::draft::{Draft, GROUND};
 use crate::gauntlet::vector::{Point, plus};
