@@ -1,18 +1,17 @@
 //! `cargo xtask test`: every check of this repository, up to the first failure.
 
-use crate::counts;
+use crate::debian;
 use crate::documentation;
-use crate::fuzz;
 use crate::nostd;
 use crate::package;
 use crate::pages;
 use crate::pick;
 use crate::process::{self, cargo, run};
 use crate::summary::{LeftOut, Outcome, Summary};
-use std::process::{Command, ExitCode};
+use std::process::{Command, ExitCode, Stdio};
 
 /// Crates with features, and the sets of them that must build on the host.
-const FEATURES: [(&str, &[&str]); 6] = [
+const FEATURES: [(&str, &[&str]); 7] = [
     ("mbs-math", &["", "alloc"]),
     // Of the effects: laws with tables, laws that share a file, laws of both kinds, and all without scenes.
     (
@@ -43,6 +42,7 @@ const FEATURES: [(&str, &[&str]); 6] = [
     ),
     ("mbs", &["", "f32", "dd"]),
     ("mbs-cli", &["", "f32", "dd"]),
+    ("lab", &["jobs,effects"]),
 ];
 
 /// What is left out of the checks, and what is added to them.
@@ -102,10 +102,10 @@ const FIRST: [Listed; 4] = [
 /// there by now, with the features of the tests.
 const THEN: [&[Listed]; 2] = [
     &[
-        ("fuzz", fuzz::check, IfQuick::Skipped),
+        ("fuzz", fuzz, IfQuick::Skipped),
         ("pages", pages::check, IfQuick::Skipped),
         ("documentation", documentation::check, IfQuick::Skipped),
-        ("counts", counts::check, IfQuick::Skipped),
+        ("counts", counts, IfQuick::Skipped),
     ],
     &[("check-nostd", nostd::check, IfQuick::Runs), ("pick", pick::check, IfQuick::Runs)],
 ];
@@ -153,11 +153,35 @@ fn format() -> Result<Outcome, String> {
 
 fn lints() -> Result<Outcome, String> {
     let args = ["--all-targets", "--quiet", "--", "--deny", "warnings"];
-    component("clippy", "clippy", &[&["clippy"], &process::ALL[..], &args].concat())
+    component("clippy", "clippy", &[&["clippy", "--workspace"], &args[..]].concat())
 }
 
 fn tests() -> Result<Outcome, String> {
-    passed(cargo().arg("test").args(process::ALL))
+    passed(cargo().args(["test", "--workspace"]))
+}
+
+/// The first texts of fuzzing, the same on every machine that is fast enough: two to five minutes, ten at most.
+fn fuzz() -> Result<Outcome, String> {
+    lab(&["fuzz", "--seconds", "600", "--count", "12000"])
+}
+
+fn counts() -> Result<Outcome, String> {
+    match debian::find("valgrind", "valgrind") {
+        Ok(()) => lab(&["counts"]),
+        Err(left_out) => Ok(Outcome::LeftOut(left_out)),
+    }
+}
+
+/// Has `lab` do a job, built as the tests are; the last line that it prints is the remark.
+fn lab(words: &[&str]) -> Result<Outcome, String> {
+    let mut lab = Command::new(process::tested("lab", "short")?);
+    let out = lab.args(words).current_dir(process::root()).stderr(Stdio::inherit()).output();
+    let out = out.map_err(|e| format!("cannot start `{}`: {e}", process::line(&lab)))?;
+    let text = String::from_utf8_lossy(&out.stdout);
+    if !out.status.success() {
+        return Err(format!("`{}`: {}\n{text}", process::line(&lab), out.status));
+    }
+    Ok(Outcome::Passed(text.lines().last().unwrap_or_default().to_owned()))
 }
 
 /// Runs a command whose success is all that counts.

@@ -10,7 +10,7 @@ use std::sync::Mutex;
 /// # Errors
 ///
 /// Why they cannot be installed.
-pub(crate) fn install(packages: &[&str]) -> Result<(), String> {
+pub fn install(packages: &[&str]) -> Result<(), String> {
     if output(Command::new("id").arg("-u")).as_deref() != Some("0") {
         return Err("packages can be installed as root only".to_owned());
     }
@@ -35,7 +35,7 @@ pub(crate) fn install(packages: &[&str]) -> Result<(), String> {
 /// # Errors
 ///
 /// What is missing, and why it is not installed.
-pub(crate) fn find(program: &str, package: &str) -> Result<(), LeftOut> {
+pub fn find(program: &str, package: &str) -> Result<(), LeftOut> {
     let runs = || output(Command::new(program).arg("--version")).is_some();
     if runs() {
         return Ok(());

@@ -5,18 +5,18 @@ const LIST: &str = include_str!("../../mbs-core/src/effects/list.rs");
 
 /// A line of the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Listed {
+pub struct Listed {
     /// Its module in `mbs_core::effects`.
-    pub(crate) module: &'static str,
+    pub module: &'static str,
     /// The Cargo feature that brings it; `None`: every build has it.
-    pub(crate) feature: Option<&'static str>,
+    pub feature: Option<&'static str>,
     /// Does its file bring a law?
-    pub(crate) has_law: bool,
+    pub has_law: bool,
 }
 
 impl Listed {
     /// Its cases in `counts`: a user's own law may act in two ways.
-    pub(crate) fn cases(self) -> Vec<String> {
+    pub fn cases(self) -> Vec<String> {
         match self.module {
             "own" => vec!["own-length".to_owned(), "own-body".to_owned()],
             module => vec![module.replace('_', "-")],
@@ -24,14 +24,14 @@ impl Listed {
     }
 
     /// Can tables of controllers have what its feature brings: its law, or what bushings measure?
-    pub(crate) fn is_exported(self) -> bool {
+    pub fn is_exported(self) -> bool {
         let is_code = self.module == "own" || self.module.starts_with("law_on");
         (self.has_law || self.module == "bushing") && !is_code
     }
 }
 
 /// Every effect.
-pub(crate) fn all() -> impl Iterator<Item = Listed> {
+pub fn all() -> impl Iterator<Item = Listed> {
     LIST.lines().filter_map(|line| {
         let (_, rest) = line.trim().strip_suffix(';')?.split_once(" in ")?;
         let (module, rest) = rest.split_once(" (")?;

@@ -2,12 +2,9 @@
 
 pub mod check;
 pub mod command;
-pub mod counts;
-mod debian;
+pub mod debian;
 mod documentation;
-mod effects;
-pub mod fuzz;
-pub mod jobs;
+pub mod effects;
 pub mod nostd;
 pub mod package;
 pub mod pages;

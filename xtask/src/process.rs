@@ -25,9 +25,6 @@ pub fn cargo() -> Command {
     Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
-/// All crates, with the jobs that measure.
-pub const ALL: [&str; 3] = ["--workspace", "--features", "xtask/lab"];
-
 /// Builds a program as the tests are built, so that nothing is built twice for other features of what it stands on: fast, with
 /// every check of a debug build. It is named by a test of its package.
 ///
@@ -36,7 +33,7 @@ pub const ALL: [&str; 3] = ["--workspace", "--features", "xtask/lab"];
 /// What cargo came to.
 pub fn tested(program: &str, test: &str) -> Result<PathBuf, String> {
     let mut build = cargo();
-    build.arg("test").args(ALL).args(["--no-run", "--quiet", "--test", test]);
+    build.args(["test", "--workspace", "--no-run", "--quiet", "--test", test]);
     run(build.current_dir(root()))?;
     Ok(target_dir().join("debug").join(program))
 }

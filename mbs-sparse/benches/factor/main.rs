@@ -10,7 +10,7 @@
 
 #[path = "../../tests/all/common/mod.rs"]
 mod common;
-#[path = "../../../bench/src/faer_rival.rs"]
+#[path = "../../../lab/src/runner/bench/faer_rival.rs"]
 mod faer_rival;
 
 use common::{Saddle, Sum};

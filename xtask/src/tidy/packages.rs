@@ -110,7 +110,7 @@ fn every_dependency_has_a_licence_and_a_source_of_the_lists() {
 /// The others are built with the versions of their lock files by the checks.
 #[test]
 fn our_side_of_the_peers_has_the_versions_of_its_lock_file() {
-    let metadata = metadata("bench/peers/ours/Cargo.toml");
+    let metadata = metadata("lab/peers/ours/Cargo.toml");
     assert!(packages(&metadata).iter().any(|package| text(package, "name") == "mbs"));
 }
 

@@ -1,6 +1,6 @@
 //! Scenes as trees that stand at their start.
 
-#[path = "../../../../bench/src/counted.rs"]
+#[path = "../../../../lab/src/runner/bench/counted.rs"]
 pub(crate) mod counted;
 
 use mbs_core::scene::Scene;

@@ -1,0 +1,97 @@
+//! The machine that was measured on, and how busy it was.
+
+use serde_json::{Value, json};
+use std::thread::available_parallelism;
+
+/// Cores, processor and load.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Machine {
+    pub(crate) cores: usize,
+    /// The processor's name, where the system tells it.
+    pub(crate) processor: String,
+    /// Processes that ran or waited, over the last minute: before and after; where the system tells it.
+    pub(crate) load: [Option<f64>; 2],
+}
+
+/// Load per core above which others are at work.
+const BUSY: f64 = 0.2;
+
+impl Machine {
+    /// The machine before measuring.
+    pub(crate) fn now() -> Self {
+        Self { cores: cores(), processor: processor(), load: [load(), None] }
+    }
+
+    /// Takes the load after measuring.
+    pub(crate) fn end(&mut self) {
+        self.load[1] = load();
+    }
+
+    /// Was it busy before the measurements?
+    pub(crate) fn is_busy(&self) -> Option<bool> {
+        #[allow(clippy::cast_precision_loss, reason = "a number of cores")]
+        let cores = self.cores as f64;
+        self.load[0].map(|load| load > BUSY * cores)
+    }
+
+    /// As a sentence.
+    pub(crate) fn told(&self) -> String {
+        let processor =
+            if self.processor.is_empty() { "processor not named" } else { &self.processor };
+        let busy = match self.is_busy() {
+            Some(true) => {
+                "it was busy with other work, so that times are upper bounds, and teams waited for cores that others had"
+            }
+            Some(false) => "it was idle",
+            None => "it does not tell whether it was busy",
+        };
+        format!("Measured on {} cores ({processor}), {}: {busy}.", self.cores, self.load_told())
+    }
+
+    /// The load before and after.
+    pub(crate) fn load_told(&self) -> String {
+        let [before, after] = self.load.map(|x| x.map_or("?".to_owned(), |x| format!("{x:.1}")));
+        format!("load average {before} before and {after} after")
+    }
+
+    pub(crate) fn json(&self) -> Value {
+        json!({
+            "cores": self.cores, "processor": self.processor, "load_before": self.load[0],
+            "load_after": self.load[1], "busy": self.is_busy(),
+        })
+    }
+}
+
+/// Cores that this process may use.
+pub(crate) fn cores() -> usize {
+    available_parallelism().map_or(1, usize::from)
+}
+
+pub(crate) fn processor() -> String {
+    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let line = info.lines().find(|line| line.starts_with("model name"));
+    line.and_then(|line| line.split_once(':'))
+        .map(|(_, name)| name.trim().to_owned())
+        .unwrap_or_default()
+}
+
+fn load() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/loadavg").ok()?;
+    text.split_whitespace().next()?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_machine_tells_whether_it_was_busy() {
+        let machine = |load| Machine { cores: 2, processor: String::new(), load: [load, None] };
+        assert_eq!(
+            [Some(3.0), Some(0.1), None].map(|load| machine(load).is_busy()),
+            [Some(true), Some(false), None]
+        );
+        let told = machine(Some(3.0)).told();
+        assert!(told.contains("2 cores") && told.contains("3.0 before and ? after"), "{told}");
+    }
+}

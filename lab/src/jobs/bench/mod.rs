@@ -1,0 +1,172 @@
+//! `cargo xtask bench`: what a step costs in each formulation and scene, and what threads gain.
+
+mod machine;
+mod measured;
+mod papers;
+mod program;
+mod rows;
+mod tables;
+mod threads;
+
+use crate::lab::section::Section;
+use crate::page;
+pub(crate) use machine::Machine;
+pub(crate) use machine::{cores, processor};
+use measured::{Measured, Scene};
+use program::Program;
+use serde_json::Value;
+use std::time::Duration;
+pub(crate) use threads::Threads;
+use xtask::process;
+
+/// The scenes that are measured: those of this repository, then larger and larger ones made by rule.
+const SCENES: [&str; 14] = [
+    "double-pendulum",
+    "andrews",
+    "spatial-chain-20",
+    "tree-30",
+    "iltis-stairs",
+    "iltis-jump",
+    "chain-100",
+    "net-100",
+    "chain-1000",
+    "n-four-bar-1000",
+    "net-1000",
+    "convoy-100",
+    "tree-4095",
+    "chain-10000",
+];
+/// What cargo is told to build the measuring program alone.
+pub(crate) const RUNNER: [&str; 7] =
+    ["--package", "lab", "--bin", "runner", "--no-default-features", "--features", "runner"];
+/// The largest ones, which `--quick` leaves out.
+const LARGEST: [&str; 4] = ["net-1000", "convoy-100", "tree-4095", "chain-10000"];
+
+/// What is asked for.
+#[derive(Debug, Clone)]
+pub(crate) struct Asked {
+    /// Sizes of teams; left out, one to as many as there are cores.
+    pub(crate) threads: Option<Threads>,
+    /// Without the largest scenes, and with less time for each.
+    pub(crate) quick: bool,
+    /// These scenes alone.
+    pub(crate) scenes: Vec<String>,
+}
+
+/// Builds the program, measures the scenes, or those named, one after the other, and writes text, JSON and HTML under `target/bench`.
+///
+/// # Errors
+///
+/// Why something cannot be run at all.
+#[allow(clippy::print_stdout, reason = "the tables are what is asked for")]
+pub(crate) fn run(asked: &Asked) -> Result<String, String> {
+    let measured = measure(asked)?;
+    let sections = tables::sections(&measured);
+    let mut remark = String::new();
+    crate::tell::paragraph(&mut remark, 0, &tables::remark(&measured));
+    println!("{remark}");
+    for section in &sections {
+        println!("{}", section.text());
+    }
+    let folder = process::target_dir().join("bench");
+    let json = format!("{:#}\n", rows::json(&measured));
+    process::write(&folder.join("bench.json"), json.as_bytes())?;
+    let content: String = sections.iter().map(|section| section.html()).collect();
+    let page = page::page(
+        "What a step costs, and what threads gain",
+        &tables::remark(&measured),
+        &content,
+    );
+    process::write(&folder.join("bench.html"), page.as_bytes())?;
+    Ok(page)
+}
+
+/// The report's tables on processors, T6 and T7, from the vehicle alone.
+///
+/// # Errors
+///
+/// Why something cannot be run at all.
+pub(crate) fn processors(quick: bool) -> Result<Section, String> {
+    let scenes = papers::TIMES.iter().map(|(_, scene, _)| (*scene).to_owned()).collect();
+    Ok(tables::processors(&measure(&Asked { threads: None, quick, scenes })?))
+}
+
+/// Builds the program and measures one scene after the other.
+fn measure(asked: &Asked) -> Result<Measured, String> {
+    // The load before anything of this job runs is that of others.
+    let machine = Machine::now();
+    let threads = asked.threads.clone().unwrap_or_else(|| Threads::up_to(machine.cores));
+    let program = built(&threads, asked.quick)?;
+
+    let listed = program.run(&["formulations"], Duration::from_secs(60))?;
+    let forks = program.run(&["forks"], Duration::from_secs(60))?;
+    let name = |line: &Value| line["name"].as_str().unwrap_or_default().to_owned();
+    let formulations = listed.iter().map(name).collect();
+    // Those whose solver and clocks are the bench's own, and those that are stepped as `mbs run` does.
+    let (own, others): (Vec<_>, Vec<_>) = listed.iter().partition(|line| line["own"] == true);
+    let [own, others] = [own, others].map(|lines| lines.into_iter().map(name).collect::<Vec<_>>());
+    let threads = threads.sizes().to_vec();
+    let mut measured = Measured { machine, threads, formulations, forks, scenes: Vec::new() };
+    for name in wanted(asked) {
+        measured.scenes.push(scene(&program, &name, (&own.join(","), &others))?);
+    }
+    measured.machine.end();
+    process::progress("");
+    Ok(measured)
+}
+
+/// Builds the program.
+///
+/// # Errors
+///
+/// What cargo says.
+pub(crate) fn built(threads: &Threads, quick: bool) -> Result<Program, String> {
+    let mut build = process::cargo();
+    build.args(["build", "--quiet", "--profile", "dist"]).args(RUNNER);
+    process::run(build.current_dir(process::root()))?;
+    Ok(Program {
+        path: process::target_dir().join("dist").join("runner"),
+        threads: threads.listed(),
+        seconds: if quick { "0.5" } else { "2" },
+    })
+}
+
+/// The scenes that are asked for; a name that is not in the list is the program's to judge.
+fn wanted(asked: &Asked) -> Vec<String> {
+    if !asked.scenes.is_empty() {
+        return asked.scenes.clone();
+    }
+    let is_wanted = |name: &&str| !asked.quick || !LARGEST.contains(name);
+    SCENES.into_iter().filter(is_wanted).map(str::to_owned).collect()
+}
+
+/// Measures one scene in all formulations, each in a process of its own where it may take too long.
+fn scene(program: &Program, name: &str, (own, others): (&str, &[String])) -> Result<Scene, String> {
+    process::progress(&format!("{name} {own}"));
+    let mut scene = Scene::new(name);
+    scene.read(&program.run(&[name, own], Duration::from_secs(300))?)?;
+    for formulation in others {
+        process::progress(&format!("{name} {formulation}"));
+        match program.run(&[name, formulation], Duration::from_secs(30)) {
+            Ok(lines) => scene.read(&lines)?,
+            Err(why) => scene.refuse(formulation, &why),
+        }
+    }
+    Ok(scene)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quick_leaves_out_the_largest_scenes() {
+        let asked = |quick, scenes: &[&str]| {
+            let scenes = scenes.iter().map(|&name| name.to_owned()).collect();
+            wanted(&Asked { threads: None, quick, scenes })
+        };
+        assert_eq!(asked(false, &[]).len(), SCENES.len());
+        assert!(LARGEST.iter().all(|name| !asked(true, &[]).contains(&(*name).to_owned())));
+        assert_eq!(asked(true, &["chain-300"]), ["chain-300"]);
+    }
+}

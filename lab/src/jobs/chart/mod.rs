@@ -1,0 +1,244 @@
+//! Drawings as SVG: lines and marks over linear and logarithmic axes.
+
+pub(crate) mod picture;
+mod scale;
+pub(crate) mod style;
+mod thin;
+
+use plotters::prelude::*;
+pub(crate) use scale::Kind;
+use scale::Scale;
+use style::{CURRENT, Style};
+
+/// A drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Chart {
+    /// The axis to the right.
+    pub(crate) x: Axis,
+    /// The axis upwards.
+    pub(crate) y: Axis,
+    /// What is drawn, the first below the others.
+    pub(crate) series: Vec<Series>,
+    /// A span of x that is shaded.
+    pub(crate) shade: Option<[f64; 2]>,
+}
+
+/// An axis: what it shows, with its unit.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Axis {
+    /// Its label.
+    pub(crate) label: String,
+    /// How numbers lie on it.
+    pub(crate) kind: Kind,
+}
+
+/// Points that belong together.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Series {
+    /// Its name in the legend; none where it is empty.
+    pub(crate) name: String,
+    /// Number of its style: colour, dashes and mark.
+    pub(crate) style: usize,
+    /// How it is drawn.
+    pub(crate) look: Look,
+    /// Its points (x, y).
+    pub(crate) points: Vec<[f64; 2]>,
+}
+
+impl Series {
+    /// A piece of it for a legend: its line, its mark, or both.
+    pub(crate) fn sample(&self) -> String {
+        let has_line = matches!(self.look, Look::Line | Look::Both);
+        Style::of(self.style).sample(has_line, self.look != Look::Line)
+    }
+}
+
+/// How points are drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Look {
+    /// As a line.
+    Line,
+    /// As small marks.
+    Marks,
+    /// As a line with a mark at each point.
+    Both,
+    /// As marks of that size, without a line.
+    Dots,
+}
+
+/// Room for a drawing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Room {
+    /// A page.
+    Wide,
+    /// A phone.
+    Narrow,
+}
+
+impl Room {
+    /// Width and height in the drawing's own units.
+    const fn size(self) -> (u32, u32) {
+        match self {
+            Self::Wide => (960, 340),
+            Self::Narrow => (480, 320),
+        }
+    }
+
+    /// Numbers at the axes at most: x and y.
+    const fn labels(self) -> (usize, usize) {
+        match self {
+            Self::Wide => (11, 8),
+            Self::Narrow => (6, 7),
+        }
+    }
+}
+
+impl Axis {
+    /// An axis with its label.
+    pub(crate) fn new(label: impl Into<String>, kind: Kind) -> Self {
+        Self { label: label.into(), kind }
+    }
+
+    /// Time.
+    pub(crate) fn time() -> Self {
+        Self::new("t [s]", Kind::Linear)
+    }
+
+    /// Can this number be shown?
+    fn shows(&self, x: f64) -> bool {
+        x.is_finite() && (self.kind != Kind::Log || x > 0.0)
+    }
+}
+
+impl Series {
+    /// The points that the axes show, in slices of time or in cells, so that there are no more than can be seen.
+    fn visible(&self, chart: &Chart, scales: (&Scale, &Scale)) -> Vec<(f64, f64)> {
+        let points = self.points.iter().copied();
+        let shown: Vec<_> =
+            points.filter(|[x, y]| chart.x.shows(*x) && chart.y.shows(*y)).collect();
+        match self.look {
+            Look::Line => thin::extremes(&shown),
+            Look::Both | Look::Dots => shown.into_iter().map(|[x, y]| (x, y)).collect(),
+            Look::Marks => thin::cells(&shown, scales),
+        }
+    }
+}
+
+impl Chart {
+    /// A chart without a shaded span.
+    pub(crate) fn new(x: Axis, y: Axis, series: Vec<Series>) -> Self {
+        Self { x, y, series, shade: None }
+    }
+
+    /// The series that a legend names.
+    pub(crate) fn named(&self) -> impl Iterator<Item = &Series> {
+        self.series.iter().filter(|s| !s.name.is_empty() && !s.points.is_empty())
+    }
+
+    /// The drawing.
+    ///
+    /// # Errors
+    ///
+    /// That there is nothing to draw, or what the drawing library says.
+    pub(crate) fn svg(&self, room: Room) -> Result<String, String> {
+        let shown = |[x, y]: &&[f64; 2]| self.x.shows(*x) && self.y.shows(*y);
+        let points = || self.series.iter().flat_map(|s| &s.points).filter(shown);
+        let scales = Scale::over(self.x.kind, points().map(|p| p[0]))
+            .zip(Scale::over(self.y.kind, points().map(|p| p[1])));
+        let (x, y) = scales.ok_or_else(|| format!("nothing to draw of `{}`", self.y.label))?;
+        let mut text = String::new();
+        self.draw(&mut text, room, x, y).map_err(|e| e.to_string())?;
+        let used = self.series.iter().map(|series| Style::of(series.style));
+        Ok(style::finish(&text, used))
+    }
+
+    fn draw(
+        &self,
+        text: &mut String,
+        room: Room,
+        x: Scale,
+        y: Scale,
+    ) -> Result<(), Box<dyn std::error::Error>> {
+        let area = SVGBackend::with_string(text, room.size()).into_drawing_area();
+        let mut chart = ChartBuilder::on(&area)
+            .margin(6)
+            .margin_right(18)
+            .x_label_area_size(42)
+            .y_label_area_size(66)
+            .build_cartesian_2d(x.clone(), y.clone())?;
+        if let Some([from, to]) = self.shade {
+            let corners = [(from, y.low()), (to, y.high())];
+            chart.draw_series([Rectangle::new(corners, CURRENT.mix(0.14).filled())])?;
+        }
+        let (n_x, n_y) = room.labels();
+        let font = ("sans-serif", 15).into_font().color(&CURRENT);
+        chart
+            .configure_mesh()
+            .x_labels(n_x)
+            .y_labels(n_y)
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(CURRENT.mix(0.22))
+            .axis_style(CURRENT)
+            .label_style(font)
+            .x_desc(&*self.x.label)
+            .y_desc(&*self.y.label)
+            .draw()?;
+        for series in &self.series {
+            let style = Style::of(series.style);
+            let points = series.visible(self, (&x, &y));
+            if matches!(series.look, Look::Line | Look::Both) {
+                let line = points.iter().copied();
+                chart.draw_series(LineSeries::new(line, style.color.stroke_width(2)))?;
+            }
+            let radius = match series.look {
+                Look::Line => continue,
+                Look::Marks => 2,
+                Look::Both | Look::Dots => 4,
+            };
+            let mark = style.mark(radius);
+            chart.draw_series(points.into_iter().map(|point| {
+                EmptyElement::at(point) + Polygon::new(mark.clone(), style.color.filled())
+            }))?;
+        }
+        area.present()?;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn series(look: Look, points: &[[f64; 2]]) -> Series {
+        Series { name: "a".into(), style: 1, look, points: points.to_vec() }
+    }
+
+    #[test]
+    fn a_drawing_has_its_axes_and_its_points() {
+        let points = [[1e-3, 1.0], [1e-5, 2.0], [0.0, 1.5], [1e-4, f64::NAN]];
+        let axes = |x, y| (Axis::new("tolerance [-]", x), Axis::new("error [m]", y));
+        let (x, y) = axes(Kind::Log, Kind::Linear);
+        let mut chart = Chart::new(x, y, vec![series(Look::Both, &points)]);
+        chart.shade = Some([1e-4, 2e-4]);
+        for room in [Room::Wide, Room::Narrow] {
+            let text = chart.svg(room).unwrap();
+            for word in ["<svg", "tolerance [-]", "error [m]", "1e-4", "stroke-dasharray"] {
+                assert!(text.contains(word), "{word}");
+            }
+            assert_eq!(text.matches("<polygon").count(), 2, "what is not positive is left out");
+            assert!(text.contains("currentColor"), "ink is that of the page");
+        }
+        chart.series.clear();
+        assert!(chart.svg(Room::Wide).unwrap_err().contains("error [m]"));
+    }
+
+    #[test]
+    fn marks_that_cover_each_other_are_drawn_once() {
+        let points: Vec<_> = (0..20_000).map(|i| [f64::from(i), f64::from(i % 2)]).collect();
+        let axes = || (Axis::time(), Axis::new("index", Kind::FromZero));
+        let (x, y) = axes();
+        let text = Chart::new(x, y, vec![series(Look::Marks, &points)]).svg(Room::Wide).unwrap();
+        let n = text.matches("<polygon").count();
+        assert!((200..2000).contains(&n), "{n}");
+    }
+}

@@ -1,0 +1,148 @@
+//! `cargo xtask counts`: what a step executes, by callgrind, and that what is absent costs nothing.
+//!
+//! The program `counts` is built three times: with all effects, without any, and with all but nothing inlined, so that
+//! functions can be looked for by name. Callgrind is driven directly: its counts need no agreement of versions with a
+//! library and its runner, and the function lists come with them.
+
+mod callgrind;
+mod claims;
+
+use crate::tell;
+use callgrind::Case;
+pub(crate) use callgrind::missing as missing_valgrind;
+use claims::{Claim, Runs};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+use std::process::Command;
+use xtask::effects::{self, Listed};
+use xtask::process::{self, cargo};
+
+/// Steps counted in each case.
+const STEPS: u64 = 10;
+/// Cases of a guide, which is there or not.
+const GUIDE: &str = "guide";
+
+/// The effects, and a guide.
+fn cases() -> Vec<String> {
+    effects::all().flat_map(Listed::cases).chain([GUIDE.to_owned()]).collect()
+}
+
+/// Counts, prints the table and writes it as JSON; says whether every claim holds.
+///
+/// # Errors
+///
+/// What could not be built or run.
+#[allow(clippy::print_stdout, reason = "the table is what this job is for")]
+pub(crate) fn counts() -> Result<bool, String> {
+    if let Some(left_out) = callgrind::missing("counts") {
+        return Err(format!("{}\n{}", left_out.why, left_out.remedy));
+    }
+    let (runs, claims) = count()?;
+    print!("{}\n{}", table(&runs), verdict(&claims));
+    let json = format!("{:#}\n", json(&runs, &claims));
+    process::write(&folder().join("counts.json"), json.as_bytes())?;
+    let n: usize = claims.iter().map(|claim| claim.n_checked).sum();
+    println!("{} cases, {n} comparisons", runs.full.len());
+    Ok(claims.iter().all(Claim::holds))
+}
+
+/// Builds and runs.
+fn count() -> Result<(Runs, Vec<Claim>), String> {
+    let counted = |profile, with_effects, steps: u64, effects: &[String]| {
+        let args: Vec<_> = [steps.to_string()].into_iter().chain(effects.to_vec()).collect();
+        callgrind::run(&build(profile, with_effects)?, &args, &folder().join("callgrind"))
+    };
+    let runs = Runs {
+        full: counted("dist", true, STEPS, &cases())?,
+        lean: counted("dist", false, STEPS, &["spring-damper".to_owned()])?,
+        refusals: refusals()?,
+        plain: counted("plain", true, 1, &["bumper".to_owned(), GUIDE.to_owned()])?,
+    };
+    let claims = claims::all(&runs);
+    Ok((runs, claims))
+}
+
+/// What the build without effects says to each that has a feature: effect, feature, message.
+fn refusals() -> Result<Vec<[String; 3]>, String> {
+    let program = build("dist", false)?;
+    let refusal = |(effect, feature): (String, &str)| {
+        let out = Command::new(&program).args(["1", &effect]).output();
+        let out = out.map_err(|e| format!("cannot start {}: {e}", program.display()))?;
+        Ok([effect, feature.to_owned(), String::from_utf8_lossy(&out.stderr).into_owned()])
+    };
+    let with_feature = effects::all().filter_map(|listed| Some((listed, listed.feature?)));
+    let cases = with_feature
+        .flat_map(|(listed, feature)| listed.cases().into_iter().map(move |case| (case, feature)));
+    cases.map(refusal).collect()
+}
+
+/// Builds the program; each build takes the place of the one before it.
+fn build(profile: &str, with_effects: bool) -> Result<PathBuf, String> {
+    let mut command = cargo();
+    command.args(["build", "--quiet", "--package", "lab", "--bin", "counts", "--profile", profile]);
+    command.args(["--no-default-features", "--features"]);
+    command.arg(if with_effects { "effects" } else { "counts" });
+    command.arg("--target-dir").arg(folder());
+    // Names with their generic arguments; and loops that do not ask at run time which of two buffers comes first in memory,
+    // as vectorised ones do: that is the allocator's affair.
+    command.env("RUSTFLAGS", "-C symbol-mangling-version=v0 -C no-vectorize-loops");
+    process::run(command.current_dir(process::root()))?;
+    Ok(folder().join(profile).join("counts"))
+}
+
+fn folder() -> PathBuf {
+    process::target_dir().join("counts")
+}
+
+/// The runs and the claims.
+fn json(runs: &Runs, claims: &[Claim]) -> Value {
+    let cases = |cases: &[Case]| -> Value {
+        cases.iter().map(|c| json!({ "case": c.name, "instructions": c.instructions })).collect()
+    };
+    let claim = |c: &Claim| json!({ "claim": c.text, "holds": c.holds(), "comparisons": c.n_checked, "against": c.against });
+    let claims: Value = claims.iter().map(claim).collect();
+    json!({ "all_effects": cases(&runs.full), "claims": claims, "no_effects": cases(&runs.lean), "steps": STEPS })
+}
+
+/// Instructions of a step: one row for each effect, one column for each formulation and dimension; left out / switched off / on.
+fn table(runs: &Runs) -> String {
+    let mut columns: Vec<[&str; 2]> = Vec::new();
+    for case in &runs.full {
+        let [formulation, dimension, ..] = claims::words(case);
+        if !columns.contains(&[formulation, dimension]) {
+            columns.push([formulation, dimension]);
+        }
+    }
+    let row = |cases: &[Case], name: &str, effect: &str, switches: &[&str]| {
+        let cell = |column: &[&str; 2]| {
+            let count = |switch: &&str| {
+                let words = [column[0], column[1], effect, switch];
+                let case = cases.iter().find(|case| claims::words(case) == words);
+                case.map_or("-".to_owned(), |case| (case.instructions / STEPS).to_string())
+            };
+            switches.iter().map(count).collect::<Vec<_>>().join(" / ")
+        };
+        [name.to_owned()].into_iter().chain(columns.iter().map(cell)).collect()
+    };
+    let full = |effect: String| {
+        let switches: &[&str] = if effect == GUIDE { &["on"] } else { &["out", "off", "on"] };
+        row(&runs.full, &effect, &effect, switches)
+    };
+    let lean = row(&runs.lean, "none compiled", "spring-damper", &["out"]);
+    let headings = columns.iter().map(|column| column.join(", "));
+    let head: Vec<_> = ["effect".to_owned()].into_iter().chain(headings).collect();
+    tell::markdown(&head, [lean].into_iter().chain(cases().into_iter().map(full)))
+}
+
+/// One line for each claim, then what contradicts it.
+fn verdict(claims: &[Claim]) -> String {
+    let mut text = String::new();
+    for claim in claims {
+        let word = if claim.holds() { "holds" } else { "FAILS" };
+        text.push_str(&format!("{word}  {} ({} comparisons)\n", claim.text, claim.n_checked));
+        for against in &claim.against {
+            text.push_str(&format!("       {against}\n"));
+        }
+    }
+    text
+}

@@ -1,0 +1,95 @@
+//! Table D1: the ill-conditioned corner of index-3, small steps with the printed form, with 16 and with 32 digits.
+//!
+//! The report guesses that words of 128 bits could cure it. Each run is one of the program `runner`, which has the printed form
+//! over every arithmetic; here is which runs there are, and what is made of them.
+
+mod cell;
+mod outcome;
+mod told;
+
+use crate::bench;
+use crate::lab::Lab;
+use crate::lab::section::Section;
+use cell::{Cell, DEFAULT, LADDERS, OURS, SCENES, WAYS, Way};
+use outcome::Run;
+use std::collections::BTreeSet;
+use std::time::Duration;
+use xtask::process;
+
+/// A run that takes longer is ended.
+const LIMIT: Duration = Duration::from_secs(300);
+/// Simulated time [s]: one swing of the double pendulum, one singular position of the four-bars, at 0.71 s.
+const SPAN: &str = "1";
+/// Steps are 10^-k s; the smallest ones are left out by `--quick`.
+const STEPS: [i32; 5] = [2, 3, 4, 5, 6];
+const QUICK: i32 = 4;
+
+/// Runs everything one after the other.
+///
+/// # Errors
+///
+/// Why something cannot be run at all.
+pub(crate) fn d1(lab: &Lab<'_>) -> Result<Section, String> {
+    let program = bench::built(&bench::Threads::up_to(1), lab.quick)?;
+    let run = |words: &[&str]| {
+        process::progress(&format!("D1 {}", words[1..].join(" ")));
+        Run::read(program.run(words, LIMIT))
+    };
+    let cells = cells(lab.quick, run);
+    process::write(&lab.folder.join("digits.csv"), &cell::csv(&cells)?)?;
+    Ok(told::section(&cells))
+}
+
+/// All cells, by what `run` makes of the words for the program.
+fn cells(quick: bool, mut run: impl FnMut(&[&str]) -> Run) -> Vec<Cell> {
+    let mut cells = Vec::new();
+    for scene in SCENES {
+        let steps = || STEPS.into_iter().filter(|&k| !quick || k <= QUICK);
+        let mut made = |way: Way, k: i32, exponent: i32| {
+            let [step, alpha] = [format!("1e-{k}"), format!("1e{exponent}")];
+            run(&["digits", scene.file, way.form, way.digits, &step, SPAN, &alpha])
+        };
+        for k in steps() {
+            let ours = made(DEFAULT, k, 7);
+            let exponents: BTreeSet<_> = LADDERS.iter().map(|rule| (rule.exponent)(k)).collect();
+            for exponent in exponents {
+                let printed = WAYS[..OURS].iter().map(|&way| made(way, k, exponent));
+                let runs = printed.chain([ours.clone()]).collect();
+                cells.push(Cell { scene, k, exponent, runs });
+            }
+        }
+    }
+    cells
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cell::{CORRECTION, PAIRS, PRINTED, REFINED};
+    use super::*;
+
+    #[test]
+    fn penalties_are_the_printed_ones_where_the_report_names_them() {
+        let raised = |k| (LADDERS[1].exponent)(k);
+        assert_eq!([2, 3, 4, 5].map(raised), [7, 7, 9, 11]);
+        assert_eq!(STEPS.map(|k| (LADDERS[0].exponent)(k)), [7; 5]);
+    }
+
+    #[test]
+    fn every_way_is_run_once_for_each_step_and_penalty_and_ours_once_for_each_step() {
+        let mut asked = Vec::new();
+        let cells = cells(true, |words| {
+            asked.push(words.join(" "));
+            Run::read(Err("not run".to_owned()))
+        });
+        // At 1e-2 and 1e-3 s two ladders meet.
+        assert_eq!(cells.len(), 2 * (2 + 2 + 3));
+        assert!(cells.iter().all(|cell| cell.runs.len() == WAYS.len()));
+        assert_eq!(asked.len(), 2 * ((2 + 2 + 3) * 5 + 3));
+        assert!(asked.contains(&"digits two-four-bars printed dd 1e-4 1 1e17".to_owned()));
+        assert_eq!([WAYS[PRINTED], WAYS[PAIRS]].map(|way| way.digits), ["f64", "dd"]);
+        assert_eq!(
+            (WAYS[REFINED].digits, WAYS[CORRECTION].form, WAYS[OURS]),
+            ("refined", "correction", DEFAULT)
+        );
+    }
+}

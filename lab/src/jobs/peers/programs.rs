@@ -1,0 +1,236 @@
+//! The programs under lab/peers: where they are, what they are asked, what they say.
+
+use crate::child::printed;
+use std::path::PathBuf;
+use std::process::Command;
+use std::time::Duration;
+use xtask::process::{self, output};
+
+/// A program of ours or of a peer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Who {
+    Ours,
+    PinocchioOpen,
+    PinocchioLoop,
+    MuJoCo,
+    Exudyn,
+    Drake,
+    Simbody,
+    Ida,
+    Radau,
+    RustChains,
+    RustAndrews,
+}
+
+impl Who {
+    /// All peers, in the order in which they are told.
+    pub(super) const PEERS: [Self; 10] = [
+        Self::PinocchioOpen,
+        Self::PinocchioLoop,
+        Self::MuJoCo,
+        Self::RustChains,
+        Self::Simbody,
+        Self::Drake,
+        Self::Exudyn,
+        Self::RustAndrews,
+        Self::Radau,
+        Self::Ida,
+    ];
+
+    /// Its name.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Ours => "mbs",
+            Self::PinocchioOpen | Self::PinocchioLoop => "Pinocchio",
+            Self::MuJoCo => "MuJoCo",
+            Self::Exudyn => "Exudyn",
+            Self::Drake => "Drake",
+            Self::Simbody => "Simbody",
+            Self::Ida => "SUNDIALS",
+            Self::Radau => "deSolve",
+            Self::RustChains => "crates",
+            Self::RustAndrews => "diffsol",
+        }
+    }
+
+    /// How it is installed.
+    pub(super) fn remedy(self) -> &'static str {
+        match self {
+            Self::Ours => "cargo builds it",
+            Self::PinocchioOpen | Self::PinocchioLoop => "lab/peers/setup.sh pinocchio",
+            Self::MuJoCo => "lab/peers/setup.sh mujoco",
+            Self::Exudyn => "lab/peers/setup.sh exudyn",
+            Self::Drake => "lab/peers/setup.sh drake",
+            Self::Simbody => "lab/peers/setup.sh simbody",
+            Self::Ida | Self::Radau => "lab/peers/setup.sh andrews",
+            Self::RustChains | Self::RustAndrews => "cargo builds them, once it can fetch them",
+        }
+    }
+
+    /// The file without which it does not run.
+    fn needed(self) -> PathBuf {
+        let folder = folder();
+        match self {
+            Self::Ours => folder.join("ours/release/ours"),
+            Self::PinocchioOpen => folder.join("pinocchio_open"),
+            Self::PinocchioLoop => folder.join("pinocchio_loop"),
+            Self::MuJoCo => folder.join("mujoco"),
+            Self::Exudyn => package("exudyn"),
+            Self::Drake => package("pydrake"),
+            Self::Simbody => folder.join("simbody"),
+            Self::Ida => folder.join("andrews_ida"),
+            Self::Radau => folder.join("andrews_radau.so"),
+            Self::RustChains => folder.join("rust/release/chains"),
+            Self::RustAndrews => folder.join("rust/release/andrews"),
+        }
+    }
+
+    /// Can it run here?
+    pub(super) fn is_here(self) -> bool {
+        self.needed().exists()
+    }
+
+    /// The program without its arguments.
+    fn command(self) -> Command {
+        let script = |program: PathBuf, path: &str| {
+            let mut command = Command::new(program);
+            command.arg(sources().join(path));
+            command
+        };
+        let python = folder().join("venv/bin/python");
+        match self {
+            Self::Exudyn => script(python, "exudyn/run.py"),
+            Self::Drake => script(python, "drake/forward.py"),
+            Self::Radau => script("Rscript".into(), "andrews/radau.R"),
+            _ => Command::new(self.needed()),
+        }
+    }
+
+    /// Its version, as it tells it itself.
+    pub(super) fn version(self) -> String {
+        let told = match self {
+            // what Cargo.toml pins
+            Self::RustChains => Some("dynibo 0.5.3, phyz-rigid 0.4.0".to_owned()),
+            Self::RustAndrews => Some("0.18.0".to_owned()),
+            Self::Ours => process::commit(),
+            Self::PinocchioLoop => Some(Self::PinocchioOpen.version()),
+            _ => output(self.command().arg("version")),
+        };
+        let told = told.unwrap_or_default();
+        told.lines().last().unwrap_or_default().to_owned()
+    }
+
+    /// The lines that it prints on a problem.
+    ///
+    /// # Errors
+    ///
+    /// What it says where it fails, or that it took too long.
+    pub(super) fn run(self, asked: &Asked) -> Result<Vec<Line>, String> {
+        let mut command = self.command();
+        match self {
+            Self::Radau => command.arg(self.needed()).arg(asked.number.to_string()),
+            _ => command.args([asked.problem, &asked.n.to_string(), &asked.number.to_string()]),
+        };
+        let text = printed(&mut command, Duration::from_secs(300))?;
+        let lines: Vec<Line> = text.lines().filter_map(Line::read).collect();
+        if lines.is_empty() { Err(format!("no result: {}", text.trim())) } else { Ok(lines) }
+    }
+}
+
+/// What a program is asked.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Asked {
+    pub(super) problem: &'static str,
+    pub(super) n: usize,
+    /// Seconds to measure, or the step of a run [s].
+    pub(super) number: f64,
+}
+
+/// A line of a program: algorithm, seconds, value, what the value is compared with.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Line {
+    pub(super) algorithm: String,
+    pub(super) seconds: f64,
+    pub(super) value: f64,
+    pub(super) reference: String,
+}
+
+impl Line {
+    /// Reads one; what packages print besides is passed over.
+    fn read(text: &str) -> Option<Self> {
+        let parts: Vec<&str> = text.split(',').collect();
+        let [algorithm, seconds, value, reference] = parts[..] else { return None };
+        Some(Self {
+            algorithm: algorithm.to_owned(),
+            seconds: seconds.parse().ok()?,
+            value: value.parse().ok()?,
+            reference: reference.to_owned(),
+        })
+    }
+}
+
+/// Where the sources of the programs are.
+fn sources() -> PathBuf {
+    process::root().join("lab/peers")
+}
+
+/// Where the programs and the results are.
+pub(super) fn folder() -> PathBuf {
+    process::target_dir().join("peers")
+}
+
+/// A package of Python, if it is installed.
+fn package(name: &str) -> PathBuf {
+    let lib = folder().join("venv/lib");
+    let versions = std::fs::read_dir(&lib).into_iter().flatten().flatten();
+    let mut paths = versions.map(|entry| entry.path().join("site-packages").join(name));
+    paths.find(|path| path.exists()).unwrap_or(lib.join(name))
+}
+
+/// Builds ours, and the peers that can be built here.
+///
+/// # Errors
+///
+/// That ours cannot be built.
+pub(super) fn build() -> Result<(), String> {
+    let package = |name: &str| {
+        let mut command = process::cargo();
+        command.args(["build", "--quiet", "--release", "--locked", "--manifest-path"]);
+        command.arg(sources().join(name).join("Cargo.toml"));
+        command.env("CARGO_TARGET_DIR", folder().join(name)).current_dir(process::root());
+        command
+    };
+    // Ours runs on every x86-64, whatever the environment asks for; peers are built for this processor.
+    process::run(package("ours").env_remove("RUSTFLAGS"))?;
+    for peers in [
+        package("rust").env("RUSTFLAGS", "-C target-cpu=native"),
+        Command::new(sources().join("build.sh")).env("PEERS_DIR", folder()),
+    ] {
+        // A peer that cannot be built is told as one that is not there.
+        if let Err(why) = process::run(peers) {
+            eprintln!("{why}");
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_are_read_and_the_rest_is_passed_over() {
+        let line = Line::read("aba world,1.5e-6,-2.5,exact").unwrap();
+        assert_eq!((line.seconds, line.value, line.reference.as_str()), (1.5e-6, -2.5, "exact"));
+        assert_eq!([Line::read("Imported a package"), Line::read("a,b,c,d")], [None, None]);
+    }
+
+    #[test]
+    fn every_peer_says_how_it_is_installed() {
+        assert!(
+            Who::PEERS
+                .iter()
+                .all(|who| who.remedy().contains("setup.sh") || who.remedy().contains("cargo"))
+        );
+    }
+}

@@ -1,0 +1,269 @@
+//! What was measured, as tables: ours beside the fastest peer, digits, peers, and every algorithm.
+
+use super::digits::{against, solvers};
+use super::lanes::{Lane, Measured};
+use super::problems::{ALGEBRAIC, DIGITS, Kind, LIMIT_ALGEBRAIC, limit_at};
+use super::programs::Who;
+use crate::lab::section::Section;
+use crate::tell::{self, error, paragraph, ratio};
+
+/// A table: its head and its rows.
+type Table = (Vec<&'static str>, Vec<Vec<String>>);
+
+const HEAD: [&str; 10] = [
+    "problem",
+    "mbs",
+    "time",
+    "error",
+    "peer",
+    "its time",
+    "its error",
+    "ratio",
+    "in space",
+    "limit",
+];
+const DIGITS_HEAD: [&str; 10] = [
+    "right digits",
+    "mbs",
+    "time",
+    "peer",
+    "its time",
+    "ratio",
+    "in space",
+    "limit",
+    "over RADAU5",
+    "over IDA",
+];
+const ALL_HEAD: [&str; 5] = ["problem", "program", "time", "error", "right digits"];
+
+/// A time with three digits and its unit.
+fn time(seconds: f64) -> String {
+    let units = [(1e-6, 1e9, "ns"), (1e-3, 1e6, "us"), (1.0, 1e3, "ms"), (f64::INFINITY, 1.0, "s")];
+    let (_, scale, unit) =
+        units.into_iter().find(|(most, _, _)| seconds < *most).unwrap_or(units[3]);
+    let x = scale * seconds;
+    let digits = if x < 10.0 { 2 } else { usize::from(x < 100.0) };
+    format!("{x:.digits$} {unit}")
+}
+
+fn told_error(lane: &Lane) -> String {
+    lane.error.map_or_else(String::new, |[far, _]| error(far))
+}
+
+fn told_ratio(x: Option<f64>) -> String {
+    x.map_or_else(|| "-".to_owned(), ratio)
+}
+
+/// Ours in the plane beside the fastest peer, for every problem but those that tell digits.
+fn beside(measured: &[Measured]) -> Table {
+    let row = |m: &Measured| {
+        let problem = m.problem.told();
+        let Some(peer) = m.peer() else {
+            return vec![problem, "no peer is installed, or none is right".to_owned()];
+        };
+        let ours = m.ours(false).map_or_else(
+            || ["none errs as little".to_owned(), String::new(), String::new()],
+            |lane| [lane.algorithm.clone(), time(lane.time()), told_error(lane)],
+        );
+        let peer = [peer.told(), time(peer.time()), told_error(peer)];
+        let ratios = [m.ratio(false), m.ratio(true)].map(told_ratio);
+        let [problem, limit] = [[problem], [ratio(m.problem.limit[0])]];
+        [&problem[..], &ours, &peer, &ratios, &limit].concat()
+    };
+    let rows = measured.iter().filter(|m| m.problem.kind != Kind::Digits).map(row).collect();
+    (HEAD.to_vec(), rows)
+}
+
+/// The same at equal digits.
+fn at_digits(measured: &Measured) -> Table {
+    let solvers = solvers(measured);
+    let row = |digits: u8| {
+        let Some((ours, peer, quotient)) = against(&solvers, digits, false, "") else {
+            return vec![digits.to_string(), "mbs or every peer does not reach them".to_owned()];
+        };
+        let over = |is_spatial, name| {
+            told_ratio(against(&solvers, digits, is_spatial, name).map(|(_, _, quotient)| quotient))
+        };
+        let [radau, ida] = ALGEBRAIC.map(|name| over(false, name));
+        let took = |x: Option<f64>| x.map_or_else(String::new, time);
+        vec![
+            digits.to_string(),
+            ours.name.clone(),
+            took(ours.time(digits)),
+            peer.name.clone(),
+            took(peer.time(digits)),
+            ratio(quotient),
+            over(true, ""),
+            ratio(limit_at(digits)),
+            radau,
+            ida,
+        ]
+    };
+    (DIGITS_HEAD.to_vec(), DIGITS.map(row).collect())
+}
+
+/// Versions, and how what is missing is installed.
+fn peers(measured: &[Measured]) -> Table {
+    let row = |&who: &Who| {
+        let failed = measured.iter().flat_map(|m| &m.failed).find(|(failed, _)| *failed == who);
+        let told = match failed {
+            _ if !who.is_here() => format!("not installed: {}", who.remedy()),
+            Some((_, why)) => format!("{}, failed: {}", who.version(), why.trim()),
+            None => who.version(),
+        };
+        vec![who.name().to_owned(), told]
+    };
+    let is_asked = |who: &&Who| measured.iter().any(|m| m.problem.peers.contains(who));
+    let mut rows: Vec<_> = Who::PEERS.iter().filter(is_asked).map(row).collect();
+    rows.dedup();
+    (vec!["peer", "version"], rows)
+}
+
+/// Every algorithm of every program.
+fn all(measured: &[Measured]) -> Table {
+    let mut rows = Vec::new();
+    for m in measured {
+        for lane in &m.lanes {
+            let digits = lane.digits.map_or_else(String::new, |x| format!("{x:.2}"));
+            let cells =
+                [m.problem.told(), lane.told(), time(lane.time()), told_error(lane), digits];
+            rows.push(cells.to_vec());
+        }
+    }
+    (ALL_HEAD.to_vec(), rows)
+}
+
+/// The page's sections.
+pub(super) fn sections(measured: &[Measured]) -> Vec<Section> {
+    let mut section = Section::new("peers", "mbs beside the fastest peer");
+    section.words(
+        "In the plane mbs uses that a scene is planar, which the peers do not; the column 'in space' is the ratio without that. \
+         Errors are distances from the exact value; a run of mbs errs no more than the peer's.",
+    );
+    let (head, rows) = beside(measured);
+    section.table(&head, rows);
+    claims(&mut section, measured);
+    let mut told = vec![section];
+    for m in measured.iter().filter(|m| m.problem.kind == Kind::Digits) {
+        let mut section = Section::new("digits", m.problem.title);
+        let (head, rows) = at_digits(m);
+        section.table(&head, rows);
+        claims_at_digits(&mut section, m);
+        told.push(section);
+    }
+    let mut section = Section::new("programs", "The programs");
+    let (head, rows) = peers(measured);
+    section.table(&head, rows);
+    let (head, rows) = all(measured);
+    section.behind("every algorithm", &head, rows);
+    told.push(section);
+    told
+}
+
+/// What is wanted of each problem, and whether it holds.
+fn claims(section: &mut Section, measured: &[Measured]) {
+    for m in measured.iter().filter(|m| m.problem.kind != Kind::Digits) {
+        let [limit, aim] = m.problem.limit;
+        let what = format!("{}, {}: at most {}", m.problem.told(), m.problem.title, ratio(limit));
+        let found = m.ratio(false);
+        let measured = format!("{}, aim {}", told_ratio(found), ratio(aim));
+        section.claim(what, measured, found.map(|x| x <= limit));
+    }
+    for lane in measured.iter().flat_map(Measured::wrong) {
+        section.claim(format!("{} is exact", lane.told()), told_error(lane), Some(false));
+    }
+}
+
+/// What is wanted at equal digits, and whether it holds where both reach them.
+fn claims_at_digits(section: &mut Section, measured: &Measured) {
+    let solvers = solvers(measured);
+    let mut claim = |digits: u8, name: &str, limit: f64| {
+        let Some((ours, peer, quotient)) = against(&solvers, digits, false, name) else { return };
+        let what =
+            format!("{digits} digits, {} over {}: at most {}", ours.name, peer.name, ratio(limit));
+        section.claim(what, ratio(quotient), Some(quotient <= limit));
+    };
+    for digits in DIGITS {
+        claim(digits, "", limit_at(digits));
+        for name in ALGEBRAIC {
+            claim(digits, name, LIMIT_ALGEBRAIC);
+        }
+    }
+}
+
+/// For a terminal.
+pub(super) fn text(measured: &[Measured], remark: &str) -> String {
+    let mut text = String::new();
+    paragraph(&mut text, 0, remark);
+    for section in sections(measured) {
+        text.push('\n');
+        text.push_str(&section.text());
+    }
+    text
+}
+
+/// For a document.
+pub(super) fn markdown(measured: &[Measured], remark: &str) -> String {
+    let mut text = format!("{remark}\n");
+    let digits = measured.iter().filter(|m| m.problem.kind == Kind::Digits).map(at_digits);
+    let tables = [beside(measured)].into_iter().chain(digits).chain([peers(measured)]);
+    for (head, rows) in tables.filter(|(_, rows)| !rows.is_empty()) {
+        text.push('\n');
+        text.push_str(&tell::markdown(&head, rows));
+    }
+    text
+}
+
+/// Every turn of every algorithm.
+pub(super) fn csv(measured: &[Measured]) -> Result<Vec<u8>, String> {
+    let number = |x: Option<f64>| x.map(|x| format!("{x:e}")).unwrap_or_default();
+    let mut records = Vec::new();
+    for (m, lane) in measured.iter().flat_map(|m| m.lanes.iter().map(move |lane| (m, lane))) {
+        for (turn, seconds) in (1..).zip(&lane.seconds) {
+            records.push(vec![
+                m.problem.name.to_owned(),
+                m.problem.n.to_string(),
+                lane.who.name().to_owned(),
+                lane.algorithm.clone(),
+                i32::to_string(&turn),
+                format!("{seconds:e}"),
+                number(lane.error.map(|[far, _]| far)),
+                number(lane.digits),
+            ]);
+        }
+    }
+    tell::csv("problem,size,program,algorithm,turn,seconds,error,digits", records)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::peers::problems::wanted;
+    use crate::peers::programs::Line;
+
+    fn line(algorithm: &str, seconds: f64, value: f64) -> Line {
+        Line { algorithm: algorithm.into(), seconds, value, reference: "exact".into() }
+    }
+
+    #[test]
+    fn times_keep_three_digits() {
+        let told = [2.347e-7, 1.5e-6, 0.0123, 12.34].map(time);
+        assert_eq!(told, ["235 ns", "1.50 us", "12.3 ms", "12.3 s"]);
+    }
+
+    #[test]
+    fn a_missed_limit_is_told_and_a_missing_peer_too() {
+        let mut measured = Measured::new(wanted(&["tree".to_owned()])[0]);
+        let own = [line("reference", 0.0, 3.0), line("planar", 1.0, 3.0)];
+        measured.take(Who::Ours, own.to_vec());
+        let alone = text(&[measured.clone()], "remark");
+        assert!(
+            alone.contains("no peer is installed") && alone.contains("(not judged)"),
+            "{alone}"
+        );
+        measured.take(Who::MuJoCo, vec![line("mj_forward", 1.25, 3.0)]);
+        let told = text(&[measured.clone()], "remark");
+        assert!(told.contains("0.80, aim 0.55 (does not hold)"), "{told}");
+        assert!(markdown(&[measured], "remark").contains("| tree 127 | planar | 1.00 s |"));
+    }
+}

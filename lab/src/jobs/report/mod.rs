@@ -1,0 +1,81 @@
+//! `cargo xtask report`: every page of measurements in one folder, with an index that says how each is made.
+
+mod compared;
+mod drawing;
+mod index;
+
+use crate::chart::picture::picture;
+use crate::mbs::{self, Mbs};
+use crate::{bench, steps, tables};
+use index::{Entry, Index};
+use std::path::Path;
+use std::time::Instant;
+use xtask::{pages, process};
+
+/// Makes all pages under `target/report` one after the other, and the index last.
+///
+/// # Errors
+///
+/// Why something cannot be run, or what did not come to what is listed.
+pub(crate) fn report(quick: bool) -> Result<(), String> {
+    let folder = process::target_dir().join("report");
+    let mut index = Index::new(quick);
+
+    let clock = Instant::now();
+    let made = tables::run(quick, &tables::own())?;
+    let remark = match made.surprises.len() {
+        0 => format!("{} entries; all that stop are known to.", made.entries),
+        n => format!("{} entries; {n} did not come to what is listed.", made.entries),
+    };
+    index.add_page(
+        &folder,
+        &made.html,
+        Entry::new(&index::TABLES, remark, clock, made.surprises),
+    )?;
+
+    let mbs = Mbs::build()?;
+    for page in &index::COMPARED {
+        compare(&mbs, page, (&folder, quick), &mut index)?;
+    }
+
+    let clock = Instant::now();
+    let made = steps::run(quick, &[])?;
+    let [claims, hold] = made.claims;
+    let remark = format!("{hold} of {claims} claims hold; the page says which do not.");
+    index.add_page(&folder, &made.html, Entry::new(&index::STEPS, remark, clock, Vec::new()))?;
+
+    let clock = Instant::now();
+    let html = bench::run(&bench::Asked { threads: None, quick, scenes: Vec::new() })?;
+    let remark = "Times of this machine, at the load that the page names.".to_owned();
+    index.add_page(&folder, &html, Entry::new(&index::BENCH, remark, clock, Vec::new()))?;
+
+    let mut surprises = index.surprises();
+    if let Some(browser) = pages::browser() {
+        let looked = index.files().map(|file| pages::look(browser, &folder.join(file)));
+        surprises.extend(looked.filter_map(Result::err));
+    }
+    tables::listed(&surprises)
+}
+
+/// Compares all methods on a scene: its page, and its picture.
+fn compare(
+    mbs: &Mbs,
+    page: &index::Page,
+    (folder, quick): (&Path, bool),
+    index: &mut Index,
+) -> Result<(), String> {
+    let clock = Instant::now();
+    process::progress(page.command);
+    let out = folder.join(page.file);
+    let out = out.parent().unwrap_or(folder);
+    mbs.compare(&mbs::scene(page.scene), out, quick.then_some("20"))?;
+    let comparison = compared::read(out)?;
+    let drawing = picture(&drawing::chart(&comparison))?;
+    process::write(&out.join("work-precision.svg"), drawing.as_bytes())?;
+    let judged = compared::judge(page.scene, &comparison);
+    let [completed, stopped] = judged.counts;
+    let remark = format!("{completed} runs were completed, {stopped} stopped; the page says why.");
+    // With less work the ranges of steps are shorter: what is listed may not be reached.
+    let surprises = if quick { Vec::new() } else { judged.surprises };
+    index.add(folder, Entry::new(page, remark, clock, surprises))
+}

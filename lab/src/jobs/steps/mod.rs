@@ -1,0 +1,149 @@
+//! `cargo xtask steps`: experiments on steps of variable length, beside fixed ones, with their drawings and their claims.
+
+mod draw;
+mod events;
+mod fit;
+mod hammer;
+mod index;
+mod pendulum;
+mod reference;
+mod rows;
+mod sight;
+mod suspension;
+mod tolerance;
+
+use crate::lab::section::{Section, item};
+use crate::lab::{self, Lab};
+use crate::mbs::Mbs;
+use crate::page;
+use xtask::process;
+
+/// An experiment.
+type Experiment = fn(&Lab<'_>) -> Result<Section, String>;
+
+/// The experiments, by their names.
+const EXPERIMENTS: [(&str, Experiment); 6] = [
+    ("F6", suspension::run),
+    ("P2", pendulum::run),
+    ("A", index::run),
+    ("B", tolerance::run),
+    ("C", events::run),
+    ("H", hammer::run),
+];
+
+/// What holds for all of them.
+const REMARK: &str = "Energy error: largest error of the energy invariant over every step; its share is that of the energy turned \
+    over, the largest kinetic energy plus the work done. CPU: of the stepping, the least of several runs in turn.";
+
+/// Figures 6 and 7 of the report, and the runs behind them.
+///
+/// # Errors
+///
+/// Why a case cannot be run at all.
+pub(crate) fn figures(lab: &Lab<'_>) -> Result<Section, String> {
+    suspension::run(lab)
+}
+
+/// What the experiments came to.
+#[derive(Debug)]
+pub(crate) struct Steps {
+    /// The page.
+    pub(crate) html: String,
+    /// Claims, and how many of them hold.
+    pub(crate) claims: [usize; 2],
+}
+
+/// Builds `mbs`, runs the experiments one after the other, and writes the files under `target/steps`.
+///
+/// # Errors
+///
+/// An unknown name, or why something cannot be run at all.
+#[allow(clippy::print_stdout, reason = "the experiments are what is asked for")]
+pub(crate) fn run(quick: bool, names: &[String]) -> Result<Steps, String> {
+    let known = EXPERIMENTS.map(|(name, _)| name);
+    if let Some(name) = names.iter().find(|name| !known.contains(&name.as_str())) {
+        return Err(format!("no experiment `{name}`; there are {}", known.join(", ")));
+    }
+    let mbs = Mbs::build()?;
+    let folder = process::target_dir().join("steps");
+    let runner = lab::runner(&mbs, &folder);
+    let lab = Lab { runner: &runner, quick, folder: folder.clone() };
+    let sections = perform(&lab, names)?;
+    process::progress("");
+    for section in &sections {
+        println!("{}", section.text());
+    }
+    process::write(&folder.join("steps.csv"), &rows::csv(&sections)?)?;
+    let page = html(&sections);
+    process::write(&folder.join("steps.html"), page.as_bytes())?;
+    let claims = || sections.iter().flat_map(Section::claims);
+    let hold = claims().filter(|claim| claim.holds == Some(true)).count();
+    Ok(Steps { html: page, claims: [claims().count(), hold] })
+}
+
+/// Performs the experiments, or those named.
+fn perform(lab: &Lab<'_>, names: &[String]) -> Result<Vec<Section>, String> {
+    let is_wanted = |name: &str| names.is_empty() || names.iter().any(|n| n == name);
+    let wanted = EXPERIMENTS.iter().filter(|(name, _)| is_wanted(name));
+    wanted.map(|(_, experiment)| experiment(lab)).collect()
+}
+
+/// The page: all claims first, then each experiment.
+fn html(sections: &[Section]) -> String {
+    let claims: String = sections.iter().flat_map(Section::claims).map(item).collect();
+    let summary = if claims.is_empty() {
+        claims
+    } else {
+        format!(
+            "<section class=\"card\">\n<h2>What holds</h2>\n<ul class=\"claims\">{claims}</ul>\n</section>\n"
+        )
+    };
+    let parts: String = sections.iter().map(Section::html).collect();
+    page::page("Variable steps beside fixed ones", REMARK, &(summary + &parts))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::fake;
+
+    #[test]
+    fn every_experiment_runs_and_its_page_needs_nothing_else() {
+        fake::with_lab(|lab| {
+            let sections = perform(lab, &[]).unwrap();
+            let names: Vec<_> = sections.iter().map(|section| section.name).collect();
+            assert_eq!(names, EXPERIMENTS.map(|(name, _)| name));
+            let page = html(&sections);
+            let text: String = sections.iter().map(Section::text).collect();
+            fake::keep(&page, &text);
+            assert!(!page.contains("{{") && !page.contains("src="), "nothing is fetched");
+            assert!(!page.contains("No drawing"), "every drawing has its points");
+            assert!(page.matches("<figure>").count() > 20);
+            assert!(page.contains("<b>holds:</b>") && page.contains("<b>does not hold:</b>"));
+            assert!(text.contains("(holds)") && !text.contains("NaN") && !page.contains("NaN"));
+            let csv = rows::csv(&sections).unwrap();
+            assert_eq!(
+                csv.iter().filter(|b| **b == b'\n').count(),
+                1 + sections.iter().map(|s| s.runs.len()).sum::<usize>()
+            );
+        });
+    }
+
+    #[test]
+    fn without_the_new_options_the_page_says_what_is_refused() {
+        fake::with_old_lab(|lab| {
+            let sections = perform(lab, &[]).unwrap();
+            let page = html(&sections);
+            assert!(page.contains("refused: unexpected argument") && !page.contains("NaN"));
+        });
+    }
+
+    #[test]
+    fn experiments_are_chosen_by_their_names() {
+        fake::with_lab(|lab| {
+            let sections = perform(lab, &["A".to_owned()]).unwrap();
+            assert_eq!(sections.iter().map(|s| s.name).collect::<Vec<_>>(), ["A"]);
+        });
+        assert!(run(true, &["Z".to_owned()]).unwrap_err().contains("F6, P2, A, B, C, H"));
+    }
+}

@@ -1,0 +1,190 @@
+//! `cargo xtask tables`: the report's tables, run anew and set beside the printed numbers.
+
+mod expected;
+mod history;
+mod html;
+mod precision;
+mod report;
+mod rows;
+mod text;
+
+use crate::chart::picture::picture;
+use crate::lab::section::Section;
+use crate::lab::{self, Lab};
+use crate::mbs::outcome::Outcome;
+use crate::mbs::{Mbs, columns, scene};
+use crate::{bench, digits, grades, page, steps};
+use rows::Row;
+use std::path::Path;
+use xtask::process;
+
+/// Runs with more steps than this are left out by `--quick`.
+const QUICK: f64 = 1e6;
+
+/// A table that is made of sections: grades, and what the experiments on steps draw.
+type Made = fn(&Lab<'_>) -> Result<Section, String>;
+/// Those tables, by their names; F6 shows the report's Figures 6 and 7, D1 answers what it asks about 32 digits.
+const MADE: [(&str, Made); 4] =
+    [("G1", grades::g1), ("G2", grades::g2), (STEPS, steps::figures), ("D1", digits::d1)];
+/// The one of them that is also an experiment on steps.
+const STEPS: &str = "F6";
+/// Tables IV and V of the report, on processors, by their names; the bench measures both.
+const PROCESSORS: [&str; 2] = ["T6", "T7"];
+
+/// The names of all tables.
+pub(crate) fn names() -> Vec<&'static str> {
+    let tables = report::TABLES.iter().map(|table| table.name);
+    tables.chain(PROCESSORS).chain(MADE.map(|(name, _)| name)).collect()
+}
+
+/// The names of the tables that no other job measures: the report's pages show each run once.
+pub(crate) fn own() -> Vec<String> {
+    let is_own = |name: &&str| *name != STEPS && !PROCESSORS.contains(name);
+    names().into_iter().filter(is_own).map(str::to_owned).collect()
+}
+
+/// What the tables came to.
+#[derive(Debug)]
+pub(crate) struct Tables {
+    /// The page.
+    pub(crate) html: String,
+    /// Outcomes that are not the listed ones.
+    pub(crate) surprises: Vec<String>,
+    /// Entries that were run.
+    pub(crate) entries: usize,
+}
+
+/// Runs every entry of the tables, or of those named, and writes them as text, CSV and HTML.
+///
+/// # Errors
+///
+/// Why something cannot be run, or what did not come to what is listed.
+pub(crate) fn tables(quick: bool, names: &[String]) -> Result<(), String> {
+    listed(&run(quick, names)?.surprises)
+}
+
+/// Fails with what is not as it is listed.
+///
+/// # Errors
+///
+/// The surprises, where there are any.
+pub(crate) fn listed(surprises: &[String]) -> Result<(), String> {
+    if surprises.is_empty() {
+        Ok(())
+    } else {
+        Err(format!("not what is listed:\n{}", surprises.join("\n")))
+    }
+}
+
+/// Builds `mbs`, runs all entries one after the other, and writes the files under `target/tables`.
+///
+/// # Errors
+///
+/// An unknown name, or why something cannot be run at all.
+#[allow(clippy::print_stdout, reason = "the tables are what is asked for")]
+pub(crate) fn run(quick: bool, wanted: &[String]) -> Result<Tables, String> {
+    let known = names();
+    if let Some(name) = wanted.iter().find(|name| !known.contains(&name.as_str())) {
+        return Err(format!("no table `{name}`; there are {}", known.join(", ")));
+    }
+    let mbs = Mbs::build()?;
+    let folder = process::target_dir().join("tables");
+    let is_wanted = |name: &str| wanted.is_empty() || wanted.iter().any(|n| n == name);
+    let (rows, drawings, pictures) = entries(&mbs, &folder, quick, &is_wanted)?;
+    let sections = sections(&mbs, &folder, quick, &is_wanted)?;
+    process::progress("");
+
+    println!("{}", text::text(&rows));
+    for section in &sections {
+        println!("{}", section.text());
+    }
+    let html = html::page(&rows, &drawings, &sections);
+    process::write(&folder.join("tables.csv"), &rows::csv(&rows)?)?;
+    process::write(&folder.join("tables.html"), html.as_bytes())?;
+    for (name, svg) in &pictures {
+        process::write(&folder.join(format!("{name}.svg")), svg.as_bytes())?;
+    }
+    Ok(Tables { html, surprises: expected::surprises(&rows), entries: rows.len() })
+}
+
+/// Drawings, by the names of their tables.
+type Drawings = Vec<(&'static str, String)>;
+/// Rows of the tables on accuracy and time, their drawings for the page, and those that stand alone.
+type Entries = (Vec<Row>, Drawings, Drawings);
+
+/// Runs the entries of the tables on accuracy and time.
+fn entries(
+    mbs: &Mbs,
+    folder: &Path,
+    quick: bool,
+    is_wanted: &dyn Fn(&str) -> bool,
+) -> Result<Entries, String> {
+    let runs = folder.join("runs");
+    let (mut rows, mut drawings, mut pictures) = (Vec::new(), Vec::new(), Vec::new());
+    for table in report::TABLES.iter().filter(|table| is_wanted(table.name)) {
+        let mut lines = Vec::new();
+        for (method, step) in
+            table.entries().filter(|(_, step)| !quick || table.steps(*step) <= QUICK)
+        {
+            process::progress(&format!("{} {} dt {step:.0e}", table.name, method.name));
+            let drawn = table.history.filter(|_| table.draws(method, step));
+            let outcome = entry(mbs, table, method, step, drawn.map(|_| &*runs))?;
+            if let Some(history) = drawn.filter(|_| outcome.has_run()) {
+                let points = columns::history(&runs.join("run.csv"), history.column)?;
+                // The finest run lies below the others.
+                let at = if table.is_finest(method, step) { 0 } else { lines.len() };
+                lines.insert(
+                    at,
+                    history::Line { name: format!("{}, {step:e} s", method.name), points },
+                );
+            }
+            rows.push(Row::new(table, method, step, outcome));
+        }
+        if let Some(history) = &table.history {
+            let chart = history::chart(history, lines);
+            drawings.push((table.name, page::figure(&chart, history::CAPTION)?));
+        } else if let Some(chart) = precision::chart(table, &rows) {
+            drawings.push((table.name, page::figure(&chart, precision::CAPTION)?));
+            pictures.push((table.name, picture(&chart)?));
+        }
+    }
+    Ok((rows, drawings, pictures))
+}
+
+/// The tables that are made of sections.
+fn sections(
+    mbs: &Mbs,
+    folder: &Path,
+    quick: bool,
+    is_wanted: &dyn Fn(&str) -> bool,
+) -> Result<Vec<Section>, String> {
+    let mut sections = Vec::new();
+    if PROCESSORS.iter().any(|name| is_wanted(name)) {
+        sections.push(bench::processors(quick)?);
+    }
+    let runner = lab::runner(mbs, folder);
+    let lab = Lab { runner: &runner, quick, folder: folder.to_path_buf() };
+    for (_, made) in MADE.iter().filter(|(name, _)| is_wanted(name)) {
+        sections.push(made(&lab)?);
+    }
+    Ok(sections)
+}
+
+/// Runs one entry; with a folder, its files are left there. A reference that its table has must be there.
+fn entry(
+    mbs: &Mbs,
+    table: &report::Table,
+    method: &report::Method,
+    step: f64,
+    out: Option<&Path>,
+) -> Result<Outcome, String> {
+    let mut arguments = method.options();
+    let step = format!("{step:e}");
+    arguments.extend(["--step", &step]);
+    let arguments: Vec<_> = arguments.into_iter().map(str::to_owned).collect();
+    let outcome = mbs.run(&scene(table.scene), &arguments, out, None)?;
+    if let (Some(figures), Some(reference)) = (outcome.figures(), table.reference) {
+        figures.distance(reference.channel, reference.value)?;
+    }
+    Ok(outcome)
+}

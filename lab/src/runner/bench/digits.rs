@@ -1,0 +1,256 @@
+//! The index-3 form as printed, and ours, with 16 and with 32 digits, and with a factor of 16 that is refined to 32: one run.
+//!
+//! Printed: fixed alpha, multipliers from zero, projections that solve for the vector itself [P1 (13), (19)], plain arithmetic.
+
+use crate::bench::request::say;
+use crate::bench::scenes;
+use mbs_augmented::{Options, Penalty, Workspace, index3};
+use mbs_core::Real;
+use mbs_core::model::{Model, State};
+use mbs_core::natural::NaturalModel;
+use mbs_core::real::DoubleDouble as Pair;
+use mbs_core::refined::{ALL, Refined, Tally};
+use mbs_core::start::assemble;
+use mbs_core::step::{Step, StepError, StepReport};
+use mbs_core::{Cliques, SpdSolver, scene::Dimension};
+use mbs_sparse::Multifrontal;
+use serde_json::{Value, json};
+use std::time::Instant;
+
+/// What is run: `SCENE FORM DIGITS STEP SPAN ALPHA`.
+struct Asked<'a> {
+    scene: &'a str,
+    form: &'a str,
+    step: &'a str,
+    span: &'a str,
+    alpha: &'a str,
+}
+
+/// Runs what is asked for, and tells of it in one line.
+pub(crate) fn measure(words: &[String]) -> Result<(), String> {
+    let [scene, form, digits, step, span, alpha] = words else {
+        return Err(
+            "digits SCENE printed|correction|default f64|once|refined|dd STEP SPAN ALPHA".into()
+        );
+    };
+    let asked = Asked { scene, form, step, span, alpha };
+    let none = Tally::default;
+    let told = match digits.as_str() {
+        "f64" => run(&asked, plain::<f64, _>, |_| none()),
+        "dd" => run(&asked, plain::<Pair, _>, |_| none()),
+        "once" | "refined" => {
+            let most = if digits == "once" { 1 } else { ALL };
+            let over = |model: &NaturalModel<Pair, 2>| Refined::new(model, plain(model), most);
+            run(&asked, over, Refined::take_tally)
+        }
+        _ => return Err(format!("no digits `{digits}`; there are f64, once, refined, dd")),
+    };
+    say(&told?);
+    Ok(())
+}
+
+/// A number as it is written.
+fn number<T: Real>(text: &str) -> Result<T, String> {
+    T::from_decimal(text).ok_or_else(|| format!("`{text}` is no number"))
+}
+
+/// The options of a form.
+fn options<T: Real>(asked: &Asked<'_>) -> Result<Options<T>, String> {
+    let alpha = number(asked.alpha)?;
+    // Each of them iterates to what double precision can tell: more digits make nothing else different.
+    let tolerance = T::from_f64(1e-10);
+    let ours = Options { tolerance, ..Options::index3() };
+    match asked.form {
+        "printed" => Ok(Options { tolerance, ..Options::printed(alpha) }),
+        "correction" => {
+            Ok(Options { penalty: Penalty::Fixed(alpha), adaptive_penalty: false, ..ours })
+        }
+        "default" => Ok(ours),
+        form => Err(format!("no form `{form}`; there are printed, correction, default")),
+    }
+}
+
+/// What a run came to.
+#[derive(Debug, Default)]
+struct Outcome {
+    steps: u32,
+    iterations: u64,
+    seconds: f64,
+    energy_error: f64,
+    turned_over: f64,
+    violation: [f64; 3],
+    tally: Tally,
+    /// When and why it did not go on.
+    stopped: Option<(f64, String)>,
+}
+
+impl Outcome {
+    /// Takes what a step to or from `t` [s] came to.
+    fn take<T: Real>(&mut self, t: f64, report: Result<StepReport<T>, StepError>, tally: Tally) {
+        match report {
+            Ok(report) => {
+                self.steps += 1;
+                self.iterations += u64::from(report.iterations);
+                for (most, now) in self.violation.iter_mut().zip(report.violation) {
+                    *most = worse(*most, now.to_f64());
+                }
+            }
+            Err(error) => self.stopped = Some((t, error.to_string())),
+        }
+        self.tally.solutions += tally.solutions - tally.failed;
+        self.tally.corrections += tally.corrections;
+        // A solution that was not refined is what lets a step fail.
+        if let Some(error) = tally.failure {
+            self.stopped = Some((t, error.to_string()));
+        }
+    }
+
+    fn told(&self) -> Value {
+        let each = |x: f64| x / f64::from(self.steps.max(1));
+        #[allow(clippy::cast_precision_loss, reason = "counts of steps")]
+        let [iterations, solutions, corrections] =
+            [self.iterations, self.tally.solutions, self.tally.corrections].map(|n| n as f64);
+        let mut line = json!({
+            "kind": "digits", "steps": self.steps, "iterations": each(iterations), "seconds": each(self.seconds),
+            "energy_error": self.energy_error, "turned_over": self.turned_over, "violation": self.violation,
+        });
+        if solutions > 0.0 {
+            line["corrections"] = json!(corrections / solutions);
+        }
+        if let Some((t, why)) = &self.stopped {
+            (line["stopped_at"], line["reason"]) = (json!(t), json!(why));
+        }
+        line
+    }
+}
+
+/// Steps from the scene's start over the span.
+fn run<T: Real, S: SpdSolver<T>>(
+    asked: &Asked<'_>,
+    analyse: impl Fn(&NaturalModel<T, 2>) -> S,
+    tally: impl Fn(&S) -> Tally,
+) -> Result<Value, String> {
+    let scene = scenes::read::<T>(asked.scene)?;
+    if scene.dimension != Dimension::Planar {
+        return Err(format!("`{}` is not planar", asked.scene));
+    }
+    let options = options::<T>(asked)?;
+    let model = NaturalModel::<T, 2>::new(&scene).map_err(|e| e.to_string())?;
+    let mut solver = plain(&model);
+    let start = assemble(&scene, &model, |p| plain(p), &mut solver);
+    let mut state = start.map_err(|e| e.to_string())?.state;
+    let mut workspace = Workspace::new(&model, analyse(&model));
+    let step = Step { dt: number(asked.step)?, length: model.length() };
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    let n = (number::<f64>(asked.span)? / step.dt.to_f64()).round().clamp(1.0, 1e9) as u32;
+
+    let reading = reading();
+    let mut energy = Energy::new(&model, &state, workspace.terms());
+    let mut outcome = Outcome::default();
+    for _ in 0..n {
+        let clock = Instant::now();
+        let report = index3::step(&model, step, &options, &mut state, &mut workspace);
+        outcome.seconds += (clock.elapsed().as_secs_f64() - reading).max(0.0);
+        outcome.take(state.t.to_f64(), report, tally(workspace.solver()));
+        if outcome.stopped.is_some() {
+            break;
+        }
+        energy.mark(&model, &state, workspace.terms());
+        if !energy.error.is_finite() {
+            outcome.stopped = Some((state.t.to_f64(), "the energy is not a number".to_owned()));
+            break;
+        }
+    }
+    (outcome.energy_error, outcome.turned_over) = (energy.error, energy.kinetic);
+    Ok(outcome.told())
+}
+
+/// A factor in the precision of the model.
+fn plain<T: Real, C: Cliques>(cliques: &C) -> Multifrontal<T> {
+    Multifrontal::analyse(cliques, mbs_sparse::Options::default())
+}
+
+/// The larger one; what is not a number is larger than all.
+fn worse(a: f64, b: f64) -> f64 {
+    if b <= a { a } else { b }
+}
+
+/// The energy of a conservative scene, over every step.
+struct Energy<T> {
+    initial: T,
+    /// Largest error, and largest kinetic energy [J].
+    error: f64,
+    kinetic: f64,
+}
+
+impl<T: Real> Energy<T> {
+    fn new(model: &impl Model<T>, s: &State<T>, terms: &mbs_core::model::Terms<T>) -> Self {
+        let kinetic = model.kinetic_energy(&s.v);
+        let initial = kinetic + model.potential_energy(&s.q, terms);
+        Self { initial, error: 0.0, kinetic: kinetic.to_f64() }
+    }
+
+    fn mark(&mut self, model: &impl Model<T>, s: &State<T>, terms: &mbs_core::model::Terms<T>) {
+        let kinetic = model.kinetic_energy(&s.v);
+        let error = kinetic + model.potential_energy(&s.q, terms) - self.initial;
+        self.error = worse(self.error, error.to_f64().abs());
+        self.kinetic = worse(self.kinetic, kinetic.to_f64());
+    }
+}
+
+/// What reading the clock takes [s].
+fn reading() -> f64 {
+    const TIMES: u32 = 10_000;
+    let clock = Instant::now();
+    let sum: f64 = (0..TIMES).map(|_| Instant::now().elapsed().as_secs_f64()).sum();
+    // The sum is used, so that it is not left out.
+    if sum < 0.0 { 0.0 } else { clock.elapsed().as_secs_f64() / f64::from(2 * TIMES) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mbs_core::refined::RefinementError;
+
+    fn words(text: &str) -> Vec<String> {
+        text.split(' ').map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn what_cannot_be_meant_is_refused() {
+        for (text, why) in [
+            ("double-pendulum printed f64", "STEP SPAN ALPHA"),
+            ("double-pendulum printed f16 1e-3 1 1e7", "no digits `f16`"),
+        ] {
+            let told = measure(&words(text)).unwrap_err();
+            assert!(told.contains(why), "{told}");
+        }
+        let asked = |form, alpha| Asked { scene: "", form, step: "1", span: "1", alpha };
+        assert!(options::<f64>(&asked("print", "1")).unwrap_err().contains("no form `print`"));
+        assert!(options::<f64>(&asked("printed", "x")).unwrap_err().contains("`x` is no number"));
+    }
+
+    #[test]
+    fn a_form_is_the_same_with_more_digits() {
+        for form in ["printed", "correction", "default"] {
+            let asked = Asked { scene: "", form, step: "1", span: "1", alpha: "1e9" };
+            let (short, long) = (options::<f64>(&asked).unwrap(), options::<Pair>(&asked).unwrap());
+            assert_eq!(short.tolerance.to_bits(), long.tolerance.to_f64().to_bits());
+            assert_eq!(
+                (short.max_iterations, short.projection),
+                (long.max_iterations, long.projection)
+            );
+        }
+    }
+
+    #[test]
+    fn failures_are_told_with_their_time_and_leave_no_average_behind() {
+        let mut outcome = Outcome::default();
+        let error = RefinementError::NotFinite;
+        let tally = Tally { solutions: 3, corrections: 8, failed: 1, failure: Some(error) };
+        outcome.take::<f64>(0.5, Err(StepError::NotFinite { unknown: 1 }), tally);
+        let line = outcome.told();
+        assert_eq!(line["reason"], json!(error.to_string()));
+        assert_eq!((&line["stopped_at"], &line["corrections"]), (&json!(0.5), &json!(4.0)));
+    }
+}

@@ -1,0 +1,166 @@
+//! A text through everything that a user's text goes through: reading, building, a few steps in every formulation and precision.
+
+use crate::fuzz::table::tables;
+use crate::fuzz::torn::torn;
+use mbs::core::scene::Scene;
+use mbs::scene_file::Dice;
+use mbs::scene_file::SceneFile;
+use mbs::{FormulationKind, Method, Settings};
+
+/// Steps of a run.
+const STEPS: f64 = 6.0;
+/// Steps where a scene names none [s].
+const STEP: f64 = 1e-3;
+/// Of so many texts one is run in f32 and one in double-double.
+const OTHER_PRECISIONS: usize = 5;
+/// Larger mechanisms take too long in double-double.
+const SMALL: usize = 8;
+/// Methods that control their steps; those whose index follows the step come before them. One of these is tried with every second text
+/// that is not in double-double: where a motion is hopeless, control takes a hundred thousand trials to say so.
+const CONTROLLED: [[&str; 3]; 6] = [
+    ["state-space", "trapezoidal", "both"],
+    ["recursive", "trapezoidal", "error"],
+    ["recursive", "rk54", "fixed"],
+    ["recursive", "gbs", "fixed"],
+    ["recursive", "rk853", "fixed"],
+    ["recursive", "radau5", "fixed"],
+];
+
+/// Formulation, integrator and control of the step of all that are tried, and how many of the first are tried with every text.
+fn tried() -> (Vec<[&'static str; 3]>, usize) {
+    let (steered, fixed): (Vec<_>, Vec<_>) =
+        FormulationKind::ALL.into_iter().partition(|f| f.row().energy_rule);
+    let mut all: Vec<_> = fixed.iter().map(|f| [f.name(), "trapezoidal", "fixed"]).collect();
+    all.extend(steered.iter().map(|f| [f.name(), "trapezoidal", "energy"]));
+    all.extend(CONTROLLED);
+    (all, fixed.len())
+}
+
+/// And over a shorter time than the fixed steps', since short steps are what control is there for.
+const SHORTER: f64 = 1e-2;
+
+/// What became of a text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Verdict {
+    /// It is no scene, and was refused with words.
+    Refused,
+    /// It was run.
+    Ran {
+        /// Completed.
+        completed: usize,
+        /// Stopped.
+        stopped: usize,
+    },
+    /// Something that must not be; what.
+    Wrong(String),
+}
+
+/// Puts a text to the trial; a panic is the caller's to see. `turn` chooses the precision.
+#[must_use]
+pub fn trial(text: &[u8], turn: usize) -> Verdict {
+    let document = match SceneFile::from_bytes(text, "fuzzed.toml") {
+        Ok(document) => document,
+        Err(error) => return refusal(&error.render()),
+    };
+    let scene = match document.scene::<f64>() {
+        Ok(scene) => scene,
+        Err(error) => return refusal(&error.render()),
+    };
+    let precision = match turn % OTHER_PRECISIONS {
+        0 => "f32",
+        1 if scene.bodies.len() <= SMALL => "dd",
+        _ => "f64",
+    };
+    let [mut completed, mut stopped] = [0; 2];
+    let is_turn = (turn / OTHER_PRECISIONS).is_multiple_of(2) && precision != "dd";
+    let (tried, always) = tried();
+    let other = turn / (2 * OTHER_PRECISIONS) % (tried.len() - always);
+    let other = is_turn.then_some(always + other);
+    for (i, &method) in tried.iter().enumerate() {
+        if i >= always && other != Some(i) {
+            continue;
+        }
+        let share = if i < always { 1.0 } else { SHORTER };
+        match run((&document, &scene), method, (precision, share)) {
+            Ok(Some(true)) => completed += 1,
+            Ok(Some(false)) => stopped += 1,
+            Ok(None) => {}
+            Err(why) => {
+                return Verdict::Wrong(format!("{}, {precision}: {why}", method.join(", ")));
+            }
+        }
+    }
+    // and what is read beside it, and what is kept of its state, damaged
+    let mut dice = Dice::new(turn as u64);
+    if let Err(why) = tables(&document, &scene, &mut dice) {
+        return Verdict::Wrong(why);
+    }
+    let formulation = tried[turn % always][0];
+    match torn(&scene, formulation, &mut dice) {
+        Ok(_) => Verdict::Ran { completed, stopped },
+        Err(why) => Verdict::Wrong(format!("a damaged checkpoint, {formulation}: {why}")),
+    }
+}
+
+/// A refusal must name its place.
+fn refusal(words: &str) -> Verdict {
+    match words.contains("fuzzed.toml") {
+        true => Verdict::Refused,
+        false => Verdict::Wrong(format!("a refusal without a place: {words}")),
+    }
+}
+
+/// Runs a scene for some steps, of a share of its own step: was it completed? Nothing where it is refused.
+fn run(
+    (document, scene): (&SceneFile, &Scene<f64>),
+    [formulation, integrator, control]: [&str; 3],
+    (precision, share): (&str, f64),
+) -> Result<Option<bool>, String> {
+    let step = share * scene.solver.step.unwrap_or(STEP);
+    let overrides = Method {
+        formulation: Some(formulation.to_owned()),
+        precision: Some(precision.to_owned()),
+        integrator: Some(integrator.to_owned()),
+        step_control: Some(control.to_owned()),
+        step: Some(step),
+        step_max: Some(step),
+        duration: Some((STEPS * step).min(scene.duration)),
+        ..Method::default()
+    };
+    let Ok(settings) = Settings::new(scene, &overrides) else { return Ok(None) };
+    let outcome = match mbs::run_document((document, scene), &settings, &mut |_| {}) {
+        Ok(outcome) => outcome,
+        Err(error) => match refusal(&error.render()) {
+            Verdict::Wrong(why) => return Err(why),
+            _ => return Ok(None),
+        },
+    };
+    let is_finite = outcome.rows().iter().flat_map(|(_, row)| row).all(|x| x.is_finite());
+    match (outcome.summary.completed, &outcome.summary.error) {
+        (true, Some(_)) => Err("completed with an error".to_owned()),
+        (false, None) => Err("stopped without an error".to_owned()),
+        _ if !is_finite => Err("a row that is not finite".to_owned()),
+        (is_completed, _) => Ok(Some(is_completed)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_scene_is_refused_and_a_scene_runs_in_every_formulation() {
+        assert_eq!(trial(b"name = ", 0), Verdict::Refused);
+        assert_eq!(trial(b"\xff", 0), Verdict::Refused);
+        let pendulum = b"[scene]\nname = \"p\"\ndimension = 2\ngravity = [0.0, -9.81]\nduration = 1.0\n\n[[body]]\nname = \"b\"\n\
+            mass = 1.0\nrod = { from = [0.0, 0.0], to = [1.0, 0.0] }\n\n[[joint]]\nname = \"j\"\nkind = \"revolute\"\n\
+            bodies = [\"ground\", \"b\"]\nat = [0.0, 0.0]\n";
+        let count = |turn: usize| match trial(pendulum, turn) {
+            Verdict::Ran { completed, stopped: 0 } => completed,
+            other => panic!("{turn}: {other:?}"),
+        };
+        let sums: Vec<usize> = (0..50).map(count).collect();
+        // half of those that are not in double-double
+        assert_eq!((sums.iter().sum::<usize>(), sums[0], sums[1]), (5 * 50 + 20, 6, 5));
+    }
+}

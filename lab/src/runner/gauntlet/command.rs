@@ -1,0 +1,89 @@
+//! `runner gauntlet run COUNT FIRST STRIDE`: the cases of these numbers, a line of JSON for each; before each run a line tells what begins, so
+//! that who watches knows what hangs. `show FAMILY SEED`: the scene of a case, and how it is run. `one FAMILY SEED`:
+//! its verdicts.
+
+use super::families::Family;
+use super::judge::{Verdict, judge};
+use super::run::{keep_panics, methods};
+use super::schedule::{cases, family};
+use serde_json::{Value, json};
+use std::io::Write;
+
+/// Does what the words ask for.
+///
+/// # Errors
+///
+/// What they should be.
+pub fn run(words: &[String]) -> Result<(), String> {
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    match words.as_slice() {
+        ["run", numbers @ ..] => cases_of(numbers),
+        ["show", name, seed] => of(name, seed).map(|(family, seed)| show(family, seed)),
+        ["one", name, seed] => of(name, seed).map(|(family, seed)| {
+            keep_panics();
+            tell(&told((family, seed), &mut |_| {}).to_string());
+        }),
+        _ => Err(
+            "usage: runner gauntlet run COUNT FIRST STRIDE | show FAMILY SEED | one FAMILY SEED"
+                .to_owned(),
+        ),
+    }
+}
+
+fn of(name: &str, seed: &str) -> Result<(&'static Family, u64), String> {
+    let family = family(name).ok_or_else(|| format!("there is no family `{name}`"))?;
+    Ok((family, number(seed)?))
+}
+
+fn number(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|e| format!("`{text}`: {e}"))
+}
+
+/// A line; a reader that has gone away is no error.
+fn tell(line: &str) {
+    let mut out = std::io::stdout().lock();
+    let _ = writeln!(out, "{line}").and_then(|()| out.flush());
+}
+
+fn show(family: &Family, seed: u64) {
+    let case = family.case(seed);
+    tell(&format!(
+        "# step {:e} s, {:?}, judged by {:?}\n{}",
+        case.step, case.options, case.truth, case.scene
+    ));
+}
+
+fn cases_of(numbers: &[&str]) -> Result<(), String> {
+    let [count, first, stride] = numbers else { return Err("run COUNT FIRST STRIDE".to_owned()) };
+    let as_usize = |text: &str| usize::try_from(number(text)?).map_err(|e| e.to_string());
+    let (count, first, stride) = (as_usize(count)?, as_usize(first)?, as_usize(stride)?.max(1));
+    keep_panics();
+    for (k, case) in cases(count).enumerate().skip(first).step_by(stride) {
+        let mut line = told(case, &mut |about| tell(&format!("begin {k} {about}")));
+        line["number"] = json!(k);
+        tell(&line.to_string());
+    }
+    Ok(())
+}
+
+/// What became of a case.
+fn told((family, seed): (&Family, u64), about: &mut dyn FnMut(&str)) -> Value {
+    let case = family.case(seed);
+    let verdicts: serde_json::Map<String, Value> = judge(&case, about)
+        .into_iter()
+        .map(|(method, verdict)| (method.to_owned(), of_verdict(&verdict)))
+        .collect();
+    json!({ "family": family.name, "property": family.property, "seed": seed, "step": case.step, "methods": methods().collect::<Vec<_>>(), "verdicts": verdicts })
+}
+
+fn of_verdict(verdict: &Verdict) -> Value {
+    match verdict {
+        Verdict::Right(error) => json!({ "is": "right", "error": error }),
+        Verdict::Coarse(error) => json!({ "is": "coarse", "error": error }),
+        Verdict::Apart(error) => json!({ "is": "apart", "error": error }),
+        Verdict::Kept => json!({ "is": "kept" }),
+        Verdict::Unjudged => json!({ "is": "unjudged" }),
+        Verdict::Stopped(code, time) => json!({ "is": "stopped", "code": code, "time": time }),
+        Verdict::Wrong(why) => json!({ "is": "wrong", "why": why }),
+    }
+}

@@ -1,0 +1,249 @@
+//! Mechanisms as plain numbers, which can be turned, scaled and written as scene text.
+
+use crate::gauntlet::vector::{Point, Turn, distance, plus};
+
+/// The ground as a body; bodies count from 1.
+pub const GROUND: usize = 0;
+
+/// Mass and shape of a body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    /// Mass [kg].
+    pub mass: f64,
+    /// Where it is.
+    pub shape: Shape,
+}
+
+/// Where the mass of a body is.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// On a line.
+    Rod([Point; 2]),
+    /// About a centre: [xx, yy, zz, xy, yz, zx] about it [kg m^2]; of a planar body only zz counts.
+    Solid(Point, [f64; 6]),
+}
+
+/// A joint: the second body moves relative to the first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// Its kind in scenes.
+    pub kind: &'static str,
+    /// Bodies.
+    pub bodies: [usize; 2],
+    /// Its place; of a distance joint one on each body.
+    pub at: Vec<Point>,
+    /// None, one or two.
+    pub axes: Vec<Point>,
+}
+
+/// An effect.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Effect {
+    /// Spring and damper: bodies, points, stiffness, damping, free length.
+    Spring([usize; 2], [Point; 2], [f64; 3]),
+    /// One-sided contact: bodies, points, stiffness, damping, clearance.
+    Bumper([usize; 2], [Point; 2], [f64; 3]),
+    /// Piecewise polynomial tension by length: bodies, points, pieces.
+    Pieces([usize; 2], [Point; 2], Vec<Vec<f64>>),
+    /// Torsion spring: joint, stiffness, damping, free value.
+    Torsion(usize, [f64; 3]),
+    /// Ends of a joint's range: joint, lower, upper, stiffness, damping.
+    Limit(usize, [f64; 4]),
+    /// Dry friction: joint, force or torque of sliding.
+    Friction(usize, f64),
+    /// A constant torque in a joint.
+    Torque(usize, f64),
+}
+
+/// A mechanism with the start of its motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Draft {
+    /// 2 or 3.
+    pub dimension: usize,
+    /// Gravity [m/s^2].
+    pub gravity: Point,
+    /// Bodies, from 1.
+    pub bodies: Vec<Body>,
+    /// Joints.
+    pub joints: Vec<Joint>,
+    /// Joint, value, rate at the start.
+    pub starts: Vec<(usize, Option<f64>, Option<f64>)>,
+    /// Joint, amplitude, frequency [Hz], phase of a guide.
+    pub guides: Vec<(usize, [f64; 3])>,
+    /// Effects.
+    pub effects: Vec<Effect>,
+    /// Points of bodies whose motion is looked at.
+    pub outputs: Vec<(usize, Point)>,
+}
+
+impl Draft {
+    /// Nothing yet, in the plane; gravity along -y.
+    #[must_use]
+    pub fn planar() -> Self {
+        Self {
+            dimension: 2,
+            gravity: [0.0, -9.81, 0.0],
+            bodies: Vec::new(),
+            joints: Vec::new(),
+            starts: Vec::new(),
+            guides: Vec::new(),
+            effects: Vec::new(),
+            outputs: Vec::new(),
+        }
+    }
+
+    /// Nothing yet, in space; gravity along -z.
+    #[must_use]
+    pub fn spatial() -> Self {
+        Self { dimension: 3, gravity: [0.0, 0.0, -9.81], ..Self::planar() }
+    }
+
+    /// A thin rod; in space with a thickness of a twentieth of its length.
+    pub fn rod(&mut self, from: Point, to: Point, mass: f64) -> usize {
+        let shape = if self.dimension == 2 { Shape::Rod([from, to]) } else { bar(from, to, mass) };
+        self.bodies.push(Body { mass, shape });
+        self.bodies.len()
+    }
+
+    /// A body with moments of inertia about its centre.
+    pub fn solid(&mut self, center: Point, mass: f64, moments: [f64; 3]) -> usize {
+        let [a, b, c] = moments;
+        self.bodies.push(Body { mass, shape: Shape::Solid(center, [a, b, c, 0.0, 0.0, 0.0]) });
+        self.bodies.len()
+    }
+
+    /// A joint; its number.
+    pub fn joint(
+        &mut self,
+        kind: &'static str,
+        bodies: [usize; 2],
+        at: Point,
+        axes: &[Point],
+    ) -> usize {
+        self.joints.push(Joint { kind, bodies, at: vec![at], axes: axes.to_vec() });
+        self.joints.len() - 1
+    }
+
+    /// A revolute joint about z, in plane or space.
+    pub fn pin(&mut self, bodies: [usize; 2], at: Point) -> usize {
+        let axes: &[Point] = if self.dimension == 2 { &[] } else { &[[0.0, 0.0, 1.0]] };
+        self.joint("revolute", bodies, at, axes)
+    }
+
+    /// A joint starts at rest relative to nothing but this: with a rate [rad/s or m/s].
+    pub fn rate(&mut self, joint: usize, rate: f64) {
+        self.starts.push((joint, None, Some(rate)));
+    }
+
+    /// The motion of this point of a body is looked at.
+    pub fn watch(&mut self, body: usize, at: Point) {
+        self.outputs.push((body, at));
+    }
+
+    /// Largest distance between places of bodies, joints and effects [m].
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        let of_body = |body: &Body| match &body.shape {
+            Shape::Rod(ends) => ends.to_vec(),
+            Shape::Solid(center, _) => vec![*center],
+        };
+        let of_joints = self.joints.iter().flat_map(|joint| joint.at.clone());
+        let watched = self.outputs.iter().map(|(_, at)| *at);
+        let held = self.effects.iter().flat_map(|effect| match effect {
+            Effect::Spring(_, points, _)
+            | Effect::Bumper(_, points, _)
+            | Effect::Pieces(_, points, _) => points.to_vec(),
+            _ => Vec::new(),
+        });
+        let places = self.bodies.iter().flat_map(of_body).chain(of_joints).chain(watched);
+        let places: Vec<Point> = places.chain(held).collect();
+        let apart = |a: &Point| places.iter().map(|b| distance(*a, *b)).fold(0.0, f64::max);
+        places.iter().map(apart).fold(0.0, f64::max)
+    }
+
+    /// The same in space, its plane the x-y plane, with an axis for each joint.
+    #[must_use]
+    pub fn raised(&self) -> Self {
+        let mut draft = self.clone();
+        draft.dimension = 3;
+        for body in &mut draft.bodies {
+            body.shape = match body.shape {
+                Shape::Rod([from, to]) => bar(from, to, body.mass),
+                Shape::Solid(at, j) => Shape::Solid(at, [j[2], j[2], j[2], 0.0, 0.0, 0.0]),
+            };
+        }
+        for joint in &mut draft.joints {
+            if joint.kind == "revolute" {
+                joint.axes = vec![[0.0, 0.0, 1.0]];
+            }
+        }
+        draft
+    }
+
+    /// All of it turned about the origin.
+    #[must_use]
+    pub fn turned(&self, turn: &Turn) -> Self {
+        let mut draft = self.clone();
+        draft.gravity = turn.of(self.gravity);
+        for body in &mut draft.bodies {
+            body.shape = match body.shape {
+                Shape::Rod(ends) => Shape::Rod(ends.map(|p| turn.of(p))),
+                Shape::Solid(at, j) => Shape::Solid(turn.of(at), turn.of_inertia(j)),
+            };
+        }
+        for joint in &mut draft.joints {
+            joint.at.iter_mut().chain(&mut joint.axes).for_each(|x| *x = turn.of(*x));
+        }
+        draft.outputs.iter_mut().for_each(|(_, at)| *at = turn.of(*at));
+        for effect in &mut draft.effects {
+            if let Effect::Spring(_, points, _)
+            | Effect::Bumper(_, points, _)
+            | Effect::Pieces(_, points, _) = effect
+            {
+                *points = points.map(|p| turn.of(p));
+            }
+        }
+        draft
+    }
+
+    /// The same mechanism told in other units of length and mass (1 m is `length` of them); the second stays. Springs between
+    /// points go with it, other effects there must not be.
+    #[must_use]
+    pub fn in_units(&self, length: f64, mass: f64) -> Self {
+        let mut draft = self.clone();
+        let scaled = |p: Point| p.map(|x| x * length);
+        draft.gravity = scaled(self.gravity);
+        for body in &mut draft.bodies {
+            body.mass *= mass;
+            body.shape = match body.shape {
+                Shape::Rod(ends) => Shape::Rod(ends.map(scaled)),
+                Shape::Solid(at, j) => {
+                    Shape::Solid(scaled(at), j.map(|x| x * mass * length * length))
+                }
+            };
+        }
+        draft.joints.iter_mut().flat_map(|joint| &mut joint.at).for_each(|p| *p = scaled(*p));
+        draft.outputs.iter_mut().for_each(|(_, at)| *at = scaled(*at));
+        for effect in &mut draft.effects {
+            if let Effect::Spring(_, points, [stiffness, damping, free]) = effect {
+                *points = points.map(scaled);
+                (*stiffness, *damping, *free) =
+                    (*stiffness * mass, *damping * mass, *free * length);
+            }
+        }
+        draft
+    }
+}
+
+/// A bar between two places, a twentieth as thick as long.
+fn bar(from: Point, to: Point, mass: f64) -> Shape {
+    let (length, d) = (distance(from, to), plus(to, -1.0, from));
+    let (across, along) = (mass * length * length / 12.0, mass * length * length / 3200.0);
+    let unit = d.map(|x| x / length);
+    let entry = |i: usize, j: usize| {
+        let one = if i == j { across } else { 0.0 };
+        one - (across - along) * unit[i] * unit[j]
+    };
+    let inertia = [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)];
+    Shape::Solid(plus(from, 0.5, d), inertia)
+}

@@ -1,0 +1,130 @@
+//! One run of a case's scene: to its end, to its typed error, or to what must not be.
+
+use crate::gauntlet::case::Options;
+use mbs::scene_file::SceneFile;
+use mbs::{FormulationKind, Method, Settings};
+use std::cell::RefCell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Formulations under test, with the trapezoidal rule; multi-index with its own control of the step.
+pub fn methods() -> impl Iterator<Item = &'static str> {
+    FormulationKind::listed().map(FormulationKind::name)
+}
+
+/// Share of the energy turned over that an invariant may be off by.
+const MOST_ENERGY: f64 = 0.1;
+
+/// What a run came to.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Ran {
+    /// To its end.
+    Completed {
+        /// Rows of time and outputs.
+        rows: Vec<(f64, Vec<f64>)>,
+        /// How far joints were open at most [m, rad].
+        violation: f64,
+        /// The largest share of the energy turned over that the invariant was off by, for however short a time.
+        energy: f64,
+    },
+    /// To a typed error.
+    Stopped {
+        /// Its code.
+        code: String,
+        /// When [s].
+        time: f64,
+    },
+    /// To what must not be: a panic, a number that is none, energy out of nothing, an error without its words.
+    Broken(String),
+}
+
+impl Ran {
+    /// The rows of a run that was completed.
+    #[must_use]
+    pub fn rows(&self) -> Option<&[(f64, Vec<f64>)]> {
+        match self {
+            Self::Completed { rows, .. } => Some(rows),
+            _ => None,
+        }
+    }
+}
+
+thread_local! {
+    /// What the last panic of this thread said.
+    static LAST_PANIC: RefCell<String> = const { RefCell::new(String::new()) };
+}
+
+/// Panics are kept in place of being printed, for the whole program.
+pub fn keep_panics() {
+    std::panic::set_hook(Box::new(|info| {
+        LAST_PANIC.with(|last| *last.borrow_mut() = info.to_string().replace('\n', " "));
+    }));
+}
+
+/// Runs a scene with a method and a step [s].
+#[must_use]
+pub fn run(scene: &str, method: &str, step: f64, options: Options) -> Ran {
+    let integrator = if method == EXTRAPOLATED { "gbs" } else { "trapezoidal" };
+    let is_extrapolated = method == EXTRAPOLATED;
+    let formulation = if is_extrapolated { FormulationKind::RELATIVE.name() } else { method };
+    let takes_penalty = FormulationKind::of_name(formulation).and_then(|f| f.scene_penalty());
+    let overrides = Method {
+        formulation: Some(formulation.to_owned()),
+        integrator: Some(integrator.to_owned()),
+        precision: options.is_single.then(|| "f32".to_owned()),
+        step: Some(step),
+        tolerance: is_extrapolated.then_some(1e-13),
+        penalty: options.penalty.filter(|_| takes_penalty.is_some()),
+        ..Method::default()
+    };
+    match catch_unwind(AssertUnwindSafe(|| go(scene, &overrides))) {
+        Ok(ran) => ran,
+        Err(_) => {
+            Ran::Broken(format!("a panic: {}", LAST_PANIC.with(|last| last.borrow().clone())))
+        }
+    }
+}
+
+/// The method of extrapolated reference runs.
+pub const EXTRAPOLATED: &str = "extrapolated";
+
+fn go(scene: &str, overrides: &Method) -> Ran {
+    let document = match SceneFile::from_bytes(scene.as_bytes(), "case.toml") {
+        Ok(document) => document,
+        Err(error) => return Ran::Broken(format!("refused: {}", error.render())),
+    };
+    let scene = match document.scene::<f64>() {
+        Ok(scene) => scene,
+        Err(error) => return Ran::Broken(format!("refused: {}", error.render())),
+    };
+    let settings = match Settings::new(&scene, overrides) {
+        Ok(settings) => settings,
+        Err(error) => return Ran::Broken(format!("refused: {error}")),
+    };
+    let outcome = match mbs::run_document((&document, &scene), &settings, &mut |_| {}) {
+        Ok(outcome) => outcome,
+        Err(error) => return Ran::Broken(format!("refused: {}", error.render())),
+    };
+    if !outcome.rows().iter().flat_map(|(_, row)| row).all(|x| x.is_finite()) {
+        return Ran::Broken("a row that is not finite".to_owned());
+    }
+    let summary = &outcome.summary;
+    match (&summary.error, summary.completed) {
+        (Some(error), false) if error.message.is_empty() || error.hint.is_empty() => {
+            Ran::Broken(format!("the error `{}` does not say what to do", error.code))
+        }
+        (Some(error), false) => Ran::Stopped { code: error.code.clone(), time: summary.end_time },
+        (None, true) => {
+            let told = &summary.energy;
+            let rounding = 1e-6 * told.initial.abs();
+            if told.final_error > MOST_ENERGY * told.turned_over + rounding {
+                let (error, turned) = (told.final_error, told.turned_over);
+                return Ran::Broken(format!("the energy is off by {error:e} of {turned:e} J"));
+            }
+            let is_off = told.max_error > rounding;
+            let energy = if is_off { told.max_error / told.turned_over } else { 0.0 };
+            let violation = summary.violation.position;
+            Ran::Completed { rows: outcome.rows().to_vec(), violation, energy }
+        }
+        (error, _) => Ran::Broken(format!("completed and not: {error:?}")),
+    }
+}
