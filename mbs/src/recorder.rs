@@ -3,7 +3,7 @@
 
 use crate::checkpoint::tape::{Tape, Told, holds};
 use crate::digits::is_finer;
-use crate::words::limit_names;
+use crate::numerals::limit_names;
 use mbs_core::Real;
 use mbs_core::real::DoubleDouble;
 use mbs_scene::{

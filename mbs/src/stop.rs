@@ -4,8 +4,8 @@ mod step;
 
 use self::step::{step_hint, write_step};
 use crate::names::Names;
+use crate::numerals::few;
 use crate::tilt::AlmostDependent;
-use crate::words::few;
 
 use mbs_core::actions::ActionError;
 use mbs_core::laws::code::Codes;

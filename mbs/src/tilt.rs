@@ -1,6 +1,6 @@
 //! Axes that are almost parallel, or almost across each other: what is said of them, and when a scene is refused for them.
 
-use crate::words::few;
+use crate::numerals::few;
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Scene;

@@ -1,42 +1,16 @@
 //! What is said about a run: rows of a summary, notes, and when and why it stopped.
 
+pub use crate::numerals::{duration, few};
+
 use crate::choice::IntegratorKind;
 use crate::methods::ROUNDINGS;
+use crate::numerals::rounded;
 use crate::settings::Settings;
 use mbs_core::Real;
-use mbs_core::control::Limit;
 use mbs_core::scene::{Body, BodyId, Inertia, Scene};
 use mbs_scene::{
     Contact, ControlSummary, ErrorEstimate, RunError, RunSummary, format::significant,
 };
-
-/// Three significant digits: the size is what matters.
-#[must_use]
-pub fn few(x: f64) -> String {
-    rounded(x, 3)
-}
-
-fn rounded(x: f64, digits: usize) -> String {
-    significant(format!("{x:.*e}", digits - 1).parse().unwrap_or(x))
-}
-
-/// What kept a step from being longer, as it stands in files.
-pub(crate) fn limit_name(limit: Limit) -> &'static str {
-    match limit {
-        Limit::Largest => "max",
-        Limit::Energy => "energy",
-        Limit::Error => "error",
-        Limit::Event => "event",
-        Limit::Contact => "contact",
-        Limit::Failure => "failure",
-    }
-}
-
-/// All of them.
-pub(crate) fn limit_names() -> [&'static str; 6] {
-    [Limit::Largest, Limit::Energy, Limit::Error, Limit::Event, Limit::Contact, Limit::Failure]
-        .map(limit_name)
-}
 
 /// The summary table of a page.
 pub(crate) fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {
@@ -154,16 +128,6 @@ pub fn violation(s: &RunSummary) -> String {
     let short = |x: f64| if x == 0.0 { "0".to_owned() } else { format!("{x:.1e}") };
     let [position, velocity, acceleration] = [v.position, v.velocity, v.acceleration].map(short);
     format!("{position} m, {velocity} m/s, {acceleration} m/s^2 (or rad)")
-}
-
-/// A time span for a table.
-#[must_use]
-pub fn duration(seconds: f64) -> String {
-    match seconds {
-        s if s >= 1.0 => format!("{s:.2} s"),
-        s if s >= 1e-3 => format!("{:.2} ms", s * 1e3),
-        s => format!("{:.1} us", s * 1e6),
-    }
 }
 
 /// When and where a run stopped, why, and what to try, in one sentence each.

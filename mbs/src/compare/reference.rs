@@ -150,7 +150,7 @@ impl Known {
         let share = |c: usize, size: f64| (known[c] - row[c]).abs() / size;
         let worst = each.max_by(|a, b| share(a.1, a.2).total_cmp(&share(b.1, b.2)));
         let Some((scale, c, _)) = worst else { return String::new() };
-        let far = crate::words::few((known[c] - row[c]).abs());
+        let far = crate::numerals::few((known[c] - row[c]).abs());
         format!("{far} {} of `{}`", scale.unit, scale.output)
     }
 

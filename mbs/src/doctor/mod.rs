@@ -23,9 +23,9 @@ pub use report::report;
 pub use start::Moved;
 
 use crate::names::Names;
-use crate::ready::AssembledScene;
+use crate::ready::{AssembledScene, rank};
 use crate::settings::Settings;
-use crate::simulation::{Simulation, rank};
+use crate::simulation::Simulation;
 use crate::stop::StopError;
 use mbs_core::Cliques;
 use mbs_core::model::{Model, State};

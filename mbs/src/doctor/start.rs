@@ -2,7 +2,7 @@
 
 use super::finding::{Finding, Severity, Topic, counted};
 use super::{Begun, stopped};
-use crate::simulation::rank;
+use crate::ready::rank;
 use crate::stop::StopError;
 use crate::words::few;
 use mbs_core::Cliques;

@@ -1,6 +1,6 @@
 //! What is said about a paced run: rows of a summary, and a note.
 
-use crate::words::{duration, few};
+use crate::numerals::{duration, few};
 use mbs_scene::{Degraded, RealtimeSummary, format::significant};
 
 /// Rows of the summary of a run: labels, and values with their units.

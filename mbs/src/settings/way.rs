@@ -52,7 +52,7 @@ impl Settings {
         }
         match (self.integrator.controls_its_step(), self.tolerance) {
             (true, Some(tolerance)) => {
-                format!("{way} with a tolerance of {}", crate::words::few(tolerance))
+                format!("{way} with a tolerance of {}", crate::numerals::few(tolerance))
             }
             (true, None) => format!("{way} with steps of its own"),
             _ if self.rule != StepRule::Fixed => format!("{way} with steps of controlled length"),

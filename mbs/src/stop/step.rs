@@ -1,6 +1,6 @@
 //! Steps that could not be made, in words.
 
-use crate::words::few;
+use crate::numerals::few;
 use mbs_core::step::StepError;
 
 /// What happened; what to try is the hint's.
