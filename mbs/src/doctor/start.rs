@@ -1,7 +1,7 @@
 //! The start: what did not fit before assembly, and how far it moved each body.
 
+use super::basis::{Begun, stopped};
 use super::finding::{Finding, Severity, Topic, counted};
-use super::{Begun, stopped};
 use crate::ready::rank;
 use crate::stop::StopError;
 use crate::words::few;

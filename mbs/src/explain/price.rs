@@ -3,7 +3,7 @@
 use super::changes::Outputs;
 use super::reach::largest_step;
 use super::timing::{Times, count, interleaved, monitor, trial};
-use super::{Effort, outcome, without};
+use super::trials::{Effort, outcome, without};
 use crate::run::Outcome;
 use crate::settings::Settings;
 use crate::tree::{InSpace, Plane};

@@ -1,6 +1,6 @@
 //! The largest step with which a run completes, by doubling.
 
-use super::outcome;
+use super::trials::outcome;
 use crate::settings::Settings;
 use crate::tree::{InSpace, Plane};
 use mbs_core::Real;

@@ -1,8 +1,9 @@
 //! What a run records of its steps: rows, maxima, counts, contacts, and the alarms that end it.
 
-use super::kept::{Clock, Kept};
+use super::clock::Clock;
 use crate::alarm::Alarm;
 use crate::channels::Channels;
+use crate::checkpoint::{Identity, Keeping};
 use crate::driver::StepObserver;
 use crate::figure::Figure;
 use crate::friction::Frictions;
@@ -263,4 +264,11 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Record<'_, T, D> {
             let _ = self.row(now, true);
         }
     }
+}
+
+/// How a run is kept, and what it belongs to.
+#[derive(Debug)]
+pub(super) struct Kept<'a> {
+    pub(super) keeping: &'a mut Keeping,
+    pub(super) identity: Identity,
 }
