@@ -7,7 +7,7 @@ use crate::stop::StopError;
 use core::ops::{ControlFlow, Deref};
 use mbs_core::Real;
 use mbs_core::control::Accepted;
-use mbs_core::step::{InputError, StepError};
+use mbs_core::step::{InputError, Step, StepError, StepReport};
 
 /// Roundings of the time at the end of a stretch that are nothing, where they are less than the share of its length: times of `f32`
 /// round by more than short steps last.
@@ -310,4 +310,38 @@ fn along<T: Real, const D: usize>(
         }
     }
     observer.instant(plant.shown())
+}
+
+/// Adds the reports of steps.
+struct Sum<T>(StepReport<T>);
+
+impl<T: Real, const D: usize> StepObserver<T, D> for Sum<T> {
+    fn step(
+        &mut self,
+        _: &Simulation<T, D>,
+        accepted: &Accepted<T>,
+        _: bool,
+    ) -> Result<ControlFlow<()>, StopError> {
+        self.0.add(&accepted.attempt.report);
+        Ok(ControlFlow::Continue(()))
+    }
+}
+
+impl<T: Real, const D: usize> Simulation<T, D> {
+    /// Advances by `dt` [s]: one step, or as many as the control of the step size takes.
+    ///
+    /// # Errors
+    /// [`StopError`] with the joint or body; the state is then that after the last accepted step.
+    pub fn step(&mut self, dt: T) -> Result<StepReport<T>, StopError> {
+        let mut stretch = Stretch::to(self.state().t + dt);
+        if self.is_controlled() {
+            let step = Step { dt, length: self.model().length() }.checked();
+            step.map_err(|error| self.explain(error))?;
+        } else {
+            stretch = stretch.in_one(Some(dt));
+        }
+        let mut sum = Sum(StepReport { steps: 0, ..StepReport::default() });
+        drive(self, [stretch], &Interrupt::default(), &mut sum)?;
+        Ok(sum.0)
+    }
 }

@@ -9,6 +9,7 @@ mod control;
 mod digits;
 mod document;
 mod driver;
+mod equilibrium;
 pub mod export;
 mod figure;
 mod fingerprint;
@@ -47,6 +48,7 @@ pub use mbs_statespace as statespace;
 pub use checkpoint::{Checkpoint, CheckpointError, FILE as CHECKPOINT, Keeping};
 pub use choice::{INTEGRATORS, IntegratorKind, PRECISIONS, Precision, STEP_RULES, StepRule};
 pub use document::{run_document, run_document_kept};
+pub use equilibrium::{Search, equilibrium_start, find_equilibrium};
 pub use front::tree::{Matrix, Tree, TreeError, TreeErrorKind, TreeRange};
 pub use front::{
     Body, BodyMotion, Components, ContactEvent, Coordinates, Effect, Energies, EquilibriumOptions,
@@ -70,7 +72,7 @@ pub use precision::PrecisionError;
 pub use rest::LeftOut;
 pub use run::Outcome;
 pub use settings::{Method, Settings, SettingsError};
-pub use statics::{Moved, Search, StaticEquilibrium, equilibrium_start, find_equilibrium};
+pub use statics::{Moved, StaticEquilibrium};
 pub use stop::{INTERRUPTED, StopError};
 pub use tilt::AlmostDependent;
 pub use tree::{InSpace, Plane};
@@ -85,11 +87,11 @@ pub mod inside {
     pub use crate::fingerprint::fingerprint;
     pub use crate::precision::{ReadScene, SceneWork, in_space, not_built_hint};
     pub use crate::ready::AssembledScene;
+    pub use crate::ready::rank;
     pub use crate::recorder::Keep;
     pub use crate::run::{run_keeping, step};
     pub use crate::settings::DEFAULT_STEP;
     pub use crate::settings::way::{is_too_long, too_long};
-    pub use crate::simulation::rank;
     pub use crate::tilt::notes;
 }
 

@@ -3,7 +3,6 @@
 //! What differs from one formulation to another is said here or in the formulation's crate, and nowhere else.
 
 use crate::choice::IntegratorKind;
-use crate::settings::Settings;
 use crate::stop::StopError;
 use mbs_augmented::{Augmented, Form, IndexChange, Penalty};
 use mbs_classical::Classical;
@@ -67,11 +66,22 @@ const ROW: Row = Row {
     reference: None,
 };
 
+/// What is asked of a formulation.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Demands<T> {
+    pub(crate) integrator: IntegratorKind,
+    pub(crate) penalty: Option<f64>,
+    pub(crate) tolerance: Option<f64>,
+    pub(crate) threads: usize,
+    /// The step of the run, or the first one [s].
+    pub(crate) step: T,
+}
+
 /// What a formulation is built from.
 #[derive(Debug)]
 pub(crate) struct Request<'a, T: Real, const D: usize> {
     pub(crate) scene: &'a Scene<T>,
-    pub(crate) settings: &'a Settings,
+    pub(crate) demands: Demands<T>,
     pub(crate) model: &'a NaturalModel<T, D>,
     /// Analysed for the model's cliques.
     pub(crate) solver: Multifrontal<T>,
@@ -189,74 +199,74 @@ impl FormulationKind {
 }
 
 fn index1<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
-    let penalty = request.settings.penalty;
-    let options = augmented_options(mbs_augmented::Options::index1(), request.settings, penalty);
+    let penalty = request.demands.penalty;
+    let options = augmented_options(mbs_augmented::Options::index1(), &request.demands, penalty);
     augmented(Form::Index1(options), request)
 }
 
 fn index3<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
-    augmented(Form::Index3(options_of_index3(request.settings)), request)
+    augmented(Form::Index3(options_of_index3(&request.demands)), request)
 }
 
 fn multi_index<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
     // One number cannot be kg and N/m: it is that of index-3.
-    let one = augmented_options(mbs_augmented::Options::index1(), request.settings, None);
-    let three = options_of_index3(request.settings);
+    let one = augmented_options(mbs_augmented::Options::index1(), &request.demands, None);
+    let three = options_of_index3(&request.demands);
     augmented(Form::MultiIndex(IndexChange::new(one, three)), request)
 }
 
-fn options_of_index3<T: Real>(settings: &Settings) -> mbs_augmented::Options<T> {
-    augmented_options(mbs_augmented::Options::index3(), settings, settings.penalty)
+fn options_of_index3<T: Real>(demands: &Demands<T>) -> mbs_augmented::Options<T> {
+    augmented_options(mbs_augmented::Options::index3(), demands, demands.penalty)
 }
 
 fn augmented_options<T: Real>(
     mut options: mbs_augmented::Options<T>,
-    settings: &Settings,
+    demands: &Demands<T>,
     penalty: Option<f64>,
 ) -> mbs_augmented::Options<T> {
-    options.integrator = settings.integrator.coefficients();
+    options.integrator = demands.integrator.coefficients();
     if let Some(alpha) = penalty {
         options.penalty = Penalty::Fixed(T::from_f64(alpha));
         options.adaptive_penalty = false;
     }
-    if let Some(tolerance) = settings.tolerance {
+    if let Some(tolerance) = demands.tolerance {
         (options.tolerance, options.share) = (T::from_f64(tolerance), T::ZERO);
     }
     options
 }
 
 fn augmented<T: Real, const D: usize>(form: Form<T>, request: Request<'_, T, D>) -> Built<T, D> {
-    let Request { settings, model, solver, .. } = request;
-    let team = team(settings, solver.n_branches())?;
+    let Request { demands, model, solver, .. } = request;
+    let team = team(&demands, solver.n_branches())?;
     let solver = solver.with_team(team.clone());
     boxed(Augmented::new(model, form, solver, team))
 }
 
 fn classical<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
-    let Request { settings, model, .. } = request;
+    let Request { demands, model, .. } = request;
     let mut options = mbs_classical::Options {
-        integrator: settings.integrator.coefficients(),
+        integrator: demands.integrator.coefficients(),
         ..mbs_classical::Options::index3()
     };
-    if let Some(alpha) = settings.penalty {
+    if let Some(alpha) = demands.penalty {
         options.regularisation = Some(T::ONE / T::from_f64(alpha));
     }
-    if let Some(tolerance) = settings.tolerance {
+    if let Some(tolerance) = demands.tolerance {
         options.tolerance = T::from_f64(tolerance);
     }
     let saddle = mbs_classical::Saddle::new(model);
     let solver = Indefinite::analyse(&saddle, mbs_sparse::Options::default());
-    let team = team(settings, solver.n_branches())?;
+    let team = team(&demands, solver.n_branches())?;
     let solver = solver.with_team(team.clone());
     boxed(Classical::new(model, options, solver, team))
 }
 
 fn state_space<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
     let mut options = mbs_statespace::Options {
-        integrator: request.settings.integrator.coefficients(),
+        integrator: request.demands.integrator.coefficients(),
         ..mbs_statespace::Options::default()
     };
-    if let Some(tolerance) = request.settings.tolerance {
+    if let Some(tolerance) = request.demands.tolerance {
         options.tolerance = T::from_f64(tolerance);
     }
     boxed(StateSpace::new(request.model, options, request.state))
@@ -267,31 +277,31 @@ fn recursive<T: Real, const D: usize>(request: Request<'_, T, D>) -> Built<T, D>
 }
 
 fn tree<T: Real, S: Space<T>, const D: usize>(request: Request<'_, T, D>) -> Built<T, D> {
-    let Request { scene, settings, model: natural, state, .. } = request;
+    let Request { scene, demands, model: natural, state, .. } = request;
     let model = TreeModel::<T, S>::new(scene).map_err(StopError::tree)?;
     let start = model.start(scene, natural, state).map_err(|e| not_started(e, &model))?;
-    let method = (tree_options(scene, settings), tree_step(settings.integrator));
+    let method = (tree_options(&demands), tree_step(demands.integrator));
     boxed(Tree::new(scene, (model, start), method, (natural, state)))
 }
 
 /// Error of a step by extrapolation where none is given: 2e-10 in double precision, 5e-26 in pairs.
 pub(crate) const ROUNDINGS: f64 = 1e6;
 
-fn tree_options<T: Real>(scene: &Scene<T>, settings: &Settings) -> mbs_recursive::Options<T> {
-    let first_step = Some(settings.lengths(scene).step);
+fn tree_options<T: Real>(demands: &Demands<T>) -> mbs_recursive::Options<T> {
+    let first_step = Some(demands.step);
     let mut options = mbs_recursive::Options { first_step, ..mbs_recursive::Options::default() };
-    if !settings.integrator.is_of_first_order() {
-        options.integrator = settings.integrator.coefficients();
+    if !demands.integrator.is_of_first_order() {
+        options.integrator = demands.integrator.coefficients();
     }
-    if let Some(alpha) = settings.penalty {
+    if let Some(alpha) = demands.penalty {
         let alpha = T::from_f64(alpha);
         options.closure = Closure::Report { alpha, omega: T::from_f64(10.0), mu: T::ONE };
     }
-    if settings.integrator == IntegratorKind::Extrapolation {
+    if demands.integrator == IntegratorKind::Extrapolation {
         // Orders this high are chosen for digits.
         options.error = T::EPSILON * T::from_f64(ROUNDINGS);
     }
-    if let Some(tolerance) = settings.tolerance {
+    if let Some(tolerance) = demands.tolerance {
         options.tolerance = T::from_f64(tolerance);
         options.error = options.tolerance;
     }
@@ -333,7 +343,7 @@ fn boxed<T: Real, const D: usize>(
 }
 
 /// The threads that are asked for, up to the number of branches of a step: threads wait awake for their turn.
-fn team(settings: &Settings, branches: usize) -> Result<Threads, StopError> {
-    let n = settings.threads.min(most_threads()).min(branches.max(1));
+fn team<T>(demands: &Demands<T>, branches: usize) -> Result<Threads, StopError> {
+    let n = demands.threads.min(most_threads()).min(branches.max(1));
     Threads::new(n).map_err(|_| StopError::NoThreads(n))
 }

@@ -4,9 +4,9 @@
 //! lambda = -zeta omega_0 +- i omega_0 sqrt(1 - zeta^2):   omega_0 = |lambda|,  zeta = -Re lambda / |lambda|
 //! ```
 
+use crate::equilibrium::{Search, find_equilibrium, workspace};
 use crate::ready::AssembledScene;
-use crate::rest::{LeftOut, at_rest, left_out};
-use crate::statics::{Search, find_equilibrium, left_out_json, workspace};
+use crate::rest::{LeftOut, at_rest, left_out, left_out_json};
 use crate::stop::StopError;
 use core::f64::consts::TAU;
 use mbs_core::scene::{Dimension, Scene};

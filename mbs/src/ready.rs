@@ -1,11 +1,10 @@
 //! What every way to simulate a scene begins from.
 
+use crate::equilibrium::{Search, equilibrium_start};
 use crate::rest::without_rates;
-use crate::simulation;
-use crate::statics::{Search, equilibrium_start};
 use crate::stop::StopError;
 use crate::tilt;
-use mbs_core::model::Model;
+use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::Scene;
 use mbs_core::start::{Assembled, assemble};
@@ -66,8 +65,16 @@ impl<T: Real, const D: usize> AssembledScene<T, D> {
 
     /// Coordinates, constraints, and their rank at the start, which is found once.
     pub fn sizes(&mut self) -> [usize; 3] {
-        let Self { model, start, rank, .. } = self;
-        let rank = *rank.get_or_insert_with(|| simulation::rank(model, &start.state));
+        let Self { model, start, rank: known, .. } = self;
+        let rank = *known.get_or_insert_with(|| rank(model, &start.state));
         [model.n_unknowns(), model.n_constraints(), rank]
     }
+}
+
+/// Rank of the constraints at a state.
+pub fn rank<T: Real, const D: usize>(model: &NaturalModel<T, D>, state: &State<T>) -> usize {
+    let mut terms = model.terms();
+    model.set_inputs(state.t, state, &mut terms);
+    model.evaluate(&state.q, &mut terms);
+    mbs_core::start::constraint_rank(model, &terms)
 }

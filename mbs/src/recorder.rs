@@ -7,8 +7,8 @@ use crate::record::{
     Channel, ChannelSeries, ControlSummary, EnergySeries, IterationSeries, StepRow, StepSeries,
     ViolationSeries, ViolationSummary,
 };
-use crate::words::limit_names;
 use mbs_core::Real;
+use mbs_core::control::Limit;
 use mbs_core::real::DoubleDouble;
 use mbs_scene::format::full;
 
@@ -78,7 +78,7 @@ impl StepMark {
         tape.float(energy_change)?;
         tape.float(&mut step.penalty_energy)?;
         tape.option(&mut step.error_estimate, Tape::float)?;
-        tape.word_of(&mut step.limit, &limit_names())
+        tape.word_of(&mut step.limit, &Limit::ALL.map(Limit::name))
     }
 
     /// Bytes that one takes at least.

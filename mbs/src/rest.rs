@@ -3,6 +3,7 @@
 use mbs_core::Real;
 use mbs_core::inputs::GuideInput;
 use mbs_core::scene::{InitialTarget, Motion, Scene};
+use serde_json::{Value, json};
 
 /// What an analysis at rest leaves out of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -49,4 +50,9 @@ pub(crate) fn left_out<T: Real>(scene: &Scene<T>) -> Vec<LeftOut> {
         effect.kind.clone().rest(&mut leave);
     }
     all
+}
+
+/// As it stands in JSON.
+pub(crate) fn left_out_json(left_out: &[LeftOut]) -> Value {
+    left_out.iter().map(|l| json!({ "effect": l.effect, "part": l.part })).collect()
 }

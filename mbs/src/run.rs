@@ -1,5 +1,6 @@
 //! A whole run: from a scene to its summary, rows and page.
 
+mod clock;
 mod kept;
 mod outcome;
 mod paced;
@@ -18,11 +19,10 @@ use crate::simulation::Simulation;
 use crate::stop::StopError;
 use crate::words::{few_threads, notes, stop_text, summary_rows};
 use core::time::Duration;
-use kept::Kept;
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 pub(crate) use record::Columns;
-use record::Record;
+use record::{Kept, Record};
 use summary::{contact, energy_summary, not_started, plain_summary};
 
 pub use outcome::Outcome;

@@ -4,13 +4,10 @@ mod carry;
 
 use crate::checkpoint::{Kept, inputs};
 use crate::control::Control;
-use crate::driver::{StepObserver, Stretch, drive};
-use crate::interrupt::Interrupt;
-use crate::methods::Request;
+use crate::methods::{Demands, Request};
 use crate::ready::AssembledScene;
 use crate::settings::Settings;
 use crate::stop::StopError;
-use core::ops::ControlFlow;
 use mbs_core::Real;
 use mbs_core::control::{Accepted, Invariant, Limit, TrialStep};
 use mbs_core::effects::{Field, Value};
@@ -19,7 +16,7 @@ use mbs_core::model::{Model, Owner, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::scene::{EffectKind, Scene, Signal};
 use mbs_core::start::Assembled;
-use mbs_core::step::{InputError, Step, StepError, StepReport, largest};
+use mbs_core::step::{InputError, Step, StepError, largest};
 
 /// A scene ready to step, in D dimensions and scalar T.
 ///
@@ -57,7 +54,14 @@ impl<T: Real, const D: usize> Simulation<T, D> {
         let natural = (!settings.formulation.row().relative).then(|| ready.sizes());
         let AssembledScene { model, solver, start, .. } = ready;
         let mut state = start.state.clone();
-        let request = Request { scene, settings, model: &model, solver, state: &mut state };
+        let demands = Demands {
+            integrator: settings.integrator,
+            penalty: settings.penalty,
+            tolerance: settings.tolerance,
+            threads: settings.threads,
+            step: settings.lengths(scene).step,
+        };
+        let request = Request { scene, demands, model: &model, solver, state: &mut state };
         let formulation = settings.formulation.build(request)?;
         let sizes = formulation.sizes().or(natural).unwrap_or_default();
         let [kinetic, potential, _] = energies_at(&*formulation, &model, &state);
@@ -73,39 +77,7 @@ impl<T: Real, const D: usize> Simulation<T, D> {
     }
 }
 
-/// Adds the reports of steps.
-struct Sum<T>(StepReport<T>);
-
-impl<T: Real, const D: usize> StepObserver<T, D> for Sum<T> {
-    fn step(
-        &mut self,
-        _: &Simulation<T, D>,
-        accepted: &Accepted<T>,
-        _: bool,
-    ) -> Result<ControlFlow<()>, StopError> {
-        self.0.add(&accepted.attempt.report);
-        Ok(ControlFlow::Continue(()))
-    }
-}
-
 impl<T: Real, const D: usize> Simulation<T, D> {
-    /// Advances by `dt` [s]: one step, or as many as the control of the step size takes.
-    ///
-    /// # Errors
-    /// [`StopError`] with the joint or body; the state is then that after the last accepted step.
-    pub fn step(&mut self, dt: T) -> Result<StepReport<T>, StopError> {
-        let mut stretch = Stretch::to(self.state.t + dt);
-        if self.is_controlled() {
-            let step = Step { dt, length: self.model.length() }.checked();
-            step.map_err(|error| self.explain(error))?;
-        } else {
-            stretch = stretch.in_one(Some(dt));
-        }
-        let mut sum = Sum(StepReport { steps: 0, ..StepReport::default() });
-        drive(self, [stretch], &Interrupt::default(), &mut sum)?;
-        Ok(sum.0)
-    }
-
     /// Makes one step: of `rest` [s] where the length of steps is fixed, of at most that where it is controlled.
     ///
     /// # Errors
@@ -349,12 +321,4 @@ fn given<T: Real>(kind: &EffectKind<T>, length: f64) -> f64 {
 /// Length of a vector.
 fn size<T: Real>(x: [T; 3]) -> f64 {
     x.iter().map(|x| x.to_f64() * x.to_f64()).sum::<f64>().sqrt()
-}
-
-/// Rank of the constraints at a state.
-pub fn rank<T: Real, const D: usize>(model: &NaturalModel<T, D>, state: &State<T>) -> usize {
-    let mut terms = model.terms();
-    model.set_inputs(state.t, state, &mut terms);
-    model.evaluate(&state.q, &mut terms);
-    mbs_core::start::constraint_rank(model, &terms)
 }

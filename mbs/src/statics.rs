@@ -1,146 +1,20 @@
-//! Static equilibrium of a scene: as a start of a run, and told in joints, reactions and outputs.
+//! The static equilibrium of a scene in joints, reactions and outputs.
 
 use crate::channels::Channels;
+use crate::equilibrium::{Search, find_equilibrium, workspace};
 use crate::modes::{eigenvalues, neutral_directions};
-use crate::ready::AssembledScene;
+use crate::ready::{AssembledScene, rank};
 use crate::record::Channel;
-use crate::rest::{LeftOut, at_rest, left_out};
-use crate::simulation::rank;
+use crate::rest::{LeftOut, at_rest, left_out, left_out_json};
 use crate::stop::StopError;
+use mbs_core::Cliques;
 use mbs_core::algebra::{norm, rotation_vector};
 use mbs_core::model::{Model, State};
 use mbs_core::natural::NaturalModel;
 use mbs_core::rigid::RigidMotion;
-use mbs_core::scene::{Dimension, Joint, JointId, Output, Quantity, Scene, Start};
-use mbs_core::start::{Assembled, restart};
-use mbs_core::{Cliques, Real, SpdSolver};
-use mbs_linear::{
-    Equilibrium, Instant, LinearOptions, Options, Saddle, Workspace, equilibrium, equilibrium_near,
-    linearise,
-};
-use mbs_sparse::{Indefinite, Multifrontal};
+use mbs_core::scene::{Dimension, Joint, JointId, Output, Quantity, Scene};
+use mbs_linear::{Equilibrium, Instant, LinearOptions, linearise};
 use serde_json::{Map, Value, json};
-
-/// Scratch of a static or linear analysis of a model.
-pub(crate) fn workspace<T: Real, const D: usize>(
-    model: &NaturalModel<T, D>,
-) -> Workspace<T, Indefinite<T>> {
-    let solver = Indefinite::analyse(&Saddle::new(model), mbs_sparse::Options::default());
-    Workspace::new(model, solver)
-}
-
-/// How an equilibrium is sought.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Search {
-    /// Down from the start, to one that is stable.
-    #[default]
-    Down,
-    /// By Newton's method from the start, to the one nearby, stable or not.
-    Near,
-}
-
-impl Search {
-    /// How a scene with this start seeks its equilibrium; nothing where it starts from its initial conditions.
-    #[must_use]
-    pub fn of_start(start: Start) -> Option<Self> {
-        match start {
-            Start::Initial => None,
-            Start::Equilibrium => Some(Self::Down),
-            Start::EquilibriumNear => Some(Self::Near),
-        }
-    }
-
-    /// The start of a scene that seeks its equilibrium so.
-    #[must_use]
-    pub fn start(self) -> Start {
-        match self {
-            Self::Down => Start::Equilibrium,
-            Self::Near => Start::EquilibriumNear,
-        }
-    }
-}
-
-/// Moves a state to a static equilibrium, at rest and with guides at their values at the start. What only motion makes does not act:
-/// drives, drag, dry friction, and what a tire does when it rolls.
-///
-/// # Errors
-/// [`StopError::Equilibrium`]; positions are then unchanged.
-pub fn find_equilibrium<T: Real, const D: usize>(
-    scene: &Scene<T>,
-    model: &NaturalModel<T, D>,
-    search: Search,
-    state: &mut State<T>,
-) -> Result<Equilibrium<T>, StopError> {
-    let still = at_rest(scene);
-    if still == *scene {
-        return settle_model(model, search, state);
-    }
-    let quiet = NaturalModel::<T, D>::new(&still).map_err(|e| StopError::Start(e.into()))?;
-    let mut there = State::at_rest(&quiet);
-    there.t = state.t;
-    tell((scene, model), state, &quiet, &mut there);
-    let found = settle_model(&quiet, search, &mut there)?;
-    tell((&still, &quiet), &there, model, state);
-    Ok(found)
-}
-
-/// Tells a state of one model in another of the same bodies and joints.
-fn tell<T: Real, const D: usize>(
-    (scene, from): (&Scene<T>, &NaturalModel<T, D>),
-    state: &State<T>,
-    to: &NaturalModel<T, D>,
-    told: &mut State<T>,
-) {
-    let motions: Vec<_> = (0..scene.bodies.len()).map(|b| from.motion(scene, b, state)).collect();
-    to.take_motions(&motions, &mut to.terms(), told);
-}
-
-fn settle_model<T: Real, const D: usize>(
-    model: &NaturalModel<T, D>,
-    search: Search,
-    state: &mut State<T>,
-) -> Result<Equilibrium<T>, StopError> {
-    state.v.fill(T::ZERO);
-    let (options, mut workspace) = (Options::default(), workspace(model));
-    let found = match search {
-        Search::Down => equilibrium(model, &options, state, &mut workspace),
-        Search::Near => equilibrium_near(model, &options, state, &mut workspace),
-    };
-    found.map_err(|error| {
-        let n = model.n_unknowns();
-        StopError::equilibrium(
-            error,
-            n,
-            |u| model.owner_of_unknown(u),
-            |row| model.owner_of_row(row),
-        )
-        .or_law(model.codes())
-    })
-}
-
-/// Turns the start of a scene into one from its static equilibrium: positions settle from those assembled, with guides held;
-/// then velocities follow from the scene's initial ones, and accelerations. Initial positions only say where the search begins.
-///
-/// # Errors
-/// [`StopError`] when there is no equilibrium, or the initial velocities do not fit there.
-pub fn equilibrium_start<T: Real, const D: usize>(
-    scene: &Scene<T>,
-    model: &NaturalModel<T, D>,
-    search: Search,
-    solver: &mut impl SpdSolver<T>,
-    start: &mut Assembled<T>,
-) -> Result<Equilibrium<T>, StopError> {
-    let found = find_equilibrium(scene, model, search, &mut start.state)?;
-    let analyse = mbs_sparse::Options::default();
-    let state = &mut start.state;
-    let residual = restart(scene, model, |p| Multifrontal::analyse(p, analyse), solver, state);
-    start.residual = residual.map_err(|error| StopError::Start(error).or_law(model.codes()))?;
-    let mut reference = vec![T::ZERO; model.n_extended()];
-    model.write_reference(&mut reference);
-    let changes = reference.iter().zip(&start.state.q).map(|(&r, &q)| (q - r).abs());
-    start.change = changes.fold(T::ZERO, T::max);
-    Ok(found)
-}
 
 /// How far bodies are from where they started: a way or a turn at most, and which body's it is.
 #[derive(Debug, Clone, PartialEq)]
@@ -271,11 +145,6 @@ impl StaticEquilibrium {
             "outputs": object(&self.outputs),
         })
     }
-}
-
-/// As it stands in JSON.
-pub(crate) fn left_out_json(left_out: &[LeftOut]) -> Value {
-    left_out.iter().map(|l| json!({ "effect": l.effect, "part": l.part })).collect()
 }
 
 /// The longest way of a centre of mass, and the largest turn.

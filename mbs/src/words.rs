@@ -1,32 +1,15 @@
 //! What is said about a run: rows of a summary, notes, and when and why it stopped.
 
+pub use mbs_scene::format::{duration, few, size};
+
 use crate::choice::IntegratorKind;
 use crate::methods::ROUNDINGS;
 use crate::record::{Contact, ControlSummary, ErrorEstimate, RunError, RunSummary};
 use crate::settings::Settings;
 use mbs_core::Real;
-use mbs_core::control::Limit;
 use mbs_core::scene::{Body, BodyId, Inertia, Scene};
-pub use mbs_scene::format::{duration, few, size};
-use mbs_scene::format::{rounded, significant};
-
-/// What kept a step from being longer, as it stands in files.
-pub(crate) fn limit_name(limit: Limit) -> &'static str {
-    match limit {
-        Limit::Largest => "max",
-        Limit::Energy => "energy",
-        Limit::Error => "error",
-        Limit::Event => "event",
-        Limit::Contact => "contact",
-        Limit::Failure => "failure",
-    }
-}
-
-/// All of them.
-pub(crate) fn limit_names() -> [&'static str; 6] {
-    [Limit::Largest, Limit::Energy, Limit::Error, Limit::Event, Limit::Contact, Limit::Failure]
-        .map(limit_name)
-}
+use mbs_scene::format::rounded;
+use mbs_scene::format::significant;
 
 /// The summary table of a page.
 pub(crate) fn summary_rows(s: &RunSummary) -> Vec<(String, String)> {

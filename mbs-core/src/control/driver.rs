@@ -108,6 +108,25 @@ pub enum Limit {
     Failure,
 }
 
+impl Limit {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Largest, Self::Energy, Self::Error, Self::Event, Self::Contact, Self::Failure];
+
+    /// Its name in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Largest => "max",
+            Self::Energy => "energy",
+            Self::Error => "error",
+            Self::Event => "event",
+            Self::Contact => "contact",
+            Self::Failure => "failure",
+        }
+    }
+}
+
 /// A step that was accepted.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accepted<T> {

@@ -1,8 +1,9 @@
 //! What is wrong or doubtful with a scene, by names, with what would mend it.
 //!
-//! Rank, dependent sets, reactions and loops are looked at on the joint level ([`mbs_doctor`]), at the assembled start and at
+//! Rank, dependent sets, reactions and loops are looked at on the joint level ([`redundancy`](crate::redundancy)), at the assembled start and at
 //! positions of a run; what natural coordinates make of it, and which formulations take a step, is tried.
 
+mod basis;
 mod finding;
 mod json;
 mod masses;
@@ -14,6 +15,7 @@ mod sound;
 mod start;
 mod units;
 
+pub use basis::Effort;
 pub use finding::{Finding, Severity, Topic};
 pub use json::{labels, to_json};
 pub use methods::Attempt;
@@ -23,33 +25,14 @@ pub use start::Moved;
 use crate::redundancy::{
     Diagnosis, Drive, Linkage, Loop, Massless, Rank, diagnose, drives, loops, reference,
 };
-use mbs::Names;
+use basis::begin;
 use mbs::Settings;
-use mbs::StopError;
-use mbs::inside::AssembledScene;
 use mbs::inside::rank;
 use mbs::typed::Simulation;
 use mbs_core::Cliques;
-use mbs_core::model::{Model, State};
-use mbs_core::natural::NaturalModel;
+use mbs_core::model::Model;
 use mbs_core::rigid::RigidMotion;
 use mbs_core::scene::{Dimension, Scene};
-use mbs_core::start::Assembled;
-
-/// How much may be looked at.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Effort {
-    /// Positions along the motion. `0`: the motion is left out.
-    pub positions: u64,
-    /// Time for the motion [s]; what lies beyond it is said to be not looked at. `> 0`.
-    pub seconds: f64,
-}
-
-impl Default for Effort {
-    fn default() -> Self {
-        Self { positions: 400, seconds: 20.0 }
-    }
-}
 
 /// Everything the doctor found.
 #[derive(Debug, Clone)]
@@ -101,13 +84,6 @@ impl Checkup {
             None => self.joint_level.sizes[1] - self.joint_level.sizes[2],
         }
     }
-}
-
-/// A start: the model, its assembled state, and where the bodies are.
-struct Begun<const D: usize> {
-    model: NaturalModel<f64, D>,
-    start: Assembled<f64>,
-    poses: Vec<RigidMotion<f64>>,
 }
 
 /// Examines a checked scene.
@@ -181,22 +157,6 @@ fn in_space<const D: usize>(scene: &Scene<f64>, settings: &Settings, effort: &Ef
     }
 }
 
-/// Assembles, and settles where the scene asks for it.
-fn begin<const D: usize>(scene: &Scene<f64>) -> Result<Begun<D>, StopError> {
-    let AssembledScene { model, start, .. } = AssembledScene::new(scene)?;
-    let poses = places(scene, &model, &start.state);
-    Ok(Begun { model, start, poses })
-}
-
-/// Where the bodies are at a state.
-fn places<const D: usize>(
-    scene: &Scene<f64>,
-    model: &NaturalModel<f64, D>,
-    state: &State<f64>,
-) -> Vec<RigidMotion<f64>> {
-    (0..scene.bodies.len()).map(|b| model.motion(scene, b, state)).collect()
-}
-
 /// Components of the joints' reactions that are determined: all, but for what stands in a dependent set.
 fn unique(linkage: &Linkage, diagnosis: &Diagnosis) -> Vec<Vec<bool>> {
     let n = linkage.freedoms();
@@ -218,15 +178,4 @@ fn shares(linkage: &Linkage, poses: &[RigidMotion<f64>]) -> Vec<Drive> {
         rank.map_or(Vec::new(), |rank| drives(linkage, part, poses, &rank))
     };
     parts.flat_map(of).collect()
-}
-
-/// A failed start or run as words.
-fn stopped(scene: &Scene<f64>, error: &StopError, time: f64) -> (String, &'static str) {
-    let report = error.report(time, &Names::new(scene));
-    let whose = match (&report.joint, &report.body) {
-        (Some(joint), _) => format!(" (joint `{joint}`)"),
-        (None, Some(body)) => format!(" (body `{body}`)"),
-        (None, None) => String::new(),
-    };
-    (format!("{}{whose}", report.message), error.hint())
 }

@@ -8,8 +8,8 @@
 //! cubic through two samples before and two behind, these negated, meets the sample between them, κ passes zero, and the cubic
 //! says where. Else the least is that of the parabola through κ².
 
+use super::basis::{Effort, places, stopped};
 use super::finding::{Finding, Severity, Topic, joint_names};
-use super::{Effort, places, stopped};
 use crate::redundancy::{Linkage, Loop, Part, Poses, Rank, loops};
 use core::ops::ControlFlow;
 use mbs::Settings;

@@ -1,7 +1,7 @@
 //! The start: what did not fit before assembly, and how far it moved each body.
 
+use super::basis::{Begun, stopped};
 use super::finding::{Finding, Severity, Topic};
-use super::{Begun, stopped};
 use crate::redundancy::reference;
 use mbs::StopError;
 use mbs::inside::rank;

@@ -1,6 +1,6 @@
 //! What a scene could have and has not; and what no scene has.
 
-use crate::explain::MissingEffect;
+use super::explanation::MissingEffect;
 use mbs_core::Real;
 use mbs_core::effects::EFFECTS;
 use mbs_core::scene::{Dimension, EffectKind, Scene};

@@ -10,11 +10,13 @@ mod price;
 mod reach;
 mod simulated;
 mod timing;
+mod trials;
 
 pub use explanation::{
     ControllerStep, EffectCost, EffectCosts, EffectEntry, Explanation, GuideEntry, JointsByKind,
     LargestStep, MissingEffect, Relative, SearchEnd, Simulated, Sizes, ThinRod,
 };
+pub use trials::Effort;
 
 use mbs::Names;
 use mbs::PrecisionError;
@@ -27,23 +29,6 @@ use mbs::{InSpace, Plane};
 use mbs_core::Real;
 use mbs_core::scene::Scene;
 use mbs_scene::SceneFile;
-
-/// How much may be measured. A scene that asks for more is measured over a shorter part of its run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Effort {
-    /// Steps of a timed run at most. `≥ 1`.
-    pub timed_steps: u64,
-    /// How often each is timed, one after the other in turn. `≥ 2`, so that there is a spread.
-    pub repeats: u32,
-    /// Time for everything [s]; what no time is left for is said to be not measured. `> 0`.
-    pub seconds: f64,
-}
-
-impl Default for Effort {
-    fn default() -> Self {
-        Self { timed_steps: 2000, repeats: 5, seconds: 10.0 }
-    }
-}
 
 /// Explains a scene in the precision of its settings: as it was read in `f64`, or read anew from its document. Nothing in pairs of
 /// doubles: prices are those of numbers of the hardware.
@@ -132,31 +117,4 @@ fn effects<T: Real>(scene: &Scene<T>) -> Vec<EffectEntry> {
         enabled: effect.enabled,
     };
     scene.effects.iter().map(entry).collect()
-}
-
-/// The scene with some effects switched off.
-fn without<T: Real>(scene: &Scene<T>, effects: &[usize]) -> Scene<T> {
-    let mut scene = scene.clone();
-    for &i in effects {
-        scene.effects[i].enabled = false;
-    }
-    scene
-}
-
-/// The run of a scene as `mbs run` makes it, over another duration or with another step.
-fn outcome<T: Real, const D: usize>(
-    scene: &Scene<T>,
-    settings: &Settings,
-    (times_step, duration): (f64, f64),
-) -> mbs::Outcome
-where
-    Plane<D>: InSpace<T>,
-{
-    let settings = Settings {
-        step: settings.step * times_step,
-        step_max: settings.step_max * times_step,
-        duration,
-        ..settings.clone()
-    };
-    mbs::typed::run::<T, D>(scene, &settings, &mut ())
 }

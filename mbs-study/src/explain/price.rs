@@ -1,9 +1,9 @@
 //! Leave-one-out: the same run with and without an effect.
 
+use super::explanation::{EffectCost, EffectCosts};
 use super::reach::largest_step;
 use super::timing::{Times, count, interleaved, monitor, trial};
-use super::{Effort, outcome, without};
-use crate::explain::{EffectCost, EffectCosts};
+use super::trials::{Effort, outcome, without};
 use mbs::Outcome;
 use mbs::Settings;
 use mbs::inside::OutputRanges;

@@ -1,7 +1,7 @@
 //! The largest step with which a run completes, by doubling.
 
-use super::outcome;
-use crate::explain::{LargestStep, SearchEnd};
+use super::explanation::{LargestStep, SearchEnd};
+use super::trials::outcome;
 use mbs::Settings;
 use mbs::{InSpace, Plane};
 use mbs_core::Real;

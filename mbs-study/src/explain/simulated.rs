@@ -1,6 +1,6 @@
 //! What is simulated: bodies, joints, guides, and the sizes of the model in both kinds of coordinates.
 
-use crate::explain::{
+use super::explanation::{
     ControllerStep, GuideEntry, JointsByKind, Relative, Simulated, Sizes, ThinRod,
 };
 use mbs::FormulationKind;

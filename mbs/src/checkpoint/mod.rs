@@ -13,6 +13,7 @@ mod file;
 mod history;
 mod identity;
 mod keeping;
+mod kept;
 mod rows;
 mod simulation;
 pub(crate) mod tape;
@@ -23,8 +24,8 @@ pub use keeping::{FILE, Keeping};
 
 pub(crate) use file::{Kind, whole};
 pub(crate) use identity::Identity;
+pub(crate) use kept::{ControlKept, Kept, inputs};
 pub(crate) use rows::write_rows;
-pub(crate) use simulation::{ControlKept, Kept, inputs};
 
 #[cfg(doc)]
 use crate::typed::Simulation;

@@ -1,6 +1,6 @@
 //! The lock on a directory: a file in it, locked by the system, which lets go of it when the process ends, however it ends.
 
-use super::FolderError;
+use super::error::FolderError;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::Path;

@@ -4,19 +4,19 @@
 //! last, and has the sizes and checksums of the tables. A process that is killed before leaves the results as they were. One that is
 //! killed between two renames leaves a mixture, which [`Folder::mixed`] finds by the sums.
 
+mod error;
 mod lock;
 mod mixed;
 mod part;
 
+pub use error::FolderError;
 pub use part::{Part, WriteError, write_file};
 
 #[doc(hidden)]
 pub use part::write_whole;
 
 use crate::fingerprint::Fingerprint;
-use core::fmt::{self, Display, Formatter};
 use std::fs::{self, File};
-use std::io;
 use std::path::{Path, PathBuf};
 
 /// Where results are written before they are whole.
@@ -41,20 +41,6 @@ pub struct Folder {
     /// Directories that were made for it, the deepest first.
     made: Vec<PathBuf>,
     lock: Option<File>,
-}
-
-/// A directory that results cannot be written into.
-#[derive(Debug)]
-#[non_exhaustive]
-pub enum FolderError {
-    /// Another process writes there; its number, where it can be read.
-    Busy(Option<u32>),
-    /// A directory stands where a file of the results goes.
-    Taken(PathBuf),
-    /// A file stands where the directory should be.
-    IsFile,
-    /// It cannot be made or written.
-    Io(io::Error),
 }
 
 impl Folder {
@@ -102,41 +88,6 @@ impl Drop for Folder {
                 return;
             }
         }
-    }
-}
-
-impl Display for FolderError {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Busy(Some(process)) => write!(f, "it is being written by process {process}"),
-            Self::Busy(None) => write!(f, "it is being written by another process"),
-            Self::Taken(path) => write!(f, "`{}` is a directory", path.display()),
-            Self::IsFile => write!(f, "that is a file"),
-            Self::Io(error) => write!(f, "{error}"),
-        }
-    }
-}
-
-impl FolderError {
-    /// What to do about it.
-    #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
-            Self::Busy(_) => "wait for it, or give another directory with --out",
-            Self::Taken(_) => {
-                "a file of the results goes there: give another directory with --out, or remove it"
-            }
-            Self::IsFile => "results are several files: give a directory with --out",
-            Self::Io(_) => "give a directory that can be made or written with --out",
-        }
-    }
-}
-
-impl core::error::Error for FolderError {}
-
-impl From<io::Error> for FolderError {
-    fn from(error: io::Error) -> Self {
-        Self::Io(error)
     }
 }
 

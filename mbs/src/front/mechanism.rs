@@ -33,7 +33,7 @@ use std::sync::Arc;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Mechanism {
-    scene: Scene<Number>,
+    pub(super) scene: Scene<Number>,
     /// The file that says the same, or said so before the last change by handle.
     file: Option<SceneFile>,
     is_changed: bool,
@@ -178,7 +178,7 @@ impl Mechanism {
 
     /// Adds a body, joint, initial condition, guide, effect or output and returns its handle. A part without a name is `body-1`, ...
     pub fn add<P: Part>(&mut self, part: P) -> P::Id {
-        P::Id::new(part.add_to(self))
+        P::Id::new(part.add_to(self.scene_mut()))
     }
 
     /// Adds an output that is code: a column of runs, and read by [`Simulation::function`](crate::Simulation::function). It lives beside the
@@ -319,23 +319,10 @@ impl Mechanism {
         Ok(())
     }
 
-    /// The scene in decimal numbers.
-    pub(crate) fn scene(&self) -> &Scene<Number> {
-        &self.scene
-    }
-
     /// The scene, to change it.
     pub(crate) fn scene_mut(&mut self) -> &mut Scene<Number> {
         self.is_changed = true;
         &mut self.scene
-    }
-
-    /// A name that no part of a kind has: its word and the next number.
-    pub(super) fn free_name<I: Id>(&self) -> String {
-        let parts = I::parts(&self.scene);
-        let is_free = |name: &String| !parts.iter().any(|p| I::name(p, &self.scene) == name);
-        let mut names = (parts.len() + 1..).map(|n| format!("{}-{n}", I::WORD));
-        names.find(is_free).unwrap_or_default()
     }
 
     /// The scene file of this mechanism as it is now.

@@ -1,12 +1,12 @@
 //! Parts of a mechanism and their handles.
 
-use super::{Body, Effect, Guide, InitialCondition, Joint, Mechanism, Output};
+use super::{Body, Effect, Guide, InitialCondition, Joint, Output};
 use mbs_core::scene::{
     BodyId, EffectId, GuideId, InitialId, InitialTarget, JointId, Number, OutputId, Scene,
     StartedJoint,
 };
 
-/// What [`Mechanism::add`] takes: a body, joint, initial condition, guide, effect or output.
+/// What [`Mechanism::add`](crate::Mechanism::add) takes: a body, joint, initial condition, guide, effect or output.
 pub trait Part: sealed::Part {
     /// The handle of such a part.
     type Id: Id;
@@ -16,11 +16,10 @@ pub trait Part: sealed::Part {
 pub trait Id: Copy + sealed::Id {}
 
 pub(super) mod sealed {
-    use super::super::Mechanism;
     use mbs_core::scene::{Number, Scene};
 
     pub trait Part: Sized {
-        fn add_to(self, mechanism: &mut Mechanism) -> usize;
+        fn add_to(self, scene: &mut Scene<Number>) -> usize;
     }
 
     pub trait Id: Sized {
@@ -44,12 +43,12 @@ macro_rules! part {
         impl Id for $id {}
 
         impl sealed::Part for $part {
-            fn add_to(mut self, mechanism: &mut Mechanism) -> usize {
-                if <$id as sealed::Id>::name(&self, mechanism.scene()).is_empty() {
+            fn add_to(mut self, scene: &mut Scene<Number>) -> usize {
+                if <$id as sealed::Id>::name(&self, scene).is_empty() {
                     let set_name: fn(&mut $part, String) = $set_name;
-                    set_name(&mut self, mechanism.free_name::<$id>());
+                    set_name(&mut self, free_name::<$id>(scene));
                 }
-                let list = &mut mechanism.scene_mut().$list;
+                let list = &mut scene.$list;
                 list.push(self);
                 list.len() - 1
             }
@@ -104,6 +103,14 @@ part!(
     |id| Some(id.index())
 );
 
+/// A name that no part of a kind has: its word and the next number.
+fn free_name<I: Id>(scene: &Scene<Number>) -> String {
+    let parts = I::parts(scene);
+    let is_free = |name: &String| !parts.iter().any(|p| I::name(p, scene) == name);
+    let mut names = (parts.len() + 1..).map(|n| format!("{}-{n}", I::WORD));
+    names.find(is_free).unwrap_or_default()
+}
+
 fn of_joint(id: JointId, scene: &Scene<Number>) -> &str {
     scene.joints.get(id.index()).map_or("", |joint| &joint.name)
 }
@@ -120,12 +127,12 @@ impl Part for StartedJoint {
 }
 
 impl sealed::Part for StartedJoint {
-    fn add_to(self, mechanism: &mut Mechanism) -> usize {
+    fn add_to(self, scene: &mut Scene<Number>) -> usize {
         let Self { joint, value, rate } = self;
-        let index = sealed::Part::add_to(joint, mechanism);
+        let index = sealed::Part::add_to(joint, scene);
         let (value, rate) = (Some(vec![value]), Some(vec![rate]));
         let initial = InitialCondition::joint(JointId::new(index), value, rate);
-        sealed::Part::add_to(initial, mechanism);
+        sealed::Part::add_to(initial, scene);
         index
     }
 }

@@ -54,6 +54,12 @@ impl Clone for Simulation {
     }
 }
 
+impl<'a> From<&'a Simulation> for View<'a> {
+    fn from(simulation: &'a Simulation) -> Self {
+        simulation.view()
+    }
+}
+
 impl Simulation {
     pub(super) fn of(
         inner: Box<dyn Inner>,

@@ -4,7 +4,6 @@ use super::failure::SimulationError;
 use super::inputs::{InputId, InputInfo, InputOwner, Inputs, Sink};
 use super::readings::Readings;
 use super::seen::{Read, Seen};
-use super::simulation::Simulation as Front;
 use super::values::StepReport;
 use crate::names::Names;
 use crate::simulation::Simulation;
@@ -35,12 +34,6 @@ impl<'a> View<'a> {
 
     pub(super) fn stopped(&self, error: StopError) -> SimulationError {
         SimulationError::stopped(error, self.time(), self.names)
-    }
-}
-
-impl<'a> From<&'a Front> for View<'a> {
-    fn from(simulation: &'a Front) -> Self {
-        simulation.view()
     }
 }
 

@@ -1,76 +1,14 @@
 //! A run that is kept while it goes, and one that goes on from where it was kept.
 
 use super::Run;
-use super::record::{Counts, Record};
+use super::record::{Counts, Kept, Record};
 use crate::checkpoint::tape::{Tape, Told, holds};
-use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Keeping, Kind, whole};
+use crate::checkpoint::{Checkpoint, CheckpointError, Identity, Kind, whole};
 use crate::record::ControlSummary;
 use crate::simulation::Simulation;
 use core::time::Duration;
-use cpu_time::{ProcessTime, ThreadTime};
 use mbs_core::Real;
 use mbs_core::outputs::{Instant, MOST_INSTANTS};
-
-/// How a run is kept, and what it belongs to.
-#[derive(Debug)]
-pub(super) struct Kept<'a> {
-    pub(super) keeping: &'a mut Keeping,
-    pub(super) identity: Identity,
-}
-
-/// CPU time of the steps, over all starts of a run.
-#[derive(Debug)]
-pub(super) struct Clock {
-    begun: Begun,
-    /// Of earlier starts.
-    before: Duration,
-    /// Of writing.
-    apart: Duration,
-}
-
-/// When it was begun, by a clock that runs for those who share the steps and for nobody else: runs side by side in a process count each
-/// time once.
-#[derive(Debug, Clone, Copy)]
-enum Begun {
-    Thread(ThreadTime),
-    Process(ProcessTime),
-}
-
-impl Begun {
-    fn now(is_alone: bool) -> Self {
-        if is_alone { Self::Thread(ThreadTime::now()) } else { Self::Process(ProcessTime::now()) }
-    }
-
-    fn elapsed(&self) -> Duration {
-        match self {
-            Self::Thread(begun) => begun.elapsed(),
-            Self::Process(begun) => begun.elapsed(),
-        }
-    }
-}
-
-impl Clock {
-    /// Begins now, after nothing; so many threads share the steps.
-    pub(super) fn new(threads: usize) -> Self {
-        Self { begun: Begun::now(threads == 1), before: Duration::ZERO, apart: Duration::ZERO }
-    }
-
-    /// Begins now, after what was before.
-    pub(super) fn begin(&mut self) {
-        let is_alone = matches!(self.begun, Begun::Thread(_));
-        (self.begun, self.apart) = (Begun::now(is_alone), Duration::ZERO);
-    }
-
-    /// The time so far.
-    pub(super) fn get(&self) -> Duration {
-        (self.before + self.begun.elapsed()).saturating_sub(self.apart)
-    }
-
-    /// Takes off what was done since `get` told this.
-    fn take_off(&mut self, since: Duration) {
-        self.apart += self.get().saturating_sub(since);
-    }
-}
 
 impl<T: Real, const D: usize> Run<'_, T, D> {
     /// Goes on from a checkpoint. On an error the run is of no use any more.

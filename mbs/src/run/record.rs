@@ -1,8 +1,9 @@
 //! What a run records of its steps: rows, maxima, counts, contacts, and the alarms that end it.
 
-use super::kept::{Clock, Kept};
+use super::clock::Clock;
 use crate::alarm::Alarm;
 use crate::channels::Channels;
+use crate::checkpoint::{Identity, Keeping};
 use crate::driver::StepObserver;
 use crate::figure::Figure;
 use crate::friction::Frictions;
@@ -11,7 +12,6 @@ use crate::recorder::{Keep, Recorder, StepMark};
 use crate::settings::{Lengths, Settings};
 use crate::simulation::Simulation;
 use crate::stop::StopError;
-use crate::words::limit_name;
 use core::ops::ControlFlow;
 use core::time::Duration;
 use mbs_core::Real;
@@ -208,7 +208,7 @@ impl<'a, T: Real, const D: usize> Record<'a, T, D> {
                 energy_change: accepted.change,
                 penalty_energy: report.penalty_energy.to_f64(),
                 error_estimate: self.settings.rule.has_error().then_some(accepted.attempt.error),
-                limit: is_controlled.then(|| limit_name(accepted.limit)),
+                limit: is_controlled.then(|| accepted.limit.name()),
             },
         };
         self.recorder.mark(&self.mark);
@@ -263,4 +263,11 @@ impl<T: Real, const D: usize> StepObserver<T, D> for Record<'_, T, D> {
             let _ = self.row(now, true);
         }
     }
+}
+
+/// How a run is kept, and what it belongs to.
+#[derive(Debug)]
+pub(super) struct Kept<'a> {
+    pub(super) keeping: &'a mut Keeping,
+    pub(super) identity: Identity,
 }

@@ -11,7 +11,7 @@
 //!
 //! v = B w with B of the present position; v̇ = B ẇ + b, efforts go by the transposes. All other joints are in the same sense either way.
 
-use super::{TreeError, TreeErrorKind, TreeRange};
+use super::{TreeError, TreeErrorKind};
 use mbs_core::algebra::{Matrix, Vector, cross};
 use mbs_core::scene::Scene;
 use mbs_recursive::space::{Numbers, Space};
@@ -323,4 +323,14 @@ fn invert(from: &[f64], is_reversed: bool, to: &mut [f64]) {
     if is_reversed {
         to[usize::from(from.len() == 4)..].iter_mut().for_each(|x| *x = -*x);
     }
+}
+
+/// Where the numbers of a joint stand.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct TreeRange {
+    /// In the coordinates.
+    pub q: Range<usize>,
+    /// In the velocities, accelerations and efforts.
+    pub v: Range<usize>,
 }

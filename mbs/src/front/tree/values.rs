@@ -3,7 +3,7 @@
 use super::layout::Layout;
 use crate::front::values::PointMotion;
 use mbs_core::algebra::Vector;
-use std::ops::{Index, Range};
+use std::ops::Index;
 
 /// A dense matrix, row by row.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -49,16 +49,6 @@ impl Index<(usize, usize)> for Matrix {
     fn index(&self, (i, j): (usize, usize)) -> &f64 {
         &self.row(i)[j]
     }
-}
-
-/// Where the numbers of a joint stand.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct TreeRange {
-    /// In the coordinates.
-    pub q: Range<usize>,
-    /// In the velocities, accelerations and efforts.
-    pub v: Range<usize>,
 }
 
 impl PointMotion {
