@@ -107,7 +107,7 @@ impl core::fmt::Display for RefinementError {
 
 impl core::error::Error for RefinementError {}
 
-/// Corrections that give all digits of a double-double as long as each leaves less than half of the error before it.
+/// Corrections that give all digits of a double-double [-] where each leaves less than half of the error before it.
 pub const ALL: u32 = 100;
 
 impl<T: Real, S: SpdSolver<f64>> Refined<T, S> {

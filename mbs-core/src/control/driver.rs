@@ -6,17 +6,17 @@ use crate::Real;
 use crate::ode::StepControl;
 use crate::step::{StepError, StepReport};
 
-/// A step that failed is tried again at this share of its length.
+/// Factor on the length of a step that failed, for its next trial [-]. Chosen, not tuned.
 const AFTER_FAILURE: f64 = 0.25;
-/// A step is never shorter than this share of the largest.
+/// Shortest step, relative to the largest [-]. Chosen, not tuned: [`MOST_TRIALS`] ends a run whose average step is a hundred-thousandth.
 const SMALLEST: f64 = 1e-10;
-/// And not shorter than so many roundings of the time.
+/// Shortest step, in units of rounding of the time [-]: the clock then measures it to a sixteenth.
 const TIME_ROUNDINGS: f64 = 16.0;
-/// Trials within a stretch of the largest step, at most: a run whose steps are shorter than this on average would not end.
+/// Most trials within a length of time equal to the largest step [-]. A run with shorter steps on average would not end. Chosen, not tuned.
 const MOST_TRIALS: u32 = 100_000;
-/// Re-solves of a step that shall end at an event.
+/// Most repetitions of a step that shall end at an event [-]: two or three are usual, the rest is reserve.
 const MOST_LANDINGS: u32 = 12;
-/// Growth of the step where no rule says anything.
+/// Growth of the step where no rule limits it [-]. Chosen, not tuned: the largest step limits what follows.
 const FREE: f64 = 2.0;
 
 /// What a driver steps: a mechanism with a formulation and a state that can be put back.

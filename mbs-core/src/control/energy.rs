@@ -27,14 +27,16 @@ pub struct EnergyRule {
     pub is_printed: bool,
 }
 
-/// Bounds of the factor after a rejected step, in the printed form after a small change, and else.
+/// Bounds of the factor on a rejected step [-]: its repetition is shorter by a fifth at least, to a fifth at most. Chosen, not tuned.
 const REJECTED: [f64; 2] = [0.2, 0.8];
+/// Bounds of the factor after small changes in the published form [-]: the step at most doubles. Chosen, not tuned.
 const ENLARGED: [f64; 2] = [1.0, 2.0];
+/// Bounds of the factor on a step that is kept [-]: narrow, since one small change may be a passage through zero. Chosen, not tuned.
 const STEERED: [f64; 2] = [0.5, 1.2];
-/// What is remembered of a change in the next step.
+/// Factor by which a remembered change fades in a step [-]: half of it is left after four steps, in which e may pass through zero.
 const MEMORY: f64 = 0.85;
-/// In the printed form, small changes in a row after which the step grows: one may be a passage through zero.
-const CALM: u32 = 2;
+/// Small changes in a row after which the step grows in the published form [-]: one alone may be a passage through zero.
+const SMALL_CHANGES: u32 = 2;
 
 impl Default for EnergyRule {
     /// U = 1e-5, L = 1e-7, safety 0.8, exponent 1/3: the change in a step goes with its cube.
@@ -86,7 +88,7 @@ impl Steering {
         if is_printed {
             self.small = if e < lower { self.small + 1 } else { 0 };
             let wish = libm::pow(safety * upper / e, exponent);
-            return Ok(if self.small >= CALM { within(ENLARGED, wish) } else { 1.0 });
+            return Ok(if self.small >= SMALL_CHANGES { within(ENLARGED, wish) } else { 1.0 });
         }
         let remembered = e.max(MEMORY * self.memory).max(f64::MIN_POSITIVE);
         let factor = within(STEERED, libm::pow(libm::sqrt(upper * lower) / remembered, exponent));

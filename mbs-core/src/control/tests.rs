@@ -5,6 +5,7 @@ use super::*;
 use crate::integrator::Integrator;
 use crate::step::{StepError, StepReport};
 
+/// Acceleration of gravity [m/s²].
 const G: f64 = 9.81;
 
 /// Angle and rate, stepped by the trapezoidal rule; fails above `fails_from` if that is set, and has an event at `event`.

@@ -8,15 +8,15 @@ use super::front::column;
 use crate::Real;
 use core::ops::Range;
 
-/// Most pivots in a panel.
-const MOST: usize = 6;
+/// Most pivots in a panel [-]: the columns after it are read and written once for all of them. Chosen, not tuned.
+const MAX_PIVOTS: usize = 6;
 
 /// Neighbouring pivots of one unknown each.
 #[derive(Debug)]
 pub(super) struct Panel<T> {
     /// Place of the first.
     start: usize,
-    pivots: [T; MOST],
+    pivots: [T; MAX_PIVOTS],
     len: usize,
 }
 
@@ -29,7 +29,7 @@ impl<T: Real> Default for Panel<T> {
 impl<T: Real> Panel<T> {
     /// No pivots; the first will be at place `start`.
     pub(super) fn starting_at(start: usize) -> Self {
-        Self { start, pivots: [T::ZERO; MOST], len: 0 }
+        Self { start, pivots: [T::ZERO; MAX_PIVOTS], len: 0 }
     }
 
     /// The pivot at the next place.
@@ -39,7 +39,7 @@ impl<T: Real> Panel<T> {
     }
 
     pub(super) fn is_full(&self) -> bool {
-        self.len == MOST
+        self.len == MAX_PIVOTS
     }
 
     /// Tells `columns`, all after the panel, of its pivots.
@@ -52,7 +52,7 @@ impl<T: Real> Panel<T> {
             3 => self.apply_sized::<3>(a, f, columns),
             4 => self.apply_sized::<4>(a, f, columns),
             5 => self.apply_sized::<5>(a, f, columns),
-            _ => self.apply_sized::<MOST>(a, f, columns),
+            _ => self.apply_sized::<MAX_PIVOTS>(a, f, columns),
         }
     }
 

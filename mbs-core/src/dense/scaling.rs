@@ -11,7 +11,7 @@
 use crate::Real;
 use crate::team::{Team, on_stretches};
 
-/// Rounds of the scaling; each takes the square root of what is left of the spread.
+/// Rounds of the scaling [-]; each takes the square root of the remaining spread, so that three bring 1e8 to 10.
 const ROUNDS: u32 = 3;
 
 /// Finds `scale` (n places) for a matrix with this `diagonal`; `rows` (n places) is scratch. `measure` is given a scale, and writes

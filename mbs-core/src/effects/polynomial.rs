@@ -14,7 +14,7 @@ use crate::laws::operations::Operations;
 use crate::laws::scalar::{Measure, TensionLaw};
 use crate::laws::{Part, Supplies};
 
-/// Largest number of coefficients of a piece: degree 7.
+/// Most coefficients of a piece: degree 7.
 pub const MAX_COEFFICIENTS: usize = 8;
 
 /// A polynomial about the middle of the range in which it holds.
@@ -105,7 +105,7 @@ pub fn value<T: Real>(pieces: &[Piece<T>], x: T) -> (T, T) {
     find(pieces, x).map_or((T::ZERO, T::ZERO), |piece| piece.value(x))
 }
 
-/// Steps of value or slope between two pieces that are none, beside those of the pieces [-].
+/// Largest jump of value or slope between two pieces that counts as none, relative to the pieces' own [-]: files state six digits.
 const LEVEL: f64 = 1e-6;
 
 /// Hands out the places between pieces where value or slope jump.

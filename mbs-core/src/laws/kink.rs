@@ -42,8 +42,8 @@ impl<T: Real> Kink<T> {
     }
 }
 
-/// Jumps below this are none: of the slope [-] and the curvature [1/m].
-const LEVEL: f64 = 1e-6;
+/// Largest jump that counts as none, of the slope [-] and the curvature [1/m]. Chosen, not tuned.
+const MAX_JUMP: f64 = 1e-6;
 
 /// Hands out the places where slope or curvature of a road jump, feature by feature.
 ///
@@ -65,7 +65,7 @@ fn of_place<T: Real>(
     // Both sides, a little more than rounding away.
     let aside = T::EPSILON * T::from_f64(8.0) * (T::ONE + place.abs());
     let [left, right] = [place - aside, place + aside].map(|x| road::height(road, supplies, x));
-    let level = T::from_f64(LEVEL);
+    let level = T::from_f64(MAX_JUMP);
     let bent = (right.curvature - left.curvature).abs() > level;
     let smooth = (left.curvature.abs() + right.curvature.abs()) * aside;
     let turn = right.slope - left.slope;

@@ -118,8 +118,8 @@ impl<T: Real> Feature<T> {
     }
 }
 
-/// Change of slope at the end of a table that is no hollow [-].
-const LEVEL: f64 = 1e-6;
+/// Largest slope at the end of a table that makes no hollow with the level road beyond it [-]. Chosen, not tuned.
+const LEVEL_SLOPE: f64 = 1e-6;
 
 /// The largest curvature of the knots about a range; where the table rises from its end there, a bound that none exceeds.
 fn spline_hollow<T: Real>(table: &[[T; 2]], curvatures: &[T], [lower, upper]: [T; 2]) -> Option<T> {
@@ -128,7 +128,7 @@ fn spline_hollow<T: Real>(table: &[[T; 2]], curvatures: &[T], [lower, upper]: [T
         return None;
     }
     let rise = |x| guide::spline(table, curvatures, x).rate;
-    let kink = T::from_f64(LEVEL);
+    let kink = T::from_f64(LEVEL_SLOPE);
     if (first >= lower && rise(first) > kink) || (last <= upper && rise(last) < -kink) {
         return Some(T::ONE / T::EPSILON);
     }

@@ -56,7 +56,8 @@ pub const fn most_heights<T: Real>() -> usize {
     1 + steps::<T>() + 1 + CELLS as usize + 2 * steps::<T>()
 }
 
-/// Cells into which the reach of a centre is divided where one search does not suffice.
+/// Cells that the reach of a centre is divided into where one search does not suffice [-]. A second minimum inside one, an eighth of
+/// the distance wide, may be missed; each costs a height. Chosen, not tuned.
 pub const CELLS: u32 = 16;
 
 /// The nearest point to (x, z) [m]. Cost: one height where the road is level within the centre's height above it, a few on
@@ -88,9 +89,11 @@ impl<T: Real> RoadContact<T> {
     /// How the normal turns as the centre moves along the road by its tangent (normal_up, -normal_x) [1/m]. In a hollow it
     /// grows without bound where the centre comes to the centre of curvature; it is cut off at a hundred times h''.
     pub fn turn(&self) -> T {
+        /// Least distance to the centre of curvature, relative to its radius [-]. Chosen, not tuned.
+        const LEAST_DISTANCE: f64 = 0.01;
         let up = self.normal[1];
         let kappa = self.bend * up * up * up;
-        -kappa / (T::ONE - kappa * self.distance).max(T::from_f64(0.01))
+        -kappa / (T::ONE - kappa * self.distance).max(T::from_f64(LEAST_DISTANCE))
     }
 }
 
@@ -160,9 +163,11 @@ impl<T: Real> Search<'_, T> {
 
     /// D'', or that of a straight road where D'' may vanish.
     fn pivot(&self, height: &Height<T>) -> T {
+        /// Least D'', relative to that of a straight road [-]: steps are at most ten times as long. Chosen, not tuned.
+        const LEAST_PIVOT: f64 = 0.1;
         let steep = T::ONE + height.slope * height.slope;
         let full = steep - (self.center[1] - height.value) * height.curvature;
-        if full > steep * T::from_f64(0.1) { full } else { steep }
+        if full > steep * T::from_f64(LEAST_PIVOT) { full } else { steep }
     }
 
     /// The nearest of all minima that cells within `distance` show, `best` among them.

@@ -41,7 +41,7 @@ use super::{Part, Supplies};
 use crate::Real;
 use crate::algebra::{Vector, cross, norm};
 
-/// v_s: speed below which slip is regularised [m/s].
+/// Speed v_s below which slip is regularised [m/s]. Chosen, not tuned.
 pub const STANDSTILL: f64 = 0.1;
 
 /// A wheel.
@@ -101,13 +101,19 @@ struct Stance<T> {
     row: [Vector<T, 3>; 2],
 }
 
-/// Least cosine of the camber that counts.
+/// Least cosine of the camber [-]: beyond 84° the stretch 1 / cos g would grow without bound. Chosen, not tuned.
 const LEAST_COSINE: f64 = 0.1;
 
-/// Places of a tire's actions.
+/// Least sine of the angle between axis and normal [-], below which the wheel has no direction. Chosen, not tuned.
+const LEAST_WIDTH: f64 = 1e-6;
+
+/// Place of the radial force among a tire's unit wrenches.
 pub const RADIAL: usize = 0;
+/// Place of the rolling resistance.
 const ROLLING: usize = 1;
+/// Place of the side force.
 const SIDE: usize = 2;
+/// Place of the aligning torque.
 const ALIGNING: usize = 3;
 
 /// What slides has at least the slope of the secant where an iteration went across rest: by the tangents alone, which fall to nothing where
@@ -193,7 +199,7 @@ impl<T: Real> TireLaw<T> {
         let flat = axis - normal * lean;
         let width = norm(&flat);
         // A wheel that lies on its side has no direction: nothing but the radial force acts.
-        if !(width > T::from_f64(1e-6)) {
+        if !(width > T::from_f64(LEAST_WIDTH)) {
             return;
         }
         let across = flat * (T::ONE / width);

@@ -68,7 +68,7 @@ struct Layout<T: Real, const D: usize> {
     masses: Vec<(Span, Span)>,
 }
 
-/// Bodies alike share their mass with one of so many different ones before: what a chain reads stays in the cache.
+/// Different masses among which an equal one is searched [-]: what a chain reads stays in the cache. Chosen, not tuned.
 const RECENT: usize = 16;
 
 /// Where a combination's columns are in the group at hand.

@@ -5,13 +5,13 @@ use crate::algebra::Vector;
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
-/// Places that are looked at one by one; beyond, they are sorted into cells.
-const FEW: usize = 16;
+/// Most places that are compared one by one [-]; more are sorted into cells. Chosen, not tuned: the result is the same.
+const MAX_UNSORTED: usize = 16;
 
 /// Numbers of places that the caller knows, by where they are.
 #[derive(Debug, Clone)]
 pub(super) struct Near {
-    /// The first [`FEW`], in order.
+    /// The first [`MAX_UNSORTED`], in order.
     few: Vec<usize>,
     /// All of them by cell, each in order, once there are more.
     cells: BTreeMap<[i64; 3], Vec<usize>>,
@@ -32,7 +32,7 @@ impl Near {
         same: impl Fn(usize) -> bool,
         place: impl Fn(usize) -> Vector<T, 3>,
     ) -> Option<usize> {
-        if self.few.len() < FEW {
+        if self.few.len() < MAX_UNSORTED {
             return self.few.iter().copied().find(|&i| same(i));
         }
         if self.cells.is_empty() {
@@ -59,7 +59,7 @@ impl Near {
 
     /// Adds a number, larger than those before, and its place.
     pub(super) fn push<T: Real>(&mut self, i: usize, at: &Vector<T, 3>) {
-        if self.few.len() < FEW {
+        if self.few.len() < MAX_UNSORTED {
             self.few.push(i);
         } else {
             self.sort_in(i, at);
@@ -81,6 +81,7 @@ impl Near {
 mod tests {
     use super::*;
 
+    /// Distance that counts as near [m].
     const TOLERANCE: f64 = 1e-9;
 
     #[test]

@@ -46,8 +46,9 @@ fn witch_error(t: f64, y: &[f64; 2]) -> f64 {
     (y[0] - 1.0 / (1.0 + t * t)).abs()
 }
 
-/// Starts of the two problems.
+/// Start of the oscillator: cosine and its rate.
 const OSCILLATOR: [f64; 2] = [1.0, 0.0];
+/// Start of the curve 1 / (1 + t²): its value, and the time.
 const WITCH: [f64; 2] = [1.0, 0.0];
 
 /// At these steps the terms of the next order change the ratio of errors by less than this share.

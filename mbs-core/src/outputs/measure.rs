@@ -12,7 +12,7 @@ use crate::step::StepError;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// The part of all turns that positions and rates may differ by before an angle is no longer known: that of the trapezoidal rule at half a
+/// Largest relative difference of all turns by positions and by rates for which an angle is known [-]: that of the trapezoidal rule at half a
 /// radian a step.
 const MISFIT: f64 = 2e-2;
 

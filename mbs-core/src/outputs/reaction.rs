@@ -23,7 +23,7 @@ use crate::scene::{BodyId, Scene};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Wrench components that one dense elimination takes: 0.17 s for each state, measured on a ring of 199 planar bodies.
+/// Most wrench components of one dense elimination [-]: 0.17 s for each state, measured on a ring of 199 planar bodies.
 pub const LARGEST_BLOCK: usize = 400;
 
 /// The reactions of all joints of a scene at a state.

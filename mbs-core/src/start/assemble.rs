@@ -34,14 +34,17 @@ pub struct Assembled<T> {
     pub stages: u32,
 }
 
-/// Sweeps allowed at each level and stage.
+/// Most sweeps at each level and stage [-]. Chosen, not tuned.
 pub(super) const MAX_SWEEPS: u32 = 60;
-/// Factor on all penalties after a slow sweep: long chains of light links hardly feel some combinations of rows.
+/// Factor on all penalties after a slow sweep [-], as some combinations of rows are weakly determined in long chains of light links. Two raises
+/// make 1e9 effective masses of 1e6.
 pub(super) const RAISE: f64 = 30.0;
-/// A sweep that leaves more than this share of a residual is slow.
-pub(super) const SLOW: f64 = 0.3;
-/// Roundings of a row's own numbers that are accepted: what evaluating it and solving for its correction leave.
+/// Ratio of residuals after and before a sweep above which it is slow [-]. Chosen, not tuned.
+pub(super) const SLOW_RATIO: f64 = 0.3;
+/// Residual of a row that is accepted, in units of rounding of its numbers [-]: what evaluation and solution leave. Chosen, not tuned.
 const ROUNDINGS: f64 = 256.0;
+/// Ratio within which a held row is named in place of the row with the largest residual [-]. Chosen, not tuned.
+const NAMED_RATIO: f64 = 10.0;
 
 /// Assembles a scene: `make_start` analyses a solver for the start problem, `solver` is analysed for the model.
 ///
@@ -246,7 +249,7 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
         match (row, hold) {
             // A held row near the largest residual is what the user wrote: name that.
             (row, Some((h, size)))
-                if row.is_none_or(|(_, other)| size * T::from_f64(10.0) >= other) =>
+                if row.is_none_or(|(_, other)| size * T::from_f64(NAMED_RATIO) >= other) =>
             {
                 (holds[h].abs(), p.holds[h].owner, Some(p.holds[h].initial))
             }
@@ -260,5 +263,5 @@ impl<'a, T: Real, S: SpdSolver<T>, const D: usize> Assembly<'a, T, S, D> {
 
 /// How often penalties may be raised: in double precision to 1e9 effective masses, in single precision to 15,000.
 pub(super) fn raises<T: Real>() -> u32 {
-    if T::EPSILON < T::from_f64(1e-12) { 2 } else { 1 }
+    if super::problem::is_fine::<T>() { 2 } else { 1 }
 }

@@ -17,8 +17,10 @@ use alloc::vec;
 use alloc::vec::Vec;
 
 /// Is it at least double precision?
-fn is_fine<T: Real>() -> bool {
-    T::EPSILON < T::from_f64(1e-12)
+pub(super) fn is_fine<T: Real>() -> bool {
+    /// Unit of rounding [-] between those of single precision (1e-7) and double precision (2e-16).
+    const FINE: f64 = 1e-12;
+    T::EPSILON < T::from_f64(FINE)
 }
 
 /// Penalty of a start row in effective masses: the middle of the range that the precision allows, between what a sweep leaves of a

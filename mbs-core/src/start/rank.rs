@@ -8,8 +8,8 @@ use crate::model::{Model, Terms};
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Entries of a Jacobian that is small: some hundred bodies, a few hundredths of a second.
-const SMALL: usize = 250_000;
+/// Most entries of a Jacobian that is dense here [-]: some hundred bodies, a few hundredths of a second.
+const MAX_DENSE: usize = 250_000;
 
 /// The rank of J as last evaluated in `terms`.
 ///
@@ -18,7 +18,7 @@ const SMALL: usize = 250_000;
 /// and trees, somewhat faster growing in nets, with the square of the rows at one body. Meant for reports.
 pub fn constraint_rank<T: Real, M: Model<T> + Cliques>(model: &M, terms: &Terms<T>) -> usize {
     let (n, m) = (model.n_unknowns(), model.n_constraints());
-    if n.saturating_mul(m) > SMALL {
+    if n.saturating_mul(m) > MAX_DENSE {
         return sparse_rank(sparse_rows(model, terms), n);
     }
     // Column k of A is row k of J, by multiplying unit vectors.

@@ -16,9 +16,9 @@ use crate::Real;
 use crate::algebra::norm_inf;
 use crate::blocks::SpdSolver;
 
-/// Tilt of a row from others that is taken for rounding of the scene's numbers: a unit in the sixth digit.
+/// Largest tilt of a row from others that is rounding of the scene's numbers [-]: a unit in the sixth digit.
 pub(super) const TILT: f64 = 1e-6;
-/// Sweeps that take all but the weakly determined combinations out of a residual: each leaves 1 / penalty of the others.
+/// Sweeps that take all but the weakly determined combinations out of a residual [-]: each leaves 1 / penalty of the others.
 pub(super) const SIEVES: u32 = 3;
 
 impl<T: Real, S: SpdSolver<T>, const D: usize> Assembly<'_, T, S, D> {

@@ -190,8 +190,9 @@ fn a_wheel_on_its_side_and_one_below_the_road_have_finite_forces() {
     }
 }
 
-/// The load, and the largest side force over slip: the parabola's top, A0 + A1 A2 / 4 [N, N/rad].
+/// The load: the stiffness times a deflection of 1 cm [N].
 const LOAD: f64 = 4.6e5 * 0.01;
+/// The largest side force over slip: the parabola's top, A0 + A1 A2 / 4 [N/rad].
 const CORNERING: f64 = 2625.0 + 14.47 * 12930.0 / 4.0;
 
 #[test]

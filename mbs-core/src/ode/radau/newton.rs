@@ -8,15 +8,17 @@ use crate::ode::Rates;
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// Iterations at most.
-const MOST: i32 = 8;
-/// What is left of the iteration's error, in tolerances of the step.
-const SMALL: f64 = 0.03;
-/// An iteration that leaves more than this share of the error is given up.
+/// Most iterations [-]: from the published range of 7 to 10 (Hairer and Wanner II, IV.8).
+const MAX_ITERATIONS: i32 = 8;
+/// Largest remaining error of the iteration, in tolerances of the step [-]: from the published range of 0.01 to 0.1 (IV.8).
+const MAX_REMAINDER: f64 = 0.03;
+/// Contraction above which an iteration ends without success [-]. Chosen, not tuned.
 const TOO_SLOW: f64 = 0.9;
-/// What is left after a first correction is taken for at least this share of it, however fast the last step converged: what it
-/// leads to has not been seen yet.
+/// Least ratio of the remaining error to the first correction [-], however fast the last step converged: the contraction is not known yet.
+/// Chosen, not tuned.
 const UNSEEN: f64 = 1e-3;
+/// Exponent on the last step's ratio of remaining error to correction [-]: as published (IV.8), where it is less certain in the next step.
+const REST_EXPONENT: f64 = 0.8;
 
 /// How an iteration ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,9 +123,9 @@ impl<T: Real> Newton<T> {
     ) -> Result<End, R::Error> {
         let n = y.len();
         let mut last = T::ZERO;
-        let mut left = T::from_f64(libm::pow(rest.to_f64(), 0.8).max(UNSEEN));
+        let mut left = T::from_f64(libm::pow(rest.to_f64(), REST_EXPONENT).max(UNSEEN));
         self.contraction = T::ZERO;
-        for iteration in 0..MOST {
+        for iteration in 0..MAX_ITERATIONS {
             for (i, &node) in coefficients.nodes.iter().enumerate() {
                 for (k, stage) in self.stage.iter_mut().enumerate() {
                     *stage = y[k] + self.z[i * n + k];
@@ -150,12 +152,12 @@ impl<T: Real> Newton<T> {
                     return Ok(End::Diverged);
                 }
                 left = share / (T::ONE - share);
-                let ahead = libm::pow(share.to_f64(), f64::from(MOST - 1 - iteration));
-                if !(left * size * T::from_f64(ahead) <= T::from_f64(SMALL)) {
+                let ahead = libm::pow(share.to_f64(), f64::from(MAX_ITERATIONS - 1 - iteration));
+                if !(left * size * T::from_f64(ahead) <= T::from_f64(MAX_REMAINDER)) {
                     return Ok(End::Diverged);
                 }
             }
-            if left * size <= T::from_f64(SMALL) {
+            if left * size <= T::from_f64(MAX_REMAINDER) {
                 *rest = left;
                 return Ok(End::Converged);
             }

@@ -70,7 +70,7 @@ pub(super) fn check_times<T: Real>(
     }
 }
 
-/// Rate at the end of a table, beside its largest, that is a slope [-]: a rounded table has less.
+/// Least rate at the end of a table that is a slope, relative to its largest [-]: tables of six digits that end at rest have less.
 const SLOPE: f64 = 1e-6;
 
 /// Tables that begin or end on a slope within a run of a duration: the rate jumps there, which is an impact.
@@ -207,7 +207,9 @@ fn agrees<T: Real>(
 ) -> Result<(), SceneError> {
     let (Some(guide), Some(given)) = (guide, numbers.first()) else { return Ok(()) };
     let expected = GuideInput::new(&guide.law).at(T::ZERO)[derivative];
-    let tolerance = T::from_f64(1.0e-9).max(T::from_f64(8.0) * T::EPSILON);
+    /// Largest relative difference of a joint's start from its guide's [-]. Chosen, not tuned.
+    const AGREEMENT: f64 = 1e-9;
+    let tolerance = T::from_f64(AGREEMENT).max(T::from_f64(8.0) * T::EPSILON);
     if (*given - expected).abs() <= tolerance * expected.abs().max(T::ONE) {
         return Ok(());
     }
