@@ -199,6 +199,7 @@ impl<T: Real> Energy<T> {
 
 /// What reading the clock takes [s].
 fn reading() -> f64 {
+    /// Readings that are timed together [-], as one alone is too short for the clock.
     const TIMES: u32 = 10_000;
     let clock = Instant::now();
     let sum: f64 = (0..TIMES).map(|_| Instant::now().elapsed().as_secs_f64()).sum();

@@ -25,8 +25,9 @@ use std::collections::BTreeMap;
 
 /// Steps that are timed together: a few milliseconds, which others seldom interrupt.
 const TOGETHER: u32 = 25;
-/// Each stretch is timed at least so often, and for about so long in all [s].
+/// Least timings of each stretch [-]. Chosen, not tuned.
 const LEAST: u32 = 10;
+/// Time of all timings of a stretch [s]. Chosen, not tuned.
 const SECONDS: f64 = 2.0;
 
 /// Does what the words ask for.

@@ -15,8 +15,8 @@ const TIMES: f64 = 10.0;
 const ROUNDING: [f64; 2] = [1e-7, 2e-3];
 /// An error above this share of the size, or of the energy for a moment, is told as coarse, where the rule itself is not better.
 const COARSE: f64 = 0.1;
-/// Two references nearer than this agree, and no third is asked.
-const NEAR: f64 = 1e-3;
+/// Largest difference of two references that agree, in sizes of the case [-]: no third is run then. Chosen, not tuned.
+const AGREEMENT: f64 = 1e-3;
 /// Where nothing but the invariants is judged: joints may be open by this share of the size.
 const MOST_VIOLATION: f64 = 1e-6;
 /// How far a quotient of errors may be from the square of that of the steps.
@@ -238,7 +238,7 @@ fn agreeing(
             .min_by(|a, b| a.0.total_cmp(&b.0));
         let Some((apart, i, j)) = nearest else { continue };
         let is_last = methods.last() == Some(&method);
-        if apart <= NEAR || (is_last && apart <= COARSE) {
+        if apart <= AGREEMENT || (is_last && apart <= COARSE) {
             let second = found.swap_remove(j);
             return vec![found.swap_remove(i), second];
         }

@@ -21,6 +21,7 @@ use crate::vector::{
 const STAGE: f64 = 0.15;
 /// Share of a stage below which it is given up.
 const LEAST_STAGE: f64 = 1e-3;
+/// Most iterations of a stage. Chosen, not tuned: Newton's method takes few.
 const MOST_ITERATIONS: usize = 40;
 /// Curvature that is added at least where the least one is negative.
 const CURVED: f64 = 0.1;

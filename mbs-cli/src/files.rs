@@ -11,9 +11,9 @@ use std::io::{self, Read};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Bytes of a file that is read at most, unless larger ones are asked for, and values of a tree: each takes 150 bytes, however short its
-/// text is.
+/// Most bytes of a file that is read, unless larger ones are asked for. Chosen, not tuned.
 const MOST_BYTES: u64 = 64 << 20;
+/// Most values of a file that is read: each takes 150 bytes, however short its text is.
 const MOST_VALUES: usize = 8_000_000;
 /// Whether files of any size are read, as the command line says once.
 static IS_BIG: AtomicBool = AtomicBool::new(false);

@@ -78,8 +78,8 @@ const SWEEPS: u32 = 20;
 const NOWHERE: f64 = 8.0;
 /// Constraint violation of a step relative to its size that is still closed.
 const BROKEN: f64 = 0.25;
-/// Times the scene's length: farther than this nothing is sought.
-const FAR: f64 = 1e6;
+/// Largest distance at which an equilibrium is searched, relative to the scene's length [-]. Chosen, not tuned.
+const MAX_EXTENT: f64 = 1e6;
 
 /// Moves `s` to a static equilibrium near it.
 ///
@@ -400,7 +400,7 @@ impl<'a, T: Real, M: Model<T>, S: SymmetricSolver<T>> Search<'a, T, M, S> {
     fn check_far(&self) -> Result<(), EquilibriumError> {
         let gone = self.q[..self.w.n].iter().zip(&self.from).map(|(&q, &from)| q - from);
         let gone: Vec<T> = gone.collect();
-        if self.w.extent(&gone) <= T::from_f64(FAR) {
+        if self.w.extent(&gone) <= T::from_f64(MAX_EXTENT) {
             return Ok(());
         }
         Err(EquilibriumError::Escapes { unknown: largest(&gone) })

@@ -19,7 +19,7 @@ use mbs_core::model::{Load, Model, Tangent, Terms};
 use mbs_core::saddle::{Saddle, SaddleSystem};
 use mbs_core::{FactorError, Real, SymmetricSolver};
 
-/// delta relative to the compliance of its row.
+/// Compliance δ of a constraint, relative to the compliance of its row [-]. Chosen, not tuned.
 const DELTA: f64 = 1e-9;
 /// Rows of coordinates lighter than this share of the heaviest are scaled as if they had it.
 const LIGHT: f64 = 1e-6;

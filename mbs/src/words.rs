@@ -80,8 +80,8 @@ pub fn estimate(e: &ErrorEstimate) -> Vec<(&'static str, String)> {
     let one = |(name, errors): &(String, Vec<f64>)| {
         format!("{name} {}", small(errors.iter().copied().fold(0.0, f64::max)))
     };
-    let first = outputs.0.iter().take(FIRST).map(one).collect::<Vec<_>>().join(", ");
-    let more = outputs.0.len().saturating_sub(FIRST);
+    let first = outputs.0.iter().take(MAX_LISTED).map(one).collect::<Vec<_>>().join(", ");
+    let more = outputs.0.len().saturating_sub(MAX_LISTED);
     let more = if more > 0 { format!(", and {more} more in the JSON") } else { String::new() };
     let mut rows = vec![(LABEL, first + &more)];
     if let (Some(largest), Some(output)) = (e.largest, &e.worst_output) {
@@ -121,8 +121,8 @@ pub fn control(c: &ControlSummary) -> String {
     text
 }
 
-/// Contacts and outputs that a line has at most.
-const FIRST: usize = 8;
+/// Most contacts and outputs of a line of text.
+const MAX_LISTED: usize = 8;
 
 /// The first contacts of a run, and how many there were.
 fn contacts(s: &RunSummary) -> Option<String> {
@@ -133,8 +133,8 @@ fn contacts(s: &RunSummary) -> Option<String> {
         let end = c.end.map_or_else(String::new, |end| format!(" ({end})"));
         format!("`{}`{end} {} at {} s", c.effect, c.event, rounded(c.time, 6))
     };
-    let mut text = s.contacts.iter().take(FIRST).map(one).collect::<Vec<_>>().join(", ");
-    let more = s.contacts.len().saturating_sub(FIRST) as u64 + s.contacts_left_out;
+    let mut text = s.contacts.iter().take(MAX_LISTED).map(one).collect::<Vec<_>>().join(", ");
+    let more = s.contacts.len().saturating_sub(MAX_LISTED) as u64 + s.contacts_left_out;
     if more > 0 {
         text += &format!(", and {more} more");
     }

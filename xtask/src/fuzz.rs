@@ -8,8 +8,8 @@ use std::process::{Child, Command, ExitCode, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant, SystemTime};
 
-/// A text that takes longer hangs.
-const LIMIT: Duration = Duration::from_secs(60);
+/// Longest time of a text: one that takes longer hangs. Chosen, not tuned.
+const TEXT_TIME: Duration = Duration::from_secs(60);
 /// And one that takes more memory is mended: what is read is smaller by far [KiB].
 const MEMORY: u64 = 1 << 20;
 /// How often it is looked at.
@@ -53,7 +53,7 @@ fn run(seconds: u64, seed: u64, count: u64) -> Result<String, String> {
     command.arg(&current).stdin(Stdio::null()).stdout(Stdio::piped());
     let line = process::line(&command);
     let mut child = command.spawn().map_err(|e| format!("cannot start `{line}`: {e}"))?;
-    let hung = watch(&mut child, &current, LIMIT)?;
+    let hung = watch(&mut child, &current, TEXT_TIME)?;
     let out = child.wait_with_output().map_err(|e| e.to_string())?;
     if !hung && out.status.success() {
         return Ok(String::from_utf8_lossy(&out.stdout).trim().to_owned());

@@ -7,7 +7,9 @@ use crate::draft::{Draft, Effect, GROUND};
 use crate::vector::plus;
 use mbs::scene_file::Dice;
 
+/// Steps of the runs, from long to short [s]: half decades.
 const STEPS: [f64; 4] = [3e-3, 1e-3, 3e-4, 1e-4];
+/// Acceleration of gravity [m/s²].
 const GRAVITY: f64 = 9.81;
 
 /// A mass on a vertical slide that falls on a spring which only pushes: parabolas and pieces of sines by turns.

@@ -10,8 +10,8 @@ use mbs::scene_file::SceneFile;
 use mbs::{FormulationKind, Method, Settings};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Times its own error, by steps of h and h/2, that a rule may be off.
-pub const SHARE: f64 = 10.0;
+/// Largest error of a rule, relative to its own error by steps of h and h/2 [-]. Chosen, not tuned.
+pub const ERROR_FACTOR: f64 = 10.0;
 /// Share of a channel's size below which a difference is rounding.
 pub const ROUNDING: f64 = 1e-7;
 /// Share of the largest channel of its kind that every channel has as size at least.
@@ -351,7 +351,7 @@ fn compare(judged: &Judged, right: &Rows, coarse: &Rows, fine: &Rows) -> Verdict
             } else {
                 difference(fine, right, &part.components)
             };
-            let allowed = (SHARE * own).max(ROUNDING * size);
+            let allowed = (ERROR_FACTOR * own).max(ROUNDING * size);
             if off.is_nan() || off > allowed * worst.0 {
                 let channel = judged.mechanism.scene.outputs[part.output].name.clone();
                 worst = (off / allowed, Verdict::Differs { channel, off, allowed, size, start });

@@ -7,8 +7,8 @@ use super::{fit, front, rank};
 const TELLS: f64 = 3.0;
 /// A method may be the fastest of its formulation if it takes less than so many times the least.
 const NEARLY: f64 = 1.15;
-/// Counts of steps are the same where they do not differ by more than a fiftieth.
-const SAME: u64 = 50;
+/// Inverse of the relative difference of counts of steps that are the same: a fiftieth. Chosen, not tuned.
+const SAME_COUNT: u64 = 50;
 
 impl Comparison {
     /// The least error that the reference resolves.
@@ -141,7 +141,7 @@ impl MethodRuns {
     fn has_between(&self, [coarse, fine]: [u64; 2], instants: u64) -> bool {
         match self.control.as_str() {
             "fixed" => coarse / instants.max(1) * instants.max(1) + instants < fine,
-            "own" => fine > coarse + coarse / SAME,
+            "own" => fine > coarse + coarse / SAME_COUNT,
             _ => true,
         }
     }

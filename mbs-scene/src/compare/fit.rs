@@ -6,10 +6,11 @@ use super::data::Fit;
 const SAME_SLOPE: f64 = 0.4;
 /// Errors above this share of the outputs' ranges have lost the motion: they say nothing of the order.
 const LOST: f64 = 0.2;
-/// A line has three steps at least, this factor apart in all, misses no logarithm of an error by more than this [decades] in the root of the
-/// mean square, and an order that a method can have.
+/// Least ratio of the longest to the shortest step of a line [-], of which it has three or more. Chosen, not tuned.
 const SPAN: f64 = 4.0;
+/// Largest root of the mean square of a line's misfits [decades]. Chosen, not tuned.
 const RESIDUAL: f64 = 0.15;
+/// Largest order that a method can have [-].
 const MOST_ORDER: f64 = 20.0;
 /// Steps that differ by less than this share are the same: the instants of the results hold them.
 const SAME_STEP: f64 = 1e-6;

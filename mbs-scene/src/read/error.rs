@@ -281,15 +281,16 @@ pub fn nearest_name<S: AsRef<str>>(found: &str, known: &[S], what: &str) -> Stri
 
 /// All names when they are few, else the first of them.
 fn listing<S: AsRef<str>>(known: &[S], what: &str) -> String {
-    const MOST: usize = 16;
+    /// Most names that are listed: some lines of a terminal.
+    const MAX_NAMES: usize = 16;
     if known.is_empty() {
         return format!("there are no {what} yet");
     }
-    let names: Vec<&str> = known.iter().take(MOST).map(AsRef::as_ref).collect();
+    let names: Vec<&str> = known.iter().take(MAX_NAMES).map(AsRef::as_ref).collect();
     let mut out = format!("{what}: {}", names.join(", "));
-    if known.len() > MOST {
+    if known.len() > MAX_NAMES {
         // writing into a String does not fail
-        let _ = write!(out, " and {} more", known.len() - MOST);
+        let _ = write!(out, " and {} more", known.len() - MAX_NAMES);
     }
     out
 }

@@ -2,6 +2,7 @@
 
 /// The name at the smallest edit distance, when it is near enough to be meant.
 pub(crate) fn nearest<'a, S: AsRef<str>>(found: &str, known: &'a [S]) -> Option<&'a str> {
+    /// Most letters of a name that is compared: the work grows like their square.
     const LONGEST: usize = 64;
     let found: Vec<char> = found.to_lowercase().chars().take(LONGEST + 1).collect();
     let allowed = 1 + found.len() / 4;

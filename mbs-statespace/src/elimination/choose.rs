@@ -15,7 +15,7 @@ use alloc::vec;
 use alloc::vec::Vec;
 use mbs_core::Real;
 
-/// u: a pivot has at least this share of the largest entry left.
+/// Least ratio u of a pivot to the largest remaining entry [-]: multipliers stay below 1/u. Chosen, not tuned.
 const THRESHOLD: f64 = 0.3;
 /// Rows that are searched for one pivot.
 const SEARCHED: usize = 6;

@@ -8,7 +8,7 @@ const PER_DECADE: f64 = 10.0;
 
 /// Sorts times of steps [s] into classes; `reading` [s] is what reading the clock takes.
 pub(super) fn step_times(mut times: Vec<f64>, reading: f64) -> Option<StepTimes> {
-    // the clock has ticks: no step takes less than one
+    // Least time of a step [s]: a tick of the clock.
     const TICK: f64 = 1e-9;
     for time in &mut times {
         *time = (*time - reading).max(TICK);

@@ -10,9 +10,10 @@ const INSTANTS: usize = 200;
 /// A step fits if it misses by less than this share.
 const FITS: f64 = 1e-6;
 
-/// Work of one iteration for each coordinate and constraint, and besides [s]: roughly what they take on a processor of 3 GHz. A
+/// Work of one iteration for each coordinate and constraint [s]: what it takes on a processor of 3 GHz, by its order of magnitude. It is a
 /// measure of work that is the same every time, not of time.
 const PER_UNKNOWN: f64 = 2e-7;
+/// Work of one iteration besides [s], likewise.
 const PER_ITERATION: f64 = 3e-7;
 
 /// Steps to run, from the longest; those that are longer than a tenth of the run are left out.

@@ -11,8 +11,8 @@ const KNOWN: f64 = 3.0;
 const LEAST_SHARE: f64 = 0.1;
 /// Another formulation agrees if it is no further away than so many times what both can tell.
 const AGREES: f64 = 3.0;
-/// A table is refuted by formulations that are further from it than so many times what both can tell.
-const FAR: f64 = 10.0;
+/// Difference of a table and formulations that refutes the table, in units of the uncertainty of both [-]. Chosen, not tuned.
+const REFUTED: f64 = 10.0;
 /// A check that tells no more than this checks nothing.
 const TELLS: f64 = 1e-2;
 
@@ -118,7 +118,7 @@ impl Known {
             let told = self.report.uncertainty + apart;
             (seen, largest) = (seen + 1, largest.max(d));
             is_near &= d <= AGREES * told;
-            if d > FAR * told && miss.is_none_or(|(_, most)| d > most) {
+            if d > REFUTED * told && miss.is_none_or(|(_, most)| d > most) {
                 miss = Some((k, d));
             }
         }

@@ -9,8 +9,8 @@ use mbs_scene::compare::{Comparison, RunEntry, Status};
 const SETTLED: f64 = 0.005;
 /// So many times the repeats asked for, those that decide the ranking are timed at least and at most.
 const ROUNDS: [u32; 2] = [3, 8];
-/// Where the rounds stand in the progress bar.
-const SHARE: [f64; 2] = [0.35, 0.6];
+/// Start and length of the rounds in the progress bar, as fractions of it [-].
+const PROGRESS: [f64; 2] = [0.35, 0.6];
 
 impl Study<'_> {
     /// Times every completed run: in rounds over all, there and back, so that what disturbs a while meets all alike; then again
@@ -41,7 +41,7 @@ impl Study<'_> {
                 let usual = repeats * ROUNDS[0];
                 let share = ((f64::from(round) + part) / f64::from(usual)).min(1.0);
                 let doing = format!("timing, round {} of {usual}", round + 1);
-                watch.doing(SHARE[0] + SHARE[1] * share, &doing);
+                watch.doing(PROGRESS[0] + PROGRESS[1] * share, &doing);
                 let method = &self.methods[m];
                 let run = &mut comparison.methods[m].runs[r];
                 let key = format!("time {round} {} {:e}", method.name(), run.setting);

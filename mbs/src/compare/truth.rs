@@ -11,9 +11,10 @@ use crate::settings::Settings;
 use mbs_scene::compare::Status;
 use serde_json::{Value, json};
 
-/// A run of the reference may take so many times what others may; the dearest kind is tried for no longer than they.
-const PATIENCE: f64 = 10.0;
-const SHORT_PATIENCE: f64 = 1.0;
+/// Time limit of a run of the reference, relative to that of others [-]. Chosen, not tuned.
+const TIME_LIMIT: f64 = 10.0;
+/// Time limit of a run of the most expensive kind, relative to that of others [-].
+const SHORT_TIME_LIMIT: f64 = 1.0;
 /// Tolerances of the reference's two runs, the best pair first.
 const TOLERANCES: [[f64; 2]; 3] = [[1e-13, 1e-12], [1e-11, 1e-10], [1e-9, 1e-8]];
 /// The same in double-double.
@@ -38,15 +39,15 @@ impl Study<'_> {
             let mut known = Known::of_table(table.map_err(CompareError::Table)?, name, of);
             // a table is held against runs before runs are held against it
             let (pairs, _) =
-                self.pairs(&[(ORDINARY, (&TOLERANCES[1..], SHORT_PATIENCE))], store)?;
+                self.pairs(&[(ORDINARY, (&TOLERANCES[1..], SHORT_TIME_LIMIT))], store)?;
             known.verify(name, &pairs, &self.instants);
             return Ok(known);
         }
         let least = self.request.errors.iter().copied().fold(1e-2, f64::min);
         let dear = (IntegratorKind::Extrapolation, Precision::DoubleDouble);
         let kinds: [Way<'_>; 2] = [
-            (dear, (&PAIR_TOLERANCES[..], SHORT_PATIENCE)),
-            (ORDINARY, (&TOLERANCES[..], PATIENCE)),
+            (dear, (&PAIR_TOLERANCES[..], SHORT_TIME_LIMIT)),
+            (ORDINARY, (&TOLERANCES[..], TIME_LIMIT)),
         ];
         let (pairs, why) = self.pairs(&kinds, store)?;
         let Some(best) = pairs.first() else { return Err(CompareError::NoReference(why)) };
@@ -131,7 +132,7 @@ impl Study<'_> {
         let mut runs: Vec<Rows> = Vec::new();
         for halvings in 0..3 {
             let step = self.instants.interval / count((between as usize) << halvings);
-            match self.reference_run(&method, (step, PATIENCE), store, why)? {
+            match self.reference_run(&method, (step, TIME_LIMIT), store, why)? {
                 Some(rows) => runs.push(rows),
                 None => return Ok(None),
             }

@@ -212,6 +212,7 @@ fn unique(linkage: &Linkage, diagnosis: &Diagnosis) -> Vec<Vec<bool>> {
 }
 
 fn shares(linkage: &Linkage, poses: &[RigidMotion<f64>]) -> Vec<Drive> {
+    /// Most joints of a part whose drives are compared: each takes a decomposition. Chosen, not tuned.
     const SMALL: usize = 60;
     let parts = linkage.parts.iter().filter(|p| p.has_loop() && p.joints.len() <= SMALL);
     let of = |part| {

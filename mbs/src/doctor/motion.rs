@@ -77,14 +77,14 @@ pub struct LinearMotion {
     pub changed: Option<f64>,
 }
 
-/// κ below which a position counts as passed through.
+/// Measure κ below which a position counts as passed through [-]. Chosen, not tuned.
 const SINGULAR: f64 = 1e-3;
 /// Parts beyond this number of joints are left out: decompositions would take minutes.
 const LARGEST: usize = 200;
 /// Operations that all decompositions may take: of large parts fewer positions are looked at.
 const WORK: f64 = 2e10;
-/// Share of a combination above which a joint belongs to it.
-const SHARE: f64 = 0.05;
+/// Part of a unit combination above which a joint belongs to it [-]. Chosen, not tuned.
+const MEMBER_PART: f64 = 0.05;
 
 struct Watch<'a> {
     scene: &'a Scene<f64>,
@@ -271,7 +271,7 @@ impl Track<'_> {
                 range.clone().map(|row| weights[row] * weights[row]).sum::<f64>()
             };
             let joints = self.part.joints.iter().zip(&jacobian.rows);
-            let taken = joints.filter(|(_, range)| weight(range) > SHARE * SHARE);
+            let taken = joints.filter(|(_, range)| weight(range) > MEMBER_PART * MEMBER_PART);
             self.joints = taken.map(|(&joint, _)| joint).collect();
         }
         self.kappa.push([t, kappa]);

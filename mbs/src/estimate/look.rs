@@ -16,9 +16,9 @@ use mbs_core::scene::Scene;
 use mbs_core::step::StepError;
 use mbs_sparse::Multifrontal;
 
-/// A look is given up when it has taken this share of its time and is behind by the second factor, which goes down to one: the first steps search
-/// for their length.
+/// Fraction of its time limit after which a run for comparison may stop for being behind [-]: its first steps search for their length.
 const PROBE: f64 = 0.1;
+/// Factor by which a run for comparison may be behind at first [-]; it falls to one at the time limit. Chosen, not tuned.
 const BEHIND: f64 = 1.5;
 /// States at which the stiffest force is looked for.
 const STATES: usize = 5;

@@ -33,8 +33,9 @@ use std::collections::BTreeSet;
 
 /// What the looks may take of the time of a run, together.
 pub const TIME_SHARE: f64 = 0.27;
-/// Rows at which a look is compared: so many at equal distances, and at most so many where an output is steepest.
+/// Rows at equal distances at which runs are compared [-]. Chosen, not tuned.
 const EVENLY: usize = 100;
+/// Most rows beside them at which an output is steepest [-]. Chosen, not tuned.
 const STEEP: usize = 48;
 /// Rows at which the same method with longer steps is compared.
 const MANY: usize = 400;
@@ -48,9 +49,9 @@ const TOLERANCES: [(IntegratorKind, f64); 2] =
 const FINER: f64 = 0.01;
 /// No tolerance of a look is smaller: rounding is near.
 const FINEST: f64 = 1e-13;
-/// Tolerance of an integrator that controls its own steps where none is given; a coarser look is looser by the second: steps of order
-/// 5 are six times longer.
+/// Tolerance of an integrator that controls its own steps where none is given [-]: the default of its options.
 const OWN_TOLERANCE: f64 = 1e-8;
+/// Ratio of the tolerance of a coarser run for comparison to that of the run [-]: steps of order 5 are six times longer.
 const LOOSER: f64 = 1e4;
 /// What the iterations of a run leave of an output, relative to the largest range of its unit: Newton's tolerance.
 const ITERATION: f64 = 1e-10;

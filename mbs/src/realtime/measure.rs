@@ -30,8 +30,8 @@ const FEWEST: u64 = 50;
 const REPEATS: u32 = 3;
 /// Less is not worth a level.
 const LEAST_SAVING: f64 = 0.02;
-/// Levels below the full scene at most; more effects than that go by their kinds.
-const MOST: usize = 8;
+/// Most levels below the full scene: more effects than that are taken by their kinds. Chosen, not tuned.
+const MAX_LEVELS: usize = 8;
 /// A level whose outputs are off by more than this share of their range tells nothing of them; who wants it names it.
 const MOST_CHANGE: f64 = 0.5;
 /// Halvings of the number of steps: twice and four times as long.
@@ -116,7 +116,7 @@ fn candidates<T: Real, const D: usize>(sought: &Sought<'_, T>) -> Vec<Rung> {
     let can = |off: &Vec<usize>| sought.changes::<D>(&sought.rung(0, off.clone())).is_ok();
     let alone: Vec<Vec<usize>> = effects.map(|(i, _)| vec![i]).filter(can).collect();
     let mut groups = alone;
-    if groups.len() > MOST {
+    if groups.len() > MAX_LEVELS {
         let mut kinds: Vec<(&str, Vec<usize>)> = Vec::new();
         for effect in groups.into_iter().flatten() {
             let kind = sought.scene.effects[effect].kind.name();
@@ -145,7 +145,7 @@ fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<Rung> {
     paying.sort_by(|a, b| changes(a).total_cmp(&changes(b)));
     let (mut halvings, mut off) = (0, Vec::new());
     let mut rungs = Vec::new();
-    for trial in paying.into_iter().take(MOST) {
+    for trial in paying.into_iter().take(MAX_LEVELS) {
         halvings = trial.rung.halvings.max(halvings);
         off.extend(&trial.rung.off);
         rungs.push(sought.rung(halvings, off.clone()));

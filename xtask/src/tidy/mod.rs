@@ -1,5 +1,6 @@
 //! Rules for the text of this repository, as tests: what a reader relies on and no compiler checks.
 
+mod constants;
 mod crates;
 mod documents;
 mod kinds;

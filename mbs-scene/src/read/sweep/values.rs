@@ -101,6 +101,7 @@ mod tests {
 
     #[test]
     fn every_stratum_has_one_sample() {
+        // Strata.
         const N: u32 = 500;
         for stream in 0..3 {
             let samples = range(0.0, f64::from(N), false).strata(N, 42, stream);
