@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Comparing with all that is left, and not with one row or column, is what reveals the rank. The matrix is a list of entries
-//! linked along rows and columns; an entry stands for what it is in the pattern even when its number is zero just now, so the
+//! linked along rows and columns. An entry counts in the pattern even where its number is zero, so the
 //! order found holds for other numbers too.
 
 use super::{Elimination, Pattern, PivotSelection, index};
@@ -17,7 +17,7 @@ use mbs_core::Real;
 
 /// Least ratio u of a pivot to the largest remaining entry [-]: multipliers stay below 1/u. Chosen, not tuned.
 const THRESHOLD: f64 = 0.3;
-/// Rows that are searched for one pivot.
+/// Most rows that are searched for one pivot [-]: the shortest ones. Chosen, not tuned.
 const SEARCHED: usize = 6;
 /// No entry, no row, no column.
 const NONE: u32 = u32::MAX;
