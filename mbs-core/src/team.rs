@@ -4,8 +4,8 @@
 //! work on 0..n  =  work on 0..n/2  and  work on n/2..n,  down to stretches of a fixed length
 //! ```
 //!
-//! How work is cut never depends on the team, and sums meet in the order of the cut: a result has the same bits whoever
-//! computes it. [`Alone`] needs no operating system; teams of threads are in mbs-parallel.
+//! How work is cut never depends on the team, and sums meet in the order of the cut: a result has the same bits for
+//! every team. [`Alone`] needs no operating system; teams of threads are in mbs-parallel.
 
 use crate::Real;
 

@@ -6,11 +6,12 @@
 //!               eta = (sqrt(U L) / e)^(1/r)        where it is kept: the change stays between L and U
 //! ```
 //!
-//! Differs from the source: e is a share of the energy that moves, not of the total with its arbitrary zero; the h of (33) is
-//! left out, since U and L are compared with the change in one step; a step that is kept follows the rule too, where the source
+//! Differs from the source: e is relative to the energy that moves, not to the total with its arbitrary zero. The h of (33) is
+//! left out, since U and L are compared with the change in one step. A step that is kept follows the rule too, where the source
 //! changes the step only at the limits. A step that changes at the limits only is shortened late and enlarged late, and the errors
-//! of a swing forth and back no longer cancel: at the same cost the invariant errs twice (a suspension) to eight times (a double
-//! pendulum) as far. The printed form is an option. Since e passes through zero between gain and loss, larger changes are remembered for a few steps.
+//! of a swing forth and back do not cancel. At the same cost the error of the invariant is then twice (a suspension) to eight times
+//! (a double pendulum) as large. The published form is an option. Since e passes through zero between gain and loss, larger changes
+//! are remembered for a few steps.
 
 /// The rule with its limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,7 +103,7 @@ impl Steering {
         (self.memory, self.small)
     }
 
-    /// Goes on from a [`history`](Self::history).
+    /// Restores a [`history`](Self::history).
     pub(super) fn set_history(&mut self, (memory, small): (f64, u32)) {
         (self.memory, self.small) = (memory, small);
     }

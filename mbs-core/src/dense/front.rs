@@ -7,7 +7,7 @@
 //! l = a B^-1,   a_ij <- a_ij - l_i B l_j^T
 //! ```
 //!
-//! Pivots of one unknown that pass the test where they stand are applied to the columns after them some at a time; a column
+//! Pivots of one unknown that pass the test where they stand are applied to the columns after them some at a time. A column
 //! is brought up to date before it is tested.
 //!
 //! Only the first `p` unknowns may become pivots. Those for which no test holds stay, for a front where more is known of

@@ -1,4 +1,4 @@
-//! Pivots that some columns of a front do not know of yet, and the products that tell them.
+//! Pivots that are not yet applied to some columns of a front, and the products that apply them.
 //!
 //! ```text
 //! a_j <- a_j - sum_m  d_m l_jm l_m          pivots m of the panel, together: each column is read and written once
@@ -42,7 +42,7 @@ impl<T: Real> Panel<T> {
         self.len == MAX_PIVOTS
     }
 
-    /// Tells `columns`, all after the panel, of its pivots.
+    /// Applies the pivots to `columns`, all after the panel.
     #[inline(always)]
     pub(super) fn apply(&self, a: &mut [T], f: usize, columns: Range<usize>) {
         match self.len {
@@ -93,8 +93,8 @@ pub fn subtract_products<T: Real, const P: usize>(
 
 /// target_i <- target_i - sum_m w_m column_m,i
 ///
-/// Four rows at a time, then two, then one, each a block of numbers that the compiler knows the size of: a loop over rows is
-/// left scalar in some of the functions this is inlined into.
+/// Four rows at a time, then two, then one, each a block of numbers whose size the compiler knows. A loop over rows
+/// would stay scalar in some of the functions this is inlined into.
 #[inline(always)]
 pub fn subtract<T: Real, const M: usize>(target: &mut [T], mut columns: [&[T]; M], w: [T; M]) {
     let len = target.len();

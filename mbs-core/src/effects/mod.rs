@@ -1,7 +1,7 @@
 //! The kinds of effect, a file each: data and keys, checks, where it acts, and its law with tangent, numbers and bound.
 //!
-//! The list below is all that the rest of the workspace knows of them. A line has a kind, its module, what its Cargo feature is
-//! (`all()`: every build has it), and the laws that the file brings with their numbers in tables of controllers: `tension` for one
+//! The list below is all that the rest of the workspace knows of them. A line has a kind, its module, and its Cargo feature
+//! (`all()`: every build has it). It has the laws of the file with their numbers in tables of controllers: `tension` for one
 //! along a length or about an angle, `body` for one on a body. A law without its feature is in no build; an effect
 //! without it is refused by name when a model is built.
 

@@ -253,7 +253,7 @@ fn two_by_two<T: Real>(m: T, moment: Coef<T>, g22: Coef<T>, two_points: bool) ->
 }
 
 /// Coefficients that are rounding of zero beside `size`, that of the numbers they were summed from, are zero, so that no element touches
-/// coordinates for nothing; those that are rounding of one are one.
+/// coordinates for nothing. Those that are rounding of one are one.
 fn snap<T: Real>(c: Coef<T>, size: T) -> Coef<T> {
     let tiny = T::EPSILON * T::from_f64(SNAP_ROUNDINGS);
     let clean = |x: T| {

@@ -17,7 +17,7 @@ use crate::scene::align::aligned;
 use crate::scene::{BodyId, Dimension, Scene};
 use alloc::vec::Vec;
 
-/// Dependent entities that share an element with their body [-]; each further one is an element of its own, as the block of a hub with
+/// Dependent entities that share an element with their body [-]. Each further one is an element of its own, as the block of a hub with
 /// many joints would grow like the square of their number. Chosen, not tuned.
 const TOGETHER: usize = 2;
 

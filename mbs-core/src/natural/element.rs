@@ -21,8 +21,8 @@ pub(super) const DENSE: usize = 8;
 pub(super) const ROOM: usize = 24;
 
 impl<T: Real, const D: usize> NaturalModel<T, D> {
-    /// Diagonal of M, lifted where it is (nearly) zero so that it can scale: by `floor` of the largest entry, where entries of points
-    /// and of directions are compared at the scene's length.
+    /// Diagonal of M, lifted where it is (nearly) zero so that it can scale: to `floor` of the largest entry. Entries of points and of
+    /// directions are compared at the scene's length.
     pub(crate) fn mass_diagonal(&self, floor: T) -> alloc::vec::Vec<T> {
         let mut diagonal = vec![T::ZERO; self.n_unknowns];
         for group in self.groups.iter().filter(|g| !g.mass.is_empty()) {

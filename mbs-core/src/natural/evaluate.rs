@@ -11,8 +11,8 @@ use crate::team::Alone;
 use alloc::vec;
 use core::ops::Range;
 
-/// Calls a kernel with the number of unknowns of a group known to the compiler, where it is one that bodies, joints and effects
-/// between two bodies have most often; else with zero.
+/// Calls a kernel with the number of unknowns of a group known to the compiler, where bodies, joints and effects between two bodies
+/// often have it. Else with zero.
 macro_rules! sized {
     ($k:expr, $self:ident.$kernel:ident($($argument:expr),*)) => {
         match $k {
@@ -131,7 +131,7 @@ impl<T: Real, const D: usize> Model<T> for NaturalModel<T, D> {
                 continue;
             }
             let passed = norm(&(from + way * closest)) / speed;
-            // A hair before, as at no distance a force has no direction; and where the line stands oblique to the way.
+            // A little before, as at no distance a force has no direction; and where the line is oblique to the path.
             let hair = length / speed * T::EPSILON.sqrt();
             for share in OBLIQUE {
                 let before = closest - passed * T::from_f64(share) - hair;

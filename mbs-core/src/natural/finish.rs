@@ -151,8 +151,8 @@ impl<T: Real, const D: usize> Layout<T, D> {
         Self { model, entities, masses: Vec::new() }
     }
 
-    /// The groups in the order in which the last of their unknowns comes: joints and effects stand with the bodies that they act
-    /// on, so that a step which goes through all groups stays within a few thousand numbers for a while.
+    /// The groups in the order in which the last of their unknowns comes: joints and effects are next to the bodies that they act
+    /// on. A step that goes through all groups then stays within a few thousand numbers for a while.
     fn near_their_bodies<'a>(&self, groups: &'a [GroupDraft<T>]) -> Vec<&'a GroupDraft<T>> {
         let last = |group: &GroupDraft<T>| {
             let unknown = |&e: &usize| !self.entities[e].is_constant;

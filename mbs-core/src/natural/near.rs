@@ -25,7 +25,7 @@ impl Near {
         Self { few: Vec::new(), cells: BTreeMap::new(), edge: tolerance.to_f64() * 4.0 }
     }
 
-    /// The smallest number that is `same`, of those near one of `around`. `place` tells where a number is.
+    /// The smallest number that is `same`, of those near one of `around`. `place` is the place of a number.
     pub(super) fn first<T: Real>(
         &mut self,
         around: &[Vector<T, 3>],
@@ -70,7 +70,7 @@ impl Near {
         self.cells.entry(self.cell(at, 0.0)).or_default().push(i);
     }
 
-    /// The cell of a place moved by so many edges along each axis. What is too far for whole numbers shares the last cell.
+    /// The cell of a place moved by `side` edges along each axis. Places too far for whole numbers share the last cell.
     #[allow(clippy::cast_possible_truncation, reason = "floats saturate when they are cast")]
     fn cell<T: Real>(&self, at: &Vector<T, 3>, side: f64) -> [i64; 3] {
         core::array::from_fn(|i| libm::floor(at[i].to_f64() / self.edge + side) as i64)

@@ -49,7 +49,7 @@ impl<T: Real> Options<'_, T> {
 pub enum EndState {
     /// It left the state, and whatever else its rates depend on, as they were: the rates found there hold.
     Kept,
-    /// It moved the state back to where it belongs, as a projection does, and nothing else: the rates found before are taken where
+    /// It moved the state back to where it belongs, as a projection does, and nothing else. The rates found before are taken where
     /// it was moved by less than a tenth of the tolerance.
     Projected,
     /// It changed the state, or what rates depend on beside it: the rates are evaluated anew.
@@ -155,15 +155,15 @@ impl<T: Real, M: Method<T>> Adaptive<T, M> {
     /// did, see [`EndState`]. The last step is shortened to end at `t + dt`; what the step would have been is remembered for the
     /// next call. `scratch` is [`Method::n_scratch`] numbers or more.
     ///
-    /// Cost, beside the hook: one evaluation, and [`Method::evaluations`] less one for each step tried; where the hook changed
+    /// Cost, beside the hook: one evaluation, and [`Method::evaluations`] less one for each step tried. Where the hook changed
     /// the state by more than a little, or the method does not end with the rates there, one more for each accepted step but the
     /// last. No allocation.
     ///
     /// # Errors
     ///
-    /// [`OdeError::Rates`] with what the rates or the hook say, [`OdeError::StepTooSmall`] where the error stays too large
-    /// or is no number at the smallest step, [`OdeError::TooManySteps`] where the steps are used up, or a tenth
-    /// of a large number and the rest would take more than ten times as many as may be tried. `y` is then the last accepted state
+    /// [`OdeError::Rates`] with what the rates or the hook say. [`OdeError::StepTooSmall`] where the error stays too large
+    /// or is no number at the smallest step. [`OdeError::TooManySteps`] where the steps are used up, or a tenth of a large number and
+    /// the rest would take more than ten times as many as may be tried. `y` is then the last accepted state
     /// (if the hook failed, as the hook left it).
     ///
     /// # Panics

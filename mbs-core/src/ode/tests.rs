@@ -182,7 +182,7 @@ fn counts_are_those_of_the_rates() {
     assert_eq!(changed.evaluations, evaluations + accepted - 1);
 }
 
-/// A hook that moves the second component by so many tolerances and calls that a projection; evaluations per accepted step.
+/// A hook that moves the second component by this many tolerances and calls that a projection; evaluations per accepted step.
 fn projected_by(tolerances: f64) -> u64 {
     let (mut problem, mut y, mut scratch) = (oscillator(), OSCILLATOR, [0.0; 18]);
     let mut driver = Adaptive::new(Tableau::dormand_prince(), 0.1);

@@ -99,7 +99,7 @@ impl<T: Real, const D: usize> Coordinate<T, D> {
         last + (before + now) * dt * T::HALF
     }
 
-    /// Between two states: the turn that an angle's rates tell, if it is a large one that its positions do not tell too.
+    /// Between two states: the turn of an angle by its rates, if it is a large one and its positions differ.
     pub(super) fn lost_turn(&self, [from, to]: [&State<T>; 2]) -> Option<T> {
         if !self.is_angle() {
             return None;

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Where it changes sides is asked with a band about zero, in which it is on neither. So a step that starts in the band, where
-//! the last one has landed, leaves it to either side without a change; and a touch that stays in the band is none.
+//! the last one has landed, leaves it to either side without a change. A touch that stays in the band is none.
 
 use super::load::Gap;
 use crate::Real;

@@ -7,8 +7,8 @@
 //!
 //! Values and rates at both ends of the step give a cubic for each. Its first change of sign is an event, at a fraction of the step.
 //! A trial that ends within a band about zero has landed: there the value is on neither side, and the next step leaves to either
-//! without a second event. Whoever steps makes a trial, asks [`Events::first_event`], tries again from the same beginning with that
-//! share of the step while it has not landed, and ends with [`Events::accept`]. It is the method of the secant with a cubic in
+//! without a second event. A driver makes a trial, asks [`Events::first_event`], tries again from the same beginning with that
+//! fraction of the step while it has not landed, and ends with [`Events::accept`]. It is the method of the secant with a cubic in
 //! place of a line, and two or three trials are usual.
 //!
 //! A contact that begins with the step has a stiffness of its own, which the step may be too long for. The trapezoidal rule then
@@ -20,8 +20,8 @@
 //! The band is 1e-9 of the scene's length (of a radian for angles), ten times what steps are solved to; in `f32` 128 roundings.
 //! To it comes what the rounding of the time leaves at the rate of the gap.
 //!
-//! Not found: kinks of dampers, friction and a user's own laws; courses' tables, whose times are known beforehand; a road's
-//! kinks that come under a wheel in the air; two places of a road that become equally near to a wheel in a hollow as tight as it.
+//! Not found: kinks of dampers, friction and user-defined laws, and those of signals' tables, whose times are known beforehand. Nor
+//! are a road's kinks under a wheel in the air, or two places of a road that become equally near in a hollow as tight as the wheel.
 
 use super::cubic::Cubic;
 use super::load::{Gap, Load, Loads, N_READING, Reading};
@@ -133,7 +133,7 @@ impl<T: Real, const D: usize> Events<T, D> {
     /// The first event within the trial step that ends in a state. Does not move the beginning of the step.
     ///
     /// Cost: as [`start`](Self::start), and some eighty operations for each gap and each kink near the way of a wheel that is
-    /// pressed in; a bisection of fifty cubics for each that changes. No allocation.
+    /// pressed in. A bisection of fifty cubics for each that changes. No allocation.
     pub fn first_event(&mut self, state: &State<T>) -> Option<Event> {
         self.read(state);
         let (from, to) = (self.t.to_f64(), state.t.to_f64());
@@ -245,8 +245,8 @@ impl<T: Real> Watched<T> {
         }
     }
 
-    /// The share of a step of length `h` [s] after which a gap closes at the rate of its beginning, where a stiff contact has kept
-    /// it from going on: the cubic then follows the contact, and not the way to it. Else infinite.
+    /// The fraction of a step of length `h` [s] after which a gap closes at the rate of its beginning, where a stiff contact holds it
+    /// at the end. The cubic then follows the contact, and not the path to it. Else infinite.
     fn free(&self, [begin, end]: [Gap<T>; 2], h: f64) -> f64 {
         let [begin, rate, end] = [begin.value, begin.rate, end.value].map(T::to_f64);
         let on = begin + rate * h;

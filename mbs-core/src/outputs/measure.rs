@@ -24,8 +24,8 @@ const MISFIT: f64 = 2e-2;
 pub struct Measures<T: Real, const D: usize> {
     /// What each channel reads, and its number of components.
     channels: Vec<(Channel<T, D>, usize)>,
-    /// Last values of all tracked joint coordinates, then their rates, then what the rates tell of their turns since the start, then what the
-    /// positions do less, then the time.
+    /// Last values of all tracked joint coordinates, then their rates, then their turns since the start by the rates, then what the
+    /// positions have less, then the time.
     memory: Vec<T>,
     n_values: usize,
     n_components: usize,

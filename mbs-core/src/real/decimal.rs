@@ -59,7 +59,7 @@ fn digits(text: &str) -> Option<(Wide, i32)> {
                 n += u32::from(!number.is_zero());
                 shift -= i32::from(is_fraction);
             }
-            // A digit that is left out still counts for the place of the point.
+            // A digit that is left out counts for the place of the point.
             b'0'..=b'9' => shift += i32::from(!is_fraction),
             _ => {}
         }

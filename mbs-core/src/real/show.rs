@@ -95,7 +95,7 @@ impl Decimal {
         (down..=from).rev().try_for_each(|place| to.write_char(self.at(place)))
     }
 
-    /// The whole part, and so many decimals.
+    /// The whole part, and decimals of this number.
     fn plain(&self, to: &mut dyn Write, decimals: usize) -> fmt::Result {
         self.write(to, (self.exponent.max(0), 0))?;
         if decimals == 0 {
@@ -105,7 +105,7 @@ impl Decimal {
         self.write(to, (-1, -i32::try_from(decimals).unwrap_or(i32::MAX)))
     }
 
-    /// One digit, so many decimals, and the exponent.
+    /// One digit, decimals of this number, and the exponent.
     fn scientific(&self, to: &mut dyn Write, decimals: usize) -> fmt::Result {
         to.write_char(self.at(self.exponent))?;
         if decimals > 0 {

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Both are within 1.32 2⁻²⁴ of the exact values (within 2⁻²⁴ up to π/4), and within 2.2 units in the last place: checked for every
-//! number up to [`MAX_ANGLE`]. Only beyond it libm is called, at its cost in doubles: there `f32` tells angles apart by 5e-4 rad at best.
+//! number up to [`MAX_ANGLE`]. Only beyond it libm is called, at its cost in doubles: there `f32` resolves angles to 5e-4 rad at best.
 //!
 //! Products and sums are rounded one by one, as everywhere in Rust, so that every target gives the same bits.
 
@@ -86,7 +86,7 @@ mod tests {
             .flat_map(|bits| [f32::from_bits(bits), -f32::from_bits(bits)])
     }
 
-    // The bounds are what the text above says, which every number of the range was held against; here one in eleven.
+    // The bounds are what the text above says, which every number of the range was compared with; here one in eleven.
     #[test]
     fn sine_and_cosine_are_right_to_the_last_place_but_one() {
         let [absolute, places] = errors(every(11, 1e-3, core::f32::consts::FRAC_PI_4));

@@ -1,7 +1,7 @@
 //! Whether rows that no sweep brings nearer are met as well as the scene's own numbers let them be.
 //!
-//! Axes that are meant to be parallel and are given with six digits make rows that are nearly combinations of others, y^T J = sigma u^T
-//! with a sigma of some 1e-6: as the scene means them they are redundant, as it writes them they forbid the motion u. Such a combination
+//! Axes that are intended to be parallel and are given with six digits make rows that are nearly combinations of others:
+//! y^T J = sigma u^T with a sigma of some 1e-6. As they are intended they are redundant, as they are written they forbid the motion u. Such a combination
 //! of residuals is accepted up to what the motion since it was closed makes of its tilt:
 //!
 //! ```text

@@ -65,8 +65,8 @@ impl<T: Real> Newton<T> {
 
     /// How far the third stage is from its equation, h f − (A⁻¹ z)₃, in tolerances, with these rates there.
     ///
-    /// Corrections are small where the slopes are steep, whatever the rates are: a spring that is in the slopes but not in the motion
-    /// any more hides what is wrong from them. Here it is seen.
+    /// Corrections are small where the slopes are steep, whatever the rates are. A spring that is in the slopes but not in the motion
+    /// any more hides what is wrong from them; the defect shows it.
     pub(super) fn defect(&self, coefficients: &Coefficients<T>, h: T, rates: &[T]) -> T {
         let n = self.one.len();
         let (gamma, Complex { re, im }) = (coefficients.real, coefficients.complex);
@@ -81,8 +81,8 @@ impl<T: Real> Newton<T> {
         (sum / T::from_f64(n.max(1) as f64)).sqrt()
     }
 
-    /// Begins from stages of zero, or from the polynomial of the step before: `places` has the stages' places in that step, and
-    /// `from` is one where its end is where this one begins, zero where both begin at the same place.
+    /// Begins from stages of zero, or from the polynomial of the step before. `places` has the stages' places in that step. `from` is one
+    /// where its end is where this one begins, zero where both begin at the same place.
     pub(super) fn begin(
         &mut self,
         coefficients: &Coefficients<T>,

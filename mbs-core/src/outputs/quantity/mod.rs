@@ -1,7 +1,7 @@
 //! The quantities of outputs, a file each: name in scene files, components with their units, and how it is read of a state.
 //!
 //! The list below is all that the rest of the workspace knows of them. A line has what the quantity is, its kind and its module, under what it
-//! is of; the first line of a body's or a joint's is the quantity where a scene file names none. The module is the constructor's name.
+//! is of. The first line of a body's or a joint's is the quantity where a scene file names none. The module is the constructor's name.
 
 mod components;
 mod kind;
