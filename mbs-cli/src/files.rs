@@ -175,7 +175,7 @@ pub(crate) fn provenance(
     }
 }
 
-/// The processor's name, where the system tells it.
+/// The processor's name, where the system reports it.
 pub(crate) fn processor() -> String {
     let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let line = info.lines().find(|l| l.starts_with("model name"));

@@ -159,7 +159,7 @@ impl<T: Real, const D: usize> Deref for StepInputs<'_, T, D> {
     }
 }
 
-/// Whether a run goes on.
+/// Whether a run continues.
 pub(crate) fn goes_on(yes: bool) -> ControlFlow<()> {
     if yes { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
 }
@@ -264,12 +264,12 @@ pub(crate) fn drive<T: Real, const D: usize>(
     Ok(())
 }
 
-/// What is left of a stretch of this length up to `to` [s] that is no step: the clock can hardly tell it from nothing.
+/// What is left of a stretch of this length up to `to` [s] that is no step: it is near the rounding of the time.
 fn remainder<T: Real>(to: T, length: T) -> T {
     (to * T::EPSILON * T::from_f64(ROUNDINGS)).min(length * T::from_f64(MAX_SLIVER))
 }
 
-/// Steps over one stretch; says whether to go on.
+/// Steps over one stretch; says whether to continue.
 fn along<T: Real, const D: usize>(
     plant: &mut impl Plant<T, D>,
     stretch: &Stretch<T>,

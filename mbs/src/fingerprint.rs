@@ -1,4 +1,4 @@
-//! Numbers that tell changed data: FNV-1a of 64 bits, the same on every machine.
+//! Numbers by which changed data are known: FNV-1a of 64 bits, the same on every machine.
 
 use core::fmt;
 

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! The acceleration would then carry the rate through rest within a step, and far beyond the rates at which friction rises. A rate that changes
-//! its sign does so for a step or two; one that friction throws back does so step after step, and what holds by friction creeps at a
+//! its sign does so for a step or two. One that friction throws back does so step after step, and what holds by friction creeps at a
 //! rate that is none of the law's. Implicit methods, and those that control their error, follow the rise.
 
 use crate::choice::IntegratorKind;

@@ -1,4 +1,4 @@
-//! Static equilibrium of a scene: as a start of a run, and told in joints, reactions and outputs.
+//! Static equilibrium of a scene: as a start of a run, and reported in joints, reactions and outputs.
 
 use crate::channels::Channels;
 use crate::modes::{eigenvalues, neutral_directions};
@@ -84,7 +84,7 @@ pub fn find_equilibrium<T: Real, const D: usize>(
     Ok(found)
 }
 
-/// Tells a state of one model in another of the same bodies and joints.
+/// Converts a state of one model to another of the same bodies and joints.
 fn tell<T: Real, const D: usize>(
     (scene, from): (&Scene<T>, &NaturalModel<T, D>),
     state: &State<T>,

@@ -226,7 +226,7 @@ pub(crate) fn notes<T: Real>(
         }
     }
     notes.extend(crate::tilt::notes(scene).into_iter().map(|(_, note)| note));
-    if change > 1e-6 {
+    if change > REPORTED_CHANGE {
         notes.push(format!(
             "the start differs from the reference configuration by up to {} m (or rad)",
             few(change)
@@ -263,7 +263,9 @@ fn summed<T: Real>(settings: &Settings, s: &RunSummary) -> Option<String> {
     ))
 }
 
-/// Rounding of places that is reported, relative to the size of a body: a tenth of the 1e-4 that single precision promises.
+/// Least change of a coordinate at the start that is reported [m or rad]: numbers of files have six digits or more.
+const REPORTED_CHANGE: f64 = 1e-6;
+/// Rounding of places that is reported, relative to the size of a body [-]: a tenth of the 1e-4 that single precision promises.
 const SPOILT: f64 = 1e-5;
 
 /// The body whose places lose most to rounding, with that rounding relative to its size, where it is too much.
@@ -290,7 +292,7 @@ fn spoilt<T: Real>(scene: &Scene<T>) -> Option<(&str, f64)> {
         let spread = places
             .iter()
             .fold(0.0, |a: f64, p| a.max(size(std::array::from_fn(|i| p[i] - first[i]))));
-        // Points that coincide in this precision may have been apart: the mass still knows how far.
+        // Points that coincide in this precision may have been apart: the mass shows how far.
         let inertia = match body.inertia {
             Inertia::Planar(polar) => polar.to_f64(),
             Inertia::Spatial(six) => six[..3].iter().map(|x| x.to_f64()).fold(0.0, f64::max),

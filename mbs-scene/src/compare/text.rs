@@ -5,7 +5,7 @@ use crate::format::{rounded, significant};
 use crate::record::Provenance;
 use crate::report::{Report, Section};
 
-/// Failures of a method that are listed in the terminal.
+/// Most failures of a method that are listed in the terminal. Chosen, not tuned.
 const MOST_SETTINGS: usize = 4;
 
 impl Comparison {

@@ -7,7 +7,7 @@ use mbs_core::scene::{Body, BodyId, Dimension, GROUND, InitialCondition, Joint, 
 const MASS: [f64; 2] = [2.0, 0.7];
 /// Length of the trunk [m], and the factor of each generation's [-].
 const LENGTH: [f64; 2] = [0.6, 0.8];
-/// Sideways and downward share of a branch's length.
+/// Sideways and downward parts of a branch's unit length [-].
 const SLOPE: [f64; 2] = [0.6, 0.8];
 
 const COMMENT: &str = "\

@@ -8,7 +8,7 @@ use mbs_core::Real;
 use mbs_core::scene::{Dimension, Entry, Number, Scene, SceneError, SceneFault, Start};
 use std::collections::BTreeMap;
 
-/// A scene file: syntax tree, text and name. Numbers are still decimal text.
+/// A scene file: syntax tree, text and name. Numbers are decimal text.
 #[derive(Debug, Clone, Default)]
 pub struct SceneFile {
     file: String,
@@ -175,7 +175,7 @@ impl SceneFile {
         self.root.iter().find(|member| member.key == key).map(|member| &member.item)
     }
 
-    /// Names of bodies or joints as far as they are texts; the rest is refused when the entry is read.
+    /// Names of bodies or joints that are texts; the rest is refused when the entry is read.
     fn names(&self, key: &str) -> Names {
         let Some(Item { node: Node::List(items), .. }) = self.top(key) else {
             return Names::default();
@@ -189,7 +189,7 @@ impl SceneFile {
         Names::new(items.iter().map(|item| name(item).unwrap_or_default()).collect())
     }
 
-    /// Names are told apart before they are referred to: else a repeated name reads as an unknown one.
+    /// Names are compared before they are referred to: else a repeated name reads as an unknown one.
     fn refuse_duplicates(&self, names: &[String], entry: fn(usize) -> Entry) -> Read<()> {
         let mut seen = BTreeMap::new();
         for (i, name) in names.iter().enumerate().filter(|(_, name)| !name.is_empty()) {

@@ -5,15 +5,15 @@ use super::table::Table;
 use mbs_scene::compare::{CrossCheck, OutputScale, Reference, output_scales, row_distance};
 use mbs_scene::{Channel, format::significant};
 
-/// The reference is well known at an instant if its uncertainty so far is less than this share of the least error ranked.
+/// Ratio of the least error ranked to the uncertainty of the reference, from which an instant is well known [-]. Chosen, not tuned.
 const KNOWN: f64 = 3.0;
-/// At least this share of the instants is compared, as well as they are known.
+/// Least fraction of the instants that is compared, however well they are known [-]. Chosen, not tuned.
 const LEAST_SHARE: f64 = 0.1;
-/// Another formulation agrees if it is no further away than so many times what both can tell.
+/// Largest difference of a formulation that agrees, in units of the uncertainty of both [-]. Chosen, not tuned.
 const AGREES: f64 = 3.0;
 /// Difference of a table and formulations that refutes the table, in units of the uncertainty of both [-]. Chosen, not tuned.
 const REFUTED: f64 = 10.0;
-/// A check that tells no more than this checks nothing.
+/// Largest uncertainty of a check, relative to the outputs' ranges [-]: more checks nothing. Chosen, not tuned.
 const TELLS: f64 = 1e-2;
 
 /// Rows at the instants after the start.
@@ -90,8 +90,8 @@ impl Known {
         Self { rows: table.rows, scales, report, notes, is_refuted: false }
     }
 
-    /// Holds a table against two solutions by different formulations. It is verified where both agree with it, within what they and
-    /// its digits tell; it is refuted where they agree with each other and miss it by far.
+    /// Compares a table with two solutions by different formulations. It is verified where both agree with it, within the uncertainty of
+    /// all three. It is refuted where they agree with each other and miss it by [`REFUTED`].
     pub(super) fn verify(&mut self, name: &str, pairs: &[Pair], instants: &Instants) {
         let [a, b, ..] = pairs else {
             let note = "the reference is NOT verified: it is taken as given, since no two formulations run the scene to the end";

@@ -1,20 +1,20 @@
-//! Times of whole runs, by turns, until they are known well enough.
+//! Times of whole runs, interleaved, until they are known well enough.
 
 use super::reference::Known;
 use super::store::Store;
 use super::{CompareError, Study, Watch};
 use mbs_scene::compare::{Comparison, RunEntry, Status};
 
-/// The three least times of a run differ by no more than this share where it is known well enough.
+/// Largest relative difference of the three least times of a run that is known well enough [-]. Chosen, not tuned.
 const SETTLED: f64 = 0.005;
-/// So many times the repeats asked for, those that decide the ranking are timed at least and at most.
+/// Least and most rounds of the runs that decide the ranking, in units of the requested repeats [-]. Chosen, not tuned.
 const ROUNDS: [u32; 2] = [3, 8];
 /// Start and length of the rounds in the progress bar, as fractions of it [-].
 const PROGRESS: [f64; 2] = [0.35, 0.6];
 
 impl Study<'_> {
-    /// Times every completed run: in rounds over all, there and back, so that what disturbs a while meets all alike; then again
-    /// those that decide the ranking, until their three least times meet.
+    /// Times every completed run in rounds over all, forth and back, so that a disturbance meets all alike. Then it times again those that
+    /// decide the ranking, until their three least times agree.
     pub(super) fn time(
         &self,
         comparison: &mut Comparison,

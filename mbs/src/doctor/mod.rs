@@ -1,7 +1,7 @@
 //! What is wrong or doubtful with a scene, by names, with what would mend it.
 //!
-//! Rank, dependent sets, reactions and loops are looked at on the joint level ([`mbs_doctor`]), at the assembled start and at
-//! positions of a run; what natural coordinates make of it, and which formulations take a step, is tried.
+//! Rank, dependent sets, reactions and loops are found on the joint level ([`mbs_doctor`]), at the assembled start and at positions
+//! of a run. Natural coordinates, and the formulations that take a step, are tried.
 
 mod finding;
 mod json;
@@ -113,8 +113,8 @@ struct Begun<const D: usize> {
 
 /// Examines a checked scene.
 ///
-/// Cost: two assemblies; for each part with loops some singular value decompositions of its m equations in n velocities, 20 m n²
-/// operations each, as many as positions along the motion; and that run itself.
+/// Cost: two assemblies, and the run itself. For each part with loops some singular value decompositions of its m equations in n
+/// velocities, 20 m n² operations each, as many as positions along the motion.
 #[must_use]
 pub fn examine(scene: &Scene<f64>, settings: &Settings, effort: &Effort) -> Checkup {
     match scene.dimension {

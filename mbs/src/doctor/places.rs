@@ -11,8 +11,8 @@ use mbs_core::scene::{BodyId, Dimension, Entry, Inertia, JointKind, Scene};
 const NEAR_ON_SCENE: f64 = 0.02;
 /// The same for an end of a rod that nothing is attached to, relative to the rod's length [-]: the other end is no candidate.
 const NEAR_ON_ROD: f64 = 0.15;
-/// Distance from the centre of mass beyond which a place is not on a body, in sizes of the body; within one size it would be on it
-/// if it were counted from the centre.
+/// Distance from the centre of mass from which a place is not on a body, in sizes of the body [-]. Within one size it would be on it
+/// if it were measured from the centre.
 const FAR_FROM_CENTER: f64 = 3.0;
 
 /// What stands at a place.

@@ -8,7 +8,7 @@ use mbs_core::scene::{Entry, Scene};
 use mbs_doctor::UNCERTAIN;
 use mbs_scene::{Provenance, Report, Section, format::significant};
 
-/// Ways and turns below this are rounding [m or rad].
+/// Largest displacement or turn that is rounding [m or rad]. Chosen, not tuned.
 const ROUNDING: f64 = 1e-12;
 
 /// Where an entry's key stands in the scene file.

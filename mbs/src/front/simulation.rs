@@ -14,7 +14,7 @@ use mbs_core::model::Owner;
 use mbs_core::scene::{EffectId, GuideId, JointId};
 use std::sync::Arc;
 
-/// A step that is shorter than the others by less than this ratio is as long as they are, and its end is rounded.
+/// Relative difference below which a step is as long as the others, and its end is rounded [-]. Chosen, not tuned.
 const SAME_LENGTH: f64 = 1e-9;
 
 /// Largest difference of a sum of steps and its end, in units of rounding of the time [-]. Chosen, not tuned.

@@ -22,19 +22,19 @@ use mbs_realtime::{Clock, SystemClock};
 use mbs_scene::OutputChange;
 use std::time::Instant;
 
-/// Time for everything [s], about.
+/// Time of all measurements [s]. Chosen, not tuned.
 const SECONDS: f64 = 3.0;
-/// Periods of the first look, and of a measured run at least.
+/// Periods of the first run, and least periods of a measured one. Chosen, not tuned.
 const FEWEST: u64 = 50;
-/// Each is timed so often, in turn.
+/// Timings of each level, interleaved. Chosen, not tuned.
 const REPEATS: u32 = 3;
-/// Less is not worth a level.
+/// Least saving of a level, relative to the time of a period [-]. Chosen, not tuned.
 const LEAST_SAVING: f64 = 0.02;
 /// Most levels below the full scene: more effects than that are taken by their kinds. Chosen, not tuned.
 const MAX_LEVELS: usize = 8;
-/// A level whose outputs are off by more than this share of their range tells nothing of them; who wants it names it.
+/// Largest change of the outputs by a level, relative to their range [-]: a level beyond must be named. Chosen, not tuned.
 const MOST_CHANGE: f64 = 0.5;
-/// Halvings of the number of steps: twice and four times as long.
+/// Halvings of the number of steps of a period [-]: steps are then twice and four times as long.
 const HALVINGS: u32 = 2;
 
 /// A clock that passes while there is work and jumps over what is waited for.
@@ -153,7 +153,7 @@ fn ladder<T: Real>(sought: &Sought<'_, T>, alone: &[Trial]) -> Vec<Rung> {
     rungs
 }
 
-/// Runs the full scene and others by turns, and tells of each what it saves and changes.
+/// Runs the full scene and others interleaved, and reports what each saves and changes.
 fn run_all<T: Real, const D: usize>(
     sought: &Sought<'_, T>,
     full: &Rung,

@@ -1,4 +1,4 @@
-//! A run that is kept while it goes, and one that goes on from where it was kept.
+//! A run with checkpoints, and one that is resumed from a checkpoint.
 
 use super::Run;
 use super::record::{Counts, Record};
@@ -28,8 +28,7 @@ pub(super) struct Clock {
     apart: Duration,
 }
 
-/// When it was begun, by a clock that runs for those who share the steps and for nobody else: runs side by side in a process count each
-/// time once.
+/// When it was begun, by a clock of the threads that share the steps: runs side by side in a process count each time once.
 #[derive(Debug, Clone, Copy)]
 enum Begun {
     Thread(ThreadTime),
@@ -50,7 +49,7 @@ impl Begun {
 }
 
 impl Clock {
-    /// Begins now, after nothing; so many threads share the steps.
+    /// Begins now, after nothing; `threads` share the steps.
     pub(super) fn new(threads: usize) -> Self {
         Self { begun: Begun::now(threads == 1), before: Duration::ZERO, apart: Duration::ZERO }
     }
@@ -66,14 +65,14 @@ impl Clock {
         (self.before + self.begun.elapsed()).saturating_sub(self.apart)
     }
 
-    /// Takes off what was done since `get` told this.
+    /// Takes off what was done since `get` gave this.
     fn take_off(&mut self, since: Duration) {
         self.apart += self.get().saturating_sub(since);
     }
 }
 
 impl<T: Real, const D: usize> Run<'_, T, D> {
-    /// Goes on from a checkpoint. On an error the run is of no use any more.
+    /// Resumes from a checkpoint. On an error the run is of no use any more.
     pub(super) fn resume(
         &mut self,
         checkpoint: &Checkpoint,

@@ -35,7 +35,7 @@ enum Combine {
     Grid,
     /// One to one.
     Zip,
-    /// So many samples.
+    /// This many samples.
     Latin(u32),
 }
 
@@ -67,7 +67,7 @@ struct PlaceOfScene {
     shifts: Vec<(usize, f64)>,
 }
 
-/// Digits that a sum of decimals keeps.
+/// Significant digits that a sum of decimals keeps: what every decimal text keeps through `f64`.
 const DIGITS: usize = 15;
 
 impl SweepFile {
