@@ -20,9 +20,9 @@ const ROUNDS: u32 = 50_000;
 /// Measurements, of which the least time counts [-]. Chosen, not tuned.
 const TURNS: usize = 300;
 
-/// Caches, where the system does not tell them: the second, and the last, in bytes.
+/// Sizes of the second and the last cache where the system does not report them [bytes].
 const CACHES: [usize; 2] = [1 << 20, 32 << 20];
-/// Most that is read beyond the last cache, in bytes.
+/// Most that is read beyond the last cache [bytes]. Chosen, not tuned.
 const MAX_BYTES: usize = 256 << 20;
 
 /// The line of rates.
@@ -87,7 +87,7 @@ fn by_place(x: &mut [f64; 64], places: &[u8], [p, s]: [f64; 2]) {
     }
 }
 
-/// Bytes in a second of reading an array of so many.
+/// Bytes in a second of reading an array of this many.
 fn bytes(size: usize) -> f64 {
     let array = vec![1.0; size / size_of::<f64>()];
     let times = (MAX_BYTES / 16 / size).max(1);

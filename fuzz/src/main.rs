@@ -1,4 +1,4 @@
-//! `fuzz SECONDS SEED COUNT CORPUS.. CURRENT`: so many trials of scenes by seed, or for so long; each is written to the file `CURRENT` before it
+//! `fuzz SECONDS SEED COUNT CORPUS.. CURRENT`: COUNT trials of scenes by seed, or for SECONDS. Each is written to the file `CURRENT` before it
 //! begins, so that who started this program knows what it was about when it stops or hangs. Exit status 1 where one is wrong.
 
 use fuzz::{Verdict, scene, trial};

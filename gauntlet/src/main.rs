@@ -1,4 +1,4 @@
-//! `gauntlet run COUNT FIRST STRIDE`: the cases of these numbers, a line of JSON for each; before each run a line tells what begins, so
+//! `gauntlet run COUNT FIRST STRIDE`: the cases of these numbers, a line of JSON for each; before each run a line says what begins, so
 //! that who watches knows what hangs. `gauntlet show FAMILY SEED`: the scene of a case, and how it is run. `gauntlet one FAMILY SEED`:
 //! its verdicts.
 

@@ -1,4 +1,4 @@
-//! Which case has which number: all families by turns, those that take long in some rounds only.
+//! Which case has which number: all families in turn, those that take long in some rounds only.
 
 use crate::families::{FAMILIES, Family, LONG_FAMILIES};
 

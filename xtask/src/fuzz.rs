@@ -1,4 +1,4 @@
-//! `cargo xtask fuzz`: scenes that nobody meant, tried in a process of their own; what breaks it, or takes too long, is kept.
+//! `cargo xtask fuzz`: malformed scenes, tried in a process of their own; what breaks it, or takes too long, is kept.
 
 use crate::process;
 use crate::summary::Outcome;
@@ -10,12 +10,12 @@ use std::time::{Duration, Instant, SystemTime};
 
 /// Longest time of a text: one that takes longer hangs. Chosen, not tuned.
 const TEXT_TIME: Duration = Duration::from_secs(60);
-/// And one that takes more memory is mended: what is read is smaller by far [KiB].
+/// Most memory of a text [KiB]: what is read is smaller. Chosen, not tuned.
 const MEMORY: u64 = 1 << 20;
-/// How often it is looked at.
+/// Time between two looks at the run.
 const PAUSE: Duration = Duration::from_millis(100);
-/// How long the check of the repository takes at most [s], where its seeds begin, and how many there are: the same on every machine that
-/// is fast enough, so that a check that held holds again.
+/// Longest time of the repository's check [s], its first seed, and their number: the same on every machine that is fast enough, so that a
+/// check that held holds again.
 const CHECK: (u64, u64, u64) = (600, 1, 12_000);
 
 /// Tries texts for so long [s], from a seed on; exit status 1 where one is kept.

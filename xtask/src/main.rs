@@ -64,7 +64,7 @@ enum Job {
     Counts,
     #[command(disable_help_flag = true, about = jobs::PROFILE)]
     Profile(Words),
-    /// Try scenes that nobody meant, mutated text and random mechanisms; what breaks or hangs is kept under target/fuzz
+    /// Try malformed scenes, mutated text and random mechanisms; what breaks or hangs is kept under target/fuzz
     Fuzz {
         /// For so long [s]
         #[arg(long, value_name = "S", default_value_t = 120)]

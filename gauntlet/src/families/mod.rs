@@ -19,7 +19,7 @@ pub struct Family {
     pub name: &'static str,
     /// What is hard about it: a column of the table.
     pub property: &'static str,
-    /// In so many rounds of all families it has one case.
+    /// Rounds of all families in which it has one case.
     pub every: u64,
     make: fn(&mut Dice) -> Case,
 }
@@ -113,7 +113,7 @@ fn twin(draft: &Draft, plain: &Draft, name: &str, time: (f64, f64)) -> Case {
     case(draft, name, time, Truth::Twin(scene, image))
 }
 
-/// One of the steps, and so many of them.
+/// One of the steps, and the number of them.
 fn time(dice: &mut Dice, steps: &[f64], duration: f64) -> (f64, f64) {
     let step = *dice.one_of(steps);
     // whole steps, so that a tenth of one meets all of them

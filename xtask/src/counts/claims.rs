@@ -2,7 +2,7 @@
 
 use super::callgrind::Case;
 
-/// Most that a build with all effects may take beyond one without any, in a scene without effects [-].
+/// Largest excess of a build with all effects over one without any, relative to it, in a scene without effects [-].
 const MAX_OVERHEAD: f64 = 0.01;
 
 /// A claim, and how often it was looked at and contradicted.

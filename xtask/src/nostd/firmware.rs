@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 /// The target of both boards.
 const TARGET: &str = "thumbv7em-none-eabihf";
-/// Longest run of an emulator.
+/// Longest run of an emulator. Chosen, not tuned.
 const PATIENCE: Duration = Duration::from_secs(600);
 
 /// An emulated board.
@@ -186,7 +186,7 @@ pub(super) fn build(
     Ok((elf, image))
 }
 
-/// Runs an image on its board; what it told.
+/// Runs an image on its board; what it reported.
 pub(super) fn emulate(board: &Board, elf: &Path) -> Result<String, String> {
     let file = elf.with_extension("told");
     let to = std::fs::File::create(&file).map_err(|e| format!("{}: {e}", file.display()))?;
