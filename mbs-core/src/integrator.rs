@@ -135,7 +135,7 @@ impl<T: Real> Rule<T> {
 const FAR_SHARE: f64 = 1.0 / 64.0;
 
 /// Do accelerations carry a step far? `moved`, their part of the displacement, is then above half a radian, or half a metre and
-/// [`FAR_SHARE`] of the scene's length.
+/// `FAR_SHARE` of the scene's length.
 pub fn is_far<T: Real>(moved: T, length: T) -> bool {
     moved > (length * T::from_f64(FAR_SHARE)).max(T::HALF)
 }
